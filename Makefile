@@ -1,0 +1,62 @@
+# Two commands matter: `make cast` and `make test`. Either sets up what it needs; `make help` lists the others.
+
+PYTHON ?= python3
+BLENDER ?= blender
+
+# The newest bpy for this Python: "5.0". Where there is none, a sentence says why.
+BPY := $(shell $(PYTHON) scripts/environment.py 2>/dev/null || echo "needs Python 3.11 or 3.13, cannot run $(PYTHON)")
+
+ifeq ($(words $(BPY)),1)
+VENV := .venv/bpy-$(BPY)
+else
+VENV := .venv/none
+.venv/none/ready: ; $(error $(BPY); run make PYTHON=/path/to/python3.13 $(MAKECMDGOALS))
+endif
+
+SCENE := blend_scenes/spheres_and_planes.blend
+EXTENSION_TOOL = $(VENV)/lib/python3*/site-packages/bpy/*/scripts/addons_core/bl_pkg/cli/blender_ext.py
+
+.PHONY: cast test test-all test-blender lint zip clean help
+
+cast: $(VENV)/ready  ## render the example scene into out/ and print the report
+	$(VENV)/bin/python scripts/cast.py $(SCENE) --output out --json
+
+test: $(VENV)/ready  ## run every test with this Python
+	$(VENV)/bin/python -m pytest
+
+test-all:  ## run every test on each supported bpy for which a Python is found
+	@$(PYTHON) scripts/environment.py test-all
+
+test-blender: .venv/pure/ready  ## run tests/blender inside a real Blender: BLENDER=/path/to/blender
+	@if command -v "$(BLENDER)" >/dev/null; then \
+		"$(BLENDER)" --background --factory-startup --python-exit-code 1 \
+			--python tests/run_in_blender.py -- .venv/pure tests/blender; \
+	else \
+		echo "test-blender: skipped, no program $(BLENDER); run make BLENDER=/path/to/blender test-blender"; \
+	fi
+
+lint: $(VENV)/ready  ## check style and types
+	$(VENV)/bin/ruff check
+	$(VENV)/bin/mypy
+
+zip: $(VENV)/ready  ## build the extension for Blender in dist/
+	@mkdir -p dist
+	$(VENV)/bin/python $(EXTENSION_TOOL) build --source-dir addon/camera_ray_caster --output-dir dist
+
+clean:  ## remove everything that these commands made
+	rm -rf out dist .venv addon/*.egg-info .hypothesis .mypy_cache .pytest_cache .ruff_cache
+	find addon scripts tests -name __pycache__ -prune -exec rm -rf {} +
+
+help:  ## show this list
+	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' Makefile | expand -t 15
+
+# pip from outside installs into the environment: no ensurepip needed, which some systems package apart.
+.venv/bpy-%/ready: pyproject.toml
+	$(PYTHON) -m venv --without-pip $(@D)
+	$(PYTHON) -m pip --python $(@D)/bin/python install --quiet --editable '.[test]' 'bpy==$*.*'
+	@touch $@
+
+# Pure Python only: Blender brings its own Python and its own numpy.
+.venv/pure/ready: pyproject.toml
+	$(PYTHON) -m pip install --quiet --upgrade --target $(@D) --only-binary :all: --platform any pytest
+	@touch $@

@@ -1,0 +1,66 @@
+"""Which bpy goes with which Python, and the tests on every such pair that this machine has.
+
+    python scripts/environment.py             the newest bpy for this Python, or a sentence why there is none
+    python scripts/environment.py test-all    `make test` on each supported bpy, and which of them passed
+
+Standard library only, and no syntax newer than Python 3.6: it has to be able to say that a Python is too old.
+"""
+
+import glob
+import importlib.util
+import os
+import shutil
+import subprocess
+import sys
+
+# A bpy wheel is built for one Python.
+PYTHON_OF_BPY = {"4.5": (3, 11), "5.0": (3, 11), "5.2": (3, 13)}
+
+
+def bpy_for(python):
+    """The newest bpy, "major.minor", that a Python (major, minor) can load; a sentence that says why not otherwise."""
+    fitting = [bpy for bpy, needed in PYTHON_OF_BPY.items() if needed == python]
+    if fitting:
+        return fitting[-1]
+    needed = " or ".join(sorted({dotted(version) for version in PYTHON_OF_BPY.values()}))
+    return f"needs Python {needed}, found {dotted(python)}"
+
+
+def dotted(version):
+    """(3, 11) as "3.11"."""
+    return ".".join(map(str, version))
+
+
+def find_python(version):
+    """The path of a Python (major, minor) that runs and has pip, or None: a name on PATH may be an empty shim."""
+    name = "python" + dotted(version)
+    pyenv = os.path.expanduser(f"~/.pyenv/versions/{dotted(version)}*/bin/python")
+    probe = f"import pip, sys; sys.exit(sys.version_info[:2] != {version})"
+    for path in [sys.executable, shutil.which(name), *sorted(glob.glob(pyenv))]:
+        if path and subprocess.run([path, "-c", probe], stderr=subprocess.DEVNULL).returncode == 0:
+            return path
+    return None
+
+
+def test_all():
+    """Run `make test` for each supported bpy; the exit status is 0 when at least one ran and none failed."""
+    # the sub-makes get their own settings, not those of the make that called
+    environment = {name: value for name, value in os.environ.items() if not name.startswith(("MAKE", "MFLAGS"))}
+    results = {}
+    for bpy, version in PYTHON_OF_BPY.items():
+        python = find_python(version)
+        if python is None:
+            results[bpy] = f"not run, no Python {dotted(version)} with pip found"
+            continue
+        print(f"== bpy {bpy} on {python}", flush=True)
+        make = subprocess.run(["make", "test", "PYTHON=" + python, "BPY=" + bpy], env=environment)
+        results[bpy] = "FAILED" if make.returncode else "passed"
+    for bpy, result in results.items():
+        print(f"bpy {bpy}: {result}")
+    return int("FAILED" in results.values() or "passed" not in results.values())
+
+
+if __name__ == "__main__":
+    if sys.argv[1:] == ["test-all"]:
+        sys.exit(test_all())
+    print(bpy_for(sys.version_info[:2]) if importlib.util.find_spec("pip") else f"needs pip: {sys.executable} has none")
