@@ -1,0 +1,23 @@
+"""What the tests share. Nothing here imports Blender until a test asks for it: tests/core runs without."""
+
+import os
+import tempfile
+
+import pytest
+
+# Read once, at the first import of bpy: the tests neither see nor touch the user's settings.
+_PROFILE = tempfile.TemporaryDirectory(prefix="camera_ray_caster_")
+os.environ["BLENDER_USER_RESOURCES"] = _PROFILE.name
+
+
+@pytest.fixture
+def blender():
+    """The bpy module on an empty file, with the extension registered as the plain package ``camera_ray_caster``."""
+    import bpy
+
+    import camera_ray_caster
+
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    camera_ray_caster.register()
+    yield bpy
+    camera_ray_caster.unregister()
