@@ -1,0 +1,101 @@
+"""The zip as a user meets it: built, validated, installed in a fresh profile, rendered with, and taken away again."""
+
+import json
+import os
+import subprocess
+import sys
+import zipfile
+from pathlib import Path
+
+import bpy
+import numpy as np
+import pytest
+
+SOURCE = Path(__file__).parents[2] / "addon" / "camera_ray_caster"
+INSTALL_AND_RENDER = Path(__file__).parent / "install_and_render.py"
+
+
+def run(*command, **environment):
+    """Run a program to its end and return what it printed; a failure shows everything that it said."""
+    done = subprocess.run(
+        command,
+        env=os.environ | environment,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        timeout=120,
+    )
+    assert done.returncode == 0, done.stdout
+    return done.stdout
+
+
+def extension_tool(*arguments):
+    """Blender's own program for extensions: it lies beside the add-on that manages them, in bpy and in Blender."""
+    (folder,) = bpy.utils.script_paths(subdir="addons_core/bl_pkg/cli")
+    return run(sys.executable, os.path.join(folder, "blender_ext.py"), *map(str, arguments))
+
+
+def blender_command(script):
+    """The words that run a script in another Blender of this kind: pip's bpy has no program of its own."""
+    if not bpy.app.binary_path:
+        return [sys.executable, script, "--"]
+    options = ["--background", "--factory-startup", "--python-exit-code", "1"]
+    return [bpy.app.binary_path, *options, "--python", script, "--"]
+
+
+@pytest.fixture(scope="module")
+def archive(tmp_path_factory):
+    """The extension as a zip."""
+    path = tmp_path_factory.mktemp("dist") / "camera_ray_caster.zip"
+    extension_tool("build", "--source-dir", SOURCE, "--output-filepath", path)
+    return path
+
+
+@pytest.fixture(scope="module")
+def installed(archive, tmp_path_factory):
+    """(seen, picture): what a Blender with a fresh profile saw, and the pixels that it rendered, (48, 64, 4)."""
+    folder = tmp_path_factory.mktemp("profile")
+    picture, report = folder / "picture.png", folder / "seen.json"
+    words = [*blender_command(INSTALL_AND_RENDER), archive, picture, report]
+    run(*map(str, words), BLENDER_USER_RESOURCES=str(folder / "resources"))
+    image = bpy.data.images.load(str(picture))
+    pixels = np.empty(len(image.pixels), dtype=np.float32)
+    image.pixels.foreach_get(pixels)
+    return json.loads(report.read_text()), pixels.reshape(48, 64, 4)
+
+
+def test_source_and_zip_are_valid(archive):
+    for path in (SOURCE, archive):
+        assert "error" not in extension_tool("validate", path).lower()
+
+
+def test_the_zip_holds_the_package_and_nothing_else(archive):
+    held = {name for name in zipfile.ZipFile(archive).namelist() if not name.endswith("/")}
+    files = [path for path in SOURCE.rglob("*") if path.is_file() and path.parent.name != "__pycache__"]
+    assert held == {path.relative_to(SOURCE).as_posix() for path in files}
+
+
+def test_the_installed_engine_shows_the_sphere(installed):
+    _, picture = installed
+    assert np.isfinite(picture).all()
+    assert np.ptp(picture[..., :3]) > 0
+    # A sphere of radius 1 at distance 5 fills the middle of the 64 x 48 film and leaves the corners to the world.
+    corners = picture[[0, 0, -1, -1], [0, -1, 0, -1]]
+    assert (picture[24, 32] != corners).any(axis=1).all()
+
+
+def test_the_installed_package_never_imports_itself_by_name(installed):
+    seen, _ = installed
+    names = {name for name in seen["modules"] if not name.startswith("bl_ext.user_default.camera_ray_caster")}
+    assert names == set()
+
+
+def test_ten_times_disabled_and_enabled_leaves_what_once_does(installed):
+    seen, _ = installed
+    assert seen["enabled"] != seen["before"]
+    assert seen["enabled again"] == seen["enabled"]
+
+
+def test_disabled_leaves_nothing(installed):
+    seen, _ = installed
+    assert seen["disabled"] == seen["before"]
