@@ -1,0 +1,88 @@
+"""A camera: a model of its lens, a pose, a raster and a clip range. Pixels become world rays here, and nowhere else."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from .conventions import gamma
+from .records import BlenderCamera, InputError, Pose, Raster, Rays
+from .vector import matvec, norm, unit
+
+
+def pose_from(raw: BlenderCamera) -> Pose:
+    """Return the pose of an evaluated world matrix, as Blender takes it: each axis normalised for itself.
+
+    Scale is ignored, a negative scale mirrors, shear stays. Each component is right to gamma(4).
+    Raises InputError for a matrix that is not finite or has an axis of length zero or axes in one plane.
+    """
+    matrix = np.asarray(raw.matrix_world, dtype=np.float64)
+    if not np.isfinite(matrix).all():
+        raise InputError(f"the matrix of camera {raw.name!r} is not finite: clear its transform or its constraints")
+    axes = matrix[:3, :3]
+    largest = np.abs(axes).max(axis=0)
+    if not (largest > 0).all():
+        raise InputError(f"camera {raw.name!r} has a scale of zero: apply or clear its scale (Alt S)")
+    axes = axes / largest
+    axes = axes / np.sqrt((axes * axes).sum(axis=0))
+    if abs(np.linalg.det(axes)) < np.finfo(np.float32).eps:
+        raise InputError(f"the axes of camera {raw.name!r} lie in one plane: clear its scale, or its parents' (Alt S)")
+    return Pose(eye=matrix[:3, 3].copy(), basis=axes)
+
+
+@dataclass(frozen=True)
+class Camera:
+    """What ``read_camera`` returns. ``model`` is one of MODELS; the public faces are rays, rays_at and project."""
+
+    name: str
+    model: Any
+    pose: Pose
+    raster: Raster
+    clip_start: float
+    clip_end: float
+
+    def camera_rays(self, x, y):
+        """Return the camera-frame (origin, direction) components for pixel coordinates, scaled so that t is depth.
+
+        x and y broadcast; so do the components, which is what lets a pinhole stay rows and columns.
+        """
+        origin, direction = self.model.rays(x, y)
+        if not self.model.planar and not self.is_rigid:
+            length = norm(matvec(self.pose.basis, direction))
+            direction = tuple(component / length for component in direction)
+        return origin, direction
+
+    @property
+    def is_rigid(self) -> bool:
+        """Whether the basis is orthogonal to rounding, so that camera lengths are world lengths."""
+        gram = self.pose.basis.T @ self.pose.basis
+        return bool(np.abs(gram - np.eye(3)).max() <= gamma(8))
+
+    def rays_at(self, x, y) -> Rays:
+        """Return the world rays through pixel coordinates x, y (scalars or arrays that broadcast), as ``rays`` does."""
+        origin, direction = self.camera_rays(np.asarray(x, np.float64), np.asarray(y, np.float64))
+        shape = np.broadcast_shapes(np.shape(x), np.shape(y))
+        directions = np.empty((*shape, 3))
+        for axis, component in enumerate(unit(matvec(self.pose.basis, direction))):
+            directions[..., axis] = component
+        origins = self.pose.eye
+        if not self.model.central:
+            origins = np.empty((*shape, 3))
+            for axis, component in enumerate(matvec(self.pose.basis, origin)):
+                origins[..., axis] = component + self.pose.eye[axis]
+        return Rays(np.broadcast_to(origins, directions.shape), directions, ~np.isnan(directions[..., 0]))
+
+    def rays(self) -> Rays:
+        """Return the chief rays of the render window: through its pixel centres, world frame, unit directions.
+
+        Undefined (NaN, valid False) where the model has no ray. Each component of a direction is right to a few
+        EPS relative to the unit length, amplified by the frame's offset (shift) over the pixel's own.
+        """
+        return self.rays_at(self.raster.columns(), self.raster.rows())
+
+    def project(self, points) -> np.ndarray:
+        """Return the pixel coordinates (..., 2) in the full frame of world points (..., 3); NaN where there are none."""
+        points = np.asarray(points, dtype=np.float64)
+        return self.model.project((points - self.pose.eye) @ np.linalg.inv(self.pose.basis).T)

@@ -1,0 +1,169 @@
+"""The plain records that are handed from step to step. They hold values; the steps hold the arithmetic."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+
+
+class InputError(ValueError):
+    """What the user gave cannot be cast. The message is one line that says what is wrong and what to do."""
+
+
+class Cancelled(Exception):
+    """The user stopped the work."""
+
+
+@dataclass(frozen=True)
+class BlenderCamera:
+    """A camera and its render settings as Blender has them: copied, nothing derived.
+
+    Names, units and meaning are those of Blender's Python API (Camera, RenderSettings). ``matrix_world`` is the
+    evaluated object's, (4, 4) float64. ``settings`` holds what only some models have, by Blender's name.
+    """
+
+    name: str
+    type: str
+    matrix_world: np.ndarray
+    lens: float = 50.0
+    sensor_fit: str = "AUTO"
+    sensor_width: float = 36.0
+    sensor_height: float = 24.0
+    shift_x: float = 0.0
+    shift_y: float = 0.0
+    ortho_scale: float = 6.0
+    clip_start: float = 0.1
+    clip_end: float = 1000.0
+    resolution_x: int = 1920
+    resolution_y: int = 1080
+    resolution_percentage: int = 100
+    pixel_aspect_x: float = 1.0
+    pixel_aspect_y: float = 1.0
+    use_border: bool = False
+    border_min_x: float = 0.0
+    border_max_x: float = 1.0
+    border_min_y: float = 0.0
+    border_max_y: float = 1.0
+    settings: Mapping[str, object] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Raster:
+    """The full frame in pixels, and the window of it that is rendered: columns x0 .. x1 - 1, rows y0 .. y1 - 1."""
+
+    width: int
+    height: int
+    pixel_aspect: float
+    """Height of a pixel over its width."""
+    x0: int
+    y0: int
+    x1: int
+    y1: int
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Rows and columns of the render window: the shape of every image."""
+        return self.y1 - self.y0, self.x1 - self.x0
+
+    def columns(self) -> np.ndarray:
+        """Return the x of the window's pixel centres, (1, columns) float64, exact."""
+        return np.arange(self.x0, self.x1, dtype=np.float64)[None, :] + 0.5
+
+    def rows(self) -> np.ndarray:
+        """Return the y of the window's pixel centres, (rows, 1) float64, exact."""
+        return np.arange(self.y0, self.y1, dtype=np.float64)[:, None] + 0.5
+
+
+@dataclass(frozen=True)
+class Pose:
+    """Where the camera is: world = eye + basis @ camera."""
+
+    eye: np.ndarray
+    """(3,) float64, world."""
+    basis: np.ndarray
+    """(3, 3) float64: the columns are the camera's X, Y and Z axes in the world, each of unit length."""
+
+
+@dataclass(frozen=True)
+class Rays:
+    """The chief rays of a picture, in the world; see the conventions."""
+
+    origins: np.ndarray
+    """(rows, columns, 3) float64; a read-only broadcast view where all rays leave one eye."""
+    directions: np.ndarray
+    """(rows, columns, 3) float64, unit length to 4 EPS, NaN where there is no ray."""
+    valid: np.ndarray
+    """(rows, columns) bool."""
+    time: np.ndarray | None = None
+    """(rows, columns) float64: the frame at which each ray is cast; None where the picture has one time."""
+
+
+SPHERE, PLANE, INFINITE_PLANE = 0, 1, 2
+"""Values of ``Shapes.kind``."""
+
+
+@dataclass(frozen=True)
+class Lights:
+    """Sun and point lights: ``position[k]`` is a place, or with ``is_sun`` the unit direction towards the sun.
+
+    (n, 3), (n,) and (n, 3) arrays; ``colour`` is the light's colour times its strength as Blender states it: watts
+    for a point light, watts a square metre for a sun.
+    """
+
+    position: np.ndarray = field(default_factory=lambda: np.zeros((0, 3)))
+    is_sun: np.ndarray = field(default_factory=lambda: np.zeros(0, bool))
+    colour: np.ndarray = field(default_factory=lambda: np.zeros((0, 3)))
+
+
+@dataclass(frozen=True)
+class Shapes:
+    """The spheres and planes of a scene, one row a shape; ``shape_index`` of a pixel is the row.
+
+    world = centre + axes @ q with the unit sphere or unit square in q (see the conventions), so that every affine
+    image of a sphere is an ellipsoid and every plane a parallelogram. An infinite plane ignores the lengths of its
+    first two axes for what it covers; they scale its uv.
+    """
+
+    kind: np.ndarray
+    """(n,) uint8: SPHERE, PLANE or INFINITE_PLANE."""
+    centre: np.ndarray
+    """(n, 3) float64, world."""
+    axes: np.ndarray
+    """(n, 3, 3) float64: the columns are the images of the shape's axes. Invertible (the reader sees to it)."""
+    object_index: np.ndarray
+    """(n,) int32: the object's pass index."""
+    material_index: np.ndarray
+    """(n,) int32: the material's pass index, 0 without a material."""
+    colour: np.ndarray
+    """(n, 4) float32: linear RGBA for the combined pass."""
+    name_index: np.ndarray
+    """(n,) int32 into ``names``: instances and points share their object's name."""
+    names: tuple[str, ...] = ()
+    lights: Lights = field(default_factory=Lights)
+    world_colour: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 1.0)
+    left_out: tuple[tuple[str, str], ...] = ()
+    """Objects that are not cast, each with the reason, in one line."""
+
+    def __len__(self) -> int:
+        return len(self.kind)
+
+
+@dataclass(frozen=True)
+class Finding:
+    """What one witness says of a camera's rays: the errors beside the bound that the witness itself can reach."""
+
+    witness: str
+    points: int
+    worst_pixels: float
+    median_pixels: float
+    bound_pixels: float
+    worst_radians: float
+    median_radians: float
+    bound_radians: float
+
+    @property
+    def passed(self) -> bool:
+        """Whether no error exceeds its bound; NaN fails."""
+        return self.worst_pixels <= self.bound_pixels and self.worst_radians <= self.bound_radians
