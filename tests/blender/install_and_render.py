@@ -3,6 +3,7 @@
 Arguments: the zip, the picture to write, the JSON file that receives what was seen.
 """
 
+import inspect
 import json
 import sys
 from pathlib import Path
@@ -15,29 +16,28 @@ ENGINE = "CAMERA_RAY_CASTER"
 
 def traces():
     """Every place in Blender where an add-on can leave something: a plain mapping, equal when nothing changed."""
-    types = {name: getattr(bpy.types, name) for name in dir(bpy.types)}
-    handlers = {name: value for name, value in vars_of(bpy.app.handlers) if isinstance(value, list)}
+    kinds = {name: getattr(bpy.types, name) for name in dir(bpy.types)}
+    handlers = inspect.getmembers(bpy.app.handlers, lambda member: isinstance(member, list))
     return {
-        "types": sorted(types),
-        "properties": {name: rna.properties.keys() for name, kind in types.items() if (rna := rna_of(kind))},
-        "drawn by": {name: len(added) for name, kind in types.items() if (added := drawn_by(kind))},
-        "panels of the engine": [name for name, kind in types.items() if ENGINE in getattr(kind, "COMPAT_ENGINES", ())],
-        "handlers": {name: [function.__module__ for function in value] for name, value in handlers.items()},
+        # engines and preferences are not in bpy.types: Python knows every subclass
+        "classes": sorted(f"{kind.__module__}.{kind.__name__}" for kind in subclasses(bpy.types.bpy_struct)),
+        "properties": {name: kind.bl_rna.properties.keys() for name, kind in kinds.items() if hasattr(kind, "bl_rna")},
+        "drawn by others": {name: len(added) for name, kind in kinds.items() if (added := appended(kind))},
+        "panels of the engine": [name for name, kind in kinds.items() if ENGINE in getattr(kind, "COMPAT_ENGINES", ())],
+        "handlers": {name: [function.__qualname__ for function in added] for name, added in handlers},
     }
 
 
-def vars_of(owner):
-    """The public attributes of an object, by name."""
-    return [(name, getattr(owner, name)) for name in dir(owner) if not name.startswith("_")]
+def subclasses(kind):
+    """The registered classes below a Blender type."""
+    for below in kind.__subclasses__():
+        if getattr(below, "is_registered", False):
+            yield below
+        yield from subclasses(below)
 
 
-def rna_of(kind):
-    """The description of a Blender type, None for what is a plain Python base."""
-    return getattr(kind, "bl_rna", None)
-
-
-def drawn_by(kind):
-    """The draw functions that were appended to a panel or menu."""
+def appended(kind):
+    """The functions that draw in a panel or menu of Blender's; its own is the first."""
     return getattr(getattr(kind, "draw", None), "_draw_funcs", [])
 
 

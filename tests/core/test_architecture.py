@@ -14,10 +14,11 @@ MODULES = sorted(PACKAGE.rglob("*.py"))
 SOURCES = [*MODULES, *sorted((ROOT / "scripts").glob("*.py")), *sorted((ROOT / "tests").rglob("*.py"))]
 
 # What a part of the package may import of the package: the longest name that fits counts. The lowest layer comes first.
-LOW = {"core.conventions", "core.records"}
+LOW = {"core.conventions", "core.records", "core.vector"}
 MAY_IMPORT = {
     "core.conventions": set(),
     "core.records": {"core.conventions"},
+    "core.vector": {"core.conventions"},
     "core.camera": LOW,
     "core.cameras": LOW | {"core.camera", "core.cameras"},
     "core.shapes": LOW | {"core.shapes"},
