@@ -1,0 +1,77 @@
+"""Make the example scenes from code: every .blend in blend_scenes/ and the README that lists them.
+
+    python scripts/make_scenes.py            all of them
+    python scripts/make_scenes.py NAME ...   only these, for example spheres_and_planes
+
+Needs pip's bpy. Run it with bpy 4.5, the oldest that is supported: newer ones open what it writes.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+import tempfile
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[1]
+FOLDER = ROOT / "blend_scenes"
+sys.path[:0] = [str(ROOT / "addon"), str(ROOT / "scripts")]
+
+from scenes import SCENES  # noqa: E402  (found by the line above)
+
+README = """\
+# Example scenes
+
+Small scenes, each hard for a ray caster in one way. Look at one with `python scripts/cast.py blend_scenes/NAME.blend --output out`.
+
+{lines}
+
+All of them are made by `python scripts/make_scenes.py`, and this page with them.
+"""
+
+
+def write_scene(name: str) -> None:
+    """Write blend_scenes/NAME.blend: whole or not at all."""
+    import bpy
+
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    # one workspace is enough, and Blender's file browsers would store the home folder
+    bpy.data.batch_remove([other for other in bpy.data.workspaces if other != bpy.context.window.workspace])
+    for area in bpy.context.window.screen.areas:
+        if area.type == "VIEW_3D":
+            area.spaces.active.region_3d.view_perspective = "CAMERA"
+    scene = bpy.context.scene
+    scene.name = name
+    scene.render.filepath = f"//../out/{name}_"
+    SCENES[name](scene)
+    bpy.context.view_layer.update()
+    with tempfile.TemporaryDirectory(dir=FOLDER) as folder:
+        new = os.path.join(folder, "new.blend")
+        bpy.ops.wm.save_as_mainfile(filepath=new, compress=True, relative_remap=False)
+        os.replace(new, FOLDER / f"{name}.blend")
+
+
+def main(arguments: list[str] | None = None) -> None:
+    """Make the scenes that are named, or all."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("names", metavar="NAME", nargs="*", help=", ".join(SCENES))
+    names = parser.parse_args(arguments).names or list(SCENES)
+    if unknown := [name for name in names if name not in SCENES]:
+        parser.error(f"no scene is called {', '.join(unknown)}: choose from {', '.join(SCENES)}")
+    lines = "\n".join(f"* `{name}.blend`: {make.__doc__}" for name, make in SCENES.items())
+    (FOLDER / "README.md").write_text(README.format(lines=lines), encoding="utf-8")
+
+    # read once, at the first import of bpy: the scenes do not depend on the user's settings
+    with tempfile.TemporaryDirectory() as profile:
+        os.environ["BLENDER_USER_RESOURCES"] = profile
+        import camera_ray_caster
+
+        camera_ray_caster.register()
+        for name in names:
+            write_scene(name)
+        camera_ray_caster.unregister()
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,138 @@
+"""What the example scenes are made of: meshes, points, lights and cameras, named and linked to the scene."""
+
+from __future__ import annotations
+
+from math import radians
+
+import bmesh
+import bpy
+from mathutils import Vector
+
+ENGINE = "CAMERA_RAY_CASTER"
+
+
+def linear(hexadecimal: str) -> tuple[float, float, float, float]:
+    """Return the linear RGBA of an sRGB colour such as "e07a5f", by IEC 61966-2-1."""
+    srgb = [int(hexadecimal[k : k + 2], 16) / 255 for k in (0, 2, 4)]
+    return (*(c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in srgb), 1.0)
+
+
+def material(colour: str):
+    """Return the material of an sRGB viewport colour, made once; pass indices count the materials from 1."""
+    found = bpy.data.materials.get(colour)
+    if found is None:
+        found = bpy.data.materials.new(colour)
+        found.diffuse_color = linear(colour)
+        found.pass_index = len(bpy.data.materials)
+    return found
+
+
+def add(scene, name: str, data, location=(0, 0, 0), turn=(0, 0, 0), scale=(1, 1, 1), *, colour="", index=0, parent=None):
+    """Link an object to the scene; ``turn`` is Euler XYZ in degrees, ``index`` its pass index."""
+    thing = bpy.data.objects.new(name, data)
+    thing.location, thing.scale = location, scale
+    thing.rotation_euler = [radians(angle) for angle in turn]
+    thing.pass_index = index
+    thing.parent = parent
+    if colour:
+        data.materials.clear()
+        data.materials.append(material(colour))
+    scene.collection.objects.link(thing)
+    return thing
+
+
+def mesh(shape: str, **arguments):
+    """Return a smooth mesh made by a function of bmesh.ops, such as create_monkey."""
+    built = bmesh.new()
+    getattr(bmesh.ops, f"create_{shape}")(built, **arguments)
+    data = bpy.data.meshes.new(shape)
+    built.to_mesh(data)
+    built.free()
+    data.shade_smooth()
+    return data
+
+
+def uv_sphere(segments: int = 32, rings: int = 16):
+    """Return the mesh of a unit sphere with poles."""
+    return mesh("uvsphere", u_segments=segments, v_segments=rings, radius=1)
+
+
+def ico_sphere(subdivisions: int = 3):
+    """Return the mesh of a unit sphere made of triangles."""
+    return mesh("icosphere", subdivisions=subdivisions, radius=1)
+
+
+def square():
+    """Return the mesh of the flat quad |x| <= 1, |y| <= 1."""
+    data = bpy.data.meshes.new("plane")
+    data.from_pydata([(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)], [], [(0, 1, 2, 3)])
+    return data
+
+
+def points(positions, radii):
+    """Return a mesh of loose vertices that carry a radius each: what ``spheres_of_points`` draws."""
+    data = bpy.data.meshes.new("points")
+    data.from_pydata(positions, [], [])
+    data.attributes.new("radius", "FLOAT", "POINT").data.foreach_set("value", radii)
+    return data
+
+
+def spheres_of_points(thing) -> None:
+    """Let geometry nodes turn an object's vertices into a point cloud with its radii and first material."""
+    tree = bpy.data.node_groups.new("Spheres of points", "GeometryNodeTree")
+    tree.interface.new_socket("Geometry", in_out="INPUT", socket_type="NodeSocketGeometry")
+    tree.interface.new_socket("Geometry", in_out="OUTPUT", socket_type="NodeSocketGeometry")
+    chain = [
+        tree.nodes.new(kind)
+        for kind in ("NodeGroupInput", "GeometryNodeMeshToPoints", "GeometryNodeSetMaterial", "NodeGroupOutput")
+    ]
+    for k, node in enumerate(chain):
+        node.location = (200 * k, 0)
+    for left, right in zip(chain, chain[1:], strict=False):
+        tree.links.new(left.outputs[0], right.inputs[0])
+    radius = tree.nodes.new("GeometryNodeInputNamedAttribute")
+    radius.inputs["Name"].default_value = "radius"
+    radius.location = (0, -200)
+    tree.links.new(radius.outputs["Attribute"], chain[1].inputs["Radius"])
+    chain[2].inputs["Material"].default_value = thing.data.materials[0]
+    thing.modifiers.new("Spheres of points", "NODES").node_group = tree
+
+
+def camera(scene, location, target=(0, 0, 0), *, type="PERSP", **settings):
+    """Make the scene's camera, looking from a place at another with world Z up; settings are Blender's."""
+    data = bpy.data.cameras.new("Camera")
+    data.type = type
+    for name, value in settings.items():
+        setattr(data, name, value)
+    made = add(scene, "Camera", data, location)
+    made.rotation_euler = (Vector(target) - made.location).to_track_quat("-Z", "Y").to_euler()
+    scene.camera = made
+    return made
+
+
+def sun(scene, turn, energy: float, colour: str = "ffffff"):
+    """Add sunlight that falls along -Z of Euler angles in degrees; energy in W/m^2."""
+    data = bpy.data.lights.new("Sun", "SUN")
+    data.energy, data.color = energy, linear(colour)[:3]
+    return add(scene, "Sun", data, (0, 0, 8), turn)
+
+
+def lamp(scene, location, energy: float, colour: str = "ffffff"):
+    """Add a point light; energy in W."""
+    data = bpy.data.lights.new("Lamp", "POINT")
+    data.energy, data.color = energy, linear(colour)[:3]
+    return add(scene, "Lamp", data, location)
+
+
+def render(scene, width: int = 640, height: int = 360, world: str = "8d99ae", **settings) -> None:
+    """Set the engine, the picture's size and further render settings, the background and the view layers' passes."""
+    scene.render.engine = ENGINE
+    scene.render.resolution_x, scene.render.resolution_y = width, height
+    for name, value in settings.items():
+        setattr(scene.render, name, value)
+    scene.view_settings.view_transform = "Standard"
+    scene.world = bpy.data.worlds.new("World")
+    scene.world.color = linear(world)[:3]
+    for layer in scene.view_layers:
+        for name in ("combined", "z", "normal", "position", "object_index"):
+            setattr(layer, f"use_pass_{name}", True)
