@@ -1,0 +1,89 @@
+"""A camera and its render settings as Blender has them: tables of names, copied, nothing computed."""
+
+from types import MappingProxyType
+
+import numpy as np
+
+from ..core.records import BlenderCamera, InputError
+
+CAMERA = (
+    "type", "lens", "sensor_fit", "sensor_width", "sensor_height", "shift_x", "shift_y", "ortho_scale",
+    "clip_start", "clip_end",
+)  # fmt: skip
+RENDER = (
+    "resolution_x", "resolution_y", "resolution_percentage", "pixel_aspect_x", "pixel_aspect_y",
+    "use_border", "border_min_x", "border_max_x", "border_min_y", "border_max_y",
+)  # fmt: skip
+PANORAMA = (
+    "panorama_type", "fisheye_fov", "fisheye_lens", "latitude_min", "latitude_max", "longitude_min", "longitude_max",
+    "fisheye_polynomial_k0", "fisheye_polynomial_k1", "fisheye_polynomial_k2", "fisheye_polynomial_k3",
+    "fisheye_polynomial_k4", "central_cylindrical_range_u_min", "central_cylindrical_range_u_max",
+    "central_cylindrical_range_v_min", "central_cylindrical_range_v_max", "central_cylindrical_radius",
+)  # fmt: skip
+DEPTH_OF_FIELD = (
+    "use_dof", "focus_distance", "aperture_fstop", "aperture_blades", "aperture_rotation", "aperture_ratio",
+)  # fmt: skip
+STEREO = (
+    "convergence_mode", "pivot", "interocular_distance", "convergence_distance", "use_spherical_stereo",
+    "use_pole_merge", "pole_merge_angle_from", "pole_merge_angle_to",
+)  # fmt: skip
+MULTIVIEW = ("use_multiview", "views_format")
+
+
+def camera_record(scene, camera_object, depsgraph) -> BlenderCamera:
+    """Return the record of a camera object as the depsgraph evaluated it, with the scene's render settings.
+
+    ``settings`` holds the values of PANORAMA, DEPTH_OF_FIELD, STEREO and MULTIVIEW by Blender's names, and
+    ``focus_position``, the focus object's place in the world (3,) or None. Raises InputError where there is no camera
+    or the object is none.
+    """
+    check_camera(scene, camera_object)
+    evaluated = camera_object.evaluated_get(depsgraph)
+    data = evaluated.data
+    settings = {
+        **copied(data, PANORAMA),
+        **copied(data.dof, DEPTH_OF_FIELD),
+        **copied(data.stereo, STEREO),
+        **copied(scene.render, MULTIVIEW),
+        "focus_position": _focus_position(data.dof, depsgraph),
+    }
+    return BlenderCamera(
+        name=camera_object.name,
+        matrix_world=np.array(evaluated.matrix_world, dtype=np.float64),
+        settings=MappingProxyType(settings),
+        **copied(data, CAMERA),
+        **copied(scene.render, RENDER),
+    )
+
+
+def copied(source, names) -> dict[str, object]:
+    """Return the named properties of a Blender struct."""
+    return {name: getattr(source, name) for name in names}
+
+
+def find_camera(scene, name):
+    """Return the scene's camera object of that name. Raises InputError that says which cameras there are."""
+    cameras = {item.name: item for item in scene.objects if item.type == "CAMERA"}
+    if name not in cameras:
+        known = ", ".join(repr(known) for known in sorted(cameras)) or "none at all"
+        raise InputError(f"scene {scene.name!r} has no camera {name!r}; its cameras are: {known}")
+    return cameras[name]
+
+
+def check_camera(scene, camera_object) -> None:
+    """Raise InputError unless the object is a camera. Blender itself takes any object for one."""
+    if camera_object is None:
+        raise InputError(f"scene {scene.name!r} has no active camera: add one, or set one in the Scene properties")
+    if camera_object.type != "CAMERA":
+        kind = camera_object.type.replace("_", " ").lower()
+        raise InputError(f"{camera_object.name!r} is of type {kind}, not a camera: set one in the Scene properties")
+
+
+def _focus_position(dof, depsgraph):
+    """Return where the focus object, or its bone, is in the world; None without one."""
+    if dof.focus_object is None:
+        return None
+    matrix = dof.focus_object.evaluated_get(depsgraph).matrix_world
+    if dof.focus_object.pose is not None and dof.focus_subtarget in dof.focus_object.pose.bones:
+        matrix = matrix @ dof.focus_object.evaluated_get(depsgraph).pose.bones[dof.focus_subtarget].matrix
+    return np.array(matrix.translation, dtype=np.float64)
