@@ -1,0 +1,61 @@
+"""Blender in, plain records out. The scene is as it was afterwards."""
+
+import math
+from contextlib import contextmanager
+
+import bpy
+
+from ..core.camera import Camera
+from ..core.cameras import camera_from
+from ..core.records import InputError, Shapes
+from .raw_camera import camera_record, check_camera, find_camera
+from .raw_shapes import shapes_record
+
+__all__ = ["camera_record", "evaluated", "find_camera", "read_camera", "read_shapes", "shapes_record"]
+
+
+def read_camera(scene, camera_object=None, frame=None, view="") -> Camera:
+    """Return the scene's camera as it is evaluated: parents, constraints, drivers, animation, timeline markers.
+
+    ``camera_object``: default the scene's active camera at that frame. ``frame``: default the current one; its
+    fraction is the subframe. ``view``: only "", the camera itself.
+    Raises InputError where there is no camera, for what no model here can do, and for parameters without meaning.
+    """
+    if view:
+        raise InputError(f"view {view!r} cannot be cast: stereo views have no model here, leave the view empty")
+    if camera_object is not None:
+        check_camera(scene, camera_object)
+    with evaluated(scene, frame, camera_object) as depsgraph:
+        return camera_from(camera_record(scene, scene.camera, depsgraph))
+
+
+def read_shapes(scene, frame=None) -> Shapes:
+    """Return the scene's spheres and planes as they are evaluated, in the world, and the names of what is neither.
+
+    ``frame`` is as in ``read_camera``. Outside a render Blender has evaluated what the viewport shows, with the
+    viewport's modifier and particle settings; what only a render shows is named among ``left_out``.
+    """
+    with evaluated(scene, frame) as depsgraph:
+        return shapes_record(depsgraph)
+
+
+@contextmanager
+def evaluated(scene, frame=None, camera_object=None):
+    """Yield the scene's depsgraph at a frame with a camera active, and put frame and camera back in the end."""
+    if frame is not None and not abs(frame) < 2**31:
+        raise InputError(f"frame {frame} is not one that Blender can hold: choose one nearer to 0")
+    layer = bpy.context.view_layer if scene == bpy.context.scene else scene.view_layers[0]
+    before = scene.frame_current, scene.frame_subframe, scene.camera
+    try:
+        if frame is not None:
+            scene.frame_set(math.floor(frame), subframe=frame - math.floor(frame))
+        if camera_object is not None and camera_object != scene.camera:
+            scene.camera = camera_object  # a camera that is hidden is evaluated only while it is the active one
+        layer.update()
+        yield layer.depsgraph
+    finally:
+        if (scene.frame_current, scene.frame_subframe) != before[:2]:
+            scene.frame_set(before[0], subframe=before[1])
+        if scene.camera != before[2]:
+            scene.camera = before[2]  # also where a timeline marker has bound another one
+            layer.update()
