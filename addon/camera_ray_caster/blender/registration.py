@@ -1,8 +1,8 @@
 """What Blender is told of: the modules in the order in which they are registered."""
 
-from . import properties
+from . import engine, operators, panels, properties, reports
 
-MODULES = (properties,)
+MODULES = (properties, reports, engine, operators, panels)
 
 
 def register() -> None:

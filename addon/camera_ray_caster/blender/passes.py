@@ -1,0 +1,61 @@
+"""The passes as Blender has them: their names in its result, their channels, and the tick box that asks for each."""
+
+from dataclasses import dataclass
+
+import bpy
+import numpy as np
+
+FROM_5_0 = bpy.app.version >= (5, 0, 0)
+
+FAR = 1e10
+"""Blender's depth where nothing is hit: what EEVEE and Cycles store and the compositor takes for the background."""
+
+
+@dataclass(frozen=True)
+class RenderPass:
+    """``key`` is the caster's name of the pass; ``label``, ``channels`` and ``kind`` are those of ``register_pass``."""
+
+    key: str
+    label: str
+    channels: str
+    kind: str
+    tick: str
+    own: bool = False
+    """Whether the tick box is the scene's, in the add-on's settings, not the view layer's."""
+
+    def settings(self, scene, view_layer):
+        """Return the struct that holds the tick box."""
+        return scene.camera_ray_caster if self.own else view_layer
+
+
+PASSES = (
+    RenderPass("combined", "Combined", "RGBA", "COLOR", "use_pass_combined"),
+    RenderPass("depth", "Depth", "Z", "VALUE", "use_pass_z"),
+    RenderPass("position", "Position", "XYZ", "VECTOR", "use_pass_position"),
+    RenderPass("normal", "Normal", "XYZ", "VECTOR", "use_pass_normal"),
+    RenderPass("uv", "UV", "UVA", "VECTOR", "use_pass_uv"),
+    RenderPass("object_index", "Object Index" if FROM_5_0 else "IndexOB", "X", "VALUE", "use_pass_object_index"),
+    RenderPass("material_index", "Material Index" if FROM_5_0 else "IndexMA", "X", "VALUE", "use_pass_material_index"),
+    RenderPass("distance", "Distance", "X", "VALUE", "use_pass_distance", own=True),
+    RenderPass("shape_index", "Shape Index", "X", "VALUE", "use_pass_shape_index", own=True),
+    RenderPass("valid", "Valid", "X", "VALUE", "use_pass_valid", own=True),
+    RenderPass("ray_origin", "Ray Origin", "XYZ", "VECTOR", "use_pass_ray_origin", own=True),
+    RenderPass("ray_direction", "Ray Direction", "XYZ", "VECTOR", "use_pass_ray_direction", own=True),
+)
+
+
+def ticked(scene, view_layer) -> list[RenderPass]:
+    """Return the passes that the user has ticked; combined, which Blender always stores, where that is none."""
+    return [entry for entry in PASSES if getattr(entry.settings(scene, view_layer), entry.tick)] or [PASSES[0]]
+
+
+def tick(scene, view_layer, keys) -> None:
+    """Tick these passes and no others."""
+    for entry in PASSES:
+        setattr(entry.settings(scene, view_layer), entry.tick, entry.key in keys)
+
+
+def stored(key: str, image: np.ndarray) -> np.ndarray:
+    """Return an image as Blender stores it: flat float32, rows from the bottom, depth FAR where nothing is hit."""
+    flat = np.ascontiguousarray(image, dtype=np.float32).ravel()
+    return np.where(np.isinf(flat), np.float32(FAR), flat) if key == "depth" else flat

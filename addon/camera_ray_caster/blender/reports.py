@@ -1,0 +1,44 @@
+"""Where the report of the latest render is kept, and the text datablock that shows it."""
+
+import bpy
+from bpy.app.handlers import persistent
+
+from ..core.report import Report, as_lines
+
+TEXT = "Camera Ray Caster Report"
+
+_latest: list[Report] = []
+
+
+def keep(report: Report) -> None:
+    """Remember the report of the latest render; a render's thread may call it."""
+    _latest[:] = [report]
+
+
+def latest() -> Report | None:
+    """Return the report of the latest render of this file, None before the first."""
+    return _latest[0] if _latest else None
+
+
+def write_text(report: Report):
+    """Write a report into the text datablock TEXT and return it. Only the main thread may add datablocks."""
+    text = bpy.data.texts.get(TEXT) or bpy.data.texts.new(TEXT)
+    text.from_string("\n".join(as_lines(report)) + "\n")
+    return text
+
+
+@persistent
+def forget(*_):
+    """Another file is loaded: what was rendered before says nothing of it."""
+    _latest.clear()
+
+
+def register() -> None:
+    """See ``registration``."""
+    bpy.app.handlers.load_pre.append(forget)
+
+
+def unregister() -> None:
+    """See ``registration``."""
+    bpy.app.handlers.load_pre.remove(forget)
+    forget()
