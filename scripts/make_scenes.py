@@ -14,16 +14,20 @@ import sys
 import tempfile
 from pathlib import Path
 
+import bpy
+from scenes import SCENES
+
 ROOT = Path(__file__).resolve().parents[1]
 FOLDER = ROOT / "blend_scenes"
-sys.path[:0] = [str(ROOT / "addon"), str(ROOT / "scripts")]
+sys.path.insert(0, str(ROOT / "addon"))
 
-from scenes import SCENES  # noqa: E402  (found by the line above)
+import camera_ray_caster  # noqa: E402  (found by the line above)
 
 README = """\
 # Example scenes
 
-Small scenes, each hard for a ray caster in one way. Look at one with `python scripts/cast.py blend_scenes/NAME.blend --output out`.
+Small scenes, each hard for a ray caster in one way. To look at one:
+`python scripts/cast.py blend_scenes/NAME.blend --output out`
 
 {lines}
 
@@ -33,8 +37,6 @@ All of them are made by `python scripts/make_scenes.py`, and this page with them
 
 def write_scene(name: str) -> None:
     """Write blend_scenes/NAME.blend: whole or not at all."""
-    import bpy
-
     bpy.ops.wm.read_factory_settings(use_empty=True)
     # one workspace is enough, and Blender's file browsers would store the home folder
     bpy.data.batch_remove([other for other in bpy.data.workspaces if other != bpy.context.window.workspace])
@@ -45,7 +47,6 @@ def write_scene(name: str) -> None:
     scene.name = name
     scene.render.filepath = f"//../out/{name}_"
     SCENES[name](scene)
-    bpy.context.view_layer.update()
     with tempfile.TemporaryDirectory(dir=FOLDER) as folder:
         new = os.path.join(folder, "new.blend")
         bpy.ops.wm.save_as_mainfile(filepath=new, compress=True, relative_remap=False)
@@ -62,15 +63,10 @@ def main(arguments: list[str] | None = None) -> None:
     lines = "\n".join(f"* `{name}.blend`: {make.__doc__}" for name, make in SCENES.items())
     (FOLDER / "README.md").write_text(README.format(lines=lines), encoding="utf-8")
 
-    # read once, at the first import of bpy: the scenes do not depend on the user's settings
-    with tempfile.TemporaryDirectory() as profile:
-        os.environ["BLENDER_USER_RESOURCES"] = profile
-        import camera_ray_caster
-
-        camera_ray_caster.register()
-        for name in names:
-            write_scene(name)
-        camera_ray_caster.unregister()
+    camera_ray_caster.register()
+    for name in names:
+        write_scene(name)
+    camera_ray_caster.unregister()
 
 
 if __name__ == "__main__":

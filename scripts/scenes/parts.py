@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from math import radians
 
 import bmesh
@@ -27,29 +28,37 @@ def material(colour: str):
     return found
 
 
-def add(scene, name: str, data, location=(0, 0, 0), turn=(0, 0, 0), scale=(1, 1, 1), *, colour="", index=0, parent=None):
-    """Link an object to the scene; ``turn`` is Euler XYZ in degrees, ``index`` its pass index."""
+def add(
+    scene, name: str, data=None, location=(0, 0, 0), turn=(0, 0, 0), scale=(1, 1, 1), *, colour="", index=0, parent=None
+):
+    """Link an object to the scene; ``turn`` is Euler XYZ in degrees, ``index`` its pass index.
+
+    The material belongs to the object, so that objects of different colours share their data.
+    """
     thing = bpy.data.objects.new(name, data)
-    thing.location, thing.scale = location, scale
+    thing.location, thing.scale = location, (scale,) * 3 if isinstance(scale, float | int) else scale
     thing.rotation_euler = [radians(angle) for angle in turn]
     thing.pass_index = index
     thing.parent = parent
     if colour:
-        data.materials.clear()
-        data.materials.append(material(colour))
+        if not data.materials:
+            data.materials.append(None)
+        thing.material_slots[0].link = "OBJECT"
+        thing.material_slots[0].material = material(colour)
     scene.collection.objects.link(thing)
     return thing
 
 
 def mesh(shape: str, **arguments):
-    """Return a smooth mesh made by a function of bmesh.ops, such as create_monkey."""
-    built = bmesh.new()
-    getattr(bmesh.ops, f"create_{shape}")(built, **arguments)
-    data = bpy.data.meshes.new(shape)
-    built.to_mesh(data)
-    built.free()
-    data.shade_smooth()
-    return data
+    """Return the mesh of a function of bmesh.ops, such as create_monkey, made once and shared."""
+    name = " ".join([shape, *map(str, arguments.values())])
+    if name not in bpy.data.meshes:
+        built = bmesh.new()
+        getattr(bmesh.ops, f"create_{shape}")(built, **arguments)
+        built.to_mesh(bpy.data.meshes.new(name))
+        built.free()
+        bpy.data.meshes[name].shade_smooth()
+    return bpy.data.meshes[name]
 
 
 def uv_sphere(segments: int = 32, rings: int = 16):
@@ -64,9 +73,7 @@ def ico_sphere(subdivisions: int = 3):
 
 def square():
     """Return the mesh of the flat quad |x| <= 1, |y| <= 1."""
-    data = bpy.data.meshes.new("plane")
-    data.from_pydata([(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)], [], [(0, 1, 2, 3)])
-    return data
+    return mesh("grid", x_segments=1, y_segments=1, size=1)
 
 
 def points(positions, radii):
@@ -79,23 +86,34 @@ def points(positions, radii):
 
 def spheres_of_points(thing) -> None:
     """Let geometry nodes turn an object's vertices into a point cloud with its radii and first material."""
-    tree = bpy.data.node_groups.new("Spheres of points", "GeometryNodeTree")
-    tree.interface.new_socket("Geometry", in_out="INPUT", socket_type="NodeSocketGeometry")
-    tree.interface.new_socket("Geometry", in_out="OUTPUT", socket_type="NodeSocketGeometry")
-    chain = [
-        tree.nodes.new(kind)
-        for kind in ("NodeGroupInput", "GeometryNodeMeshToPoints", "GeometryNodeSetMaterial", "NodeGroupOutput")
-    ]
-    for k, node in enumerate(chain):
-        node.location = (200 * k, 0)
-    for left, right in zip(chain, chain[1:], strict=False):
-        tree.links.new(left.outputs[0], right.inputs[0])
+    to_points, tree = _nodes(thing, "GeometryNodeMeshToPoints", "GeometryNodeSetMaterial")
     radius = tree.nodes.new("GeometryNodeInputNamedAttribute")
     radius.inputs["Name"].default_value = "radius"
-    radius.location = (0, -200)
-    tree.links.new(radius.outputs["Attribute"], chain[1].inputs["Radius"])
-    chain[2].inputs["Material"].default_value = thing.data.materials[0]
-    thing.modifiers.new("Spheres of points", "NODES").node_group = tree
+    tree.links.new(radius.outputs["Attribute"], to_points.inputs["Radius"])
+    tree.nodes["Set Material"].inputs["Material"].default_value = thing.material_slots[0].material
+
+
+def instances_of_points(thing, instance) -> None:
+    """Let geometry nodes put an instance of another object, with its scale, on each of an object's vertices."""
+    on_points, tree = _nodes(thing, "GeometryNodeInstanceOnPoints")
+    source = tree.nodes.new("GeometryNodeObjectInfo")
+    source.inputs["Object"].default_value = instance
+    source.inputs["As Instance"].default_value = True
+    tree.links.new(source.outputs["Geometry"], on_points.inputs["Instance"])
+    tree.links.new(source.outputs["Scale"], on_points.inputs["Scale"])
+
+
+def _nodes(thing, *kinds: str):
+    """Give an object geometry nodes that pass its geometry through these kinds; return the first of them, the tree."""
+    tree = bpy.data.node_groups.new("Points", "GeometryNodeTree")
+    for in_out in ("INPUT", "OUTPUT"):
+        tree.interface.new_socket("Geometry", in_out=in_out, socket_type="NodeSocketGeometry")
+    chain = [tree.nodes.new(kind) for kind in ("NodeGroupInput", *kinds, "NodeGroupOutput")]
+    for left, right in pairwise(chain):
+        tree.links.new(left.outputs[0], right.inputs[0])
+        right.location = left.location.x + 200, 0
+    thing.modifiers.new("Points", "NODES").node_group = tree
+    return chain[1], tree
 
 
 def camera(scene, location, target=(0, 0, 0), *, type="PERSP", **settings):
