@@ -83,6 +83,6 @@ class Camera:
         return self.rays_at(self.raster.columns(), self.raster.rows())
 
     def project(self, points) -> np.ndarray:
-        """Return the pixel coordinates (..., 2) in the full frame of world points (..., 3); NaN where there are none."""
+        """Return the pixel coordinates (..., 2) in the full frame of world points (..., 3); NaN where none sees it."""
         points = np.asarray(points, dtype=np.float64)
         return self.model.project((points - self.pose.eye) @ np.linalg.inv(self.pose.basis).T)

@@ -5,12 +5,13 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Sequence
 from concurrent.futures import FIRST_COMPLETED, ThreadPoolExecutor, wait
+from threading import local
 from time import perf_counter
 
 import numpy as np
 
 from .camera import Camera
-from .hits import nearest
+from .hits import Scratch, nearest
 from .passes import PASSES
 from .plan import Plan, make_plan
 from .records import Cancelled, Shapes
@@ -52,14 +53,19 @@ def cast(
     images.plan = plan
     images.seconds = {"plan": perf_counter() - started, "hits": 0.0, "passes": 0.0}
 
+    threads_own = local()
+
     def tile(first_row: int) -> tuple[float, float]:
         with np.errstate(all="ignore"):  # NaN and inf are answers here: no ray, no hit
             began = perf_counter()
             last_row = min(first_row + plan.tile_rows, height)
-            hits = nearest(camera, shapes, plan, first_row, last_row)
+            if not hasattr(threads_own, "scratch"):
+                threads_own.scratch = Scratch()
+            hits = nearest(plan, first_row, last_row, threads_own.scratch)
             found = perf_counter()
-            for name in plan.passes:
-                PASSES[name].write(hits, images[name][first_row:last_row])
+            for rows, block in hits.blocks():
+                for name in plan.passes:
+                    PASSES[name].write(block, images[name][first_row:last_row][rows])
             return found - began, perf_counter() - found
 
     workers = threads or os.cpu_count() or 1
@@ -83,8 +89,8 @@ def _run(tile, starts, workers: int, progress) -> np.ndarray:
                 for future in finished:
                     total += future.result()
                     done += 1
-                if progress is not None and not progress(done / len(starts)):
-                    raise Cancelled
+                    if progress is not None and not progress(done / len(starts)):
+                        raise Cancelled
         finally:
             for future in waiting:
                 future.cancel()

@@ -4,15 +4,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from math import prod
 from typing import Any
 
 import numpy as np
 
-from .camera import Camera
-from .plan import Plan
-from .records import Shapes
+from .plan import BLOCK_PIXELS, SMALL_PIXELS, Group, Plan
 from .shapes import SHAPE_OF_KIND
-from .vector import along, components, difference, matvec, rows
+from .vector import along, components, difference, dot, matvec, rows
 
 NOTHING = -1
 """Shape index of a pixel that sees none."""
@@ -20,10 +19,8 @@ NOTHING = -1
 
 @dataclass(frozen=True)
 class Hits:
-    """The hits of one tile, (rows, columns) arrays, and what follows from them, worked out when a pass asks."""
+    """The hits of some rows, (rows, columns) arrays, and what follows from them, worked out when a pass asks."""
 
-    camera: Camera
-    shapes: Shapes
     plan: Plan
     origin: Any
     """Components in the camera frame."""
@@ -34,30 +31,59 @@ class Hits:
     index: np.ndarray
     """Row of the nearest shape, NOTHING where there is none."""
 
+    def blocks(self):
+        """Yield (rows, hits) of blocks small enough for a core's cache."""
+        step = max(1, BLOCK_PIXELS // self.t.shape[1])
+        for first in range(0, self.t.shape[0], step):
+            part = slice(first, first + step)
+            window = part, slice(None)
+            origin, direction = (tuple(_cut(c, window) for c in vector) for vector in (self.origin, self.direction))
+            yield part, Hits(self.plan, origin, direction, self.t[part], self.index[part])
+
     @cached_property
     def seen(self) -> np.ndarray:
         """Where a shape is hit, bool."""
         return self.index != NOTHING
 
     @cached_property
-    def finite_t(self) -> np.ndarray:
-        """Return t with 0 where nothing is hit."""
-        return np.where(self.seen, self.t, 0.0)
+    def missed(self) -> np.ndarray:
+        """Where none is, bool."""
+        return ~self.seen
 
     @cached_property
-    def point(self):
-        """Return the hit points as camera-frame components: the origin where nothing is hit."""
-        return along(self.origin, self.direction, self.finite_t)
+    def has_ray(self) -> np.ndarray:
+        """Where the pixel has a ray, bool."""
+        ray = np.ones(self.t.shape, bool)
+        for component in self.direction:
+            ray &= ~np.isnan(component)
+        return ray
 
     @cached_property
     def world_direction(self):
-        """Return the directions as world components, not of unit length."""
-        return matvec(self.camera.pose.basis, self.direction)
+        """The directions as world components, not of unit length."""
+        return matvec(self.plan.camera.pose.basis, self.direction)
+
+    @cached_property
+    def point(self):
+        """The hit points relative to the eye, as world components; no number of meaning where nothing is hit."""
+        t = np.where(self.seen, self.t, 0.0)
+        if self.plan.camera.model.central:
+            return tuple(t * component for component in self.world_direction)
+        return along(matvec(self.plan.camera.pose.basis, self.origin), self.world_direction, t)
+
+    @cached_property
+    def normal(self):
+        """Unit world normals turned towards the rays' origins, as components; 0 where nothing is hit."""
+        normal = self.plan.normals.look_up(self.index, self.point)
+        if self.plan.faces_eye:
+            return normal
+        facing = -np.sign(dot(normal, self.world_direction))
+        return tuple(np.where(self.seen, facing * component, 0.0) for component in normal)
 
     @cached_property
     def surfaces(self) -> list[Surface]:
-        """Return the hit pixels kind by kind, only the kinds that are hit."""
-        kinds = self.shapes.kind[self.index[self.seen]]
+        """The hit pixels kind by kind, only the kinds that are hit."""
+        kinds = self.plan.shapes.kind[self.index[self.seen]]
         found = []
         for kind in np.unique(kinds):
             where = self.seen.copy()
@@ -76,19 +102,15 @@ class Surface:
 
     @cached_property
     def rows(self) -> np.ndarray:
-        """Return the row of each pixel's shape."""
+        """The row of each pixel's shape."""
         return self.hits.index[self.where]
 
     @cached_property
-    def shape_from_camera(self):
-        """Return the matrix of each pixel's shape, as rows of entries."""
-        return rows(self.hits.plan.placed.shape_from_camera[self.rows])
-
-    @cached_property
     def q(self):
-        """Return the hit point in the shape's frame, right to EPS (distance / size)."""
-        centre = components(self.hits.plan.placed.centre[self.rows])
-        return matvec(self.shape_from_camera, difference(self.select(self.hits.point), centre))
+        """The hit points in the shapes' frames, right to EPS (distance / size)."""
+        shapes, pose = self.hits.plan.shapes, self.hits.plan.camera.pose
+        offset = difference(self.select(self.hits.point), components(shapes.centre[self.rows] - pose.eye))
+        return matvec(rows(self.hits.plan.shape_from_world[self.rows]), offset)
 
     def select(self, vector):
         """Return the components of a tile at these pixels."""
@@ -96,38 +118,143 @@ class Surface:
         return tuple(np.broadcast_to(component, shape)[self.where] for component in vector)
 
 
-def nearest(camera: Camera, shapes: Shapes, plan: Plan, first_row: int, last_row: int) -> Hits:
+def nearest(plan: Plan, first_row: int, last_row: int, scratch: Scratch) -> Hits:
     """Return the nearest hit within the clip range for the window's rows first_row .. last_row - 1.
 
     Of shapes hit at exactly the same t the one with the lowest index counts, whatever order they are tested in.
     """
+    camera = plan.camera
     raster = camera.raster
     origin, direction = camera.camera_rays(raster.columns(), raster.rows()[first_row:last_row])
     shape = (last_row - first_row, raster.shape[1])
-    t = np.full(shape, np.inf)
-    index = np.full(shape, NOTHING, np.int32)
-    eye = None if camera.model.central else origin
-    touched = np.flatnonzero((plan.bounds[:, 2] < last_row) & (plan.bounds[:, 3] > first_row))
-    for k, (x0, x1, y0, y1) in zip(plan.visible[touched], plan.bounds[touched].tolist(), strict=True):
-        window = slice(max(y0, first_row) - first_row, min(y1, last_row) - first_row), slice(x0, x1)
-        kind = int(shapes.kind[k])
-        found = SHAPE_OF_KIND[kind].intersect(
-            plan.placed.take(k), kind, cut(eye, window), cut(direction, window), camera.clip_start, camera.clip_end
-        )
-        nearest_t, nearest_k = t[window], index[window]
-        closer = (found < nearest_t) | ((found == nearest_t) & (k < nearest_k))
-        np.copyto(nearest_t, found, where=closer)
-        nearest_k[closer] = k
-    return Hits(camera, shapes, plan, origin, direction, t, index)
-
-
-def cut(vector, window):
-    """Return the part of broadcastable components that covers a window of the tile."""
-    if vector is None:
-        return None
-    return tuple(
-        component
-        if np.ndim(component) == 0
-        else component[tuple(part if size > 1 else slice(None) for part, size in zip(window, component.shape, strict=True))]
-        for component in vector
+    tile = Tile(
+        None if camera.model.central else origin,
+        direction,
+        camera.clip_start,
+        np.full(shape, np.nextafter(camera.clip_end, np.inf)),
+        np.full(shape, NOTHING, np.int32),
+        scratch,
     )
+    small = []
+    large = []
+    for group in plan.groups:
+        low = np.maximum(group.bounds[:, 2] - first_row, 0)
+        high = np.minimum(group.bounds[:, 3] - first_row, shape[0])
+        here = np.flatnonzero(low < high)
+        bounds = np.stack((group.bounds[here, 0], group.bounds[here, 1], low[here], high[here]), axis=1)
+        few = (bounds[:, 1] - bounds[:, 0]) * (bounds[:, 3] - bounds[:, 2]) < SMALL_PIXELS
+        large += [(group, *one) for one in zip(here[~few].tolist(), bounds[~few].tolist(), strict=True)]
+        small += [(group, here[few][batch], bounds[few][batch]) for batch in _batches(bounds[few])]
+    for group, row, bounds in sorted(large, key=lambda one: one[0].at[one[1]]):
+        tile.cast_one(group, row, bounds)
+    for group, rows_of_batch, bounds in small:
+        tile.cast_batch(group, rows_of_batch, bounds)
+    tile.t[tile.index == NOTHING] = np.inf
+    return Hits(plan, origin, direction, tile.t, tile.index)
+
+
+class Scratch:
+    """Working arrays of one thread, lent again and again: asking the system for memory costs more than arithmetic."""
+
+    def __init__(self):
+        self._arrays = [np.empty(0)] * 3
+
+    def __call__(self, i: int, shape) -> np.ndarray:
+        """Return the i-th array in this shape; what it held is lost."""
+        size = prod(shape)
+        if self._arrays[i].size < size:
+            self._arrays[i] = np.empty(size)
+        return self._arrays[i][:size].reshape(shape)
+
+
+@dataclass(frozen=True)
+class Tile:
+    """The rays of whole rows of the window, and the nearest hits so far."""
+
+    origin: Any
+    """None for rays from the eye."""
+    direction: Any
+    start: float
+    t: np.ndarray
+    """The nearest t so far; the first float64 beyond the clip end where nothing was hit."""
+    index: np.ndarray
+    scratch: Scratch
+
+    def cast_one(self, group: Group, row: int, bounds) -> None:
+        """Test one shape at the pixels of its bounds, block by block; to be called in the order of shape indices."""
+        x0, x1, y0, y1 = bounds
+        view = _take(group.view, row)
+        block_rows = max(1, BLOCK_PIXELS // (x1 - x0))
+        for y in range(y0, y1, block_rows):
+            window = slice(y, min(y + block_rows, y1)), slice(x0, x1)
+            t, index = self.t[window], self.index[window]
+            found, where = self._intersect(group, view, lambda component, window=window: _cut(component, window))
+            closer = found < t
+            if where is not None:
+                closer &= where
+                np.copyto(t, found, where=closer)
+            else:
+                np.fmin(t, found, out=t)
+            np.copyto(index, group.at[row], where=closer)
+
+    def cast_batch(self, group: Group, at, bounds) -> None:
+        """Test many small shapes at once: arrays (shapes, rows, columns) as large as the largest bounds."""
+        x0, x1, y0, y1 = (edge[:, None, None] for edge in bounds.T)
+        height, width = self.t.shape
+        y = y0 + np.arange((y1 - y0).max())[:, None]
+        x = x0 + np.arange((x1 - x0).max())
+        inside = (y < y1) & (x < x1)
+        y, x = np.minimum(y, height - 1), np.minimum(x, width - 1)
+        view = _take(group.view, at, axes=(1, 1))
+        found, where = self._intersect(group, view, lambda component: _gather(component, y, x))
+        t, index = self.t.reshape(-1), self.index.reshape(-1)
+        pixel = y * width + x
+        inside &= found <= t[pixel]
+        if where is not None:
+            inside &= where
+        pixel, found = pixel[inside], np.broadcast_to(found, inside.shape)[inside]
+        k = np.broadcast_to(group.at[at][:, None, None], inside.shape)[inside]
+        before = t[pixel]
+        np.minimum.at(t, pixel, found)
+        won = found == t[pixel]
+        won &= (found < before) | (k < index[pixel])
+        index[pixel[won][::-1]] = k[won][::-1]  # of equals the first, the lowest index, is written last
+
+    def _intersect(self, group: Group, view, part):
+        origin = None if self.origin is None else tuple(map(part, self.origin))
+        start = None if group.simple else self.start
+        direction = tuple(map(part, self.direction))
+        return group.shape.intersect(view, group.kind, origin, direction, start, self.scratch)
+
+
+def _take(view, at, axes=()):
+    """Return a view's constants of one row, or of many rows with axes put in that broadcast with the rays."""
+    values = {name: getattr(view, name)[at] for name in view.__dataclass_fields__}
+    return type(view)(**{k: v.reshape(len(v), *axes, *v.shape[1:]) if axes else v for k, v in values.items()})
+
+
+def _batches(bounds):
+    """Yield rows of shapes with bounds of about the same size, as many as fill some blocks."""
+    size = np.maximum(bounds[:, 1] - bounds[:, 0], bounds[:, 3] - bounds[:, 2])
+    step = np.ceil(4 * np.log2(np.maximum(size, 1)))
+    for value in np.unique(step):
+        alike = np.flatnonzero(step == value)
+        pixels = (bounds[alike, 1] - bounds[alike, 0]).max() * (bounds[alike, 3] - bounds[alike, 2]).max()
+        count = max(1, 2 * BLOCK_PIXELS // pixels)
+        for first in range(0, len(alike), count):
+            yield alike[first : first + count]
+
+
+def _cut(component, window):
+    """Return the part of a broadcastable component that covers a window of the tile."""
+    if np.ndim(component) == 0:
+        return component
+    return component[tuple(w if size > 1 else slice(None) for w, size in zip(window, component.shape, strict=True))]
+
+
+def _gather(component, y, x):
+    """Return a broadcastable component at pixels given by a column of rows and a row of columns a shape."""
+    if np.ndim(component) == 0:
+        return component
+    rows, columns = component.shape
+    return component[y if rows > 1 else 0, x if columns > 1 else 0]

@@ -13,7 +13,7 @@ import numpy as np
 
 from .hits import Hits
 from .shading import shade
-from .vector import dot, matvec, norm, unit
+from .vector import matvec, norm, unit
 
 
 @dataclass(frozen=True)
@@ -28,10 +28,10 @@ class Pass:
 
 def combined(hits: Hits, out):
     """Linear RGBA: the shading's colour, the world's where nothing is hit, transparent black where there is no ray."""
-    out[...] = hits.shapes.world_colour
-    out[~_has_ray(hits)] = 0
+    out[...] = hits.plan.shapes.world_colour
+    out[~hits.has_ray] = 0
     for surface in hits.surfaces:
-        out[surface.where] = shade(surface, normals(surface), hits.plan.shading)
+        out[surface.where] = shade(surface)
 
 
 def depth(hits: Hits, out):
@@ -41,19 +41,19 @@ def depth(hits: Hits, out):
 
 def distance(hits: Hits, out):
     """The length of the ray from its origin to the hit."""
-    out[...] = np.where(hits.seen, hits.finite_t * norm(hits.world_direction), np.inf)
+    np.multiply(hits.t, norm(hits.world_direction), out=out, casting="same_kind")
+    out[hits.missed] = np.inf
 
 
 def position(hits: Hits, out):
     """The hit point in the world."""
-    _write(hits, out, matvec(hits.camera.pose.basis, hits.point), hits.seen, hits.camera.pose.eye)
+    _write(out, hits.point, hits.plan.camera.pose.eye, hits.missed)
 
 
 def normal(hits: Hits, out):
     """The surface's unit normal in the world, turned towards the ray's origin."""
-    out[...] = 0
-    for surface in hits.surfaces:
-        out[surface.where] = np.stack(normals(surface), axis=-1)
+    for axis, component in enumerate(hits.normal):
+        out[..., axis] = component
 
 
 def uv(hits: Hits, out):
@@ -66,12 +66,12 @@ def uv(hits: Hits, out):
 
 def object_index(hits: Hits, out):
     """Blender's pass index of the object."""
-    _take(hits, out, hits.shapes.object_index)
+    np.take(np.append(hits.plan.shapes.object_index, 0), hits.index, out=out, mode="wrap")
 
 
 def material_index(hits: Hits, out):
     """Blender's pass index of the material."""
-    _take(hits, out, hits.shapes.material_index)
+    np.take(np.append(hits.plan.shapes.material_index, 0), hits.index, out=out, mode="wrap")
 
 
 def shape_index(hits: Hits, out):
@@ -81,42 +81,24 @@ def shape_index(hits: Hits, out):
 
 def valid(hits: Hits, out):
     """Whether the pixel has a ray."""
-    out[...] = _has_ray(hits)
+    out[...] = hits.has_ray
 
 
 def ray_origin(hits: Hits, out):
     """The origin of the chief ray in the world."""
-    _write(hits, out, matvec(hits.camera.pose.basis, hits.origin), _has_ray(hits), hits.camera.pose.eye)
+    pose = hits.plan.camera.pose
+    _write(out, matvec(pose.basis, hits.origin), pose.eye, ~hits.has_ray)
 
 
 def ray_direction(hits: Hits, out):
     """The unit direction of the chief ray in the world."""
-    _write(hits, out, unit(hits.world_direction), _has_ray(hits))
+    _write(out, unit(hits.world_direction), (0.0, 0.0, 0.0), ~hits.has_ray)
 
 
-def normals(surface):
-    """Return unit world normals, turned towards the rays' origins, as components over a surface's pixels."""
-    hits = surface.hits
-    covector = surface.kind.normal_covector(surface.shape_from_camera, surface.q)
-    facing = -np.sign(dot(covector, surface.select(hits.direction)))
-    world_from_covector = np.linalg.inv(hits.camera.pose.basis).T
-    return tuple(facing * component for component in unit(matvec(world_from_covector, covector)))
-
-
-def _has_ray(hits: Hits) -> np.ndarray:
-    ray = np.ones(hits.t.shape, bool)
-    for component in hits.direction:
-        ray &= ~np.isnan(component)
-    return ray
-
-
-def _write(hits: Hits, out, vector, where, offset=(0.0, 0.0, 0.0)):
+def _write(out, vector, offset, blank):
     for axis, component in enumerate(vector):
-        out[..., axis] = np.where(where, component + offset[axis], 0.0)
-
-
-def _take(hits: Hits, out, table):
-    out[...] = np.append(table, 0)[hits.index]
+        out[..., axis] = component + offset[axis]
+    out[blank] = 0
 
 
 PASSES = {

@@ -4,91 +4,161 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
 
 import numpy as np
 
 from .camera import Camera
-from .records import INFINITE_PLANE, InputError, Shapes
+from .records import SPHERE, InputError, Shapes
 from .shading import SHADINGS
-from .shapes import SHAPES, Placed, place
+from .shapes import SHAPE_OF_KIND, Placed, place
+from .shapes.normals import NormalTable, normal_table
+from .shapes.placed import inverse
 
-TILE_PIXELS = 1 << 16
-"""Pixels of a tile: its float64 temporaries stay in a core's cache."""
+TILE_PIXELS = 1 << 18
+"""Pixels of a tile, the unit of threads, progress and cancelling: whole rows."""
+
+BLOCK_PIXELS = 1 << 14
+"""Pixels of a block, the unit of arithmetic: its float64 temporaries stay in a core's cache."""
+
+SMALL_PIXELS = 1 << 12
+"""A shape with fewer pixels in its bounds is cast in a batch with others: numpy's call costs more than its pixels."""
 
 KIND_NAMES = ("sphere", "plane", "infinite plane")
 
 
 @dataclass(frozen=True)
-class Plan:
-    """What the cast does. ``visible`` lists the shapes that some pixel may see, kind by kind; others cost nothing."""
+class Group:
+    """Shapes of one kind that are tested alike; one row a shape, sorted by shape index."""
 
-    passes: tuple[str, ...]
-    placed: Placed
-    visible: np.ndarray
-    """(m,) rows of the shapes, sorted by kind."""
+    kind: int
+    simple: bool
+    """Whether the origin is outside and nothing lies before the clip start: the near root alone decides."""
+    at: np.ndarray
+    """(m,) rows in ``Shapes``."""
     bounds: np.ndarray
     """(m, 4) int: x0, x1, y0, y1 in the render window, x1 and y1 not included."""
+    view: Any
+    """The kernel's constants."""
+
+    @property
+    def shape(self):
+        """The module of this kind of shape."""
+        return SHAPE_OF_KIND[self.kind]
+
+
+@dataclass(frozen=True)
+class Plan:
+    """What the cast does. What is not in it costs nothing."""
+
+    camera: Camera
+    shapes: Shapes
+    passes: tuple[str, ...]
+    shading: str
+    placed: Placed
+    groups: tuple[Group, ...]
     tile_rows: int
     unseen: int
     """Shapes that no pixel can see."""
-    missing_kinds: tuple[str, ...]
-    """Kinds of shape whose code does not run."""
     spare_passes: tuple[str, ...]
     """Passes that were not asked for."""
-    shading: str
+
+    @cached_property
+    def normals(self) -> NormalTable:
+        """The constants of the normals, made when a pass first asks for them."""
+        return normal_table(self.shapes, self.camera.pose)
+
+    @cached_property
+    def shape_from_world(self) -> np.ndarray:
+        """(n, 3, 3), made when a pass first asks for it."""
+        return inverse(self.shapes.axes)
+
+    @property
+    def faces_eye(self) -> bool:
+        """Whether every tabled normal faces the ray: one eye, outside of every sphere in view."""
+        return self.camera.model.central and all(group.simple or group.kind != SPHERE for group in self.groups)
 
     def left_out(self) -> list[str]:
         """Return what is not done, in words, for the report."""
+        seen = sum(len(group.at) for group in self.groups)
+        kinds = {group.kind for group in self.groups}
         lines = []
         if self.unseen:
-            lines.append(f"{self.unseen} of {self.unseen + len(self.visible)} shapes: no pixel can see them")
-        if self.missing_kinds:
-            lines.append(f"kernels of {', '.join(self.missing_kinds)}: no such shape is in view")
+            lines.append(f"{self.unseen} of {self.unseen + seen} shapes: no pixel can see them")
+        missing = [name for kind, name in enumerate(KIND_NAMES) if kind not in kinds]
+        if missing:
+            lines.append(f"kernels of {', '.join(missing)}: no such shape is in view")
         if self.spare_passes:
             lines.append(f"passes {', '.join(self.spare_passes)}: not asked for")
         return lines
 
 
-def make_plan(camera: Camera, shapes: Shapes, passes: Sequence[str], known: Sequence[str], shading: str, cull: bool) -> Plan:
-    """Return the plan; InputError names an unknown pass and those that there are. Without ``cull`` all is tested."""
+def make_plan(
+    camera: Camera, shapes: Shapes, passes: Sequence[str], known: Sequence[str], shading: str, cull: bool
+) -> Plan:
+    """Return the plan; InputError names an unknown pass or shading and those that there are.
+
+    Without ``cull`` every shape is tested at every pixel.
+    """
     unknown = [name for name in passes if name not in known]
     if unknown:
         raise InputError(f"no pass is called {', '.join(map(repr, unknown))}: choose from {', '.join(known)}")
     if shading not in SHADINGS:
         raise InputError(f"no shading is called {shading!r}: choose from {', '.join(SHADINGS)}")
     placed = place(shapes, camera.pose)
-    placed.radius[shapes.kind == INFINITE_PLANE] = np.inf
     height, width = camera.raster.shape
     bounds = np.tile(np.array([0, width, 0, height]), (len(shapes), 1))
     seen = np.ones(len(shapes), bool)
-    if cull and len(shapes):
-        bounds, seen = _window_bounds(camera, shapes, placed)
-    order = [np.flatnonzero(seen & np.isin(shapes.kind, shape.KINDS)) for shape in SHAPES]
-    visible = np.concatenate(order)
-    present = set(shapes.kind[visible].tolist())
+    near, far = _reach(camera, placed)
+    if cull:
+        bounds, seen = _window_bounds(camera, placed)
+        seen &= (near <= camera.clip_end) & (far >= camera.clip_start)
+    simple = near >= camera.clip_start
+    groups = []
+    for kind in np.unique(shapes.kind[seen]).tolist():
+        for is_simple in (False, True):
+            at = np.flatnonzero(seen & (shapes.kind == kind) & (simple == is_simple))
+            if len(at):
+                groups.append(Group(kind, is_simple, at, bounds[at], SHAPE_OF_KIND[kind].view(placed, at)))
     return Plan(
+        camera=camera,
+        shapes=shapes,
         passes=tuple(passes),
-        placed=placed,
-        visible=visible,
-        bounds=bounds[visible],
-        tile_rows=max(1, min(height, TILE_PIXELS // width)),
-        unseen=len(shapes) - len(visible),
-        missing_kinds=tuple(name for kind, name in enumerate(KIND_NAMES) if kind not in present),
-        spare_passes=tuple(name for name in known if name not in passes),
         shading=shading,
+        placed=placed,
+        groups=tuple(groups),
+        tile_rows=max(1, min(height, TILE_PIXELS // width)),
+        unseen=int(np.count_nonzero(~seen)),
+        spare_passes=tuple(name for name in known if name not in passes),
     )
 
 
-def _window_bounds(camera: Camera, shapes: Shapes, placed: Placed):
-    """Return (n, 4) int bounds in the render window, and which of them hold a pixel."""
+def _reach(camera: Camera, placed: Placed):
+    """Return the least and the greatest t that a shape may have, (n,) each: unbounded where that is not known."""
+    radius = placed.radius * (1 + 8 * np.finfo(float).eps)
+    if camera.model.planar:
+        middle = -placed.centre[:, 2]
+    elif camera.model.central and camera.is_rigid:
+        middle = np.sqrt((placed.centre * placed.centre).sum(axis=1))
+    else:
+        return np.full(len(radius), -np.inf), np.full(len(radius), np.inf)
+    return middle - radius, middle + radius
+
+
+def _window_bounds(camera: Camera, placed: Placed):
+    """Return (n, 4) int bounds in the render window, and which of them hold a pixel centre."""
     raster = camera.raster
     endless = np.isinf(placed.radius)
-    frame = camera.model.bounds(placed.centre, np.where(endless, 0.0, placed.radius))
+    with np.errstate(all="ignore"):
+        frame = camera.model.bounds(placed.centre, np.where(endless, 0.0, placed.radius))
     frame[endless] = (-np.inf, np.inf, -np.inf, np.inf)
     seen = ~np.isnan(frame).any(axis=1)
-    low, high = np.array([raster.x0, raster.y0]), np.array([raster.x1, raster.y1])
-    first = np.clip(np.floor(np.where(seen[:, None], frame[:, 0::2], 0)), low, high) - low
-    last = np.clip(np.ceil(np.where(seen[:, None], frame[:, 1::2], 0)), low, high) - low
+    corner, size = np.array([raster.x0, raster.y0]), raster.shape[::-1]
+    frame = np.where(seen[:, None], frame, 0.0)
+    first = np.clip(np.floor(frame[:, 0::2]) - corner, 0, size)
+    last = np.clip(np.ceil(frame[:, 1::2]) - corner, 0, size)
     seen &= (first < last).all(axis=1)
-    bounds = np.stack((first[:, 0], last[:, 0], first[:, 1], last[:, 1]), axis=1).astype(np.int64)
-    return bounds, seen
+    return np.stack((first[:, 0], last[:, 0], first[:, 1], last[:, 1]), axis=1).astype(np.int64), seen
+
+

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from .records import Lights
-from .vector import dot, matvec, norm
+from .vector import difference, dot, norm
 
 MATERIAL, GRID = "MATERIAL", "GRID"
 SHADINGS = (MATERIAL, GRID)
@@ -17,17 +17,18 @@ LINE_WIDTH = 0.12
 """Width of a grid line in cells."""
 
 
-def shade(surface, normal, shading: str) -> np.ndarray:
-    """Return linear RGBA (m, 4) for the pixels of a surface with these unit normals (world components).
+def shade(surface) -> np.ndarray:
+    """Return linear RGBA (m, 4) for the pixels of a surface.
 
     Lambert's law without shadows: a sun of E W/m^2 gives colour E cos / pi; a point light of P W at distance r
     gives colour P cos / (4 pi^2 r^2), as Blender's units have it; the world's colour is added as even light from
     all around. Without sun and point lights a headlight shines along each ray. GRID darkens lines of constant uv.
     """
-    hits = surface.hits
-    shapes = hits.shapes
+    plan = surface.hits.plan
+    shapes = plan.shapes
+    normal = surface.select(surface.hits.normal)
     colour = shapes.colour[surface.rows].astype(np.float64)
-    if shading == GRID:
+    if plan.shading == GRID:
         colour[:, :3] *= _grid(surface)[:, None]
     light = _headlight(surface, normal) if len(shapes.lights.is_sun) == 0 else _lamps(surface, normal, shapes.lights)
     colour[:, :3] *= light + np.asarray(shapes.world_colour[:3])
@@ -49,14 +50,14 @@ def _headlight(surface, normal) -> np.ndarray:
 
 
 def _lamps(surface, normal, lights: Lights) -> np.ndarray:
-    pose = surface.hits.camera.pose
+    eye = surface.hits.plan.camera.pose.eye
     total = np.zeros((len(surface.rows), 3))
-    point = [p + e for p, e in zip(matvec(pose.basis, surface.select(surface.hits.point)), pose.eye, strict=True)]
+    point = surface.select(surface.hits.point)
     for position, is_sun, colour in zip(lights.position, lights.is_sun, lights.colour, strict=True):
         if is_sun:
             total += np.maximum(dot(normal, position), 0.0)[:, None] * (colour / np.pi)
             continue
-        towards = [a - p for a, p in zip(position, point, strict=True)]
+        towards = difference(position - eye, point)
         length = norm(towards)
         cosine = np.maximum(dot(normal, towards), 0.0) / np.maximum(length, np.finfo(float).tiny)
         total += (cosine / np.maximum(length * length, np.finfo(float).tiny))[:, None] * (colour / (4 * np.pi**2))

@@ -15,6 +15,12 @@ def matvec(matrix, components):
     return tuple(row[0] * x + (row[1] * y + row[2] * z) for row in matrix)
 
 
+def linear(row, components, out=None):
+    """Return one row of ``matvec``, rounded alike, into ``out`` where it is given."""
+    x, y, z = components
+    return np.add(row[0] * x, row[1] * y + row[2] * z, out=out)
+
+
 def dot(left, right):
     """Return the inner product, right to gamma(3) of the sum of the magnitudes."""
     return left[0] * right[0] + (left[1] * right[1] + left[2] * right[2])
@@ -56,5 +62,5 @@ def components(array):
 
 
 def rows(array):
-    """Return a (..., 3, 3) array of matrices as three rows of three entries, as views: what ``matvec`` takes."""
-    return tuple(components(array[..., i, :]) for i in range(3))
+    """Return a (..., m, 3) array of matrices as m rows of three entries, as views: what ``matvec`` takes."""
+    return tuple(components(array[..., i, :]) for i in range(array.shape[-2]))

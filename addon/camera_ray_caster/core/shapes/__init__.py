@@ -1,4 +1,4 @@
-"""The shapes, one file each: a kernel, a normal and uv. A new shape is its file and one word in SHAPES."""
+"""The shapes, one file each: a kernel and uv. A new shape is its file and one word in SHAPES."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from . import plane, sphere
 from .placed import Placed, place
 
 SHAPES = (sphere, plane)
-"""Every shape: a module with ``KINDS``, ``intersect``, ``normal_covector`` and ``uv``."""
+"""Every shape: a module with ``KINDS``, ``view``, ``intersect`` and ``uv``."""
 
 SHAPE_OF_KIND = {kind: shape for shape in SHAPES for kind in shape.KINDS}
 

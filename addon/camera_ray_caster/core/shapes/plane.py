@@ -8,48 +8,66 @@ Reference: the ray-plane intersection of every textbook (Glassner, An Introducti
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from ..records import INFINITE_PLANE, PLANE
-from ..vector import components, cross, difference, matvec, rows
+from ..vector import components, cross, difference, linear, matvec, rows
 from .placed import Placed
 
 KINDS = (PLANE, INFINITE_PLANE)
 
 
-def intersect(shape: Placed, kind: int, origin, direction, start: float, end: float):
-    """Return t of the crossing where start <= t <= end, inf where there is none; arguments as the sphere's.
+@dataclass(frozen=True)
+class View:
+    """The constants of planes as the eye sees them, one row a plane."""
 
-    Both sides are seen. A ray in the plane does not hit it.
+    matrix: np.ndarray
+    """(n, 3, 3): shape_from_camera, its sign such that the eye's ``offset`` is not negative."""
+    centre: np.ndarray
+    """(n, 3) camera frame."""
+    offset: np.ndarray
+    """(n,): N_z for rays from the eye."""
+    cross: np.ndarray
+    """(n, 2, 3): camera direction to the x and y components of N x D, for rays from the eye."""
+
+
+def view(placed: Placed, at) -> View:
+    """Return the constants of the planes in these rows."""
+    centre, matrix = placed.centre[at], placed.shape_from_camera[at]
+    offset = (matrix @ centre[..., None])[..., 0]
+    sign = np.where(offset[..., 2] < 0, -1.0, 1.0)[..., None]  # q and -q are the same plane
+    matrix, offset = matrix * sign[..., None], offset * sign
+    x, y, z = (component[..., None] for component in components(offset))
+    to_x, to_y, to_z = (matrix[..., i, :] for i in range(3))
+    return View(matrix, centre, offset[..., 2], np.stack((y * to_z - z * to_y, z * to_x - x * to_z), axis=-2))
+
+
+def intersect(plane: View, kind: int, origin, direction, start: float | None, scratch):
+    """Return t of the crossing with the plane, and where it is one: inside and at or beyond ``start``.
+
+    Arguments as the sphere's. Both sides are seen. A ray in the plane does not hit it.
     """
-    normal_row = components(shape.shape_from_camera[..., 2, :])
-    d_z = dot_row(normal_row, direction)
+    matrix = rows(plane.matrix)
+    shape = np.broadcast_shapes(np.shape(plane.offset), *map(np.shape, direction), *map(np.shape, origin or ()))
+    d_z, t, across = (scratch(i, shape) for i in range(3))
+    linear(matrix[2], direction, out=d_z)
     if origin is None:
-        n_z = shape.offset[..., 2]
+        np.divide(plane.offset, d_z, out=t)
     else:
-        n_z = dot_row(normal_row, difference(components(shape.centre), origin))
-    t = n_z / d_z
-    inside = (t >= start) & (t <= end)
+        n = matvec(matrix, difference(components(plane.centre), origin))
+        np.divide(n[2], d_z, out=t)
+    found = t >= (0.0 if start is None else start)
     if kind == PLANE:
-        if origin is None:
-            cross_x, cross_y, _ = matvec(rows(shape.cross_from_camera), direction)
-        else:
-            matrix = rows(shape.shape_from_camera)
-            n = matvec(matrix, difference(components(shape.centre), origin))
-            cross_x, cross_y, _ = cross(n, matvec(matrix, direction))
-        reach = np.abs(d_z)
-        inside &= (np.abs(cross_x) <= reach) & (np.abs(cross_y) <= reach)
-    return np.where(inside, t, np.inf)
-
-
-def dot_row(row, vector):
-    """Return one row of a matrix times a vector."""
-    return matvec((row,), vector)[0]
-
-
-def normal_covector(shape_from_camera, q):
-    """Return the normal as a camera-frame covector, not of unit length: the same at every q."""
-    return shape_from_camera[2]
+        np.abs(d_z, out=d_z)
+        for row in range(2):
+            if origin is None:
+                linear(rows(plane.cross)[row], direction, out=across)
+            else:
+                np.copyto(across, cross(n, matvec(matrix, direction))[row])
+            found &= np.abs(across, out=across) <= d_z
+    return t, found
 
 
 def uv(q):

@@ -1,54 +1,114 @@
 """The sphere and, by an affine matrix, the ellipsoid: |q| = 1 in the shape's frame.
 
-With q(t) = t D - N: a t^2 - 2 b t + c = 0, a = |D|^2, b = N . D, c = |N|^2 - 1, and the discriminant
-b^2 - a c = |D|^2 - |N x D|^2, the perpendicular form: its error is EPS (distance / radius) where the textbook's
-is EPS (distance / radius)^2, so that a sphere is not lost far away. The root nearest to the origin is the stable one:
-c / (b + sqrt) for an origin outside, with c = (|N| - 1)(|N| + 1).
-References: Haines et al. (see placed); Goldberg, What Every Computer Scientist Should Know About Floating-Point
-Arithmetic (1991), section 1.4 for the stable root.
+The unit sphere may be turned at will, so each one is turned until its centre lies on its own z axis, N = (0, 0, n).
+With D the ray's direction there, |t D - N|^2 = 1 has a = |D|^2, b = n D_z, c = n^2 - 1 and the discriminant
+
+    b^2 - a c = |D|^2 - |N x D|^2 = D_z^2 - c (D_x^2 + D_y^2):
+
+the perpendicular form, whose error is EPS (distance / radius) where the textbook's is EPS (distance / radius)^2,
+so that a sphere is not lost far away, at the price of three products. The root nearest to an origin outside is
+c / (b + sqrt), the stable one, with c = (n - 1)(n + 1).
+References: E. Haines et al., Precision Improvements for Ray/Sphere Intersection, Ray Tracing Gems (2019), chapter 7;
+D. Goldberg, What Every Computer Scientist Should Know About Floating-Point Arithmetic (1991), section 1.4.
 """
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from ..records import SPHERE
-from ..vector import components, cross, difference, dot, matvec, norm, rows
+from ..vector import components, cross, difference, dot, linear, matvec, norm, rows
 from .placed import Placed
 
 KINDS = (SPHERE,)
 
 
-def intersect(shape: Placed, kind: int, origin, direction, start: float, end: float):
-    """Return t of the first crossing with start <= t <= end, inf where there is none.
+@dataclass(frozen=True)
+class View:
+    """The constants of spheres as the eye sees them, one row a sphere."""
 
-    ``shape`` holds the constants of one shape, or of one a ray (``Placed.take``). origin is None for rays from the
-    eye, else a tuple of three broadcastable components in the camera frame, as direction is. From inside, the
-    far wall is hit; a crossing before ``start`` is passed over. A ray that is NaN hits nothing.
+    matrix: np.ndarray
+    """(n, 3, 3): camera direction to D, turned so that the eye sees the centre along its z axis."""
+    centre: np.ndarray
+    """(n, 3) camera frame."""
+    distance: np.ndarray
+    """(n,): n, from the eye to the centre in radii."""
+    outside: np.ndarray
+    """(n,): c = n^2 - 1, positive where the eye is outside."""
+
+
+def view(placed: Placed, at) -> View:
+    """Return the constants of the spheres in these rows."""
+    centre, matrix = placed.centre[at], placed.shape_from_camera[at]
+    offset = (matrix @ centre[..., None])[..., 0]
+    distance = np.sqrt((offset * offset).sum(axis=-1))
+    return View(_towards(offset, distance) @ matrix, centre, distance, (distance - 1) * (distance + 1))
+
+
+def _towards(vectors, length):
+    """Return rotations (n, 3, 3) that turn vectors onto +z: two unit normals and the unit vector, as rows.
+
+    The normals follow Duff et al., Building an Orthonormal Basis, Revisited (2017), which has no singular direction.
     """
-    d = matvec(rows(shape.shape_from_camera), direction)
+    somewhere = (length > 0)[:, None]
+    x, y, z = components(np.where(somewhere, vectors, (0.0, 0.0, 1.0)) / np.where(somewhere, length[:, None], 1.0))
+    sign = np.copysign(1.0, z)
+    a = -1 / (sign + z)
+    b = x * y * a
+    first = np.stack((1 + sign * x * x * a, sign * b, -sign * x), axis=-1)
+    second = np.stack((b, sign + y * y * a, -y), axis=-1)
+    return np.stack((first, second, np.stack((x, y, z), axis=-1)), axis=-2)
+
+
+def intersect(sphere: View, kind: int, origin, direction, start: float | None, scratch):
+    """Return t of the first crossing at or beyond ``start``, NaN where there is none, and None (no further mask).
+
+    ``sphere`` holds one row, or rows shaped to broadcast with the rays. origin is None for rays from the eye, else
+    three broadcastable components in the camera frame, as direction is. start is None where the eye is outside and
+    nothing of the sphere lies before the clip start: then the near root alone decides. From inside, the far wall is
+    hit. A ray that is NaN hits nothing. ``scratch(i, shape)`` lends the i-th working array; t may lie in one.
+    """
+    if origin is None and start is None:
+        return _near_from_eye(sphere, direction, scratch), None
+    d = matvec(rows(sphere.matrix), direction)
     if origin is None:
-        n_cross_d = matvec(rows(shape.cross_from_camera), direction)
-        b = dot(components(shape.along_from_camera), direction)
-        c = shape.outside
+        b = sphere.distance * d[2]
+        c = sphere.outside
+        discriminant = d[2] * d[2] - c * (d[0] * d[0] + d[1] * d[1])
     else:
-        n = matvec(rows(shape.shape_from_camera), difference(components(shape.centre), origin))
+        n = matvec(rows(sphere.matrix), difference(components(sphere.centre), origin))
         n_cross_d = cross(n, d)
-        b = dot(n, d)
         distance = norm(n)
+        b = dot(n, d)
         c = (distance - 1) * (distance + 1)
-    a = dot(d, d)
-    root = np.sqrt(a - dot(n_cross_d, n_cross_d))
+        discriminant = dot(d, d) - dot(n_cross_d, n_cross_d)
+    root = np.sqrt(discriminant)
+    if start is None:
+        return c / (b + root), None
     stable = b + np.copysign(root, b)
-    first, second = c / stable, stable / a
+    first, second = c / stable, stable / dot(d, d)
     near, far = np.minimum(first, second), np.maximum(first, second)
     t = np.where(near >= start, near, far)
-    return np.where((t >= start) & (t <= end), t, np.inf)
+    return np.where(t >= start, t, np.nan), None
 
 
-def normal_covector(shape_from_camera, q):
-    """Return the outward normal at q as a camera-frame covector, not of unit length: shape_from_camera^T q."""
-    return matvec(zip(*shape_from_camera, strict=True), q)
+def _near_from_eye(sphere: View, direction, scratch):
+    """Return c / (b + sqrt(D_z |D_z| - c (D_x^2 + D_y^2))): NaN also where the ray looks away (D_z < 0)."""
+    to_x, to_y, to_z = rows(sphere.matrix)
+    scale = np.sqrt(sphere.outside)
+    shape = np.broadcast_shapes(np.shape(sphere.outside), *map(np.shape, direction))
+    z, t, across = (scratch(i, shape) for i in range(3))
+    linear(to_z, direction, out=z)
+    np.abs(z, out=t)
+    np.multiply(t, z, out=t)
+    for row in (to_x, to_y):
+        linear([scale * entry for entry in row], direction, out=across)
+        np.subtract(t, np.square(across, out=across), out=t)
+    np.sqrt(t, out=t)
+    np.add(t, np.multiply(z, sphere.distance, out=z), out=t)
+    return np.divide(sphere.outside, t, out=t)
 
 
 def uv(q):
