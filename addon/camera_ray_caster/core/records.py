@@ -21,7 +21,7 @@ class BlenderCamera:
     """A camera and its render settings as Blender has them: copied, nothing derived.
 
     Names, units and meaning are those of Blender's Python API (Camera, RenderSettings). ``matrix_world`` is the
-    evaluated object's, (4, 4) float64. ``settings`` holds what only some models have, by Blender's name.
+    evaluated object's, (4, 4) float64. ``settings`` holds what only some models have, by the property's name.
     """
 
     name: str
@@ -46,6 +46,8 @@ class BlenderCamera:
     border_max_x: float = 1.0
     border_min_y: float = 0.0
     border_max_y: float = 1.0
+    model: str = ""
+    """Key of the model that was chosen in place of Blender's type; empty: Blender's."""
     settings: Mapping[str, object] = field(default_factory=dict)
 
 

@@ -4,12 +4,26 @@ from __future__ import annotations
 
 from ..camera import Camera, pose_from
 from ..records import BlenderCamera, InputError
+from .central_cylindrical import CentralCylindrical
+from .cubemap_face import CubemapFace
+from .equirectangular import Equirectangular
 from .film import raster_from
+from .fisheye_equidistant import FisheyeEquidistant
+from .fisheye_equisolid import FisheyeEquisolid
+from .fisheye_polynomial import FisheyePolynomial
+from .mirrorball import Mirrorball
 from .orthographic import Orthographic
 from .perspective import Perspective
 
-MODELS = (Perspective, Orthographic)
-"""Every model; ``key`` is Blender's camera type, or what Blender's type does not tell, the model's own name."""
+MODELS = (
+    Perspective, Orthographic,
+    Equirectangular, CubemapFace, Mirrorball, FisheyeEquidistant, FisheyeEquisolid, FisheyePolynomial,
+    CentralCylindrical,
+)  # fmt: skip
+"""Every model. ``key`` is Blender's camera or panorama type, or the name of a model that Blender does not have."""
+
+REFUSED = {"CUSTOM": "it is an OSL shader, which only Cycles can run and nobody can invert"}
+"""Blender's types that no model can stand for, and why."""
 
 
 def camera_from(raw: BlenderCamera) -> Camera:
@@ -19,12 +33,12 @@ def camera_from(raw: BlenderCamera) -> Camera:
     without meaning.
     """
     models = {model.key: model for model in MODELS}
-    if raw.type not in models:
-        raise InputError(
-            f"camera {raw.name!r} is of type {raw.type}, which has no model here: choose one of {', '.join(models)}"
-        )
+    key = raw.model or str(raw.settings["panorama_type"] if raw.type == "PANO" else raw.type)
+    if key not in models:
+        reason = REFUSED.get(key, "there is no model for it")
+        raise InputError(f"camera {raw.name!r} is of type {key}: {reason}: choose one of {', '.join(models)}")
     raster = raster_from(raw)
     if not 0 <= raw.clip_start < raw.clip_end:
-        raise InputError(f"the clip range of camera {raw.name!r} is {raw.clip_start} to {raw.clip_end}: no depth is left")
-    model = models[raw.type].from_blender(raw, raster)
+        raise InputError(f"clip start {raw.clip_start}, clip end {raw.clip_end} of camera {raw.name!r} leave no depth")
+    model = models[key].from_blender(raw, raster)
     return Camera(raw.name, model, pose_from(raw), raster, raw.clip_start, raw.clip_end)

@@ -98,6 +98,36 @@ class Window:
             pitch * raster.pixel_aspect,
         )
 
+    @classmethod
+    def over_frame(cls, raw: BlenderCamera, raster: Raster, x_range, y_range) -> Window:
+        """Return the window in which the frame spans these (low, high) ranges, as panoramas have it.
+
+        Shift counts in fractions of the whole frame there, on each axis its own, whatever the aspect.
+        """
+        (left, right), (bottom, top) = x_range, y_range
+        return cls(
+            raster.width * (-left / (right - left) - raw.shift_x),
+            raster.height * (-bottom / (top - bottom) - raw.shift_y),
+            (right - left) / raster.width,
+            (top - bottom) / raster.height,
+        )
+
+    @classmethod
+    def round_pixels(cls, raw: BlenderCamera, raster: Raster, pitch: float) -> Window:
+        """Return the window in which circles stay round, a pixel is ``pitch`` wide, and shift is as in over_frame."""
+        half_width, half_height = raster.width * pitch / 2, raster.height * raster.pixel_aspect * pitch / 2
+        return cls.over_frame(raw, raster, (-half_width, half_width), (-half_height, half_height))
+
+    @classmethod
+    def inscribed_circle(cls, raw: BlenderCamera, raster: Raster) -> Window:
+        """Return the window in which the unit circle touches the shorter sides of the frame."""
+        return cls.round_pixels(raw, raster, 2 / min(raster.width, raster.height * raster.pixel_aspect))
+
+    def extent(self, raster: Raster) -> tuple[float, float, float, float]:
+        """Return the image-plane x_low, x_high, y_low, y_high of the whole frame; low <= high, mirrored or not."""
+        x, y = self.plane_from_pixels(np.array([0.0, raster.width]), np.array([0.0, raster.height]))
+        return float(x.min()), float(x.max()), float(y.min()), float(y.max())
+
     def plane_from_pixels(self, x, y):
         """Return image-plane (X, Y) of pixel coordinates; arrays of any shapes, kept apart."""
         return (x - self.centre_x) * self.pitch_x, (y - self.centre_y) * self.pitch_y

@@ -1,0 +1,70 @@
+"""One face of an equiangular cube map: Blender's EQUIANGULAR_CUBEMAP_FACE.
+
+Assumption: columns are even in the angle to the left and right of the viewing direction, rows in the one above and
+below, 90 degrees each over the frame.
+Formula: direction ~ (tan alpha, tan beta, -1), alpha = (u - 1/2) pi/2, beta = (v - 1/2) pi/2. Shift moves the angles;
+beyond 90 degrees the tangent begins again and the picture repeats, as in Cycles.
+Singular: angles of 90 degrees, which only shift reaches.
+Reference: Blender manual, Cameras > Panoramic; rays read out of Cycles.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import pi
+
+import numpy as np
+
+from ..records import BlenderCamera, Raster
+from ..vector import components
+from .film import Window
+from .silhouette import pinhole_interval, pixel_bounds, turned
+
+
+@dataclass(frozen=True)
+class CubemapFace:
+    """A window of the two angles, rad; ``extent`` is the part of it that the frame shows."""
+
+    window: Window
+    extent: tuple[float, float, float, float]
+
+    key = "EQUIANGULAR_CUBEMAP_FACE"
+    planar = False
+    central = True
+
+    @classmethod
+    def from_blender(cls, raw: BlenderCamera, raster: Raster) -> CubemapFace:
+        """Build it from the shift alone."""
+        window = Window.over_frame(raw, raster, (-pi / 4, pi / 4), (-pi / 4, pi / 4))
+        return cls(window, window.extent(raster))
+
+    def rays(self, x, y):
+        """Return origin and direction, each a tuple of three broadcastable arrays, camera frame, of unit length.
+
+        x and y are pixel coordinates of broadcastable shapes. Each component is right to some EPS.
+        """
+        tangent_x, tangent_y = (np.tan(angle) for angle in self.window.plane_from_pixels(x, y))
+        scale = 1 / np.sqrt(tangent_x * tangent_x + (tangent_y * tangent_y + 1))
+        return (0.0, 0.0, 0.0), (tangent_x * scale, tangent_y * scale, -scale)
+
+    def project(self, points):
+        """Return the pixel coordinates (..., 2) of camera-frame points (..., 3); NaN at and behind the eye's plane.
+
+        Of the images that a shifted frame repeats, the nearest to its middle.
+        """
+        x, y, z = components(np.asarray(points, np.float64))
+        depth = np.where(z < 0, -z, np.nan)
+        angles = []
+        for side, low, high in ((x, *self.extent[:2]), (y, *self.extent[2:])):
+            angle = np.arctan2(side, depth)
+            angles.append(angle - pi * np.rint((angle - (low + high) / 2) / pi))
+        return np.stack(self.window.pixels_from_plane(*angles), axis=-1)
+
+    def bounds(self, centres, radii):
+        """Return (n, 4) pixel bounds x0, x1, y0, y1 outside of which no point of the spheres (camera frame) is seen."""
+        x, y, z = components(centres)
+        intervals = []
+        for side, frame in ((x, self.extent[:2]), (y, self.extent[2:])):
+            tangents = pinhole_interval(side, -z, radii)
+            intervals.append(turned(tuple(np.arctan(tangent) for tangent in tangents), frame, pi))
+        return pixel_bounds(self.window, *intervals)

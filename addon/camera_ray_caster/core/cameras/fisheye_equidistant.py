@@ -1,0 +1,50 @@
+"""The equidistant fisheye: Blender's FISHEYE_EQUIDISTANT.
+
+Assumption: the angle from the axis grows evenly with the radius, on an ellipse that touches all four sides of the frame
+(sensor, pixel aspect and the frame's shape do not count, so that a frame that is not square squeezes the picture).
+Formula: theta = r fov / 2 with r = 1 at the rim; no ray beyond. A fov above 360 degrees goes around more than once.
+Singular: the point straight behind the eye, which is a whole circle in the picture.
+Reference: Blender manual, Cameras > Panoramic; rays read out of Cycles.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..records import BlenderCamera, Raster
+from .film import Window
+from .radial import Radial, radii_within, up_to
+from .settings import WIDEST_FISHEYE, positive
+
+
+@dataclass(frozen=True)
+class FisheyeEquidistant(Radial):
+    """theta = half_fov r, r up to 1."""
+
+    half_fov: float
+    """Radians."""
+
+    key = "FISHEYE_EQUIDISTANT"
+
+    @classmethod
+    def from_blender(cls, raw: BlenderCamera, raster: Raster) -> FisheyeEquidistant:
+        """Build it from fisheye_fov and shift; InputError where the field of view has no meaning."""
+        fov = positive(raw, "fisheye_fov", WIDEST_FISHEYE, "deg")
+        return cls(Window.over_frame(raw, raster, (-1.0, 1.0), (-1.0, 1.0)), fov / 2)
+
+    def factors(self, r_squared):
+        """See Radial."""
+        r = radii_within(r_squared, 1.0)
+        theta = r * self.half_fov
+        return np.sin(theta) / r, np.cos(theta)
+
+    def radius(self, theta):
+        """See Radial."""
+        return up_to(1.0, theta / self.half_fov)
+
+    @property
+    def widest(self) -> float:
+        """See Radial."""
+        return self.half_fov

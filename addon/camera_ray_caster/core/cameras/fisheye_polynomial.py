@@ -1,0 +1,127 @@
+"""The fisheye of a measured lens: Blender's FISHEYE_LENS_POLYNOMIAL.
+
+Assumption: the angle from the axis is a polynomial of the radius on the sensor, in millimetres; the sensor is fitted
+to the frame as a pinhole's is.
+Formula: theta = -(k0 + k1 r + k2 r^2 + k3 r^3 + k4 r^4); no ray where abs(theta) > fov / 2. The minus is Blender's: an
+upright picture needs k1 < 0. A negative theta lies on the other side of the axis. The inverse is Newton's.
+Singular: r = 0 with k0 not 0, where the lens is not smooth: there Cycles looks up by theta, and so do we; with k0 < 0
+nothing sees the cone of -k0 about the axis.
+A polynomial that turns back inside the frame would fold the picture and is refused.
+Reference: Blender manual, Cameras > Panoramic; rays read out of Cycles.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import hypot
+
+import numpy as np
+
+from ..records import BlenderCamera, InputError, Raster
+from .film import Film, Window
+from .inversion import invert
+from .radial import AT_THE_RIM, TINY, Radial
+from .settings import FULL_TURN, WIDEST_FISHEYE, number, positive
+from .silhouette import pixel_bounds, radial_intervals
+
+NAMES = tuple(f"fisheye_polynomial_k{i}" for i in range(5))
+
+
+@dataclass(frozen=True)
+class FisheyePolynomial(Radial):
+    """theta = polynomial(r), which grows (or falls, and the picture is turned by half a turn) up to ``limit``."""
+
+    coefficients: tuple[float, ...]
+    """Of theta, from the constant up, per mm: Blender's, negated."""
+    half_fov: float
+    limit: float
+    """Radius in mm up to which theta is monotone and has a ray somewhere."""
+
+    key = "FISHEYE_LENS_POLYNOMIAL"
+
+    @classmethod
+    def from_blender(cls, raw: BlenderCamera, raster: Raster) -> FisheyePolynomial:
+        """Build it from the coefficients, fisheye_fov, sensor and shift.
+
+        Raises InputError for a number without meaning and for a polynomial that folds the picture.
+        """
+        film = Film.from_blender(raw, raster)
+        window = Window.round_pixels(raw, raster, film.size / film.fitted_pixels)
+        coefficients = tuple(-number(raw, name) for name in NAMES)
+        half_fov = positive(raw, "fisheye_fov", WIDEST_FISHEYE, "deg") / 2
+        x0, x1, y0, y1 = window.extent(raster)
+        corner = hypot(max(-x0, x1), max(-y0, y1))
+        turns = _turns(coefficients, corner)
+        if turns.size and _is_seen_beyond(coefficients, turns, corner, half_fov):
+            names = ", ".join(f"k{i} = {-k:g}" for i, k in enumerate(coefficients))
+            raise InputError(
+                f"the fisheye polynomial of camera {raw.name!r} ({names}) turns back {turns[0]:.6g} mm from the axis "
+                f"and folds the picture: it must grow or fall all the way to the corner at {corner:.6g} mm"
+            )
+        return cls(window, coefficients, half_fov, float(turns[0]) if turns.size else corner)
+
+    def angle(self, r):
+        """Return theta (rad) of radii in mm."""
+        k0, k1, k2, k3, k4 = self.coefficients
+        return k0 + r * (k1 + r * (k2 + r * (k3 + r * k4)))
+
+    def rays(self, x, y):
+        """See Radial; at r = 0 with k0 not 0 the ray is turned up, as in Cycles."""
+        origin, (dx, dy, dz) = super().rays(x, y)
+        if self.coefficients[0]:
+            a, b = self.window.plane_from_pixels(x, y)
+            dy = np.where((a == 0) & (b == 0), np.sin(self.coefficients[0]) + 0 * dz, dy)
+        return origin, (dx, dy, dz)
+
+    def factors(self, r_squared):
+        """See Radial."""
+        r = np.maximum(np.sqrt(r_squared), TINY)
+        theta = self.angle(r)
+        theta = np.where(np.abs(theta) > self.half_fov, np.nan, theta)
+        return np.sin(theta) / r, np.cos(theta)
+
+    def radius(self, theta):
+        """See Radial: negative where theta is seen on the other side of the axis."""
+        start = self.coefficients[0]
+        sign = 1.0 if self.angle(self.limit) >= start else -1.0
+        same = sign * start + np.mod(sign * (theta - start), FULL_TURN)
+        across = sign * start + np.mod(sign * (-theta - start), FULL_TURN)
+        target = np.minimum(same, across)
+        slopes = [sign * i * k for i, k in enumerate(self.coefficients)][1:]
+        r = invert(
+            lambda x: sign * self.angle(x),
+            lambda x: slopes[0] + x * (slopes[1] + x * (slopes[2] + x * slopes[3])),
+            np.where(np.abs(target) <= self.half_fov * AT_THE_RIM, target, np.nan),
+            0.0,
+            self.limit,
+        )
+        return np.where(same <= across, r, -r)
+
+    def bounds(self, centres, radii):
+        """See Radial; the cone about the axis that nothing sees counts as the centre of the picture."""
+        seen = lambda theta: self.radius(np.maximum(theta, self.coefficients[0]))  # noqa: E731
+        return pixel_bounds(self.window, *radial_intervals(centres, radii, seen, self.widest))
+
+    @property
+    def widest(self) -> float:
+        """See Radial; inf where the picture is turned or crosses the axis, so that it has no simple bounds."""
+        rim = self.angle(self.limit)
+        return min(rim, self.half_fov) if rim > self.coefficients[0] >= 0 else np.inf
+
+
+def _turns(coefficients, corner: float):
+    """Return the radii inside (0, corner) where theta turns back, from the axis out; 0 where it is constant."""
+    slope = np.polynomial.Polynomial(coefficients).deriv()
+    if not slope.coef.any():
+        return np.zeros(1)
+    roots = slope.roots()
+    real = roots.real[np.abs(roots.imag) <= 1e-9 * np.abs(roots)]
+    edges = np.concatenate(([0.0], np.sort(real[(real > 0) & (real < corner)]), [corner]))
+    signs = np.sign(slope((edges[1:] + edges[:-1]) / 2))
+    return edges[1:-1][signs[1:] != signs[:-1]]
+
+
+def _is_seen_beyond(coefficients, turns, corner: float, half_fov: float) -> bool:
+    """Return whether theta comes within the field of view behind its first turning point."""
+    theta = np.polynomial.Polynomial(coefficients)(np.append(turns, corner))
+    return bool((np.abs(theta) <= half_fov).any() or (np.sign(theta[1:]) != np.sign(theta[:-1])).any())

@@ -1,0 +1,85 @@
+"""What all fisheyes share: the angle from the axis depends on the radius in the image alone, the azimuth is kept.
+
+With (a, b) the pixel on the image plane and r its length, the ray at the angle theta(r) from the viewing direction is
+F = (a/r sin theta, b/r sin theta, -cos theta): straight ahead at r = 0, where sin theta / r is a finite limit.
+A model gives that pair of factors and the inverse, r(theta).
+Reference: Blender manual, Cameras > Panoramic; Kannala and Brandt (2006), section 2, for the family.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..conventions import gamma
+from ..vector import components
+from .film import Window
+from .silhouette import pixel_bounds, radial_intervals
+
+TINY = 1e-300
+"""A radius whose square is lost and whose reciprocal is finite: what stands for r = 0."""
+
+AT_THE_RIM = 1 + gamma(16)
+"""A point at the very rim is seen, though rounding may put it this far beyond."""
+
+
+@dataclass(frozen=True)
+class Radial(ABC):
+    """A central model with rays (a k, b k, -c) where (k, c) = factors(a^2 + b^2)."""
+
+    window: Window
+
+    planar = False
+    central = True
+
+    @abstractmethod
+    def factors(self, r_squared):
+        """Return sin(theta) / r and cos(theta) for squared radii; NaN in both where there is no ray."""
+
+    @abstractmethod
+    def radius(self, theta):
+        """Return r of angles 0 .. pi from the axis, the least one that sees them; NaN where none does."""
+
+    @property
+    @abstractmethod
+    def widest(self) -> float:
+        """Return the angle at the rim: r grows with theta from 0 to there, beyond pi the picture repeats."""
+
+    def rays(self, x, y):
+        """Return origin and direction, each a tuple of three broadcastable arrays, camera frame, of unit length.
+
+        x and y are pixel coordinates of broadcastable shapes. NaN where there is no ray. Each component is right
+        to some EPS of 1 + theta.
+        """
+        a, b = self.window.plane_from_pixels(x, y)
+        scale, cosine = self.factors(a * a + b * b)
+        return (0.0, 0.0, 0.0), (a * scale, b * scale, -cosine)
+
+    def project(self, points):
+        """Return the pixel coordinates (..., 2) of camera-frame points (..., 3); NaN for those that no ray meets.
+
+        NaN also at the eye and straight behind it, where every azimuth would do. Of several images (fov beyond 360
+        degrees) the nearest to the axis.
+        """
+        x, y, z = components(np.asarray(points, np.float64))
+        across = np.hypot(x, y)
+        r = self.radius(np.arctan2(across, -z))
+        defined = (across > 0) | ((z < 0) & (r == 0))
+        scale = np.where(defined, r / np.where(across > 0, across, 1.0), np.nan)
+        return np.stack(self.window.pixels_from_plane(x * scale, y * scale), axis=-1)
+
+    def bounds(self, centres, radii):
+        """Return (n, 4) pixel bounds x0, x1, y0, y1 outside of which no point of the spheres (camera frame) is seen."""
+        return pixel_bounds(self.window, *radial_intervals(centres, radii, self.radius, self.widest))
+
+
+def radii_within(r_squared, rim: float):
+    """Return the radii of their squares, at least TINY, and NaN beyond the rim."""
+    return np.maximum(np.sqrt(np.where(r_squared > rim * rim, np.nan, r_squared)), TINY)
+
+
+def up_to(rim: float, r):
+    """Return radii, NaN where they lie beyond the rim by more than rounding."""
+    return np.where(r <= rim * AT_THE_RIM, r, np.nan)
