@@ -148,6 +148,7 @@ def render(scene, width: int = 640, height: int = 360, world: str = "8d99ae", **
     scene.render.resolution_x, scene.render.resolution_y = width, height
     for name, value in settings.items():
         setattr(scene.render, name, value)
+    scene.render.dither_intensity = 0
     scene.view_settings.view_transform = "Standard"
     scene.world = bpy.data.worlds.new("World")
     scene.world.color = linear(world)[:3]
