@@ -62,9 +62,10 @@ class Meridians(ABC):
         x, y, z = components(np.asarray(points, np.float64))
         across = np.hypot(x, z)
         y = np.where((across > 0) | (y != 0), y, np.nan)
-        longitude, middle = np.arctan2(x, -z) + 0 * y, (self.extent[0] + self.extent[1]) / 2
+        height = self.height(across, y)
+        longitude, middle = np.arctan2(x, -z) + 0 * height, (self.extent[0] + self.extent[1]) / 2
         longitude -= FULL_TURN * np.rint((longitude - middle) / FULL_TURN)
-        return np.stack(self.window.pixels_from_plane(longitude, self.height(across, y)), axis=-1)
+        return np.stack(self.window.pixels_from_plane(longitude, height), axis=-1)
 
     def bounds(self, centres, radii):
         """Return (n, 4) pixel bounds x0, x1, y0, y1 outside of which no point of the spheres (camera frame) is seen.

@@ -1,0 +1,82 @@
+"""Blender's own answers on where a perspective or orthographic camera's pixels look: plain arrays, nothing computed."""
+
+from contextlib import contextmanager
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from bpy_extras.object_utils import world_to_camera_view
+from mathutils import Vector
+
+TYPES = ("PERSP", "ORTHO")
+"""Camera types that Blender answers for. Of any other it describes the perspective camera with the same lens."""
+
+SMALLEST, LARGEST = 4, 65536
+"""What resolution_x and resolution_y can be set to; a percentage makes frames beyond that."""
+
+
+@dataclass(frozen=True)
+class Witness:
+    """The answers on one evaluated camera at the effective raster, float32 widened to float64."""
+
+    size: tuple[int, int]
+    """Width and height of the full frame in pixels."""
+    matrix_world: np.ndarray
+    """(4, 4): the evaluated object's."""
+    frame: np.ndarray
+    """(4, 3) Camera.view_frame: top right, bottom right, bottom left, top left, in the camera's frame."""
+    matrix: np.ndarray
+    """(4, 4) Object.calc_matrix_camera: clip from camera coordinates."""
+    camera: Any
+    depsgraph: Any
+
+    def view_coordinates(self, points: np.ndarray) -> np.ndarray:
+        """Return world_to_camera_view of world points (n, 3), which Blender takes as float32: (n, 3)."""
+        with _frame_of(self.size, self.depsgraph.scene_eval) as scene:
+            return _widened([world_to_camera_view(scene, self.camera, Vector(point)) for point in points]).reshape(
+                -1, 3
+            )
+
+
+def ask(camera_object, depsgraph) -> Witness | None:
+    """Return Blender's answers on a camera as the depsgraph evaluated it.
+
+    None where Blender has none: for other TYPES, and for frames wider than LARGEST.
+    """
+    camera = camera_object.evaluated_get(depsgraph)
+    render = depsgraph.scene_eval.render
+    size = tuple(
+        getattr(render, name) * render.resolution_percentage // 100 for name in ("resolution_x", "resolution_y")
+    )
+    if camera.data.type not in TYPES or max(size) * _enlarged(size) > LARGEST:
+        return None
+    with _frame_of(size, depsgraph.scene_eval) as scene:
+        frame = camera.data.view_frame(scene=scene)
+    matrix = camera.calc_matrix_camera(
+        depsgraph, x=size[0], y=size[1], scale_x=render.pixel_aspect_x, scale_y=render.pixel_aspect_y
+    )
+    return Witness(size, _widened(camera.matrix_world), _widened(frame), _widened(matrix), camera, depsgraph)
+
+
+def _widened(answer) -> np.ndarray:
+    return np.array(answer, dtype=np.float64)
+
+
+def _enlarged(size) -> int:
+    """Return the factor that makes a frame one that can be set: a power of two, which changes no bit of the answer."""
+    return SMALLEST if min(size) < SMALLEST else 1
+
+
+@contextmanager
+def _frame_of(size, scene):
+    """Yield the evaluated scene with the rendered frame's aspect: view_frame knows the resolution without percentage.
+
+    Only the depsgraph's own copy of the scene is changed, and put back; the user's scene is not touched.
+    """
+    render = scene.render
+    before = render.resolution_x, render.resolution_y
+    render.resolution_x, render.resolution_y = (side * _enlarged(size) for side in size)
+    try:
+        yield scene
+    finally:
+        render.resolution_x, render.resolution_y = before
