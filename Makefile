@@ -19,7 +19,7 @@ EXTENSION_TOOL = $(VENV)/lib/python3*/site-packages/bpy/*/scripts/addons_core/bl
 .PHONY: cast test test-all test-blender lint zip clean help
 
 cast: $(VENV)/ready  ## render the example scene into out/ and print the report
-	$(VENV)/bin/python scripts/cast.py $(SCENE) --output out --json
+	$(VENV)/bin/python scripts/cast.py $(SCENE) --output out
 
 test: $(VENV)/ready  ## run every test with this Python
 	$(VENV)/bin/python -m pytest

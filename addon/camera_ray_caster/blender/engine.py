@@ -62,6 +62,9 @@ class CameraRayCaster(bpy.types.RenderEngine):
             self.report({"WARNING"}, f"{name!r} is left out: {reason}")
         if len(report.left_out) > WARNINGS:
             self.report({"WARNING"}, f"{len(report.left_out) - WARNINGS} more objects are left out: see the report")
+        for finding in report.findings:
+            if not finding.passed:
+                self.report({"WARNING"}, f"{finding.witness} disagrees with the rays: see the report")
         self.done = report if self.done is None else self.done + report
         reports.keep(self.done)
 

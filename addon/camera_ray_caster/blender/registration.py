@@ -1,8 +1,8 @@
 """What Blender is told of: the modules in the order in which they are registered."""
 
-from . import engine, operators, panels, properties, reports
+from . import engine, operators, panels, properties, reports, terminal
 
-MODULES = (properties, reports, engine, operators, panels)
+MODULES = (properties, reports, engine, operators, panels, terminal)
 
 
 def register() -> None:

@@ -25,7 +25,7 @@ def camera_facts(camera: Camera) -> dict[str, object]:
         "eye": camera.pose.eye.tolist(),
         "u": basis[:, 0].tolist(),
         "v": basis[:, 1].tolist(),
-        "w": (-basis[:, 2]).tolist(),
+        "w": (0.0 - basis[:, 2]).tolist(),  # no -0
         "raster": [raster.width, raster.height],
         "window": [raster.x0, raster.x1, raster.y0, raster.y1],
         "pixel_aspect": raster.pixel_aspect,

@@ -71,8 +71,17 @@ class Report:
         )
 
 
-def report_cast(camera: Camera, shapes: Shapes, images: Images, frame: float, layer: str) -> Report:
-    """Return the report of one cast; the steps around it are added by whoever takes them."""
+def report_cast(
+    camera: Camera,
+    shapes: Shapes,
+    images: Images,
+    seconds: Mapping[str, float],
+    findings: Iterable[Finding],
+    frame: float,
+    layer: str,
+    several: bool = False,
+) -> Report:
+    """Return the report of one cast of a view layer; of ``several``, it is named beside what was not done."""
     return Report(
         camera=camera_facts(camera),
         frame=frame,
@@ -80,8 +89,9 @@ def report_cast(camera: Camera, shapes: Shapes, images: Images, frame: float, la
         passes=images.plan.passes,
         shapes=len(shapes),
         pixels=camera.raster.shape[0] * camera.raster.shape[1],
-        seconds=images.seconds,
-        not_done=tuple(images.plan.left_out()),
+        seconds=seconds,
+        findings=tuple(findings),
+        not_done=tuple(f"{layer}: {line}" if several else line for line in images.plan.left_out()),
         left_out=shapes.left_out,
     )
 
@@ -117,15 +127,15 @@ def _finding_lines(report: Report) -> list[str]:
     if not report.findings:
         return []
     columns = [f"{name:>9}" for name in ("worst px", "median", "bound", "worst rad", "median", "bound")]
-    lines = ["", f"{'Witness':28} {'points':>7} " + " ".join(columns)]
+    lines = ["", f"{'Witness':25} {'points':>7} " + " ".join(columns)]
     for finding in report.findings:
         errors = (
             finding.worst_pixels, finding.median_pixels, finding.bound_pixels,
             finding.worst_radians, finding.median_radians, finding.bound_radians,
         )  # fmt: skip
-        name = shorten(finding.witness, 26, placeholder="…")
+        name = shorten(finding.witness, 23, placeholder="…")
         cells = " ".join(f"{error:9.1e}" for error in errors)
-        lines.append(f"  {name:26} {finding.points:7} {cells} {'ok' if finding.passed else 'FAILED'}")
+        lines.append(f"  {name:23} {finding.points:7} {cells} {'ok' if finding.passed else 'FAILED'}")
     return lines
 
 

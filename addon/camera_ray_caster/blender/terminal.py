@@ -1,0 +1,218 @@
+"""The commands for a terminal: arguments in, files and a table out, and an exit status.
+
+Status 0: done; 1: done, but a witness disagrees with the camera's rays; 2: bad input, one line on standard error.
+"""
+
+import argparse
+import math
+import os
+import sys
+from collections.abc import Sequence
+from contextlib import redirect_stdout
+from pathlib import Path
+from textwrap import fill
+
+import bpy
+
+from ..core.facts import camera_facts
+from ..core.passes import PASSES
+from ..core.records import InputError
+from ..core.report import WIDTH, Report, as_json, as_lines
+from ..core.shading import SHADINGS
+from . import pictures
+from .check import verify_camera
+from .engine import CameraRayCaster
+from .passes import tick, ticked
+from .read import find_camera, read_camera
+
+DEFAULT_PASSES = ("combined", "depth", "normal", "position", "object_index")
+"""What is cast of a view layer that ticks nothing beside combined."""
+
+LAST_FRAME = 1048574
+"""Blender knows no frame beyond it, on either side of 0."""
+
+
+class Parser(argparse.ArgumentParser):
+    """A parser that refuses in one line."""
+
+    def error(self, message):
+        """Raise InputError."""
+        raise InputError(f"{message} (--help shows what can be given)")
+
+
+def main(command: str, arguments: Sequence[str], prog: str) -> int:
+    """Run a command of COMMANDS and return its exit status. It is the last thing that this process does."""
+    _keep_output_to_ourselves()
+    try:
+        if command not in COMMANDS:
+            raise InputError(f"there is no command {command!r}: choose from {', '.join(COMMANDS)}")
+        return COMMANDS[command](arguments, prog)
+    except InputError as error:
+        print(f"{prog}: {error}", file=sys.stderr)
+        return 2
+
+
+def cast(arguments: Sequence[str], prog: str) -> int:
+    """Render frames of a file to pictures, EXR files and reports."""
+    parser = _parser(
+        prog,
+        "Cast the rays of a Blender file's camera at its spheres and planes.",
+        f"{prog} blend_scenes/spheres_and_planes.blend --output out --passes combined,depth",
+        "writes out/spheres_and_planes.png, the 32-bit multilayer out/spheres_and_planes.exr with a layer a pass, and "
+        "out/report.json; with --frames each name ends in its frame's number.",
+    )
+    frames = parser.add_mutually_exclusive_group()
+    _add_frame(frames)
+    frames.add_argument("--frames", type=frame_range, metavar="A:B", help="every whole frame from A to B")
+    parser.add_argument("--passes", type=pass_names, metavar="A,B,...", help=f"of {', '.join(PASSES)}; default: what "
+                        f"the file ticks, or {', '.join(DEFAULT_PASSES)} where it ticks only combined")  # fmt: skip
+    parser.add_argument("--shading", type=str.upper, choices=SHADINGS, help="of the combined pass; default: the file's")
+    parser.add_argument("--output", type=Path, default=Path("out"), metavar="FOLDER", help="default: %(default)s")
+    options = parser.parse_args(arguments)
+    scene = _open(options)
+    for layer in scene.view_layers:
+        if options.passes or [entry.key for entry in ticked(scene, layer)] == ["combined"]:
+            tick(scene, layer, options.passes or DEFAULT_PASSES)
+    if options.shading:
+        scene.camera_ray_caster.shading = options.shading
+    passed = True
+    for frame in options.frames or [options.frame]:
+        _go_to(scene, frame)
+        read_camera(scene)  # a camera that cannot be cast is refused before anything is made
+        number = f"_{frame:04d}" if options.frames else ""
+        report, paths = pictures.render(scene, options.output, _stem(), number)
+        _show(report, options.json, f"Wrote {', '.join(map(str, paths))}")
+        passed &= report.passed
+    return int(not passed)
+
+
+def verify(arguments: Sequence[str], prog: str) -> int:
+    """Hold a file's camera against Blender's own answers."""
+    parser = _parser(
+        prog,
+        "Hold the rays of a Blender file's camera against Blender's own frame.",
+        f"{prog} blend_scenes/spheres_and_planes.blend --frame 12.5",
+        "prints the largest and the median error of the rays beside the bound that each witness can reach.",
+    )
+    _add_frame(parser)
+    options = parser.parse_args(arguments)
+    scene = _open(options)
+    _go_to(scene, options.frame)
+    facts = camera_facts(read_camera(scene))
+    report = Report(camera=facts, frame=scene.frame_current_final, findings=tuple(verify_camera(scene)))
+    _show(report, options.json, "All witnesses agree" if report.passed else "A witness disagrees")
+    return int(not report.passed)
+
+
+COMMANDS = {"cast": cast, "verify": verify}
+
+
+_handles = []
+
+
+def register() -> None:
+    """Add ``blender --command camera_ray_caster cast FILE.blend``; see ``registration``."""
+    _handles.append(bpy.utils.register_cli_command("camera_ray_caster", _from_blender))
+
+
+def unregister() -> None:
+    """See ``registration``."""
+    bpy.utils.unregister_cli_command(_handles.pop())
+
+
+def _from_blender(arguments: Sequence[str]) -> int:
+    command, *rest = arguments or [""]
+    return main(command, rest, f"camera_ray_caster {command}".strip())
+
+
+def _parser(prog: str, purpose: str, example: str, result: str) -> Parser:
+    ends = fill("exit status: 0 done; 1 done, but the camera's rays disagree with a witness; 2 bad input.", WIDTH)
+    parser = Parser(
+        prog=prog,
+        description=purpose,
+        epilog=f"example:\n  {example}\n{fill(result, WIDTH)}\n\n{ends}",
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument("file", nargs="?", type=Path, metavar="FILE.blend", help="default: the file that is open")
+    parser.add_argument("--camera", metavar="NAME", help="default: the scene's active camera")
+    parser.add_argument("--json", action="store_true", help="print the report as JSON in place of the table")
+    return parser
+
+
+def _add_frame(parser) -> None:
+    parser.add_argument("--frame", type=frame_number, help="default: the file's; a fraction is between frames")
+
+
+def frame_number(text: str) -> float:
+    """Return a frame; argparse names this function where the text is none."""
+    frame = float(text)
+    if not abs(frame) <= LAST_FRAME:
+        raise argparse.ArgumentTypeError(f"{text} is beyond Blender's last frame, {LAST_FRAME}")
+    return frame
+
+
+def frame_range(text: str) -> range:
+    """Return the frames of "A:B"."""
+    first, last = (int(part) for part in text.split(":"))
+    frame_number(str(first)), frame_number(str(last))
+    if first > last:
+        raise argparse.ArgumentTypeError(f"{text} holds no frame: give the first one first")
+    return range(first, last + 1)
+
+
+def pass_names(text: str) -> list[str]:
+    """Return the passes of "A,B,..."."""
+    names = text.split(",")
+    unknown = [name for name in names if name not in PASSES]
+    if unknown:
+        raise argparse.ArgumentTypeError(f"no pass is called {unknown[0]!r}: choose from {', '.join(PASSES)}")
+    return names
+
+
+def _open(options):
+    """Open the file that the options name, and return its scene with the engine and the camera that they ask for."""
+    path = options.file
+    if path is not None:
+        if not path.is_file():
+            raise InputError(f"there is no file {str(path)!r}: give the path of a .blend")
+        try:
+            with redirect_stdout(None):  # where Python's copy of the error would go
+                bpy.ops.wm.open_mainfile(filepath=str(path.resolve()))
+        except RuntimeError as error:
+            raise InputError(f"{str(path)!r} is no .blend that this Blender can open: {_line(error)}") from error
+    elif not bpy.app.binary_path:
+        raise InputError("no file is open: give the path of a .blend")
+    scene = bpy.context.scene
+    scene.render.engine = CameraRayCaster.bl_idname
+    if options.camera is not None:
+        camera = find_camera(scene, options.camera)
+        for marker in scene.timeline_markers:
+            marker.camera = None  # it would take the camera's place at its frame
+        scene.camera = camera
+    return scene
+
+
+def _go_to(scene, frame: float | None) -> None:
+    if frame is not None:
+        scene.frame_set(math.floor(frame), subframe=frame - math.floor(frame))
+
+
+def _stem() -> str:
+    return Path(bpy.data.filepath).stem or "untitled"
+
+
+def _show(report: Report, json: bool, last_line: str) -> None:
+    print(as_json(report) if json else "\n".join((*as_lines(report), "", last_line)), flush=True)
+
+
+def _line(error: RuntimeError) -> str:
+    """Return the first thing that an operator reported, without its label."""
+    return str(error).strip().splitlines()[0].removeprefix("Error: ")
+
+
+def _keep_output_to_ourselves() -> None:
+    """Keep standard output for Python; what Blender prints on it by itself (frames, saved files) goes nowhere."""
+    sys.stdout = os.fdopen(os.dup(1), "w", encoding="utf-8", errors="replace")
+    nowhere = os.open(os.devnull, os.O_WRONLY)
+    os.dup2(nowhere, 1)
+    os.close(nowhere)
