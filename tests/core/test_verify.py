@@ -170,6 +170,13 @@ def test_far_from_the_world_s_origin_float32_sees_little_and_says_so():
     assert bounds[0] < 0.5 < bounds[1]
 
 
+def test_pixels_at_a_rim_have_neighbours_on_one_side_only():
+    """Of all pixels of a round picture some lie so near to its rim that their neighbours to the right have no ray."""
+    (finding,) = verify(camera("FISHEYE_EQUIDISTANT", {"resolution_x": 128, "resolution_y": 128}), grid=128)
+    assert finding.points > 128 * 128 * 3 / 4
+    assert finding.passed, finding
+
+
 def test_one_pixel_is_enough():
     raw = raw_camera("PERSP", resolution_x=1, resolution_y=1)
     findings = verify(camera_from(raw), FloatWitness(raw))

@@ -229,9 +229,10 @@ def _round_trip(camera, sample: _Sample) -> tuple[tuple[Any, Any], Finding]:
     for side in np.eye(3):
         step = (ENLARGED * moved)[:, None] * side
         slips = [_length(camera.project(points + near) - back) for near in (step, -step)]
-        bound += np.fmax(*slips) / ENLARGED  # one of the two may leave the picture
-    turns = [_angles(camera.rays_at(*(pixels + side * STEP).T).directions, directions) for side in np.eye(2)]
-    turned = np.fmax(*turns) / STEP * bound + gamma(32)
+        bound += np.fmax(*slips) / ENLARGED  # at the picture's rim one of the two has no pixel
+    steps = STEP * np.concatenate((np.eye(2), -np.eye(2)))
+    turns = [_angles(camera.rays_at(*(pixels + step).T).directions, directions) for step in steps]
+    turned = np.fmax.reduce(turns) / STEP * bound + gamma(32)
     own = _largest(bound), _largest(turned)
     return own, _finding("round trip", back - pixels, _angles(again, directions), bound, turned, (0.0, 0.0))
 
