@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
+from .aperture import Aperture
+from .clock import Clock, groups, meeting
 from .conventions import gamma
 from .records import BlenderCamera, InputError, Pose, Raster, Rays
+from .sampling import in_opening, sub_pixel
 from .vector import matvec, norm, unit
 
 
@@ -42,6 +45,16 @@ class Camera:
     raster: Raster
     clip_start: float
     clip_end: float
+    aperture: Aperture | None = None
+    """What lets rays beside the chief ray in; None for a pinhole."""
+    clock: Clock | None = None
+    """The frame of each pixel; None where the picture has one time."""
+    motion: Any = None
+    """With a clock, the ``Motion`` that knows the camera at other frames; None for a camera that stands still."""
+
+    def at(self, frame: float) -> Camera:
+        """Return the camera at a frame, without its clock."""
+        return replace(self, clock=None, motion=None) if self.motion is None else self.motion.camera_at(frame)
 
     def camera_rays(self, x, y):
         """Return the camera-frame (origin, direction) components for pixel coordinates, scaled so that t is depth.
@@ -54,6 +67,17 @@ class Camera:
             direction = tuple(component / length for component in direction)
         return origin, direction
 
+    def sample_rays(self, x, y, sample: int):
+        """Return what ``camera_rays`` does for a sample within the pixels with the centres x, y: the sample has its
+        own place in the pixel, the same in all of them, and its own in the aperture.
+        """
+        off_x, off_y = sub_pixel(sample)
+        origin, direction = self.camera_rays(x + off_x, y + off_y)
+        if self.aperture is None:
+            return origin, direction
+        u, v = in_opening(sample, x, y)
+        return self.aperture.through(origin, direction, self.model.planar, *self.aperture.points(u, v))
+
     @property
     def is_rigid(self) -> bool:
         """Whether the basis is orthogonal to rounding, so that camera lengths are world lengths."""
@@ -61,10 +85,22 @@ class Camera:
         return bool(np.abs(gram - np.eye(3)).max() <= gamma(8))
 
     def rays_at(self, x, y) -> Rays:
-        """Return the world rays through pixel coordinates x, y (scalars or arrays that broadcast), as ``rays`` does."""
-        origin, direction = self.camera_rays(np.asarray(x, np.float64), np.asarray(y, np.float64))
-        shape = np.broadcast_shapes(np.shape(x), np.shape(y))
+        """Return the world rays through pixel coordinates x, y (scalars or arrays that broadcast), as ``rays`` does.
+
+        With a clock x and y are a row (1, columns) and a column (rows, 1).
+        """
+        x, y = np.asarray(x, np.float64), np.asarray(y, np.float64)
+        shape = np.broadcast_shapes(x.shape, y.shape)
         directions = np.empty((*shape, 3))
+        if self.clock is not None:
+            origins = np.empty((*shape, 3))
+            for frame, rows, columns, where in groups(self.clock, x, y):
+                part = self.at(frame).rays_at(x[:, columns], y[rows])
+                np.copyto(origins[rows, columns], part.origins, where=where[..., None])
+                np.copyto(directions[rows, columns], part.directions, where=where[..., None])
+            time = np.broadcast_to(self.clock.frame_at(x, y), shape)
+            return Rays(origins, directions, ~np.isnan(directions[..., 0]), time)
+        origin, direction = self.camera_rays(x, y)
         for axis, component in enumerate(unit(matvec(self.pose.basis, direction))):
             directions[..., axis] = component
         origins = self.pose.eye
@@ -77,12 +113,19 @@ class Camera:
     def rays(self) -> Rays:
         """Return the chief rays of the render window: through its pixel centres, world frame, unit directions.
 
-        Undefined (NaN, valid False) where the model has no ray. Each component of a direction is right to a few
-        EPS relative to the unit length, amplified by the frame's offset (shift) over the pixel's own.
+        With a clock each ray is the camera's at the pixel's own time. Undefined (NaN, valid False) where the model has
+        no ray. Each component of a direction is right to a few EPS relative to the unit length, amplified by the
+        frame's offset (shift) over the pixel's own.
         """
         return self.rays_at(self.raster.columns(), self.raster.rows())
 
     def project(self, points) -> np.ndarray:
-        """Return the pixel coordinates (..., 2) in the full frame of world points (..., 3); NaN where none sees it."""
+        """Return the pixel coordinates (..., 2) in the full frame of world points (..., 3); NaN where none sees it.
+
+        With a clock and a moving camera each point, taken to stand still, is sought by itself: see ``meeting``.
+        """
         points = np.asarray(points, dtype=np.float64)
+        if self.clock is not None and self.motion is not None:
+            found = [meeting(self.clock, lambda t, p=point: self.at(t).project(p)) for point in points.reshape(-1, 3)]
+            return np.reshape(found, (*points.shape[:-1], 2))
         return self.model.project((points - self.pose.eye) @ np.linalg.inv(self.pose.basis).T)

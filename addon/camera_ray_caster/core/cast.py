@@ -3,19 +3,24 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, ThreadPoolExecutor, wait
+from dataclasses import dataclass
 from threading import local
 from time import perf_counter
 
 import numpy as np
 
 from .camera import Camera
-from .hits import Scratch, nearest
+from .clock import groups
+from .hits import Hits, Scratch, nearest
 from .passes import PASSES
 from .plan import Plan, make_plan
-from .records import Cancelled, Shapes
+from .records import Cancelled, InputError, Shapes
 from .shading import MATERIAL
+
+TILE_PIXELS = 1 << 18
+"""Pixels of a tile, the unit of threads, progress and cancelling: whole rows, where the picture has one time."""
 
 
 class Images(dict):
@@ -25,6 +30,18 @@ class Images(dict):
     seconds: dict[str, float]
 
 
+@dataclass(frozen=True)
+class Tile:
+    """A part of the picture that is cast at once, with what it is cast of."""
+
+    camera: Camera
+    shapes: Shapes
+    rows: slice
+    columns: slice
+    where: np.ndarray | None = None
+    """The pixels of the part that are meant; None for all."""
+
+
 def cast(
     camera: Camera,
     shapes: Shapes,
@@ -32,6 +49,7 @@ def cast(
     dtype=np.float32,
     *,
     shading: str = MATERIAL,
+    samples: int = 1,
     threads: int | None = None,
     cull: bool = True,
     progress: Callable[[float], bool] | None = None,
@@ -39,49 +57,122 @@ def cast(
     """Return the passes of the camera's render window as a mapping of name to array.
 
     dtype is what passes of real numbers are stored as; the arithmetic is float64. object_index, material_index
-    and shape_index are int32, valid is bool. ``progress(fraction)`` is called in the calling thread after each tile;
-    where it returns False the cast stops within the tiles under way and raises Cancelled. ``cull=False`` tests
-    every shape at every pixel: the same picture, slower. Raises InputError for an unknown pass.
+    and shape_index are int32, valid is bool. With ``samples`` above 1 the combined pass is the mean of as many rays a
+    pixel, all over the pixel and the camera's aperture; all other passes are of the chief rays. ``progress(fraction)``
+    is called in the calling thread after each tile; where it returns False the cast stops within the tiles under way
+    and raises Cancelled. ``cull=False`` tests every shape at every pixel: the same picture, slower.
+    Raises InputError for an unknown pass or shading and for less than one sample.
     """
+    if samples < 1:
+        raise InputError(f"{samples} samples make no picture: ask for 1 or more")
     started = perf_counter()
-    plan = make_plan(camera, shapes, passes, tuple(PASSES), shading, cull)
+    known = tuple(PASSES)
+    middle = _moment(camera, shapes, (camera.clock.first + camera.clock.last) / 2) if camera.clock else (camera, shapes)
+    whole = make_plan(*middle, passes, known, shading, cull, sampled=False)
     height, width = camera.raster.shape
     images = Images()
-    for name in plan.passes:
+    for name in whole.passes:
         kind = PASSES[name]
         images[name] = np.empty((height, width, kind.channels)[: 3 if kind.channels else 2], kind.dtype or dtype)
-    images.plan = plan
-    images.seconds = {"plan": perf_counter() - started, "hits": 0.0, "passes": 0.0}
+    sampled = ("combined",) if samples > 1 and "combined" in passes else ()
+    chief = tuple(name for name in whole.passes if name not in sampled)
+    plans = {}
+    if camera.clock is None:
+        tiles = list(_bands(camera, shapes))
+        plans = {False: whole, True: make_plan(*middle, passes, known, shading, cull, sampled=True) if sampled else None}
+    else:
+        tiles = list(_moments(camera, shapes))
+    images.plan = whole
+    images.seconds = {"plan": perf_counter() - started}
+    own = local()
 
-    threads_own = local()
+    def run(tile: Tile) -> tuple[float, float]:
+        if not hasattr(own, "scratch"):
+            own.scratch = Scratch()
+        seconds = np.zeros(2)
+        for names, count in ((chief, 1), (sampled, samples)):
+            if names:
+                with np.errstate(all="ignore"):  # NaN and inf are answers here: no ray, no hit
+                    plan = plans.get(count > 1) or make_plan(
+                        tile.camera, tile.shapes, names, known, shading, cull, sampled=count > 1
+                    )
+                    seconds += _cast_tile(tile, plan, names, count, images, own.scratch)
+        return seconds
 
-    def tile(first_row: int) -> tuple[float, float]:
-        with np.errstate(all="ignore"):  # NaN and inf are answers here: no ray, no hit
-            began = perf_counter()
-            last_row = min(first_row + plan.tile_rows, height)
-            if not hasattr(threads_own, "scratch"):
-                threads_own.scratch = Scratch()
-            hits = nearest(plan, first_row, last_row, threads_own.scratch)
-            found = perf_counter()
-            for rows, block in hits.blocks():
-                for name in plan.passes:
-                    PASSES[name].write(block, images[name][first_row:last_row][rows])
-            return found - began, perf_counter() - found
-
-    workers = threads or os.cpu_count() or 1
-    started = perf_counter()
-    hits_time, passes_time = _run(tile, range(0, height, plan.tile_rows), workers, progress)
-    busy = max(hits_time + passes_time, np.finfo(float).tiny)
-    elapsed = perf_counter() - started
-    images.seconds |= {"hits": elapsed * hits_time / busy, "passes": elapsed * passes_time / busy}
+    began = perf_counter()
+    busy = _in_threads(run, tiles, threads or os.cpu_count() or 1, progress)
+    share = (perf_counter() - began) / max(busy.sum(), np.finfo(float).tiny)
+    images.seconds |= {"hits": busy[0] * share, "passes": busy[1] * share}
     return images
 
 
-def _run(tile, starts, workers: int, progress) -> np.ndarray:
+def _bands(camera: Camera, shapes: Shapes) -> Iterator[Tile]:
+    """Yield the picture in whole rows."""
+    height, width = camera.raster.shape
+    step = max(1, TILE_PIXELS // width)
+    for first in range(0, height, step):
+        yield Tile(camera, shapes, slice(first, min(first + step, height)), slice(0, width))
+
+
+def _moments(camera: Camera, shapes: Shapes) -> Iterator[Tile]:
+    """Yield the picture time by time, each with the camera and the shapes of that time."""
+    for frame, rows, columns, where in groups(camera.clock, camera.raster.columns(), camera.raster.rows()):
+        rows, columns = (slice(*s.indices(n)) for s, n in zip((rows, columns), camera.raster.shape, strict=True))
+        yield Tile(*_moment(camera, shapes, frame), rows, columns, None if where.all() else where)
+
+
+def _moment(camera: Camera, shapes: Shapes, frame: float) -> tuple[Camera, Shapes]:
+    return camera.at(frame), shapes if shapes.motion is None else shapes.motion.shapes_at(frame)
+
+
+def _cast_tile(tile: Tile, plan: Plan, names, samples: int, images: Images, scratch: Scratch) -> np.ndarray:
+    """Cast one tile and store its passes; return the seconds of hits and passes."""
+    raster = tile.camera.raster
+    x, y = raster.columns()[:, tile.columns], raster.rows()[tile.rows]
+    corner = tile.columns.start, tile.rows.start
+    part = tile.rows, tile.columns
+    seconds = np.zeros(2)
+    total = np.zeros((y.size, x.size, 4)) if samples > 1 else None
+    for sample in range(samples):
+        began = perf_counter()
+        if total is None:
+            from_eye, rays = tile.camera.model.central, tile.camera.camera_rays(x, y)
+        else:
+            from_eye = tile.camera.model.central and tile.camera.aperture is None
+            rays = tile.camera.sample_rays(x, y, sample)
+        hits = nearest(plan, *rays, from_eye, corner, scratch)
+        found = perf_counter()
+        if total is None:
+            _store(hits, {name: images[name][part] for name in names}, tile.where)
+        else:
+            once = np.empty_like(total)
+            _store(hits, {"combined": once}, None)
+            total += once
+        seconds += found - began, perf_counter() - found
+    if total is not None:
+        np.copyto(images["combined"][part], total / samples, where=_broadcast(tile.where), casting="same_kind")
+    return seconds
+
+
+def _store(hits: Hits, outs: dict[str, np.ndarray], where) -> None:
+    """Write passes block by block, only where they are meant."""
+    for rows, block in hits.blocks():
+        for name, out in outs.items():
+            target = out[rows] if where is None else np.empty_like(out[rows])
+            PASSES[name].write(block, target)
+            if where is not None:
+                out[rows][where[rows]] = target[where[rows]]
+
+
+def _broadcast(where):
+    return True if where is None else where[..., None]
+
+
+def _in_threads(run, tiles, workers: int, progress) -> np.ndarray:
     """Run tiles on threads (numpy releases the interpreter) and return the sum of what they return."""
     total = np.zeros(2)
     with ThreadPoolExecutor(workers) as pool:
-        waiting = {pool.submit(tile, start) for start in starts}
+        waiting = {pool.submit(run, tile) for tile in tiles}
         done = 0
         try:
             while waiting:
@@ -89,7 +180,7 @@ def _run(tile, starts, workers: int, progress) -> np.ndarray:
                 for future in finished:
                     total += future.result()
                     done += 1
-                    if progress is not None and not progress(done / len(starts)):
+                    if progress is not None and not progress(done / len(tiles)):
                         raise Cancelled
         finally:
             for future in waiting:

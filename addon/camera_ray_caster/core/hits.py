@@ -22,6 +22,8 @@ class Hits:
     """The hits of some rows, (rows, columns) arrays, and what follows from them, worked out when a pass asks."""
 
     plan: Plan
+    from_eye: bool
+    """Whether all rays leave the eye."""
     origin: Any
     """Components in the camera frame."""
     direction: Any
@@ -38,7 +40,7 @@ class Hits:
             part = slice(first, first + step)
             window = part, slice(None)
             origin, direction = (tuple(_cut(c, window) for c in vector) for vector in (self.origin, self.direction))
-            yield part, Hits(self.plan, origin, direction, self.t[part], self.index[part])
+            yield part, Hits(self.plan, self.from_eye, origin, direction, self.t[part], self.index[part])
 
     @cached_property
     def seen(self) -> np.ndarray:
@@ -67,7 +69,7 @@ class Hits:
     def point(self):
         """The hit points relative to the eye, as world components; no number of meaning where nothing is hit."""
         t = np.where(self.seen, self.t, 0.0)
-        if self.plan.camera.model.central:
+        if self.from_eye:
             return tuple(t * component for component in self.world_direction)
         return along(matvec(self.plan.camera.pose.basis, self.origin), self.world_direction, t)
 
@@ -75,7 +77,7 @@ class Hits:
     def normal(self):
         """Unit world normals turned towards the rays' origins, as components; 0 where nothing is hit."""
         normal = self.plan.normals.look_up(self.index, self.point)
-        if self.plan.faces_eye:
+        if self.from_eye and self.plan.eye_outside:
             return normal
         facing = -np.sign(dot(normal, self.world_direction))
         return tuple(np.where(self.seen, facing * component, 0.0) for component in normal)
@@ -118,30 +120,27 @@ class Surface:
         return tuple(np.broadcast_to(component, shape)[self.where] for component in vector)
 
 
-def nearest(plan: Plan, first_row: int, last_row: int, scratch: Scratch) -> Hits:
-    """Return the nearest hit within the clip range for the window's rows first_row .. last_row - 1.
+def nearest(plan: Plan, origin, direction, from_eye: bool, corner, scratch: Scratch) -> Hits:
+    """Return the nearest hits within the clip range of rays given as camera-frame components, (rows, columns).
 
-    Of shapes hit at exactly the same t the one with the lowest index counts, whatever order they are tested in.
+    corner: the column and row of the render window at which the rays begin. Of shapes hit at exactly the same t
+    the one with the lowest index counts, whatever order they are tested in.
     """
-    camera = plan.camera
-    raster = camera.raster
-    origin, direction = camera.camera_rays(raster.columns(), raster.rows()[first_row:last_row])
-    shape = (last_row - first_row, raster.shape[1])
+    shape = np.broadcast_shapes(*map(np.shape, origin), *map(np.shape, direction), (1, 1))
     tile = Tile(
-        None if camera.model.central else origin,
+        None if from_eye else origin,
         direction,
-        camera.clip_start,
-        np.full(shape, np.nextafter(camera.clip_end, np.inf)),
+        plan.camera.clip_start,
+        np.full(shape, np.nextafter(plan.camera.clip_end, np.inf)),
         np.full(shape, NOTHING, np.int32),
         scratch,
     )
     small = []
     large = []
     for group in plan.groups:
-        low = np.maximum(group.bounds[:, 2] - first_row, 0)
-        high = np.minimum(group.bounds[:, 3] - first_row, shape[0])
-        here = np.flatnonzero(low < high)
-        bounds = np.stack((group.bounds[here, 0], group.bounds[here, 1], low[here], high[here]), axis=1)
+        edges = np.clip(group.bounds - np.repeat(corner, 2), 0, np.repeat(shape[::-1], 2))
+        here = np.flatnonzero((edges[:, 0] < edges[:, 1]) & (edges[:, 2] < edges[:, 3]))
+        bounds = edges[here]
         few = (bounds[:, 1] - bounds[:, 0]) * (bounds[:, 3] - bounds[:, 2]) < SMALL_PIXELS
         large += [(group, *one) for one in zip(here[~few].tolist(), bounds[~few].tolist(), strict=True)]
         small += [(group, here[few][batch], bounds[few][batch]) for batch in _batches(bounds[few])]
@@ -150,7 +149,7 @@ def nearest(plan: Plan, first_row: int, last_row: int, scratch: Scratch) -> Hits
     for group, rows_of_batch, bounds in small:
         tile.cast_batch(group, rows_of_batch, bounds)
     tile.t[tile.index == NOTHING] = np.inf
-    return Hits(plan, origin, direction, tile.t, tile.index)
+    return Hits(plan, from_eye, origin, direction, tile.t, tile.index)
 
 
 class Scratch:

@@ -16,14 +16,14 @@ from .shapes import SHAPE_OF_KIND, Placed, place
 from .shapes.normals import NormalTable, normal_table
 from .shapes.placed import inverse
 
-TILE_PIXELS = 1 << 18
-"""Pixels of a tile, the unit of threads, progress and cancelling: whole rows."""
-
 BLOCK_PIXELS = 1 << 14
 """Pixels of a block, the unit of arithmetic: its float64 temporaries stay in a core's cache."""
 
 SMALL_PIXELS = 1 << 12
 """A shape with fewer pixels in its bounds is cast in a batch with others: numpy's call costs more than its pixels."""
+
+SAMPLE_MARGIN = np.array([-0.5, 0.5, -0.5, 0.5])
+"""Pixels by which bounds widen when samples lie all over the pixels."""
 
 KIND_NAMES = ("sphere", "plane", "infinite plane")
 
@@ -58,7 +58,6 @@ class Plan:
     shading: str
     placed: Placed
     groups: tuple[Group, ...]
-    tile_rows: int
     unseen: int
     """Shapes that no pixel can see."""
     spare_passes: tuple[str, ...]
@@ -75,9 +74,9 @@ class Plan:
         return inverse(self.shapes.axes)
 
     @property
-    def faces_eye(self) -> bool:
-        """Whether every tabled normal faces the ray: one eye, outside of every sphere in view."""
-        return self.camera.model.central and all(group.simple or group.kind != SPHERE for group in self.groups)
+    def eye_outside(self) -> bool:
+        """Whether the eye is outside of every sphere in view: then every tabled normal faces the rays from it."""
+        return all(group.simple or group.kind != SPHERE for group in self.groups)
 
     def left_out(self) -> list[str]:
         """Return what is not done, in words, for the report."""
@@ -95,11 +94,11 @@ class Plan:
 
 
 def make_plan(
-    camera: Camera, shapes: Shapes, passes: Sequence[str], known: Sequence[str], shading: str, cull: bool
+    camera: Camera, shapes: Shapes, passes: Sequence[str], known: Sequence[str], shading: str, cull: bool, sampled: bool
 ) -> Plan:
     """Return the plan; InputError names an unknown pass or shading and those that there are.
 
-    Without ``cull`` every shape is tested at every pixel.
+    Without ``cull`` every shape is tested at every pixel. ``sampled``: for rays all over the pixels and the aperture.
     """
     unknown = [name for name in passes if name not in known]
     if unknown:
@@ -110,9 +109,9 @@ def make_plan(
     height, width = camera.raster.shape
     bounds = np.tile(np.array([0, width, 0, height]), (len(shapes), 1))
     seen = np.ones(len(shapes), bool)
-    near, far = _reach(camera, placed)
+    near, far = _reach(camera, placed, sampled)
     if cull:
-        bounds, seen = _window_bounds(camera, placed)
+        bounds, seen = _window_bounds(camera, placed, sampled)
         seen &= (near <= camera.clip_end) & (far >= camera.clip_start)
     simple = near >= camera.clip_start
     groups = []
@@ -128,30 +127,35 @@ def make_plan(
         shading=shading,
         placed=placed,
         groups=tuple(groups),
-        tile_rows=max(1, min(height, TILE_PIXELS // width)),
         unseen=int(np.count_nonzero(~seen)),
         spare_passes=tuple(name for name in known if name not in passes),
     )
 
 
-def _reach(camera: Camera, placed: Placed):
+def _reach(camera: Camera, placed: Placed, sampled: bool):
     """Return the least and the greatest t that a shape may have, (n,) each: unbounded where that is not known."""
     radius = placed.radius * (1 + 8 * np.finfo(float).eps)
     if camera.model.planar:
         middle = -placed.centre[:, 2]
-    elif camera.model.central and camera.is_rigid:
+    elif camera.model.central and camera.is_rigid and not (sampled and camera.aperture):
         middle = np.sqrt((placed.centre * placed.centre).sum(axis=1))
     else:
         return np.full(len(radius), -np.inf), np.full(len(radius), np.inf)
     return middle - radius, middle + radius
 
 
-def _window_bounds(camera: Camera, placed: Placed):
+def _window_bounds(camera: Camera, placed: Placed, sampled: bool):
     """Return (n, 4) int bounds in the render window, and which of them hold a pixel centre."""
     raster = camera.raster
     endless = np.isinf(placed.radius)
     with np.errstate(all="ignore"):
-        frame = camera.model.bounds(placed.centre, np.where(endless, 0.0, placed.radius))
+        radius = np.where(endless, 0.0, placed.radius)
+        if sampled and camera.aperture is not None:
+            away = -placed.centre[:, 2] if camera.model.planar else np.sqrt((placed.centre**2).sum(axis=1))
+            radius = radius + camera.aperture.blur(away, radius)
+        frame = camera.model.bounds(placed.centre, radius)
+        if sampled:
+            frame = frame + SAMPLE_MARGIN
     frame[endless] = (-np.inf, np.inf, -np.inf, np.inf)
     seen = ~np.isnan(frame).any(axis=1)
     corner, size = np.array([raster.x0, raster.y0]), raster.shape[::-1]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 
@@ -145,6 +146,8 @@ class Shapes:
     names: tuple[str, ...] = ()
     lights: Lights = field(default_factory=Lights)
     world_colour: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 1.0)
+    motion: Any = None
+    """The ``Motion`` that knows the shapes at other frames, for cameras whose pixels have each their own; else None."""
     left_out: tuple[tuple[str, str], ...] = ()
     """Objects that are not cast, each with the reason, in one line."""
 
