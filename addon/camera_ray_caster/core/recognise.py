@@ -13,6 +13,7 @@ import numpy as np
 from .conventions import EPS32
 from .placement import Primitive
 from .records import PLANE, SPHERE
+from .vector import cross
 
 SPHERE_TOLERANCE = 2e-5
 """Largest spread of the vertices' distances from the centre, over the radius.
@@ -50,24 +51,21 @@ class MeshArrays:
 def recognise(mesh: MeshArrays) -> Primitive | str:
     """Return the sphere or plane that a mesh with faces is, in object space, or in words why it is neither.
 
-    A mesh whose faces all look one way is judged as a plane, any other as a sphere. A sphere's axes are its radius
-    times the object's axes; a plane's are half its sides, the first along its first edge, and a normal as long as the
-    root of their area. Centre and axes are right to the stated tolerances.
+    A mesh whose faces all look one way is judged as a plane, any other as a sphere, or as an ellipsoid where an affine
+    matrix was applied to one. A sphere's axes are its radius times the object's axes; a plane's are half its sides, the
+    first along its first edge, and a normal as long as the root of their area. All are right to the tolerances above.
     """
     if not np.isfinite(mesh.vertices).all():
         return "its vertices are not all finite"
     middle = mesh.vertices.mean(axis=0, dtype=np.float64)
     vertices = mesh.vertices - middle  # small numbers: an offset that was applied costs no digits
     rounding = ROUNDING * float(np.abs(mesh.vertices).max())
-    corners = vertices[mesh.loop_vertices]
-    following = np.arange(1, len(corners) + 1)
-    following[np.append(mesh.loop_starts[1:], len(corners)) - 1] = mesh.loop_starts
-    areas = np.add.reduceat(np.cross(corners, corners[following]), mesh.loop_starts) / 2
+    _, areas = _faces(mesh, vertices)
     total, area = areas.sum(axis=0), np.linalg.norm(areas, axis=1).sum()
     if np.linalg.norm(total) > 0.99 * area:
-        found = _parallelogram(mesh, vertices, mesh.loop_vertices[following], total, area, rounding)
+        found = _parallelogram(mesh, vertices, total, area, rounding)
     else:
-        found = _sphere(mesh, vertices, corners[mesh.loop_starts], areas, rounding)
+        found = _ellipsoid(mesh, vertices, rounding)
     if isinstance(found, str):
         return found
     kind, centre, axes, uncertainty = found
@@ -76,34 +74,85 @@ def recognise(mesh: MeshArrays) -> Primitive | str:
     return Primitive(kind, centre[None], axes, np.ones(1))
 
 
-def _sphere(mesh, vertices, corners, areas, rounding):
-    """Return a closed mesh's sphere: centre by least squares, radius to the farthest vertex.
+def _following(mesh) -> np.ndarray:
+    """Return for each loop the next one of its face."""
+    following = np.arange(1, len(mesh.loop_vertices) + 1)
+    following[np.append(mesh.loop_starts[1:], len(following)) - 1] = mesh.loop_starts
+    return following
 
-    The farthest vertex, as the tabulated ones of the icosahedron fall short of the radius that the user chose.
+
+def _faces(mesh, vertices):
+    """Return a corner and the area vector of every face, each (faces, 3)."""
+    corners = vertices.T[:, mesh.loop_vertices]
+    sums = np.add.reduceat(np.stack(cross(corners, corners[:, _following(mesh)])), mesh.loop_starts, axis=1)
+    return corners[:, mesh.loop_starts].T, sums.T / 2
+
+
+def _ellipsoid(mesh, vertices, rounding):
+    """Return the ellipsoid whose unit ball the mesh goes round once.
+
+    It reaches the farthest vertex, as the tabulated ones of the icosahedron fall short of the radius that the user
+    chose; where rounding scatters them more than that, it is the mean one.
     """
-    squares = (vertices * vertices).sum(axis=1)
-    centre = np.linalg.lstsq(np.c_[2 * vertices, np.ones(len(vertices))], squares, rcond=None)[0][:3]
-    distances = np.linalg.norm(vertices - centre, axis=1)
-    radius, spread = distances.max(), np.ptp(distances)
-    if spread > SPHERE_TOLERANCE * radius + rounding:
-        return f"its vertices are not on one sphere: they are {spread / radius:.1%} of its radius off it"
-    if rounding > 0.01 * radius:
-        return "it is too small for its distance from the object's origin: float32 has rounded its shape away"
+    if not np.ptp(vertices, axis=0).all():
+        return "it is neither flat nor round"
+    for fit in (_fitted_sphere, _fitted_ellipsoid):
+        centre, axes = fit(vertices)
+        if axes is None:
+            continue
+        ball = np.linalg.solve(axes, (vertices - centre).T).T
+        distances = np.linalg.norm(ball, axis=1)
+        spread, noise = np.ptp(distances), rounding / np.linalg.norm(axes, -2)
+        if spread <= SPHERE_TOLERANCE + noise:
+            break
+    else:
+        return "its vertices are not on one sphere or ellipsoid"
+    if noise > 0.01:
+        return "it is too thin, or too small so far from the object's origin: float32 has rounded its shape away"
     if (np.bincount(mesh.loop_edges, minlength=mesh.edge_count) != 2).any():
         return "its vertices are on a sphere, but its surface is not closed"
-    heights = ((corners - centre) * areas).sum(axis=1)
-    if (np.abs(heights) < MIN_INRADIUS * radius * np.linalg.norm(areas, axis=1)).any():
+    corners, areas = _faces(mesh, ball)
+    heights = (corners * areas).sum(axis=1)
+    if (np.abs(heights) < MIN_INRADIUS * np.linalg.norm(areas, axis=1)).any():
         return "its vertices are on a sphere, but its faces cut deep into it, as a box's or a cylinder's do"
-    if abs(heights.sum() / 3) < MIN_INRADIUS**3 * (4 / 3 * np.pi) * radius**3:
+    if abs(heights.sum() / 3) < MIN_INRADIUS**3 * (4 / 3 * np.pi):
         return "its vertices are on a sphere, but its faces do not go round it once, all facing outwards"
-    return SPHERE, centre, radius * np.eye(3), spread
+    reach = distances.max() if spread <= SPHERE_TOLERANCE else distances.mean()
+    return SPHERE, centre, axes * reach, spread * np.abs(axes).max()
 
 
-def _parallelogram(mesh, vertices, loop_ends, total, area, rounding):
+def _least_squares(terms, values):
+    """Return the solution of the normal equations: the terms are scaled and centred, which keeps them well posed."""
+    return np.linalg.lstsq(terms.T @ terms, terms.T @ values, rcond=None)[0]
+
+
+def _fitted_sphere(vertices):
+    """Return centre and radius times the identity, by linear least squares on 2 c.v + k = v.v."""
+    squares = (vertices * vertices).sum(axis=1)
+    *centre, k = _least_squares(np.c_[2 * vertices, np.ones(len(vertices))], squares)
+    return np.array(centre), np.sqrt(np.dot(centre, centre) + k) * np.eye(3)
+
+
+def _fitted_ellipsoid(vertices):
+    """Return centre and axes by linear least squares on v.Q v + 2 b.v = 1; the axes are None unless Q is positive."""
+    sides = np.ptp(vertices, axis=0) / 2
+    x, y, z = (vertices / sides).T
+    terms = np.column_stack([x * x, y * y, z * z, 2 * y * z, 2 * x * z, 2 * x * y, 2 * x, 2 * y, 2 * z])
+    xx, yy, zz, yz, xz, xy, *b = _least_squares(terms, np.ones(len(x)))
+    values, vectors = np.linalg.eigh([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+    if values[0] <= 1e-6 * values[2]:
+        return None, None
+    centre = -vectors @ (vectors.T @ b / values)
+    root = vectors / np.sqrt(values) @ vectors.T
+    return sides * centre, sides[:, None] * root * np.sqrt(1 - np.dot(centre, b))
+
+
+def _parallelogram(mesh, vertices, total, area, rounding):
     """Return the parallelogram that a flat mesh fills: its outline has four corners, and it neither folds nor laps."""
     normal = total / np.linalg.norm(total)
     if np.ptp(vertices @ normal) > rounding:
         return "it is nearly a plane, but not flat"
+    loop_ends = mesh.loop_vertices[_following(mesh)]
     # An edge between two faces is passed once in each direction; what is left over is the outline.
     ahead = mesh.loop_vertices < loop_ends
     net = np.bincount(mesh.loop_edges, np.where(ahead, 1, -1), mesh.edge_count)[mesh.loop_edges]
