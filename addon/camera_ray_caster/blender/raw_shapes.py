@@ -17,6 +17,7 @@ NO_SURFACE = frozenset(
 """Object types to pass over. The surface of curves, texts and metaballs is listed apart, as a mesh of their object."""
 
 HIDDEN = "it is hidden in the viewport, so that Blender evaluates it only in a render: show it, or render (F12)"
+HAIR = "its hair {!r} is neither sphere nor plane"
 SINGULAR = "its size is zero in some direction, or not finite: clear its scale (Alt S) or apply it"
 
 
@@ -47,19 +48,23 @@ def shapes_record(depsgraph) -> Shapes:
     visibility = Visibility(depsgraph)
     groups: dict[tuple, _Group] = {}
     found: dict[tuple, tuple[Primitive | None, str]] = {}
+    left_out: Counter[tuple[str, str]] = Counter()
     listed = set()
     for instance in depsgraph.object_instances:
         item = instance.object  # for an instance, a stand-in that the next one overwrites
         source, owner, data = instance.instance_object or item, instance.parent, item.data
-        key = source.as_pointer(), owner and owner.as_pointer(), data and data.as_pointer(), instance.is_instance
+        key = source.as_pointer(), owner and owner.as_pointer(), data and data.as_pointer()
         group = groups.get(key)
         if group is None:
             group = groups[key] = _group(instance, visibility, found)
-            if not instance.is_instance:
+            if owner is None:
                 listed.add(item.original)
+                left_out.update((group.name, HAIR.format(name)) for name in visibility.strands(item))
         matrix = instance.matrix_world
         group.matrices.append((*matrix[0], *matrix[1], *matrix[2]))
-    left_out = Counter({(group.name, group.reason): len(group.matrices) for group in groups.values() if group.reason})
+    for group in groups.values():
+        if group.reason:
+            left_out[group.name, group.reason] += len(group.matrices)
     for item in visibility.unlisted(listed):
         if item.type not in NO_SURFACE or item.instance_type == "COLLECTION":
             left_out[item.name, HIDDEN] += 1

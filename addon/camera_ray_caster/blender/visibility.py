@@ -23,11 +23,14 @@ class Visibility:
         if not instance.is_instance:
             return instance.object.original in self.rendered and _shows_itself(instance.object)
         source, owner = original_source(instance), instance.parent.original
-        if owner not in self.rendered or owner.instance_type == "NONE" or instance.particle_system:
-            return owner in self.rendered
+        if owner not in self.rendered:
+            return False
         if owner.instance_type == "COLLECTION":
-            return source in set(_of_collection(owner.instance_collection))
-        return not source.hide_render
+            collection = owner.instance_collection
+            return source in set(_of_collection(collection)) or source not in set(
+                _of_collection(collection, every=True)
+            )
+        return owner.instance_type == "NONE" or not source.hide_render
 
     def objection(self, instance) -> str:
         """Return in words why the camera does not see what a render shows otherwise; "" if it does."""
@@ -42,6 +45,11 @@ class Visibility:
         """Return whether it cuts a hole into the picture instead of showing itself."""
         objects = _involved(instance)
         return any(item.is_holdout for item in objects) or objects[-1].holdout_get(view_layer=self.layer)
+
+    def strands(self, item) -> list[str]:
+        """Return the names of the particle systems whose hair a render draws on an evaluated object."""
+        systems = () if self.in_viewport and item.original not in self.rendered else item.particle_systems
+        return [one.name for one in systems if one.settings.type == "HAIR" and one.settings.render_type == "PATH"]
 
     def unlisted(self, listed: set) -> list:
         """Return the objects that a render shows and the viewport has not evaluated, by name."""
@@ -77,14 +85,14 @@ def _of_layer(layer) -> Iterator:
         yield from _of_layer(child)
 
 
-def _of_collection(collection) -> Iterator:
-    """Yield the objects that a render shows of an instanced collection, through those that it instances itself."""
-    if collection.hide_render:
+def _of_collection(collection, every: bool = False) -> Iterator:
+    """Yield the objects of an instanced collection and of those that it instances itself: every, or what renders."""
+    if collection.hide_render and not every:
         return
     for item in collection.objects:
-        if not item.hide_render:
+        if every or not item.hide_render:
             yield item
             if item.instance_type == "COLLECTION" and item.instance_collection is not None:
-                yield from _of_collection(item.instance_collection)
+                yield from _of_collection(item.instance_collection, every)
     for child in collection.children:
-        yield from _of_collection(child)
+        yield from _of_collection(child, every)
