@@ -100,6 +100,17 @@ FAULTS = (
     shear_normalised_away,
 )
 
+CASES = [
+    (kind, fault)
+    for kind in ("PERSP", "ORTHO")
+    for fault in FAULTS
+    if kind == "PERSP" or fault is not sensor_height_in_portrait  # parallel rays know no sensor
+]
+"""Each fault with the types of camera that can have it."""
+
+BETWEEN_THE_CORNERS = (edges_for_centres, percentage_rounded)
+"""Faults that leave the rays through the full frame's corners as they are, or move them little."""
+
 HARD = {
     "resolution_x": 683,
     "resolution_y": 1001,

@@ -4,6 +4,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any
 
+import bpy  # noqa: F401 (it brings the two below)
 import numpy as np
 from bpy_extras.object_utils import world_to_camera_view
 from mathutils import Vector
