@@ -1,6 +1,7 @@
 """Blender's panoramas: facts of hand geometry, the inverse, what has no ray, where a sphere can be seen, refusals."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -8,26 +9,9 @@ import pytest
 from camera_ray_caster.core.cameras import camera_from
 from camera_ray_caster.core.records import BlenderCamera, InputError
 
+from .model_examples import ONLY_SOME, camera
+
 PI = math.pi
-DEFAULTS = {
-    "fisheye_fov": PI,
-    "fisheye_lens": 10.5,
-    "latitude_min": -PI / 2,
-    "latitude_max": PI / 2,
-    "longitude_min": -PI,
-    "longitude_max": PI,
-    "fisheye_polynomial_k0": 0.0,
-    "fisheye_polynomial_k1": -0.05,
-    "fisheye_polynomial_k2": 0.0,
-    "fisheye_polynomial_k3": 0.0,
-    "fisheye_polynomial_k4": 0.0,
-    "central_cylindrical_range_u_min": -PI,
-    "central_cylindrical_range_u_max": PI,
-    "central_cylindrical_range_v_min": -1.0,
-    "central_cylindrical_range_v_max": 1.0,
-    "central_cylindrical_radius": 1.0,
-}
-FIELDS = {name for name in BlenderCamera.__dataclass_fields__}
 
 
 def polynomial(*k, **changes):
@@ -70,17 +54,11 @@ each_case = pytest.mark.parametrize("case", CASES)
 
 
 def camera_of(key, width=36, height=24, **changes):
-    """A camera at the origin, looking along -Z, of Blender's defaults but for what changes."""
-    fields = {name: value for name, value in changes.items() if name in FIELDS}
-    settings = {**DEFAULTS, **{name: value for name, value in changes.items() if name not in FIELDS}}
-    settings["panorama_type"] = key
-    return camera_from(
-        BlenderCamera("c", "PANO", np.eye(4), resolution_x=width, resolution_y=height, settings=settings, **fields)
-    )
+    return camera(key, {"resolution_x": width, "resolution_y": height, "fisheye_polynomial_k1": -0.05, **changes})
 
 
-def ray(camera, x, y):
-    return camera.rays_at(x, y).directions
+def ray(cam, x, y):
+    return cam.rays_at(x, y).directions
 
 
 def on_sphere(longitude, latitude):
@@ -118,16 +96,16 @@ def test_equirectangular_is_a_grid_of_degrees(x, y, longitude, latitude):
     ],
 )
 def test_radius_tells_the_angle_and_azimuth_is_kept(key, radius, angle, azimuth):
-    camera = camera_of(key, 36, 36)
+    cam = camera_of(key, 36, 36)
     r = radius(math.radians(angle)) * (1 - 1e-15)  # 90 degrees is the rim of three of them
     x, y = 18 + r * math.cos(math.radians(azimuth)), 18 + r * math.sin(math.radians(azimuth))
-    np.testing.assert_allclose(ray(camera, x, y), from_axis(angle, azimuth), **NEAR)
+    np.testing.assert_allclose(ray(cam, x, y), from_axis(angle, azimuth), **NEAR)
 
 
 def test_mirror_ball_reflects():
-    camera = camera_of("MIRRORBALL", 20, 20)
-    seen = camera.rays()
-    x, y = np.broadcast_arrays((camera.raster.columns() - 10) / 10, (camera.raster.rows() - 10) / 10)
+    cam = camera_of("MIRRORBALL", 20, 20)
+    seen = cam.rays()
+    x, y = np.broadcast_arrays((cam.raster.columns() - 10) / 10, (cam.raster.rows() - 10) / 10)
     with np.errstate(invalid="ignore"):
         normal = np.stack((x, y, -np.sqrt(1 - x * x - y * y)), axis=-1)
     incoming = np.array([0.0, 0.0, 1.0])
@@ -137,24 +115,24 @@ def test_mirror_ball_reflects():
 
 
 def test_a_squeezed_fisheye_is_an_ellipse():
-    camera = camera_of("FISHEYE_EQUIDISTANT", 40, 10)
-    np.testing.assert_allclose(ray(camera, 40, 5), [1, 0, 0], **NEAR)
-    np.testing.assert_allclose(ray(camera, 20, 10), [0, 1, 0], **NEAR)
+    cam = camera_of("FISHEYE_EQUIDISTANT", 40, 10)
+    np.testing.assert_allclose(ray(cam, 40, 5), [1, 0, 0], **NEAR)
+    np.testing.assert_allclose(ray(cam, 20, 10), [0, 1, 0], **NEAR)
 
 
 def test_cube_face_is_even_in_angle():
-    camera = camera_of("EQUIANGULAR_CUBEMAP_FACE", 90, 90)
+    cam = camera_of("EQUIANGULAR_CUBEMAP_FACE", 90, 90)
     for degrees in (0, 30, 45):
-        direction = ray(camera, 45 + degrees, 45)
+        direction = ray(cam, 45 + degrees, 45)
         np.testing.assert_allclose(direction, from_axis(degrees, 0), **NEAR)
-    np.testing.assert_allclose(ray(camera, 90, 0), np.array([1, -1, -1]) / math.sqrt(3), **NEAR)
+    np.testing.assert_allclose(ray(cam, 90, 0), np.array([1, -1, -1]) / math.sqrt(3), **NEAR)
 
 
 def test_cylinder_is_even_in_longitude_and_in_the_tangent_of_latitude():
-    camera = camera_of("CENTRAL_CYLINDRICAL", 36, 20)
-    np.testing.assert_allclose(ray(camera, 18, 20), on_sphere(0, 45), **NEAR)
-    np.testing.assert_allclose(ray(camera, 27, 0), on_sphere(90, -45), **NEAR)
-    np.testing.assert_allclose(ray(camera, 21, 10 + 10 * math.tan(PI / 6)), on_sphere(30, 30), **NEAR)
+    cam = camera_of("CENTRAL_CYLINDRICAL", 36, 20)
+    np.testing.assert_allclose(ray(cam, 18, 20), on_sphere(0, 45), **NEAR)
+    np.testing.assert_allclose(ray(cam, 27, 0), on_sphere(90, -45), **NEAR)
+    np.testing.assert_allclose(ray(cam, 21, 10 + 10 * math.tan(PI / 6)), on_sphere(30, 30), **NEAR)
 
 
 @pytest.mark.parametrize("key", sorted({key for key, _ in CASES.values()}))
@@ -166,74 +144,74 @@ def test_shift_moves_by_fractions_of_each_side_of_the_frame(key):
 
 @pytest.mark.parametrize("fov", [2.5 * PI, 10 * PI])
 def test_a_fisheye_wider_than_a_turn_goes_around_and_its_inverse_takes_the_nearest_to_the_axis(fov):
-    camera = camera_of("FISHEYE_EQUIDISTANT", 200, 200, fisheye_fov=fov)
+    cam = camera_of("FISHEYE_EQUIDISTANT", 200, 200, fisheye_fov=fov)
     turn = 200 * PI / fov * 2  # pixels from the axis to the axis again, 360 degrees on
-    np.testing.assert_allclose(ray(camera, 100 + turn / 4, 100), [1, 0, 0], atol=1e-14)
-    np.testing.assert_allclose(ray(camera, 100 - turn / 2 - 1e-9, 100), [0, 0, 1], atol=1e-9)
+    np.testing.assert_allclose(ray(cam, 100 + turn / 4, 100), [1, 0, 0], atol=1e-14)
+    np.testing.assert_allclose(ray(cam, 100 - turn / 2 - 1e-9, 100), [0, 0, 1], atol=1e-9)
     if turn < 100:
-        np.testing.assert_allclose(ray(camera, 100 + turn, 100), [0, 0, -1], atol=1e-14)
-    np.testing.assert_allclose(camera.project([[1.0, 0, 0]]), [[100 + turn / 4, 100]], rtol=1e-14)
+        np.testing.assert_allclose(ray(cam, 100 + turn, 100), [0, 0, -1], atol=1e-14)
+    np.testing.assert_allclose(cam.project([[1.0, 0, 0]]), [[100 + turn / 4, 100]], rtol=1e-14)
 
 
 @each_case
 def test_pixel_to_ray_to_pixel_and_point_to_pixel_to_ray(case):
     key, changes = CASES[case]
-    camera = camera_of(key, **changes)
-    rays = camera.rays()
+    cam = camera_of(key, **changes)
+    rays = cam.rays()
     assert rays.valid.any()
     np.testing.assert_allclose(np.linalg.norm(rays.directions[rays.valid], axis=-1), 1, rtol=0, atol=1e-15)
     assert (np.isnan(rays.directions).any(axis=-1) == ~rays.valid).all()
     assert (np.isnan(rays.directions).all(axis=-1) == ~rays.valid).all()
-    back = camera.project(7.0 * rays.directions)
-    pixels = np.stack(np.broadcast_arrays(camera.raster.columns(), camera.raster.rows()), axis=-1)
+    back = cam.project(7.0 * rays.directions)
+    pixels = np.stack(np.broadcast_arrays(cam.raster.columns(), cam.raster.rows()), axis=-1)
     if case not in FOLDED:
         np.testing.assert_allclose(back[rays.valid], pixels[rays.valid], rtol=0, atol=1e-9)
     points = np.random.default_rng(1).normal(size=(500, 3))
-    where = camera.project(points)
+    where = cam.project(points)
     seen = ~np.isnan(where).any(axis=-1)
     assert seen.any()
     towards = points / np.linalg.norm(points, axis=-1, keepdims=True)
-    found = ray(camera, where[seen, 0], where[seen, 1])
+    found = ray(cam, where[seen, 0], where[seen, 1])
     np.testing.assert_allclose(found, towards[seen], rtol=0, atol=1e-13)
 
 
 @each_case
 def test_a_great_circle_stays_on_its_plane(case):
     key, changes = CASES[case]
-    camera = camera_of(key, **changes)
+    cam = camera_of(key, **changes)
     normal, along = np.array([6.0, -3.0, 2.0]) / 7, np.array([1.0, 2.0, 0.0]) / math.sqrt(5)
     angle = np.linspace(0, 2 * PI, 400)[:, None] + 0.1  # the horizon, where some rims are, lies between two points
-    pixels = camera.project(np.cos(angle) * along + np.sin(angle) * np.cross(normal, along))
+    pixels = cam.project(np.cos(angle) * along + np.sin(angle) * np.cross(normal, along))
     pixels = pixels[~np.isnan(pixels).any(axis=-1)]
     assert len(pixels)
-    assert np.abs(ray(camera, pixels[:, 0], pixels[:, 1]) @ normal).max() < 1e-13
+    assert np.abs(ray(cam, pixels[:, 0], pixels[:, 1]) @ normal).max() < 1e-13
 
 
 @each_case
 def test_the_point_behind_a_rim_and_the_eye_have_no_pixel_or_one_that_sees_them(case):
     key, changes = CASES[case]
-    camera = camera_of(key, **changes)
+    cam = camera_of(key, **changes)
     points = np.array([[0.0, 0, 0], [0, 0, 1], [0, 0, -1], [0, 1, 0], [0, -1, 0], [1, 0, 0], [-1, 0, 0]])
-    pixels = camera.project(points)
+    pixels = cam.project(points)
     assert np.isnan(pixels[0]).all()
     seen = ~np.isnan(pixels).any(axis=-1)
-    np.testing.assert_allclose(ray(camera, *pixels[seen].T), points[seen], rtol=0, atol=1e-13)
+    np.testing.assert_allclose(ray(cam, *pixels[seen].T), points[seen], rtol=0, atol=1e-13)
 
 
 @each_case
 def test_no_pixel_outside_of_its_bounds_sees_a_sphere(case):
     key, changes = CASES[case]
-    camera = camera_of(key, **changes)
+    cam = camera_of(key, **changes)
     random = np.random.default_rng(2)
     centres = random.normal(size=(300, 3))
     centres[:40, 2] = -np.abs(centres[:40, 2])
     centres[:5, :2] = 0
     centres[5:8, ::2] = 0
     radii = random.uniform(0.01, 1.2, 300) * np.linalg.norm(centres, axis=-1) ** 2
-    bounds = camera.model.bounds(centres, radii)
+    bounds = cam.model.bounds(centres, radii)
     assert bounds.shape == (300, 4)
-    rays = camera.rays()
-    x, y = np.broadcast_arrays(camera.raster.columns(), camera.raster.rows())
+    rays = cam.rays()
+    x, y = np.broadcast_arrays(cam.raster.columns(), cam.raster.rows())
     hidden = 0
     for centre, radius, (x0, x1, y0, y1) in zip(centres, radii, bounds, strict=True):
         off_axis = np.linalg.norm(np.cross(rays.directions, centre), axis=-1)
@@ -246,13 +224,13 @@ def test_no_pixel_outside_of_its_bounds_sees_a_sphere(case):
 
 
 def test_bounds_touch_the_silhouette():
-    camera = camera_of("FISHEYE_EQUIDISTANT", 1800, 1800)
+    cam = camera_of("FISHEYE_EQUIDISTANT", 1800, 1800)
     # a disc of 10 degrees, 45 degrees to the right: 10 pixels a degree, and as wide in azimuth as asin(sin 10 / sin 45)
-    bounds = camera.model.bounds(np.array([[1.0, 0, -1]]), np.array([math.sqrt(2) * math.sin(math.radians(10))]))
+    bounds = cam.model.bounds(np.array([[1.0, 0, -1]]), np.array([math.sqrt(2) * math.sin(math.radians(10))]))
     half = 550 * math.sin(math.radians(10)) / math.sin(math.radians(45))
     np.testing.assert_allclose(bounds, [[899 + 350 * math.sqrt(1 - (half / 550) ** 2), 1451, 899 - half, 901 + half]])
-    camera = camera_of("EQUIRECTANGULAR", 360, 180)
-    bounds = camera.model.bounds(np.array([[0, 1.0, -1]]), np.array([math.sqrt(2) * math.sin(math.radians(30))]))
+    cam = camera_of("EQUIRECTANGULAR", 360, 180)
+    bounds = cam.model.bounds(np.array([[0, 1.0, -1]]), np.array([math.sqrt(2) * math.sin(math.radians(30))]))
     np.testing.assert_allclose(bounds, [[180 - 45 - 1, 180 + 45 + 1, 135 - 30 - 1, 135 + 30 + 1]])
 
 
@@ -271,12 +249,10 @@ def test_nothing_is_seen_of_what_lies_outside_the_field_of_view():
 @pytest.mark.parametrize(
     ("key", "changes", "says"),
     [
-        ("CUSTOM", {}, "OSL"),
-        ("PINHOLE", {}, "PERSP, ORTHO, EQUIRECTANGULAR"),
         (
             "FISHEYE_EQUIDISTANT",
             {"fisheye_fov": 0.0},
-            "fisheye_fov of camera 'c' is 0 degrees: it must be above 0",
+            "fisheye_fov of camera 'Camera' is 0 degrees: it must be above 0",
         ),
         ("FISHEYE_EQUIDISTANT", {"fisheye_fov": 40.0}, "up to 1800 degrees"),
         ("FISHEYE_EQUISOLID", {"fisheye_lens": -1.0}, "fisheye_lens"),
@@ -295,13 +271,21 @@ def test_what_has_no_meaning_is_refused_by_name(key, changes, says):
     assert "\n" not in str(refusal.value)
 
 
+def test_a_panorama_is_of_its_panorama_type_and_another_model_may_be_chosen():
+    raw = BlenderCamera("c", "PANO", np.eye(4), settings={**ONLY_SOME, "panorama_type": "MIRRORBALL"})
+    assert camera_from(raw).model.key == "MIRRORBALL"
+    assert camera_from(replace(raw, model="ORTHO")).model.key == "ORTHO"
+    with pytest.raises(InputError, match="OSL"):
+        camera_from(replace(raw, type="CUSTOM"))
+
+
 def test_a_polynomial_may_turn_back_where_nothing_is_seen():
     # it turns at 8.33 mm, where theta is 0.2083, and comes down to -0.1 at the corner of a sensor that is small enough
-    camera = camera_of(
+    cam = camera_of(
         "FISHEYE_LENS_POLYNOMIAL", fisheye_polynomial_k2=0.003, fisheye_fov=0.2, sensor_width=36 * 10 / 21.7
     )
-    rays = camera.rays()
+    rays = cam.rays()
     assert rays.valid.any()
     assert not rays.valid.all()
-    pixels = camera.project(rays.directions)[rays.valid]
-    np.testing.assert_allclose(ray(camera, *pixels.T), rays.directions[rays.valid], rtol=0, atol=1e-14)
+    pixels = cam.project(rays.directions)[rays.valid]
+    np.testing.assert_allclose(ray(cam, *pixels.T), rays.directions[rays.valid], rtol=0, atol=1e-14)
