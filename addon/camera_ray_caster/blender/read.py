@@ -50,7 +50,8 @@ def evaluated(scene, frame=None, camera_object=None):
         if frame is not None:
             scene.frame_set(math.floor(frame), subframe=frame - math.floor(frame))
         if camera_object is not None and camera_object != scene.camera:
-            scene.camera = camera_object  # a camera that is hidden is evaluated only while it is the active one
+            scene.camera = camera_object  # a camera that is hidden is evaluated only while it is the active one,
+            scene.frame_current = scene.frame_current  # and animated only when the time is told to it
         layer.update()
         yield layer.depsgraph
     finally:
