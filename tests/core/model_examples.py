@@ -22,6 +22,7 @@ ONLY_SOME = {
     "central_cylindrical_range_u_min": -pi, "central_cylindrical_range_u_max": pi,
     "central_cylindrical_range_v_min": -1.0, "central_cylindrical_range_v_max": 1.0,
     "central_cylindrical_radius": 1.0,
+    "obscura_depth": 2.0, "obscura_width": 3.0, "obscura_hole": 0.01,
 }  # fmt: skip
 DEFAULTS = {"resolution_x": 96, "resolution_y": 54, "matrix_world": IDENTITY}
 PORTRAIT = {"resolution_x": 54, "resolution_y": 96, "shift_x": 0.3, "shift_y": -0.2, "matrix_world": TURNED}
@@ -50,6 +51,7 @@ EXAMPLES = {
         BORDER | {"fisheye_polynomial_k0": 1e-3, "fisheye_polynomial_k3": -1e-5},
     ],
     "CENTRAL_CYLINDRICAL": [{}, SHIFTED, BORDER, {"central_cylindrical_radius": 0.2, "shift_y": 0.4}],
+    "CAMERA_OBSCURA": [{}, PORTRAIT, WIDE_PIXELS, BORDER | {"obscura_depth": 0.1}],
 }
 """Cameras for the contract; where a model is singular is its docstring's to say, and not in these pictures."""
 
@@ -115,6 +117,12 @@ FACTS = {
         ({}, (48, 54), (0, 0, 0), (0, 1, -1)),
         ({"central_cylindrical_radius": 0.5}, (48, 54), (0, 0, 0), (0, 2, -1)),
     ],
+    "CAMERA_OBSCURA": [
+        # a wall 3 wide, 2 behind the hole: its right edge sees what is left, its top what is below
+        ({}, (48, 27), (0, 0, 0), (0, 0, -1)),
+        ({}, (96, 27), (0, 0, 0), (-1.5, 0, -2)),
+        ({}, (48, 54), (0, 0, 0), (0, -1.5 * 54 / 96, -2)),
+    ],
 }
 """What geometry by hand says: settings, pixel coordinates, the ray's origin and direction (of any length) there."""
 
@@ -128,6 +136,7 @@ UNSEEN = {
     "FISHEYE_EQUISOLID": [(0, 0, 0), (0, 0, 1), (3, 0, 0.1)],
     "FISHEYE_LENS_POLYNOMIAL": [(0, 0, 0), (0, 0, 1), (3, 0, 0.1)],
     "CENTRAL_CYLINDRICAL": [(0, 0, 0), (0, 1, 0), (0, -2, 0)],
+    "CAMERA_OBSCURA": [(0, 0, 0), (1, 2, 0), (0, 0, 1)],
 }
 """Points in the camera's frame that have no pixel."""
 
@@ -149,6 +158,7 @@ REFUSED = {
         ({"central_cylindrical_radius": 0.0}, "central_cylindrical_radius"),
         ({"central_cylindrical_range_v_min": 1.0}, "central_cylindrical_range_v"),
     ],
+    "CAMERA_OBSCURA": [({"obscura_hole": 0.0}, "obscura_hole"), ({"obscura_depth": -1.0}, "obscura_depth")],
 }
 """Settings without meaning, and the word of the error that names them."""
 

@@ -15,12 +15,16 @@ SOURCES = [*MODULES, *sorted((ROOT / "scripts").glob("*.py")), *sorted((ROOT / "
 
 # What a part of the package may import of the package: the longest name that fits counts. The lowest layer comes first.
 LOW = {"core.conventions", "core.records", "core.vector"}
+RAYS = LOW | {"core.aperture", "core.clock", "core.sampling"}
 MAY_IMPORT = {
     "core.conventions": set(),
     "core.records": {"core.conventions"},
     "core.vector": {"core.conventions"},
-    "core.camera": LOW,
-    "core.cameras": LOW | {"core.camera", "core.cameras"},
+    "core.sampling": set(),
+    "core.aperture": LOW,
+    "core.clock": LOW,
+    "core.camera": RAYS,
+    "core.cameras": RAYS | {"core.camera", "core.cameras"},
     "core.shapes": LOW | {"core.shapes"},
     "core.verify": LOW,  # a witness that knew a camera model's formula would be no witness
     "core": {"core"},

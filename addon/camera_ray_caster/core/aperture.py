@@ -15,6 +15,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .records import BlenderCamera, InputError, Pose
 from .vector import along, cross, difference, unit
 
 
@@ -78,3 +79,27 @@ class Aperture:
         widest = max(self.radius, self.radius / self.ratio)
         ends = np.abs(1 - (distance - radius) / self.focus), np.abs(1 - (distance + radius) / self.focus)
         return widest * np.maximum(1.0, np.maximum(*ends))
+
+
+SMALLEST = 1e-5
+"""Blender's floor under f-stop and focus distance."""
+
+
+def lens_from(raw: BlenderCamera, pose: Pose, parallel: bool) -> Aperture | None:
+    """Return the thin lens of a camera's depth of field; None where that is off.
+
+    The radius is the lens in metres over twice the f-stop; 1 / (2 f-stop) where rays are ``parallel``. A focus object
+    counts by its depth. InputError for an aperture ratio that is not positive.
+    """
+    settings = raw.settings
+    if not settings.get("use_dof"):
+        return None
+    ratio, blades = float(settings["aperture_ratio"]), int(settings["aperture_blades"])
+    if not 0 < ratio < np.inf:
+        raise InputError(f"aperture_ratio of camera {raw.name!r} is {ratio}: it must be positive")
+    focus = float(settings["focus_distance"])
+    if settings["focus_position"] is not None:
+        focus = abs(float((np.asarray(settings["focus_position"]) - pose.eye) @ pose.basis[:, 2]))
+    size = 1.0 if parallel else raw.lens * 1e-3
+    radius = size / (2 * max(float(settings["aperture_fstop"]), SMALLEST))
+    return Aperture(radius, max(focus, SMALLEST), blades, float(settings["aperture_rotation"]), ratio)

@@ -76,10 +76,12 @@ def cast(
         images[name] = np.empty((height, width, kind.channels)[: 3 if kind.channels else 2], kind.dtype or dtype)
     sampled = ("combined",) if samples > 1 and "combined" in passes else ()
     chief = tuple(name for name in whole.passes if name not in sampled)
-    plans = {}
+    plans: dict[bool, Plan] = {}
     if camera.clock is None:
         tiles = list(_bands(camera, shapes))
-        plans = {False: whole, True: make_plan(*middle, passes, known, shading, cull, sampled=True) if sampled else None}
+        plans[False] = whole
+        if sampled:
+            plans[True] = make_plan(*middle, passes, known, shading, cull, sampled=True)
     else:
         tiles = list(_moments(camera, shapes))
     images.plan = whole

@@ -11,6 +11,7 @@ ray is in the middle of its row's.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
@@ -109,7 +110,7 @@ def meeting(clock: Clock, project, steps: int = 64) -> np.ndarray:
     margin = (abs(clock.per_column) + abs(clock.per_row)) / 2  # half a pixel: centres to edges
     frames = np.linspace(clock.first - margin, clock.last + margin, steps + 1)
     lates = [late(frame) for frame in frames]
-    for a, b, at_a, at_b in zip(frames, frames[1:], lates, lates[1:], strict=False):
+    for (a, at_a), (b, at_b) in pairwise(zip(frames, lates, strict=True)):
         if at_a == 0:
             return project(a)
         if at_a * at_b < 0:

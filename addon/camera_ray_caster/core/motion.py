@@ -10,6 +10,7 @@ from __future__ import annotations
 from bisect import bisect_right
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 
@@ -78,7 +79,7 @@ def resolve(
 
     whole = np.arange(np.floor(first) + 1, np.ceil(last)).tolist()
     ends = [first, *(whole if len(whole) <= most // 4 else []), last] if last > first else [first]
-    waiting = [(a, b) for a, b in zip(ends, ends[1:], strict=False)]
+    waiting = list(pairwise(ends))
     for frame in ends:
         at(frame)
     unresolved, estimated = [], 0.0

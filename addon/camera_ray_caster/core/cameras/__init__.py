@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from ..aperture import Aperture, lens_from
 from ..camera import Camera, pose_from
-from ..records import BlenderCamera, InputError
+from ..clock import clock_from
+from ..records import BlenderCamera, InputError, Pose
+from .camera_obscura import CameraObscura
 from .central_cylindrical import CentralCylindrical
 from .cubemap_face import CubemapFace
 from .equirectangular import Equirectangular
@@ -18,7 +21,7 @@ from .perspective import Perspective
 MODELS = (
     Perspective, Orthographic,
     Equirectangular, CubemapFace, Mirrorball, FisheyeEquidistant, FisheyeEquisolid, FisheyePolynomial,
-    CentralCylindrical,
+    CentralCylindrical, CameraObscura,
 )  # fmt: skip
 """Every model. ``key`` is Blender's camera or panorama type, or the name of a model that Blender does not have."""
 
@@ -40,5 +43,14 @@ def camera_from(raw: BlenderCamera) -> Camera:
     raster = raster_from(raw)
     if not 0 <= raw.clip_start < raw.clip_end:
         raise InputError(f"clip start {raw.clip_start}, clip end {raw.clip_end} of camera {raw.name!r} leave no depth")
-    model = models[key].from_blender(raw, raster)
-    return Camera(raw.name, model, pose_from(raw), raster, raw.clip_start, raw.clip_end)
+    model, pose = models[key].from_blender(raw, raster), pose_from(raw)
+    clip = raw.clip_start, raw.clip_end
+    return Camera(raw.name, model, pose, raster, *clip, _aperture(raw, model, pose), clock_from(raw, raster))
+
+
+def _aperture(raw: BlenderCamera, model, pose: Pose) -> Aperture | None:
+    """Return what lets in rays beside the chief rays. Where these have no common eye nor direction, nothing does."""
+    if isinstance(model, CameraObscura):
+        return model.hole
+    parallel = isinstance(model, Orthographic)
+    return lens_from(raw, pose, parallel) if model.central or parallel else None
