@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..records import INFINITE_PLANE, Pose, Shapes
+from ..records import INFINITE_PLANE, PLANE, Pose, Shapes
 
 
 @dataclass(frozen=True)
@@ -21,7 +21,8 @@ class Placed:
     shape_from_camera: np.ndarray
     """(n, 3, 3)."""
     radius: np.ndarray
-    """(n,): of the bounding sphere in the camera frame; inf for infinite planes."""
+    """(n,): of a sphere about the centre that holds the shape, camera frame; inf for infinite planes. A parallelogram's
+    reaches its farther corners, an ellipsoid's has the root of the sum of the squared axes, which no skew exceeds."""
 
 
 def place(shapes: Shapes, pose: Pose) -> Placed:
@@ -32,7 +33,9 @@ def place(shapes: Shapes, pose: Pose) -> Placed:
     """
     camera_from_world = np.linalg.inv(pose.basis)
     axes = camera_from_world @ shapes.axes
-    radius = np.sqrt((axes * axes).sum(axis=(1, 2)))
+    squares = (axes * axes).sum(axis=1)
+    corner = np.sqrt(squares[:, 0] + squares[:, 1] + 2 * np.abs((axes[..., 0] * axes[..., 1]).sum(axis=1)))
+    radius = np.where(shapes.kind == PLANE, corner, np.sqrt(squares.sum(axis=1)))
     return Placed(
         centre=(shapes.centre - pose.eye) @ camera_from_world.T,
         shape_from_camera=inverse(shapes.axes) @ pose.basis,
