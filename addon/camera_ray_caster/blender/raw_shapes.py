@@ -90,9 +90,8 @@ def _group(instance, visibility, found) -> _Group:
 def _fill(group, instance, visibility, found) -> None:
     """Set what the geometry of an instance stands for, or why it cannot be cast."""
     item = instance.object
-    properties = getattr(
-        instance.instance_object or item, "camera_ray_caster", None
-    )  # None where nothing is registered
+    # The file's own: setting it evaluates nothing anew. None where nothing is registered.
+    properties = getattr(original_source(instance), "camera_ray_caster", None)
     setting = properties.primitive if properties else "AUTOMATIC"
     group.reason = "it is ignored by its own setting" if setting == "IGNORE" else visibility.objection(instance)
     if group.reason:

@@ -18,9 +18,9 @@ from .vector import cross
 SPHERE_TOLERANCE = 2e-5
 """Largest spread of the vertices' distances from the centre, over the radius.
 
-Blender tabulates the icosahedron with so few digits that ten of its twelve vertices lie 1.08e-5 short, while its UV
-spheres spread by 2.6e-6 at most (128 segments) and its finer ico spheres by 4e-7. What is only nearly a sphere, such as
-a cube under Subdivision Surface, spreads by 1e-3 and more."""
+Blender tabulates the icosahedron with so few digits that ten of its twelve vertices lie 1.08e-5 short. Its UV spheres,
+made by adding up small turns, spread by up to 6.7e-6 (of 6 to 256 segments, one of 200), its finer ico spheres by 4e-7.
+What is only nearly a sphere, such as a cube under Subdivision Surface, spreads by 1e-3 and more."""
 
 ROUNDING = 8 * EPS32
 """Allowance for float32, over the largest coordinate: a turn, a scale and an offset applied, in three dimensions."""
@@ -91,8 +91,8 @@ def _faces(mesh, vertices):
 def _ellipsoid(mesh, vertices, rounding):
     """Return the ellipsoid whose unit ball the mesh goes round once.
 
-    It reaches the farthest vertex, as the tabulated ones of the icosahedron fall short of the radius that the user
-    chose; where rounding scatters them more than that, it is the mean one.
+    Among the distances of its vertices the one in Z counts if there are vertices above and below the centre: Blender's
+    spheres have their poles there, exactly at the radius that the user chose. Otherwise it is their mean.
     """
     if not np.ptp(vertices, axis=0).all():
         return "it is neither flat nor round"
@@ -117,7 +117,8 @@ def _ellipsoid(mesh, vertices, rounding):
         return "its vertices are on a sphere, but its faces cut deep into it, as a box's or a cylinder's do"
     if abs(heights.sum() / 3) < MIN_INRADIUS**3 * (4 / 3 * np.pi):
         return "its vertices are on a sphere, but its faces do not go round it once, all facing outwards"
-    reach = distances.max() if spread <= SPHERE_TOLERANCE else distances.mean()
+    pole = np.ptp(ball[:, 2]) / 2
+    reach = pole if distances.min() <= pole <= distances.max() else distances.mean()
     return SPHERE, centre, axes * reach, spread * np.abs(axes).max()
 
 
