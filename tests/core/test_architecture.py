@@ -25,7 +25,8 @@ MAY_IMPORT = {
     "core.clock": LOW,
     "core.camera": RAYS,
     "core.cameras": RAYS | {"core.camera", "core.cameras"},
-    "core.shapes": LOW | {"core.shapes"},
+    "core.exact": set(),
+    "core.shapes": LOW | {"core.exact", "core.shapes"},
     "core.verify": LOW,  # a witness that knew a camera model's formula would be no witness
     "core": {"core"},
     "blender.witness": LOW,

@@ -112,7 +112,7 @@ class Surface:
         """The hit points in the shapes' frames, right to EPS (distance / size)."""
         shapes, pose = self.hits.plan.shapes, self.hits.plan.camera.pose
         offset = difference(self.select(self.hits.point), components(shapes.centre[self.rows] - pose.eye))
-        return matvec(rows(self.hits.plan.shape_from_world[self.rows]), offset)
+        return matvec(rows(self.hits.plan.placed.shape_from_world[self.rows]), offset)
 
     def select(self, vector):
         """Return the components of a tile at these pixels."""

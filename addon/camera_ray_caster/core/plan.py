@@ -14,7 +14,6 @@ from .records import SPHERE, InputError, Shapes
 from .shading import SHADINGS
 from .shapes import SHAPE_OF_KIND, Placed, place
 from .shapes.normals import NormalTable, normal_table
-from .shapes.placed import inverse
 
 BLOCK_PIXELS = 1 << 14
 """Pixels of a block, the unit of arithmetic: its float64 temporaries stay in a core's cache."""
@@ -66,12 +65,7 @@ class Plan:
     @cached_property
     def normals(self) -> NormalTable:
         """The constants of the normals, made when a pass first asks for them."""
-        return normal_table(self.shapes, self.camera.pose)
-
-    @cached_property
-    def shape_from_world(self) -> np.ndarray:
-        """(n, 3, 3), made when a pass first asks for it."""
-        return inverse(self.shapes.axes)
+        return normal_table(self.shapes, self.placed, self.camera.pose)
 
     @property
     def eye_outside(self) -> bool:

@@ -2,7 +2,8 @@
 
 With q(t) = t D - N: t = N_z / D_z, and inside is decided without that division: q_x = (N x D)_y / -D_z and
 q_y = (N x D)_x / D_z, so |(N x D)_y| <= |D_z| and |(N x D)_x| <= |D_z|. The cross product comes from constants of the
-shape for rays from the eye, so that edges are right to EPS (distance / size), however grazing the plane is.
+shape for rays from the eye, so that edges are right to EPS (distance / size), however grazing the plane is; and so does
+N_z, which is right to EPS of itself however near the plane's own plane the eye is (see placed).
 Reference: the ray-plane intersection of every textbook (Glassner, An Introduction to Ray Tracing, 1989, chapter 2).
 """
 
@@ -35,8 +36,7 @@ class View:
 
 def view(placed: Placed, at) -> View:
     """Return the constants of the planes in these rows."""
-    centre, matrix = placed.centre[at], placed.shape_from_camera[at]
-    offset = (matrix @ centre[..., None])[..., 0]
+    centre, matrix, offset = placed.centre[at], placed.shape_from_camera[at], placed.offset[at]
     sign = np.where(offset[..., 2] < 0, -1.0, 1.0)[..., None]  # q and -q are the same plane
     matrix, offset = matrix * sign[..., None], offset * sign
     x, y, z = (component[..., None] for component in components(offset))

@@ -7,7 +7,9 @@ With D the ray's direction there, |t D - N|^2 = 1 has a = |D|^2, b = n D_z, c = 
 
 the perpendicular form, whose error is EPS (distance / radius) where the textbook's is EPS (distance / radius)^2,
 so that a sphere is not lost far away, at the price of three products. The root nearest to an origin outside is
-c / (b + sqrt), the stable one, with c = (n - 1)(n + 1).
+c / (b + sqrt), the stable one; c is a constant of the sphere for rays from the eye, and right however near the surface
+is (see placed). D is scaled by a power of two to about 1, which rounds nothing, and t by the same afterwards: no size
+or distance from 1e-150 to 1e150 overflows.
 References: E. Haines et al., Precision Improvements for Ray/Sphere Intersection, Ray Tracing Gems (2019), chapter 7;
 D. Goldberg, What Every Computer Scientist Should Know About Floating-Point Arithmetic (1991), section 1.4.
 """
@@ -30,21 +32,27 @@ class View:
     """The constants of spheres as the eye sees them, one row a sphere."""
 
     matrix: np.ndarray
-    """(n, 3, 3): camera direction to D, turned so that the eye sees the centre along its z axis."""
+    """(n, 3, 3): camera direction to D, scaled, turned so that the eye sees the centre along its z axis."""
+    scale: np.ndarray
+    """(n,): the power of two that D is scaled by."""
     centre: np.ndarray
     """(n, 3) camera frame."""
     distance: np.ndarray
     """(n,): n, from the eye to the centre in radii."""
     outside: np.ndarray
     """(n,): c = n^2 - 1, positive where the eye is outside."""
+    near: np.ndarray
+    """(n,): scale c."""
 
 
 def view(placed: Placed, at) -> View:
     """Return the constants of the spheres in these rows."""
-    centre, matrix = placed.centre[at], placed.shape_from_camera[at]
-    offset = (matrix @ centre[..., None])[..., 0]
+    offset, outside, matrix = placed.offset[at], placed.outside[at], placed.shape_from_camera[at]
     distance = np.sqrt((offset * offset).sum(axis=-1))
-    return View(_towards(offset, distance) @ matrix, centre, distance, (distance - 1) * (distance + 1))
+    power = -np.frexp(np.abs(matrix).max(axis=(1, 2)))[1]
+    matrix = _towards(offset, distance) @ np.ldexp(matrix, power[:, None, None])
+    scale = np.ldexp(1.0, power)
+    return View(matrix, scale, placed.centre[at], distance, outside, scale * outside)
 
 
 def _towards(vectors, length):
@@ -78,7 +86,7 @@ def intersect(sphere: View, kind: int, origin, direction, start: float | None, s
         c = sphere.outside
         discriminant = d[2] * d[2] - c * (d[0] * d[0] + d[1] * d[1])
     else:
-        n = matvec(rows(sphere.matrix), difference(components(sphere.centre), origin))
+        n = matvec(rows(sphere.matrix / sphere.scale[..., None, None]), difference(components(sphere.centre), origin))
         n_cross_d = cross(n, d)
         distance = norm(n)
         b = dot(n, d)
@@ -86,16 +94,16 @@ def intersect(sphere: View, kind: int, origin, direction, start: float | None, s
         discriminant = dot(d, d) - dot(n_cross_d, n_cross_d)
     root = np.sqrt(discriminant)
     if start is None:
-        return c / (b + root), None
+        return sphere.scale * c / (b + root), None
     stable = b + np.copysign(root, b)
-    first, second = c / stable, stable / dot(d, d)
+    first, second = sphere.scale * c / stable, sphere.scale * stable / dot(d, d)
     near, far = np.minimum(first, second), np.maximum(first, second)
     t = np.where(near >= start, near, far)
     return np.where(t >= start, t, np.nan), None
 
 
 def _near_from_eye(sphere: View, direction, scratch):
-    """Return c / (b + sqrt(D_z |D_z| - c (D_x^2 + D_y^2))): NaN also where the ray looks away (D_z < 0)."""
+    """Return near / (b + sqrt(D_z |D_z| - c (D_x^2 + D_y^2))): NaN also where the ray looks away (D_z < 0)."""
     to_x, to_y, to_z = rows(sphere.matrix)
     scale = np.sqrt(sphere.outside)
     shape = np.broadcast_shapes(np.shape(sphere.outside), *map(np.shape, direction))
@@ -108,7 +116,7 @@ def _near_from_eye(sphere: View, direction, scratch):
         np.subtract(t, np.square(across, out=across), out=t)
     np.sqrt(t, out=t)
     np.add(t, np.multiply(z, sphere.distance, out=z), out=t)
-    return np.divide(sphere.outside, t, out=t)
+    return np.divide(sphere.near, t, out=t)
 
 
 def uv(q):
