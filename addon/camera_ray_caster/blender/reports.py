@@ -1,4 +1,4 @@
-"""Where the report of the latest render is kept, and the text datablock that shows it."""
+"""Where the reports of the latest render and the latest verification are kept, and the text datablock that shows one."""
 
 import bpy
 from bpy.app.handlers import persistent
@@ -8,16 +8,28 @@ from ..core.report import Report, as_lines
 TEXT = "Camera Ray Caster Report"
 
 _latest: list[Report] = []
+_verified: list[Report] = []
 
 
 def keep(report: Report) -> None:
     """Remember the report of the latest render; a render's thread may call it."""
     _latest[:] = [report]
+    keep_verified(report)
+
+
+def keep_verified(report: Report) -> None:
+    """Remember what the latest verification found."""
+    _verified[:] = [report]
 
 
 def latest() -> Report | None:
     """Return the report of the latest render of this file, None before the first."""
     return _latest[0] if _latest else None
+
+
+def verified() -> Report | None:
+    """Return the report with the latest findings on this file's camera, None before the first."""
+    return _verified[0] if _verified else None
 
 
 def write_text(report: Report):
@@ -31,6 +43,7 @@ def write_text(report: Report):
 def forget(*_):
     """Another file is loaded: what was rendered before says nothing of it."""
     _latest.clear()
+    _verified.clear()
 
 
 def register() -> None:

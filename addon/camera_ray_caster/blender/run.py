@@ -1,13 +1,80 @@
 """The one walk that every door takes: scene → camera → rays → hits → passes → report."""
 
+from __future__ import annotations
+
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import partial
 from time import perf_counter
 
+from ..core.camera import Camera
 from ..core.cameras import camera_from
 from ..core.cast import Images, cast
+from ..core.records import Finding, Shapes
 from ..core.report import Report, report_cast
 from .check import verify_evaluated
-from .read import camera_record, shapes_record
+from .moving import with_motion
+from .read import camera_record, go_to, shapes_record
+
+
+@dataclass(frozen=True)
+class Job:
+    """All that a cast needs of Blender: from here on it may go on in another thread."""
+
+    camera: Camera
+    shapes: Shapes
+    passes: Sequence[str]
+    shading: str
+    findings: list[Finding]
+    seconds: dict[str, float]
+    frame: float
+    layer: str
+    several: bool
+    """Whether the layer is one of several that are rendered."""
+
+    @classmethod
+    def read(cls, depsgraph, camera_object, passes: Sequence[str], visit: Callable | None = None) -> Job:
+        """Read an evaluated scene with one camera, and hold the camera against its witnesses.
+
+        Reads the depsgraph only, so that a render's thread may call it. ``visit(frame)`` evaluates the scene at another
+        frame and returns its depsgraph: for a camera whose pixels have each their own time; the default sets the
+        scene's frame, which a render may not. Raises InputError where the camera cannot be cast.
+        """
+        scene = depsgraph.scene_eval
+        started = perf_counter()
+        camera = camera_from(camera_record(scene, camera_object, depsgraph))
+        shapes = shapes_record(depsgraph)
+        read = perf_counter()
+        findings = verify_evaluated(camera, camera_object, depsgraph)
+        verified = perf_counter()
+        frame, layer = scene.frame_current_final, depsgraph.view_layer_eval.name
+        several = sum(layer.use for layer in scene.view_layers) > 1
+        shading = scene.camera_ray_caster.shading
+        if camera.clock is not None:
+            visit = visit or partial(go_to, depsgraph.scene)
+            camera, shapes = with_motion(camera, shapes, camera_object, visit)
+            visit(frame)
+        moved = perf_counter()
+        return cls(
+            camera=camera,
+            shapes=shapes,
+            passes=passes,
+            shading=shading,
+            findings=findings,
+            seconds={"read": read - started + moved - verified, "verify": verified - read},
+            frame=frame,
+            layer=layer,
+            several=several,
+        )
+
+    def cast(self, progress: Callable[[float], bool] | None = None) -> tuple[Images, Report]:
+        """Cast the passes and report. ``progress`` is as in ``cast``; raises Cancelled where the user stopped."""
+        images = cast(self.camera, self.shapes, self.passes, shading=self.shading, progress=progress)
+        seconds = {**self.seconds, **images.seconds}
+        report = report_cast(
+            self.camera, self.shapes, images, seconds, self.findings, self.frame, self.layer, self.several
+        )
+        return images, report
 
 
 def run(
@@ -15,21 +82,7 @@ def run(
     camera_object,
     passes: Sequence[str],
     progress: Callable[[float], bool] | None = None,
+    visit: Callable | None = None,
 ) -> tuple[Images, Report]:
-    """Cast the passes of an evaluated scene with one camera, and hold the camera against its witnesses.
-
-    Reads the depsgraph only, so that a render's thread may call it. ``progress`` is as in ``cast``. Raises InputError
-    where the camera cannot be cast, Cancelled where the user stopped.
-    """
-    scene = depsgraph.scene_eval
-    started = perf_counter()
-    camera = camera_from(camera_record(scene, camera_object, depsgraph))
-    shapes = shapes_record(depsgraph)
-    read = perf_counter() - started
-    images = cast(camera, shapes, passes, shading=scene.camera_ray_caster.shading, progress=progress)
-    started = perf_counter()
-    findings = verify_evaluated(camera, camera_object, depsgraph)
-    seconds = {"read": read, **images.seconds, "verify": perf_counter() - started}
-    several = sum(layer.use for layer in scene.view_layers) > 1
-    layer = depsgraph.view_layer_eval.name
-    return images, report_cast(camera, shapes, images, seconds, findings, scene.frame_current_final, layer, several)
+    """Read and cast in one go: see ``Job``."""
+    return Job.read(depsgraph, camera_object, passes, visit).cast(progress)
