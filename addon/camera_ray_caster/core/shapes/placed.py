@@ -8,7 +8,7 @@ import numpy as np
 
 from ..conventions import EPS, gamma
 from ..exact import solve, square_less_one, two_sum
-from ..records import INFINITE_PLANE, InputError, Pose, Shapes
+from ..records import INFINITE_PLANE, PLANE, InputError, Pose, Shapes
 
 SIZES = 1e-150, 1e150
 """What sizes, distances and their ratios may be: their squares are numbers, too."""
@@ -44,7 +44,8 @@ class Placed:
     outside: np.ndarray
     """(n,): |N|^2 - 1, positive where the eye is outside of the unit sphere."""
     radius: np.ndarray
-    """(n,): of the bounding sphere in the camera frame; inf for infinite planes."""
+    """(n,): of a sphere about the centre that holds the shape, camera frame; inf for infinite planes. A parallelogram's
+    reaches its farther corners, an ellipsoid's has the root of the sum of the squared axes, which no skew exceeds."""
 
 
 def place(shapes: Shapes, pose: Pose) -> Placed:
@@ -64,7 +65,9 @@ def place(shapes: Shapes, pose: Pose) -> Placed:
         offset = (shape_from_world @ away[..., None])[..., 0]
         _refuse(shapes, away, offset)
         axes = camera_from_world @ shapes.axes
-        radius = np.sqrt((axes * axes).sum(axis=(1, 2)))
+        squares = (axes * axes).sum(axis=1)
+        corner = np.sqrt(squares[:, 0] + squares[:, 1] + 2 * np.abs((axes[..., 0] * axes[..., 1]).sum(axis=1)))
+        radius = np.where(shapes.kind == PLANE, corner, np.sqrt(squares.sum(axis=1)))
         distance = np.sqrt((offset * offset).sum(axis=-1))
         outside = (distance - 1) * (distance + 1)
         parts = np.abs(shape_from_world[:, 2] * away).sum(axis=-1)
