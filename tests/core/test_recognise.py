@@ -247,7 +247,8 @@ def test_placing_is_the_matrix_instance_by_instance():
     random = np.random.default_rng(5)
     primitive = Primitive(SPHERE, random.normal(size=(3, 3)), np.diag([1.0, 2.0, 3.0]), np.array([1.0, 2.0, 0.5]))
     matrices = random.normal(size=(2, 3, 4))
-    centres, axes = place(primitive, matrices)
+    centres, axes = np.empty((6, 3)), np.empty((6, 3, 3))
+    place(primitive, matrices, centres, axes)
     for row, (matrix, k) in enumerate((m, k) for m in matrices for k in range(3)):
         at = np.eye(4)
         at[:3] = matrix

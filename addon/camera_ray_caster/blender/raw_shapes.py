@@ -52,8 +52,8 @@ def shapes_record(depsgraph) -> Shapes:
     listed = set()
     for instance in depsgraph.object_instances:
         item = instance.object  # for an instance, a stand-in that the next one overwrites
-        source, owner, data = instance.instance_object or item, instance.parent, item.data
-        key = source.as_pointer(), owner and owner.as_pointer(), data and data.as_pointer()
+        owner = instance.parent
+        key = instance.instance_object or item, owner, item.data
         group = groups.get(key)
         if group is None:
             group = groups[key] = _group(instance, visibility, found)
@@ -121,22 +121,27 @@ def _gathered(groups: list[_Group], left_out: Counter, scene) -> Shapes:
     """Return the record of all groups: their instances placed in the world, one row a shape."""
     lights = [group for group in groups if group.is_sun is not None]
     cast = [group for group in groups if group.primitive is not None]
-    placed = [(np.zeros((0, 3)), np.zeros((0, 3, 3)))]
+    placings = []
     for group in cast:
         matrices = group.placings()
         usable = is_invertible(matrices, group.primitive)
         if not usable.all():
             left_out[group.name, SINGULAR] += int((~usable).sum())
-        placed.append(place(group.primitive, matrices[usable]))
-    counts = [len(centres) for centres, _ in placed[1:]]
+        placings.append(matrices[usable])
+    counts = [len(matrices) * len(group.primitive) for group, matrices in zip(cast, placings, strict=True)]
+    ends = np.cumsum(counts, dtype=int)
+    centre, axes = np.empty((sum(counts), 3)), np.empty((sum(counts), 3, 3))
+    for group, matrices, count, end in zip(cast, placings, counts, ends, strict=True):
+        rows = slice(end - count, end)
+        place(group.primitive, matrices, centre[rows], axes[rows])
 
     def column(values, dtype, width=()):
         return np.repeat(np.array(values, dtype).reshape(len(cast), *width), counts, axis=0)
 
     return Shapes(
         kind=column([group.primitive.kind for group in cast], np.uint8),
-        centre=np.concatenate([centres for centres, _ in placed]),
-        axes=np.concatenate([axes for _, axes in placed]),
+        centre=centre,
+        axes=axes,
         object_index=column([group.object_index for group in cast], np.int32),
         material_index=column([group.material_index for group in cast], np.int32),
         colour=column([group.colour for group in cast], np.float32, (4,)),

@@ -61,15 +61,16 @@ def is_invertible(matrices: np.ndarray, primitive: Primitive) -> np.ndarray:
     return np.abs(np.linalg.det(axes / np.where(lengths > 0, lengths, 1.0))) > 8 * EPS32
 
 
-def place(primitive: Primitive, matrices: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return centres (k n, 3) and axes (k n, 3, 3) in the world of n shapes under each of (k, 3, 4) object matrices.
+def place(primitive: Primitive, matrices: np.ndarray, centres: np.ndarray, axes: np.ndarray) -> None:
+    """Write to centres (k n, 3) and axes (k n, 3, 3), in the world, n shapes under each of (k, 3, 4) object matrices.
 
     Instance by instance, in float64: right to gamma(4) of the sum of the magnitudes.
     """
     linear, offset = matrices[:, :, :3], matrices[:, :, 3]
-    centres = primitive.centres @ linear.transpose(0, 2, 1) + offset[:, None]
-    axes = primitive.sizes[:, None, None] * (linear @ primitive.axes)[:, None]
-    return centres.reshape(-1, 3), axes.reshape(-1, 3, 3)
+    shape = len(matrices), len(primitive)
+    np.add(primitive.centres @ linear.transpose(0, 2, 1), offset[:, None], out=centres.reshape(*shape, 3))
+    sizes, columns = primitive.sizes[:, None, None], (linear @ primitive.axes)[:, None]
+    np.multiply(sizes, columns, out=axes.reshape(*shape, 3, 3))
 
 
 def place_lights(lights) -> Lights:
