@@ -1,7 +1,7 @@
-"""What the add-on stores in a .blend: on each object what it stands for, on the scene how it is shown."""
+"""What the add-on stores in a .blend: on objects what they stand for, on cameras their model, on the scene the passes."""
 
 import bpy
-from bpy.props import BoolProperty, EnumProperty, PointerProperty
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty
 
 
 class ObjectProperties(bpy.types.PropertyGroup):
@@ -21,6 +21,54 @@ class ObjectProperties(bpy.types.PropertyGroup):
     )
 
 
+class CameraProperties(bpy.types.PropertyGroup):
+    """``camera.camera_ray_caster``: a model that Blender does not have, and the time of each pixel"""
+
+    model: EnumProperty(
+        name="Model",
+        description="How the camera maps rays to pixels",
+        items=(
+            ("BLENDER", "Blender's Own", "The camera's type, as Blender and Cycles have it"),
+            ("CAMERA_OBSCURA", "Camera Obscura", "A dark box with a tiny hole: the world upside down on its back wall"),
+        ),
+        default="BLENDER",
+    )
+    obscura_depth: FloatProperty(
+        name="Box Depth", description="From the hole to the back wall", default=2.0, min=1e-6, unit="LENGTH"
+    )
+    obscura_width: FloatProperty(
+        name="Wall Size", description="The fitted side of the picture on the back wall",
+        default=3.0, min=1e-6, unit="LENGTH",
+    )  # fmt: skip
+    obscura_hole: FloatProperty(
+        name="Hole Diameter", description="A larger hole lets in more light and blurs the picture",
+        default=0.02, min=1e-9, unit="LENGTH", precision=4,
+    )  # fmt: skip
+    time_mode: EnumProperty(
+        name="Time",
+        description="The frame at which each pixel's ray is cast",
+        items=(
+            ("NONE", "One Time", "All pixels show the current frame"),
+            ("ROWS", "Rows", "Slit scan: from the first row, at the bottom, to the last one"),
+            ("COLUMNS", "Columns", "Slit scan: from the left column to the right one"),
+            ("IMAGE", "Image", "Time displacement: black pixels of an image show the start, white ones the end"),
+            ("ROLLING_SHUTTER", "Rolling Shutter", "Rows from top to bottom, within the shutter of Cycles' motion blur"),
+        ),
+        default="NONE",
+    )
+    time_start: FloatProperty(name="Start", description="Frame of the first row, column or of black", default=1.0)
+    time_end: FloatProperty(name="End", description="Frame of the last row, column or of white", default=25.0)
+    time_image: PointerProperty(name="Image", description="Grey image, stretched over the frame", type=bpy.types.Image)
+    time_tolerance: FloatProperty(
+        name="Tolerance", description="Pixels by which motion between evaluations of the scene may be off",
+        default=0.1, min=1e-4, soft_max=10.0,
+    )  # fmt: skip
+    time_evaluations: IntProperty(
+        name="Most Evaluations", description="Times at which the scene may be evaluated; what that leaves is reported",
+        default=256, min=2, soft_max=4096,
+    )  # fmt: skip
+
+
 class SceneProperties(bpy.types.PropertyGroup):
     """``scene.camera_ray_caster``"""
 
@@ -33,6 +81,10 @@ class SceneProperties(bpy.types.PropertyGroup):
         ),
         default="MATERIAL",
     )
+    samples: IntProperty(
+        name="Samples", description="Rays a pixel for the combined pass, over the pixel and the camera's aperture",
+        default=1, min=1, soft_max=256,
+    )  # fmt: skip
     use_pass_distance: BoolProperty(name="Distance", description="Distance along the ray; Z is planar depth")
     use_pass_shape_index: BoolProperty(name="Shape Index", description="Number of the shape, each instance its own")
     use_pass_valid: BoolProperty(name="Valid", description="Whether the pixel has a ray at all")
@@ -40,11 +92,17 @@ class SceneProperties(bpy.types.PropertyGroup):
     use_pass_ray_direction: BoolProperty(name="Ray Direction", description="The ray's unit direction in the world")
 
 
-CLASSES = (ObjectProperties, SceneProperties)
-POINTERS = ((bpy.types.Object, ObjectProperties), (bpy.types.Scene, SceneProperties))
+CLASSES = (ObjectProperties, CameraProperties, SceneProperties)
+POINTERS = (
+    (bpy.types.Object, ObjectProperties),
+    (bpy.types.Camera, CameraProperties),
+    (bpy.types.Scene, SceneProperties),
+)
 
 
 def register() -> None:
+    """Give every object and scene its properties."""
+    """See ``registration``."""
     for cls in CLASSES:
         bpy.utils.register_class(cls)
     for owner, group in POINTERS:
@@ -52,6 +110,8 @@ def register() -> None:
 
 
 def unregister() -> None:
+    """Take them back; what is stored in the file stays in it."""
+    """See ``registration``."""
     for owner, _ in reversed(POINTERS):
         del owner.camera_ray_caster
     for cls in reversed(CLASSES):

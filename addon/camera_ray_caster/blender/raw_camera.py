@@ -27,6 +27,11 @@ STEREO = (
     "convergence_mode", "pivot", "interocular_distance", "convergence_distance", "use_spherical_stereo",
     "use_pole_merge", "pole_merge_angle_from", "pole_merge_angle_to",
 )  # fmt: skip
+OWN = (
+    "obscura_depth", "obscura_width", "obscura_hole",
+    "time_mode", "time_start", "time_end", "time_tolerance", "time_evaluations",
+)  # fmt: skip
+SHUTTER = ("motion_blur_shutter", "motion_blur_position")
 MULTIVIEW = ("use_multiview", "views_format")
 
 
@@ -40,15 +45,22 @@ def camera_record(scene, camera_object, depsgraph) -> BlenderCamera:
     check_camera(scene, camera_object)
     evaluated = camera_object.evaluated_get(depsgraph)
     data = evaluated.data
+    own = data.camera_ray_caster
     settings = {
         **copied(data, PANORAMA),
         **copied(data.dof, DEPTH_OF_FIELD),
         **copied(data.stereo, STEREO),
         **copied(scene.render, MULTIVIEW),
+        **copied(scene.render, SHUTTER),
+        **copied(own, OWN),
+        "frame": scene.frame_current_final,
+        "rolling_shutter_duration": scene.cycles.rolling_shutter_duration if hasattr(scene, "cycles") else 0.0,
+        "time_image": _grey(own.time_image),
         "focus_position": _focus_position(data.dof, depsgraph),
     }
     return BlenderCamera(
         name=camera_object.name,
+        model="" if own.model == "BLENDER" else own.model,
         matrix_world=np.array(evaluated.matrix_world, dtype=np.float64),
         settings=MappingProxyType(settings),
         **copied(data, CAMERA),
@@ -87,3 +99,13 @@ def _focus_position(dof, depsgraph):
     if dof.focus_object.pose is not None and dof.focus_subtarget in dof.focus_object.pose.bones:
         matrix = matrix @ dof.focus_object.evaluated_get(depsgraph).pose.bones[dof.focus_subtarget].matrix
     return np.array(matrix.translation, dtype=np.float64)
+
+
+def _grey(image):
+    """Return the mean of an image's red, green and blue, (rows, columns) from the bottom; None without an image."""
+    if image is None or not image.size[0]:
+        return None
+    width, height = image.size
+    pixels = np.empty(width * height * image.channels, np.float32)
+    image.pixels.foreach_get(pixels)
+    return pixels.reshape(height, width, image.channels)[..., :3].mean(axis=-1)

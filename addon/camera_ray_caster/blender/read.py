@@ -8,6 +8,7 @@ import bpy
 from ..core.camera import Camera
 from ..core.cameras import camera_from
 from ..core.records import InputError, Shapes
+from .moving import with_motion
 from .raw_camera import camera_record, check_camera, find_camera
 from .raw_shapes import shapes_record
 
@@ -19,6 +20,7 @@ def read_camera(scene, camera_object=None, frame=None, view="") -> Camera:
 
     ``camera_object``: default the scene's active camera at that frame. ``frame``: default the current one; its
     fraction is the subframe. ``view``: only "", the camera itself.
+    A camera whose pixels have each their own time comes with its motion: the scene is evaluated for it.
     Raises InputError where there is no camera, for what no model here can do, and for parameters without meaning.
     """
     if view:
@@ -26,7 +28,11 @@ def read_camera(scene, camera_object=None, frame=None, view="") -> Camera:
     if camera_object is not None:
         check_camera(scene, camera_object)
     with evaluated(scene, frame, camera_object) as depsgraph:
-        return camera_from(camera_record(scene, scene.camera, depsgraph))
+        active = scene.camera
+        camera = camera_from(camera_record(scene, active, depsgraph))
+        if camera.clock is None:
+            return camera
+        return with_motion(camera, shapes_record(depsgraph), active, lambda moment: go_to(scene, moment))[0]
 
 
 def read_shapes(scene, frame=None) -> Shapes:
@@ -36,7 +42,24 @@ def read_shapes(scene, frame=None) -> Shapes:
     viewport's modifier and particle settings; what only a render shows is named among ``left_out``.
     """
     with evaluated(scene, frame) as depsgraph:
-        return shapes_record(depsgraph)
+        shapes = shapes_record(depsgraph)
+        active = scene.camera
+        if active is None or active.type != "CAMERA":
+            return shapes
+        raw = camera_record(scene, active, depsgraph)
+        if raw.settings["time_mode"] == "NONE":
+            return shapes
+        return with_motion(camera_from(raw), shapes, active, lambda moment: go_to(scene, moment))[1]
+
+
+def go_to(scene, frame: float):
+    """Set a scene to a frame, its fraction the subframe, and return the depsgraph evaluated there."""
+    scene.frame_set(math.floor(frame), subframe=frame - math.floor(frame))
+    return _layer(scene).depsgraph
+
+
+def _layer(scene):
+    return bpy.context.view_layer if scene == bpy.context.scene else scene.view_layers[0]
 
 
 @contextmanager
@@ -44,11 +67,11 @@ def evaluated(scene, frame=None, camera_object=None):
     """Yield the scene's depsgraph at a frame with a camera active, and put frame and camera back in the end."""
     if frame is not None and not abs(frame) < 2**31:
         raise InputError(f"frame {frame} is not one that Blender can hold: choose one nearer to 0")
-    layer = bpy.context.view_layer if scene == bpy.context.scene else scene.view_layers[0]
+    layer = _layer(scene)
     before = scene.frame_current, scene.frame_subframe, scene.camera
     try:
         if frame is not None:
-            scene.frame_set(math.floor(frame), subframe=frame - math.floor(frame))
+            go_to(scene, frame)
         if camera_object is not None and camera_object != scene.camera:
             scene.camera = camera_object  # a camera that is hidden is evaluated only while it is the active one,
             scene.frame_current = scene.frame_current  # and animated only when the time is told to it

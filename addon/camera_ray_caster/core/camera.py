@@ -85,21 +85,12 @@ class Camera:
         return bool(np.abs(gram - np.eye(3)).max() <= gamma(8))
 
     def rays_at(self, x, y) -> Rays:
-        """Return the world rays through pixel coordinates x, y (scalars or arrays that broadcast), as ``rays`` does.
-
-        With a clock x and y are a row (1, columns) and a column (rows, 1).
-        """
+        """Return the world rays through pixel coordinates x, y (scalars or arrays that broadcast), as ``rays`` does."""
         x, y = np.asarray(x, np.float64), np.asarray(y, np.float64)
+        if self.clock is not None:
+            return self._timed_rays(x, y)
         shape = np.broadcast_shapes(x.shape, y.shape)
         directions = np.empty((*shape, 3))
-        if self.clock is not None:
-            origins = np.empty((*shape, 3))
-            for frame, rows, columns, where in groups(self.clock, x, y):
-                part = self.at(frame).rays_at(x[:, columns], y[rows])
-                np.copyto(origins[rows, columns], part.origins, where=where[..., None])
-                np.copyto(directions[rows, columns], part.directions, where=where[..., None])
-            time = np.broadcast_to(self.clock.frame_at(x, y), shape)
-            return Rays(origins, directions, ~np.isnan(directions[..., 0]), time)
         origin, direction = self.camera_rays(x, y)
         for axis, component in enumerate(unit(matvec(self.pose.basis, direction))):
             directions[..., axis] = component
@@ -109,6 +100,22 @@ class Camera:
             for axis, component in enumerate(matvec(self.pose.basis, origin)):
                 origins[..., axis] = component + self.pose.eye[axis]
         return Rays(np.broadcast_to(origins, directions.shape), directions, ~np.isnan(directions[..., 0]))
+
+    def _timed_rays(self, x, y) -> Rays:
+        """Return what ``rays_at`` does, of the camera at each pixel's own time."""
+        time = np.broadcast_to(self.clock.frame_at(x, y), np.broadcast_shapes(x.shape, y.shape))
+        origins, directions = np.full((2, *time.shape, 3), np.nan)
+        if (x.ndim, y.ndim) == (2, 2) and x.shape[0] == y.shape[1] == 1:
+            parts = ((frame, x[:, columns], y[rows], np.s_[rows, columns], where)
+                     for frame, rows, columns, where in groups(self.clock, x, y))  # fmt: skip
+        else:
+            x, y = np.broadcast_arrays(x, y)
+            parts = ((frame, x, y, np.s_[...], time == frame) for frame in np.unique(time))
+        for frame, part_x, part_y, place, where in parts:
+            part = self.at(frame).rays_at(part_x, part_y)
+            np.copyto(origins[place], part.origins, where=where[..., None])
+            np.copyto(directions[place], part.directions, where=where[..., None])
+        return Rays(origins, directions, ~np.isnan(directions[..., 0]), time)
 
     def rays(self) -> Rays:
         """Return the chief rays of the render window: through its pixel centres, world frame, unit directions.

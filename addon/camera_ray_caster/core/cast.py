@@ -124,6 +124,8 @@ def _moments(camera: Camera, shapes: Shapes) -> Iterator[Tile]:
 
 
 def _moment(camera: Camera, shapes: Shapes, frame: float) -> tuple[Camera, Shapes]:
+    if camera.motion is shapes.motion and camera.motion is not None:
+        return camera.motion.at(frame)
     return camera.at(frame), shapes if shapes.motion is None else shapes.motion.shapes_at(frame)
 
 

@@ -37,6 +37,10 @@ class LinearClock:
     first: float
     """The earliest frame of a pixel centre; ``last`` the latest."""
     last: float
+    tolerance: float
+    """Pixels by which motion between evaluations of the scene may be off."""
+    most: int
+    """Evaluations of the scene that are allowed."""
 
     def frame_at(self, x, y):
         """Return the frame at pixel coordinates, in their broadcast shape or one that broadcasts to it."""
@@ -47,9 +51,11 @@ class LinearClock:
 
 @dataclass(frozen=True)
 class ImageClock:
-    """The frame of every pixel of the full raster, (height, width)."""
+    """The frame of every pixel of the full raster, (height, width); the rest as in ``LinearClock``."""
 
     frames: np.ndarray
+    tolerance: float
+    most: int
 
     @property
     def first(self) -> float:
@@ -141,19 +147,29 @@ def clock_from(raw: BlenderCamera, raster: Raster) -> Clock | None:
     if not (np.isfinite(start) and np.isfinite(end)) or start == end:
         raise InputError(f"time_start and time_end of camera {raw.name!r} are {start} and {end}: set two other frames")
     if mode == IMAGE:
-        return ImageClock(start + _image_share(raw, raster) * (end - start))
+        return ImageClock(start + _image_share(raw, raster) * (end - start), *_effort(raw))
     if mode == ROWS:
-        return _linear(start, 0.0, (end - start) / raster.height, raster)
-    return _linear(start, (end - start) / raster.width, 0.0, raster)
+        return _linear(raw, start, 0.0, (end - start) / raster.height, raster)
+    return _linear(raw, start, (end - start) / raster.width, 0.0, raster)
 
 
-def _linear(origin: float, per_column: float, per_row: float, raster: Raster) -> LinearClock:
+def _effort(raw: BlenderCamera) -> tuple[float, int]:
+    tolerance, most = float(raw.settings["time_tolerance"]), int(raw.settings["time_evaluations"])
+    if not tolerance > 0 or most < 2:
+        raise InputError(
+            f"camera {raw.name!r} asks for motion within {tolerance} pixels from {most} evaluations: "
+            "set time_tolerance above 0 and time_evaluations to 2 or more"
+        )
+    return tolerance, most
+
+
+def _linear(raw: BlenderCamera, origin: float, per_column: float, per_row: float, raster: Raster) -> LinearClock:
     corners = [
         origin + per_column * x + per_row * y
         for x in (0.5, raster.width - 0.5)
         for y in (0.5, raster.height - 0.5)
     ]  # fmt: skip
-    return LinearClock(origin, per_column, per_row, min(corners), max(corners))
+    return LinearClock(origin, per_column, per_row, min(corners), max(corners), *_effort(raw))
 
 
 def _rolling_shutter(raw: BlenderCamera, raster: Raster) -> LinearClock:
@@ -168,7 +184,7 @@ def _rolling_shutter(raw: BlenderCamera, raster: Raster) -> LinearClock:
     per_row = -shutter * (1 - duration) / raster.height
     # row j has its centre at y = j + 1/2 and its time at H - j: half a row on
     top = raw.settings["frame"] + (begin + duration / 2) * shutter - per_row * (raster.height + 0.5)
-    return _linear(top, 0.0, per_row, raster)
+    return _linear(raw, top, 0.0, per_row, raster)
 
 
 def _image_share(raw: BlenderCamera, raster: Raster) -> np.ndarray:

@@ -40,6 +40,8 @@ class Report:
     """What the cast had no need to do, and why."""
     left_out: tuple[tuple[str, str], ...] = ()
     """Objects that were not cast, each with the reason."""
+    motion: tuple[str, ...] = ()
+    """At how many times the scene was evaluated for pixels that have each their own, and how well that is enough."""
 
     @property
     def rays_per_second(self) -> float | None:
@@ -68,6 +70,7 @@ class Report:
             findings=_union(self.findings, other.findings),
             not_done=_union(self.not_done, other.not_done),
             left_out=_union(self.left_out, other.left_out),
+            motion=_union(self.motion, other.motion),
         )
 
 
@@ -93,6 +96,7 @@ def report_cast(
         findings=tuple(findings),
         not_done=tuple(f"{layer}: {line}" if several else line for line in images.plan.left_out()),
         left_out=shapes.left_out,
+        motion=tuple(camera.motion.in_words()) if camera.motion is not None else (),
     )
 
 
@@ -113,7 +117,13 @@ def as_json(report: Report) -> str:
 
 def as_lines(report: Report) -> list[str]:
     """Return the report as the lines of a table, at most WIDTH columns: for a terminal or a text datablock."""
-    return [*_camera_lines(report), *_finding_lines(report), *_second_lines(report), *_left_out_lines(report)]
+    return [
+        *_camera_lines(report),
+        *_finding_lines(report),
+        *_second_lines(report),
+        *_listed("Motion", report.motion),
+        *_listed("Left out", [*report.not_done, *(f"{name!r}: {reason}" for name, reason in report.left_out)]),
+    ]
 
 
 def _camera_lines(report: Report) -> list[str]:
@@ -151,12 +161,9 @@ def _second_lines(report: Report) -> list[str]:
     return lines
 
 
-def _left_out_lines(report: Report) -> list[str]:
-    said = [*report.not_done, *(f"{name!r}: {reason}" for name, reason in report.left_out)]
-    if not said:
-        return []
-    lines = ["", "Left out"]
-    for text in said:
+def _listed(title: str, texts) -> list[str]:
+    lines = ["", title] if texts else []
+    for text in texts:
         lines += wrap(text, WIDTH, initial_indent="  ", subsequent_indent="    ")
     return lines
 

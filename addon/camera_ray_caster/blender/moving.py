@@ -1,0 +1,36 @@
+"""A scene at the times of a picture whose pixels have each their own: evaluated as often as its motion asks for."""
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+
+from ..core.camera import Camera
+from ..core.cameras import camera_from
+from ..core.motion import measure, resolve
+from ..core.records import Shapes
+from .raw_camera import camera_record
+from .raw_shapes import shapes_record
+
+CHECKS = 4
+"""Frames at which the interpolation is held against the scene itself, beside those that resolved it."""
+
+
+def with_motion(camera: Camera, shapes: Shapes, camera_object, go_to: Callable) -> tuple[Camera, Shapes]:
+    """Return camera and shapes that know their motion over the camera's clock; without a clock as they are.
+
+    ``go_to(frame)`` evaluates the scene at a frame and returns its depsgraph. The frame is not put back.
+    """
+    clock = camera.clock
+    if clock is None:
+        return camera, shapes
+
+    def evaluate(frame: float) -> tuple[Camera, Shapes]:
+        depsgraph = go_to(frame)
+        raw = camera_record(depsgraph.scene_eval, camera_object, depsgraph)
+        return replace(camera_from(raw), clock=clock), shapes_record(depsgraph)
+
+    motion = resolve(evaluate, clock.first, clock.last, clock.tolerance, clock.most)
+    places = np.random.default_rng(0).uniform(clock.first, clock.last, CHECKS)
+    motion = replace(motion, measured=measure(motion, evaluate, places))
+    return replace(camera, motion=motion), replace(shapes, motion=motion)

@@ -1,0 +1,40 @@
+"""Rotations of many things at once: matrices into rotation and stretch, rotations into vectors, and back.
+
+References: K. Shoemake, T. Duff, Matrix Animation and Polar Decomposition (1992); O. Rodrigues (1840).
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+
+def polar(matrices) -> tuple[np.ndarray, np.ndarray]:
+    """Return proper rotations and symmetric stretches (negative for mirrored matrices) whose products these are."""
+    left, values, right = np.linalg.svd(matrices)
+    sign = np.where(np.linalg.det(left) * np.linalg.det(right) < 0, -1.0, 1.0)[:, None, None]
+    return left @ right * sign, np.swapaxes(right, 1, 2) @ (values[:, :, None] * right) * sign
+
+
+def rotation_vector(rotation) -> np.ndarray:
+    """Return axis times angle, (n, 3), of rotations below a half turn."""
+    skew, sine, angle = sine_and_angle(rotation)
+    return skew * np.where(sine > 0, angle / np.where(sine > 0, sine, 1.0), 1.0)[:, None]
+
+
+def sine_and_angle(rotation):
+    """Return axis times sine (n, 3), sine and angle (n,) of rotations; the angle is 0 .. pi."""
+    skew = np.stack(
+        [rotation[:, j, i] - rotation[:, i, j] for i, j in ((1, 2), (2, 0), (0, 1))], axis=-1
+    ) / 2  # fmt: skip
+    sine = np.linalg.norm(skew, axis=1)
+    return skew, sine, np.arctan2(sine, (np.trace(rotation, axis1=1, axis2=2) - 1) / 2)
+
+
+def rotation(vector) -> np.ndarray:
+    """Return the rotations (n, 3, 3) of rotation vectors (Rodrigues)."""
+    angle = np.linalg.norm(vector, axis=1)[:, None, None]
+    x, y, z = vector.T
+    zero = np.zeros_like(x)
+    cross = np.stack((zero, -z, y, z, zero, -x, -y, x, zero), axis=-1).reshape(-1, 3, 3)
+    half = angle / 2
+    return np.eye(3) + np.sinc(angle / np.pi) * cross + np.sinc(half / np.pi) ** 2 / 2 * (cross @ cross)
