@@ -1,4 +1,4 @@
-"""What the add-on stores in a .blend: on objects what they stand for, on cameras their model, on the scene the passes."""
+"""What the add-on stores in a .blend: what an object stands for, what model a camera has, how a scene is shown."""
 
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty
@@ -52,7 +52,7 @@ class CameraProperties(bpy.types.PropertyGroup):
             ("ROWS", "Rows", "Slit scan: from the first row, at the bottom, to the last one"),
             ("COLUMNS", "Columns", "Slit scan: from the left column to the right one"),
             ("IMAGE", "Image", "Time displacement: black pixels of an image show the start, white ones the end"),
-            ("ROLLING_SHUTTER", "Rolling Shutter", "Rows from top to bottom, within the shutter of Cycles' motion blur"),
+            ("ROLLING_SHUTTER", "Rolling Shutter", "Rows from top to bottom, in the shutter of Cycles' motion blur"),
         ),
         default="NONE",
     )
