@@ -10,11 +10,13 @@ from math import pi, sqrt
 from camera_ray_caster.core.cameras import camera_from
 from camera_ray_caster.core.records import BlenderCamera
 
-IDENTITY = [[1.0, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]
-TURNED = [[0.36, 0.48, -0.8, 3], [-0.8, 0.6, 0, -2], [0.48, 0.64, 0.6, 7], [0, 0, 0, 1]]
-"""A rotation, exact in decimals, and an offset."""
+from . import central_examples
+from .example_frames import BORDER, DEFAULTS, IDENTITY, PORTRAIT, SHIFTED, TURNED, WIDE_PIXELS
+
+__all__ = ["BORDER", "EXAMPLES", "FACTS", "IDENTITY", "ONLY_SOME", "REFUSED", "TURNED", "UNSEEN", "camera"]
 
 ONLY_SOME = {
+    **central_examples.ONLY_SOME,
     "longitude_min": -pi, "longitude_max": pi, "latitude_min": -pi / 2, "latitude_max": pi / 2,
     "fisheye_fov": pi, "fisheye_lens": 10.5,
     "fisheye_polynomial_k0": 0.0, "fisheye_polynomial_k1": -pi / 72, "fisheye_polynomial_k2": 0.0,
@@ -24,14 +26,9 @@ ONLY_SOME = {
     "central_cylindrical_radius": 1.0,
     "obscura_depth": 2.0, "obscura_width": 3.0, "obscura_hole": 0.01,
 }  # fmt: skip
-DEFAULTS = {"resolution_x": 96, "resolution_y": 54, "matrix_world": IDENTITY}
-PORTRAIT = {"resolution_x": 54, "resolution_y": 96, "shift_x": 0.3, "shift_y": -0.2, "matrix_world": TURNED}
-VERTICAL = {"pixel_aspect_x": 2.0, "sensor_fit": "VERTICAL"}
-WIDE_PIXELS = VERTICAL | {"shift_y": 0.7, "resolution_percentage": 37}
-SHIFTED = {"shift_x": 0.3, "matrix_world": TURNED}
-BORDER = {"use_border": True, "border_min_x": 0.2, "border_max_x": 0.7, "border_min_y": 0.1, "border_max_y": 0.4}
 
 EXAMPLES = {
+    **central_examples.EXAMPLES,
     "PERSP": [{}, PORTRAIT, WIDE_PIXELS, BORDER | {"lens": 4.0}, {"lens": 400.0, "matrix_world": TURNED}],
     "ORTHO": [{}, PORTRAIT, WIDE_PIXELS, BORDER | {"ortho_scale": 0.01}, {"ortho_scale": 50.0, "matrix_world": TURNED}],
     "EQUIRECTANGULAR": [{}, SHIFTED, BORDER, {"longitude_min": 0.5, "latitude_max": 0.1, "shift_y": 0.2}],
@@ -56,6 +53,7 @@ EXAMPLES = {
 """Cameras for the contract; where a model is singular is its docstring's to say, and not in these pictures."""
 
 FACTS = {
+    **central_examples.FACTS,
     "PERSP": [
         # the right edge of a 36 mm sensor behind 18 mm makes 45 degrees, the centre looks ahead
         ({"lens": 18.0}, (96, 27), (0, 0, 0), (1, 0, -1)),
@@ -127,6 +125,7 @@ FACTS = {
 """What geometry by hand says: settings, pixel coordinates, the ray's origin and direction (of any length) there."""
 
 UNSEEN = {
+    **central_examples.UNSEEN,
     "PERSP": [(0, 0, 0), (1, 2, 0), (0, 0, 1), (3, -1, 5)],
     "ORTHO": [],
     "EQUIRECTANGULAR": [(0, 0, 0)],
@@ -141,6 +140,7 @@ UNSEEN = {
 """Points in the camera's frame that have no pixel."""
 
 REFUSED = {
+    **central_examples.REFUSED,
     "PERSP": [
         ({"lens": 0.0}, "lens"),
         ({"lens": float("nan")}, "lens"),

@@ -9,19 +9,29 @@ from ..records import BlenderCamera, InputError, Pose
 from .camera_obscura import CameraObscura
 from .central_cylindrical import CentralCylindrical
 from .cubemap_face import CubemapFace
+from .cylindrical import Cylindrical
+from .dome_master import DomeMaster
 from .equirectangular import Equirectangular
 from .film import raster_from
 from .fisheye_equidistant import FisheyeEquidistant
 from .fisheye_equisolid import FisheyeEquisolid
+from .fisheye_orthographic import FisheyeOrthographic
 from .fisheye_polynomial import FisheyePolynomial
+from .fisheye_stereographic import FisheyeStereographic
 from .mirrorball import Mirrorball
+from .omnimax import Omnimax
+from .opencv_fisheye import OpencvFisheye
+from .opencv_pinhole import OpencvPinhole
 from .orthographic import Orthographic
 from .perspective import Perspective
+from .stereographic_panorama import StereographicPanorama
 
 MODELS = (
     Perspective, Orthographic,
     Equirectangular, CubemapFace, Mirrorball, FisheyeEquidistant, FisheyeEquisolid, FisheyePolynomial,
     CentralCylindrical, CameraObscura,
+    FisheyeOrthographic, FisheyeStereographic, OpencvPinhole, OpencvFisheye, Omnimax, DomeMaster, Cylindrical,
+    StereographicPanorama,
 )  # fmt: skip
 """Every model. ``key`` is Blender's camera or panorama type, or the name of a model that Blender does not have."""
 

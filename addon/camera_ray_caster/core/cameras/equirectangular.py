@@ -15,7 +15,7 @@ import numpy as np
 
 from ..records import BlenderCamera, Raster
 from .meridians import Meridians
-from .settings import ROUNDING, span
+from .settings import span
 from .silhouette import EVERYWHERE
 
 
@@ -28,9 +28,9 @@ class Equirectangular(Meridians):
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> Equirectangular:
         """Build it from the ranges and the shift; InputError for an empty range and a latitude beyond the poles."""
-        pole = pi / 2 * ROUNDING
         longitudes = span(raw, "longitude_min", "longitude_max")
-        return cls.over_frame(raw, raster, longitudes, span(raw, "latitude_min", "latitude_max", -pole, pole))
+        latitudes = span(raw, "latitude_min", "latitude_max", -pi / 2, pi / 2, "deg")
+        return cls.over_frame(raw, raster, longitudes, latitudes)
 
     def latitude(self, height):
         """See Meridians."""

@@ -119,9 +119,9 @@ class Window:
         return cls.over_frame(raw, raster, (-half_width, half_width), (-half_height, half_height))
 
     @classmethod
-    def inscribed_circle(cls, raw: BlenderCamera, raster: Raster) -> Window:
-        """Return the window in which the unit circle touches the shorter sides of the frame."""
-        return cls.round_pixels(raw, raster, 2 / min(raster.width, raster.height * raster.pixel_aspect))
+    def inscribed_circle(cls, raw: BlenderCamera, raster: Raster, radius: float) -> Window:
+        """Return the window in which the circle of this radius touches the nearer sides of the frame."""
+        return cls.round_pixels(raw, raster, 2 * radius / min(raster.width, raster.height * raster.pixel_aspect))
 
     def extent(self, raster: Raster) -> tuple[float, float, float, float]:
         """Return the image-plane x_low, x_high, y_low, y_high of the whole frame; low <= high, mirrored or not."""

@@ -4,8 +4,8 @@ Assumption: the angle from the axis is a polynomial of the radius on the sensor,
 to the frame as a pinhole's is.
 Formula: theta = -(k0 + k1 r + k2 r^2 + k3 r^3 + k4 r^4); no ray where abs(theta) > fov / 2. The minus is Blender's: an
 upright picture needs k1 < 0. A negative theta lies on the other side of the axis. The inverse is Newton's.
-Singular: r = 0 with k0 not 0, where the lens is not smooth: there Cycles looks up by theta, and so do we; with k0 < 0
-nothing sees the cone of -k0 about the axis.
+Singular: r = 0 with k0 not 0, where the lens is not smooth: theta is -k0 there, the azimuth anything (Cycles has what
+its rounding gives, we look up). With k0 < 0 nothing sees the cone of -k0 about the axis.
 A polynomial that turns back inside the frame would fold the picture and is refused.
 Reference: Blender manual, Cameras > Panoramic; rays read out of Cycles.
 """
@@ -66,7 +66,7 @@ class FisheyePolynomial(Radial):
         return k0 + r * (k1 + r * (k2 + r * (k3 + r * k4)))
 
     def rays(self, x, y):
-        """See Radial; at r = 0 with k0 not 0 the ray is turned up, as in Cycles."""
+        """See Radial; at r = 0 with k0 not 0 the ray is turned up."""
         origin, (dx, dy, dz) = super().rays(x, y)
         if self.coefficients[0]:
             a, b = self.window.plane_from_pixels(x, y)

@@ -10,8 +10,8 @@ FULL_TURN = 2 * math.pi
 WIDEST_FISHEYE = math.radians(1800)
 """Where Blender ends a fisheye's field of view."""
 
-ROUNDING = 1 + 1e-6
-"""A limit stored as float32 may lie this much beyond itself."""
+ROUNDING = 1e-6
+"""Of itself: a limit stored as float32 may lie this much beyond."""
 
 
 def number(raw: BlenderCamera, name: str, low: float = -math.inf, high: float = math.inf, unit: str = "") -> float:
@@ -23,22 +23,39 @@ def number(raw: BlenderCamera, name: str, low: float = -math.inf, high: float = 
     if name not in raw.settings:
         raise InputError(f"camera {raw.name!r} has no setting {name}, which its model needs")
     value = raw.settings[name]
-    if not isinstance(value, int | float) or not math.isfinite(value) or not low <= value <= high:
+    within = isinstance(value, int | float) and math.isfinite(value)
+    if not within or not low - ROUNDING * abs(low) <= value <= high + ROUNDING * abs(high):
         raise InputError(f"{name} of camera {raw.name!r} is {_text(value, unit)}: it must be {_range(low, high, unit)}")
     return float(value)
 
 
-def span(raw: BlenderCamera, low_name: str, high_name: str, low: float = -math.inf, high: float = math.inf):
-    """Return a (low, high) pair of settings. Swapped ends mirror the picture; InputError where they are equal."""
-    pair = number(raw, low_name, low, high), number(raw, high_name, low, high)
+def numbers(raw: BlenderCamera, name: str, count: int) -> tuple[float, ...]:
+    """Return a setting of ``count`` finite numbers. Raises InputError that names it and its value."""
+    values = tuple(raw.settings.get(name, ()))  # type: ignore[call-overload]
+    if len(values) != count or not all(isinstance(value, int | float) and math.isfinite(value) for value in values):
+        raise InputError(f"{name} of camera {raw.name!r} is {values}: it must be {count} finite numbers")
+    return values
+
+
+def choice(raw: BlenderCamera, name: str, known) -> str:
+    """Return a setting that is one of the known words. Raises InputError that names them."""
+    value = raw.settings.get(name)
+    if value not in known:
+        raise InputError(f"{name} of camera {raw.name!r} is {value!r}: it must be one of {', '.join(known)}")
+    return str(value)
+
+
+def span(raw: BlenderCamera, start: str, end: str, low: float = -math.inf, high: float = math.inf, unit: str = ""):
+    """Return a pair of settings. Swapped ends mirror the picture; InputError where they are equal."""
+    pair = number(raw, start, low, high, unit), number(raw, end, low, high, unit)
     if pair[0] == pair[1]:
-        raise InputError(f"{low_name} and {high_name} of camera {raw.name!r} are both {pair[0]}: set them apart")
+        raise InputError(f"{start} and {end} of camera {raw.name!r} are both {_text(pair[0], unit)}: set them apart")
     return pair
 
 
 def positive(raw: BlenderCamera, name: str, high: float = math.inf, unit: str = "") -> float:
-    """Return a setting above zero, up to ``high`` and its rounding to float32."""
-    return number(raw, name, math.ulp(0.0), high * ROUNDING, unit)
+    """Return a setting above zero, up to ``high``."""
+    return number(raw, name, math.ulp(0.0), high, unit)
 
 
 def _text(value, unit: str) -> str:
@@ -49,7 +66,7 @@ def _text(value, unit: str) -> str:
 
 def _range(low: float, high: float, unit: str) -> str:
     if low == math.ulp(0.0):
-        return "above 0" if high == math.inf else f"above 0, up to {_text(high / ROUNDING, unit)}"
+        return "above 0" if high == math.inf else f"above 0, up to {_text(high, unit)}"
     if (low, high) == (-math.inf, math.inf):
         return "a finite number"
     return f"from {_text(low, unit)} to {_text(high, unit)}"

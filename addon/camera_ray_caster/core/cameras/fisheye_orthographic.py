@@ -1,0 +1,51 @@
+"""The orthographic fisheye: the half sphere before the eye, seen from far away; what a gazing ball shows from above.
+
+Assumption: a round picture that touches the nearer sides of the frame.
+Formula: sin(theta) = r sin(fov / 2) with r = 1 at the rim; no ray beyond. fov up to 180 degrees.
+Singular: 90 degrees from the axis, where the angle runs away from the radius.
+Reference: Snyder (1987), chapter 20; H. Bettonvil, Fisheye Lenses (2005).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import asin, pi, sin
+
+import numpy as np
+
+from ..records import BlenderCamera, Raster
+from .film import Window
+from .radial import Radial, up_to
+from .settings import positive
+
+
+@dataclass(frozen=True)
+class FisheyeOrthographic(Radial):
+    """The window gives sin(theta)."""
+
+    rim: float
+    """sin(fov / 2)."""
+
+    key = "FISHEYE_ORTHOGRAPHIC"
+    label = "Fisheye Orthographic"
+    settings = ("fov",)
+
+    @classmethod
+    def from_blender(cls, raw: BlenderCamera, raster: Raster) -> FisheyeOrthographic:
+        """Build it from ``fov`` and shift; InputError for a field of view without meaning."""
+        rim = sin(min(positive(raw, "fov", pi, "deg"), pi) / 2)
+        return cls(Window.inscribed_circle(raw, raster, rim), rim)
+
+    def factors(self, r_squared):
+        """See Radial."""
+        sine_squared = np.where(r_squared > self.rim * self.rim, np.nan, r_squared)
+        return 1.0 + 0 * sine_squared, np.sqrt(1 - sine_squared)
+
+    def radius(self, theta):
+        """See Radial."""
+        return np.where(theta <= np.pi / 2, up_to(self.rim, np.sin(theta)), np.nan)
+
+    @property
+    def widest(self) -> float:
+        """See Radial."""
+        return asin(self.rim)

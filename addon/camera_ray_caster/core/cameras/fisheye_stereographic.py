@@ -1,0 +1,55 @@
+"""The stereographic fisheye: angles between lines are kept, circles on the sphere stay circles.
+
+Assumption: a round picture that touches the nearer sides of the frame.
+Formula: tan(theta / 2) = r tan(fov / 4) with r = 1 at the rim; no ray beyond. fov below 360 degrees. No angle is
+computed: with w = tan(theta / 2), sin(theta) / w = 2 / (1 + w^2) and cos(theta) = (1 - w^2) / (1 + w^2).
+Singular: the point straight behind the eye, which lies infinitely far out.
+Reference: Snyder (1987), chapter 21.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import atan, radians, tan
+
+import numpy as np
+
+from ..records import BlenderCamera, Raster
+from .film import Window
+from .radial import Radial, up_to
+from .settings import positive
+
+WIDEST = radians(359)
+
+
+@dataclass(frozen=True)
+class FisheyeStereographic(Radial):
+    """The window gives tan(theta / 2)."""
+
+    rim: float
+    """tan(fov / 4), or inf where the frame alone ends the picture."""
+
+    key = "FISHEYE_STEREOGRAPHIC"
+    label = "Fisheye Stereographic"
+    settings = ("fov",)
+
+    @classmethod
+    def from_blender(cls, raw: BlenderCamera, raster: Raster) -> FisheyeStereographic:
+        """Build it from ``fov`` and shift; InputError for a field of view without meaning."""
+        rim = tan(positive(raw, "fov", WIDEST, "deg") / 4)
+        return cls(Window.inscribed_circle(raw, raster, rim), rim)
+
+    def factors(self, r_squared):
+        """See Radial."""
+        w_squared = np.where(r_squared > self.rim * self.rim, np.nan, r_squared)
+        scale = 1 / (1 + w_squared)
+        return 2 * scale, (1 - w_squared) * scale
+
+    def radius(self, theta):
+        """See Radial."""
+        return up_to(self.rim, np.tan(theta / 2))
+
+    @property
+    def widest(self) -> float:
+        """See Radial."""
+        return 2 * atan(self.rim)

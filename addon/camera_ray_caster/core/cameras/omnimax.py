@@ -1,0 +1,89 @@
+"""Omnimax: the fisheye of IMAX Dome films, whose axis lies below the middle of the frame.
+
+Assumption: the film is seen from the dome's centre; the dome's ``tilt`` pitches the lens up from the camera's viewing
+direction. About 180 degrees across; above the axis 90 degrees, below it 45.
+Formula: theta = 1.411269 r - 0.09439 r^3 + 0.25674 r^5, azimuth kept. The circle r = 1 touches the frame's top and
+sides; the film's frame is 1.283458 times as wide as high, a wider one stays empty at the sides, a narrower one shows
+more below the axis, one higher than wide has it in the middle. No ray where r > 1 and more than 45 degrees below it.
+Singular: nowhere.
+References: N. Max, Computer Graphics Distortion for IMAX and OMNIMAX Projection (1983); POV-Ray's omnimax camera.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import pi
+
+import numpy as np
+
+from ..conventions import gamma
+from ..records import BlenderCamera, Raster
+from ..vector import components
+from .film import Window
+from .inversion import invert
+from .pitched import Pitched
+from .radial import Radial, radii_within
+from .settings import number
+
+ASPECT = 1.283458
+LINEAR, CUBIC, QUINTIC = 1.411269, -0.09439, 0.25674
+
+
+def angle(r):
+    """Return theta (rad) of radii up to 1."""
+    return r * (LINEAR + r * r * (CUBIC + r * r * QUINTIC))
+
+
+def slope(r):
+    """Return the derivative of theta, which is positive."""
+    return LINEAR + r * r * (3 * CUBIC + r * r * 5 * QUINTIC)
+
+
+@dataclass(frozen=True)
+class Lens(Radial):
+    """The lens alone, with its axis along the viewing direction."""
+
+    def rays(self, x, y):
+        """See Radial."""
+        origin, (dx, dy, dz) = super().rays(x, y)
+        below = dy < dz
+        return origin, tuple(np.where(below, np.nan, component) for component in (dx, dy, dz))
+
+    def project(self, points):
+        """See Radial."""
+        _, y, z = components(points)
+        below = y - z < -gamma(16) * (np.abs(y) + np.abs(z))
+        return np.where(below[..., None], np.nan, super().project(points))
+
+    def factors(self, r_squared):
+        """See Radial."""
+        r = radii_within(r_squared, 1.0)
+        theta = angle(r)
+        return np.sin(theta) / r, np.cos(theta)
+
+    def radius(self, theta):
+        """See Radial: by Newton's method."""
+        return invert(angle, slope, theta, 0.0, 1.0)
+
+    @property
+    def widest(self) -> float:
+        """See Radial."""
+        return angle(1.0)
+
+
+@dataclass(frozen=True)
+class Omnimax(Pitched, Lens):
+    """The lens, pitched up by the dome's tilt."""
+
+    key = "OMNIMAX"
+    label = "Omnimax"
+    settings = ("tilt",)
+
+    @classmethod
+    def from_blender(cls, raw: BlenderCamera, raster: Raster) -> Omnimax:
+        """Build it from ``tilt`` and shift; InputError for a tilt without meaning."""
+        aspect = raster.width / (raster.height * raster.pixel_aspect)
+        across = max(aspect / ASPECT, 1.0)
+        bottom, top = (1 - 2 / min(aspect, ASPECT), 1.0) if aspect > 1 else (-1 / aspect, 1 / aspect)
+        window = Window.over_frame(raw, raster, (-across, across), (bottom, top))
+        return cls(window, elevation=number(raw, "tilt", 0.0, pi / 2, "deg"))

@@ -1,0 +1,71 @@
+"""OpenCV's calibrated fisheye, the lens of Kannala and Brandt.
+
+Assumption: the distorted radius is an odd polynomial of the angle from the axis, azimuth is kept.
+Formula: r = theta (1 + k1 theta^2 + k2 theta^4 + k3 theta^6 + k4 theta^8), r in focal lengths, K in OpenCV's
+convention. The inverse is Newton's. Pixels and points beyond the angle up to which r grows have no ray and no pixel.
+Unlike OpenCV's own functions, which stop at 90 degrees, angles go up to that limit or 180 degrees.
+Singular: that angle, and the point straight behind the eye.
+Reference: J. Kannala and S. Brandt, A Generic Camera Model and Calibration Method (2006); OpenCV documentation, Fisheye
+camera model.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..records import BlenderCamera, Raster
+from .calibration import CENTRE, FILE, FISHEYE, FOCAL, SIZE, Calibration
+from .inversion import invert
+from .radial import AT_THE_RIM, TINY, Radial
+
+
+@dataclass(frozen=True)
+class OpencvFisheye(Radial):
+    """r = polynomial(theta) up to ``limit``."""
+
+    coefficients: tuple[float, ...]
+    """k1 .. k4."""
+    limit: float
+    """Radians."""
+
+    key = "OPENCV_FISHEYE"
+    label = "OpenCV Fisheye"
+    settings = (FILE, *SIZE, *FOCAL, *CENTRE, *FISHEYE)
+
+    @classmethod
+    def from_blender(cls, raw: BlenderCamera, raster: Raster) -> OpencvFisheye:
+        """Build it from the settings of the same names or a calibration file; see Calibration for what is refused."""
+        calibration = Calibration.from_blender(raw, raster, FISHEYE)
+        coefficients = tuple(calibration.coefficients[name] for name in FISHEYE)
+        squares = np.polynomial.Polynomial([1.0, *((2 * i + 3) * k for i, k in enumerate(coefficients))]).roots()
+        turns = squares.real[(np.abs(squares.imag) <= 1e-9 * np.abs(squares)) & (squares.real > 0)]
+        return cls(calibration.window(raster), coefficients, min(np.pi, *np.sqrt(turns).tolist(), np.pi))
+
+    def distorted(self, theta):
+        """Return r of angles."""
+        k1, k2, k3, k4 = self.coefficients
+        s = theta * theta
+        return theta * (1 + s * (k1 + s * (k2 + s * (k3 + s * k4))))
+
+    def slope(self, theta):
+        """Return the derivative of r by theta."""
+        k1, k2, k3, k4 = self.coefficients
+        s = theta * theta
+        return 1 + s * (3 * k1 + s * (5 * k2 + s * (7 * k3 + s * 9 * k4)))
+
+    def factors(self, r_squared):
+        """See Radial."""
+        r = np.maximum(np.sqrt(r_squared), TINY)
+        theta = invert(self.distorted, self.slope, r, 0.0, self.limit)
+        return np.sin(theta) / r, np.cos(theta)
+
+    def radius(self, theta):
+        """See Radial."""
+        return np.where(theta <= self.limit * AT_THE_RIM, self.distorted(theta), np.nan)
+
+    @property
+    def widest(self) -> float:
+        """See Radial."""
+        return self.limit
