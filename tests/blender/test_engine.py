@@ -239,6 +239,7 @@ def test_a_stop_ends_the_render_after_a_tile_and_leaves_no_report(scene, monkeyp
     bpy.ops.render.render()
     assert len(asked) == 1
     assert asked[0] < 0.5
+    assert CameraRayCaster.stopped
     assert reports.latest() is None
 
 

@@ -21,6 +21,8 @@ class CameraRayCaster(bpy.types.RenderEngine):
     bl_label = "Camera Ray Caster"
     bl_use_eevee_viewport = True
     done: Report | None = None
+    stopped = False
+    """Whether a render was stopped since whoever asks has set it False."""
 
     def update_render_passes(self, scene=None, renderlayer=None):
         """Tell the compositor which sockets a view layer has."""
@@ -33,8 +35,8 @@ class CameraRayCaster(bpy.types.RenderEngine):
             report = self.render_layer(depsgraph)
         except InputError as error:
             self.report({"ERROR"}, str(error))
-        except Cancelled:
-            return  # Blender knows: it was asked by test_break
+        except (Cancelled, KeyboardInterrupt):
+            type(self).stopped = True
         else:
             self.keep(report)
 

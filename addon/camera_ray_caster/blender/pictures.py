@@ -3,15 +3,17 @@
 import os
 from collections.abc import Iterator
 from contextlib import contextmanager, redirect_stdout
+from errno import EISDIR
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from time import perf_counter
 
 import bpy
 
-from ..core.records import InputError
+from ..core.records import Cancelled, InputError
 from ..core.report import Report, as_json
 from . import reports
+from .engine import CameraRayCaster
 
 PICTURE = {"media_type": "IMAGE", "file_format": "PNG", "color_mode": "RGBA", "color_depth": "8"}
 LAYERS = {
@@ -49,8 +51,12 @@ def appearing(folder: Path) -> Iterator[Path]:
         folder.mkdir(parents=True, exist_ok=True)
         with TemporaryDirectory(prefix=".writing_", dir=folder) as temporary:
             yield Path(temporary)
-            for path in Path(temporary).iterdir():
-                os.replace(path, folder / path.name)
+            targets = {path: folder / path.name for path in Path(temporary).iterdir()}
+            for target in targets.values():
+                if target.is_dir():  # found before the first file has moved
+                    raise IsADirectoryError(EISDIR, f"{target.name!r} is a folder there")
+            for path, target in targets.items():
+                os.replace(path, target)
     except BaseException as error:
         for path in made:
             if path.is_dir():
@@ -61,8 +67,11 @@ def appearing(folder: Path) -> Iterator[Path]:
 
 
 def _rendered(scene) -> Report:
-    """Render the current frame and return its report, with Blender's share of the time."""
+    """Render the current frame and return its report, with Blender's share of the time; Cancelled where it stopped."""
+    if not any(layer.use for layer in scene.view_layers):
+        raise InputError(f"no view layer of scene {scene.name!r} is used for rendering: enable one")
     reports.forget()
+    CameraRayCaster.stopped = False
     scene.render.use_sequencer = False  # a strip would be shown in place of the cast
     started = perf_counter()
     try:
@@ -72,8 +81,10 @@ def _rendered(scene) -> Report:
         raise InputError(str(error).strip().splitlines()[0].removeprefix("Error: ")) from error
     elapsed = perf_counter() - started
     report = reports.latest()
+    if CameraRayCaster.stopped:
+        raise Cancelled
     if report is None:
-        raise InputError(f"scene {scene.name!r} rendered nothing: enable a view layer for rendering")
+        raise RuntimeError("the render failed: what went wrong stands above")
     return report.with_seconds(blender=elapsed - sum(report.seconds.values()))
 
 

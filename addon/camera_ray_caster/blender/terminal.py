@@ -1,6 +1,7 @@
 """The commands for a terminal: arguments in, files and a table out, and an exit status.
 
-Status 0: done; 1: done, but a witness disagrees with the camera's rays; 2: bad input, one line on standard error.
+Status 0: done; 1: done, but a witness disagrees with the camera's rays; 2: bad input, one line on standard error;
+130: stopped by Ctrl C.
 """
 
 import argparse
@@ -16,7 +17,7 @@ import bpy
 
 from ..core.facts import camera_facts
 from ..core.passes import PASSES
-from ..core.records import InputError
+from ..core.records import Cancelled, InputError
 from ..core.report import WIDTH, Report, as_json, as_lines
 from ..core.shading import SHADINGS
 from . import pictures
@@ -50,6 +51,9 @@ def main(command: str, arguments: Sequence[str], prog: str) -> int:
     except InputError as error:
         print(f"{prog}: {error}", file=sys.stderr)
         return 2
+    except (Cancelled, KeyboardInterrupt):
+        print(f"{prog}: stopped; what was under way has left nothing", file=sys.stderr)
+        return 130
 
 
 def cast(arguments: Sequence[str], prog: str) -> int:
