@@ -1,0 +1,122 @@
+"""The cross-slit camera: all rays meet two slits.
+
+A pixel's ray passes through its point on the perspective window, at unit depth before the camera, and meets both
+slits: it is where the planes through that point and each slit cross, so its direction is the product of their normals.
+A point of the scene has its pixel where the planes through it and each slit cross on the window. Rays start on the
+camera's plane z = 0.
+Where the slits meet it is the pinhole at that point. Slits parallel to the image plane give a general linear camera.
+Singular: points on a slit; a plane through one slit that is parallel to the other; z = 0 and the window, where a slit
+crosses it.
+Reference: A. Zomet, D. Feldman, S. Peleg and D. Weinshall, Mosaicing New Views: The Crossed-Slits Projection, PAMI 25
+(2003).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..records import BlenderCamera, InputError, Raster
+from ..vector import components, cross, difference, dot, norm
+from .film import Window
+from .intervals import Interval
+from .perspective import Perspective
+from .silhouette import pinhole_interval, pixel_bounds
+from .slits import ROUNDING, slit_from
+
+MIDDLE = np.array((0.0, 0.0, -1.0))
+"""Of the window's plane."""
+
+
+@dataclass(frozen=True)
+class CrossSlit:
+    """Two slits, each a point, the nearest to the window's middle, and a unit direction, camera frame."""
+
+    window: Window
+    slits: tuple[tuple[np.ndarray, np.ndarray], tuple[np.ndarray, np.ndarray]]
+
+    key = "CROSS_SLIT"
+    label = "Cross-Slit"
+    settings = ("slit_1", "slit_2")
+    planar = False
+    central = False
+
+    @classmethod
+    def from_blender(cls, raw: BlenderCamera, raster: Raster) -> CrossSlit:
+        """Build it from lens, sensor, shift, slit_1 and slit_2.
+
+        Raises InputError for slits that are parallel, or that lie in the window's plane, through which no ray leads.
+        """
+        slits = []
+        for name in cls.settings:
+            point, direction = slit_from(raw, name)
+            point = point + direction * ((MIDDLE - point) @ direction)  # small numbers keep the digits
+            if max(abs(direction[2]), abs(point[2] + 1)) <= ROUNDING:
+                raise InputError(
+                    f"{name} of camera {raw.name!r} lies in the picture's own plane, at depth {-point[2]:.6g}: it must "
+                    "be nearer or farther than 1, or not parallel to it"
+                )
+            slits.append((point, direction))
+        first, second = slits
+        if np.linalg.norm(np.cross(first[1], second[1])) <= ROUNDING:
+            raise InputError(f"slit_1 and slit_2 of camera {raw.name!r} are parallel: turn one of them")
+        return cls(Perspective.from_blender(raw, raster).window, (first, second))
+
+    def rays(self, x, y):
+        """Return origin and direction, each a tuple of three broadcastable arrays, camera frame, unit length.
+
+        x and y are pixel coordinates of broadcastable shapes. NaN where the ray would be parallel to the image plane,
+        or the point lies on a slit. Both are right to some EPS over the sine of the two planes' angle.
+        """
+        plane_x, plane_y = self.window.plane_from_pixels(x, y)
+        direction = cross(*self._normals((plane_x, plane_y, -1.0)))
+        rise = np.where(direction[2] != 0, direction[2], np.nan)
+        origin = plane_x + direction[0] / rise, plane_y + direction[1] / rise, 0.0
+        scale = -np.sign(rise) / norm(direction)
+        return origin, tuple(component * scale for component in direction)
+
+    def project(self, points):
+        """Return the pixel coordinates (..., 2) of camera-frame points (..., 3); NaN on slits and behind z = 0."""
+        x, y, z = components(np.asarray(points, np.float64))
+        across, up, scale = self._crossing(*self._normals((x, y, z)))
+        scale = np.where((z <= 0) & (scale != 0), scale, np.nan)
+        return np.stack(self.window.pixels_from_plane(across / scale, up / scale), axis=-1)
+
+    def bounds(self, centres, radii):
+        """Return (n, 4) pixel bounds x0, x1, y0, y1 outside of which no point of the spheres (camera frame) is seen.
+
+        The planes through a slit that touch a sphere are the two tangents of a disc as seen from a point.
+        """
+        normals = []
+        for point, direction in self.slits:
+            across, ahead = _axes_about(direction)
+            beside = centres - point
+            rise, depth = beside @ across, beside @ ahead
+            side = np.where(depth < 0, -1.0, 1.0)  # a plane goes on behind its slit
+            tangent = Interval(*pinhole_interval(side * rise, side * depth, radii))
+            normals.append(tuple(a - tangent * b for a, b in zip(across.tolist(), ahead.tolist(), strict=True)))
+        across, up, scale = self._crossing(*normals)
+        x, y = across / scale, up / scale
+        bounds = pixel_bounds(self.window, (x.low, x.high), (y.low, y.high))
+        bounds[centres[:, 2] > radii] = np.nan
+        return bounds
+
+    def _normals(self, point):
+        """Return the normals of the planes through a point and each slit."""
+        return (cross(direction, difference(point, start)) for start, direction in self.slits)
+
+    def _crossing(self, first, second):
+        """Return s X, s Y and s of the place where planes with these normals, numbers or intervals, meet the window."""
+        (a, b, _), (c, d, _) = first, second
+        e, f = (dot(n, start - MIDDLE) for n, (start, _) in zip((first, second), self.slits, strict=True))
+        return e * d - f * b, f * a - e * c, a * d - b * c
+
+
+def _axes_about(direction):
+    """Return two unit vectors across a direction, the first in the image plane, the second ahead."""
+    across = np.array((-direction[1], direction[0], 0.0))
+    length = np.linalg.norm(across)
+    across = across / length if length > ROUNDING else np.array((1.0, 0.0, 0.0))
+    ahead = np.cross(across, direction)
+    return across, ahead / np.linalg.norm(ahead)

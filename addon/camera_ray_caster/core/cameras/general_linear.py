@@ -1,0 +1,136 @@
+"""The general linear camera: all affine combinations of three rays.
+
+A ray is given by (s, t, u, v): its points (s, t) on the plane through the camera, z = 0, and (u, v) on the plane at
+unit depth before it, z = -1 (the camera looks along -Z). Ray 1 is the one at the frame's bottom left corner, ray 2 at
+its bottom right corner, ray 3 at its top left corner; pixel (x, y) of W x H has the ray
+(1 - alpha - beta) ray_1 + alpha ray_2 + beta ray_3 with alpha = x / W, beta = y / H. Rays start on z = 0.
+
+With M(depth) the 2 x 2 matrix that takes (alpha, beta) to the place at a depth, less its constant,
+M = S + depth D, and det M = C + B depth + A depth^2 is the characteristic equation: at its roots the rays meet slits.
+Singular: points at those depths, which no pixel sees or many.
+Reference: J. Yu and L. McMillan, General Linear Cameras, ECCV 2004.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from ..conventions import EPS32
+from ..records import BlenderCamera, InputError, Raster
+from ..vector import components
+from .intervals import Interval
+from .settings import numbers
+from .silhouette import MARGIN
+
+ROUNDING = 16 * EPS32
+"""What is below this, relative to the rays' own numbers, counts as zero: Blender stores the rays as float32."""
+
+NAMES = "ray_1", "ray_2", "ray_3"
+
+
+@dataclass(frozen=True)
+class GeneralLinear:
+    """Three rays (s, t, u, v), (3, 4), over a frame of size (W, H) pixels."""
+
+    three: np.ndarray
+    size: tuple[int, int]
+
+    key = "GENERAL_LINEAR"
+    label = "General Linear"
+    settings = ("ray_1", "ray_2", "ray_3")
+    planar = False
+    central = False
+
+    @classmethod
+    def from_blender(cls, raw: BlenderCamera, raster: Raster) -> GeneralLinear:
+        """Build it from ray_1, ray_2 and ray_3; InputError where one ray is a combination of the others."""
+        three = np.array([numbers(raw, name, 4) for name in NAMES])
+        if _are_dependent(three):
+            rays = ", ".join(str(tuple(ray)) for ray in three.tolist())
+            raise InputError(
+                f"{', '.join(NAMES)} of camera {raw.name!r} are dependent, {rays}: as points (s, t, u, v) they must "
+                "not lie on one line"
+            )
+        return cls(three, (raster.width, raster.height))
+
+    @property
+    def kind(self) -> str:
+        """The name of this camera among the general linear ones."""
+        return classify(self.three)
+
+    @cached_property
+    def affine(self) -> np.ndarray:
+        """(3, 4): s, t and the slopes u - s, v - t of ray 1, and what they grow by over alpha and over beta."""
+        rows = self.three - np.outer((0, 1, 1), self.three[0])
+        return np.concatenate((rows[:, :2], rows[:, 2:] - rows[:, :2]), axis=1)
+
+    def rays(self, x, y):
+        """Return origin and direction, each a tuple of three broadcastable arrays, camera frame, unit length.
+
+        x and y are pixel coordinates of broadcastable shapes. The origin and the slopes are right to gamma(5) of the
+        sum of the magnitudes of the three rays' numbers.
+        """
+        alpha, beta = x / self.size[0], y / self.size[1]
+        s, t, slope_x, slope_y = (a + (alpha * b + beta * c) for a, b, c in self.affine.T.tolist())
+        scale = 1 / np.sqrt(slope_x * slope_x + (slope_y * slope_y + 1))
+        return (s, t, 0.0), (slope_x * scale, slope_y * scale, -scale)
+
+    def project(self, points):
+        """Return the pixel coordinates (..., 2) of camera-frame points (..., 3).
+
+        NaN behind z = 0, where no ray starts, and at the depths of the slits. A camera of kind EPI looks along one
+        plane and sees nothing beside it: NaN everywhere.
+        """
+        x, y, z = components(np.asarray(points, np.float64))
+        across, up, determinant = self._solved(x, y, z)
+        determinant = np.where((z <= 0) & (determinant != 0), determinant, np.nan)
+        return np.stack((across / determinant * self.size[0], up / determinant * self.size[1]), axis=-1)
+
+    def bounds(self, centres, radii):
+        """Return (n, 4) pixel bounds x0, x1, y0, y1 outside of which no point of the spheres (camera frame) is seen."""
+        across, up, determinant = self._solved(*(Interval.around(c, radii) for c in components(centres)))
+        x, y = across / determinant * self.size[0], up / determinant * self.size[1]
+        bounds = np.stack((x.low - MARGIN, x.high + MARGIN, y.low - MARGIN, y.high + MARGIN), axis=-1)
+        bounds[centres[:, 2] > radii] = np.nan
+        return bounds
+
+    def _solved(self, x, y, z):
+        """Return alpha det M, beta det M and det M of points, or of intervals, by Cramer's rule."""
+        (s, t, slope_x, slope_y), a, b = self.affine.tolist()
+        beside_x, beside_y = x + slope_x * z - s, y + slope_y * z - t
+        a_x, a_y, b_x, b_y = a[0] - a[2] * z, a[1] - a[3] * z, b[0] - b[2] * z, b[1] - b[3] * z
+        return b_y * beside_x - b_x * beside_y, a_x * beside_y - a_y * beside_x, a_x * b_y - a_y * b_x
+
+
+def classify(three) -> str:
+    """Return the kind of the camera that three rays (3, 4) span, by its characteristic equation.
+
+    Two slits: cross-slit. One, met twice: pinhole if M vanishes there, else pencil. None at a finite depth: bilinear.
+    With A = 0 one slit is at infinity: pushbroom if the other is not, twisted orthographic if it is, orthographic if
+    all slopes are equal; EPI if every depth is a root: the rays lie in one plane.
+    """
+    rows = np.asarray(three)[1:] - np.asarray(three)[0]
+    s, d = rows[:, :2].T, (rows[:, 2:] - rows[:, :2]).T
+    size_s, size_d = np.abs(s).max(), np.abs(d).max()
+    if size_d <= ROUNDING * np.abs(three).max():
+        return "orthographic"
+    c, a = np.linalg.det(s), np.linalg.det(d)
+    b = s[0, 0] * d[1, 1] + d[0, 0] * s[1, 1] - s[0, 1] * d[1, 0] - d[0, 1] * s[1, 0]
+    if abs(a) <= ROUNDING * size_d**2:
+        if abs(b) > ROUNDING * size_s * size_d:
+            return "pushbroom"
+        return "twisted orthographic" if abs(c) > ROUNDING * size_s**2 else "EPI"
+    discriminant = b * b - 4 * a * c
+    if abs(discriminant) > ROUNDING * (b * b + 4 * abs(a * c) + (size_s * size_d) ** 2):
+        return "cross-slit" if discriminant > 0 else "bilinear"
+    depth = -b / (2 * a)
+    return "pinhole" if np.abs(s + depth * d).max() <= np.sqrt(ROUNDING) * (size_s + abs(depth) * size_d) else "pencil"
+
+
+def _are_dependent(three) -> bool:
+    """Whether the rays, as points of four dimensions, lie on one line (or in one point)."""
+    rows = three[1:] - three[0]
+    return bool(np.linalg.svd(rows, compute_uv=False)[-1] <= ROUNDING * np.abs(three).max())

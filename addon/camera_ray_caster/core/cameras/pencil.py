@@ -1,0 +1,89 @@
+"""The pencil camera: all rays meet one slit, and those in one plane through it all meet in one point of it.
+
+Where the plane's tangent from the viewing direction is m, the eye has moved ``slide`` m along the slit from the
+object's point: one pinhole camera a line of the picture. With slide 0 it is the pinhole at that point. A pixel at
+(X, Y) of the perspective window has the direction v = (X, Y, -1) and the eye p + slide m l with
+m = (n . v) / (w . v): l the slit's direction, n across it in the image plane, w across both, ahead.
+A slit parallel to the image plane gives a general linear camera.
+Singular: points and directions in the plane of l and n, where m is infinite.
+Reference: J. Yu and L. McMillan, General Linear Cameras, ECCV 2004.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..records import BlenderCamera, Raster
+from ..vector import along, components, difference, dot, norm
+from .film import Window
+from .intervals import Interval
+from .perspective import Perspective
+from .settings import number
+from .silhouette import pinhole_interval, pixel_bounds
+from .slits import image_axes, slit_from
+
+
+@dataclass(frozen=True)
+class Pencil:
+    """A slit through ``point``; ``axes`` holds l, n and w in its rows, an orthonormal basis of the camera's frame."""
+
+    window: Window
+    point: np.ndarray
+    axes: np.ndarray
+    slide: float
+
+    key = "PENCIL"
+    label = "Pencil"
+    settings = ("slit_1", "pencil_slide")
+    planar = False
+    central = False
+
+    @classmethod
+    def from_blender(cls, raw: BlenderCamera, raster: Raster) -> Pencil:
+        """Build it from lens, sensor, shift, slit_1 and pencil_slide; InputError for what has no meaning."""
+        point, direction = slit_from(raw, "slit_1")
+        _, across = image_axes(raw, "slit_1", direction)
+        axes = np.stack((direction, across, np.cross(across, direction)))
+        return cls(Perspective.from_blender(raw, raster).window, point, axes, number(raw, "pencil_slide"))
+
+    def rays(self, x, y):
+        """Return origin and direction, each a tuple of three broadcastable arrays, camera frame, unit length.
+
+        x and y are pixel coordinates of broadcastable shapes. NaN where the direction is in the plane of l and n. The
+        origin is right to some EPS of its parts over the cosine of w and v, the direction to some EPS.
+        """
+        direction = *self.window.plane_from_pixels(x, y), -1.0
+        origin, known = self._eye(direction)
+        scale = np.where(known, 1.0, np.nan) / norm(direction)
+        return origin, tuple(component * scale for component in direction)
+
+    def project(self, points):
+        """Return the pixel coordinates (..., 2) of camera-frame points (..., 3); NaN at and behind the eye's plane."""
+        points = np.asarray(points, np.float64)
+        eye, known = self._eye(components(points - self.point))
+        x, y, z = difference(components(points), eye)
+        depth = np.where(known & (z < 0), -z, np.nan)
+        return np.stack(self.window.pixels_from_plane(x / depth, y / depth), axis=-1)
+
+    def bounds(self, centres, radii):
+        """Return (n, 4) pixel bounds x0, x1, y0, y1 outside of which no point of the spheres (camera frame) is seen."""
+        beside, rise, ahead = ((centres - self.point) @ self.axes.T).T
+        side = np.where(ahead < 0, -1.0, 1.0)  # a line through the slit has the same m on both sides of it
+        m, tangent = (Interval(*pinhole_interval(side * part, side * ahead, radii)) for part in (rise, beside))
+        depth = Interval.around(ahead, radii)
+        lag = m * self.slide
+        tangent = tangent - lag / depth
+        across, up, away = (a * tangent + b * m + c for a, b, c in self.axes.T.tolist())
+        x, y = across / -away, up / -away
+        bounds = pixel_bounds(self.window, (x.low, x.high), (y.low, y.high))
+        height = Interval.around(centres[:, 2] - self.point[2], radii) - lag * self.axes[0, 2]
+        bounds[height.low >= 0] = np.nan
+        return bounds
+
+    def _eye(self, direction):
+        """Return the eye of rays in a direction, or in the plane of a place as seen from the point; and where it is."""
+        rise, ahead = dot(self.axes[1], direction), dot(self.axes[2], direction)
+        known = ahead != 0
+        return along(self.point, self.axes[0], self.slide * rise / np.where(known, ahead, 1.0)), known

@@ -1,0 +1,92 @@
+"""The pushbroom camera: the eye flies along a slit and sees one line of the picture, across it, at a time.
+
+All rays start on the slit and are parallel to one plane. With a the slit's direction as it is seen in the picture and
+n the one across it, both in the image plane, a pixel at (X, Y) of the perspective window has the eye on the slit where
+a . eye = k a . (X, Y) and the direction (n . (X, Y)) n - Z: perspective across, by lens and sensor, and orthographic
+along, by ortho_scale, which is as long there as in Blender's ORTHO (k is its frame over the perspective one).
+A slit parallel to the image plane gives a general linear camera; one that comes nearer is still a pushbroom.
+Singular: points in the plane through the slit that is parallel to the image plane, seen on the slit by all pixels.
+Reference: R. Gupta and R. Hartley, Linear Pushbroom Cameras, PAMI 19 (1997).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..records import BlenderCamera, Raster
+from ..vector import along as point_along
+from ..vector import components, difference, dot
+from .film import Window
+from .intervals import Interval
+from .orthographic import Orthographic
+from .perspective import Perspective
+from .silhouette import pinhole_interval, pixel_bounds
+from .slits import image_axes, slit_from
+
+
+@dataclass(frozen=True)
+class Pushbroom:
+    """A slit through ``start``, where a . start = 0, with the eye at start + (a . point) step."""
+
+    window: Window
+    stretch: float
+    """k: along the slit, Blender units over the window's."""
+    along: np.ndarray
+    across: np.ndarray
+    start: np.ndarray
+    step: np.ndarray
+
+    key = "PUSHBROOM"
+    label = "Pushbroom"
+    settings = ("slit_1", "ortho_scale")
+    planar = False
+    central = False
+
+    @classmethod
+    def from_blender(cls, raw: BlenderCamera, raster: Raster) -> Pushbroom:
+        """Build it from lens, sensor, shift, ortho_scale and slit_1; InputError for what has no meaning."""
+        window = Perspective.from_blender(raw, raster).window
+        stretch = Orthographic.from_blender(raw, raster).window.pitch_x / window.pitch_x
+        point, direction = slit_from(raw, "slit_1")
+        along, across = image_axes(raw, "slit_1", direction)
+        step = direction / (along @ direction)
+        return cls(window, stretch, along, across, point - (along @ point) * step, step)
+
+    def rays(self, x, y):
+        """Return origin and direction, each a tuple of three broadcastable arrays, camera frame, unit length.
+
+        x and y are pixel coordinates of broadcastable shapes. The origin is right to some EPS of the slit's length in
+        view and its distance, the direction to some EPS.
+        """
+        plane = *self.window.plane_from_pixels(x, y), 0.0
+        slope = dot(self.across, plane)
+        scale = 1 / np.sqrt(slope * slope + 1)
+        origin = point_along(self.start, self.step, self.stretch * dot(self.along, plane))
+        return origin, (self.across[0] * slope * scale, self.across[1] * slope * scale, -scale)
+
+    def project(self, points):
+        """Return the pixel coordinates (..., 2) of camera-frame points (..., 3); NaN at and behind the eye's plane."""
+        point = components(np.asarray(points, np.float64))
+        place = dot(self.along, point)
+        beside = difference(point, point_along(self.start, self.step, place))
+        depth = np.where(beside[2] < 0, -beside[2], np.nan)
+        return np.stack(self.window.pixels_from_plane(*self._plane(place, dot(self.across, beside) / depth)), axis=-1)
+
+    def bounds(self, centres, radii):
+        """Return (n, 4) pixel bounds x0, x1, y0, y1 outside of which no point of the spheres (camera frame) is seen."""
+        inward = self.along * self.step[2] - (0.0, 0.0, 1.0)  # a point's depth before its eye is a linear form of it
+        length = np.linalg.norm(inward)
+        beside = centres - self.start
+        slope = pinhole_interval(beside @ self.across, beside @ inward / length, radii)
+        x, y = self._plane(Interval.around(centres @ self.along, radii), Interval(*slope) * (1 / length))
+        bounds = pixel_bounds(self.window, (x.low, x.high), (y.low, y.high))
+        bounds[np.isnan(slope[0])] = np.nan
+        return bounds
+
+    def _plane(self, place, slope):
+        """Return the image-plane X, Y of places along the slit and slopes across it, numbers or intervals."""
+        a, n = self.along, self.across
+        place = place * (1 / self.stretch)
+        return place * a[0] + slope * n[0], place * a[1] + slope * n[1]
