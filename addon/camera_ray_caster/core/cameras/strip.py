@@ -1,0 +1,159 @@
+"""The strip camera, a multiple-centre-of-projection image: each column is seen from another place on a path.
+
+The path, a curve of the scene, is walked at constant speed from its first point, at the left edge, to its last, at the
+right edge. A column is the middle column of a perspective camera that stands there: its rows are the perspective
+window's, by lens, sensor and shift_y, and its rays lie in one plane through up, the camera's +Y. With ``follow_path``
+the camera turns about up so that it looks to the left of where it is going; else it keeps its orientation.
+Between the points in which Blender samples the curve, the place and the column's normal change evenly.
+Singular: a point about which the columns' planes turn, so that none or many see it; a path along the viewing direction.
+Reference: P. Rademacher and G. Bishop, Multiple-Center-of-Projection Images, SIGGRAPH 1998.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..records import BlenderCamera, InputError, Raster
+from ..vector import components
+from .film import Window
+from .intervals import Interval
+from .perspective import Perspective
+from .silhouette import MARGIN
+from .slits import path_from
+
+BESIDE = 1e-9
+"""Fraction of a stretch of the path by which a column may lie beyond its end: rounding must not lose one at a joint."""
+
+PIECES = 64
+"""Parts of the path that are looked at apart for the bounds of a sphere."""
+
+
+@dataclass(frozen=True)
+class Strip:
+    """Knots: columns x (k,), the eye's places there (k, 3), and the column's normals (k, 2), in x and z."""
+
+    window: Window
+    columns: np.ndarray
+    eyes: np.ndarray
+    normals: np.ndarray
+
+    key = "STRIP"
+    label = "Strip"
+    settings = ("path", "follow_path")
+    planar = False
+    central = False
+
+    @classmethod
+    def from_blender(cls, raw: BlenderCamera, raster: Raster) -> Strip:
+        """Build it from lens, sensor, shift_y, the curve ``path`` and follow_path; InputError for what is no path."""
+        eyes, closed = path_from(raw, "path")
+        lengths = np.linalg.norm(np.diff(eyes, axis=0), axis=1)
+        walked = np.concatenate(([0.0], np.cumsum(lengths)))
+        normals = np.tile((1.0, 0.0), (len(eyes), 1))
+        if raw.settings.get("follow_path"):
+            normals = _headings(np.diff(eyes, axis=0) / lengths[:, None], closed)[:, [0, 2]]
+            size = np.linalg.norm(normals, axis=1, keepdims=True)
+            if size.min() < 1e-6:
+                raise InputError(
+                    f"path of camera {raw.name!r} runs along the camera's up axis, or straight back, at point "
+                    f"{int(size.argmin())}: bend it, or clear follow_path"
+                )
+            normals = normals / size
+        return cls(Perspective.from_blender(raw, raster).window, walked * (raster.width / walked[-1]), eyes, normals)
+
+    def rays(self, x, y):
+        """Return origin and direction, each a tuple of three broadcastable arrays, camera frame, unit length.
+
+        x and y are pixel coordinates of broadcastable shapes; the origin has the shape of x. NaN beyond the ends of the
+        path. The origin is right to some EPS of the path's places, the direction to some EPS.
+        """
+        eye, ahead_x, ahead_z = self._at(x)
+        _, slope = self.window.plane_from_pixels(0.0, y)
+        scale = 1 / np.sqrt(slope * slope + 1)
+        return eye, (ahead_x * scale, slope * scale, ahead_z * scale)
+
+    def project(self, points):
+        """Return the pixel coordinates (..., 2) of camera-frame points (..., 3); NaN where no column sees them.
+
+        Of several columns, the lowest. On a stretch of the path a column holds the point where (point - eye) . normal,
+        a quadratic in the place on it, is zero: solved without iteration, right to some EPS of the place.
+        """
+        points = np.asarray(points, np.float64)
+        x = np.full(points.shape[:-1], np.nan)
+        for k in reversed(range(len(self.columns) - 1)):
+            part = self._first_on_stretch(points, k)
+            seen = ~np.isnan(part)
+            x[seen] = self.columns[k] + part[seen] * (self.columns[k + 1] - self.columns[k])
+        eye, ahead_x, ahead_z = self._at(x)
+        depth = (points[..., 0] - eye[0]) * ahead_x + (points[..., 2] - eye[2]) * ahead_z
+        slope = (points[..., 1] - eye[1]) / np.where(depth > 0, depth, np.nan)
+        return np.stack((x, self.window.pixels_from_plane(0.0, slope)[1]), axis=-1)
+
+    def bounds(self, centres, radii):
+        """Return (n, 4) pixel bounds x0, x1, y0, y1 outside of which no point of the spheres (camera frame) is seen.
+
+        Piece by piece of the path: a piece counts where the columns' planes come within the radius of the centre.
+        """
+        marks = np.union1d(self.columns, np.linspace(0, self.columns[-1], PIECES + 1))
+        eyes = np.stack([np.interp(marks, self.columns, c) for c in self.eyes.T], axis=1)
+        normals = np.stack([np.interp(marks, self.columns, c) for c in self.normals.T], axis=1)
+        bounds = np.tile((np.inf, -np.inf), (len(centres), 2))
+        for k in range(len(marks) - 1):
+            c, b, a = _crossing(centres, eyes[k], eyes[k + 1] - eyes[k], normals[k], normals[k + 1] - normals[k])
+            ends = c, c + b / 2, c + b + a  # the quadratic's Bernstein coefficients, between which it stays
+            touched = (np.minimum.reduce(ends) <= radii) & (np.maximum.reduce(ends) >= -radii)
+            rise = Interval.around(centres[:, 1], radii) - Interval(*np.sort(eyes[k : k + 2, 1]))
+            middle, half = (eyes[k] + eyes[k + 1]) / 2, np.hypot(*(eyes[k + 1] - eyes[k])[[0, 2]]) / 2
+            away = np.hypot(centres[:, 0] - middle[0], centres[:, 2] - middle[2])
+            slope = rise / Interval.around(away, radii + half)
+            bottom, top = (self.window.pixels_from_plane(0.0, end)[1] for end in (slope.low, slope.high))
+            for edge, value in ((0, marks[k]), (2, bottom)):
+                bounds[:, edge] = np.where(touched, np.minimum(bounds[:, edge], value), bounds[:, edge])
+            for edge, value in ((1, marks[k + 1]), (3, top)):
+                bounds[:, edge] = np.where(touched, np.maximum(bounds[:, edge], value), bounds[:, edge])
+        bounds[bounds[:, 0] > bounds[:, 1]] = np.nan
+        return bounds + np.array((-MARGIN, MARGIN, -MARGIN, MARGIN))
+
+    def _at(self, x):
+        """Return the eye and the horizontal unit direction (x, z) of columns; NaN beyond the path."""
+        k = np.clip(np.searchsorted(self.columns, x, side="right") - 1, 0, len(self.columns) - 2)
+        part = (x - self.columns[k]) / (self.columns[k + 1] - self.columns[k])
+        part = np.where((x >= 0) & (x <= self.columns[-1]), part, np.nan)
+        eye = tuple(c[k] + part * (c[k + 1] - c[k]) for c in self.eyes.T)
+        normal_x, normal_z = (c[k] + part * (c[k + 1] - c[k]) for c in self.normals.T)
+        size = np.hypot(normal_x, normal_z)
+        size = np.where(size > 0, size, np.nan)
+        return eye, normal_z / size, -normal_x / size
+
+    def _first_on_stretch(self, points, k):
+        """Return the lowest place 0 .. 1 on stretch k whose column sees the points, NaN where none does."""
+        eye, step = self.eyes[k], self.eyes[k + 1] - self.eyes[k]
+        normal, turn = self.normals[k], self.normals[k + 1] - self.normals[k]
+        c, b, a = _crossing(points, eye, step, normal, turn)
+        first = np.full(points.shape[:-1], np.nan)
+        with np.errstate(invalid="ignore", divide="ignore"):  # no root, or one at infinity: NaN and inf are answers
+            root = -(b + np.copysign(np.sqrt(b * b - 4 * a * c), b)) / 2
+            for place in (root / a, c / root):
+                inside = (place >= -BESIDE) & (place <= 1 + BESIDE)
+                place = np.clip(place, 0.0, 1.0)
+                beside_x, _, beside_z = components(points - (eye + place[..., None] * step))
+                ahead = (normal[1] + place * turn[1]) * beside_x - (normal[0] + place * turn[0]) * beside_z
+                first = np.where(inside & (ahead > 0), np.fmin(first, place), first)
+        return first
+
+
+def _crossing(points, eye, step, normal, turn):
+    """Return c, b, a of (point - eye - f step) . (normal + f turn) = c + b f + a f^2, in x and z."""
+    beside_x, _, beside_z = components(points - eye)
+    c = beside_x * normal[0] + beside_z * normal[1]
+    b = beside_x * turn[0] + beside_z * turn[1] - (step[0] * normal[0] + step[2] * normal[1])
+    return c, b, -(step[0] * turn[0] + step[2] * turn[1])
+
+
+def _headings(directions, closed):
+    """Return where the path heads at its points: between the unit directions of the two stretches that meet there."""
+    first, last = (directions[-1], directions[0]) if closed else (directions[0], directions[-1])
+    around = np.concatenate((first[None], directions, last[None]))
+    return (around[1:] + around[:-1]) / 2
