@@ -7,16 +7,19 @@ All tables have the model's key. Settings are fields of BlenderCamera over ``DEF
 from dataclasses import fields
 from math import pi, sqrt
 
+import numpy as np
+
 from camera_ray_caster.core.cameras import camera_from
 from camera_ray_caster.core.records import BlenderCamera
 
-from . import central_examples
+from . import central_examples, multiperspective_examples
 from .example_frames import BORDER, DEFAULTS, IDENTITY, PORTRAIT, SHIFTED, TURNED, WIDE_PIXELS
 
 __all__ = ["BORDER", "EXAMPLES", "FACTS", "IDENTITY", "ONLY_SOME", "REFUSED", "TURNED", "UNSEEN", "camera"]
 
 ONLY_SOME = {
     **central_examples.ONLY_SOME,
+    **multiperspective_examples.ONLY_SOME,
     "longitude_min": -pi, "longitude_max": pi, "latitude_min": -pi / 2, "latitude_max": pi / 2,
     "fisheye_fov": pi, "fisheye_lens": 10.5,
     "fisheye_polynomial_k0": 0.0, "fisheye_polynomial_k1": -pi / 72, "fisheye_polynomial_k2": 0.0,
@@ -29,6 +32,7 @@ ONLY_SOME = {
 
 EXAMPLES = {
     **central_examples.EXAMPLES,
+    **multiperspective_examples.EXAMPLES,
     "PERSP": [{}, PORTRAIT, WIDE_PIXELS, BORDER | {"lens": 4.0}, {"lens": 400.0, "matrix_world": TURNED}],
     "ORTHO": [{}, PORTRAIT, WIDE_PIXELS, BORDER | {"ortho_scale": 0.01}, {"ortho_scale": 50.0, "matrix_world": TURNED}],
     "EQUIRECTANGULAR": [{}, SHIFTED, BORDER, {"longitude_min": 0.5, "latitude_max": 0.1, "shift_y": 0.2}],
@@ -54,6 +58,7 @@ EXAMPLES = {
 
 FACTS = {
     **central_examples.FACTS,
+    **multiperspective_examples.FACTS,
     "PERSP": [
         # the right edge of a 36 mm sensor behind 18 mm makes 45 degrees, the centre looks ahead
         ({"lens": 18.0}, (96, 27), (0, 0, 0), (1, 0, -1)),
@@ -126,6 +131,7 @@ FACTS = {
 
 UNSEEN = {
     **central_examples.UNSEEN,
+    **multiperspective_examples.UNSEEN,
     "PERSP": [(0, 0, 0), (1, 2, 0), (0, 0, 1), (3, -1, 5)],
     "ORTHO": [],
     "EQUIRECTANGULAR": [(0, 0, 0)],
@@ -141,6 +147,7 @@ UNSEEN = {
 
 REFUSED = {
     **central_examples.REFUSED,
+    **multiperspective_examples.REFUSED,
     "PERSP": [
         ({"lens": 0.0}, "lens"),
         ({"lens": float("nan")}, "lens"),
@@ -164,8 +171,19 @@ REFUSED = {
 
 
 def camera(key: str, settings=()):
-    """Return the camera of a model with these settings over the defaults."""
+    """Return the camera of a model with these settings over the defaults; slits and path are in the camera's frame."""
     given = {**DEFAULTS, **dict(settings)}
     known = {field.name for field in fields(BlenderCamera)}
     only_some = ONLY_SOME | {name: given.pop(name) for name in sorted(set(given) - known)}
+    only_some |= {name: attached(only_some[name], given["matrix_world"]) for name in ("slit_1", "slit_2", "path")}
     return camera_from(BlenderCamera(name="Camera", type="PERSP", model=key, settings=only_some, **given))
+
+
+def attached(points, matrix_world):
+    """Return the setting of an object whose points lie in the frame of the camera, and the edges between them."""
+    if points is None:
+        return None
+    matrix = np.array(matrix_world, float)
+    size = np.linalg.norm(matrix[:3, :3], axis=0)
+    matrix[:3, :3] /= np.where(size > 0, size, 1)
+    return points, matrix, [(k, k + 1) for k in range(len(points) - 1)]

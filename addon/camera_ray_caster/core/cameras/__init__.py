@@ -8,6 +8,7 @@ from ..clock import clock_from
 from ..records import BlenderCamera, InputError, Pose
 from .camera_obscura import CameraObscura
 from .central_cylindrical import CentralCylindrical
+from .cross_slit import CrossSlit
 from .cubemap_face import CubemapFace
 from .cylindrical import Cylindrical
 from .dome_master import DomeMaster
@@ -18,13 +19,19 @@ from .fisheye_equisolid import FisheyeEquisolid
 from .fisheye_orthographic import FisheyeOrthographic
 from .fisheye_polynomial import FisheyePolynomial
 from .fisheye_stereographic import FisheyeStereographic
+from .general_linear import GeneralLinear
 from .mirrorball import Mirrorball
+from .omnidirectional_stereo import OmnidirectionalStereo
 from .omnimax import Omnimax
 from .opencv_fisheye import OpencvFisheye
 from .opencv_pinhole import OpencvPinhole
 from .orthographic import Orthographic
+from .pencil import Pencil
 from .perspective import Perspective
+from .pushbroom import Pushbroom
 from .stereographic_panorama import StereographicPanorama
+from .strip import Strip
+from .twisted_orthographic import TwistedOrthographic
 
 MODELS = (
     Perspective, Orthographic,
@@ -32,6 +39,7 @@ MODELS = (
     CentralCylindrical, CameraObscura,
     FisheyeOrthographic, FisheyeStereographic, OpencvPinhole, OpencvFisheye, Omnimax, DomeMaster, Cylindrical,
     StereographicPanorama,
+    GeneralLinear, CrossSlit, Pushbroom, Pencil, TwistedOrthographic, Strip, OmnidirectionalStereo,
 )  # fmt: skip
 """Every model. ``key`` is Blender's camera or panorama type, or the name of a model that Blender does not have."""
 

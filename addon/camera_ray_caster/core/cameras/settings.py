@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 from ..records import BlenderCamera, InputError
 
@@ -31,7 +32,8 @@ def number(raw: BlenderCamera, name: str, low: float = -math.inf, high: float = 
 
 def numbers(raw: BlenderCamera, name: str, count: int) -> tuple[float, ...]:
     """Return a setting of ``count`` finite numbers. Raises InputError that names it and its value."""
-    values = tuple(raw.settings.get(name, ()))  # type: ignore[call-overload]
+    given: Any = raw.settings.get(name, ())
+    values = tuple(given)
     if len(values) != count or not all(isinstance(value, int | float) and math.isfinite(value) for value in values):
         raise InputError(f"{name} of camera {raw.name!r} is {values}: it must be {count} finite numbers")
     return values
