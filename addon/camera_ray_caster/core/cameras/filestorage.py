@@ -15,7 +15,8 @@ from pathlib import Path
 
 from ..records import InputError
 
-ENTRY = re.compile(r"^([A-Za-z_][\w-]*)[ \t]*:(.*(?:\n(?:[ \t-].*|#.*|$))*)", re.MULTILINE)
+COMMENT = re.compile(r"(^|[ \t])#[^\"\n]*$", re.MULTILINE)
+ENTRY = re.compile(r"^([A-Za-z_][\w-]*)[ \t]*:(.*(?:\n(?:[ \t-].*|$))*)", re.MULTILINE)
 DATA = re.compile(r"^\s*data:\s*\[(.*?)\]", re.MULTILINE | re.DOTALL)
 JSON_TOKEN = re.compile(r'"(?:\\.|[^"\\])*"|//[^\n]*|-?\.(?:Nan|Inf)')
 
@@ -32,7 +33,7 @@ def read_entries(path: str) -> dict[str, object]:
         raise InputError(f"calibration file {path!r} cannot be read: {reason}") from error
     if text.lstrip().startswith("{"):
         return _json_entries(text, path)
-    entries = {name: _yaml_value(body) for name, body in ENTRY.findall(text)}
+    entries = {name: _yaml_value(body) for name, body in ENTRY.findall(COMMENT.sub("", text))}
     if not entries:
         raise InputError(f"calibration file {path!r} is neither YAML nor JSON as OpenCV writes it")
     return entries
