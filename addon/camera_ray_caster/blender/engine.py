@@ -9,12 +9,13 @@ from ..core.report import Report
 from . import reports
 from .passes import stored, ticked
 from .run import run
+from .viewport import Viewport
 
 WARNINGS = 10
 """Objects that are warned of by name; the report has them all."""
 
 
-class CameraRayCaster(bpy.types.RenderEngine):
+class CameraRayCaster(Viewport, bpy.types.RenderEngine):
     """Rays of the scene's camera, cast at spheres and planes."""
 
     bl_idname = "CAMERA_RAY_CASTER"

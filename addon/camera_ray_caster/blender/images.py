@@ -1,4 +1,4 @@
-"""Cast passes as Image datablocks: float pictures that stay in the file's data, one a pass, replaced by the next cast."""
+"""Cast passes as Image datablocks: float pictures, one a pass, which the next cast replaces."""
 
 from __future__ import annotations
 

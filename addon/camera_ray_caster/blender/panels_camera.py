@@ -74,6 +74,8 @@ def scalars(context, facts):
         yield "Field of View", " × ".join(f"{angle:.4g}°" for angle in facts["field_of_view"])
         yield "Plane Distance d", f"{facts['d']:.6g}"
         yield "Aspect", f"{facts['aspect']:.6g}"
+    if "kind" in facts:
+        yield "Kind", facts["kind"]
     if "frame" in facts:
         yield "Frame", " × ".join(length(context, side) for side in facts["frame"])
     yield "Clip", " to ".join(length(context, distance) for distance in facts["clip"])

@@ -1,8 +1,26 @@
 """What Blender is told of: the modules in the order in which they are registered."""
 
-from . import cast_operator, engine, operators, panels, panels_camera, panels_cast, properties, reports, terminal
+from . import (
+    cast_operator,
+    engine,
+    mouse_gizmo,
+    observed,
+    operators,
+    overlay,
+    panels,
+    panels_camera,
+    panels_cast,
+    panels_overlay,
+    properties,
+    reports,
+    terminal,
+    viewport,
+)
 
-MODULES = (properties, reports, engine, operators, cast_operator, panels, panels_camera, panels_cast, terminal)
+MODULES = (
+    properties, reports, observed, viewport, engine, operators, cast_operator, overlay, mouse_gizmo,
+    panels, panels_camera, panels_cast, panels_overlay, terminal,
+)  # fmt: skip
 
 
 def register() -> None:

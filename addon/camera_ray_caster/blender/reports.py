@@ -1,4 +1,4 @@
-"""Where the reports of the latest render and the latest verification are kept, and the text datablock that shows one."""
+"""The reports of the latest render and of the latest verification, and the text datablock that shows one."""
 
 import bpy
 from bpy.app.handlers import persistent

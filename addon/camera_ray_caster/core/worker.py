@@ -9,19 +9,14 @@ from typing import Any
 
 
 class Worker:
-    """Runs ``work(progress)``, which calls ``progress(fraction)`` now and then and raises where that returns False.
+    """Runs ``work(progress)``, which calls ``progress(fraction)`` now and then and raises where that returns False."""
 
-    ``finished``, if given, is called in the thread when the work is over, however it ended.
-    """
-
-    def __init__(self, work: Callable[[Callable[[float], bool]], Any], finished: Callable[[], None] | None = None):
+    def __init__(self, work: Callable[[Callable[[float], bool]], Any]):
         self.fraction = 0.0
         self._stopped = Event()
         pool = ThreadPoolExecutor(1)
         self._future = pool.submit(work, self._advance)
         pool.shutdown(wait=False)
-        if finished is not None:
-            self._future.add_done_callback(lambda _: finished())
 
     @property
     def done(self) -> bool:
@@ -32,9 +27,13 @@ class Worker:
         """Wait for the end and return the result, or raise what the work raised."""
         return self._future.result()
 
+    def abandon(self) -> None:
+        """Ask it to stop, and do not wait for that."""
+        self._stopped.set()
+
     def stop(self) -> None:
         """Ask it to stop, and wait until it has: as long as one step of its progress."""
-        self._stopped.set()
+        self.abandon()
         wait([self._future])
 
     def _advance(self, fraction: float) -> bool:
