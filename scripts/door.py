@@ -12,17 +12,20 @@ ENGINE = "CAMERA_RAY_CASTER"
 
 def through(command: str) -> int:
     """Run a command of the add-on's terminal with this process's arguments and return its exit status."""
+    sys.path.insert(0, str(ADDON))
+    from camera_ray_caster.blender.quiet import keep_output
+
+    keep_output()
     try:
         import bpy
     except ModuleNotFoundError:
-        print(f"{command}.py: needs Blender or pip's bpy: `make {command}` sets it up", file=sys.stderr)
+        print(f"{command}.py: needs Blender or pip's bpy: `make cast` sets it up", file=sys.stderr)
         return 2
     import addon_utils
 
     installed = bpy.types.RenderEngine.bl_rna_get_subclass_py(ENGINE)
     if installed is not None:
         addon_utils.disable(installed.__module__.removesuffix(".blender.engine"))
-    sys.path.insert(0, str(ADDON))
     import camera_ray_caster
     from camera_ray_caster.blender import terminal
 

@@ -26,6 +26,9 @@ LABELS = {
     "valid": ("Valid", "X"),
     "ray_origin": ("Ray Origin", "XYZ"),
     "ray_direction": ("Ray Direction", "XYZ"),
+    "distance_bound": ("Distance Bound", "X"),
+    "position_bound": ("Position Bound", "X"),
+    "normal_bound": ("Normal Bound", "X"),
 }
 BEFORE_5_0 = {"object_index": ("IndexOB", "X"), "material_index": ("IndexMA", "X")}
 WIDTH, HEIGHT = 40, 30
@@ -295,9 +298,3 @@ def test_the_compositor_is_offered_the_ticked_passes(blender, scene):
     scene.view_layers[0].update_render_passes()
     sockets = {socket.name for socket in node.outputs if socket.enabled}
     assert sockets == {"Image", "Alpha", "Depth", "Ray Direction"}
-
-
-def test_blenders_panels_know_the_engine(blender):
-    for name in ("RENDER_PT_format", "RENDER_PT_output", "VIEWLAYER_PT_layer", "DATA_PT_lens", "OBJECT_PT_visibility"):
-        assert "CAMERA_RAY_CASTER" in getattr(blender.types, name).COMPAT_ENGINES
-    assert "CAMERA_RAY_CASTER" not in blender.types.RENDER_PT_eevee_performance.COMPAT_ENGINES

@@ -241,6 +241,13 @@ def test_a_refusal_is_one_line_and_status_2(scene, command, case):
     assert said in line
 
 
+@pytest.mark.parametrize("command", ["cast", "verify"])
+def test_a_python_without_bpy_is_told_what_it_needs(command):
+    words = [sys.executable, "-S", ROOT / "scripts" / f"{command}.py"]  # -S: no packages
+    done = subprocess.run(words, capture_output=True, text=True, timeout=60, env={})
+    assert "needs Blender or pip's bpy: `make cast`" in refused(done)
+
+
 def test_a_scene_that_cannot_be_cast_is_refused_in_one_line(blender, tmp_path):
     path = small(blender, tmp_path / "bad.blend")
     scene, camera = blender.context.scene, blender.data.objects["Top"]

@@ -6,7 +6,6 @@ Status 0: done; 1: done, but a witness disagrees with the camera's rays; 2: bad 
 
 import argparse
 import math
-import os
 import sys
 from collections.abc import Sequence
 from contextlib import redirect_stdout
@@ -24,6 +23,7 @@ from . import pictures
 from .check import verify_camera
 from .engine import CameraRayCaster
 from .passes import tick, ticked
+from .quiet import keep_output
 from .read import find_camera, read_camera
 
 DEFAULT_PASSES = ("combined", "depth", "normal", "position", "object_index")
@@ -42,8 +42,7 @@ class Parser(argparse.ArgumentParser):
 
 
 def main(command: str, arguments: Sequence[str], prog: str) -> int:
-    """Run a command of COMMANDS and return its exit status. It is the last thing that this process does."""
-    _keep_output_to_ourselves()
+    """Run a command of COMMANDS and return its exit status."""
     try:
         if command not in COMMANDS:
             raise InputError(f"there is no command {command!r}: choose from {', '.join(COMMANDS)}")
@@ -125,6 +124,7 @@ def unregister() -> None:
 
 
 def _from_blender(arguments: Sequence[str]) -> int:
+    keep_output()
     command, *rest = arguments or [""]
     return main(command, rest, f"camera_ray_caster {command}".strip())
 
@@ -212,11 +212,3 @@ def _show(report: Report, json: bool, last_line: str) -> None:
 def _line(error: RuntimeError) -> str:
     """Return the first thing that an operator reported, without its label."""
     return str(error).strip().splitlines()[0].removeprefix("Error: ")
-
-
-def _keep_output_to_ourselves() -> None:
-    """Keep standard output for Python; what Blender prints on it by itself (frames, saved files) goes nowhere."""
-    sys.stdout = os.fdopen(os.dup(1), "w", encoding="utf-8", errors="replace")
-    nowhere = os.open(os.devnull, os.O_WRONLY)
-    os.dup2(nowhere, 1)
-    os.close(nowhere)
