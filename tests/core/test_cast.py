@@ -209,7 +209,7 @@ def test_far_small_spheres_are_not_lost():
 def test_dtype_is_only_what_is_stored():
     shapes = random_shapes(np.random.default_rng(5), 20)
     single, double = (cast(camera_at(), shapes, EVERY, dtype) for dtype in (np.float32, np.float64))
-    for name in EVERY:
+    for name in (name for name in EVERY if not name.endswith("_bound")):  # a bound counts what storing loses
         stored = double[name].astype(single[name].dtype)
         assert np.array_equal(single[name], stored), name
     assert single["shape_index"].dtype == np.int32

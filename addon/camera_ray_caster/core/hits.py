@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from .bounds import Bounds
 from .plan import BLOCK_PIXELS, SMALL_PIXELS, Group, Plan
 from .shapes import SHAPE_OF_KIND
 from .vector import along, components, difference, dot, matvec, rows
@@ -32,6 +33,8 @@ class Hits:
     """inf where nothing is hit."""
     index: np.ndarray
     """Row of the nearest shape, NOTHING where there is none."""
+    corner: tuple[int, int] = (0, 0)
+    """Column and row of the render window at which the rays begin."""
 
     def blocks(self):
         """Yield (rows, hits) of blocks small enough for a core's cache."""
@@ -40,7 +43,8 @@ class Hits:
             part = slice(first, first + step)
             window = part, slice(None)
             origin, direction = (tuple(_cut(c, window) for c in vector) for vector in (self.origin, self.direction))
-            yield part, Hits(self.plan, self.from_eye, origin, direction, self.t[part], self.index[part])
+            corner = self.corner[0], self.corner[1] + first
+            yield part, Hits(self.plan, self.from_eye, origin, direction, self.t[part], self.index[part], corner)
 
     @cached_property
     def seen(self) -> np.ndarray:
@@ -77,10 +81,24 @@ class Hits:
     def normal(self):
         """Unit world normals turned towards the rays' origins, as components; 0 where nothing is hit."""
         normal = self.plan.normals.look_up(self.index, self.point)
-        if self.from_eye and self.plan.eye_outside:
+        if not (self.from_eye and self.plan.eye_outside):
+            facing = -np.sign(dot(normal, self.world_direction))
+            normal = tuple(facing * component for component in normal)
+        elif self.plan.camera.model.planar:
             return normal
-        facing = -np.sign(dot(normal, self.world_direction))
-        return tuple(np.where(self.seen, facing * component, 0.0) for component in normal)
+        return tuple(np.where(self.seen, component, 0.0) for component in normal)  # where there is no ray it is NaN
+
+    @cached_property
+    def pixels(self):
+        """The pixel coordinates of the centres, (1, columns) and (rows, 1)."""
+        raster, (column, row) = self.plan.camera.raster, self.corner
+        height, width = self.t.shape
+        return raster.columns()[:, column : column + width], raster.rows()[row : row + height]
+
+    @cached_property
+    def bounds(self) -> Bounds:
+        """How far from the exact picture the hits are at most."""
+        return Bounds(self)
 
     @cached_property
     def surfaces(self) -> list[Surface]:
@@ -149,7 +167,7 @@ def nearest(plan: Plan, origin, direction, from_eye: bool, corner, scratch: Scra
     for group, rows_of_batch, bounds in small:
         tile.cast_batch(group, rows_of_batch, bounds)
     tile.t[tile.index == NOTHING] = np.inf
-    return Hits(plan, from_eye, origin, direction, tile.t, tile.index)
+    return Hits(plan, from_eye, origin, direction, tile.t, tile.index, corner)
 
 
 class Scratch:

@@ -15,6 +15,9 @@ from .hits import Hits
 from .shading import shade
 from .vector import matvec, norm, unit
 
+ROUNDED_UP = 1 + 2.0**-9
+"""Makes up for rounding the bounds themselves, to what they are stored as."""
+
 
 @dataclass(frozen=True)
 class Pass:
@@ -95,6 +98,28 @@ def ray_direction(hits: Hits, out):
     _write(out, unit(hits.world_direction), (0.0, 0.0, 0.0), ~hits.has_ray)
 
 
+def distance_bound(hits: Hits, out):
+    """How far the stored distance, and the depth, are from the exact ones at most; world units."""
+    _bound(hits, out, hits.bounds.distance, hits.t[hits.seen] * norm(hits.bounds.rays.direction))
+
+
+def position_bound(hits: Hits, out):
+    """How far the stored position is from the exact one at most; world units."""
+    places = (p + e for p, e in zip(hits.point, hits.plan.camera.pose.eye, strict=True))
+    _bound(hits, out, hits.bounds.position, norm(tuple(place[hits.seen] for place in places)))
+
+
+def normal_bound(hits: Hits, out):
+    """How far the stored unit normal is from the exact one at most."""
+    _bound(hits, out, hits.bounds.normal, 1.0)
+
+
+def _bound(hits: Hits, out, bound, size):
+    """Write bounds rounded up, with what storing a number of this size loses."""
+    out[...] = 0
+    out[hits.seen] = (bound + np.finfo(out.dtype).eps * size) * ROUNDED_UP
+
+
 def _write(out, vector, offset, blank):
     for axis, component in enumerate(vector):
         out[..., axis] = component + offset[axis]
@@ -114,6 +139,9 @@ PASSES = {
     "valid": Pass(valid, 0, np.bool_),
     "ray_origin": Pass(ray_origin, 3),
     "ray_direction": Pass(ray_direction, 3),
+    "distance_bound": Pass(distance_bound),
+    "position_bound": Pass(position_bound),
+    "normal_bound": Pass(normal_bound),
 }
 """Every pass by its name, in the order of the report."""
 

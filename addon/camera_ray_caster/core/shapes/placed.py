@@ -10,7 +10,7 @@ from ..conventions import EPS, gamma
 from ..exact import solve, square_less_one, two_sum
 from ..records import INFINITE_PLANE, PLANE, InputError, Pose, Shapes
 
-SIZES = 1e-150, 1e150
+SIZES = 1e-152, 1e152
 """What sizes, distances and their ratios may be: their squares are numbers, too."""
 
 SKEW = 32.0
