@@ -41,6 +41,9 @@ PASSES = (
     RenderPass("valid", "Valid", "X", "VALUE", "use_pass_valid", own=True),
     RenderPass("ray_origin", "Ray Origin", "XYZ", "VECTOR", "use_pass_ray_origin", own=True),
     RenderPass("ray_direction", "Ray Direction", "XYZ", "VECTOR", "use_pass_ray_direction", own=True),
+    RenderPass("distance_bound", "Distance Bound", "X", "VALUE", "use_pass_distance_bound", own=True),
+    RenderPass("position_bound", "Position Bound", "X", "VALUE", "use_pass_position_bound", own=True),
+    RenderPass("normal_bound", "Normal Bound", "X", "VALUE", "use_pass_normal_bound", own=True),
 )
 
 

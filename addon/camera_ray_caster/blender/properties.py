@@ -90,6 +90,15 @@ class SceneProperties(bpy.types.PropertyGroup):
     use_pass_valid: BoolProperty(name="Valid", description="Whether the pixel has a ray at all")
     use_pass_ray_origin: BoolProperty(name="Ray Origin", description="Where the pixel's ray starts, in the world")
     use_pass_ray_direction: BoolProperty(name="Ray Direction", description="The ray's unit direction in the world")
+    use_pass_distance_bound: BoolProperty(
+        name="Distance Bound", description="The most that rounding has moved distance and depth, in Blender units"
+    )
+    use_pass_position_bound: BoolProperty(
+        name="Position Bound", description="The most that rounding has moved the position, in Blender units"
+    )
+    use_pass_normal_bound: BoolProperty(
+        name="Normal Bound", description="The most that rounding has moved the unit normal"
+    )
 
 
 CLASSES = (ObjectProperties, CameraProperties, SceneProperties)
