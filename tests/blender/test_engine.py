@@ -258,6 +258,14 @@ def test_bad_input_is_one_line_and_no_traceback(scene, capfd):
     assert "Traceback" not in "".join(capfd.readouterr())
 
 
+def test_stereo_is_refused_and_not_cast_as_one_eye(scene):
+    import bpy
+
+    scene.render.use_multiview = True
+    with pytest.raises(RuntimeError, match="several views cannot be cast: switch off Stereoscopy"):
+        bpy.ops.render.render()
+
+
 def test_what_is_left_out_is_warned_of_by_name(blender, scene, capfd):
     for _ in range(12):
         blender.ops.mesh.primitive_monkey_add()
@@ -285,16 +293,3 @@ def test_the_report_is_kept_until_another_file_is_opened(blender, scene):
     assert "view_frame" in blender.data.texts["Camera Ray Caster Report"].as_string()
     blender.ops.wm.read_factory_settings(use_empty=True)
     assert reports.latest() is None
-
-
-def test_the_compositor_is_offered_the_ticked_passes(blender, scene):
-    tick(scene, ["combined", "depth", "ray_direction"])
-    if hasattr(scene, "compositing_node_group"):
-        tree = scene.compositing_node_group = blender.data.node_groups.new("Compositing", "CompositorNodeTree")
-    else:
-        scene.use_nodes = True
-        tree = scene.node_tree
-    node = tree.nodes.new("CompositorNodeRLayers")
-    scene.view_layers[0].update_render_passes()
-    sockets = {socket.name for socket in node.outputs if socket.enabled}
-    assert sockets == {"Image", "Alpha", "Depth", "Ray Direction"}

@@ -43,6 +43,8 @@ class CameraRayCaster(Viewport, bpy.types.RenderEngine):
 
     def render_layer(self, depsgraph) -> Report:
         """Cast the ticked passes of a view layer and store them in Blender's result."""
+        if depsgraph.scene_eval.render.use_multiview:
+            raise InputError("several views cannot be cast: switch off Stereoscopy in the Output properties")
         layer = depsgraph.view_layer_eval
         wanted = ticked(depsgraph.scene_eval, layer)
         for entry in wanted:
