@@ -200,12 +200,10 @@ class Tile:
     def cast_one(self, group: Group, row: int, bounds) -> None:
         """Test one shape at the pixels of its bounds, block by block; to be called in the order of shape indices."""
         x0, x1, y0, y1 = bounds
-        view = _take(group.view, row)
-        block_rows = max(1, BLOCK_PIXELS // (x1 - x0))
-        for y in range(y0, y1, block_rows):
-            window = slice(y, min(y + block_rows, y1)), slice(x0, x1)
-            t, index = self.t[window], self.index[window]
-            found, where = self._intersect(group, view, lambda component, window=window: _cut(component, window))
+        window = slice(y0, y1), slice(x0, x1)
+        all_t, all_index = self.t[window], self.index[window]
+        for block, found, where in self._blocks(group, _take(group.view, row), window):
+            t, index = all_t[block], all_index[block]
             closer = found < t
             if where is not None:
                 closer &= where
@@ -213,6 +211,19 @@ class Tile:
             else:
                 np.fmin(t, found, out=t)
             np.copyto(index, group.at[row], where=closer)
+
+    def _blocks(self, group: Group, view, window):
+        """Yield (rows of the window, t, where) of one shape, in blocks that fit a core's cache."""
+        (top, bottom), columns = (window[0].start, window[0].stop), window[1]
+        step = max(1, BLOCK_PIXELS // (columns.stop - columns.start))
+        direction = tuple(_cut(component, window) for component in self.direction)
+        if group.simple and self.origin is None and _is_pinhole(direction):
+            yield from group.shape.near_blocks(view, group.kind, direction, step, self.scratch)
+            return
+        for first in range(top, bottom, step):
+            part = slice(first, min(first + step, bottom)), columns
+            found = self._intersect(group, view, lambda component, part=part: _cut(component, part))
+            yield slice(part[0].start - top, part[0].stop - top), *found
 
     def cast_batch(self, group: Group, at, bounds) -> None:
         """Test many small shapes at once: arrays (shapes, rows, columns) as large as the largest bounds."""
@@ -242,6 +253,12 @@ class Tile:
         start = None if group.simple else self.start
         direction = tuple(map(part, self.direction))
         return group.shape.intersect(view, group.kind, origin, direction, start, self.scratch)
+
+
+def _is_pinhole(direction) -> bool:
+    """Whether x is a row, y a column and z a number."""
+    x, y, z = direction
+    return np.ndim(z) == 0 and np.ndim(x) == np.ndim(y) == 2 and x.shape[0] == y.shape[1] == 1
 
 
 def _take(view, at, axes=()):

@@ -31,10 +31,9 @@ class Pass:
 
 def combined(hits: Hits, out):
     """Linear RGBA: the shading's colour, the world's where nothing is hit, transparent black where there is no ray."""
-    out[...] = hits.plan.shapes.world_colour
-    out[~hits.has_ray] = 0
-    for surface in hits.surfaces:
-        out[surface.where] = shade(surface)
+    shade(hits, out)
+    if not hits.has_ray.all():
+        out[~hits.has_ray] = 0
 
 
 def depth(hits: Hits, out):

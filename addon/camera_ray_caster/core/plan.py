@@ -15,7 +15,7 @@ from .shading import SHADINGS
 from .shapes import SHAPE_OF_KIND, Placed, place
 from .shapes.normals import NormalTable, normal_table
 
-BLOCK_PIXELS = 1 << 14
+BLOCK_PIXELS = 1 << 13
 """Pixels of a block, the unit of arithmetic: its float64 temporaries stay in a core's cache."""
 
 SMALL_PIXELS = 1 << 12

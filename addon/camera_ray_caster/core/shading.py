@@ -17,48 +17,53 @@ LINE_WIDTH = 0.12
 """Width of a grid line in cells."""
 
 
-def shade(surface) -> np.ndarray:
-    """Return linear RGBA (m, 4) for the pixels of a surface.
+def shade(hits, out) -> None:
+    """Write linear RGBA into ``out``, (rows, columns, 4): the shapes', or the world's where nothing is hit.
 
     Lambert's law without shadows: a sun of E W/m^2 gives colour E cos / pi; a point light of P W at distance r
     gives colour P cos / (4 pi^2 r^2), as Blender's units have it; the world's colour is added as even light from
     all around. Without sun and point lights a headlight shines along each ray. GRID darkens lines of constant uv.
     """
-    plan = surface.hits.plan
-    shapes = plan.shapes
-    normal = surface.select(surface.hits.normal)
-    colour = shapes.colour[surface.rows].astype(np.float64)
-    if plan.shading == GRID:
-        colour[:, :3] *= _grid(surface)[:, None]
-    light = _headlight(surface, normal) if len(shapes.lights.is_sun) == 0 else _lamps(surface, normal, shapes.lights)
-    colour[:, :3] *= light + np.asarray(shapes.world_colour[:3])
-    return colour
+    shapes = hits.plan.shapes
+    colour = np.vstack((shapes.colour, (0, 0, 0, 0))).astype(np.float64)
+    lit = _headlight(hits) if len(shapes.lights.is_sun) == 0 else _lamps(hits, shapes.lights)
+    grid = _grid(hits) if hits.plan.shading == GRID else 1.0
+    for channel, light in enumerate(lit):
+        out[..., channel] = np.take(colour[:, channel], hits.index) * (light + shapes.world_colour[channel]) * grid
+    out[..., 3] = np.take(colour[:, 3], hits.index)
+    if hits.missed.any():
+        out[hits.missed] = shapes.world_colour
 
 
-def _grid(surface) -> np.ndarray:
+def _grid(hits) -> np.ndarray:
     """Return 1 between the lines and 0.15 on them."""
-    on_line = np.zeros(len(surface.rows), bool)
-    for coordinate, cells in zip(surface.kind.uv(surface.q), GRID_CELLS.values(), strict=True):
-        offset = coordinate * cells
-        on_line |= np.abs(offset - np.rint(offset)) < LINE_WIDTH / 2
-    return np.where(on_line, 0.15, 1.0)
+    shade = np.ones(hits.t.shape)
+    for surface in hits.surfaces:
+        on_line = np.zeros(len(surface.rows), bool)
+        for coordinate, cells in zip(surface.kind.uv(surface.q), GRID_CELLS.values(), strict=True):
+            offset = coordinate * cells
+            on_line |= np.abs(offset - np.rint(offset)) < LINE_WIDTH / 2
+        shade[surface.where] = np.where(on_line, 0.15, 1.0)
+    return shade
 
 
-def _headlight(surface, normal) -> np.ndarray:
-    direction = surface.select(surface.hits.world_direction)
-    return (np.abs(dot(normal, direction)) / norm(direction))[:, None]
+def _headlight(hits):
+    direction = hits.world_direction
+    light = np.abs(dot(hits.normal, direction)) / norm(direction)
+    return light, light, light
 
 
-def _lamps(surface, normal, lights: Lights) -> np.ndarray:
-    eye = surface.hits.plan.camera.pose.eye
-    total = np.zeros((len(surface.rows), 3))
-    point = surface.select(surface.hits.point)
+def _lamps(hits, lights: Lights):
+    """Return the light that falls on each pixel's surface, over pi: red, green and blue."""
+    total = [0.0, 0.0, 0.0]
     for position, is_sun, colour in zip(lights.position, lights.is_sun, lights.colour, strict=True):
         if is_sun:
-            total += np.maximum(dot(normal, position), 0.0)[:, None] * (colour / np.pi)
-            continue
-        towards = difference(position - eye, point)
-        length = norm(towards)
-        cosine = np.maximum(dot(normal, towards), 0.0) / np.maximum(length, np.finfo(float).tiny)
-        total += (cosine / np.maximum(length * length, np.finfo(float).tiny))[:, None] * (colour / (4 * np.pi**2))
+            light = np.maximum(dot(hits.normal, position), 0.0)
+            strength = colour / np.pi
+        else:
+            towards = difference(position - hits.plan.camera.pose.eye, hits.point)
+            square = np.maximum(dot(towards, towards), np.finfo(float).tiny)
+            light = np.maximum(dot(hits.normal, towards), 0.0) / (square * np.sqrt(square))
+            strength = colour / (4 * np.pi**2)
+        total = [sum_ + light * part for sum_, part in zip(total, strength, strict=True)]
     return total

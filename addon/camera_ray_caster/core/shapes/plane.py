@@ -13,6 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..conventions import gamma
 from ..records import INFINITE_PLANE, PLANE
 from ..vector import components, cross, difference, linear, matvec, rows
 from .placed import Placed
@@ -68,6 +69,37 @@ def intersect(plane: View, kind: int, origin, direction, start: float | None, sc
                 np.copyto(across, cross(n, matvec(matrix, direction))[row])
             found &= np.abs(across, out=across) <= d_z
     return t, found
+
+
+def near_blocks(plane: View, kind: int, direction, step: int, scratch):
+    """Yield (rows, t, where) as ``intersect`` gives them for one plane, rays from the eye and no start; arguments as
+    the sphere's. Blocks that the plane covers or misses, as their corners tell, are not asked pixel by pixel.
+    """
+    x, y, z = direction
+    offset, edges = float(plane.offset), plane.cross.tolist() if kind == PLANE else []
+    parts = [(row[0] * x, row[1] * y + row[2] * z) for row in (plane.matrix[2].tolist(), *edges)]
+    reach = np.array([abs(x).max(), abs(y).max(), abs(z)])
+    doubt = gamma(8) * float(np.abs(plane.matrix[2]) @ reach + (np.abs(plane.cross) @ reach).max())
+    for first in range(0, len(y), step):
+        rows_here = slice(first, min(first + step, len(y)))
+        ends = [first, rows_here.stop - 1]
+        corners = [row[:, [0, -1]] + column[ends] for row, column in parts]
+        slack = [corners[0], *(corners[0] - across for edge in corners[1:] for across in (edge, -edge))]
+        if any(side.max() < -doubt for side in slack):
+            continue  # affine in the pixel: what all corners are beyond, all pixels are
+        shape = rows_here.stop - first, x.shape[1]
+        d_z, t, across = (scratch(i, shape) for i in range(3))
+        np.add(parts[0][0], parts[0][1][rows_here], out=d_z)
+        np.divide(offset, d_z, out=t)
+        if all(side.min() > doubt for side in slack):
+            yield rows_here, t, None
+            continue
+        found = t >= 0.0
+        np.abs(d_z, out=d_z)
+        for row, column in parts[1:]:
+            np.add(row, column[rows_here], out=across)
+            found &= np.abs(across, out=across) <= d_z
+        yield rows_here, t, found
 
 
 def uv(q):

@@ -119,6 +119,37 @@ def _near_from_eye(sphere: View, direction, scratch):
     return np.divide(sphere.near, t, out=t)
 
 
+def near_blocks(sphere: View, kind: int, direction, step: int, scratch):
+    """Yield (rows, t, None) as ``intersect`` gives them for one sphere, rays from the eye and no start.
+
+    direction is a pinhole's, x a row, y a column, z a number: each D is then a row plus a column, made once, and each
+    block of ``step`` rows takes what fits a core's cache.
+    """
+    x, y, z = direction
+    scale = float(np.sqrt(sphere.outside))
+    to_x, to_y, to_z = sphere.matrix.tolist()
+    parts = [
+        (row[0] * x, row[1] * y + row[2] * z)
+        for row in ([scale * entry for entry in to_x], [scale * entry for entry in to_y], to_z)
+    ]
+    (x_row, x_column), (y_row, y_column), (z_row, z_column) = parts
+    distance, near = float(sphere.distance), float(sphere.near)
+    for first in range(0, len(y), step):
+        rows_here = slice(first, min(first + step, len(y)))
+        shape = rows_here.stop - first, x.shape[1]
+        ahead, t, across = (scratch(i, shape) for i in range(3))
+        np.add(z_row, z_column[rows_here], out=ahead)
+        np.abs(ahead, out=t)
+        np.multiply(t, ahead, out=t)
+        np.add(x_row, x_column[rows_here], out=across)
+        np.subtract(t, np.square(across, out=across), out=t)
+        np.add(y_row, y_column[rows_here], out=across)
+        np.subtract(t, np.square(across, out=across), out=t)
+        np.sqrt(t, out=t)
+        np.add(t, np.multiply(ahead, distance, out=ahead), out=t)
+        yield rows_here, np.divide(near, t, out=t), None
+
+
 def uv(q):
     """Return u = longitude / 2 pi + 1/2 and v = latitude / pi + 1/2, both 0 .. 1; u is undefined at the poles."""
     x, y, z = q

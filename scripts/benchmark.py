@@ -1,0 +1,122 @@
+"""Time this caster beside Blender, Cycles and the compiled ray tracers that are installed, in one run.
+
+    python scripts/benchmark.py                 1920 x 1080: 10, 1,000, 10,000 and 100,000 spheres
+    python scripts/benchmark.py --quick         the first two, fewer rounds
+    python scripts/benchmark.py --scaling       cost against pixels and shapes, with a diagram
+
+Contenders take turns, round by round, so that what else the machine does falls on all of them. Times are milliseconds:
+least, median, and the spread (the middle half of the rounds) behind it; ratios are of medians.
+"""
+
+from __future__ import annotations
+
+import argparse
+import gc
+import json
+import sys
+from pathlib import Path
+from time import perf_counter
+
+import numpy as np
+
+sys.path[:0] = [str(Path(__file__).resolve().parent), str(Path(__file__).resolve().parents[1] / "addon")]
+
+import contenders as c  # noqa: E402  (it lies beside this file)
+
+COUNTS = (10, 1_000, 10_000, 100_000)
+EMBREE_MOST = 10_000
+"""Spheres of 320 triangles that fit the memory of a small machine."""
+
+
+def main() -> int:
+    """Run what the arguments ask for and print tables; with --json also write them."""
+    parser = argparse.ArgumentParser(description="Time the caster beside others, in one run.")
+    parser.add_argument("--quick", action="store_true", help="10 and 1,000 spheres, three rounds")
+    parser.add_argument("--rounds", type=int, default=9, help="default: %(default)s")
+    parser.add_argument("--threads", type=int, default=2, help="default: %(default)s")
+    parser.add_argument("--size", default="1920x1080", help="default: %(default)s")
+    parser.add_argument("--models", action="store_true", help="ray generation and casting of every camera model")
+    parser.add_argument("--scaling", action="store_true", help="cost against pixels and shapes")
+    parser.add_argument("--json", type=Path, metavar="FILE", help="write the figures")
+    options = parser.parse_args()
+    width, height = map(int, options.size.split("x"))
+    rounds = 3 if options.quick else options.rounds
+    if options.models:
+        import by_model
+
+        figures = by_model.run(width, height, rounds, options.threads)
+    elif options.scaling:
+        import scaling
+
+        figures = scaling.run(rounds, options.threads)
+    else:
+        counts = COUNTS[:2] if options.quick else COUNTS
+        figures = [row for count in counts for row in compare(count, width, height, rounds, options.threads)]
+        figures += blender(width, height, options.threads)
+    if options.json:
+        options.json.write_text(json.dumps(figures, indent=1) + "\n")
+    return 0
+
+
+def compare(count: int, width: int, height: int, rounds: int, threads: int) -> list[dict]:
+    """Time one scene with every contender and print its table."""
+    entries = {
+        "ours, 4 passes": c.ours(c.PASSES, threads),
+        "ours, depth + index": c.ours(("depth", "shape_index"), threads),
+    }
+    if c.has("mitsuba"):
+        entries["Mitsuba 3, aov, 4 passes"] = c.mitsuba("d:depth,n:sh_normal,p:position,i:shape_index")
+        entries["Mitsuba 3, intersection"] = c.mitsuba(None)
+    if c.has("embreex") and count <= EMBREE_MOST:
+        entries["Embree, distance"] = c.embree
+    camera, shapes = c.scene(count, width, height)
+    print(f"\n{count:,} spheres and a wall, {width} x {height}, {threads} threads, {rounds} rounds, ms")
+    rows, runs = [], {}
+    for name, prepare in entries.items():
+        began = perf_counter()
+        runs[name] = prepare(camera, shapes)
+        rows.append({"spheres": count, "name": name, "prepare_ms": 1e3 * (perf_counter() - began)})
+    times = take_turns(runs, rounds)
+    reference = {"4": np.median(times["ours, 4 passes"]), "d": np.median(times["ours, depth + index"])}
+    print(f"  {'':28}{'least':>9}{'median':>9}{'spread':>15}{'prepare':>10}{'over ours':>11}")
+    for row in rows:
+        own = times[row["name"]]
+        low, median, high = np.percentile(own, (25, 50, 75))
+        row |= {"least_ms": min(own), "median_ms": median, "low_ms": low, "high_ms": high}
+        row["over_ours"] = median / reference["4" if "4 passes" in row["name"] else "d"]
+        print(f"  {row['name']:28}{min(own):9.1f}{median:9.1f}{low:8.1f}-{high:.1f}".ljust(64)
+              + f"{row['prepare_ms']:9.0f}{row['over_ours']:10.2f}x")  # fmt: skip
+    return rows
+
+
+def take_turns(runs: dict, rounds: int) -> dict[str, list[float]]:
+    """Return the milliseconds of each run, once untimed and then round by round."""
+    times: dict[str, list[float]] = {name: [] for name in runs}
+    for run in runs.values():
+        run()
+    gc.collect()
+    gc.disable()
+    try:
+        for _ in range(rounds):
+            for name, run in runs.items():
+                began = perf_counter()
+                kept = run()
+                times[name].append(1e3 * (perf_counter() - began))
+                del kept
+    finally:
+        gc.enable()
+    return times
+
+
+def blender(width: int, height: int, threads: int) -> list[dict]:
+    """Time ``scene.ray_cast`` in a loop, and Cycles at one sample with the same passes, where bpy is installed."""
+    if not c.has("bpy"):
+        print("\nBlender: not installed here")
+        return []
+    import in_blender
+
+    return in_blender.run(*c.scene(10, width, height), c.PASSES, threads)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

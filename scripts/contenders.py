@@ -1,0 +1,127 @@
+"""What the benchmark times: this caster, Blender and Cycles, and compiled ray tracers where they are installed.
+
+Each contender prepares a scene once and gives a function that makes the picture's arrays once; only that is timed, and
+the preparation (a compiled tracer's acceleration structure) is told apart. All see the same pinhole and the same spheres;
+Embree sees them as icospheres, since embreex knows only triangles.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from importlib.util import find_spec
+
+import numpy as np
+
+from camera_ray_caster.core.cameras import camera_from
+from camera_ray_caster.core.cast import cast
+from camera_ray_caster.core.records import PLANE, SPHERE, BlenderCamera, Shapes
+
+PASSES = ("depth", "normal", "position", "object_index")
+LENS, SENSOR = 50.0, 36.0
+
+
+def scene(count: int, width: int, height: int, **raw):
+    """Return a camera, and ``count`` equal spheres before a wall that fills the picture behind them.
+
+    The spheres' discs have together 0.6 of the picture's area, however many they are.
+    """
+    rng = np.random.default_rng(count)
+    tangent_x = SENSOR / 2 / LENS
+    tangent_y = tangent_x * height / width
+    depth = rng.uniform(12, 30, count)
+    across, up = rng.uniform(-1, 1, (2, count))
+    centre = np.stack((across * tangent_x, up * tangent_y, -np.ones(count)), axis=1)
+    radius = np.sqrt(0.6 * 4 * tangent_x * tangent_y / np.pi / np.sum(1 / depth**2))
+    centre = np.vstack((centre * depth[:, None], (0, 0, -32)))
+    axes = np.vstack((np.broadcast_to(np.eye(3) * radius, (count, 3, 3)), 40 * np.eye(3)[None]))
+    index = np.arange(1, count + 2, dtype=np.int32)
+    shapes = Shapes(
+        kind=np.array([SPHERE] * count + [PLANE], np.uint8), centre=centre, axes=axes, object_index=index,
+        material_index=index, colour=np.ones((count + 1, 4), np.float32), name_index=index - 1,
+    )  # fmt: skip
+    raw = {"type": "PERSP", "lens": LENS, "sensor_width": SENSOR} | raw
+    camera = camera_from(
+        BlenderCamera("Camera", matrix_world=np.eye(4), resolution_x=width, resolution_y=height, **raw)
+    )
+    return camera, shapes
+
+
+def ours(passes, threads: int) -> Callable:
+    """This caster, from camera and shapes to finished float32 arrays."""
+
+    def prepare(camera, shapes):
+        return lambda: cast(camera, shapes, passes, threads=threads)
+
+    return prepare
+
+
+def mitsuba(aovs: str | None) -> Callable:
+    """Mitsuba 3 on its LLVM backend: the aov integrator, or with None the intersection of rays that are given."""
+    import mitsuba as mi
+
+    mi.set_variant("llvm_ad_rgb")
+    import drjit as dr
+
+    def prepare(camera, shapes):
+        height, width = camera.raster.shape
+        content = {
+            "type": "scene",
+            "sensor": {
+                "type": "perspective", "fov": float(np.degrees(2 * np.arctan(SENSOR / 2 / LENS))), "fov_axis": "x",
+                "near_clip": 0.1, "far_clip": 1000.0,
+                "to_world": mi.ScalarTransform4f().look_at(origin=[0, 0, 0], target=[0, 0, -1], up=[0, 1, 0]),
+                "film": {"type": "hdrfilm", "width": width, "height": height, "rfilter": {"type": "box"},
+                         "component_format": "float32"},
+                "sampler": {"type": "independent", "sample_count": 1},
+            },
+        }  # fmt: skip
+        for k in range(len(shapes)):
+            if shapes.kind[k] == SPHERE:
+                content[f"s{k}"] = {
+                    "type": "sphere", "center": shapes.centre[k].tolist(), "radius": float(shapes.axes[k, 0, 0])
+                }  # fmt: skip
+            else:
+                place = mi.ScalarTransform4f().translate(shapes.centre[k].tolist()).scale(float(shapes.axes[k, 0, 0]))
+                content[f"s{k}"] = {"type": "rectangle", "to_world": place}
+        world = mi.load_dict(content)
+        if aovs is not None:
+            integrator = mi.load_dict({"type": "aov", "aovs": aovs})
+            return lambda: np.array(mi.render(world, integrator=integrator, spp=1))
+        rays = camera.rays()
+        flat = rays.directions.reshape(-1, 3).T.astype(np.float32)
+        ray = mi.Ray3f(mi.Point3f(0, 0, 0), mi.Vector3f(*(mi.Float(np.ascontiguousarray(c)) for c in flat)))
+        dr.eval(ray)
+
+        def intersect():
+            hit = world.ray_intersect_preliminary(ray)
+            dr.eval(hit.t, hit.shape)
+            dr.sync_thread()
+
+        return intersect
+
+    return prepare
+
+
+def embree(camera, shapes):
+    """Embree by embreex: the distance of rays that are given to icospheres of 320 triangles and a quad."""
+    import trimesh
+    from embreex.mesh_construction import TriangleMesh
+    from embreex.rtcore_scene import EmbreeScene
+
+    ball = trimesh.creation.icosphere(subdivisions=2)
+    square = np.array([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]], float)
+    corners = []
+    for k in range(len(shapes)):
+        points, faces = (ball.vertices, ball.faces) if shapes.kind[k] == SPHERE else (square, [[0, 1, 2], [0, 2, 3]])
+        corners.append((points @ shapes.axes[k].T + shapes.centre[k])[np.asarray(faces)])
+    world = EmbreeScene()
+    TriangleMesh(world, np.concatenate(corners).astype(np.float32))
+    rays = camera.rays()
+    origins, directions = (part.reshape(-1, 3).astype(np.float32) for part in (rays.origins, rays.directions))
+    world.run(origins[:1], directions[:1], query="DISTANCE")
+    return lambda: world.run(origins, directions, query="DISTANCE")
+
+
+def has(module: str) -> bool:
+    """Whether a module is installed."""
+    return find_spec(module) is not None

@@ -1,0 +1,92 @@
+"""The benchmark's contenders inside Blender: its own ray cast in a Python loop, and Cycles at one sample a pixel."""
+
+from __future__ import annotations
+
+import tempfile
+from pathlib import Path
+from time import perf_counter
+
+import bpy
+import numpy as np
+from mathutils import Vector
+
+from camera_ray_caster.core.cast import cast
+from camera_ray_caster.core.records import SPHERE
+
+LOOP_RAYS = 20_000
+"""Rays that the loop casts; its time is scaled to the picture."""
+
+
+def run(camera, shapes, passes, threads: int, rounds: int = 3) -> list[dict]:
+    """Print and return milliseconds a picture, taken in turns."""
+    scene = _scene(camera, shapes)
+    rays = camera.rays()
+    pixels = rays.valid.size
+    pick = np.random.default_rng(0).integers(0, pixels, LOOP_RAYS)
+    directions = [Vector(d) for d in rays.directions.reshape(-1, 3)[pick]]
+    depsgraph = bpy.context.evaluated_depsgraph_get()
+    origin = Vector((0, 0, 0))
+
+    def loop():
+        began = perf_counter()
+        for direction in directions:
+            scene.ray_cast(depsgraph, origin, direction)
+        return (perf_counter() - began) * pixels / LOOP_RAYS
+
+    def ours():
+        began = perf_counter()
+        cast(camera, shapes, passes, threads=threads)
+        return perf_counter() - began
+
+    def cycles():
+        began = perf_counter()
+        bpy.ops.render.render(write_still=True)
+        return perf_counter() - began
+
+    with tempfile.TemporaryDirectory() as folder:
+        scene.render.filepath = str(Path(folder) / "cycles.exr")
+        contest = {"ours, 4 passes": ours, "Cycles, 1 sample, 4 passes": cycles, "scene.ray_cast loop": loop}
+        times: dict[str, list[float]] = {name: [] for name in contest}
+        for turn in range(rounds + 1):
+            for name, one in contest.items():
+                seconds = one()
+                if turn:
+                    times[name].append(1e3 * seconds)
+    print(f"\nBlender {bpy.app.version_string}, {len(shapes) - 1} spheres and a wall, ms a picture")
+    print(f"  {'':28}{'least':>10}{'median':>10}{'over ours':>11}")
+    base = np.median(times["ours, 4 passes"])
+    rows = []
+    for name, own in times.items():
+        rows.append({"spheres": len(shapes) - 1, "name": name, "least_ms": min(own), "median_ms": float(np.median(own)),
+                     "over_ours": float(np.median(own) / base)})  # fmt: skip
+        print(f"  {name:28}{min(own):10.1f}{np.median(own):10.1f}{np.median(own) / base:10.1f}x")
+    return rows
+
+
+def _scene(camera, shapes):
+    """Build the same scene of icospheres and a quad in Blender, with Cycles at one sample and the four passes."""
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    scene = bpy.context.scene
+    bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=4, radius=1)
+    ball = bpy.context.object.data
+    bpy.ops.mesh.primitive_plane_add(size=2)
+    square = bpy.context.object.data
+    for made in list(scene.objects):
+        bpy.data.objects.remove(made)
+    for k in range(len(shapes)):
+        thing = bpy.data.objects.new(f"{k}", ball if shapes.kind[k] == SPHERE else square)
+        thing.location, thing.scale = shapes.centre[k], np.diag(shapes.axes[k])
+        thing.pass_index = int(shapes.object_index[k])
+        scene.collection.objects.link(thing)
+    data = bpy.data.cameras.new("Camera")
+    data.lens, data.sensor_width, data.clip_start, data.clip_end = 50.0, 36.0, camera.clip_start, camera.clip_end
+    scene.camera = bpy.data.objects.new("Camera", data)
+    scene.collection.objects.link(scene.camera)
+    scene.render.resolution_y, scene.render.resolution_x = camera.raster.shape
+    bpy.ops.preferences.addon_enable(module="cycles")
+    scene.render.engine = "CYCLES"
+    scene.cycles.samples, scene.cycles.use_denoising, scene.cycles.use_adaptive_sampling = 1, False, False
+    layer = bpy.context.view_layer
+    layer.use_pass_z = layer.use_pass_normal = layer.use_pass_position = layer.use_pass_object_index = True
+    scene.render.image_settings.file_format = "OPEN_EXR"
+    return scene
