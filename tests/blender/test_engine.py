@@ -258,14 +258,6 @@ def test_bad_input_is_one_line_and_no_traceback(scene, capfd):
     assert "Traceback" not in "".join(capfd.readouterr())
 
 
-def test_stereo_is_refused_and_not_cast_as_one_eye(scene):
-    import bpy
-
-    scene.render.use_multiview = True
-    with pytest.raises(RuntimeError, match="several views cannot be cast: switch off Stereoscopy"):
-        bpy.ops.render.render()
-
-
 def test_what_is_left_out_is_warned_of_by_name(blender, scene, capfd):
     for _ in range(12):
         blender.ops.mesh.primitive_monkey_add()

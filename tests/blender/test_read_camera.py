@@ -210,8 +210,3 @@ def test_a_frame_beyond_the_scene_is_as_blender_has_it(scene):
     key(scene.camera, "location", (1, (0, 0, 0)), (11, (10, 0, 0)))
     assert read_camera(scene, frame=-100).pose.eye[0] == 0
     assert read_camera(scene, frame=5000).pose.eye[0] == 10
-
-
-def test_stereo_views_are_refused_and_never_taken_for_the_camera(scene):
-    with pytest.raises(InputError, match="view 'left'"):
-        read_camera(scene, view="left")

@@ -4,17 +4,21 @@ from ..core.camera import Camera
 from ..core.records import Finding
 from ..core.verify import verify
 from . import witness
-from .read import evaluated, read_camera
+from .read import observing, read_camera
 
 
 def verify_camera(scene, camera_object=None, frame=None, view="") -> list[Finding]:
     """Return the findings on the camera that ``read_camera`` returns for these arguments, or raise what that raises."""
     camera = read_camera(scene, camera_object, frame, view)
-    with evaluated(scene, frame, camera_object) as depsgraph:
-        return verify_evaluated(camera, scene.camera, depsgraph)
+    with observing(scene, camera_object, frame, view) as (active, depsgraph):
+        return verify_evaluated(camera, active, depsgraph, view)
 
 
-def verify_evaluated(camera: Camera, camera_object, depsgraph) -> list[Finding]:
-    """Return the findings on a camera that was read of this object, as the depsgraph evaluated it."""
-    by_blender = camera.model.key == camera_object.data.type  # Blender knows its own models alone
+def verify_evaluated(camera: Camera, camera_object, depsgraph, view="") -> list[Finding]:
+    """Return the findings on a camera that was read of this object, as the depsgraph evaluated it.
+
+    Blender answers for its own models alone, and for an eye only where that is a camera object of its own.
+    """
+    apart = not view or depsgraph.scene_eval.render.views_format == "MULTIVIEW"
+    by_blender = camera.model.key == camera_object.data.type and apart
     return verify(camera, witness.ask(camera_object, depsgraph) if by_blender else None)

@@ -1,11 +1,17 @@
 """The render engine: Blender asks for a picture, the walk makes it, Blender stores, shows and writes it."""
 
+import math
+from dataclasses import replace
+from functools import partial, reduce
+from operator import add
 from time import perf_counter
 
 import bpy
+import numpy as np
 
-from ..core.records import Cancelled, InputError
+from ..core.records import BlenderCamera, Cancelled, InputError
 from ..core.report import Report
+from ..core.stereo import eye_record
 from . import reports
 from .passes import stored, ticked
 from .run import run
@@ -42,24 +48,47 @@ class CameraRayCaster(Viewport, bpy.types.RenderEngine):
             self.keep(report)
 
     def render_layer(self, depsgraph) -> Report:
-        """Cast the ticked passes of a view layer and store them in Blender's result."""
-        if depsgraph.scene_eval.render.use_multiview:
-            raise InputError("several views cannot be cast: switch off Stereoscopy in the Output properties")
+        """Cast the ticked passes of a view layer, for every eye, and store them in Blender's result."""
         layer = depsgraph.view_layer_eval
         wanted = ticked(depsgraph.scene_eval, layer)
         for entry in wanted:
             if entry.key != "combined":  # Blender adds that one
                 self.add_pass(entry.label, len(entry.channels), entry.channels, layer=layer.name)
-        self.update_stats(layer.name, "Casting rays")
-        images, report = run(depsgraph, self.camera_override, [entry.key for entry in wanted], self.advance)
+        eyes = [self.render_eye(depsgraph, wanted, view.name) for view in self.get_result().views]
+        return reduce(add, eyes)
+
+    def render_eye(self, depsgraph, wanted, view: str) -> Report:
+        """Cast and store one eye; the view is empty where the scene is not a stereo one."""
+        layer = depsgraph.view_layer_eval.name
+        self.active_view_set(view)
+        self.update_stats(layer, f"Casting rays {view}".rstrip())
+        keys = [entry.key for entry in wanted]
+        images, report = run(
+            depsgraph, self.camera_override, keys, self.advance,
+            visit=partial(self.visit, depsgraph), view=view, eye=partial(self.eye, view=view),
+        )  # fmt: skip
         started = perf_counter()
         height, width = next(iter(images.values())).shape[:2]
-        result = self.begin_result(0, 0, width, height, layer=layer.name)
+        result = self.begin_result(0, 0, width, height, layer=layer, view=view)
         for entry in wanted:
-            found = result.layers[0].passes.find_by_name(entry.label, "")
+            found = result.layers[0].passes.find_by_name(entry.label, view)
             found.rect.foreach_set(stored(entry.key, images[entry.key]))
         self.end_result(result)
         return report.with_seconds(write=perf_counter() - started)
+
+    def visit(self, depsgraph, frame: float):
+        """Evaluate the scene at another frame."""
+        self.frame_set(math.floor(frame), frame - math.floor(frame))
+        return depsgraph
+
+    def eye(self, raw: BlenderCamera, view: str) -> BlenderCamera:
+        """Return the record of a stereo eye with the matrix and the shift that Blender hands over for it."""
+        ours = eye_record(raw, view)  # which refuses what has no model, and is the record itself where nothing moves
+        if ours is raw:
+            return raw
+        camera = self.camera_override
+        shift_x = raw.shift_x if raw.type == "PANO" else self.camera_shift_x(camera)
+        return replace(raw, matrix_world=np.array(self.camera_model_matrix(camera), np.float64), shift_x=shift_x)
 
     def keep(self, report: Report) -> None:
         """Warn of what was left out, and add the report to those of this frame's other view layers."""

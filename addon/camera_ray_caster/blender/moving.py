@@ -16,10 +16,13 @@ CHECKS = 4
 """Frames at which the interpolation is held against the scene itself, beside those that resolved it."""
 
 
-def with_motion(camera: Camera, shapes: Shapes, camera_object, go_to: Callable) -> tuple[Camera, Shapes]:
+def with_motion(
+    camera: Camera, shapes: Shapes, camera_object, go_to: Callable, eye: Callable
+) -> tuple[Camera, Shapes]:
     """Return camera and shapes that know their motion over the camera's clock; without a clock as they are.
 
-    ``go_to(frame)`` evaluates the scene at a frame and returns its depsgraph. The frame is not put back.
+    ``go_to(frame)`` evaluates the scene at a frame and returns its depsgraph; the frame is not put back. ``eye(raw)``
+    is the record of the eye that the camera is, of the record of its object.
     """
     clock = camera.clock
     if clock is None:
@@ -27,7 +30,7 @@ def with_motion(camera: Camera, shapes: Shapes, camera_object, go_to: Callable) 
 
     def evaluate(frame: float) -> tuple[Camera, Shapes]:
         depsgraph = go_to(frame)
-        raw = camera_record(depsgraph.scene_eval, camera_object, depsgraph)
+        raw = eye(camera_record(depsgraph.scene_eval, camera_object, depsgraph))
         return replace(camera_from(raw), clock=clock), shapes_record(depsgraph)
 
     motion = resolve(evaluate, clock.first, clock.last, clock.tolerance, clock.most)

@@ -5,6 +5,7 @@ from types import MappingProxyType
 import numpy as np
 
 from ..core.records import BlenderCamera, InputError
+from ..core.stereo import camera_name
 
 CAMERA = (
     "type", "lens", "sensor_fit", "sensor_width", "sensor_height", "shift_x", "shift_y", "ortho_scale",
@@ -80,6 +81,17 @@ def find_camera(scene, name):
         known = ", ".join(repr(known) for known in sorted(cameras)) or "none at all"
         raise InputError(f"scene {scene.name!r} has no camera {name!r}; its cameras are: {known}")
     return cameras[name]
+
+
+def eye_object(scene, view: str):
+    """Return the object that stands for the active camera in a view: another one only in the Multi-View format."""
+    camera, views = scene.camera, scene.render.views
+    if not view or scene.render.views_format != "MULTIVIEW" or camera is None:
+        return camera
+    if view not in views:
+        raise InputError(f"scene {scene.name!r} has no view {view!r}: its views are {', '.join(views.keys())}")
+    name = camera_name(camera.name, views[view].camera_suffix, [one.camera_suffix for one in views])
+    return scene.objects.get(name, camera)
 
 
 def check_camera(scene, camera_object) -> None:

@@ -2,14 +2,16 @@
 
 import math
 from contextlib import contextmanager
+from functools import partial
 
 import bpy
 
 from ..core.camera import Camera
 from ..core.cameras import camera_from
 from ..core.records import InputError, Shapes
+from ..core.stereo import eye_record
 from .moving import with_motion
-from .raw_camera import camera_record, check_camera, find_camera
+from .raw_camera import camera_record, check_camera, eye_object, find_camera
 from .raw_shapes import shapes_record
 
 __all__ = ["camera_record", "evaluated", "find_camera", "read_camera", "read_shapes", "shapes_record"]
@@ -19,20 +21,26 @@ def read_camera(scene, camera_object=None, frame=None, view="") -> Camera:
     """Return the scene's camera as it is evaluated: parents, constraints, drivers, animation, timeline markers.
 
     ``camera_object``: default the scene's active camera at that frame. ``frame``: default the current one; its
-    fraction is the subframe. ``view``: only "", the camera itself.
+    fraction is the subframe. ``view``: "" for the camera itself, else the name of a multi-view eye, "left" or "right".
     A camera whose pixels have each their own time comes with its motion: the scene is evaluated for it.
     Raises InputError where there is no camera, for what no model here can do, and for parameters without meaning.
     """
-    if view:
-        raise InputError(f"view {view!r} cannot be cast: stereo views have no model here, leave the view empty")
     if camera_object is not None:
         check_camera(scene, camera_object)
-    with evaluated(scene, frame, camera_object) as depsgraph:
-        active = scene.camera
-        camera = camera_from(camera_record(scene, active, depsgraph))
+    with observing(scene, camera_object, frame, view) as (active, depsgraph):
+        eye = partial(eye_record, view=view)
+        camera = camera_from(eye(camera_record(scene, active, depsgraph)))
         if camera.clock is None:
             return camera
-        return with_motion(camera, shapes_record(depsgraph), active, lambda moment: go_to(scene, moment))[0]
+        shapes = shapes_record(depsgraph)
+        return with_motion(camera, shapes, active, partial(go_to, scene), eye)[0]
+
+
+@contextmanager
+def observing(scene, camera_object=None, frame=None, view=""):
+    """Yield the camera object that ``read_camera`` reads for these arguments, and the depsgraph that evaluates it."""
+    with evaluated(scene, frame, camera_object), evaluated(scene, None, eye_object(scene, view)) as depsgraph:
+        yield scene.camera, depsgraph
 
 
 def read_shapes(scene, frame=None) -> Shapes:
@@ -49,7 +57,7 @@ def read_shapes(scene, frame=None) -> Shapes:
         raw = camera_record(scene, active, depsgraph)
         if raw.settings["time_mode"] == "NONE":
             return shapes
-        return with_motion(camera_from(raw), shapes, active, lambda moment: go_to(scene, moment))[1]
+        return with_motion(camera_from(raw), shapes, active, partial(go_to, scene), partial(eye_record, view=""))[1]
 
 
 def go_to(scene, frame: float):

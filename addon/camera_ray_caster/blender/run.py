@@ -10,8 +10,9 @@ from time import perf_counter
 from ..core.camera import Camera
 from ..core.cameras import camera_from
 from ..core.cast import Images, cast
-from ..core.records import Finding, Shapes
+from ..core.records import BlenderCamera, Finding, Shapes
 from ..core.report import Report, report_cast
+from ..core.stereo import eye_record
 from .check import verify_evaluated
 from .moving import with_motion
 from .read import camera_record, go_to, shapes_record
@@ -33,26 +34,36 @@ class Job:
     """Whether the layer is one of several that are rendered."""
 
     @classmethod
-    def read(cls, depsgraph, camera_object, passes: Sequence[str], visit: Callable | None = None) -> Job:
+    def read(
+        cls,
+        depsgraph,
+        camera_object,
+        passes: Sequence[str],
+        visit: Callable | None = None,
+        view: str = "",
+        eye: Callable[[BlenderCamera], BlenderCamera] | None = None,
+    ) -> Job:
         """Read an evaluated scene with one camera, and hold the camera against its witnesses.
 
         Reads the depsgraph only, so that a render's thread may call it. ``visit(frame)`` evaluates the scene at another
         frame and returns its depsgraph: for a camera whose pixels have each their own time; the default sets the
-        scene's frame, which a render may not. Raises InputError where the camera cannot be cast.
+        scene's frame, which a render may not. ``view`` names a multi-view eye, ``eye(raw)`` is the record of that eye;
+        the default is ours. Raises InputError where the camera cannot be cast.
         """
         scene = depsgraph.scene_eval
         started = perf_counter()
-        camera = camera_from(camera_record(scene, camera_object, depsgraph))
+        eye = eye or partial(eye_record, view=view)
+        camera = camera_from(eye(camera_record(scene, camera_object, depsgraph)))
         shapes = shapes_record(depsgraph)
         read = perf_counter()
-        findings = verify_evaluated(camera, camera_object, depsgraph)
+        findings = verify_evaluated(camera, camera_object, depsgraph, view)
         verified = perf_counter()
         frame, layer = scene.frame_current_final, depsgraph.view_layer_eval.name
         several = sum(layer.use for layer in scene.view_layers) > 1
         shading = scene.camera_ray_caster.shading
         if camera.clock is not None:
             visit = visit or partial(go_to, depsgraph.scene)
-            camera, shapes = with_motion(camera, shapes, camera_object, visit)
+            camera, shapes = with_motion(camera, shapes, camera_object, visit, eye)
             visit(frame)
         moved = perf_counter()
         return cls(
@@ -77,12 +88,6 @@ class Job:
         return images, report
 
 
-def run(
-    depsgraph,
-    camera_object,
-    passes: Sequence[str],
-    progress: Callable[[float], bool] | None = None,
-    visit: Callable | None = None,
-) -> tuple[Images, Report]:
+def run(depsgraph, camera_object, passes: Sequence[str], progress=None, **eye) -> tuple[Images, Report]:
     """Read and cast in one go: see ``Job``."""
-    return Job.read(depsgraph, camera_object, passes, visit).cast(progress)
+    return Job.read(depsgraph, camera_object, passes, **eye).cast(progress)
