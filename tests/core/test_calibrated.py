@@ -154,7 +154,7 @@ def from_axis(degrees):
 def test_within_its_limit_no_two_points_share_a_pixel(lens):
     """The Jacobian of the projection keeps its sign, taken from differences, out to the limit or to 80 degrees."""
     cam = pinhole(*LENSES[lens])
-    radius = np.linspace(0.01, min(cam.model.limit, 5.0) * 0.999, 60)[:, None]
+    radius = np.linspace(0.01, min(cam.model.distortion.limit, 5.0) * 0.999, 60)[:, None]
     azimuth = np.linspace(0, 2 * np.pi, 90)
     x, y = radius * np.cos(azimuth), radius * np.sin(azimuth)
     h = 1e-6

@@ -13,13 +13,14 @@ Reference: Blender manual, Cameras > Panoramic; rays read out of Cycles.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from math import hypot
 
 import numpy as np
 
 from ..records import BlenderCamera, InputError, Raster
 from .film import Film, Window
-from .inversion import invert
+from .inversion import Inverse
 from .radial import AT_THE_RIM, TINY, Radial
 from .settings import FULL_TURN, WIDEST_FISHEYE, number, positive
 from .silhouette import pixel_bounds, radial_intervals
@@ -80,21 +81,24 @@ class FisheyePolynomial(Radial):
         theta = np.where(np.abs(theta) > self.half_fov, np.nan, theta)
         return np.sin(theta) / r, np.cos(theta)
 
+    @property
+    def _sign(self) -> float:
+        return 1.0 if self.angle(self.limit) >= self.coefficients[0] else -1.0
+
+    @cached_property
+    def _inverse(self):
+        sign = self._sign
+        k1, k2, k3, k4 = (sign * i * k for i, k in enumerate(self.coefficients[1:], 1))
+        slope = lambda r: k1 + r * (k2 + r * (k3 + r * k4))  # noqa: E731
+        return Inverse(lambda r: sign * self.angle(r), slope, 0.0, self.limit)
+
     def radius(self, theta):
         """See Radial: negative where theta is seen on the other side of the axis."""
-        start = self.coefficients[0]
-        sign = 1.0 if self.angle(self.limit) >= start else -1.0
+        start, sign = self.coefficients[0], self._sign
         same = sign * start + np.mod(sign * (theta - start), FULL_TURN)
         across = sign * start + np.mod(sign * (-theta - start), FULL_TURN)
         target = np.minimum(same, across)
-        slopes = [sign * i * k for i, k in enumerate(self.coefficients)][1:]
-        r = invert(
-            lambda x: sign * self.angle(x),
-            lambda x: slopes[0] + x * (slopes[1] + x * (slopes[2] + x * slopes[3])),
-            np.where(np.abs(target) <= self.half_fov * AT_THE_RIM, target, np.nan),
-            0.0,
-            self.limit,
-        )
+        r = self._inverse(np.where(np.abs(target) <= self.half_fov * AT_THE_RIM, target, np.nan))
         return np.where(same <= across, r, -r)
 
     def bounds(self, centres, radii):

@@ -1,42 +1,79 @@
-"""The inverse of a growing function, to full precision: Newton's method inside a bracket."""
+"""The inverse of a growing function, to full precision: Newton's method from a table, in a bracket where it must.
+
+Reference: W. Press et al., Numerical Recipes, 3rd ed. (2007), section 9.4 (rtsafe) for the bracket.
+"""
 
 from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
 from ..conventions import EPS
 
-KNOTS = 257
-"""Points of the table in which the first guess and its bracket are looked up."""
+KNOTS = 16385
+"""Points of the table: a guess from it is right to about 1e-9, and one Newton step to its square."""
+
+NEAR = 1e-8
+"""Of x: the square root of rounding. Where the step is shorter, what it leaves is less than the function's rounding."""
 
 STEPS = 80
-"""Enough for bisection alone to reach the last digit; Newton takes three or four."""
+"""Enough for bisection alone to reach the last digit."""
 
 
-def invert(function, derivative, target, low: float, high: float):
-    """Return x of [low, high] with function(x) = target; NaN where the target lies outside the function's range.
+@dataclass(frozen=True)
+class Inverse:
+    """x of [low, high] with function(x) = target, for a function that does not fall there; NaN for a target outside.
 
-    The function must not fall on the interval. The guess is interpolated in a table, each step is Newton's unless it
-    leaves the bracket, then the bracket is halved. The result is right to 2 EPS of x where the derivative is not 0,
-    plus the function's own rounding over the derivative. A target beyond an end by its rounding takes the end.
+    Right to 2 EPS of x plus the function's rounding over its derivative; a target beyond an end by its rounding takes
+    the end. Where the derivative is 0 the error is the square root of that.
     """
-    knots = np.linspace(low, high, KNOTS)
-    values = function(knots)
-    slack = 8 * EPS * np.abs(values).max()
-    within = (target >= values[0] - slack) & (target <= values[-1] + slack)
-    target = np.clip(np.where(within, target, values[0]), values[0], values[-1])
-    cell = np.clip(np.searchsorted(values, target, side="right") - 1, 0, KNOTS - 2)
-    left, right = knots[cell], knots[cell + 1]
-    x = np.interp(target, values, knots)
-    for _ in range(STEPS):
-        error = function(x) - target
-        left, right = np.where(error < 0, x, left), np.where(error > 0, x, right)
-        slope = derivative(x)
-        step = np.divide(error, slope, out=np.where(error == 0, 0.0, np.inf), where=slope > 0)
-        guess = x - step
-        guess = np.where((guess >= left) & (guess <= right), guess, (left + right) / 2)
-        settled = np.abs(guess - x) <= 2 * EPS * np.abs(guess)
-        x = guess
-        if settled.all():
-            break
-    return np.where(within, x, np.nan)
+
+    function: Callable
+    derivative: Callable
+    low: float
+    high: float
+    spacing: Callable = np.linspace
+    """Of the table's points between low and high, as many as it is told."""
+
+    @cached_property
+    def _table(self):
+        knots = self.spacing(self.low, self.high, KNOTS)
+        return knots, self.function(knots)
+
+    def __call__(self, target):
+        """Return the inverse of an array of targets."""
+        target = np.asarray(target, np.float64)
+        knots, values = self._table
+        slack = 8 * EPS * np.abs(values).max()
+        within = (target >= values[0] - slack) & (target <= values[-1] + slack)
+        x = np.interp(target, values, knots)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            step = (self.function(x) - target) / self.derivative(x)
+        x -= step
+        slow = within & ~(np.abs(step) <= NEAR * x)
+        x = np.where(within, np.clip(x, self.low, self.high), np.nan)
+        if slow.any():
+            x[slow] = self._bracketed(np.clip(target[slow], values[0], values[-1]))
+        return x
+
+    def _bracketed(self, target):
+        """Take Newton's step unless it leaves the bracket, then halve the bracket."""
+        knots, values = self._table
+        cell = np.clip(np.searchsorted(values, target, side="right") - 1, 0, KNOTS - 2)
+        left, right = knots[cell], knots[cell + 1]
+        x = np.interp(target, values, knots)
+        for _ in range(STEPS):
+            error = self.function(x) - target
+            left, right = np.where(error < 0, x, left), np.where(error > 0, x, right)
+            slope = self.derivative(x)
+            step = np.divide(error, slope, out=np.where(error == 0, 0.0, np.inf), where=slope > 0)
+            guess = x - step
+            guess = np.where((guess >= left) & (guess <= right), guess, (left + right) / 2)
+            settled = (np.abs(guess - x) <= 2 * EPS * np.abs(guess)) | (right - left <= 2 * EPS * right)
+            x = guess
+            if settled.all():
+                break
+        return x

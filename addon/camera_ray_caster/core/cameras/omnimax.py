@@ -20,7 +20,7 @@ from ..conventions import gamma
 from ..records import BlenderCamera, Raster
 from ..vector import components
 from .film import Window
-from .inversion import invert
+from .inversion import Inverse
 from .pitched import Pitched
 from .radial import Radial, radii_within
 from .settings import number
@@ -37,6 +37,10 @@ def angle(r):
 def slope(r):
     """Return the derivative of theta, which is positive."""
     return LINEAR + r * r * (3 * CUBIC + r * r * 5 * QUINTIC)
+
+
+RADIUS = Inverse(angle, slope, 0.0, 1.0)
+"""Of an angle."""
 
 
 @dataclass(frozen=True)
@@ -63,7 +67,7 @@ class Lens(Radial):
 
     def radius(self, theta):
         """See Radial: by Newton's method."""
-        return invert(angle, slope, theta, 0.0, 1.0)
+        return RADIUS(theta)
 
     @property
     def widest(self) -> float:

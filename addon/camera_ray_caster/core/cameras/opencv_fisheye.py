@@ -12,12 +12,13 @@ camera model.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
 from ..records import BlenderCamera, Raster
 from .calibration import CENTRE, FILE, FISHEYE, FOCAL, SIZE, Calibration
-from .inversion import invert
+from .inversion import Inverse
 from .radial import AT_THE_RIM, TINY, Radial
 
 
@@ -55,10 +56,14 @@ class OpencvFisheye(Radial):
         s = theta * theta
         return 1 + s * (3 * k1 + s * (5 * k2 + s * (7 * k3 + s * 9 * k4)))
 
+    @cached_property
+    def _angle(self):
+        return Inverse(self.distorted, self.slope, 0.0, self.limit)
+
     def factors(self, r_squared):
         """See Radial."""
         r = np.maximum(np.sqrt(r_squared), TINY)
-        theta = invert(self.distorted, self.slope, r, 0.0, self.limit)
+        theta = self._angle(r)
         return np.sin(theta) / r, np.cos(theta)
 
     def radius(self, theta):

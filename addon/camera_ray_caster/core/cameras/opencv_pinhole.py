@@ -29,8 +29,6 @@ class OpencvPinhole:
 
     window: Window
     distortion: RadialTangential
-    limit: float
-    """Undistorted radius up to which there are rays."""
 
     key = "OPENCV_PINHOLE"
     label = "OpenCV Pinhole"
@@ -42,8 +40,7 @@ class OpencvPinhole:
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> OpencvPinhole:
         """Build it from the settings of the same names or a calibration file; see Calibration for what is refused."""
         calibration = Calibration.from_blender(raw, raster, RADIAL_TANGENTIAL)
-        distortion = RadialTangential(**calibration.coefficients)
-        return cls(calibration.window(raster), distortion, distortion.limit())
+        return cls(calibration.window(raster), RadialTangential(**calibration.coefficients))
 
     def rays(self, x, y):
         """Return origin and direction, each a tuple of three broadcastable arrays, camera frame, direction_z = -1.
@@ -51,7 +48,7 @@ class OpencvPinhole:
         x and y are pixel coordinates of broadcastable shapes. NaN where there is no ray.
         """
         u, v = self.window.plane_from_pixels(x, y)
-        across, down = self.distortion.undistort(u, -v, self.limit)
+        across, down = self.distortion.undistort(u, -v)
         return (0.0, 0.0, 0.0), (across, -down, np.where(np.isnan(across), np.nan, -1.0))
 
     def project(self, points):
@@ -62,14 +59,14 @@ class OpencvPinhole:
         x, y, z = components(np.asarray(points, np.float64))
         depth = np.where(z < 0, -z, np.nan)
         across, down = x / depth, -y / depth
-        seen = np.hypot(across, down) <= self.limit * AT_THE_RIM
+        seen = np.hypot(across, down) <= self.distortion.limit * AT_THE_RIM
         across, down = np.where(seen, across, np.nan), np.where(seen, down, np.nan)
         u, v = self.distortion.distort(across, down)
         return np.stack(self.window.pixels_from_plane(u, -v), axis=-1)
 
     def bounds(self, centres, radii):
         """Return (n, 4) pixel bounds x0, x1, y0, y1 outside of which no point of the spheres (camera frame) is seen."""
-        widest = atan(self.limit)
+        widest = atan(self.distortion.limit)
 
         def radius(theta):
             r = np.tan(theta)

@@ -15,14 +15,24 @@ A. Sanchez-Salmeron (2010), thin prism.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import hypot, inf
+from functools import cached_property
+from math import atan, hypot, inf, radians, tan
 
 import numpy as np
 
 from ..conventions import EPS
-from .inversion import invert
+from .inversion import Inverse
 
-STEPS = 60
+STEEPEST = tan(radians(89.9))
+"""The largest undistorted radius that an endless picture is given."""
+
+FAST_STEPS = 5
+"""From the radial guess, which errs by a hundredth or so, Newton's steps square the error."""
+
+NEAR = 1e-8
+"""Of the radius: where the last step is shorter, its own error is below rounding."""
+
+STEPS = 200
 
 
 @dataclass(frozen=True)
@@ -46,39 +56,47 @@ class RadialTangential:
         """Return g and its derivative by r^2."""
         s = r_squared
         above = 1 + s * (self.k1 + s * (self.k2 + s * self.k3))
+        above_slope = self.k1 + s * (2 * self.k2 + s * (3 * self.k3))
+        if not (self.k4 or self.k5 or self.k6):
+            return above, above_slope
         below = 1 + s * (self.k4 + s * (self.k5 + s * self.k6))
-        above_slope = self.k1 + s * (2 * self.k2 + 3 * s * self.k3)
-        below_slope = self.k4 + s * (2 * self.k5 + 3 * s * self.k6)
+        below_slope = self.k4 + s * (2 * self.k5 + s * (3 * self.k6))
         gain = above / below
         return gain, (above_slope - gain * below_slope) / below
 
     def distort(self, x, y):
         """Return (x', y') of undistorted coordinates."""
         s = x * x + y * y
-        g, _ = self.gain(s)
-        return (
-            x * g + 2 * self.p1 * x * y + self.p2 * (s + 2 * x * x) + s * (self.s1 + s * self.s2),
-            y * g + self.p1 * (s + 2 * y * y) + 2 * self.p2 * x * y + s * (self.s3 + s * self.s4),
-        )
+        return self._moved(x, y, s, self.gain(s)[0])
 
-    def jacobian(self, x, y):
-        """Return the derivatives (x' by x, x' by y, y' by x, y' by y)."""
-        s = x * x + y * y
-        g, slope = self.gain(s)
-        cross = 2 * (x * y * slope + self.p1 * x + self.p2 * y)
-        prism_x, prism_y = 2 * (self.s1 + 2 * s * self.s2), 2 * (self.s3 + 2 * s * self.s4)
-        return (
-            g + 2 * x * x * slope + 2 * self.p1 * y + 6 * self.p2 * x + x * prism_x,
-            cross + y * prism_x,
-            cross + x * prism_y,
-            g + 2 * y * y * slope + 6 * self.p1 * y + 2 * self.p2 * x + y * prism_y,
-        )
+    def _moved(self, x, y, s, gain):
+        turn = gain + 2 * (self.p1 * y + self.p2 * x)
+        moved_x, moved_y = x * turn + self.p2 * s, y * turn + self.p1 * s
+        if self._has_prism:
+            moved_x, moved_y = moved_x + s * (self.s1 + s * self.s2), moved_y + s * (self.s3 + s * self.s4)
+        return moved_x, moved_y
+
+    @property
+    def _has_prism(self) -> bool:
+        return any((self.s1, self.s2, self.s3, self.s4))
+
+    def _derivatives(self, x, y, s, gain, slope):
+        """Return x' by x, x' by y, y' by x, y' by y."""
+        bend_x, bend_y = 2 * (slope * x + self.p2), 2 * (slope * y + self.p1)  # of turn, by x and by y
+        turn = gain + 2 * (self.p1 * y + self.p2 * x)
+        xx, yy = turn + x * bend_x + 2 * self.p2 * x, turn + y * bend_y + 2 * self.p1 * y
+        xy, yx = x * bend_y + 2 * self.p2 * y, y * bend_x + 2 * self.p1 * x
+        if self._has_prism:
+            prism_x, prism_y = 2 * self.s1 + 4 * s * self.s2, 2 * self.s3 + 4 * s * self.s4
+            return xx + x * prism_x, xy + y * prism_x, yx + x * prism_y, yy + y * prism_y
+        return xx, xy, yx, yy
 
     def off_radius(self, r):
         """Return a bound on how far a point at this radius is moved otherwise than along it."""
         s = r * r
         return s * (3 * hypot(self.p1, self.p2) + hypot(self.s1, self.s3) + s * hypot(self.s2, self.s4))
 
+    @cached_property
     def limit(self) -> float:
         """Return the undistorted radius up to which the map is one-to-one, inf without one.
 
@@ -97,58 +115,81 @@ class RadialTangential:
             least = min(least, *real.tolist(), inf)
         return least * (1 - 1e-9)
 
-    def undistort(self, u, v, limit: float):
+    @cached_property
+    def _radius(self):
+        """Return the inverse of r g(r^2), out to the limit, or to 89.9 degrees where the picture has no end."""
+        high = min(self.limit, STEEPEST)
+        return Inverse(lambda r: r * self.gain(r * r)[0], self._radial_slope, 0.0, high, _even_in_angle)
+
+    def _radial_slope(self, r):
+        s = r * r
+        g, slope = self.gain(s)
+        return g + 2 * s * slope
+
+    def undistort(self, u, v):
         """Return (x, y) within the limit with distort(x, y) = (u, v); NaN where there is none.
 
-        The radius alone gives the first guess, Newton's method in one variable; with tangential or prism terms
-        Newton's in two goes on, a step halved until it comes nearer. Right to some EPS of the distorted radius,
-        times the inverse of the Jacobian.
+        The radius alone gives the first guess, by Newton's method in one variable; with tangential or prism terms
+        Newton's in two goes on. Right to some EPS of the distorted radius, times the inverse of the Jacobian.
         """
         u, v = np.broadcast_arrays(u, v)
         rho = np.hypot(u, v)
-        r = self._radius(rho, limit)
+        r = self._radius(rho)
         scale = np.where(rho > 0, r / np.where(rho > 0, rho, 1.0), 1.0)
         x, y = u * scale, v * scale
-        if any((self.p1, self.p2, self.s1, self.s2, self.s3, self.s4)):
-            x, y = self._newton(u, v, np.nan_to_num(x, nan=0.0), np.nan_to_num(y, nan=0.0), limit)
+        if not any((self.p1, self.p2, self.s1, self.s2, self.s3, self.s4)):
+            return x, y
+        for _ in range(FAST_STEPS):
+            step_x, step_y = self._step(x, y, u, v)
+            x, y = x - step_x, y - step_y
+            r = np.abs(x) + np.abs(y)
+            slow = ~(np.abs(step_x) + np.abs(step_y) <= NEAR * r)
+            if not slow.any():
+                break
+        slow = (slow | (r > self.limit)) & ~np.isnan(u)
+        if slow.any():
+            x[slow], y[slow] = self._careful(u[slow], v[slow])
         return x, y
 
-    def _radius(self, rho, limit: float):
-        """Return r with r g(r^2) = rho, up to the limit; NaN beyond."""
-        high, farthest = limit, np.max(rho, initial=0.0, where=~np.isnan(rho))
-        if high == inf:
-            high = max(farthest, 1.0)
-            while high * self.gain(high * high)[0] < farthest and high < 1e12:
-                high *= 2
-        return invert(lambda r: r * self.gain(r * r)[0], self._radial_slope, rho, 0.0, high)
+    def _step(self, x, y, u, v):
+        """Return Newton's step."""
+        s = x * x + y * y
+        gain, slope = self.gain(s)
+        moved_x, moved_y = self._moved(x, y, s, gain)
+        off_x, off_y = moved_x - u, moved_y - v
+        xx, xy, yx, yy = self._derivatives(x, y, s, gain, slope)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            inverse = 1 / (xx * yy - xy * yx)
+            return (yy * off_x - xy * off_y) * inverse, (xx * off_y - yx * off_x) * inverse
 
-    def _radial_slope(self, r):
-        g, slope = self.gain(r * r)
-        return g + 2 * r * r * slope
-
-    def _newton(self, u, v, x, y, limit: float):
-        goal = 8 * EPS * (np.hypot(u, v) + self.off_radius(np.hypot(x, y)))
-        off_x, off_y = self._off(x, y, u, v)
-        share = np.ones_like(x)
+    def _careful(self, u, v):
+        """Newton's method from the axis, each step halved until it comes nearer, and kept within the limit."""
+        x, y, share = np.zeros_like(u), np.zeros_like(v), np.ones_like(u)
+        off = self._off(x, y, u, v)
         for _ in range(STEPS):
-            error = np.hypot(off_x, off_y)
+            goal = 8 * EPS * (np.hypot(u, v) + self.off_radius(np.hypot(x, y)))
+            error = np.hypot(*off)
             if not (error > goal).any():
                 break
-            xx, xy, yx, yy = self.jacobian(x, y)
-            determinant = xx * yy - xy * yx
-            with np.errstate(divide="ignore", invalid="ignore"):
-                step_x, step_y = (yy * off_x - xy * off_y) / determinant, (xx * off_y - yx * off_x) / determinant
+            step_x, step_y = self._step(x, y, u, v)
             next_x, next_y = x - share * step_x, y - share * step_y
-            inside = np.minimum(1.0, limit / np.maximum(np.hypot(next_x, next_y), 1e-300))
+            inside = np.minimum(1.0, self.limit / np.maximum(np.hypot(next_x, next_y), 1e-300))
             next_x, next_y = next_x * inside, next_y * inside
             next_off = self._off(next_x, next_y, u, v)
             better = np.hypot(*next_off) < error
             share = np.where(better, 1.0, share / 2)
             x, y = np.where(better, next_x, x), np.where(better, next_y, y)
-            off_x, off_y = np.where(better, next_off[0], off_x), np.where(better, next_off[1], off_y)
-        found = np.hypot(off_x, off_y) <= 4 * goal
+            off = tuple(np.where(better, new, old) for new, old in zip(next_off, off, strict=True))
+        found = np.hypot(*off) <= 4 * goal
         return np.where(found, x, np.nan), np.where(found, y, np.nan)
 
     def _off(self, x, y, u, v):
         there = self.distort(x, y)
         return there[0] - u, there[1] - v
+
+
+def _even_in_angle(low: float, high: float, count: int):
+    """Return radii (tangents) from low to high that stand evenly in angle, their ends exact."""
+    radii = np.tan(np.linspace(atan(low), atan(high), count))
+    radii[0], radii[-1] = low, high
+    return radii
