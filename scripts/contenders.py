@@ -1,7 +1,7 @@
 """What the benchmark times: this caster, Blender and Cycles, and compiled ray tracers where they are installed.
 
 Each contender prepares a scene once and gives a function that makes the picture's arrays once; only that is timed, and
-the preparation (a compiled tracer's acceleration structure) is told apart. All see the same pinhole and the same spheres;
+the preparation (a tracer's acceleration structure) is told apart. All see the same pinhole and the same spheres;
 Embree sees them as icospheres, since embreex knows only triangles.
 """
 

@@ -280,7 +280,7 @@ def test_the_report_is_kept_until_another_file_is_opened(blender, scene):
     assert report.pixels == 2 * WIDTH * HEIGHT
     assert report.passed
     assert {finding.witness for finding in report.findings} >= {"view_frame", "calc_matrix_camera"}
-    assert {"read", "hits", "passes", "write"} <= set(report.seconds)
+    assert {"read", "rays", "cast", "passes", "write"} <= set(report.seconds)
     blender.ops.camera_ray_caster.write_report()
     assert "view_frame" in blender.data.texts["Camera Ray Caster Report"].as_string()
     blender.ops.wm.read_factory_settings(use_empty=True)

@@ -39,7 +39,7 @@ def report():
         left_out=(("Suzanne", "it is a monkey " + "of many words " * 20),),
     )
     images = cast(camera(), shapes, ("depth",))
-    seconds = {"read": 0.5, "plan": 0.01, "hits": 0.02, "passes": 0.03, "write": 0.25}
+    seconds = {"read": 0.5, "plan": 0.01, "cast": 0.02, "passes": 0.03, "write": 0.25}
     return report_cast(camera(), shapes, images, seconds, [GOOD], 1.5, "Layer")
 
 
@@ -63,7 +63,7 @@ def test_a_second_layer_adds_up(report):
     both = report + other
     assert both.layers == ("Layer", "Other")
     assert both.pixels == 2 * 64 * 48
-    assert both.seconds == {"read": 0.75, "plan": 0.01, "hits": 0.02, "passes": 0.03, "write": 0.25, "files": 1.0}
+    assert both.seconds == {"read": 0.75, "plan": 0.01, "cast": 0.02, "passes": 0.03, "write": 0.25, "files": 1.0}
     assert both.findings == (GOOD, BAD)
     assert both.left_out == report.left_out, "an object is named once"
     assert report.passed

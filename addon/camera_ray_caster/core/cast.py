@@ -19,6 +19,9 @@ from .plan import Plan, make_plan
 from .records import Cancelled, InputError, Shapes
 from .shading import MATERIAL
 
+STEPS = "rays", "cast", "passes"
+"""What the seconds of a tile are spent on: rays, their nearest hits, the passes of these."""
+
 TILE_PIXELS = 1 << 18
 """Pixels of a tile, the unit of threads, progress and cancelling: whole rows, where the picture has one time."""
 
@@ -88,10 +91,10 @@ def cast(
     images.seconds = {"plan": perf_counter() - started}
     own = local()
 
-    def run(tile: Tile) -> tuple[float, float]:
+    def run(tile: Tile) -> np.ndarray:
         if not hasattr(own, "scratch"):
             own.scratch = Scratch()
-        seconds = np.zeros(2)
+        seconds = np.zeros(len(STEPS))
         for names, count in ((chief, 1), (sampled, samples)):
             if names:
                 with np.errstate(all="ignore"):  # NaN and inf are answers here: no ray, no hit
@@ -104,7 +107,7 @@ def cast(
     began = perf_counter()
     busy = _in_threads(run, tiles, threads or os.cpu_count() or 1, progress)
     share = (perf_counter() - began) / max(busy.sum(), np.finfo(float).tiny)
-    images.seconds |= {"hits": busy[0] * share, "passes": busy[1] * share}
+    images.seconds |= dict(zip(STEPS, busy * share, strict=True))
     return images
 
 
@@ -130,12 +133,12 @@ def _moment(camera: Camera, shapes: Shapes, frame: float) -> tuple[Camera, Shape
 
 
 def _cast_tile(tile: Tile, plan: Plan, names, samples: int, images: Images, scratch: Scratch) -> np.ndarray:
-    """Cast one tile and store its passes; return the seconds of hits and passes."""
+    """Cast one tile and store its passes; return the seconds of STEPS."""
     raster = tile.camera.raster
     x, y = raster.columns()[:, tile.columns], raster.rows()[tile.rows]
     corner = tile.columns.start, tile.rows.start
     part = tile.rows, tile.columns
-    seconds = np.zeros(2)
+    seconds = np.zeros(len(STEPS))
     total = np.zeros((y.size, x.size, 4)) if samples > 1 else None
     for sample in range(samples):
         began = perf_counter()
@@ -144,6 +147,7 @@ def _cast_tile(tile: Tile, plan: Plan, names, samples: int, images: Images, scra
         else:
             from_eye = tile.camera.model.central and tile.camera.aperture is None
             rays = tile.camera.sample_rays(x, y, sample)
+        generated = perf_counter()
         hits = nearest(plan, *rays, from_eye, corner, scratch)
         found = perf_counter()
         if total is None:
@@ -152,7 +156,7 @@ def _cast_tile(tile: Tile, plan: Plan, names, samples: int, images: Images, scra
             once = np.empty_like(total)
             _store(hits, {"combined": once}, None)
             total += once
-        seconds += found - began, perf_counter() - found
+        seconds += generated - began, found - generated, perf_counter() - found
     if total is not None:
         np.copyto(images["combined"][part], total / samples, where=_broadcast(tile.where), casting="same_kind")
     return seconds
@@ -174,7 +178,7 @@ def _broadcast(where):
 
 def _in_threads(run, tiles, workers: int, progress) -> np.ndarray:
     """Run tiles on threads (numpy releases the interpreter) and return the sum of what they return."""
-    total = np.zeros(2)
+    total = np.zeros(len(STEPS))
     with ThreadPoolExecutor(workers) as pool:
         waiting = {pool.submit(run, tile) for tile in tiles}
         done = 0

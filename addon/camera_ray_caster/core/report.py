@@ -11,14 +11,14 @@ from textwrap import shorten, wrap
 import numpy as np
 
 from .camera import Camera
-from .cast import Images
+from .cast import STEPS, Images
 from .facts import camera_facts
 from .records import Finding, Shapes
 
 WIDTH = 100
 """Columns that the table does not exceed."""
 
-CAST_STEPS = ("plan", "rays", "hits", "passes")
+CAST_STEPS = ("plan", *STEPS)
 """The steps that count for rays per second: from camera and shapes to finished arrays."""
 
 
