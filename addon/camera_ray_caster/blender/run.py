@@ -26,6 +26,7 @@ class Job:
     shapes: Shapes
     passes: Sequence[str]
     shading: str
+    samples: int
     findings: list[Finding]
     seconds: dict[str, float]
     frame: float
@@ -60,7 +61,8 @@ class Job:
         verified = perf_counter()
         frame, layer = scene.frame_current_final, depsgraph.view_layer_eval.name
         several = sum(layer.use for layer in scene.view_layers) > 1
-        shading = scene.camera_ray_caster.shading
+        settings = scene.camera_ray_caster
+        shading, samples = settings.shading, settings.samples
         if camera.clock is not None:
             visit = visit or partial(go_to, depsgraph.scene)
             camera, shapes = with_motion(camera, shapes, camera_object, visit, eye)
@@ -71,6 +73,7 @@ class Job:
             shapes=shapes,
             passes=passes,
             shading=shading,
+            samples=samples,
             findings=findings,
             seconds={"read": read - started + moved - verified, "verify": verified - read},
             frame=frame,
@@ -80,7 +83,8 @@ class Job:
 
     def cast(self, progress: Callable[[float], bool] | None = None) -> tuple[Images, Report]:
         """Cast the passes and report. ``progress`` is as in ``cast``; raises Cancelled where the user stopped."""
-        images = cast(self.camera, self.shapes, self.passes, shading=self.shading, progress=progress)
+        settings = {"shading": self.shading, "samples": self.samples}
+        images = cast(self.camera, self.shapes, self.passes, **settings, progress=progress)
         seconds = {**self.seconds, **images.seconds}
         report = report_cast(
             self.camera, self.shapes, images, seconds, self.findings, self.frame, self.layer, self.several
