@@ -1,7 +1,9 @@
 """What the add-on stores in a .blend: what an object stands for, what model a camera has, how a scene is shown."""
 
 import bpy
-from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty
+
+from .live_properties import BoolProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty
+from .properties_multiperspective import MODELS, MultiperspectiveProperties
 
 
 class ObjectProperties(bpy.types.PropertyGroup):
@@ -21,7 +23,7 @@ class ObjectProperties(bpy.types.PropertyGroup):
     )
 
 
-class CameraProperties(bpy.types.PropertyGroup):
+class CameraProperties(MultiperspectiveProperties, bpy.types.PropertyGroup):
     """``camera.camera_ray_caster``: a model that Blender does not have, and the time of each pixel"""
 
     model: EnumProperty(
@@ -30,6 +32,7 @@ class CameraProperties(bpy.types.PropertyGroup):
         items=(
             ("BLENDER", "Blender's Own", "The camera's type, as Blender and Cycles have it"),
             ("CAMERA_OBSCURA", "Camera Obscura", "A dark box with a tiny hole: the world upside down on its back wall"),
+            *MODELS,
         ),
         default="BLENDER",
     )

@@ -6,6 +6,8 @@ import numpy as np
 
 from ..core.records import BlenderCamera, InputError
 from ..core.stereo import camera_name
+from .properties_multiperspective import COPIED, RAYS
+from .raw_lines import lines_record
 
 CAMERA = (
     "type", "lens", "sensor_fit", "sensor_width", "sensor_height", "shift_x", "shift_y", "ortho_scale",
@@ -39,9 +41,9 @@ MULTIVIEW = ("use_multiview", "views_format")
 def camera_record(scene, camera_object, depsgraph) -> BlenderCamera:
     """Return the record of a camera object as the depsgraph evaluated it, with the scene's render settings.
 
-    ``settings`` holds the values of PANORAMA, DEPTH_OF_FIELD, STEREO and MULTIVIEW by Blender's names, and
-    ``focus_position``, the focus object's place in the world (3,) or None. Raises InputError where there is no camera
-    or the object is none.
+    ``settings`` holds the values of PANORAMA, DEPTH_OF_FIELD, STEREO and MULTIVIEW by Blender's names, those of the
+    camera's own properties, ``focus_position``, the focus object's place in the world (3,) or None, and what
+    ``lines_record`` returns. Raises InputError where there is no camera or the object is none.
     """
     check_camera(scene, camera_object)
     evaluated = camera_object.evaluated_get(depsgraph)
@@ -54,6 +56,9 @@ def camera_record(scene, camera_object, depsgraph) -> BlenderCamera:
         **copied(scene.render, MULTIVIEW),
         **copied(scene.render, SHUTTER),
         **copied(own, OWN),
+        **copied(own, COPIED),
+        **{name: tuple(getattr(own, name)) for name in RAYS},
+        **lines_record(own, depsgraph),
         "frame": scene.frame_current_final,
         "rolling_shutter_duration": scene.cycles.rolling_shutter_duration if hasattr(scene, "cycles") else 0.0,
         "time_image": _grey(own.time_image),

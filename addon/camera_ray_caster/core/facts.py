@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 from .camera import Camera
+from .cameras.general_linear import GeneralLinear
 from .cameras.orthographic import Orthographic
 from .cameras.perspective import Perspective
 
@@ -16,7 +17,7 @@ def camera_facts(camera: Camera) -> dict[str, object]:
     and rows y0 .. y1 that are rendered), pixel aspect, clip range. A pinhole: field of view across and up (degrees,
     without shift, as Blender's panel has it), image-plane distance d of the lecture's ray x u + aspect y v + d w over
     [-1, 1]^2, that aspect, and K in OpenCV's convention (y down, origin in the centre of the top left pixel). An
-    orthographic camera: the width and height of the frame in Blender units.
+    orthographic camera: the width and height of the frame in Blender units. A general linear camera: its kind.
     """
     raster, basis = camera.raster, camera.pose.basis
     facts: dict[str, object] = {
@@ -33,6 +34,8 @@ def camera_facts(camera: Camera) -> dict[str, object]:
     }
     if isinstance(camera.model, Perspective):
         facts |= _pinhole(camera)
+    elif isinstance(camera.model, GeneralLinear):
+        facts["kind"] = camera.model.kind
     elif isinstance(camera.model, Orthographic):
         window = camera.model.window
         facts["frame"] = [raster.width * window.pitch_x, raster.height * window.pitch_y]

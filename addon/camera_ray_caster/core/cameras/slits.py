@@ -27,7 +27,10 @@ def points_in_camera(raw: BlenderCamera, name: str, choose: str) -> np.ndarray:
     """
     given: Any = raw.settings.get(name)
     if given is None:
-        raise InputError(f"{name} of camera {raw.name!r} is not set, or its object has left the scene: choose {choose}")
+        raise InputError(
+            f"{name} of camera {raw.name!r} is not set, or its object is deleted or disabled: choose {choose} that is "
+            "in the view layer (a line that shall not be seen may be hidden with H)"
+        )
     pose = pose_from(raw)
     points, matrix = (np.asarray(part, np.float64) for part in given[:2])
     if not (np.isfinite(points).all() and np.isfinite(matrix).all()):
