@@ -15,7 +15,7 @@ from camera_ray_caster.core.records import BlenderCamera
 from . import central_examples, multiperspective_examples
 from .example_frames import BORDER, DEFAULTS, IDENTITY, PORTRAIT, SHIFTED, TURNED, WIDE_PIXELS
 
-__all__ = ["BORDER", "EXAMPLES", "FACTS", "IDENTITY", "ONLY_SOME", "REFUSED", "TURNED", "UNSEEN", "camera"]
+__all__ = ["BORDER", "EXAMPLES", "FACTS", "IDENTITY", "ONLY_SOME", "REFUSED", "TURNED", "UNSEEN", "camera", "raw_of"]
 
 ONLY_SOME = {
     **central_examples.ONLY_SOME,
@@ -171,12 +171,17 @@ REFUSED = {
 
 
 def camera(key: str, settings=()):
-    """Return the camera of a model with these settings over the defaults; slits and path are in the camera's frame."""
+    """Return the camera of a model with these settings; see ``raw_of``."""
+    return camera_from(raw_of(key, settings))
+
+
+def raw_of(key: str, settings=()):
+    """Return the record of a model with these settings over the defaults; slits and path are in the camera's frame."""
     given = {**DEFAULTS, **dict(settings)}
     known = {field.name for field in fields(BlenderCamera)}
     only_some = ONLY_SOME | {name: given.pop(name) for name in sorted(set(given) - known)}
     only_some |= {name: attached(only_some[name], given["matrix_world"]) for name in ("slit_1", "slit_2", "path")}
-    return camera_from(BlenderCamera(name="Camera", type="PERSP", model=key, settings=only_some, **given))
+    return BlenderCamera(name="Camera", type="PERSP", model=key, settings=only_some, **given)
 
 
 def attached(points, matrix_world):

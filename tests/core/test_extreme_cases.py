@@ -2,26 +2,30 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from camera_ray_caster.core.bounds import decision
 from camera_ray_caster.core.cast import cast
 from camera_ray_caster.core.conventions import EPS
-from camera_ray_caster.core.records import SPHERE
+from camera_ray_caster.core.records import PLANE, SPHERE, InputError
 
 from . import truth
-from .extreme_cases import CASES
+from .extreme_cases import CASES, TURN, Case, shapes_of
 
 PASSES = (
     "depth", "distance", "position", "normal", "shape_index", "valid",
     "distance_bound", "position_bound", "normal_bound",
 )  # fmt: skip
-MOST = 90
+MOST = 49
 """Pixels of a case that are compared: the exact picture takes a millisecond a pixel and shape."""
 
 TIGHT = 100
 """What a bound may be at most, over the unit roundoff times the condition number."""
+
+ARRAYS = ("kind", "centre", "axes", "object_index", "material_index", "colour", "name_index")
 
 each_case = pytest.mark.parametrize(
     "case",
@@ -105,3 +109,32 @@ def test_hits_and_misses_are_the_exact_ones_and_numbers_lie_within_their_bounds(
         if camera.model.planar:
             limit = TIGHT * EPS * condition(exact, ray, shapes)
             assert images["distance_bound"][pixel] <= limit or is_open(images, camera, pixel, x, y, ray), pixel
+
+
+def test_a_million_spheres_at_one_point():
+    """All hit at exactly the same t: the first counts, and none is lost on the way."""
+    count, rows = 1_000_000, shapes_of([(SPHERE, (0, 0, -5), 2.0)])
+    fields = {name: np.repeat(getattr(rows, name), count, axis=0) for name in ARRAYS}
+    shapes = replace(rows, **fields)
+    one, many = (
+        cast(Case("", "", [], {"resolution_x": 1, "resolution_y": 1}).camera, s, PASSES, np.float64)
+        for s in (rows, shapes)
+    )
+    for name in PASSES:
+        assert np.array_equal(one[name], many[name]), name
+
+
+@pytest.mark.parametrize("axes", [
+    pytest.param(np.diag([1.0, 0, 1]), id="an axis of length zero"),
+    pytest.param(np.zeros((3, 3)), id="no axes"),
+    pytest.param(np.array([[1, 2, 0], [2, 4, 0], [0, 0, 1.0]]), id="parallel axes"),
+    pytest.param(TURN @ np.diag([1, 1, 0]) @ TURN.T, id="parallel but for rounding"),
+    pytest.param(np.diag([1, np.nan, 1]), id="not a number"),
+    pytest.param(np.eye(3) * 1e-160, id="squares vanish"),
+    pytest.param(np.eye(3) * 1e160, id="squares overflow"),
+])  # fmt: skip
+@pytest.mark.parametrize("kind", [SPHERE, PLANE])
+def test_what_cannot_be_cast_is_refused_by_name(kind, axes):
+    shapes = shapes_of([(SPHERE, (0, 0, -5), 1.0), (kind, (0, 0, -5), axes)])
+    with pytest.raises(InputError, match=r"'shape 1' (is flat|has a size)"):
+        cast(Case("", "", []).camera, shapes)

@@ -8,7 +8,7 @@ import numpy as np
 
 from ..conventions import EPS, gamma
 from ..exact import solve, square_less_one, two_sum
-from ..records import INFINITE_PLANE, PLANE, InputError, Pose, Shapes
+from ..records import INFINITE_PLANE, PLANE, SPHERE, InputError, Pose, Shapes
 
 SIZES = 1e-152, 1e152
 """What sizes, distances and their ratios may be: their squares are numbers, too."""
@@ -16,7 +16,7 @@ SIZES = 1e-152, 1e152
 SKEW = 32.0
 """Axes beyond this ``skewness`` are inverted with twice the digits."""
 
-FLAT = 1e15
+FLAT = 1e13
 """Beyond this skewness axes cannot be told from ones in one plane."""
 
 CLOSE = 2.0
@@ -60,7 +60,7 @@ def place(shapes: Shapes, pose: Pose) -> Placed:
     """
     away, lost = two_sum(shapes.centre, -pose.eye)
     camera_from_world = np.linalg.inv(pose.basis)
-    with np.errstate(all="ignore"):
+    with np.errstate(all="ignore"):  # what is flat or too far is refused by name
         shape_from_world = inverse(shapes.axes)
         offset = (shape_from_world @ away[..., None])[..., 0]
         _refuse(shapes, away, offset)
@@ -71,12 +71,12 @@ def place(shapes: Shapes, pose: Pose) -> Placed:
         distance = np.sqrt((offset * offset).sum(axis=-1))
         outside = (distance - 1) * (distance + 1)
         parts = np.abs(shape_from_world[:, 2] * away).sum(axis=-1)
-        fine = np.flatnonzero((distance < CLOSE) | (np.abs(offset[:, 2]) < GRAZING * parts))
+        grazing = np.abs(offset[:, 2]) < GRAZING * parts
+        fine = np.flatnonzero(np.where(shapes.kind == SPHERE, distance < CLOSE, grazing))
     if fine.size:
         pair = solve(shapes.axes[fine], shape_from_world[fine], away[fine], lost[fine])
         offset[fine] = pair[0]
-        near = distance[fine] < CLOSE
-        outside[fine[near]] = square_less_one(*pair)[near]
+        outside[fine] = square_less_one(*pair)
     return Placed(
         centre=away @ camera_from_world.T,
         shape_from_world=shape_from_world,
@@ -146,7 +146,8 @@ def skewness(axes):
     scaled, _ = _scaled(axes[turned])
     first, second, third = np.moveaxis(scaled, 2, 0)
     volume = np.abs((np.cross(first, second) * third).sum(axis=1))
-    result[turned] = np.sqrt((scaled * scaled).sum(axis=1)).prod(axis=1) / volume
+    with np.errstate(divide="ignore", invalid="ignore"):
+        result[turned] = np.sqrt((scaled * scaled).sum(axis=1)).prod(axis=1) / volume
     return result
 
 
