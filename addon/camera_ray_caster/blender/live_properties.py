@@ -12,10 +12,10 @@ def _tell(self, context):
     self.id_data.update_tag()
 
 
-BoolProperty, EnumProperty, FloatProperty, FloatVectorProperty, IntProperty, PointerProperty = (
+BoolProperty, EnumProperty, FloatProperty, FloatVectorProperty, IntProperty, PointerProperty, StringProperty = (
     partial(kind, update=_tell)
     for kind in (
         props.BoolProperty, props.EnumProperty, props.FloatProperty, props.FloatVectorProperty, props.IntProperty,
-        props.PointerProperty,
+        props.PointerProperty, props.StringProperty,
     )
 )  # fmt: skip

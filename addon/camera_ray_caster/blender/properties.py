@@ -3,6 +3,8 @@
 import bpy
 
 from .live_properties import BoolProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty
+from .properties_central import MODELS as CENTRAL
+from .properties_central import CentralProperties
 from .properties_multiperspective import MODELS, MultiperspectiveProperties
 
 
@@ -23,7 +25,7 @@ class ObjectProperties(bpy.types.PropertyGroup):
     )
 
 
-class CameraProperties(MultiperspectiveProperties, bpy.types.PropertyGroup):
+class CameraProperties(CentralProperties, MultiperspectiveProperties, bpy.types.PropertyGroup):
     """``camera.camera_ray_caster``: a model that Blender does not have, and the time of each pixel"""
 
     model: EnumProperty(
@@ -32,6 +34,7 @@ class CameraProperties(MultiperspectiveProperties, bpy.types.PropertyGroup):
         items=(
             ("BLENDER", "Blender's Own", "The camera's type, as Blender and Cycles have it"),
             ("CAMERA_OBSCURA", "Camera Obscura", "A dark box with a tiny hole: the world upside down on its back wall"),
+            *CENTRAL,
             *MODELS,
         ),
         default="BLENDER",

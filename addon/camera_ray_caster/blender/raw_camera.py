@@ -2,10 +2,12 @@
 
 from types import MappingProxyType
 
+import bpy
 import numpy as np
 
 from ..core.records import BlenderCamera, InputError
 from ..core.stereo import camera_name
+from .properties_central import COPIED as CENTRAL
 from .properties_multiperspective import COPIED, RAYS
 from .raw_lines import lines_record
 
@@ -56,7 +58,9 @@ def camera_record(scene, camera_object, depsgraph) -> BlenderCamera:
         **copied(scene.render, MULTIVIEW),
         **copied(scene.render, SHUTTER),
         **copied(own, OWN),
+        **copied(own, CENTRAL),
         **copied(own, COPIED),
+        "calibration_file": bpy.path.abspath(own.calibration_file, library=data.library),
         **{name: tuple(getattr(own, name)) for name in RAYS},
         **lines_record(own, depsgraph),
         "frame": scene.frame_current_final,

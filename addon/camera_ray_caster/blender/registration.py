@@ -10,6 +10,7 @@ from . import (
     panels,
     panels_camera,
     panels_cast,
+    panels_model,
     panels_overlay,
     properties,
     reports,
@@ -19,7 +20,7 @@ from . import (
 
 MODULES = (
     properties, reports, observed, viewport, engine, operators, cast_operator, overlay, mouse_gizmo,
-    panels, panels_camera, panels_cast, panels_overlay, terminal,
+    panels, panels_model, panels_camera, panels_cast, panels_overlay, terminal,
 )  # fmt: skip
 
 

@@ -64,7 +64,7 @@ class Calibration:
             values |= {name: positive(raw, name) for name in FOCAL}
             values |= {name: number(raw, name, low=0.0) for name in SIZE}
         return cls(
-            *(values[name] for name in (*FOCAL, *CENTRE)),
+            **{name: values[name] for name in (*FOCAL, *CENTRE)},
             width=values[SIZE[0]] or raster.width,
             height=values[SIZE[1]] or raster.height,
             coefficients={name: values[name] for name in names},

@@ -23,8 +23,6 @@ class Cylindrical(CentralCylindrical):
     """Height is the tangent of the latitude."""
 
     key = "CYLINDRICAL"
-    label = "Panorama Cylindrical"
-    settings = ("pan_min", "pan_max", "latitude_bottom", "latitude_top")
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> Cylindrical:

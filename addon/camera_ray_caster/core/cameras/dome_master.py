@@ -25,8 +25,6 @@ class DomeMaster(Pitched, FisheyeEquidistant):
     """An equidistant fisheye that looks up."""
 
     key = "DOME_MASTER"
-    label = "Dome Master"
-    settings = ("fov", "tilt")
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> DomeMaster:

@@ -27,8 +27,6 @@ class FisheyeOrthographic(Radial):
     """sin(fov / 2)."""
 
     key = "FISHEYE_ORTHOGRAPHIC"
-    label = "Fisheye Orthographic"
-    settings = ("fov",)
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> FisheyeOrthographic:

@@ -30,8 +30,6 @@ class FisheyeStereographic(Radial):
     """tan(fov / 4), or inf where the frame alone ends the picture."""
 
     key = "FISHEYE_STEREOGRAPHIC"
-    label = "Fisheye Stereographic"
-    settings = ("fov",)
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> FisheyeStereographic:

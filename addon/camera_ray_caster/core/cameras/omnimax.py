@@ -80,8 +80,6 @@ class Omnimax(Pitched, Lens):
     """The lens, pitched up by the dome's tilt."""
 
     key = "OMNIMAX"
-    label = "Omnimax"
-    settings = ("tilt",)
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> Omnimax:

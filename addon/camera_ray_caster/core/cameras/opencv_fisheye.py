@@ -17,7 +17,7 @@ from functools import cached_property
 import numpy as np
 
 from ..records import BlenderCamera, Raster
-from .calibration import CENTRE, FILE, FISHEYE, FOCAL, SIZE, Calibration
+from .calibration import FISHEYE, Calibration
 from .inversion import Inverse
 from .radial import AT_THE_RIM, TINY, Radial
 
@@ -32,8 +32,6 @@ class OpencvFisheye(Radial):
     """Radians."""
 
     key = "OPENCV_FISHEYE"
-    label = "OpenCV Fisheye"
-    settings = (FILE, *SIZE, *FOCAL, *CENTRE, *FISHEYE)
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> OpencvFisheye:

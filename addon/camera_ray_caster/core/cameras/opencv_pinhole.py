@@ -16,7 +16,7 @@ import numpy as np
 
 from ..records import BlenderCamera, Raster
 from ..vector import components
-from .calibration import CENTRE, FILE, FOCAL, RADIAL_TANGENTIAL, SIZE, Calibration
+from .calibration import RADIAL_TANGENTIAL, Calibration
 from .film import Window
 from .radial import AT_THE_RIM
 from .radial_tangential import RadialTangential
@@ -31,8 +31,6 @@ class OpencvPinhole:
     distortion: RadialTangential
 
     key = "OPENCV_PINHOLE"
-    label = "OpenCV Pinhole"
-    settings = (FILE, *SIZE, *FOCAL, *CENTRE, *RADIAL_TANGENTIAL)
     planar = True
     central = True
 

@@ -24,8 +24,11 @@ def number(raw: BlenderCamera, name: str, low: float = -math.inf, high: float = 
     if name not in raw.settings:
         raise InputError(f"camera {raw.name!r} has no setting {name}, which its model needs")
     value = raw.settings[name]
-    within = isinstance(value, int | float) and math.isfinite(value)
-    if not within or not low - ROUNDING * abs(low) <= value <= high + ROUNDING * abs(high):
+    if (
+        not isinstance(value, int | float)
+        or not math.isfinite(value)
+        or not low - ROUNDING * abs(low) <= value <= high + ROUNDING * abs(high)
+    ):
         raise InputError(f"{name} of camera {raw.name!r} is {_text(value, unit)}: it must be {_range(low, high, unit)}")
     return float(value)
 

@@ -24,8 +24,6 @@ class StereographicPanorama(Pitched, FisheyeStereographic):
     """A stereographic fisheye without a rim, pitched."""
 
     key = "STEREOGRAPHIC_PANORAMA"
-    label = "Panorama Stereographic"
-    settings = ("fov", "elevation")
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> StereographicPanorama:

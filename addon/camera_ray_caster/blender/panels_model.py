@@ -1,0 +1,63 @@
+"""The box in the camera's tab where a model is chosen, with the settings of the chosen one only."""
+
+import bpy
+
+CALIBRATION = ("calibration_file", "calibration_width", "calibration_height", "fx", "fy", "cx", "cy")
+SETTINGS = {
+    "BLENDER": (),
+    "CAMERA_OBSCURA": ("obscura_depth", "obscura_width", "obscura_hole"),
+    "FISHEYE_ORTHOGRAPHIC": ("fov",),
+    "FISHEYE_STEREOGRAPHIC": ("fov",),
+    "OPENCV_PINHOLE": (*CALIBRATION, "k1", "k2", "p1", "p2", "k3", "k4", "k5", "k6", "s1", "s2", "s3", "s4"),
+    "OPENCV_FISHEYE": (*CALIBRATION, "k1", "k2", "k3", "k4"),
+    "OMNIMAX": ("tilt",),
+    "DOME_MASTER": ("fov", "tilt"),
+    "CYLINDRICAL": ("pan_min", "pan_max", "latitude_bottom", "latitude_top"),
+    "STEREOGRAPHIC_PANORAMA": ("fov", "elevation"),
+    "GENERAL_LINEAR": ("ray_1", "ray_2", "ray_3"),
+    "CROSS_SLIT": ("slit_1", "slit_2"),
+    "PUSHBROOM": ("slit_1",),
+    "PENCIL": ("slit_1", "pencil_slide"),
+    "TWISTED_ORTHOGRAPHIC": ("slit_1", "twist"),
+    "STRIP": ("path", "follow_path"),
+    "OMNIDIRECTIONAL_STEREO": ("eye",),
+}
+"""The settings of each model among the camera's own properties, in the order of the panel."""
+
+
+class ModelPanel(bpy.types.Panel):
+    """Camera properties: the model and its settings."""
+
+    bl_idname = "CAMERA_RAY_CASTER_PT_model"
+    bl_label = "Ray Caster Model"
+    bl_space_type = "PROPERTIES"
+    bl_region_type = "WINDOW"
+    bl_context = "data"
+
+    @classmethod
+    def poll(cls, context):
+        """Show it for cameras."""
+        return context.camera is not None
+
+    def draw(self, context):
+        """The list; below it what the chosen model needs. A calibration file stands for the numbers under it."""
+        layout = self.layout
+        layout.use_property_split = True
+        own = context.camera.camera_ray_caster
+        layout.prop(own, "model")
+        column = layout.column(align=True)
+        for name in SETTINGS[own.model]:
+            column.prop(own, name)
+            if name == "calibration_file":
+                column = layout.column(align=True)
+                column.active = not own.calibration_file
+
+
+def register() -> None:
+    """See ``registration``."""
+    bpy.utils.register_class(ModelPanel)
+
+
+def unregister() -> None:
+    """See ``registration``."""
+    bpy.utils.unregister_class(ModelPanel)
