@@ -13,7 +13,8 @@ import numpy as np
 
 from .camera import Camera
 from .clock import groups
-from .hits import Hits, Scratch, nearest
+from .hits import Hits
+from .nearest import Scratch, nearest
 from .passes import PASSES
 from .plan import Plan, make_plan
 from .records import Cancelled, InputError, Shapes
@@ -164,12 +165,12 @@ def _cast_tile(tile: Tile, plan: Plan, names, samples: int, images: Images, scra
 
 def _store(hits: Hits, outs: dict[str, np.ndarray], where) -> None:
     """Write passes block by block, only where they are meant."""
-    for rows, block in hits.blocks():
+    for window, block in hits.blocks():
         for name, out in outs.items():
-            target = out[rows] if where is None else np.empty_like(out[rows])
+            target = out[window] if where is None else np.empty_like(out[window])
             PASSES[name].write(block, target)
             if where is not None:
-                out[rows][where[rows]] = target[where[rows]]
+                out[window][where[window]] = target[where[window]]
 
 
 def _broadcast(where):

@@ -1,16 +1,15 @@
-"""The nearest hit of every pixel of a tile."""
+"""The hits of rays, and what follows from them: points, normals, surfaces."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from math import prod
 from typing import Any
 
 import numpy as np
 
 from .bounds import Bounds
-from .plan import BLOCK_PIXELS, SMALL_PIXELS, Group, Plan
+from .plan import BLOCK_COLUMNS, BLOCK_ROWS, Plan
 from .shapes import SHAPE_OF_KIND
 from .vector import along, components, difference, dot, matvec, rows
 
@@ -37,14 +36,21 @@ class Hits:
     """Column and row of the render window at which the rays begin."""
 
     def blocks(self):
-        """Yield (rows, hits) of blocks small enough for a core's cache."""
-        step = max(1, BLOCK_PIXELS // self.t.shape[1])
-        for first in range(0, self.t.shape[0], step):
-            part = slice(first, first + step)
-            window = part, slice(None)
-            origin, direction = (tuple(_cut(c, window) for c in vector) for vector in (self.origin, self.direction))
-            corner = self.corner[0], self.corner[1] + first
-            yield part, Hits(self.plan, self.from_eye, origin, direction, self.t[part], self.index[part], corner)
+        """Yield (window, hits) of blocks small enough for a core's cache; many of them see one shape only."""
+        height, width = self.t.shape
+        for top in range(0, height, BLOCK_ROWS):
+            for left in range(0, width, BLOCK_COLUMNS):
+                window = slice(top, top + BLOCK_ROWS), slice(left, left + BLOCK_COLUMNS)
+                origin, direction = (tuple(cut(c, window) for c in vector) for vector in (self.origin, self.direction))
+                corner = self.corner[0] + left, self.corner[1] + top
+                rays = self.plan, self.from_eye, origin, direction
+                yield window, Hits(*rays, self.t[window], self.index[window], corner)
+
+    @cached_property
+    def key(self):
+        """What to look up in a table of the shapes: ``index``, or one number where all pixels see the same."""
+        first = self.index[0, 0]
+        return first if (self.index == first).all() else self.index
 
     @cached_property
     def seen(self) -> np.ndarray:
@@ -52,9 +58,10 @@ class Hits:
         return self.index != NOTHING
 
     @cached_property
-    def missed(self) -> np.ndarray:
-        """Where none is, bool."""
-        return ~self.seen
+    def missed(self) -> np.ndarray | None:
+        """Where none is, bool; None where that is nowhere."""
+        missed = ~self.seen
+        return missed if missed.any() else None
 
     @cached_property
     def has_ray(self) -> np.ndarray:
@@ -72,7 +79,7 @@ class Hits:
     @cached_property
     def point(self):
         """The hit points relative to the eye, as world components; no number of meaning where nothing is hit."""
-        t = np.where(self.seen, self.t, 0.0)
+        t = self.t if self.missed is None else np.where(self.seen, self.t, 0.0)
         if self.from_eye:
             return tuple(t * component for component in self.world_direction)
         return along(matvec(self.plan.camera.pose.basis, self.origin), self.world_direction, t)
@@ -80,13 +87,13 @@ class Hits:
     @cached_property
     def normal(self):
         """Unit world normals turned towards the rays' origins, as components; 0 where nothing is hit."""
-        normal = self.plan.normals.look_up(self.index, self.point)
+        normal = self.plan.normals.look_up(self.key, self.point)
         if not (self.from_eye and self.plan.eye_outside):
             facing = -np.sign(dot(normal, self.world_direction))
             normal = tuple(facing * component for component in normal)
-        elif self.plan.camera.model.planar:
+        if self.missed is None:
             return normal
-        return tuple(np.where(self.seen, component, 0.0) for component in normal)  # where there is no ray it is NaN
+        return tuple(np.where(self.seen, component, 0.0) for component in normal)  # NaN where there is no ray
 
     @cached_property
     def pixels(self):
@@ -138,157 +145,8 @@ class Surface:
         return tuple(np.broadcast_to(component, shape)[self.where] for component in vector)
 
 
-def nearest(plan: Plan, origin, direction, from_eye: bool, corner, scratch: Scratch) -> Hits:
-    """Return the nearest hits within the clip range of rays given as camera-frame components, (rows, columns).
-
-    corner: the column and row of the render window at which the rays begin. Of shapes hit at exactly the same t
-    the one with the lowest index counts, whatever order they are tested in.
-    """
-    shape = np.broadcast_shapes(*map(np.shape, origin), *map(np.shape, direction), (1, 1))
-    tile = Tile(
-        None if from_eye else origin,
-        direction,
-        plan.camera.clip_start,
-        np.full(shape, np.nextafter(plan.camera.clip_end, np.inf)),
-        np.full(shape, NOTHING, np.int32),
-        scratch,
-    )
-    small = []
-    large = []
-    for group in plan.groups:
-        edges = np.clip(group.bounds - np.repeat(corner, 2), 0, np.repeat(shape[::-1], 2))
-        here = np.flatnonzero((edges[:, 0] < edges[:, 1]) & (edges[:, 2] < edges[:, 3]))
-        bounds = edges[here]
-        few = (bounds[:, 1] - bounds[:, 0]) * (bounds[:, 3] - bounds[:, 2]) < SMALL_PIXELS
-        large += [(group, *one) for one in zip(here[~few].tolist(), bounds[~few].tolist(), strict=True)]
-        small += [(group, here[few][batch], bounds[few][batch]) for batch in _batches(bounds[few])]
-    for group, row, bounds in sorted(large, key=lambda one: one[0].at[one[1]]):
-        tile.cast_one(group, row, bounds)
-    for group, rows_of_batch, bounds in small:
-        tile.cast_batch(group, rows_of_batch, bounds)
-    tile.t[tile.index == NOTHING] = np.inf
-    return Hits(plan, from_eye, origin, direction, tile.t, tile.index, corner)
-
-
-class Scratch:
-    """Working arrays of one thread, lent again and again: asking the system for memory costs more than arithmetic."""
-
-    def __init__(self):
-        self._arrays = [np.empty(0)] * 3
-
-    def __call__(self, i: int, shape) -> np.ndarray:
-        """Return the i-th array in this shape; what it held is lost."""
-        size = prod(shape)
-        if self._arrays[i].size < size:
-            self._arrays[i] = np.empty(size)
-        return self._arrays[i][:size].reshape(shape)
-
-
-@dataclass(frozen=True)
-class Tile:
-    """The rays of whole rows of the window, and the nearest hits so far."""
-
-    origin: Any
-    """None for rays from the eye."""
-    direction: Any
-    start: float
-    t: np.ndarray
-    """The nearest t so far; the first float64 beyond the clip end where nothing was hit."""
-    index: np.ndarray
-    scratch: Scratch
-
-    def cast_one(self, group: Group, row: int, bounds) -> None:
-        """Test one shape at the pixels of its bounds, block by block; to be called in the order of shape indices."""
-        x0, x1, y0, y1 = bounds
-        window = slice(y0, y1), slice(x0, x1)
-        all_t, all_index = self.t[window], self.index[window]
-        for block, found, where in self._blocks(group, _take(group.view, row), window):
-            t, index = all_t[block], all_index[block]
-            closer = found < t
-            if where is not None:
-                closer &= where
-                np.copyto(t, found, where=closer)
-            else:
-                np.fmin(t, found, out=t)
-            np.copyto(index, group.at[row], where=closer)
-
-    def _blocks(self, group: Group, view, window):
-        """Yield (rows of the window, t, where) of one shape, in blocks that fit a core's cache."""
-        (top, bottom), columns = (window[0].start, window[0].stop), window[1]
-        step = max(1, BLOCK_PIXELS // (columns.stop - columns.start))
-        direction = tuple(_cut(component, window) for component in self.direction)
-        if group.simple and self.origin is None and _is_pinhole(direction):
-            yield from group.shape.near_blocks(view, group.kind, direction, step, self.scratch)
-            return
-        for first in range(top, bottom, step):
-            part = slice(first, min(first + step, bottom)), columns
-            found = self._intersect(group, view, lambda component, part=part: _cut(component, part))
-            yield slice(part[0].start - top, part[0].stop - top), *found
-
-    def cast_batch(self, group: Group, at, bounds) -> None:
-        """Test many small shapes at once: arrays (shapes, rows, columns) as large as the largest bounds."""
-        x0, x1, y0, y1 = (edge[:, None, None] for edge in bounds.T)
-        height, width = self.t.shape
-        y = y0 + np.arange((y1 - y0).max())[:, None]
-        x = x0 + np.arange((x1 - x0).max())
-        inside = (y < y1) & (x < x1)
-        y, x = np.minimum(y, height - 1), np.minimum(x, width - 1)
-        view = _take(group.view, at, axes=(1, 1))
-        found, where = self._intersect(group, view, lambda component: _gather(component, y, x))
-        t, index = self.t.reshape(-1), self.index.reshape(-1)
-        pixel = y * width + x
-        inside &= found <= t[pixel]
-        if where is not None:
-            inside &= where
-        pixel, found = pixel[inside], np.broadcast_to(found, inside.shape)[inside]
-        k = np.broadcast_to(group.at[at][:, None, None], inside.shape)[inside]
-        before = t[pixel]
-        np.minimum.at(t, pixel, found)
-        won = found == t[pixel]
-        won &= (found < before) | (k < index[pixel])
-        index[pixel[won][::-1]] = k[won][::-1]  # of equals the first, the lowest index, is written last
-
-    def _intersect(self, group: Group, view, part):
-        origin = None if self.origin is None else tuple(map(part, self.origin))
-        start = None if group.simple else self.start
-        direction = tuple(map(part, self.direction))
-        return group.shape.intersect(view, group.kind, origin, direction, start, self.scratch)
-
-
-def _is_pinhole(direction) -> bool:
-    """Whether x is a row, y a column and z a number."""
-    x, y, z = direction
-    return np.ndim(z) == 0 and np.ndim(x) == np.ndim(y) == 2 and x.shape[0] == y.shape[1] == 1
-
-
-def _take(view, at, axes=()):
-    """Return a view's constants of one row, or of many rows with axes put in that broadcast with the rays."""
-    values = {name: getattr(view, name)[at] for name in view.__dataclass_fields__}
-    return type(view)(**{k: v.reshape(len(v), *axes, *v.shape[1:]) if axes else v for k, v in values.items()})
-
-
-def _batches(bounds):
-    """Yield rows of shapes with bounds of about the same size, as many as fill some blocks."""
-    size = np.maximum(bounds[:, 1] - bounds[:, 0], bounds[:, 3] - bounds[:, 2])
-    step = np.ceil(4 * np.log2(np.maximum(size, 1)))
-    for value in np.unique(step):
-        alike = np.flatnonzero(step == value)
-        pixels = (bounds[alike, 1] - bounds[alike, 0]).max() * (bounds[alike, 3] - bounds[alike, 2]).max()
-        count = max(1, 2 * BLOCK_PIXELS // pixels)
-        for first in range(0, len(alike), count):
-            yield alike[first : first + count]
-
-
-def _cut(component, window):
+def cut(component, window):
     """Return the part of a broadcastable component that covers a window of the tile."""
     if np.ndim(component) == 0:
         return component
     return component[tuple(w if size > 1 else slice(None) for w, size in zip(window, component.shape, strict=True))]
-
-
-def _gather(component, y, x):
-    """Return a broadcastable component at pixels given by a column of rows and a row of columns a shape."""
-    if np.ndim(component) == 0:
-        return component
-    rows, columns = component.shape
-    return component[y if rows > 1 else 0, x if columns > 1 else 0]

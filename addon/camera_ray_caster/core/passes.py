@@ -44,7 +44,8 @@ def depth(hits: Hits, out):
 def distance(hits: Hits, out):
     """The length of the ray from its origin to the hit."""
     np.multiply(hits.t, norm(hits.world_direction), out=out, casting="same_kind")
-    out[hits.missed] = np.inf
+    if hits.missed is not None:
+        out[hits.missed] = np.inf
 
 
 def position(hits: Hits, out):
@@ -68,12 +69,12 @@ def uv(hits: Hits, out):
 
 def object_index(hits: Hits, out):
     """Blender's pass index of the object."""
-    np.take(np.append(hits.plan.shapes.object_index, 0), hits.index, out=out, mode="wrap")
+    _look_up(hits, out, hits.plan.shapes.object_index)
 
 
 def material_index(hits: Hits, out):
     """Blender's pass index of the material."""
-    np.take(np.append(hits.plan.shapes.material_index, 0), hits.index, out=out, mode="wrap")
+    _look_up(hits, out, hits.plan.shapes.material_index)
 
 
 def shape_index(hits: Hits, out):
@@ -113,6 +114,13 @@ def normal_bound(hits: Hits, out):
     _bound(hits, out, hits.bounds.normal, 1.0)
 
 
+def _look_up(hits: Hits, out, table):
+    """Write what a table has for each shape, 0 where there is none."""
+    out[...] = table[hits.key] if len(table) else 0
+    if hits.missed is not None:
+        out[hits.missed] = 0
+
+
 def _bound(hits: Hits, out, bound, size):
     """Write bounds rounded up, with what storing a number of this size loses."""
     out[...] = 0
@@ -122,7 +130,8 @@ def _bound(hits: Hits, out, bound, size):
 def _write(out, vector, offset, blank):
     for axis, component in enumerate(vector):
         out[..., axis] = component + offset[axis]
-    out[blank] = 0
+    if blank is not None:
+        out[blank] = 0
 
 
 PASSES = {

@@ -15,7 +15,8 @@ from .shading import SHADINGS
 from .shapes import SHAPE_OF_KIND, Placed, place
 from .shapes.normals import NormalTable, normal_table
 
-BLOCK_PIXELS = 1 << 13
+BLOCK_ROWS, BLOCK_COLUMNS = 64, 128
+BLOCK_PIXELS = BLOCK_ROWS * BLOCK_COLUMNS
 """Pixels of a block, the unit of arithmetic: its float64 temporaries stay in a core's cache."""
 
 SMALL_PIXELS = 1 << 12
@@ -61,6 +62,11 @@ class Plan:
     """Shapes that no pixel can see."""
     spare_passes: tuple[str, ...]
     """Passes that were not asked for."""
+
+    @cached_property
+    def colours(self) -> np.ndarray:
+        """(n + 1, 4) float64: the shapes' colours, and transparent black for what sees none."""
+        return np.vstack((self.shapes.colour, np.zeros(4))).astype(np.float64)
 
     @cached_property
     def normals(self) -> NormalTable:

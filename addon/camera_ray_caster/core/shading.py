@@ -25,13 +25,13 @@ def shade(hits, out) -> None:
     all around. Without sun and point lights a headlight shines along each ray. GRID darkens lines of constant uv.
     """
     shapes = hits.plan.shapes
-    colour = np.vstack((shapes.colour, (0, 0, 0, 0))).astype(np.float64)
+    colour = hits.plan.colours
     lit = _headlight(hits) if len(shapes.lights.is_sun) == 0 else _lamps(hits, shapes.lights)
     grid = _grid(hits) if hits.plan.shading == GRID else 1.0
     for channel, light in enumerate(lit):
-        out[..., channel] = np.take(colour[:, channel], hits.index) * (light + shapes.world_colour[channel]) * grid
-    out[..., 3] = np.take(colour[:, 3], hits.index)
-    if hits.missed.any():
+        out[..., channel] = colour[hits.key, channel] * (light + shapes.world_colour[channel]) * grid
+    out[..., 3] = colour[hits.key, 3]
+    if hits.missed is not None:
         out[hits.missed] = shapes.world_colour
 
 

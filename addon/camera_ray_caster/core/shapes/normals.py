@@ -35,16 +35,22 @@ class NormalTable:
     def look_up(self, index, point):
         """Return unit normals as components for shape indices and eye-relative world points of the same shape.
 
-        Zero where index is -1. Outward on spheres, towards the eye on planes. Right to EPS (distance / radius).
+        index is an array like the points, or one number for all. Zero where it is -1. Outward on spheres, towards
+        the eye on planes. Right to EPS (distance / radius).
         """
-        gain = np.take(self.gain, index)
-        turned = tuple(gain * p + np.take(o, index) for p, o in zip(point, self.offset, strict=True))
-        if self.ellipsoid is not None:
-            where = self.ellipsoid[index]
+        gain = self.gain[index]
+        if np.ndim(index) == 0 and gain == 0:
+            turned = tuple(self.offset[:, index])
+        else:
+            turned = tuple(gain * p + np.take(o, index) for p, o in zip(point, self.offset, strict=True))
+        if self.ellipsoid is not None and self.ellipsoid[index].any():
+            turned = tuple(np.array(np.broadcast_to(component, np.shape(point[0]))) for component in turned)
+            where = np.broadcast_to(self.ellipsoid[index], turned[0].shape)
+            index = np.broadcast_to(index, where.shape)
             for component, curved in zip(turned, self._curved(index[where], point, where), strict=True):
                 component[where] = curved
         length = np.sqrt(dot(turned, turned))
-        np.maximum(length, np.finfo(float).tiny, out=length)
+        length = np.maximum(length, np.finfo(float).tiny)
         return tuple(component / length for component in turned)
 
     def _curved(self, at, point, where):
