@@ -4,9 +4,13 @@ One sample is taken exactly at the pixel's centre. Values are emitted in 0 .. 1 
 ``reach`` comes back to reach x 2^-24; black is what no ray or no surface gives.
 """
 
+from pathlib import Path
+
 import addon_utils
 import bpy
 import numpy as np
+
+from ..exr import read_exr
 
 
 def cycles_directions(scene):
@@ -35,12 +39,8 @@ def _render(scene, output, reach, sky):
     for layer in scene.view_layers:
         layer.material_override = material
     bpy.ops.render.render(write_still=True, scene=scene.name)
-    image = bpy.data.images.load(scene.render.filepath, check_existing=False)
-    image.colorspace_settings.name = "Non-Color"
-    pixels = np.empty((image.size[1], image.size[0], image.channels), np.float32)
-    image.pixels.foreach_get(pixels.ravel())
-    bpy.data.images.remove(image)
-    values = pixels[..., :3].astype(np.float64)
+    channels = read_exr(Path(scene.render.filepath))  # Blender 4.5 cannot read what it writes of one eye alone
+    values = np.stack([channels[name] for name in "RGB"], axis=-1).astype(np.float64)
     values[(values == 0).all(axis=-1)] = np.nan
     return (values - 0.5) * (2 * reach)
 
@@ -76,6 +76,7 @@ def _prepare(scene):
     render.use_compositing = render.use_sequencer = False
     render.image_settings.file_format = "OPEN_EXR"
     render.image_settings.color_depth = "32"
+    render.image_settings.exr_codec = "ZIP"
     render.image_settings.color_mode = "RGB"
     cycles.device = "CPU"
     cycles.samples, cycles.max_bounces = 1, 0

@@ -5,6 +5,11 @@ import math
 import numpy as np
 import pytest
 
+from camera_ray_caster.blender.read import read_camera
+from camera_ray_caster.core.conventions import EPS32
+
+from .cycles import cycles_surface
+
 ENGINE = "CAMERA_RAY_CASTER"
 WIDTH, HEIGHT = 48, 32
 
@@ -60,12 +65,6 @@ def curve(bpy, scene, points, kind="POLY"):
     return link(scene, bpy.data.objects.new("Line", data))
 
 
-def read(scene, frame=None):
-    from camera_ray_caster.blender.read import read_camera
-
-    return read_camera(scene, frame=frame)
-
-
 def picture(scene, tmp_path):
     """What the engine renders: combined, (rows, columns, 4), out of Blender's own file."""
     import bpy
@@ -101,7 +100,7 @@ def test_rays_meet_the_x_axes_of_empties_wherever_they_are(blender, scene):
     choose(scene, "CROSS_SLIT", slit_1=first, slit_2=second)
     for angle in (0.0, 0.4):
         second.rotation_euler.y = angle
-        rays = read(scene).rays()
+        rays = read_camera(scene).rays()
         for slit in (first, second):
             matrix = np.array(slit.matrix_world)
             assert gap(rays, matrix[:3, 3], matrix[:3, 0]) < FLOAT32
@@ -113,7 +112,7 @@ def test_a_curve_is_a_slit_from_its_first_to_its_last_point(blender, scene, kind
     slit = curve(blender, scene, ends, kind)
     slit.location = 0, 0, 9.5
     choose(scene, "PUSHBROOM", slit_1=slit)
-    rays = read(scene).rays()
+    rays = read_camera(scene).rays()
     assert gap(rays, ends[0] + (0, 0, 9.5), ends[-1] - ends[0]) < FLOAT32
 
 
@@ -125,11 +124,11 @@ def test_a_slit_that_is_animated_and_hidden_is_where_it_is_at_the_frame(blender,
     slit.hide_set(True)
     choose(scene, "PUSHBROOM", slit_1=slit)
     for frame, height in ((1, 10), (11, 20)):
-        origins = read(scene, frame).rays().origins
+        origins = read_camera(scene, frame=frame).rays().origins
         assert np.abs(origins[..., 2] - height).max() < FLOAT32
     slit.hide_viewport = True  # Blender evaluates it no more: it would stay where it is
     with pytest.raises(ValueError, match=r"slit_1 of camera 'Camera' .*disabled"):
-        read(scene, 1)
+        read_camera(scene, frame=1)
     blender.ops.render.render()
     slit.hide_render = True
     with pytest.raises(RuntimeError, match=r"slit_1 of camera 'Camera' .*disabled"):
@@ -164,7 +163,7 @@ def test_a_line_that_is_gone_is_named(blender, scene, how, model, name):
     bpy = blender
     lost = curve(bpy, scene, ((-3, 0, 12), (0, 1, 12), (3, 0, 12)))
     choose(scene, model, slit_1=empty(bpy, scene, (0, 0, 10), (0, 0, 1)), **{name: lost})
-    read(scene)
+    read_camera(scene)
     if how == "removed":
         bpy.data.objects.remove(lost)
     elif how == "deleted":
@@ -173,7 +172,7 @@ def test_a_line_that_is_gone_is_named(blender, scene, how, model, name):
     else:
         setattr(own(scene), name, None)
     with pytest.raises(ValueError, match=f"{name} of camera 'Camera' is not set, or its object is deleted"):
-        read(scene)
+        read_camera(scene)
     with pytest.raises(RuntimeError, match=name):
         bpy.ops.render.render()
 
@@ -181,7 +180,7 @@ def test_a_line_that_is_gone_is_named(blender, scene, how, model, name):
 def test_what_is_no_curve_is_no_path(blender, scene):
     choose(scene, "STRIP", path=empty(blender, scene, (0, 0, 0)))
     with pytest.raises(ValueError, match=r"path.*choose a curve"):
-        read(scene)
+        read_camera(scene)
 
 
 def test_a_strip_goes_where_blender_samples_the_curve(blender, scene):
@@ -189,7 +188,7 @@ def test_a_strip_goes_where_blender_samples_the_curve(blender, scene):
     circle.data.splines[0].use_cyclic_u = True
     circle.data.resolution_u = 64
     choose(scene, "STRIP", path=circle)
-    origins = read(scene).rays_at(np.linspace(0, WIDTH, 49), np.full(49, 16.0)).origins
+    origins = read_camera(scene).rays_at(np.linspace(0, WIDTH, 49), np.full(49, 16.0)).origins
     assert np.linalg.norm(origins[:, :2], axis=1) == pytest.approx(np.full(49, 2.0), rel=0.05)  # nearly a circle
     steps = np.linalg.norm(np.diff(origins, axis=0), axis=1)
     assert steps == pytest.approx(np.full(48, steps.mean()), rel=1e-3)  # at constant speed,
@@ -200,6 +199,31 @@ def test_the_scene_is_as_it_was(blender, scene):
     path = curve(blender, scene, ((-3, 0, 10), (3, 0, 10)))
     choose(scene, "STRIP", path=path)
     before = len(blender.data.meshes), len(blender.data.objects), np.array(path.matrix_world)
-    read(scene)
+    read_camera(scene)
     assert (len(blender.data.meshes), len(blender.data.objects)) == before[:2]
     assert np.array_equal(np.array(path.matrix_world), before[2])
+
+
+@pytest.mark.parametrize("view", ["left", "right"])
+def test_omnidirectional_stereo_is_the_spherical_stereo_of_cycles(blender, scene, view):
+    """Without convergence and pole merge: what Cycles meets on the walls of a box lies on our rays."""
+    blender.ops.mesh.primitive_cube_add(size=20, location=(1, 2, 8), rotation=(0.1, 0.2, 0.3))
+    data = scene.camera.data
+    scene.camera.rotation_euler = 0.4, 0.1, 0.3
+    data.stereo.interocular_distance = 0.5
+    choose(scene, "OMNIDIRECTIONAL_STEREO", eye=view.upper())
+    rays = read_camera(scene).rays()
+    choose(scene, "BLENDER")
+    data.type = "PANO"
+    (data if hasattr(data, "panorama_type") else data.cycles).panorama_type = "EQUIRECTANGULAR"
+    data.stereo.use_spherical_stereo, data.stereo.convergence_mode = True, "PARALLEL"
+    scene.render.use_multiview = True
+    for one in scene.render.views:
+        one.use, one.file_suffix = one.name == view, ""
+    position = cycles_surface(scene, "Position", 32.0)
+    assert not np.isnan(position).any()
+    beside = np.linalg.norm(np.cross(position - rays.origins, rays.directions), axis=-1)
+    # 32 operations for the direction, over 20 to the wall, 32 for places of up to 16, and EPS32 of a witness of 64
+    assert beside.max() <= (32 * 20 + 32 * 16 + 64) * EPS32
+    plain = np.linalg.norm(np.cross(position - scene.camera.location, rays.directions), axis=-1)
+    assert np.median(plain) > 0.2  # the eye is 0.25 from the centre: the test would see it
