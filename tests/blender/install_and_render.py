@@ -6,12 +6,51 @@ Arguments: the zip, the picture to write, the JSON file that receives what was s
 import inspect
 import json
 import sys
+from collections import Counter
+from contextlib import ExitStack
 from pathlib import Path
+from unittest.mock import patch
 
 import bpy
 
 MODULE = "bl_ext.user_default.camera_ray_caster"
 ENGINE = "CAMERA_RAY_CASTER"
+
+
+LEDGER = Counter()
+"""What the extension has added less what it has taken back, of what Blender does not list."""
+
+
+def watched(owner, name, count, key):
+    """Have every call that the extension makes of a function counted under a key, as long as the patch holds."""
+    function = getattr(owner, name)
+
+    def counted(*arguments, **keywords):
+        LEDGER[key] += count if MODULE in sys._getframe(1).f_globals["__name__"] else 0
+        return function(*arguments, **keywords)
+
+    return patch.object(owner, name, staticmethod(counted) if inspect.isclass(owner) else counted)
+
+
+def what_is_not_listed():
+    """Yield the patches that count draw callbacks, commands, timers and subscriptions."""
+    for name in dir(bpy.types):
+        getattr(bpy.types, name)  # a class that nobody has asked for is not among the subclasses
+    for kind in bpy.types.Space.__subclasses__():
+        yield watched(kind, "draw_handler_add", 1, "draw callbacks")
+        yield watched(kind, "draw_handler_remove", -1, "draw callbacks")
+    yield watched(bpy.utils, "register_cli_command", 1, "commands")
+    yield watched(bpy.utils, "unregister_cli_command", -1, "commands")
+    yield watched(bpy.app.timers, "register", 1, "timers")
+    yield watched(bpy.app.timers, "unregister", -1, "timers")
+    yield watched(bpy.msgbus, "subscribe_rna", 1, "subscriptions")
+    yield watched(bpy.msgbus, "clear_by_owner", -1, "subscriptions")
+
+
+def keys():
+    """The keys that add-ons have bound, by keymap."""
+    keymaps = bpy.context.window_manager.keyconfigs.addon.keymaps
+    return {keymap.name: len(keymap.keymap_items) for keymap in keymaps if len(keymap.keymap_items)}
 
 
 def traces():
@@ -24,6 +63,8 @@ def traces():
         "properties": {name: kind.bl_rna.properties.keys() for name, kind in kinds.items() if hasattr(kind, "bl_rna")},
         "drawn by others": {name: len(added) for name, kind in kinds.items() if (added := appended(kind))},
         "panels of the engine": [name for name, kind in kinds.items() if ENGINE in getattr(kind, "COMPAT_ENGINES", ())],
+        "counted": {key: count for key, count in LEDGER.items() if count},
+        "keys": keys(),
         "handlers": {name: [function.__qualname__ for function in added] for name, added in handlers},
     }
 
@@ -76,4 +117,7 @@ def main(archive, picture, report):
 
 
 if __name__ == "__main__":
-    main(*sys.argv[sys.argv.index("--") + 1 :])
+    with ExitStack() as stack:
+        for one in what_is_not_listed():
+            stack.enter_context(one)
+        main(*sys.argv[sys.argv.index("--") + 1 :])

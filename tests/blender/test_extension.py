@@ -38,7 +38,7 @@ def extension_tool(*arguments):
 def blender_command(script):
     """The words that run a script in another Blender of this kind: pip's bpy has no program of its own."""
     if not bpy.app.binary_path:
-        return [sys.executable, script, "--"]
+        return [sys.executable, "-P", script, "--"]  # -P: modules beside the script are not to stand before Blender's
     options = ["--background", "--factory-startup", "--python-exit-code", "1"]
     return [bpy.app.binary_path, *options, "--python", script, "--"]
 
@@ -93,6 +93,7 @@ def test_the_installed_package_never_imports_itself_by_name(installed):
 def test_ten_times_disabled_and_enabled_leaves_what_once_does(installed):
     seen, _ = installed
     assert seen["enabled"] != seen["before"]
+    assert seen["enabled"]["counted"] == {"draw callbacks": 1, "commands": 1}
     assert seen["enabled again"] == seen["enabled"]
 
 

@@ -37,8 +37,7 @@ def _datablock(name: str, width: int, height: int):
     image = bpy.data.images.get(name)
     if image is None or not (image.source == "GENERATED" and image.is_float):
         return bpy.data.images.new(name, width, height, alpha=True, float_buffer=True)
-    if tuple(image.size) != (width, height):
-        image.scale(width, height)
+    image.generated_width, image.generated_height = width, height
     return image
 
 

@@ -27,7 +27,7 @@ WIDE, THIN = 2.0, 1.0
 AXES = ((1.0, 0.2, 0.32, 1.0), (0.545, 0.863, 0.0, 1.0), (0.157, 0.565, 1.0, 1.0))
 """u, v and w in the colours of Blender's X, Y and Z."""
 STYLES = {
-    "grid": ((0.9, 0.9, 0.9, 0.18), THIN),
+    "grid": ((0.9, 0.9, 0.9, 0.3), THIN),
     "border": ((0.95, 0.95, 0.95, 0.8), WIDE),
     "missed_rays": ((0.6, 0.6, 0.6, 0.22), THIN),
     "hit_rays": ((1.0, 0.72, 0.2, 0.5), THIN),
@@ -115,8 +115,7 @@ def register() -> None:
     """See ``registration``."""
     bpy.utils.register_class(OverlayProperties)
     bpy.types.Scene.camera_ray_caster_overlay = PointerProperty(type=OverlayProperties)
-    if not bpy.app.background:
-        _handles.append(bpy.types.SpaceView3D.draw_handler_add(draw, (), "WINDOW", "POST_VIEW"))
+    _handles.append(bpy.types.SpaceView3D.draw_handler_add(draw, (), "WINDOW", "POST_VIEW"))
 
 
 def unregister() -> None:

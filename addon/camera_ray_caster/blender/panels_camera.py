@@ -38,7 +38,7 @@ def facts_of(context, camera_object) -> tuple[dict[str, object] | None, str]:
 
 def draw_message(layout, context, text: str, icon: str = "INFO") -> None:
     """Draw a sentence in as many lines as the panel's width asks for."""
-    width = context.region.width / context.preferences.system.ui_scale
+    width = context.region.width / (context.preferences.system.ui_scale or 1.0)  # 0 without a window
     column = layout.column(align=True)
     column.scale_y = 0.85
     for i, line in enumerate(wrap(text, max(16, int((width - 70) / LETTER)))):
