@@ -216,6 +216,24 @@ def test_dtype_is_only_what_is_stored():
     assert single["valid"].dtype == bool
 
 
+def test_fast_arithmetic_is_float32_and_its_errors_stay_within_the_bounds():
+    ball = shapes_of((SPHERE, (0, 0, -5), 2.0), (INFINITE_PLANE, (0, -1, 0), [[1, 0, 0], [0, 0, 1], [0, -1, 0]]))
+    passes = ("distance", "shape_index", "distance_bound")
+    automatic, robust = (cast(camera_at(), ball, passes, precision=p) for p in ("AUTOMATIC", "ROBUST"))
+    assert np.array_equal(automatic["distance"], robust["distance"])
+    for kind in ("PERSP", "ORTHO", "EQUIRECTANGULAR"):
+        settings = {"longitude_min": -3, "longitude_max": 3, "latitude_min": -1, "latitude_max": 1}
+        camera = camera_at(type="PERSP", model=kind, settings=settings)
+        fast, robust = (cast(camera, ball, passes, np.float64, precision=p) for p in ("FAST", "ROBUST"))
+        same = (fast["shape_index"] == robust["shape_index"]) & (robust["shape_index"] >= 0)
+        assert same.sum() > 100
+        error = np.abs(fast["distance"][same] - robust["distance"][same])
+        assert (error <= (fast["distance_bound"] + robust["distance_bound"])[same]).all()
+        assert error.max() > 100 * EPS
+    with pytest.raises(InputError, match=r"QUICK.*AUTOMATIC"):
+        cast(camera_at(), ball, passes, precision="QUICK")
+
+
 def test_sun_point_light_and_headlight_by_hand():
     wall = (INFINITE_PLANE, (0, 0, -2), 1.0)
     colour = np.float32([0.5, 0.25, 1.0])

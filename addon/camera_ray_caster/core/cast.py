@@ -56,23 +56,25 @@ def cast(
     samples: int = 1,
     threads: int | None = None,
     cull: bool = True,
+    precision: str = "AUTOMATIC",
     progress: Callable[[float], bool] | None = None,
 ) -> Images:
     """Return the passes of the camera's render window as a mapping of name to array.
 
-    dtype is what passes of real numbers are stored as; the arithmetic is float64. object_index, material_index
-    and shape_index are int32, valid is bool. With ``samples`` above 1 the combined pass is the mean of as many rays a
-    pixel, all over the pixel and the camera's aperture; all other passes are of the chief rays. ``progress(fraction)``
-    is called in the calling thread after each tile; where it returns False the cast stops within the tiles under way
-    and raises Cancelled. ``cull=False`` tests every shape at every pixel: the same picture, slower.
-    Raises InputError for an unknown pass or shading and for less than one sample.
+    dtype is what passes of real numbers are stored as; the arithmetic is float64, but ``precision="FAST"`` searches for
+    hits with float32. object_index, material_index and shape_index are int32, valid is bool. With ``samples`` above 1
+    the combined pass is the mean of as many rays a pixel, all over the pixel and the camera's aperture; all other
+    passes are of the chief rays. ``progress(fraction)`` is called in the calling thread after each tile; where it
+    returns False the cast stops within the tiles under way and raises Cancelled. ``cull=False`` tests every shape at
+    every pixel: the same picture, slower.
+    Raises InputError for an unknown pass, shading or precision and for less than one sample.
     """
     if samples < 1:
         raise InputError(f"{samples} samples make no picture: ask for 1 or more")
     started = perf_counter()
     known = tuple(PASSES)
     middle = _moment(camera, shapes, (camera.clock.first + camera.clock.last) / 2) if camera.clock else (camera, shapes)
-    whole = make_plan(*middle, passes, known, shading, cull, sampled=False)
+    whole = make_plan(*middle, passes, known, shading, cull, False, precision)
     height, width = camera.raster.shape
     images = Images()
     for name in whole.passes:
@@ -85,7 +87,7 @@ def cast(
         tiles = list(_bands(camera, shapes))
         plans[False] = whole
         if sampled:
-            plans[True] = make_plan(*middle, passes, known, shading, cull, sampled=True)
+            plans[True] = make_plan(*middle, passes, known, shading, cull, True, precision)
     else:
         tiles = list(_moments(camera, shapes))
     images.plan = whole
@@ -94,13 +96,13 @@ def cast(
 
     def run(tile: Tile) -> np.ndarray:
         if not hasattr(own, "scratch"):
-            own.scratch = Scratch()
+            own.scratch = Scratch(whole.real)
         seconds = np.zeros(len(STEPS))
         for names, count in ((chief, 1), (sampled, samples)):
             if names:
                 with np.errstate(all="ignore"):  # NaN and inf are answers here: no ray, no hit
                     plan = plans.get(count > 1) or make_plan(
-                        tile.camera, tile.shapes, names, known, shading, cull, sampled=count > 1
+                        tile.camera, tile.shapes, names, known, shading, cull, count > 1, precision
                     )
                     seconds += _cast_tile(tile, plan, names, count, images, own.scratch)
         return seconds

@@ -19,11 +19,12 @@ def nearest(plan: Plan, origin, direction, from_eye: bool, corner, scratch: Scra
     the one with the lowest index counts, whatever order they are tested in.
     """
     shape = np.broadcast_shapes(*map(np.shape, origin), *map(np.shape, direction), (1, 1))
+    end = plan.real(plan.camera.clip_end)
     tile = Tile(
-        None if from_eye else origin,
-        direction,
+        None if from_eye else _rounded(origin, plan.real),
+        _rounded(direction, plan.real),
         plan.camera.clip_start,
-        np.full(shape, np.nextafter(plan.camera.clip_end, np.inf)),
+        np.full(shape, np.nextafter(end, plan.real(np.inf)), plan.real),
         np.full(shape, NOTHING, np.int32),
         scratch,
     )
@@ -47,14 +48,15 @@ def nearest(plan: Plan, origin, direction, from_eye: bool, corner, scratch: Scra
 class Scratch:
     """Working arrays of one thread, lent again and again: asking the system for memory costs more than arithmetic."""
 
-    def __init__(self):
-        self._arrays = [np.empty(0)] * 3
+    def __init__(self, real):
+        self._real = real
+        self._arrays = [np.empty(0, real)] * 3
 
     def __call__(self, i: int, shape) -> np.ndarray:
         """Return the i-th array in this shape; what it held is lost."""
         size = prod(shape)
         if self._arrays[i].size < size:
-            self._arrays[i] = np.empty(size)
+            self._arrays[i] = np.empty(size, self._real)
         return self._arrays[i][:size].reshape(shape)
 
 
@@ -67,7 +69,7 @@ class Tile:
     direction: Any
     start: float
     t: np.ndarray
-    """The nearest t so far; the first float64 beyond the clip end where nothing was hit."""
+    """The nearest t so far; the first number beyond the clip end where nothing was hit."""
     index: np.ndarray
     scratch: Scratch
 
@@ -127,6 +129,11 @@ class Tile:
         start = None if group.simple else self.start
         direction = tuple(map(part, self.direction))
         return group.shape.intersect(view, group.kind, origin, direction, start, self.scratch)
+
+
+def _rounded(vector, real):
+    """Return components as float32 where that is what is calculated with; as they are otherwise."""
+    return vector if real is np.float64 else tuple(np.asarray(component, real) for component in vector)
 
 
 def _is_pinhole(direction) -> bool:
