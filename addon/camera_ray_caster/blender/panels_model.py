@@ -16,13 +16,13 @@ SETTINGS = {
     "STEREOGRAPHIC_PANORAMA": ("fov", "elevation"),
     "GENERAL_LINEAR": ("ray_1", "ray_2", "ray_3"),
     "CROSS_SLIT": ("slit_1", "slit_2"),
-    "PUSHBROOM": ("slit_1",),
+    "PUSHBROOM": ("slit_1", "ortho_scale"),
     "PENCIL": ("slit_1", "pencil_slide"),
-    "TWISTED_ORTHOGRAPHIC": ("slit_1", "twist"),
+    "TWISTED_ORTHOGRAPHIC": ("slit_1", "twist", "ortho_scale"),
     "STRIP": ("path", "follow_path"),
-    "OMNIDIRECTIONAL_STEREO": ("eye",),
+    "OMNIDIRECTIONAL_STEREO": ("eye", "interocular_distance"),
 }
-"""The settings of each model among the camera's own properties, in the order of the panel."""
+"""The settings of each model in the order of the panel: our own, and Blender's, which it shows for its own types only."""
 
 
 class ModelPanel(bpy.types.Panel):
@@ -43,11 +43,12 @@ class ModelPanel(bpy.types.Panel):
         """The list; below it what the chosen model needs. A calibration file stands for the numbers under it."""
         layout = self.layout
         layout.use_property_split = True
-        own = context.camera.camera_ray_caster
+        camera = context.camera
+        own = camera.camera_ray_caster
         layout.prop(own, "model")
         column = layout.column(align=True)
         for name in SETTINGS[own.model]:
-            column.prop(own, name)
+            column.prop(next(owner for owner in (own, camera, camera.stereo) if hasattr(owner, name)), name)
             if name == "calibration_file":
                 column = layout.column(align=True)
                 column.active = not own.calibration_file

@@ -37,8 +37,6 @@ class CrossSlit:
     slits: tuple[tuple[np.ndarray, np.ndarray], tuple[np.ndarray, np.ndarray]]
 
     key = "CROSS_SLIT"
-    label = "Cross-Slit"
-    settings = ("slit_1", "slit_2")
     planar = False
     central = False
 
@@ -49,7 +47,7 @@ class CrossSlit:
         Raises InputError for slits that are parallel, or that lie in the window's plane, through which no ray leads.
         """
         slits = []
-        for name in cls.settings:
+        for name in ("slit_1", "slit_2"):
             point, direction = slit_from(raw, name)
             point = point + direction * ((MIDDLE - point) @ direction)  # small numbers keep the digits
             if max(abs(direction[2]), abs(point[2] + 1)) <= ROUNDING:

@@ -39,8 +39,6 @@ class GeneralLinear:
     size: tuple[int, int]
 
     key = "GENERAL_LINEAR"
-    label = "General Linear"
-    settings = ("ray_1", "ray_2", "ray_3")
     planar = False
     central = False
 

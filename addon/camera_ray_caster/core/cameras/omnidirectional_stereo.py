@@ -38,8 +38,6 @@ class OmnidirectionalStereo:
     size: tuple[int, int]
 
     key = "OMNIDIRECTIONAL_STEREO"
-    label = "Omnidirectional Stereo"
-    settings = ("eye", "interocular_distance")
     planar = False
     central = False
 

@@ -35,8 +35,6 @@ class Pencil:
     slide: float
 
     key = "PENCIL"
-    label = "Pencil"
-    settings = ("slit_1", "pencil_slide")
     planar = False
     central = False
 

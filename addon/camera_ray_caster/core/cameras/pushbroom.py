@@ -39,8 +39,6 @@ class Pushbroom:
     step: np.ndarray
 
     key = "PUSHBROOM"
-    label = "Pushbroom"
-    settings = ("slit_1", "ortho_scale")
     planar = False
     central = False
 

@@ -40,8 +40,6 @@ class Strip:
     normals: np.ndarray
 
     key = "STRIP"
-    label = "Strip"
-    settings = ("path", "follow_path")
     planar = False
     central = False
 

@@ -26,8 +26,6 @@ class TwistedOrthographic(GeneralLinear):
     """The general linear camera of the rays at three corners of the orthographic frame."""
 
     key = "TWISTED_ORTHOGRAPHIC"
-    label = "Twisted Orthographic"
-    settings = ("slit_1", "twist", "ortho_scale")
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> TwistedOrthographic:
