@@ -22,7 +22,7 @@ SETTINGS = {
     "STRIP": ("path", "follow_path"),
     "OMNIDIRECTIONAL_STEREO": ("eye", "interocular_distance"),
 }
-"""The settings of each model in the order of the panel: our own, and Blender's, which it shows for its own types only."""
+"""The settings of each model in the order of the panel: our own, and Blender's that it shows for its own types only."""
 
 
 class ModelPanel(bpy.types.Panel):
