@@ -76,7 +76,7 @@ def test_the_opening_is_filled_evenly():
     assert np.mean(np.hypot(x, y) < 1.0) == pytest.approx(0.25, abs=0.005)  # area of half the radius
     x, y = Aperture(1.0, 1.0, blades=6).points(u, v)
     apothem = np.cos(np.pi / 6)
-    sides = np.pi / 6 + np.arange(6) * np.pi / 3
+    sides = np.arange(6) * np.pi / 3
     reach = x[:, None] * np.cos(sides) + y[:, None] * np.sin(sides)
     assert reach.max() == pytest.approx(apothem, abs=1e-3)
     assert np.mean(reach.max(axis=1) < apothem / 2) == pytest.approx(0.25, abs=0.005)

@@ -16,7 +16,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from .records import BlenderCamera, InputError, Pose
-from .vector import along, cross, difference, unit
+from .vector import along, cross, difference, dot, unit
+
+FORWARD = 0.0, 0.0, -1.0
+SIDEWAYS = 1.0, 0.0, 0.0
+
+NARROW = 1e-6
+"""Radians between a chief ray and the axis of its opening below which rounding would decide what is across."""
 
 
 @dataclass(frozen=True)
@@ -30,9 +36,11 @@ class Aperture:
     blades: int = 0
     """Corners of a regular polygon; a disc below 3."""
     rotation: float = 0.0
-    """Of the polygon, radians."""
+    """Of the polygon, radians: at 0 the middle of a side lies on the +x axis."""
     ratio: float = 1.0
     """Width is divided by this: an anamorphic bokeh."""
+    axis: tuple[float, float, float] = FORWARD
+    """What of the camera's space the x of a panorama's opening points to, as far as the chief ray allows."""
 
     def points(self, u, v):
         """Return points (x, y) of the opening for u, v in [0, 1): area-uniform, in Blender units.
@@ -46,7 +54,7 @@ class Aperture:
         else:
             corner = np.floor(u * self.blades)
             from_centre, across = np.sqrt(u * self.blades - corner), v
-            first = 2 * np.pi / self.blades * corner + self.rotation
+            first = 2 * np.pi / self.blades * (corner - 0.5) + self.rotation
             second = first + 2 * np.pi / self.blades
             x = from_centre * ((1 - across) * np.cos(first) + across * np.cos(second))
             y = from_centre * ((1 - across) * np.sin(first) + across * np.sin(second))
@@ -64,7 +72,11 @@ class Aperture:
                 direction[1] - y / self.focus,
                 direction[2],
             )
-        across = unit(difference((1.0, 0.0, 0.0), tuple(direction[0] * component for component in direction)))
+        slant = dot(self.axis, direction)
+        across = difference(self.axis, tuple(slant * component for component in direction))
+        ahead = dot(across, across) < NARROW**2  # any axis across will do there
+        turned = self.axis[1:] + self.axis[:1]
+        across = unit(tuple(np.where(ahead, other, mine) for other, mine in zip(turned, across, strict=True)))
         upward = unit(cross(direction, across))
         opening = along(tuple(x * component for component in across), upward, y)
         focus = tuple(self.focus * component for component in direction)
@@ -102,4 +114,7 @@ def lens_from(raw: BlenderCamera, pose: Pose, parallel: bool) -> Aperture | None
         focus = abs(float((np.asarray(settings["focus_position"]) - pose.eye) @ pose.basis[:, 2]))
     size = 1.0 if parallel else raw.lens * 1e-3
     radius = size / (2 * max(float(settings["aperture_fstop"]), SMALLEST))
-    return Aperture(radius, max(focus, SMALLEST), blades, float(settings["aperture_rotation"]), ratio)
+    rotation, axis = float(settings["aperture_rotation"]), FORWARD
+    if not raw.model and raw.type == "PANO" and settings["panorama_type"] == "MIRRORBALL":
+        rotation, axis = -rotation, SIDEWAYS  # Cycles has this one panorama in a mirrored space of its own
+    return Aperture(radius, max(focus, SMALLEST), blades, rotation, ratio, axis)
