@@ -109,7 +109,8 @@ def test_opencv_s_own_undistortion_agrees_as_far_as_it_goes():
     pixels = np.random.default_rng(3).uniform((0, 0), (639, 479), (200, 2))
     criteria = (cv2.TERM_CRITERIA_COUNT | cv2.TERM_CRITERIA_EPS, 500, 1e-14)
     lens = np.array(LENSES["tangential"])
-    plane = cv2.undistortPointsIter(pixels[:, None], K, lens, None, None, criteria)[:, 0]
+    undistort = getattr(cv2, "undistortPointsIter", cv2.undistortPoints)  # OpenCV 5 has one name for both
+    plane = undistort(pixels[:, None], K, lens, R=None, P=None, criteria=criteria)[:, 0]
     at = bottom_up(pixels)
     directions = pinhole(*lens).rays_at(at[:, 0], at[:, 1]).directions
     found = directions[:, :2] / -directions[:, 2:] * (1, -1)
