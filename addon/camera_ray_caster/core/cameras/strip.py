@@ -34,7 +34,8 @@ PIECES = 64
 class Strip:
     """Knots: columns x (k,), the eye's places there (k, 3), and the column's normals (k, 2), in x and z."""
 
-    window: Window
+    rows: Window
+    """Of which only the rows are used."""
     columns: np.ndarray
     eyes: np.ndarray
     normals: np.ndarray
@@ -68,7 +69,7 @@ class Strip:
         path. The origin is right to some EPS of the path's places, the direction to some EPS.
         """
         eye, ahead_x, ahead_z = self._at(x)
-        _, slope = self.window.plane_from_pixels(0.0, y)
+        _, slope = self.rows.plane_from_pixels(0.0, y)
         scale = 1 / np.sqrt(slope * slope + 1)
         return eye, (ahead_x * scale, slope * scale, ahead_z * scale)
 
@@ -87,7 +88,7 @@ class Strip:
         eye, ahead_x, ahead_z = self._at(x)
         depth = (points[..., 0] - eye[0]) * ahead_x + (points[..., 2] - eye[2]) * ahead_z
         slope = (points[..., 1] - eye[1]) / np.where(depth > 0, depth, np.nan)
-        return np.stack((x, self.window.pixels_from_plane(0.0, slope)[1]), axis=-1)
+        return np.stack((x, self.rows.pixels_from_plane(0.0, slope)[1]), axis=-1)
 
     def bounds(self, centres, radii):
         """Return (n, 4) pixel bounds x0, x1, y0, y1 outside of which no point of the spheres (camera frame) is seen.
@@ -106,7 +107,7 @@ class Strip:
             middle, half = (eyes[k] + eyes[k + 1]) / 2, np.hypot(*(eyes[k + 1] - eyes[k])[[0, 2]]) / 2
             away = np.hypot(centres[:, 0] - middle[0], centres[:, 2] - middle[2])
             slope = rise / Interval.around(away, radii + half)
-            bottom, top = (self.window.pixels_from_plane(0.0, end)[1] for end in (slope.low, slope.high))
+            bottom, top = (self.rows.pixels_from_plane(0.0, end)[1] for end in (slope.low, slope.high))
             for edge, value in ((0, marks[k]), (2, bottom)):
                 bounds[:, edge] = np.where(touched, np.minimum(bounds[:, edge], value), bounds[:, edge])
             for edge, value in ((1, marks[k + 1]), (3, top)):
