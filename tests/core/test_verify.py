@@ -130,6 +130,17 @@ def test_a_projection_that_is_no_inverse_is_found_without_a_witness(key):
     assert not verify(wrong)[0].passed
 
 
+@pytest.mark.parametrize(("eye", "share"), [("TOP_BOTTOM", 5 / 9), ("SIDE_BY_SIDE", 4 / 9)])
+def test_a_point_that_both_eyes_see_may_come_back_to_the_other_one(eye, share):
+    """One of the eyes has the pixel; of 9 x 9 pixels its half holds those on this side of the middle row or column."""
+    right = camera("OMNIDIRECTIONAL_STEREO", {"eye": eye, "resolution_x": 64, "resolution_y": 64})
+    (finding,) = verify(right)
+    assert finding.passed
+    assert finding.points == round(81 * share)
+    wrong = Bent(right, lambda x, y: (x, y), lambda x, y: (x + 1e-6, y))
+    assert not verify(wrong)[0].passed
+
+
 def test_a_ray_that_is_missing_fails_where_there_is_a_witness():
     raw = raw_camera("PERSP")
     blind = Bent(camera_from(raw), lambda x, y: (np.where(x < 300, np.nan, x), y), lambda x, y: (x, y))

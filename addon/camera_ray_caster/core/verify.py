@@ -219,12 +219,15 @@ def _view(local: _Local, points):
 
 
 def _round_trip(camera, sample: _Sample) -> tuple[tuple[Any, Any], Finding]:
-    """Go from pixels along their rays to points and back; return the float64 bounds too, in pixels and radians."""
-    keep = sample.valid
+    """Go from pixels along their rays to points and back; return the float64 bounds too, in pixels and radians.
+
+    A point that several pixels see may come back to another one: where the ray of that one meets it, it is left out.
+    """
+    keep = sample.valid & ~_seen_elsewhere(camera, sample)
     pixels, points, directions = sample.pixels[keep], sample.points[keep], sample.directions[keep]
     back = camera.project(points)
     again = camera.rays_at(back[:, 0], back[:, 1]).directions
-    moved = gamma(32) * (np.abs(sample.origins[keep]).sum(axis=1) + np.abs(points).sum(axis=1))
+    moved = _moved(sample)[keep]
     bound = np.zeros(len(points))
     for side in np.eye(3):
         step = (ENLARGED * moved)[:, None] * side
@@ -235,6 +238,19 @@ def _round_trip(camera, sample: _Sample) -> tuple[tuple[Any, Any], Finding]:
     turned = np.fmax.reduce(turns) / STEP * bound + gamma(32)
     own = _largest(bound), _largest(turned)
     return own, _finding("round trip", back - pixels, _angles(again, directions), bound, turned, (0.0, 0.0))
+
+
+def _seen_elsewhere(camera, sample: _Sample):
+    """Return which points come back to another pixel whose ray meets them too."""
+    back = camera.project(sample.points)
+    rays = camera.rays_at(back[:, 0], back[:, 1])
+    beside = _length(np.cross(sample.points - rays.origins, rays.directions))
+    return (_length(back - sample.pixels) > 1) & (beside <= ENLARGED * _moved(sample))
+
+
+def _moved(sample: _Sample):
+    """Return how far rounding may move each point, (n,)."""
+    return gamma(32) * (np.abs(sample.origins).sum(axis=1) + np.abs(sample.points).sum(axis=1))
 
 
 def _finding(name: str, errors, angles, bound_pixels, bound_radians, own) -> Finding:
