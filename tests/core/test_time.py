@@ -201,3 +201,19 @@ def test_shapes_that_come_and_go_are_never_mixed():
 def test_times_without_meaning_are_refused(settings, said):
     with pytest.raises(InputError, match=said):
         camera(settings)
+
+
+def test_a_zoom_is_interpolated():
+    """A lens that zooms from 20 to 60 mm: a point at the slope 1/4 stands lens / 36 x 64 / 4 pixels from the middle."""
+    zoom = lambda f: 20 + 4 * (f - 10)  # noqa: E731
+    evaluate = lambda f: (  # noqa: E731
+        camera(ROWS, type="PERSP", lens=zoom(f), sensor_width=36.0),
+        shapes(((1.0, 0, -4), 0.1)),
+    )
+    cam, _, motion = moving(evaluate, 10, 20)
+    assert not motion.unresolved
+    assert len(motion.states) < 40
+    for frame in (10.7, 13.33, 19.1):
+        found = motion.camera_at(frame).project(np.array([1.0, 0.0, -4.0]))
+        assert found == pytest.approx([32 + zoom(frame) / 36 * 16, 24], abs=0.05)
+    assert np.isfinite(cam.rays().directions).all()

@@ -1,6 +1,7 @@
 """Meshes and point clouds in bulk: plain arrays, and the shapes that they stand for."""
 
 from dataclasses import replace
+from hashlib import blake2b
 
 import bpy
 import numpy as np
@@ -14,6 +15,9 @@ FORCED = {"SPHERE": SPHERE, "PLANE": PLANE, "INFINITE_PLANE": INFINITE_PLANE}
 
 DEFAULT_RADIUS = 0.01
 """Of the points of a cloud without a radius, as Cycles renders them."""
+
+REMEMBERED = 1024
+"""Meshes whose shapes are kept in mind: a scene is evaluated again and again, and few of its meshes change."""
 
 NOTHING = None, ""
 """The answer for data that a render shows nothing of."""
@@ -33,13 +37,29 @@ def shapes_of(data, setting: str) -> tuple[Primitive | None, str]:
 
 
 def _of_mesh(mesh, kind) -> tuple[Primitive | None, str]:
-    found = recognise(mesh_arrays(mesh)) if len(mesh.polygons) else ""
+    found = _recognised(mesh_arrays(mesh)) if len(mesh.polygons) else ""
     if kind is None:
         return (None, found) if isinstance(found, str) else (found, "")
     if isinstance(found, Primitive) and (found.kind == SPHERE) == (kind == SPHERE):
         return replace(found, kind=kind), ""
     vertices = fetched(mesh.vertices, "co", np.float32, 3).reshape(-1, 3)
     return (bounds_primitive(kind, vertices), "") if len(vertices) else NOTHING
+
+
+_known: dict[bytes, Primitive | str] = {}
+
+
+def _recognised(mesh: MeshArrays) -> Primitive | str:
+    """Return what ``recognise`` does, which is asked once for the same arrays."""
+    content = blake2b(f"{len(mesh.vertices)} {len(mesh.loop_vertices)} {mesh.edge_count}".encode())
+    for array in (mesh.vertices, mesh.loop_vertices, mesh.loop_edges, mesh.loop_starts):
+        content.update(array)
+    key = content.digest()
+    if key not in _known:
+        if len(_known) >= REMEMBERED:
+            _known.clear()
+        _known[key] = recognise(mesh)
+    return _known[key]
 
 
 def _of_points(cloud, kind) -> tuple[Primitive | None, str]:

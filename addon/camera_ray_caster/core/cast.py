@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import FIRST_COMPLETED, ThreadPoolExecutor, wait
+from concurrent.futures import ThreadPoolExecutor, as_completed
 from dataclasses import dataclass
 from threading import local
 from time import perf_counter
@@ -183,16 +183,12 @@ def _in_threads(run, tiles, workers: int, progress) -> np.ndarray:
     """Run tiles on threads (numpy releases the interpreter) and return the sum of what they return."""
     total = np.zeros(len(STEPS))
     with ThreadPoolExecutor(workers) as pool:
-        waiting = {pool.submit(run, tile) for tile in tiles}
-        done = 0
+        waiting = [pool.submit(run, tile) for tile in tiles]
         try:
-            while waiting:
-                finished, waiting = wait(waiting, return_when=FIRST_COMPLETED)
-                for future in finished:
-                    total += future.result()
-                    done += 1
-                    if progress is not None and not progress(done / len(tiles)):
-                        raise Cancelled
+            for done, future in enumerate(as_completed(waiting), 1):
+                total += future.result()
+                if progress is not None and not progress(done / len(tiles)):
+                    raise Cancelled
         finally:
             for future in waiting:
                 future.cancel()

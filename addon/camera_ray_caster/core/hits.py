@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from .bounds import Bounds
-from .plan import BLOCK_COLUMNS, BLOCK_ROWS, Plan
+from .plan import BLOCK_PIXELS, BLOCK_ROWS, Plan
 from .shapes import SHAPE_OF_KIND
 from .vector import along, components, difference, dot, matvec, rows
 
@@ -36,11 +36,16 @@ class Hits:
     """Column and row of the render window at which the rays begin."""
 
     def blocks(self):
-        """Yield (window, hits) of blocks small enough for a core's cache; many of them see one shape only."""
+        """Yield (window, hits) of blocks small enough for a core's cache; many of them see one shape only.
+
+        Where the tile is lower or narrower than a block the blocks are as much longer.
+        """
         height, width = self.t.shape
-        for top in range(0, height, BLOCK_ROWS):
-            for left in range(0, width, BLOCK_COLUMNS):
-                window = slice(top, top + BLOCK_ROWS), slice(left, left + BLOCK_COLUMNS)
+        wide = BLOCK_PIXELS // min(height, BLOCK_ROWS)
+        high = BLOCK_PIXELS // min(width, wide)
+        for top in range(0, height, high):
+            for left in range(0, width, wide):
+                window = slice(top, top + high), slice(left, left + wide)
                 origin, direction = (tuple(cut(c, window) for c in vector) for vector in (self.origin, self.direction))
                 corner = self.corner[0] + left, self.corner[1] + top
                 rays = self.plan, self.from_eye, origin, direction

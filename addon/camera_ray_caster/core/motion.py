@@ -1,7 +1,7 @@
 """Motion between the times at which a scene was evaluated, and at which times it has to be.
 
 Each interval has four evaluations, its ends and two probes at the golden section; between them positions, rotation
-vectors and stretches (polar decomposition) are the cubics through the four. Whether that is the motion of the scene is
+vectors, stretches (polar decomposition) and the numbers of a lens are the cubics through the four. Whether that is the motion of the scene is
 asked of each probe: it must lie, in pixels, on the parabola through the other three. Where it does not the interval is
 cut at its probes. The method is the embedded pair of adaptive integration (E. Hairer et al., Solving Ordinary
 Differential Equations I, section II.4): smooth motion takes few evaluations, and the estimate is on the safe side.
@@ -11,7 +11,8 @@ from __future__ import annotations
 
 from bisect import bisect_right
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, is_dataclass, replace
+from functools import cached_property
 from itertools import pairwise
 
 import numpy as np
@@ -34,11 +35,82 @@ State = tuple[Camera, Shapes]
 
 
 @dataclass(frozen=True)
+class Interval:
+    """Evaluations that belong together, in order, and the polynomial through them."""
+
+    frames: tuple[float, ...]
+    states: tuple[State, ...]
+
+    @classmethod
+    def of(cls, states: dict[float, State], frames: tuple[float, ...]) -> Interval:
+        """Return the interval of some of the evaluations."""
+        return cls(frames, tuple(states[frame] for frame in frames))
+
+    def at(self, frame: float) -> State:
+        """Return camera and shapes at a frame. Where shapes come or go, those of the evaluation before stand still."""
+        if frame in self.frames:
+            return self.states[self.frames.index(frame)]
+        weights = [
+            np.prod([(frame - other) / (node - other) for other in self.frames if other != node])
+            for node in self.frames
+        ]  # fmt: skip
+        cameras, shapes = zip(*self.states, strict=True)
+        lens = _mixed([(camera.model, camera.aperture) for camera in cameras], weights)
+        basis = self._camera_axes.at(weights)[0]
+        pose = Pose(_sum([camera.pose.eye for camera in cameras], weights), basis / np.linalg.norm(basis, axis=0))
+        camera = replace(cameras[0], pose=pose, model=lens[0], aperture=lens[1])
+        if self._shape_axes is None:
+            return camera, shapes[max(bisect_right(self.frames, frame) - 1, 0)]
+        centre = _sum([one.centre for one in shapes], weights)
+        return camera, replace(shapes[0], centre=centre, axes=self._shape_axes.at(weights))
+
+    @cached_property
+    def _camera_axes(self) -> Turning:
+        return Turning.of([camera.pose.basis[None] for camera, _ in self.states])
+
+    @cached_property
+    def _shape_axes(self) -> Turning | None:
+        """None where the evaluations do not hold the same shapes."""
+        shapes = [shapes for _, shapes in self.states]
+        if not all(_matched(shapes[0], other) for other in shapes[1:]):
+            return None
+        return Turning.of([one.axes for one in shapes])
+
+
+@dataclass(frozen=True)
+class Turning:
+    """Matrices (n, 3, 3) at some times, taken apart so that rotations are interpolated as rotations."""
+
+    first: np.ndarray
+    rotations: np.ndarray
+    """Of the first time."""
+    turns: list[np.ndarray]
+    """Rotation vectors (n, 3) from the first time to each."""
+    stretches: tuple[np.ndarray, ...]
+    still: np.ndarray
+    """(n, 1, 1) bool: those that never change stay exact."""
+
+    @classmethod
+    def of(cls, matrices) -> Turning:
+        """Return the matrices of some times taken apart."""
+        rotations, stretches = zip(*map(polar, matrices), strict=True)
+        back = np.swapaxes(rotations[0], 1, 2)
+        turns = [rotation_vector(other @ back) for other in rotations]
+        still = np.all([matrices[0] == other for other in matrices], axis=(0, 2, 3))
+        return cls(matrices[0], rotations[0], turns, stretches, still[:, None, None])
+
+    def at(self, weights) -> np.ndarray:
+        """Return the weighted mean of the matrices."""
+        moved = rotation(_sum(self.turns, weights)) @ self.rotations @ _sum(self.stretches, weights)
+        return np.where(self.still, self.first, moved)
+
+
+@dataclass(frozen=True)
 class Motion:
     """A camera and shapes over a range of frames, and how well they are known."""
 
-    intervals: tuple[tuple[float, ...], ...]
-    """The frames of the evaluations that belong together, in order; each begins where the one before ends."""
+    intervals: tuple[Interval, ...]
+    """In order; each begins where the one before ends."""
     states: dict[float, State]
     tolerance: float
     """Pixels that were asked for."""
@@ -54,18 +126,18 @@ class Motion:
         return self.at(frame)[0]
 
     def shapes_at(self, frame: float) -> Shapes:
-        """Return the shapes at a frame. Where shapes come or go, those of the evaluation before it stand still."""
+        """Return the shapes at a frame."""
         return self.at(frame)[1]
 
     def at(self, frame: float) -> State:
         """Return both at once."""
-        k = bisect_right(self.intervals, frame, key=lambda interval: interval[0]) - 1
-        camera, shapes = _between(self.states, self.intervals[min(max(k, 0), len(self.intervals) - 1)], frame)
+        k = bisect_right(self.intervals, frame, key=lambda interval: interval.frames[0]) - 1
+        camera, shapes = self.intervals[max(k, 0)].at(frame)
         return replace(camera, clock=None, motion=None), shapes
 
     def in_words(self) -> list[str]:
         """Return lines for the report."""
-        first, last = self.intervals[0][0], self.intervals[-1][-1]
+        first, last = self.intervals[0].frames[0], self.intervals[-1].frames[-1]
         lines = [
             f"frames {first:g} to {last:g} from {len(self.states)} evaluations: off by {self.estimated:.2g} pixels as "
             f"estimated, {self.measured:.2g} as measured; {self.tolerance:g} was asked for"
@@ -95,7 +167,7 @@ def resolve(evaluate: Callable[[float], State], first: float, last: float, toler
 
     if first == last:
         know(first)
-        return Motion(((first,),), states, tolerance, 0.0, ())
+        return Motion((Interval.of(states, (first,)),), states, tolerance, 0.0, ())
     whole = np.arange(np.floor(first) + 1, np.ceil(last)).tolist()
     ends = [first, *(whole if len(whole) <= most // 4 else []), last]
     know(*ends)
@@ -116,7 +188,7 @@ def resolve(evaluate: Callable[[float], State], first: float, last: float, toler
             continue
         know(p, q)
         off = max(
-            _difference(_between(states, others, probe), states[probe])
+            _difference(Interval.of(states, others).at(probe), states[probe])
             for probe, others in ((p, (a, q, b)), (q, (a, p, b)))
         )
         turn = max(_turn(states[early], states[late]) for early, late in pairwise((a, p, q, b)))
@@ -125,7 +197,8 @@ def resolve(evaluate: Callable[[float], State], first: float, last: float, toler
             done.append((a, p, q, b))
         else:
             waiting += pairwise((a, p, q, b))
-    return Motion(tuple(sorted(done)), states, tolerance, estimated, tuple(sorted(unresolved)))
+    intervals = tuple(Interval.of(states, frames) for frames in sorted(done))
+    return Motion(intervals, states, tolerance, estimated, tuple(sorted(unresolved)))
 
 
 def measure(motion: Motion, evaluate: Callable[[float], State], frames) -> float:
@@ -184,34 +257,18 @@ def _matched(before: Shapes, after: Shapes) -> bool:
     )
 
 
-def _between(states: dict[float, State], frames: tuple[float, ...], frame: float) -> State:
-    """Return camera and shapes at a frame by the polynomial through these evaluations."""
-    if frame in frames:
-        return states[frame]
-    weights = [
-        np.prod([(frame - other) / (node - other) for other in frames if other != node]) for node in frames
-    ]  # fmt: skip
-    cameras, shapes = zip(*(states[node] for node in frames), strict=True)
-    camera = replace(cameras[0], pose=_pose([camera.pose for camera in cameras], weights))
-    if not all(_matched(shapes[0], other) for other in shapes[1:]):
-        return camera, shapes[max(bisect_right(frames, frame) - 1, 0)]
-    centre = _sum([one.centre for one in shapes], weights)
-    return camera, replace(shapes[0], centre=centre, axes=_axes([one.axes for one in shapes], weights))
-
-
-def _pose(poses: list[Pose], weights) -> Pose:
-    basis = _axes([pose.basis[None] for pose in poses], weights)[0]
-    return Pose(_sum([pose.eye for pose in poses], weights), basis / np.linalg.norm(basis, axis=0))
-
-
-def _axes(matrices, weights) -> np.ndarray:
-    """Return the weighted mean of matrices (n, 3, 3), rotations as rotations; what stands still stays exact."""
-    rotations, stretches = zip(*map(polar, matrices), strict=True)
-    back = np.swapaxes(rotations[0], 1, 2)
-    turn = _sum([rotation_vector(other @ back) for other in rotations], weights)
-    moved = rotation(turn) @ rotations[0] @ _sum(stretches, weights)
-    still = np.all([matrices[0] == other for other in matrices], axis=(0, 2, 3))
-    return np.where(still[:, None, None], matrices[0], moved)
+def _mixed(values, weights):
+    """Return the weighted mean of all numbers in records of one kind; what is no number is the first one's."""
+    first = values[0]
+    if is_dataclass(first) and all(type(value) is type(first) for value in values):
+        parts = {part.name: _mixed([getattr(value, part.name) for value in values], weights) for part in fields(first)}
+        changed = {name: part for name, part in parts.items() if part is not getattr(first, name)}
+        return replace(first, **changed) if changed else first
+    if isinstance(first, tuple):
+        return tuple(_mixed(entries, weights) for entries in zip(*values, strict=True))
+    if not isinstance(first, float | np.ndarray) or all(np.array_equal(first, value) for value in values[1:]):
+        return first
+    return _sum(values, weights)
 
 
 def _sum(values, weights) -> np.ndarray:
