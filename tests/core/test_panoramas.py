@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from camera_ray_caster.core.cameras import camera_from
+from camera_ray_caster.core.cameras.silhouette import MARGIN
 from camera_ray_caster.core.records import BlenderCamera, InputError
 
 from .model_examples import ONLY_SOME, camera
@@ -228,10 +229,11 @@ def test_bounds_touch_the_silhouette():
     # a disc of 10 degrees, 45 degrees to the right: 10 pixels a degree, and as wide in azimuth as asin(sin 10 / sin 45)
     bounds = cam.model.bounds(np.array([[1.0, 0, -1]]), np.array([math.sqrt(2) * math.sin(math.radians(10))]))
     half = 550 * math.sin(math.radians(10)) / math.sin(math.radians(45))
-    np.testing.assert_allclose(bounds, [[899 + 350 * math.sqrt(1 - (half / 550) ** 2), 1451, 899 - half, 901 + half]])
+    left = 900 + 350 * math.sqrt(1 - (half / 550) ** 2)
+    np.testing.assert_allclose(bounds, [[left - MARGIN, 1450 + MARGIN, 900 - half - MARGIN, 900 + half + MARGIN]])
     cam = camera_of("EQUIRECTANGULAR", 360, 180)
     bounds = cam.model.bounds(np.array([[0, 1.0, -1]]), np.array([math.sqrt(2) * math.sin(math.radians(30))]))
-    np.testing.assert_allclose(bounds, [[180 - 45 - 1, 180 + 45 + 1, 135 - 30 - 1, 135 + 30 + 1]])
+    np.testing.assert_allclose(bounds, [[135 - MARGIN, 225 + MARGIN, 105 - MARGIN, 165 + MARGIN]])
 
 
 def test_nothing_is_seen_of_what_lies_outside_the_field_of_view():

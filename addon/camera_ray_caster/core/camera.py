@@ -14,6 +14,9 @@ from .records import BlenderCamera, InputError, Pose, Raster, Rays
 from .sampling import in_opening, sub_pixel
 from .vector import matvec, norm, unit
 
+BLOCK_PIXELS = 1 << 14
+"""Pixels whose rays are made at once: their components stay in a core's cache."""
+
 
 def pose_from(raw: BlenderCamera) -> Pose:
     """Return the pose of an evaluated world matrix, as Blender takes it: each axis normalised for itself.
@@ -91,21 +94,30 @@ class Camera:
             return self._timed_rays(x, y)
         shape = np.broadcast_shapes(x.shape, y.shape)
         directions = np.empty((*shape, 3))
+        origins = np.broadcast_to(self.pose.eye, directions.shape) if self.model.central else np.empty((*shape, 3))
+        if is_grid(x, y):
+            step = max(1, BLOCK_PIXELS // x.size)
+            for first in range(0, y.size, step):
+                rows = slice(first, first + step)
+                self._fill(x, y[rows], origins[rows], directions[rows])
+        else:
+            self._fill(x, y, origins, directions)
+        return Rays(origins, directions, ~np.isnan(directions[..., 0]))
+
+    def _fill(self, x, y, origins, directions) -> None:
+        """Write the world rays through pixel coordinates; the origins only where there is more than the eye."""
         origin, direction = self.camera_rays(x, y)
         for axis, component in enumerate(unit(matvec(self.pose.basis, direction))):
             directions[..., axis] = component
-        origins = self.pose.eye
         if not self.model.central:
-            origins = np.empty((*shape, 3))
             for axis, component in enumerate(matvec(self.pose.basis, origin)):
                 origins[..., axis] = component + self.pose.eye[axis]
-        return Rays(np.broadcast_to(origins, directions.shape), directions, ~np.isnan(directions[..., 0]))
 
     def _timed_rays(self, x, y) -> Rays:
         """Return what ``rays_at`` does, of the camera at each pixel's own time."""
         time = np.broadcast_to(self.clock.frame_at(x, y), np.broadcast_shapes(x.shape, y.shape))
         origins, directions = np.full((2, *time.shape, 3), np.nan)
-        if (x.ndim, y.ndim) == (2, 2) and x.shape[0] == y.shape[1] == 1:
+        if is_grid(x, y):
             parts = ((frame, x[:, columns], y[rows], np.s_[rows, columns], where)
                      for frame, rows, columns, where in groups(self.clock, x, y))  # fmt: skip
         else:
@@ -136,3 +148,8 @@ class Camera:
             found = [meeting(self.clock, lambda t, p=point: self.at(t).project(p)) for point in points.reshape(-1, 3)]
             return np.reshape(found, (*points.shape[:-1], 2))
         return self.model.project((points - self.pose.eye) @ np.linalg.inv(self.pose.basis).T)
+
+
+def is_grid(x, y) -> bool:
+    """Whether x is a row (1, columns) and y a column (rows, 1)."""
+    return x.ndim == y.ndim == 2 and x.shape[0] == y.shape[1] == 1

@@ -9,7 +9,7 @@ import numpy as np
 
 from ..vector import components
 
-MARGIN = 1.0
+MARGIN = 1 / 16
 """Pixels added on each side: far more than the rounding of the bounds, far less than what culling saves."""
 
 EVERYWHERE = -np.inf, np.inf

@@ -1,0 +1,50 @@
+"""The benchmark, model by model: rays alone against a plain fill of the same arrays, and 1,000 spheres against the pinhole.
+
+The cameras are the contract test's, at the size that was asked for.
+"""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from time import perf_counter
+
+import contenders as c
+import numpy as np
+
+from camera_ray_caster.core.cameras import MODELS
+from camera_ray_caster.core.cast import cast
+
+SPHERES = 1_000
+
+
+def run(width: int, height: int, rounds: int, threads: int) -> list[dict]:
+    """Print and return the ratios of every model, each taken in turns with what it is compared to."""
+    sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+    from tests.core.model_examples import camera
+
+    pinhole, shapes = c.scene(SPHERES, width, height)
+    filled = np.empty((height, width, 3))
+    print(f"\n{width} x {height}, {threads} threads, {rounds} rounds: rays over a fill, {SPHERES} spheres over the pinhole")
+    print(f"  {'':28}{'rays ms':>9}{'x fill':>8}{'cast ms':>10}{'x pinhole':>11}")
+    rows = []
+    for model in MODELS:
+        one = camera(model.key, {"resolution_x": width, "resolution_y": height})
+        entries = {
+            "fill": lambda: filled.fill(1.0),
+            "rays": one.rays,
+            "pinhole": lambda: cast(pinhole, shapes, c.PASSES, threads=threads),
+            "cast": lambda one=one: cast(one, shapes, c.PASSES, threads=threads),
+        }
+        times = {name: [] for name in entries}
+        for turn in range(rounds + 1):
+            for name, entry in entries.items():
+                began = perf_counter()
+                entry()
+                if turn:
+                    times[name].append(1e3 * (perf_counter() - began))
+        median = {name: float(np.median(own)) for name, own in times.items()}
+        rows.append({"model": model.key, **median})
+        print(f"  {model.key:28}{median['rays']:9.1f}{median['rays'] / median['fill']:8.1f}"
+              f"{median['cast']:10.1f}{median['cast'] / median['pinhole']:11.2f}")  # fmt: skip
+    return rows
