@@ -1,4 +1,4 @@
-"""The benchmark, model by model: rays alone against a plain fill of the same arrays, and 1,000 spheres against the pinhole.
+"""The benchmark, model by model: rays against a plain fill of the same arrays, 1,000 spheres against the pinhole.
 
 The cameras are the contract test's, at the size that was asked for.
 """
@@ -25,7 +25,7 @@ def run(width: int, height: int, rounds: int, threads: int) -> list[dict]:
 
     pinhole, shapes = c.scene(SPHERES, width, height)
     filled = np.empty((height, width, 3))
-    print(f"\n{width} x {height}, {threads} threads, {rounds} rounds: rays over a fill, {SPHERES} spheres over the pinhole")
+    print(f"\n{width} x {height}, {threads} threads, {rounds} rounds; {SPHERES} spheres")
     print(f"  {'':28}{'rays ms':>9}{'x fill':>8}{'cast ms':>10}{'x pinhole':>11}")
     rows = []
     for model in MODELS:
