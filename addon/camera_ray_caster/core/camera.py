@@ -91,7 +91,7 @@ class Camera:
         """Return the world rays through pixel coordinates x, y (scalars or arrays that broadcast), as ``rays`` does."""
         x, y = np.asarray(x, np.float64), np.asarray(y, np.float64)
         if self.clock is not None:
-            return self._timed_rays(x, y)
+            return self._timed_rays(self.clock, x, y)
         shape = np.broadcast_shapes(x.shape, y.shape)
         directions = np.empty((*shape, 3))
         origins = np.broadcast_to(self.pose.eye, directions.shape) if self.model.central else np.empty((*shape, 3))
@@ -113,13 +113,14 @@ class Camera:
             for axis, component in enumerate(matvec(self.pose.basis, origin)):
                 origins[..., axis] = component + self.pose.eye[axis]
 
-    def _timed_rays(self, x, y) -> Rays:
+    def _timed_rays(self, clock: Clock, x, y) -> Rays:
         """Return what ``rays_at`` does, of the camera at each pixel's own time."""
-        time = np.broadcast_to(self.clock.frame_at(x, y), np.broadcast_shapes(x.shape, y.shape))
+        time = np.broadcast_to(clock.frame_at(x, y), np.broadcast_shapes(x.shape, y.shape))
         origins, directions = np.full((2, *time.shape, 3), np.nan)
+        parts: Any
         if is_grid(x, y):
             parts = ((frame, x[:, columns], y[rows], np.s_[rows, columns], where)
-                     for frame, rows, columns, where in groups(self.clock, x, y))  # fmt: skip
+                     for frame, rows, columns, where in groups(clock, x, y))  # fmt: skip
         else:
             x, y = np.broadcast_arrays(x, y)
             parts = ((frame, x, y, np.s_[...], time == frame) for frame in np.unique(time))

@@ -12,7 +12,7 @@ from time import perf_counter
 import numpy as np
 
 from .camera import Camera
-from .clock import groups
+from .clock import Clock, groups
 from .hits import Hits
 from .nearest import Scratch, nearest
 from .passes import PASSES
@@ -89,7 +89,7 @@ def cast(
         if sampled:
             plans[True] = make_plan(*middle, passes, known, shading, cull, True, precision)
     else:
-        tiles = list(_moments(camera, shapes))
+        tiles = list(_moments(camera, shapes, camera.clock))
     images.plan = whole
     images.seconds = {"plan": perf_counter() - started}
     own = local()
@@ -122,9 +122,9 @@ def _bands(camera: Camera, shapes: Shapes) -> Iterator[Tile]:
         yield Tile(camera, shapes, slice(first, min(first + step, height)), slice(0, width))
 
 
-def _moments(camera: Camera, shapes: Shapes) -> Iterator[Tile]:
+def _moments(camera: Camera, shapes: Shapes, clock: Clock) -> Iterator[Tile]:
     """Yield the picture time by time, each with the camera and the shapes of that time."""
-    for frame, rows, columns, where in groups(camera.clock, camera.raster.columns(), camera.raster.rows()):
+    for frame, rows, columns, where in groups(clock, camera.raster.columns(), camera.raster.rows()):
         rows, columns = (slice(*s.indices(n)) for s, n in zip((rows, columns), camera.raster.shape, strict=True))
         yield Tile(*_moment(camera, shapes, frame), rows, columns, None if where.all() else where)
 
@@ -146,12 +146,13 @@ def _cast_tile(tile: Tile, plan: Plan, names, samples: int, images: Images, scra
     for sample in range(samples):
         began = perf_counter()
         if total is None:
-            from_eye, rays = tile.camera.model.central, tile.camera.camera_rays(x, y)
+            from_eye = tile.camera.model.central
+            origin, direction = tile.camera.camera_rays(x, y)
         else:
             from_eye = tile.camera.model.central and tile.camera.aperture is None
-            rays = tile.camera.sample_rays(x, y, sample)
+            origin, direction = tile.camera.sample_rays(x, y, sample)
         generated = perf_counter()
-        hits = nearest(plan, *rays, from_eye, corner, scratch)
+        hits = nearest(plan, origin, direction, from_eye, corner, scratch)
         found = perf_counter()
         if total is None:
             _store(hits, {name: images[name][part] for name in names}, tile.where)

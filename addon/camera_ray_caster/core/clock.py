@@ -23,6 +23,9 @@ TIME_MODES = ("NONE", ROWS, COLUMNS, IMAGE, ROLLING_SHUTTER)
 SHUTTER_STARTS = {"START": 0.0, "CENTER": -0.5, "END": -1.0}
 """Where the shutter interval begins, in lengths of itself."""
 
+LAST_FRAME = 1048574
+"""Blender knows no frame beyond it, on either side of 0."""
+
 LEVELS = 256
 """Times that a grey image is rounded to, from black to white: what an 8 bit image holds."""
 
@@ -91,8 +94,8 @@ def groups(clock: Clock, x, y):
         return
     for frame in np.unique(frames):
         same = frames == frame
-        rows, columns = (np.flatnonzero(same.any(axis=axis)) for axis in (1, 0))
-        box = slice(rows[0], rows[-1] + 1), slice(columns[0], columns[-1] + 1)
+        held = [np.flatnonzero(same.any(axis=axis)) for axis in (1, 0)]
+        box = tuple(slice(lane[0], lane[-1] + 1) for lane in held)
         yield float(frame), *box, same[box]
 
 
@@ -144,8 +147,11 @@ def clock_from(raw: BlenderCamera, raster: Raster) -> Clock | None:
     if mode == ROLLING_SHUTTER:
         return _rolling_shutter(raw, raster)
     start, end = float(raw.settings["time_start"]), float(raw.settings["time_end"])
-    if not (np.isfinite(start) and np.isfinite(end)) or start == end:
-        raise InputError(f"time_start and time_end of camera {raw.name!r} are {start} and {end}: set two other frames")
+    if not (abs(start) <= LAST_FRAME and abs(end) <= LAST_FRAME and start != end):
+        raise InputError(
+            f"time_start and time_end of camera {raw.name!r} are {start:g} and {end:g}: "
+            f"set two different frames from -{LAST_FRAME} to {LAST_FRAME}"
+        )
     if mode == IMAGE:
         return ImageClock(start + _image_share(raw, raster) * (end - start), *_effort(raw))
     if mode == ROWS:

@@ -27,7 +27,7 @@ Numbers
 
 import numpy as np
 
-EPS = np.finfo(np.float64).eps / 2
+EPS = float(np.finfo(np.float64).eps) / 2
 """Unit roundoff of float64, 2**-53: the largest relative error of one correctly rounded operation."""
 
 EPS32 = float(np.finfo(np.float32).eps) / 2

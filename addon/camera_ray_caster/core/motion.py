@@ -1,10 +1,11 @@
 """Motion between the times at which a scene was evaluated, and at which times it has to be.
 
 Each interval has four evaluations, its ends and two probes at the golden section; between them positions, rotation
-vectors, stretches (polar decomposition) and the numbers of a lens are the cubics through the four. Whether that is the motion of the scene is
-asked of each probe: it must lie, in pixels, on the parabola through the other three. Where it does not the interval is
-cut at its probes. The method is the embedded pair of adaptive integration (E. Hairer et al., Solving Ordinary
-Differential Equations I, section II.4): smooth motion takes few evaluations, and the estimate is on the safe side.
+vectors, stretches (polar decomposition) and the numbers of a lens are the cubics through the four. Whether that is the
+motion of the scene is asked of each probe: it must lie, in pixels, on the parabola through the other three. Where it
+does not the interval is cut at its probes. The method is the embedded pair of adaptive integration (E. Hairer et al.,
+Solving Ordinary Differential Equations I, section II.4): smooth motion takes few evaluations, and the estimate is on
+the safe side.
 """
 
 from __future__ import annotations
@@ -29,6 +30,9 @@ WIDEST_TURN = 1.0
 
 SHORTEST = 2.0**-10
 """Frames within which the moment is found at which shapes come or go."""
+
+UNRESOLVED = "NOT RESOLVED"
+"""How the report's line begins that says so."""
 
 State = tuple[Camera, Shapes]
 """A scene as it was evaluated at one frame."""
@@ -145,7 +149,7 @@ class Motion:
         if self.unresolved:
             low, high = self.unresolved[0]
             lines.append(
-                f"NOT RESOLVED: {len(self.unresolved)} intervals, the first at frames {low:g} to {high:g}: "
+                f"{UNRESOLVED}: {len(self.unresolved)} intervals, the first at frames {low:g} to {high:g}: "
                 "the motion is too fast for the evaluations allowed"
             )
         return lines
@@ -260,7 +264,7 @@ def _matched(before: Shapes, after: Shapes) -> bool:
 def _mixed(values, weights):
     """Return the weighted mean of all numbers in records of one kind; what is no number is the first one's."""
     first = values[0]
-    if is_dataclass(first) and all(type(value) is type(first) for value in values):
+    if is_dataclass(first) and not isinstance(first, type) and all(type(value) is type(first) for value in values):
         parts = {part.name: _mixed([getattr(value, part.name) for value in values], weights) for part in fields(first)}
         changed = {name: part for name, part in parts.items() if part is not getattr(first, name)}
         return replace(first, **changed) if changed else first

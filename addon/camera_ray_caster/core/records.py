@@ -49,7 +49,7 @@ class BlenderCamera:
     border_max_y: float = 1.0
     model: str = ""
     """Key of the model that was chosen in place of Blender's type; empty: Blender's."""
-    settings: Mapping[str, object] = field(default_factory=dict)
+    settings: Mapping[str, Any] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)

@@ -14,7 +14,8 @@ STEP_2D = (0.7548776662466927, 0.5698402909980532)
 
 def sub_pixel(sample: int) -> tuple[float, float]:
     """Return the offset of a sample from the pixel's centre, in pixels, -1/2 .. 1/2 on both axes."""
-    return tuple((0.5 + step * sample) % 1.0 - 0.5 for step in STEP_2D)
+    across, up = ((0.5 + step * sample) % 1.0 - 0.5 for step in STEP_2D)
+    return across, up
 
 
 def in_opening(sample: int, x, y):
