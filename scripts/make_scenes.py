@@ -15,7 +15,7 @@ import tempfile
 from pathlib import Path
 
 import bpy
-from scenes import SCENES
+from scenes import EXAMPLES, GALLERY, SCENES
 
 ROOT = Path(__file__).resolve().parents[1]
 FOLDER = ROOT / "blend_scenes"
@@ -26,13 +26,42 @@ import camera_ray_caster  # noqa: E402  (found by the line above)
 README = """\
 # Example scenes
 
-Small scenes, each hard for a ray caster in one way. To look at one:
-`python scripts/cast.py blend_scenes/NAME.blend --output out`
+To look at one: `python scripts/cast.py blend_scenes/NAME.blend --output out`
 
-{lines}
+## Gallery
 
-All of them are made by `python scripts/make_scenes.py`, and this page with them.
+What each camera does, in the program's own pictures with the grid shading: most of them of one room, six metres high
+with cells of half a metre, so that they can be compared. Where a camera has no ray, a picture is transparent.
+{gallery}
+## Small scenes, each hard for a ray caster in one way
+
+{examples}
+
+All of them are made by `python scripts/make_scenes.py`, and this page with them; the pictures by
+`python scripts/make_pictures.py`.
 """
+
+GROUP = """
+### {title}
+
+| | |
+|---|---|
+{rows}
+"""
+
+ROW = '| <img src="pictures/{name}.png" width="360" alt="{name}"> | `{name}.blend`: {line} |'
+
+
+def readme() -> str:
+    """Return the page that lists the scenes, each by its docstring."""
+    examples = "\n".join(f"* `{name}.blend`: {make.__doc__}" for name, make in EXAMPLES.items())
+    gallery = "".join(
+        GROUP.format(
+            title=title, rows="\n".join(ROW.format(name=name, line=make.__doc__) for name, make in group.items())
+        )
+        for title, group in GALLERY.items()
+    )
+    return README.format(gallery=gallery, examples=examples)
 
 
 def write_scene(name: str) -> None:
@@ -60,8 +89,7 @@ def main(arguments: list[str] | None = None) -> None:
     names = parser.parse_args(arguments).names or list(SCENES)
     if unknown := [name for name in names if name not in SCENES]:
         parser.error(f"no scene is called {', '.join(unknown)}: choose from {', '.join(SCENES)}")
-    lines = "\n".join(f"* `{name}.blend`: {make.__doc__}" for name, make in SCENES.items())
-    (FOLDER / "README.md").write_text(README.format(lines=lines), encoding="utf-8")
+    (FOLDER / "README.md").write_text(readme(), encoding="utf-8")
 
     camera_ray_caster.register()
     for name in names:

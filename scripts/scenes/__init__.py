@@ -1,23 +1,69 @@
 """The example scenes by name: functions that fill an empty Blender scene. The docstring is the line in the README."""
 
-from . import cameras, contents, showcase
+from . import cameras, contents, lenses, multiperspective, panoramas, showcase, time
 
-SCENES = {
-    make.__name__: make
-    for make in (
-        showcase.spheres_and_planes,
-        cameras.portrait,
-        cameras.vertical_fit,
-        cameras.orthographic,
-        cameras.border,
-        cameras.sheared_and_mirrored,
-        cameras.animated,
-        cameras.inside_a_sphere,
-        cameras.far_and_small,
-        contents.instances,
-        contents.left_out,
-        contents.cast_as,
-        contents.view_layers,
-        contents.empty,
-    )
+
+def _by_name(*makers):
+    return {make.__name__: make for make in makers}
+
+
+EXAMPLES = _by_name(
+    showcase.spheres_and_planes,
+    cameras.portrait,
+    cameras.vertical_fit,
+    cameras.orthographic,
+    cameras.border,
+    cameras.sheared_and_mirrored,
+    cameras.animated,
+    cameras.inside_a_sphere,
+    cameras.far_and_small,
+    contents.instances,
+    contents.left_out,
+    contents.cast_as,
+    contents.view_layers,
+    contents.empty,
+)
+
+GALLERY = {
+    "Lenses": _by_name(
+        lenses.pinhole,
+        lenses.camera_obscura,
+        lenses.thin_lens,
+        lenses.fisheye_orthographic,
+        lenses.fisheye_stereographic,
+        lenses.opencv_pinhole,
+        lenses.opencv_fisheye,
+        lenses.omnimax,
+        lenses.dome_master,
+    ),
+    "Panoramas": _by_name(
+        panoramas.equirectangular,
+        panoramas.cubemap_face,
+        panoramas.mirrorball,
+        panoramas.fisheye_equidistant,
+        panoramas.fisheye_equisolid,
+        panoramas.fisheye_polynomial,
+        panoramas.central_cylindrical,
+        panoramas.cylindrical,
+        panoramas.little_planet,
+        panoramas.omnidirectional_stereo,
+    ),
+    "More than one eye": _by_name(
+        multiperspective.general_linear,
+        multiperspective.pushbroom,
+        multiperspective.cross_slit,
+        multiperspective.pencil,
+        multiperspective.twisted_orthographic,
+        multiperspective.strip,
+    ),
+    "More than one time": _by_name(
+        time.slit_scan_rows,
+        time.slit_scan_columns,
+        time.time_displacement,
+        time.rolling_shutter,
+    ),
 }
+"""The scenes that show what a camera does, by the heading under which the README has their pictures."""
+
+PICTURES = {name: make for group in GALLERY.values() for name, make in group.items()}
+SCENES = EXAMPLES | PICTURES

@@ -1,0 +1,45 @@
+"""Make the gallery's pictures: each is what the terminal casts of a scene of blend_scenes/.
+
+    python scripts/make_pictures.py            all of them
+    python scripts/make_pictures.py NAME ...   only these, for example fisheye_stereographic
+
+Needs pip's bpy.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+import tempfile
+from pathlib import Path
+
+import bpy  # noqa: F401  (first: bmesh, which the scenes use, comes with it)
+from door import through
+from scenes import PICTURES
+
+FOLDER = Path(__file__).resolve().parents[1] / "blend_scenes"
+
+
+def make_picture(name: str) -> int:
+    """Cast blend_scenes/NAME.blend, put its picture into blend_scenes/pictures, and return the exit status."""
+    with tempfile.TemporaryDirectory(dir=FOLDER) as folder:
+        sys.argv[1:] = [str(FOLDER / f"{name}.blend"), "--passes", "combined", "--output", folder]
+        status = through("cast")
+        if status == 0:
+            os.replace(Path(folder) / f"{name}.png", FOLDER / "pictures" / f"{name}.png")
+    return status
+
+
+def main() -> int:
+    """Make the pictures that are named, or all; stop at the first that fails."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("names", metavar="NAME", nargs="*", help=", ".join(PICTURES))
+    names = parser.parse_args().names or list(PICTURES)
+    if unknown := [name for name in names if name not in PICTURES]:
+        parser.error(f"no picture is called {', '.join(unknown)}: choose from {', '.join(PICTURES)}")
+    return next((status for status in map(make_picture, names) if status), 0)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,81 @@
+"""Cameras without one eye. Their slits are empties, their paths curves: grab one, move it, and the picture follows."""
+
+from __future__ import annotations
+
+from math import cos, pi, radians, sin
+
+import bpy
+
+from .parts import add, uv_sphere
+from .sets import clear_middle, photograph, room
+
+BEHIND, AHEAD = (0, -5.2, 2.5), (0, 6, 2.5)
+
+
+def slit(scene, name: str, location, turn=(0, 0, 0)):
+    """Add an empty whose X axis is a slit, drawn as long as the room."""
+    made = add(scene, name, None, location, turn)
+    made.empty_display_type, made.empty_display_size = "ARROWS", 3
+    return made
+
+
+def circle(scene, centre, radius: float, corners: int = 128):
+    """Add a closed curve, anticlockwise as seen from above, that starts before its centre (at -Y)."""
+    data = bpy.data.curves.new("Path", "CURVE")
+    data.dimensions = "3D"
+    spline = data.splines.new("POLY")
+    spline.points.add(corners - 1)
+    spline.use_cyclic_u = True
+    for k, point in enumerate(spline.points):
+        angle = 2 * pi * k / corners - pi / 2
+        point.co = radius * cos(angle), radius * sin(angle), 0, 1
+    return add(scene, "Path", data, centre)
+
+
+def general_linear(scene):
+    """all affine combinations of three rays: these meet no two lines in space, and bend straight edges (bilinear)."""
+    room(scene)
+    rays = {"ray_1": (-0.6, -0.9, -1.3, -1.2), "ray_2": (1.4, -0.3, 1.9, -0.9), "ray_3": (-1.4, 0.9, -1.8, 1.0)}
+    photograph(scene, BEHIND, AHEAD, own={"model": "GENERAL_LINEAR", **rays})
+
+
+def pushbroom(scene):
+    """the eye flies along a slit: across it near balls are large, along it all balls are as wide as they are."""
+    room(scene)
+    own = {"model": "PUSHBROOM", "slit_1": slit(scene, "Slit", BEHIND)}
+    photograph(scene, BEHIND, AHEAD, own=own, lens=24, ortho_scale=11.6)
+
+
+def cross_slit(scene):
+    """all rays meet two slits, the upright one farther behind than the level one: depth shrinks heights, not widths."""
+    room(scene)
+    upright = slit(scene, "Upright slit", (0, -16, 0), (0, -90, 0))
+    own = {"model": "CROSS_SLIT", "slit_1": upright, "slit_2": slit(scene, "Level slit", (0, -8.4, 2.5))}
+    photograph(scene, (0, -5.1, 2.5), AHEAD, own=own, lens=5.6)
+
+
+def pencil(scene):
+    """each line of the picture has its eye elsewhere on a slit: seen from the left above and from the right below."""
+    room(scene)
+    own = {"model": "PENCIL", "slit_1": slit(scene, "Slit", BEHIND), "pencil_slide": -4.0}
+    photograph(scene, BEHIND, AHEAD, own=own, lens=22)
+
+
+def twisted_orthographic(scene):
+    """parallel rays whose direction turns along an axis: to the left above it, to the right below."""
+    room(scene)
+    own = {"model": "TWISTED_ORTHOGRAPHIC", "slit_1": slit(scene, "Axis", (0, 0, 2.5), (0, -90, 0)), "twist": 0.08}
+    photograph(scene, BEHIND, AHEAD, own=own, ortho_scale=7.5)
+
+
+def strip(scene):
+    """each column from another place on a circle around a figure: all its sides unrolled, the room swept behind it."""
+    room(scene)
+    clear_middle(scene)
+    add(scene, "Body", uv_sphere(), (0, 0, 1.3), scale=(0.9, 0.6, 1.3), colour="e2674a", index=20)
+    add(scene, "Head", uv_sphere(), (0, 0, 3.1), scale=0.62, colour="f0b941", index=21)
+    for angle, colour in ((-90, "2b2d42"), (0, "2a9d8f"), (90, "8a63b8"), (180, "3f7cc0")):
+        place = 0.55 * cos(radians(angle)), 0.55 * sin(radians(angle)), 3.2
+        add(scene, "Eye", uv_sphere(), place, scale=0.22, colour=colour, index=22)
+    own = {"model": "STRIP", "path": circle(scene, (0, 0, 2), 3.4), "follow_path": True}
+    photograph(scene, (0, -3.4, 2), (0, 0, 2), 480, 336, own=own, lens=14)

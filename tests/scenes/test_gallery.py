@@ -1,0 +1,147 @@
+"""The gallery: a scene and a picture for all that a camera can do, and what hand geometry says of some of them."""
+
+import re
+from math import pi
+
+import numpy as np
+import pytest
+
+from camera_ray_caster.core.cameras import MODELS
+from camera_ray_caster.core.clock import TIME_MODES
+
+from .test_scenes import FOLDER, README, look, opened, rendered
+
+NAMES = re.findall(r'^\| <img src="pictures/(\w+)\.png" .*> \| `\1\.blend`: \S', README, re.MULTILINE)
+OUTDOORS = {"little_planet", "cylindrical", "omnimax", "dome_master"}
+TIMES = {"slit_scan_rows", "slit_scan_columns", "time_displacement", "rolling_shutter"}
+DISC = pi / 4
+"""Of its square."""
+SHARES = {
+    "mirrorball": DISC, "fisheye_equidistant": DISC, "fisheye_orthographic": DISC, "fisheye_stereographic": DISC,
+    "dome_master": DISC, "omnimax": None, "fisheye_equisolid": None, "fisheye_polynomial": None, "opencv_fisheye": None,
+}  # fmt: skip
+"""The part of the picture that has rays, where that is not all of it; None for a disc that the frame cuts."""
+TALLEST_ROWS = 30
+"""Of the small renders."""
+
+
+def small(scene, samples=2):
+    """Make a scene's render small and quick."""
+    scene.render.resolution_percentage = -(-100 * TALLEST_ROWS // scene.render.resolution_y)
+    scene.camera_ray_caster.samples = samples
+    return scene
+
+
+def masks(bpy, name, *things):
+    """Return where balls are seen, (rows, columns) bool each, by their names or pass indices."""
+    scene = opened(bpy, name)
+    index = look(scene)[2]["object_index"]
+    return [index == (scene.objects[thing].pass_index if isinstance(thing, str) else thing) for thing in things]
+
+
+def test_pictures_are_there_and_small():
+    assert len(NAMES) == len(set(NAMES)) > 25
+    for name in NAMES:
+        assert (FOLDER / "pictures" / f"{name}.png").stat().st_size <= 120_000, name
+
+
+def test_every_model_and_every_time_has_a_scene(blender):
+    from camera_ray_caster.blender.read import read_camera
+
+    models, times, lenses = set(), set(), 0
+    for path in FOLDER.glob("*.blend"):
+        scene = opened(blender, path.stem)
+        camera = read_camera(small(scene)) if path.stem not in TIMES else None
+        models |= {camera.model.key} if camera else set()
+        times.add(scene.camera.data.camera_ray_caster.time_mode)
+        lenses += scene.camera.data.dof.use_dof
+    assert models == {model.key for model in MODELS}
+    assert times == set(TIME_MODES)
+    assert lenses > 0
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_scene_renders_and_verifies(blender, name, tmp_path):
+    from camera_ray_caster.blender.run import run
+
+    scene = opened(blender, name)
+    with (FOLDER / "pictures" / f"{name}.png").open("rb") as file:
+        size = np.frombuffer(file.read(24)[16:], ">u4").tolist()
+    assert size == [scene.render.resolution_x, scene.render.resolution_y]
+    assert (scene.render.engine, scene.camera_ray_caster.shading) == ("CAMERA_RAY_CASTER", "GRID")
+    small(scene)
+    passes = ("combined", "object_index", "valid")
+    images, report = run(blender.context.evaluated_depsgraph_get(), scene.camera, passes)
+    assert report.passed
+    assert report.left_out == ()
+    assert bool(report.motion) == (name in TIMES)
+    np.testing.assert_array_equal(rendered(blender, tmp_path / "picture.exr"), images["combined"])
+    valid, index = images["valid"], images["object_index"]
+    share = SHARES.get(name, 1)
+    if share is None:
+        assert 0.5 < valid.mean() < 1
+    else:  # a circle through n x n pixels crosses some 4 n of them, and of these half belong to it: 1 / n on average
+        assert valid.mean() == pytest.approx(share, abs=0 if share == 1 else 1 / TALLEST_ROWS)
+    if name not in OUTDOORS:
+        assert (index[valid] > 0).all()  # the room is closed
+    assert len(np.unique(index)) >= 4
+    assert np.isfinite(images["combined"]).all()
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_scene_stores_no_path_of_a_machine(blender, name):
+    scene = opened(blender, name)
+    assert scene.render.filepath.startswith("//")
+    assert not blender.data.libraries
+    assert all(image.packed_file and not image.filepath for image in blender.data.images)
+
+
+def test_camera_obscura_is_the_pinhole_turned_by_half_a_turn(blender):
+    places = []
+    for name in ("pinhole", "camera_obscura"):
+        scene = opened(blender, name)
+        ball = np.array(scene.objects["Teal"].location)
+        places.append(look(scene)[0].project(ball) / (scene.render.resolution_x, scene.render.resolution_y))
+    # both see 36 / 22 wide at depth 1, the wall rounded to 3.27 / 2: 0.1 % of at most half the frame
+    np.testing.assert_allclose(places[0] + places[1], 1, atol=6e-4)
+
+
+@pytest.mark.parametrize("ball", ["Red", "Teal", "Yellow", "Moon"])
+def test_stereographic_fisheye_keeps_circles(blender, ball):
+    (mask,) = masks(blender, "fisheye_stereographic", ball)
+    places = np.argwhere(mask)
+    # pixels at the edge count whole: 1 of a radius of 10 or more, in either axis of the moments
+    small_axis, large_axis = np.sqrt(np.linalg.eigvalsh(np.cov(places.T)))
+    assert len(places) > 300
+    assert large_axis / small_axis == pytest.approx(1, abs=0.03)
+
+
+@pytest.mark.parametrize(("ball", "radius"), [("Red", 1.3), ("Moon", 0.7), ("Lamp", 0.5)])
+def test_pushbroom_shows_widths_as_they_are(blender, ball, radius):
+    (mask,) = masks(blender, "pushbroom", ball)
+    assert abs(mask.any(axis=0).sum() - 2 * radius * 480 / 11.6) <= 1  # whole pixels
+
+
+def test_strip_unrolls_the_figure_from_all_sides(blender):
+    body, head = masks(blender, "strip", "Body", "Head")
+    assert body.any(axis=0).all()
+    assert head.any(axis=0).all()
+
+
+def test_slit_scan_stretches_what_flies_with_it(blender):
+    """A ball that moves u pixels a frame is met by columns that come at 20 a frame: 1 / (1 - u / 20) times as wide."""
+    widths = [mask.any(axis=0).sum() for mask in masks_at_their_times(blender, 30, 31, 32, 33)]
+    pixels_per_unit = 480 * 22 / 36 / 5.6
+    for width, speed in zip(widths, (0.22, 0.11, 0.0, -0.3), strict=True):
+        # the outline is that of a ball seen a little from the side: 3 % and a pixel
+        assert width == pytest.approx(widths[2] / (1 - speed * pixels_per_unit / 20), rel=0.03, abs=2)
+
+
+def masks_at_their_times(bpy, *indices):
+    """Return where pass indices are seen in the slit scan of the columns."""
+    from camera_ray_caster.blender.run import run
+
+    scene = opened(bpy, "slit_scan_columns")
+    scene.camera_ray_caster.samples = 1
+    images, _ = run(bpy.context.evaluated_depsgraph_get(), scene.camera, ("object_index",))
+    return [images["object_index"] == index for index in indices]
