@@ -27,10 +27,11 @@ test: $(VENV)/ready  ## run every test with this Python
 test-all:  ## run every test on each supported bpy for which a Python is found
 	@$(PYTHON) scripts/environment.py test-all
 
-test-blender: .venv/pure/ready  ## run tests/blender inside a real Blender: BLENDER=/path/to/blender
+test-blender: .venv/pure/ready  ## run tests/blender inside a real Blender, and tests/gui in its window: BLENDER=/path
 	@if command -v "$(BLENDER)" >/dev/null; then \
 		"$(BLENDER)" --background --factory-startup --python-exit-code 1 \
-			--python tests/run_in_blender.py -- .venv/pure tests/blender; \
+			--python tests/run_in_blender.py -- .venv/pure tests/blender && \
+		BLENDER="$(BLENDER)" PYTHONPATH=.venv/pure $(PYTHON) -m pytest tests/gui; \
 	else \
 		echo "test-blender: skipped, no program $(BLENDER); run make BLENDER=/path/to/blender test-blender"; \
 	fi

@@ -221,9 +221,9 @@ def test_the_panels_say_what_the_camera_is_and_why_it_is_none(blender, scene):
         assert text in said
     blender.ops.camera_ray_caster.cast()
     for panel in (*sidebar, *panels_cast.CLASSES[2:]):
-        said = drawn(blender, panel)
-    assert "Suzanne" in said
-    assert "agree with every witness" in drawn(blender, panels_camera.SidebarVerify)
+        drawn(blender, panel)
+    assert "Suzanne" in drawn(blender, panels_cast.SidebarLeftOut)
+    assert "All witnesses agree" in drawn(blender, panels_camera.SidebarVerify)
     scene.camera.location.x = 1
     assert "has changed since" in drawn(blender, panels_camera.SidebarVerify)
     scene.camera = None

@@ -3,19 +3,20 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import bpy
 
 from ..core.records import InputError
 from ..core.report import Report
-from ..core.worker import Worker
+from ..core.worker import BESIDE, Worker
 from . import images, reports
 from .operators import NO_CAMERA
 from .passes import ticked
 from .run import Job
 
-INTERVAL = 0.05
+INTERVAL = 0.1
 """Seconds between two looks at how far the work is."""
 
 _running: list[Running] = []
@@ -63,7 +64,7 @@ class Cast(bpy.types.Operator):
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
         timer = context.window_manager.event_timer_add(INTERVAL, window=context.window)
-        _running.append(Running(Worker(job.cast), timer))
+        _running.append(Running(Worker(partial(job.cast, threads=BESIDE)), timer))
         context.window_manager.modal_handler_add(self)
         show_progress()
         return {"RUNNING_MODAL"}
@@ -75,7 +76,9 @@ class Cast(bpy.types.Operator):
             self.report({"INFO"}, "Stopped: the images are as they were")
             return {"CANCELLED"}
         worker = _running[0].worker
-        if event.type != "TIMER" or not worker.done:
+        if event.type != "TIMER":
+            return {"PASS_THROUGH"}
+        if not worker.done:
             show_progress()
             return {"PASS_THROUGH"}
         stop()

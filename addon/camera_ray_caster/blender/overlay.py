@@ -88,19 +88,25 @@ def _batches(observed: Observed, size: float, rays: int) -> dict:
 
 
 def _made(parts: Diagram) -> dict:
-    line, point = (gpu.shader.from_builtin(f"{kind}_UNIFORM_COLOR") for kind in ("POLYLINE", "POINT"))
-    batches = {
-        name: batch_for_shader(line, "LINES", {"pos": getattr(parts, name).reshape(-1, 3)})
-        for name in STYLES
-        if name != "hits"
-    }
-    batches["hits"] = batch_for_shader(point, "POINTS", {"pos": parts.hits})
-    batches["basis"] = [batch_for_shader(line, "LINES", {"pos": axis}) for axis in parts.basis]
+    """Return the batches by the names of STYLES, None where a part is empty, and those of u, v and w."""
+
+    def batch(kind: str, form: str, points):
+        return batch_for_shader(_shader(kind), form, {"pos": points.reshape(-1, 3)}) if len(points) else None
+
+    batches = {name: batch("POLYLINE", "LINES", getattr(parts, name)) for name in STYLES if name != "hits"}
+    batches["hits"] = batch("POINT", "POINTS", parts.hits)
+    batches["basis"] = [batch("POLYLINE", "LINES", axis) for axis in parts.basis]
     return batches
 
 
+def _shader(kind: str):
+    return gpu.shader.from_builtin(f"{kind}_UNIFORM_COLOR")
+
+
 def _draw(batch, kind: str, colour, width: float) -> None:
-    shader = gpu.shader.from_builtin(f"{kind}_UNIFORM_COLOR")
+    if batch is None:
+        return
+    shader = _shader(kind)
     shader.bind()
     shader.uniform_float("color", colour)
     if kind == "POINT":

@@ -12,8 +12,17 @@ from ..core.records import InputError
 from . import reports
 from .read import camera_record
 
-LETTER = 6.5
+LETTER = 6.0
 """About the width of a letter in a panel, in units of the interface's scale."""
+
+
+WITNESSES = {
+    "view_frame": "View Frame",
+    "calc_matrix_camera": "Camera Matrix",
+    "world_to_camera_view": "View Position",
+    "round trip": "Round Trip",
+}
+"""What the panel calls a witness, by its name in the report."""
 
 
 class Sidebar:
@@ -37,11 +46,11 @@ def facts_of(context, camera_object) -> tuple[dict[str, object] | None, str]:
 
 
 def draw_message(layout, context, text: str, icon: str = "INFO") -> None:
-    """Draw a sentence in as many lines as the panel's width asks for."""
+    """Draw a sentence in as many lines as the panel's width asks for, its first letter a capital."""
     width = context.region.width / (context.preferences.system.ui_scale or 1.0)  # 0 without a window
     column = layout.column(align=True)
     column.scale_y = 0.85
-    for i, line in enumerate(wrap(text, max(16, int((width - 70) / LETTER)))):
+    for i, line in enumerate(wrap(text[:1].upper() + text[1:], max(16, int((width - 65) / LETTER)))):
         column.label(text=line, icon="BLANK1" if i else icon)
 
 
@@ -49,7 +58,7 @@ def draw_facts(layout, context, facts) -> None:
     """Draw the facts of a camera: one table, lengths and angles in the scene's units."""
     box = layout.box().column(align=True)
     vectors = [("Eye", [length(context, value) for value in facts["eye"]])]
-    vectors += [(name.upper(), [f"{value:.4f}" for value in facts[name]]) for name in "uvw"]
+    vectors += [(name, [f"{value:.4f}" for value in facts[name]]) for name in "uvw"]
     for name, cells in vectors:
         draw_row(box, name, cells, 0.16)
     box = layout.box().column(align=True)
@@ -138,15 +147,15 @@ class SidebarVerify(Sidebar, bpy.types.Panel):
             draw_message(layout, context, "The camera has changed since it was verified")
             layout = layout.column()
             layout.active = False
-        said = "The rays agree with every witness" if report.passed else "A witness disagrees with the rays"
+        said = "All witnesses agree" if report.passed else "A witness disagrees with the rays"
         draw_message(layout, context, said, "CHECKMARK" if report.passed else "ERROR")
         box = layout.box().column(align=True)
-        draw_row(box, "Pixels", ["Worst", "Bound"], 0.56)
+        draw_row(box, "Pixels", ["Worst", "Bound"], 0.46)
         for finding in report.findings:
             errors = [f"{error:.1e}" for error in (finding.worst_pixels, finding.bound_pixels)]
             row = box.row()
             row.alert = not finding.passed
-            draw_row(row, finding.witness, errors, 0.56)
+            draw_row(row, WITNESSES.get(finding.witness, finding.witness), errors, 0.46)
 
 
 class CameraData(bpy.types.Panel):

@@ -19,7 +19,7 @@ class SidebarCast(Sidebar, bpy.types.Panel):
     bl_label = "Cast"
 
     def draw(self, context):
-        """The button, or how far the cast is; and what the combined pass shows."""
+        """The button, or how far the cast is; and how the combined pass is made."""
         layout = self.layout
         fraction = cast_operator.fraction()
         row = layout.row()
@@ -30,7 +30,9 @@ class SidebarCast(Sidebar, bpy.types.Panel):
                          icon="RENDER_STILL")  # fmt: skip
         else:
             row.progress(factor=fraction, text=f"{fraction:.0%}, Esc stops")
-        layout.row().prop(context.scene.camera_ray_caster, "shading", expand=True)
+        settings = context.scene.camera_ray_caster
+        layout.row().prop(settings, "shading", expand=True)
+        layout.prop(settings, "samples")
 
 
 class SidebarPasses(Sidebar, bpy.types.Panel):
@@ -64,17 +66,15 @@ class SidebarReport(Sidebar, bpy.types.Panel):
         self.layout.operator("camera_ray_caster.write_report", text="", icon="TEXT", emboss=False)
 
     def draw(self, context):
-        """Seconds a step, rays a second, and what was not done."""
-        layout, report = self.layout, reports.latest()
-        box = layout.box().column(align=True)
+        """Seconds a step, and rays a second."""
+        report = reports.latest()
+        box = self.layout.box().column(align=True)
         for step, seconds in report.seconds.items():
             draw_row(box, step.capitalize(), [f"{seconds:.4f} s"], 0.5)
         draw_row(box, "Rays", [f"{report.pixels:,}"], 0.5)
         draw_row(box, "Shapes", [f"{report.shapes:,}"], 0.5)
         if report.rays_per_second is not None:
             draw_row(box, "Rays per Second", [f"{report.rays_per_second / 1e6:.3g} million"], 0.5)
-        for line in report.not_done:
-            draw_message(layout, context, line, "DOT")
 
 
 class SidebarLeftOut(Sidebar, bpy.types.Panel):
@@ -104,7 +104,21 @@ class SidebarLeftOut(Sidebar, bpy.types.Panel):
             draw_message(self.layout, context, f"and {len(left_out) - LISTED} more: see the report")
 
 
-CLASSES = (SidebarCast, SidebarPasses, SidebarReport, SidebarLeftOut)
+class SidebarNotDone(Sidebar, bpy.types.Panel):
+    """What the latest cast had no need to do, and why."""
+
+    bl_idname = "CAMERA_RAY_CASTER_PT_not_done"
+    bl_label = "Not Needed"
+    bl_parent_id = SidebarReport.bl_idname
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context):
+        """A line each."""
+        for line in reports.latest().not_done:
+            draw_message(self.layout, context, line.replace("_", " "), "DOT")
+
+
+CLASSES = (SidebarCast, SidebarPasses, SidebarReport, SidebarLeftOut, SidebarNotDone)
 
 
 def register() -> None:

@@ -65,8 +65,10 @@ class Job:
         shading, samples = settings.shading, settings.samples
         if camera.clock is not None:
             visit = visit or partial(go_to, depsgraph.scene)
-            camera, shapes = with_motion(camera, shapes, camera_object, visit, eye)
-            visit(frame)
+            try:
+                camera, shapes = with_motion(camera, shapes, camera_object, visit, eye)
+            finally:
+                visit(frame)
         moved = perf_counter()
         return cls(
             camera=camera,
@@ -81,10 +83,10 @@ class Job:
             several=several,
         )
 
-    def cast(self, progress: Callable[[float], bool] | None = None) -> tuple[Images, Report]:
-        """Cast the passes and report. ``progress`` is as in ``cast``; raises Cancelled where the user stopped."""
+    def cast(self, progress: Callable[[float], bool] | None = None, threads=None) -> tuple[Images, Report]:
+        """Cast the passes and report. ``progress`` and ``threads`` are as in ``cast``; raises Cancelled as that does."""
         settings = {"shading": self.shading, "samples": self.samples}
-        images = cast(self.camera, self.shapes, self.passes, **settings, progress=progress)
+        images = cast(self.camera, self.shapes, self.passes, **settings, threads=threads, progress=progress)
         seconds = {**self.seconds, **images.seconds}
         report = report_cast(
             self.camera, self.shapes, images, seconds, self.findings, self.frame, self.layer, self.several

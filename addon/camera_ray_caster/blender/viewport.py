@@ -16,7 +16,7 @@ from ..core.cameras import camera_from
 from ..core.cast import cast
 from ..core.records import BlenderCamera, InputError
 from ..core.viewport import frame_record, view_record
-from ..core.worker import Worker
+from ..core.worker import BESIDE, Worker
 from .observed import observe
 from .view import camera_frame
 
@@ -147,8 +147,8 @@ def _target(context, raw: BlenderCamera | None) -> Target | None:
 def _cast(target: Target, shapes, shading: str, step: int, progress=None):
     """Return the combined pass at a step, (rows, columns, 4) float32, and its rectangle. It may run on a thread."""
     camera = target.camera(step)
-    pixels = cast(camera, shapes, ("combined",), np.float32, shading=shading, progress=progress)["combined"]
-    return np.ascontiguousarray(pixels), target.rectangle(camera.raster)
+    images = cast(camera, shapes, ("combined",), np.float32, shading=shading, threads=BESIDE, progress=progress)
+    return images["combined"], target.rectangle(camera.raster)
 
 
 def look() -> float | None:

@@ -1,0 +1,268 @@
+"""What a user does in the window, one scenario a function: steps, and what must then hold."""
+
+import sys
+import time
+
+import bpy
+import numpy as np
+from user import pixels_of
+
+MODULE = "bl_ext.user_default.camera_ray_caster"
+BUTTON = "bpy.ops.camera_ray_caster."
+
+DRAWN = 0.002
+"""Seconds that the drawing of a panel may take: a redraw must not be felt."""
+
+PAUSE = 2.0
+"""Seconds that the window may stand still beside a cast that takes many times as long, on busy cores."""
+
+
+def addon(name):
+    """A module of the installed add-on."""
+    return sys.modules[f"{MODULE}.blender.{name}"]
+
+
+def load(user, scenes, name):
+    """Open an example scene in the window as it is, with the sidebar on our tab."""
+    bpy.ops.wm.open_mainfile(filepath=str(scenes / f"{name}.blend"), load_ui=False)
+    view = user.area().spaces.active
+    view.shading.type = "SOLID"
+    view.region_3d.view_perspective = "PERSP"
+    yield from user.wait(0.5)
+    yield from user.open_tab("Ray Caster")
+
+
+def timed(panel, seconds):
+    """Have the drawing of a panel timed."""
+    draw = panel.draw
+
+    def measured(self, context):
+        started = time.perf_counter()
+        draw(self, context)
+        seconds.append(time.perf_counter() - started)
+
+    panel.draw = measured
+
+
+def panel(user, scenes):
+    """Verify and cast from the sidebar: the report and the images are there, shown, and undone."""
+    yield from load(user, scenes, "spheres_and_planes")
+    area = user.area("DOPESHEET_EDITOR")
+    area.ui_type = "IMAGE_EDITOR"
+    timings = {}
+    for name in ("panels_camera", "panels_cast", "panels_overlay"):
+        for kind in vars(addon(name)).values():
+            if isinstance(kind, type) and issubclass(kind, bpy.types.Panel) and "draw" in vars(kind):
+                timed(kind, timings.setdefault(kind.__name__, []))
+    yield from user.wait(0.5)
+    user.picture("panel_before")
+    yield from user.press(f"{BUTTON}verify(")
+    yield from user.until(addon("reports").verified, "the camera is verified")
+    assert addon("reports").verified().passed
+    assert addon("reports").latest() is None
+    yield from user.press(f"{BUTTON}cast(")
+    yield from user.until(addon("reports").latest, "the cast has ended")
+    yield from user.wait(0.5)
+    user.picture("panel_after")
+    report, scene = addon("reports").latest(), bpy.context.scene
+    assert report.passed
+    assert report.pixels == scene.render.resolution_x * scene.render.resolution_y
+    assert area.spaces.active.image == bpy.data.images["Ray Caster combined"]
+    depth = pixels_of(bpy.data.images["Ray Caster depth"])[..., 0]
+    assert depth.min() > scene.camera.data.clip_start
+    assert depth.max() == addon("passes").FAR
+    print({name: f"{1e3 * np.median(seconds or [0]):.2f} ms" for name, seconds in timings.items()})
+    assert all(timings[name] for name in ("SidebarCamera", "SidebarVerify", "SidebarCast", "SidebarReport"))
+    slow = {name: np.median(seconds) for name, seconds in timings.items() if np.median(seconds or [0]) > DRAWN}
+    assert not slow, slow
+    bpy.ops.ed.undo()
+    yield from user.wait(0.5)
+    assert "Ray Caster depth" not in bpy.data.images
+    area.ui_type = "TIMELINE"
+
+
+def no_camera(user, scenes):
+    """Without a camera the buttons are grey and the panel says why."""
+    yield from load(user, scenes, "empty")
+    bpy.context.scene.camera = None
+    yield from user.wait(0.5)
+    user.picture("no_camera")
+    yield from user.press(f"{BUTTON}cast(")
+    assert addon("reports").latest() is None
+    assert not bpy.data.images
+    bpy.context.scene.camera = next(item for item in bpy.data.objects if item.type == "CAMERA")
+    yield from user.press(f"{BUTTON}cast(")
+    yield from user.until(addon("reports").latest, "the cast has ended")
+    assert addon("reports").latest().shapes == 0
+
+
+def left_out(user, scenes):
+    """What is left out is named in the sidebar, with a button that selects it."""
+    yield from load(user, scenes, "left_out")
+    yield from user.press(f"{BUTTON}cast(")
+    yield from user.until(addon("reports").latest, "the cast has ended")
+    name = addon("reports").latest().left_out[0][0]
+    yield from user.wait(0.5)
+    yield from user.scroll(30)
+    yield from user.wait(0.5)
+    user.picture("left_out")
+    yield from user.press(f"{BUTTON}select(")
+    chosen = bpy.context.view_layer.objects.active.name
+    assert chosen in [name for name, _ in addon("reports").latest().left_out], (name, chosen)
+    assert [item.name for item in bpy.context.view_layer.objects if item.select_get()] == [chosen]
+    yield from user.scroll(60, down=False)
+
+
+def stop(user, scenes):
+    """A cast of 16384 x 16384 pixels leaves the window alive, shows how far it is, and Esc stops it."""
+    yield from load(user, scenes, "spheres_and_planes")
+    scene = bpy.context.scene
+    scene.render.resolution_x = scene.render.resolution_y = 16384
+    addon("passes").tick(scene, bpy.context.view_layer, ["depth"])
+    yield from user.press(f"{BUTTON}cast(")
+    yield from user.until(lambda: (addon("cast_operator").fraction() or 0) > 0, "it has begun")
+    times = [time.monotonic()]
+    while times[-1] - times[0] < 2:
+        yield
+        times.append(time.monotonic())
+    user.picture("casting")
+    assert np.diff(times).max() < PAUSE, np.diff(times)
+    assert 0 < addon("cast_operator").fraction() < 1
+    yield from user.key("Escape")
+    yield from user.until(lambda: addon("cast_operator").fraction() is None, "it has stopped", 5)
+    assert addon("reports").latest() is None
+    assert "Ray Caster depth" not in bpy.data.images
+
+
+def load_while_casting(user, scenes):
+    """Another file ends the cast of this one, and nothing of it stays."""
+    yield from load(user, scenes, "spheres_and_planes")
+    scene = bpy.context.scene
+    scene.render.resolution_x = scene.render.resolution_y = 8192
+    addon("passes").tick(scene, bpy.context.view_layer, ["depth"])
+    yield from user.press(f"{BUTTON}cast(")
+    yield from user.until(lambda: (addon("cast_operator").fraction() or 0) > 0, "it has begun")
+    bpy.ops.wm.open_mainfile(filepath=str(scenes / "orthographic.blend"), load_ui=False)
+    yield from user.wait(1)
+    assert addon("cast_operator").fraction() is None
+    assert addon("reports").latest() is None
+    assert "Ray Caster depth" not in bpy.data.images
+
+
+def overlay(user, scenes):
+    """The overlay is seen, follows the camera, and goes; for a fisheye too."""
+    yield from load(user, scenes, "spheres_and_planes")
+    scene, view = bpy.context.scene, user.region("WINDOW")
+    user.area().spaces.active.region_3d.view_distance = 26
+    yield from user.wait(0.5)
+
+    def changed(before, after):
+        return np.count_nonzero(np.abs(user.cut(before, view) - user.cut(after, view)).max(axis=2) > 0.1)
+
+    off = user.picture("overlay_off")
+    scene.camera_ray_caster_overlay.show = True
+    yield from user.wait(0.7)
+    on = user.picture("overlay")
+    assert changed(off, on) > 3000
+    scene.camera.location.x += 3
+    yield from user.wait(0.7)
+    assert changed(on, user.picture("overlay_moved")) > 3000
+    scene.camera.data.type = "PANO"
+    scene.camera.data.panorama_type = "FISHEYE_EQUIDISTANT"
+    yield from user.wait(0.7)
+    user.picture("overlay_fisheye")
+    scene.camera.data.type = "PERSP"
+    scene.camera.location.x -= 3
+    scene.camera_ray_caster_overlay.show = False
+    yield from user.wait(0.7)
+    assert changed(off, user.picture("overlay_gone")) < 100
+
+
+def ray_under_mouse(user, scenes):
+    """In camera view the mouse is told of its pixel's ray."""
+    yield from load(user, scenes, "spheres_and_planes")
+    scene, view = bpy.context.scene, user.region("WINDOW")
+    user.area().spaces.active.region_3d.view_perspective = "CAMERA"
+    scene.camera_ray_caster_overlay.show = True
+    told = []
+    write = addon("mouse_gizmo")._write
+    addon("mouse_gizmo")._write = lambda context, mouse, lines: (told.append(dict(lines)), write(context, mouse, lines))
+    yield from user.point(view.x + view.width // 2, view.y + view.height // 2)
+    yield from user.until(lambda: told, "the mouse is told", 5)
+    yield from user.wait(0.5)
+    user.picture("ray_under_mouse")
+    column, row = map(int, told[-1]["Pixel"].split(", "))
+    assert abs(column - scene.render.resolution_x / 2) < 10
+    assert abs(row - scene.render.resolution_y / 2) < 10
+    assert told[-1]["Hit"] in bpy.data.objects
+    addon("mouse_gizmo")._write = write
+
+
+def viewport(user, scenes):
+    """Rendered shading shows in camera view what a render shows, where Blender draws the camera's frame."""
+    yield from load(user, scenes, "spheres_and_planes")
+    scene, space, view = bpy.context.scene, user.area().spaces.active, user.region("WINDOW")
+    scene.render.engine = "CAMERA_RAY_CASTER"
+    space.overlay.show_overlays = False
+    space.region_3d.view_perspective = "CAMERA"
+    scene.render.filepath = str(user.folder / "f12.png")
+    bpy.ops.render.render(write_still=True)
+    image = bpy.data.images.load(scene.render.filepath)
+    rendered = pixels_of(image)
+    space.shading.type = "RENDERED"
+    for kind, zoom, offset in (("camera", 0, (0, 0)), ("camera zoomed", 20, (0.06, -0.04))):
+        space.region_3d.view_camera_zoom, space.region_3d.view_camera_offset = zoom, offset
+        yield from user.wait(2)
+        shown = user.cut(user.picture(kind.replace(" ", "_")), view)
+        area, region = user.area(), view
+        with bpy.context.temp_override(window=user.window, area=area, region=region):
+            left, bottom, right, top = addon("view").camera_frame(bpy.context)
+        differences = []
+        for u in np.linspace(0.02, 0.98, 25):
+            for v in np.linspace(0.02, 0.98, 15):
+                x, y = left + u * (right - left), bottom + v * (top - bottom)
+                row, column = int(v * rendered.shape[0]), int(u * rendered.shape[1])
+                around = rendered[row - 8 : row + 9, column - 8 : column + 9, :3]
+                plain = np.ptp(around, axis=(0, 1)).max() < 0.02  # no edge within two pixels of the window
+                if plain and 60 < x < region.width - 400 and 0 < y < region.height - 100:  # beside tools and sidebar
+                    differences.append(np.abs(shown[int(y), int(x), :3] - around.mean(axis=(0, 1))).max())
+        assert len(differences) > 60, len(differences)
+        assert np.max(differences) < 0.03, (kind, np.sort(differences)[-5:])
+    for perspective in ("PERSP", "ORTHO"):
+        space.region_3d.view_perspective = perspective
+        yield from user.wait(1.5)
+        user.picture(f"view_{perspective.lower()}")
+    space.overlay.show_overlays = True
+    space.shading.type = "SOLID"
+
+
+def disable(user, scenes):
+    """Disabled with everything on, it leaves no drawing, no timer and no panel."""
+    yield from load(user, scenes, "spheres_and_planes")
+    scene, space = bpy.context.scene, user.area().spaces.active
+    scene.camera_ray_caster_overlay.show = True
+    scene.render.engine = "CAMERA_RAY_CASTER"
+    space.shading.type = "RENDERED"
+    yield from user.wait(1)
+    for _ in range(10):
+        look = addon("viewport").look
+        bpy.ops.preferences.addon_disable(module=MODULE)
+        space.shading.type = "SOLID"  # before the view is drawn by another engine, which takes its time
+        assert not bpy.app.timers.is_registered(look)
+        assert not hasattr(bpy.types, "CAMERA_RAY_CASTER_PT_camera")
+        yield
+        bpy.ops.preferences.addon_enable(module=MODULE)
+        yield
+    yield from user.wait(1)
+    bpy.ops.preferences.addon_disable(module=MODULE)
+    yield from user.wait(1)
+    user.picture("disabled")
+    assert not hasattr(bpy.types.Scene, "camera_ray_caster_overlay")
+
+
+SCENARIOS = {
+    scenario.__name__: scenario
+    for scenario in (
+        panel, no_camera, left_out, stop, load_while_casting, overlay, ray_under_mouse, viewport, disable,
+    )
+}  # fmt: skip

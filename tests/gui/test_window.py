@@ -1,0 +1,73 @@
+"""The add-on in a real Blender with a window: a user's walk through it, in scenarios. See walk.py for the inside.
+
+BLENDER_GUI names a program that runs Blender with a window on a screen of its own. Where it is not set, Blender is
+started on a virtual screen, if Blender, xvfb-run, xdotool and import (ImageMagick) are there.
+"""
+
+import json
+import os
+import shlex
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+OUTPUT = ROOT / "out" / "gui"
+"""Where the screenshots are: below the project, which a Blender in a box of its own can see too."""
+
+SCENARIOS = (
+    "panel", "no_camera", "left_out", "stop", "load_while_casting", "overlay", "ray_under_mouse", "viewport", "disable",
+)  # fmt: skip
+SIZE = "1400x900"
+LIMIT = 600
+"""Seconds for the whole walk: twenty times what it takes on two slow cores without a graphics card."""
+
+
+def program():
+    """The words that start Blender with a window, or None and what is missing."""
+    if "BLENDER_GUI" in os.environ:
+        return shlex.split(os.environ["BLENDER_GUI"]), ""
+    blender = os.environ.get("BLENDER", "blender")
+    missing = [name for name in (blender, "xvfb-run", "xdotool", "import") if shutil.which(name) is None]
+    if missing:
+        return None, f"no window: {', '.join(missing)} not found; set BLENDER_GUI, or install them"
+    width, height = SIZE.split("x")
+    screen = ["xvfb-run", "--auto-servernum", "--server-args", f"-screen 0 {SIZE}x24"]
+    return [*screen, blender, "--gpu-backend", "opengl", "-p", "0", "0", width, height], ""
+
+
+@pytest.fixture(scope="module")
+def results():
+    """How each scenario ended, by name: "ok" or a traceback."""
+    words, missing = program()
+    if words is None:
+        pytest.skip(missing)
+    shutil.rmtree(OUTPUT, ignore_errors=True)
+    OUTPUT.mkdir(parents=True)
+    walk = ["--factory-startup", "--python", "tests/gui/walk.py", "--", "addon/camera_ray_caster", "blend_scenes"]
+    environment = {"BLENDER_USER_RESOURCES": str(OUTPUT / "profile"), "LIBGL_ALWAYS_SOFTWARE": "1"}
+    with (OUTPUT / "log.txt").open("w") as log:
+        subprocess.run(
+            [*words, *walk, str(OUTPUT)],
+            cwd=ROOT,
+            env=os.environ | environment,
+            stdout=log,
+            stderr=subprocess.STDOUT,
+            timeout=LIMIT,
+        )
+    found = OUTPUT / "result.json"
+    said = (OUTPUT / "log.txt").read_text()
+    assert found.is_file(), f"Blender ended before its time:\n{said}"
+    assert "Traceback" not in said, said
+    return json.loads(found.read_text())
+
+
+@pytest.mark.parametrize("name", SCENARIOS)
+def test_scenario(results, name):
+    assert results[name] == "ok", results[name]
+
+
+def test_every_scenario_is_named_here(results):
+    assert set(results) == set(SCENARIOS)

@@ -1,0 +1,126 @@
+"""A user at mouse and keyboard, inside Blender: real X events by xdotool, screenshots by ImageMagick's import.
+
+Every method that takes time is a generator: ``yield`` gives Blender time to handle events and to draw.
+"""
+
+import subprocess
+import time
+
+import bpy
+import numpy as np
+
+TICK = 0.05
+"""Seconds between two steps."""
+
+KEYCODES = {"F12": 96}
+"""Keys whose name gives xdotool the wrong level."""
+
+
+class User:
+    """What a person does; ``folder`` receives the screenshots."""
+
+    def __init__(self, folder):
+        self.folder = folder
+        self.known = {}
+
+    @property
+    def window(self):
+        return bpy.context.window_manager.windows[0]
+
+    def area(self, kind="VIEW_3D"):
+        return next(area for area in self.window.screen.areas if area.type == kind)
+
+    def region(self, kind="UI", area="VIEW_3D"):
+        return next(region for region in self.area(area).regions if region.type == kind)
+
+    def send(self, *words):
+        subprocess.run(["xdotool", *map(str, words)], check=True, timeout=20)
+
+    def wait(self, seconds):
+        for _ in range(max(1, round(seconds / TICK))):
+            yield
+
+    def until(self, holds, what, seconds=20):
+        end = time.monotonic() + seconds
+        while not holds():
+            assert time.monotonic() < end, f"not within {seconds} s: {what}"
+            yield
+
+    def point(self, x, y):
+        """Move the mouse to a place in the window, from the bottom left, in two steps: Blender ignores a jump."""
+        for off in (3, 0):
+            self.send("mousemove", round(x) - off, self.window.height - 1 - round(y) - off)
+            yield
+
+    def click(self, x, y):
+        yield from self.point(x, y)
+        self.send("click", 1)
+        yield from self.wait(0.3)
+
+    def key(self, name):
+        self.send("key", KEYCODES.get(name, name))
+        yield from self.wait(0.3)
+
+    def scroll(self, steps, down=True):
+        region = self.region()
+        yield from self.point(region.x + region.width // 2, region.y + region.height // 2)
+        for _ in range(steps):
+            self.send("click", 5 if down else 4)
+            yield
+
+    def picture(self, name):
+        """Take a screenshot, (rows, columns, 4) from 0 to 1, row 0 at the bottom.
+
+        Blender's own operator gives a black one with software OpenGL.
+        """
+        path = f"{self.folder}/{name}.png"
+        subprocess.run(["import", "-window", "root", path], check=True, timeout=20)
+        image = bpy.data.images.load(path)
+        pixels = pixels_of(image)
+        bpy.data.images.remove(image)
+        return pixels
+
+    def cut(self, picture, region):
+        """Return the part of a screenshot that a region fills."""
+        return picture[region.y : region.y + region.height, region.x : region.x + region.width]
+
+    def open_tab(self, name):
+        """Open the 3D View's sidebar (N) and click on its tabs until the one of that name is active."""
+        view = self.area()
+        if self.region().width < 10:
+            yield from self.point(view.x + view.width // 3, view.y + view.height // 3)
+            yield from self.key("n")
+            yield from self.until(lambda: self.region().width > 10, "the sidebar is open")
+        yield from self.wait(0.5)
+        region = self.region()
+        for y in range(region.y + region.height - 12, region.y, -24):
+            if region.active_panel_category == name:
+                return
+            yield from self.click(region.x + region.width - 12, y)
+        raise AssertionError(f"the sidebar has no tab {name!r}")
+
+    def press(self, command):
+        """Press the sidebar's button of an operator: the one of which Ctrl+C copies that Python command.
+
+        Where it was the last time is tried first, then every 17 pixels: less than a button's height.
+        """
+        wm, region = bpy.context.window_manager, self.region()
+        x, top = region.x + region.width // 3, region.y + region.height - 34
+        for y in (self.known.get(command, top), *range(top, region.y, -17)):
+            wm.clipboard = ""
+            yield from self.point(x, y)
+            self.send("key", "ctrl+c")
+            yield
+            yield
+            if wm.clipboard.strip().startswith(command):
+                self.known[command] = y
+                yield from self.click(x, y)
+                return
+        raise AssertionError(f"the sidebar has no button for {command}")
+
+
+def pixels_of(image):
+    """Return an image's pixels, (rows, columns, channels)."""
+    pixels = np.empty(len(image.pixels), np.float32)
+    image.pixels.foreach_get(pixels)
+    return pixels.reshape(image.size[1], image.size[0], image.channels)

@@ -1,0 +1,71 @@
+"""A user's walk through the add-on in a window: run by a Blender, told in scenarios. See test_window.py.
+
+Arguments: the add-on's source, the folder of the example scenes, a folder for screenshots and for result.json; then
+the names of scenarios, all without.
+"""
+
+import json
+import os
+import subprocess
+import sys
+import traceback
+from pathlib import Path
+
+import bpy
+
+sys.path.append(os.path.dirname(__file__))
+from scenarios import MODULE, SCENARIOS
+from user import TICK, User
+
+FAILURES = (AssertionError, ArithmeticError, AttributeError, LookupError, OSError, RuntimeError, TypeError, ValueError)
+"""What ends a scenario, but not the walk."""
+
+
+def install(source, folder):
+    """Build the zip with Blender's own command and install it as a user does."""
+    archive = folder / "camera_ray_caster.zip"
+    build = ["--command", "extension", "build", "--source-dir", source, "--output-filepath", archive]
+    subprocess.run([bpy.app.binary_path, *map(str, build)], check=True, timeout=60, stdout=subprocess.DEVNULL)
+    bpy.ops.extensions.package_install_files(filepath=str(archive), repo="user_default", enable_on_install=True)
+    assert MODULE in bpy.context.preferences.addons
+
+
+def prepare():
+    """Set what a test needs of the preferences; nothing is saved."""
+    preferences = bpy.context.preferences
+    preferences.view.show_splash = False
+    preferences.view.render_display_type = "AREA"  # there is no window manager for a second window
+    preferences.use_preferences_save = False
+
+
+def tell(user, scenes, results, wanted):
+    """Yield through the scenarios, and note how each ended."""
+    for name in wanted or SCENARIOS:
+        try:
+            yield from SCENARIOS[name](user, scenes)
+            results[name] = "ok"
+        except FAILURES:
+            results[name] = traceback.format_exc()
+            user.picture(f"failure_{name}")
+
+
+def main(source, scenes, folder, *wanted):
+    """Install, then tell the scenarios from a timer; Blender ends with the last."""
+    folder = Path(folder).resolve()
+    prepare()
+    install(source, folder)
+    results = {}
+    steps = tell(User(folder), Path(scenes).resolve(), results, wanted)
+
+    def tick():
+        for _ in steps:
+            return TICK
+        (folder / "result.json").write_text(json.dumps(results, indent=1))
+        sys.stdout.flush()
+        os._exit(0)  # at once: no question about unsaved changes
+
+    bpy.app.timers.register(tick, first_interval=1.0, persistent=True)
+
+
+if __name__ == "__main__":
+    main(*sys.argv[sys.argv.index("--") + 1 :])
