@@ -102,10 +102,10 @@ SCALE = [
          {"type": "ORTHO", "ortho_scale": 12 * k, "clip_start": 0.0})
     for k in (1e-12, 1e12)
 ] + [
-    Case(f"float64's own range, {k:g}", "squares overflow or vanish", [(SPHERE, (0, 0, -5 * k), TURN * 2 * k),
-         (PLANE, (0, 0, -7 * k), TURN * 6 * k)], {"clip_start": 0.0, "clip_end": np.inf} | more)
-    for k in (1e-150, 1e150)
-    for more in ({}, {"type": "ORTHO", "ortho_scale": 6 * k})
+    Case(f"float64's own range, {k:g}, {kind}", "squares overflow or vanish",
+         [(SPHERE, (0, 0, -5 * k), TURN * 2 * k), (PLANE, (0, 0, -7 * k), TURN * 6 * k)],
+         {"clip_start": 0.0, "clip_end": np.inf, "type": kind, "ortho_scale": 6 * k})
+    for k in (1e-150, 1e150) for kind in ("PERSP", "ORTHO")
 ] + [
     Case("a grain across a valley", "radius over distance 1e-12", [(SPHERE, (0, 0, -1e3), 1e-9)], {"lens": 18e12}),
     Case("radius over distance 1e-9", "float32 textbooks lose it at 400, float64 ones at 1e7",
@@ -120,10 +120,12 @@ SCALE = [
 ]  # fmt: skip
 
 SURFACE = [
-    Case(f"a planet, {height:g} above", "n^2 - 1 cancels to one part in 1e7 and beyond", ground(1e7, height), more)
-    for height, more in (
-        (2.0, {}), (2.0, {"matrix_world": pose(TURN)}), (2.0, {"shift_y": -0.5, "lens": 400.0}), (1e-6, {}),
-        (2.0, {"type": "ORTHO", "ortho_scale": 8.0}), (2.0, {"type": "EQUIRECTANGULAR"}),
+    Case(f"a planet, {height:g} above{seen}", "n^2 - 1 cancels to 4e-7 and below", ground(1e7, height), more)
+    for height, seen, more in (
+        (2.0, "", {}), (2.0, ", turned", {"matrix_world": pose(TURN)}),
+        (2.0, ", at the horizon", {"shift_y": -0.5, "lens": 400.0}), (1e-6, "", {}),
+        (2.0, ", by parallel rays", {"type": "ORTHO", "ortho_scale": 8.0}),
+        (2.0, ", all around", {"type": "EQUIRECTANGULAR"}),
     )
 ] + [
     Case("eye inside", "only the far wall counts", [(SPHERE, (0.3, 0.1, 0), 3.0)]),

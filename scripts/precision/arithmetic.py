@@ -1,0 +1,108 @@
+"""Textbook and robust arithmetic in float32 and float64, against the exact picture, without culling, on one thread."""
+
+from dataclasses import replace
+
+import numpy as np
+from tests.core import truth
+from tests.core.extreme_cases import CASES, Case, around
+
+from camera_ray_caster.core.bounds import decision
+from camera_ray_caster.core.cameras import camera_from
+from camera_ray_caster.core.cast import cast
+from camera_ray_caster.core.records import INFINITE_PLANE, SPHERE
+
+from .points import Point, timed
+
+SIDE = 320
+"""Pixels along each side of the pictures that are timed."""
+
+COMPARED = 64
+"""Pixels that are held against the exact picture."""
+
+METHODS = ("float32 textbook", "float32 robust", "float64 textbook", "float64 robust")
+
+FAR = [
+    Case(f"a sphere {n:g} radii away", "", [(SPHERE, (0, 0, -n), 1.0)], {"lens": 12.0 * n, "clip_end": 1e30})
+    for n in (10.0, 1e3, 1e5, 1e7, 1e9)
+]
+EVERYDAY = Case("everyday: spheres and planes around", "", around())
+NAMES = (
+    "a planet, 2 above", "a plane met at 1e-9 rad", "a disc of 1e6 : 1", "axes 1e-12 rad apart",
+    "a world offset of 1e7, turned",
+)  # fmt: skip
+DEFAULT = [EVERYDAY, *FAR, *(next(case for case in CASES if case.name == name) for name in NAMES)]
+
+
+def textbook(camera, shapes, real):
+    """Return distances and shape indices by the quadratic formula and t = -N_z / D_z, calculated in ``real``."""
+    rays = camera.rays()
+    origins, directions = (a.reshape(-1, 3).astype(real) for a in (rays.origins, rays.directions))
+    distance, index = np.full(len(directions), real(camera.clip_end)), np.full(len(directions), -1)
+    with np.errstate(all="ignore"):
+        for k, (kind, centre, axes) in enumerate(zip(shapes.kind, shapes.centre, shapes.axes, strict=True)):
+            to_shape = np.linalg.inv(axes).astype(real)
+            o, d = (origins - centre.astype(real)) @ to_shape.T, directions @ to_shape.T
+            if kind == SPHERE:
+                a, b, c = (d * d).sum(axis=1), (o * d).sum(axis=1), (o * o).sum(axis=1) - real(1)
+                root = np.sqrt(b * b - a * c)
+                near, far = (-b - root) / a, (-b + root) / a
+                t = np.where(near >= camera.clip_start, near, far)
+            else:
+                t = -o[:, 2] / d[:, 2]
+                if kind != INFINITE_PLANE:
+                    t = np.where((np.abs(o + t[:, None] * d)[:, :2] <= 1).all(axis=1), t, np.nan)
+            closer = (t >= camera.clip_start) & (t < distance)
+            distance[closer], index[closer] = t[closer], k
+    return distance.reshape(rays.valid.shape), index.reshape(rays.valid.shape)
+
+
+def caster(camera, shapes, precision):
+    """Return what the caster finds."""
+    images = cast(camera, shapes, ("distance", "shape_index"), np.float64, precision=precision, cull=False, threads=1)
+    return images["distance"], images["shape_index"]
+
+
+def measure(case) -> list[Point]:
+    """Return a point a method for an extreme case at SIDE x SIDE pixels."""
+    raw = replace(case.raw, resolution_x=SIDE, resolution_y=SIDE)
+    return measured(case.name, raw, case.shapes)
+
+
+def measured(name, raw, shapes) -> list[Point]:
+    """Return a point a method for a camera, as Blender has it, and shapes."""
+    camera = camera_from(raw)
+    runs = [
+        lambda: textbook(camera, shapes, np.float32),
+        lambda: caster(camera, shapes, "FAST"),
+        lambda: textbook(camera, shapes, np.float64),
+        lambda: caster(camera, shapes, "ROBUST"),
+    ]
+    results = timed(runs, [camera.raster.shape[0] * camera.raster.shape[1]] * len(runs))
+    exact = list(_exact(raw, camera, shapes))
+    points = []
+    for method, ((distance, index), seconds, spread) in zip(METHODS, results, strict=True):
+        errors, wrong = [], 0
+        for pixel, hit in exact:
+            if (hit is None) != (index[pixel] < 0):
+                wrong += 1
+            elif hit is not None:
+                errors.append(float(abs(truth.mpf(float(distance[pixel])) - hit.distance) / hit.distance))
+        worst = 1.0 if wrong else max(errors, default=0.0)
+        middle = float(np.median([*errors, *[1.0] * wrong])) if errors or wrong else 0.0
+        points.append(
+            Point("arithmetic", name, method, middle, worst, "of the distance", seconds, spread, wrong, len(exact))
+        )
+    return points
+
+
+def _exact(raw, camera, shapes):
+    """Yield pixels spread over the picture with their exact hits, those left out that no rounding decides."""
+    height, width = camera.raster.shape
+    plan = cast(camera, shapes, ("depth",)).plan
+    flat = np.unique(np.linspace(0, height * width - 1, COMPARED).round().astype(int))
+    for j, i in zip(*np.unravel_index(flat, (height, width)), strict=True):
+        x, y = camera.raster.columns()[0, i], camera.raster.rows()[j, 0]
+        ray = truth.ray(raw, x, y)
+        sure = (decision(plan, k, np.array([[x]]), np.array([[y]])) for k in range(len(shapes)))
+        if ray is not None and all(abs(value[0, 0]) > bound[0, 0] for value, bound in sure):
+            yield (j, i), truth.nearest(shapes, ray, camera.clip_start, camera.clip_end)

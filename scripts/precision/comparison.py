@@ -1,0 +1,92 @@
+"""The extreme cases through every tracer: its errors against the exact picture, and the table of them."""
+
+import sys
+
+import numpy as np
+from tests.core import truth
+from tests.core.extreme_cases import CASES
+
+from camera_ray_caster.core.bounds import decision
+from camera_ray_caster.core.cast import cast
+
+from .tracers import TRACERS, Given
+
+LIMITS = (1e-3, 1e-6, 1e-12)
+PIXELS = 25
+
+
+def rays_of(case):
+    """Return the exact rays of a case's pixels that no rounding of float64 decides, and their exact distances."""
+    camera, shapes = case.camera, case.shapes
+    height, width = camera.raster.shape
+    plan = cast(camera, shapes, ("depth",)).plan
+    flat = np.unique(np.linspace(0, height * width - 1, PIXELS).round().astype(int))
+    pixels, rays, starts, distances = [], [], [], []
+    for j, i in zip(*np.unravel_index(flat, (height, width)), strict=True):
+        x, y = camera.raster.columns()[0, i], camera.raster.rows()[j, 0]
+        ray = truth.ray(case.raw, x, y)
+        sure = (decision(plan, k, np.array([[x]]), np.array([[y]])) for k in range(len(shapes)))
+        if ray is None or any(abs(value[0, 0]) <= bound[0, 0] for value, bound in sure):
+            continue
+        hit = truth.nearest(shapes, ray, camera.clip_start, camera.clip_end)
+        pixels.append((j, i))
+        rays.append(([float(v) for v in ray.origin], [float(v / ray.length) for v in ray.direction]))
+        starts.append(float(camera.clip_start * ray.length))
+        distances.append(np.inf if hit is None else float(hit.distance))
+    origins, directions = (np.array([ray[part] for ray in rays]).reshape(-1, 3) for part in (0, 1))
+    return Given(pixels, origins, directions, np.array(starts)), np.array(distances)
+
+
+def error_of(found, exact) -> float:
+    """Return the worst relative error of the distances; inf where a hit or a miss is wrong."""
+    if (np.isinf(found) != np.isinf(exact)).any():
+        return np.inf
+    hit = np.isfinite(exact)
+    return float((np.abs(found - exact)[hit] / exact[hit]).max(initial=0.0))
+
+
+def judged(tracer, case, given, exact):
+    """Return the error of a tracer on a case; None where it cannot be set up."""
+    with np.errstate(all="ignore"):
+        try:
+            found = tracer(case, given)
+        except (RuntimeError, ValueError, OverflowError) as refusal:
+            print(f"  refused: {str(refusal).splitlines()[0]}", file=sys.stderr)
+            return None
+        return None if found is None else error_of(found, exact)
+
+
+def compared():
+    """Return the names of the cases, and for each tracer that is installed its errors on them."""
+    cases = [(case, *rays_of(case)) for case in CASES]
+    cases = [(case, given, exact) for case, given, exact in cases if given.pixels]
+    found = {}
+    for name, tracer in TRACERS.items():
+        try:
+            found[name] = [judged(tracer, case, given, exact) for case, given, exact in cases]
+        except ModuleNotFoundError as missing:
+            print(f"{name} is left out: {missing}", file=sys.stderr)
+    return [case.name for case, *_ in cases], found
+
+
+def table(names, found) -> str:
+    """Return the table in Markdown: how many cases each tracer gets right, and to which error."""
+    to = (f"and distances to {limit:g}" for limit in LIMITS)
+    heads = (f"of {len(names)} extreme cases", "can be set up", "every hit and miss right", *to, "their median error")
+    lines = ["| " + " | ".join(heads) + " |", "|---" * len(heads) + "|"]
+    for tracer, errors in found.items():
+        tried = [error for error in errors if error is not None]
+        right = [error for error in tried if np.isfinite(error)]
+        within = " | ".join(str(sum(error <= limit for error in right)) for limit in LIMITS)
+        middle = f"{np.median(right):.0e}" if right else "–"
+        lines.append(f"| {tracer} | {len(tried)} | {len(right)} | {within} | {middle} |")
+    return "\n".join(lines)
+
+
+def details(names, found) -> str:
+    """Return what each tracer made of each case: its worst error, inf where a hit or a miss is wrong."""
+    lines = ["| case | " + " | ".join(found) + " |", "|---" * (len(found) + 1) + "|"]
+    for name, *errors in zip(names, *found.values(), strict=True):
+        cells = ("not possible" if error is None else f"{error:.0e}" for error in errors)
+        lines.append(f"| {name} | " + " | ".join(cells) + " |")
+    return "\n".join(lines)

@@ -1,0 +1,132 @@
+"""Methods that buy precision with effort: samples, evaluations in time, Newton steps, pixels that are verified."""
+
+from dataclasses import replace
+from functools import partial
+
+import numpy as np
+from tests.core.extreme_cases import Case, shapes_of
+from tests.core.model_examples import camera as example
+
+from camera_ray_caster.core.aperture import Aperture
+from camera_ray_caster.core.cameras.inversion import Inverse
+from camera_ray_caster.core.cast import cast
+from camera_ray_caster.core.motion import measure as difference
+from camera_ray_caster.core.motion import resolve
+from camera_ray_caster.core.records import PLANE, SPHERE
+from camera_ray_caster.core.verify import verify
+
+from .points import Point, timed
+
+SMALL = {"resolution_x": 48, "resolution_y": 48, "lens": 50.0, "clip_end": 1e3}
+STILL = [(SPHERE, (0, 0, -5), 1.0), (SPHERE, (1.2, 0.6, -7), 1.0), (PLANE, (0, 0, -12), 6.0)]
+SAMPLES = (1, 4, 16, 64, 256)
+REFERENCE = 2048
+TOLERANCES = (1.0, 0.03, 0.01, 1e-3)
+FAULT = 0.5
+"""Pixels by which the faulty camera's rays are wrong in the middle of its fault."""
+
+
+def points() -> list[Point]:
+    """Return the points of every family."""
+    return [*sampled(), *evaluated(), *stepped(), *verified()]
+
+
+def sampled() -> list[Point]:
+    """Thin lens and camera obscura: samples against a picture of REFERENCE samples."""
+    lens = replace(Case("", "", [], SMALL).camera, aperture=Aperture(0.05, 5.0))
+    obscura = example("CAMERA_OBSCURA", {"resolution_x": 48, "resolution_y": 48, "obscura_hole": 0.05, "clip_end": 1e3})
+    found = []
+    for method, camera in (("thin lens", lens), ("camera obscura", obscura)):
+        shapes, pixels = shapes_of(STILL), camera.raster.width * camera.raster.height
+        picture = partial(_picture, camera, shapes)
+        reference = picture(REFERENCE)
+        results = timed([partial(picture, n) for n in SAMPLES], [pixels] * len(SAMPLES))
+        for n, (image, seconds, spread) in zip(SAMPLES, results, strict=True):
+            error = np.abs(image - reference).max(axis=-1)
+            scene = str(n)
+            found.append(Point("samples", scene, method, _mean_square(error), error.max(), "of white", seconds, spread))
+    return found
+
+
+def _picture(camera, shapes, samples):
+    return cast(camera, shapes, ("combined",), samples=samples)["combined"]
+
+
+def _mean_square(error) -> float:
+    """Half of the pixels see no edge, and their median error is none: the root of the mean square instead."""
+    return float(np.sqrt((error * error).mean()))
+
+
+def evaluated() -> list[Point]:
+    """Slit scan: a camera that swings to and fro on a curve, evaluated as often as the tolerance asks."""
+    still, shapes = Case("", "", [], SMALL).camera, shapes_of(STILL)
+
+    def evaluate(frame):
+        angle = 0.3 * np.sin(frame)
+        turn = np.array([[np.cos(angle), -np.sin(angle), 0], [np.sin(angle), np.cos(angle), 0], [0, 0, 1]])
+        return replace(still, pose=replace(still.pose, basis=turn, eye=np.array([np.cos(frame / 2), 0, 0]))), shapes
+
+    def resolved(tolerance):
+        calls: list[float] = []
+        return resolve(lambda frame: calls.append(frame) or evaluate(frame), 0.0, 20.0, tolerance, 4096), len(calls)
+
+    frames = np.linspace(0, 20, 173)
+    results = timed(
+        [partial(resolved, tolerance) for tolerance in TOLERANCES],
+        [still.raster.width * still.raster.height] * len(TOLERANCES),
+    )
+    found = []
+    for tolerance, ((motion, calls), seconds, spread) in zip(TOLERANCES, results, strict=True):
+        errors = [difference(motion, evaluate, [frame]) for frame in frames]
+        scene = f"{tolerance:g} px: {calls}"
+        found.append(Point("time", scene, "slit scan", np.median(errors), max(errors), "px", seconds, spread))
+    return found
+
+
+def stepped() -> list[Point]:
+    """Newton's method on theta = r + r^3 / 10: steps from the angle itself, and the table with its one step."""
+    exact = np.linspace(1e-3, 1.2, 200_000)
+    target = exact + exact**3 / 10
+
+    def steps(count):
+        r = target.copy()
+        for _ in range(count):
+            r -= (r + r * r * r / 10 - target) / (1 + 0.3 * r * r)
+        return r
+
+    table = Inverse(lambda r: r + r * r * r / 10, lambda r: 1 + 0.3 * r * r, 0.0, 1.3)
+    counts = range(5)
+    runs = [lambda n=n: steps(n) for n in counts] + [lambda: table(target)]
+    names = [("Newton", f"{n}") for n in counts] + [("table and one step", "table")]
+    found = []
+    for (method, scene), (r, seconds, spread) in zip(names, timed(runs, [len(target)] * len(runs)), strict=True):
+        error = np.abs(r - exact)
+        found.append(Point("inverse", scene, method, np.median(error), error.max(), "rad", seconds, spread))
+    return found
+
+
+class Faulty:
+    """A camera whose rays are up to FAULT pixels off around one place of the picture."""
+
+    def __init__(self, camera):
+        self.camera, self.raster, self.project = camera, camera.raster, camera.project
+
+    def rays_at(self, x, y):
+        """Return the bent rays."""
+        width, height = self.raster.width, self.raster.height
+        away = ((x - 0.62 * width) / (0.1 * width)) ** 2 + ((y - 0.36 * height) / (0.1 * height)) ** 2
+        return self.camera.rays_at(x + FAULT * np.exp(-away), y)
+
+
+def verified() -> list[Point]:
+    """Verification: how much of a fault of FAULT pixels is not seen by corners, grids and every pixel."""
+    side = 256
+    camera = Faulty(Case("", "", [], SMALL | {"resolution_x": side, "resolution_y": side}).camera)
+    grids = (2, 9, 33, 65, side)
+    names = ["corners", *(f"{n} x {n}" for n in grids[1:-1]), "every pixel"]
+    results = timed([lambda n=n: verify(camera, None, n) for n in grids], [side * side] * len(grids))
+    found = []
+    for scene, (findings, seconds, spread) in zip(names, results, strict=True):
+        missed = FAULT - findings[-1].worst_pixels
+        found.append(Point("verification", scene, "round trip", missed, missed, "px not seen", seconds, spread))
+    return found

@@ -1,0 +1,190 @@
+"""Other ray tracers, each given the same rays and shapes: what distance they find. Test-only packages.
+
+A tracer is a function of (case, rays) that returns distances, (n,) float64, inf for a miss; None where the case cannot
+be set up in it. Where a tracer has no ellipsoid, it sees an icosphere of 5120 triangles; where it has no infinite
+plane, a square of 1e6 times the distance.
+"""
+
+from __future__ import annotations
+
+import tempfile
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from camera_ray_caster.core.cast import cast
+from camera_ray_caster.core.records import INFINITE_PLANE, SPHERE
+
+SQUARE = np.array([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]], float), np.array([[0, 1, 2], [0, 2, 3]])
+ENDLESS = 1e6
+BOUND = 1e-5
+"""How much a camera setting may change where Blender stores it."""
+
+
+@dataclass(frozen=True)
+class Given:
+    """Chief rays through some pixels."""
+
+    pixels: list
+    """(row, column) in the render window."""
+    origins: np.ndarray
+    """(n, 3)."""
+    directions: np.ndarray
+    """(n, 3), unit."""
+    start: np.ndarray
+    """(n,) distances before which nothing counts: the clip start."""
+
+    @property
+    def begun(self) -> np.ndarray:
+        """Where the rays are at ``start``, for tracers that know no clip start."""
+        return self.origins + self.start[:, None] * self.directions
+
+
+def triangles(shapes, k, origin):
+    """Return vertices and faces of shape k in its own frame, and its axes."""
+    import trimesh
+
+    axes = shapes.axes[k]
+    if shapes.kind[k] == SPHERE:
+        ball = trimesh.creation.icosphere(subdivisions=4)
+        return ball.vertices, ball.faces, axes
+    if shapes.kind[k] == INFINITE_PLANE:
+        reach = ENDLESS * max(np.linalg.norm(shapes.centre[k] - origin), 1e-30)
+        axes = axes / np.linalg.norm(axes, axis=0) * reach
+    return *SQUARE, axes
+
+
+def meshes(case, given):
+    """Yield the world vertices and the faces of each shape."""
+    for k in range(len(case.shapes)):
+        points, faces, axes = triangles(case.shapes, k, given.origins[0])
+        yield points @ axes.T + case.shapes.centre[k], faces
+
+
+def ours(case, given):
+    """This caster."""
+    distance = cast(case.camera, case.shapes, ("distance",), np.float64)["distance"]
+    return np.array([distance[pixel] for pixel in given.pixels])
+
+
+def embree(case, given):
+    """Embree 4 by embreex: triangles, float32."""
+    from embreex.mesh_construction import TriangleMesh
+    from embreex.rtcore_scene import EmbreeScene
+
+    world = EmbreeScene()
+    corners = [points[faces] for points, faces in meshes(case, given)]
+    TriangleMesh(world, np.concatenate(corners).astype(np.float32))
+    origins, directions = (np.ascontiguousarray(a, np.float32) for a in (given.begun, given.directions))
+    found = world.run(origins, directions, query="DISTANCE").astype(np.float64)
+    return np.where(found < 1e36, found, np.inf) + given.start
+
+
+def mitsuba(case, given):
+    """Mitsuba 3, llvm_ad_rgb: true spheres where they are round, float32."""
+    import mitsuba as mi
+    import trimesh
+
+    mi.set_variant("llvm_ad_rgb")
+    shapes, content = case.shapes, {"type": "scene"}
+    with tempfile.TemporaryDirectory() as folder:
+        for k, (points, faces) in enumerate(meshes(case, given)):
+            axes = shapes.axes[k]
+            if shapes.kind[k] == SPHERE and np.array_equal(axes, axes[0, 0] * np.eye(3)):
+                content[f"s{k}"] = {"type": "sphere", "center": shapes.centre[k].tolist(), "radius": float(axes[0, 0])}
+                continue
+            path = str(Path(folder) / f"{k}.ply")
+            trimesh.Trimesh(points, faces, process=False).export(path)
+            content[f"s{k}"] = {"type": "ply", "filename": path, "face_normals": True}
+        world = mi.load_dict(content)
+    parts = (mi.Float(np.ascontiguousarray(a, np.float32)) for a in (*given.begun.T, *given.directions.T))
+    x, y, z, *direction = parts
+    hit = world.ray_intersect_preliminary(mi.Ray3f(mi.Point3f(x, y, z), mi.Vector3f(*direction)))
+    return np.array(hit.t, np.float64) + given.start
+
+
+def ray_cast(case, given):
+    """Blender's scene.ray_cast: triangles, float32."""
+    import bpy
+
+    build(case, given)
+    depsgraph = bpy.context.evaluated_depsgraph_get()
+    found = []
+    for origin, direction in zip(given.begun, given.directions, strict=True):
+        hit, place, *_ = bpy.context.scene.ray_cast(depsgraph, origin, direction, distance=1.7e38)
+        found.append(np.linalg.norm(np.array(place, float) - origin) if hit else np.inf)
+    return np.array(found) + given.start
+
+
+def cycles(case, given):
+    """Cycles with one sample a pixel: its own camera, triangles, float32."""
+    import bpy
+    from tests.blender.cycles import cycles_surface
+
+    build(case, given)
+    if not set_camera(bpy.context.scene, case.raw):
+        return None
+    reach = 2.0 ** np.ceil(np.log2(max(np.abs(m).max() for m, _ in meshes(case, given)) + 1e-30))
+    images = cycles_surface(bpy.context.scene, "Position", float(min(reach, 1e30)))
+    places = np.array([images[pixel] for pixel in given.pixels])
+    distance = np.linalg.norm(places - given.origins, axis=1)
+    return np.where(np.isnan(distance), np.inf, distance)
+
+
+def build(case, given) -> None:
+    """Make an empty Blender file with a mesh object a shape, its matrix the shape's."""
+    import bpy
+    from mathutils import Matrix
+
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    for k in range(len(case.shapes)):
+        points, faces, axes = triangles(case.shapes, k, given.origins[0])
+        mesh = bpy.data.meshes.new("Shape")
+        mesh.from_pydata(points.tolist(), [], faces.tolist())
+        item = bpy.data.objects.new("Shape", mesh)
+        bpy.context.scene.collection.objects.link(item)
+        matrix = np.eye(4)
+        matrix[:3, :3], matrix[:3, 3] = axes, case.shapes.centre[k]
+        item.matrix_world = Matrix(matrix)  # lists it would take by columns
+    bpy.context.view_layer.update()
+
+
+def set_camera(scene, raw) -> bool:
+    """Give the scene this camera; return whether Blender could store it."""
+    import bpy
+    from mathutils import Matrix
+
+    data = bpy.data.cameras.new("Camera")
+    camera = bpy.data.objects.new("Camera", data)
+    scene.collection.objects.link(camera)
+    scene.camera = camera
+    wanted = {name: getattr(raw, name) for name in ("lens", "ortho_scale", "shift_x", "shift_y", "sensor_fit")}
+    wanted |= {"clip_start": max(raw.clip_start, 1e-6), "clip_end": min(raw.clip_end, 1e30)}
+    if raw.model and raw.model not in ("PERSP", "ORTHO"):
+        names = data.bl_rna.properties
+        wanted |= {"panorama_type": raw.model} | {n: v for n, v in raw.settings.items() if n in names and v is not None}
+        data.type = "PANO"
+    else:
+        data.type = raw.model or raw.type
+    for target, values in ((data, wanted), (scene.render, {n: getattr(raw, n) for n in RENDER})):
+        for name, value in values.items():
+            setattr(target, name, value)
+            stored = getattr(target, name)
+            if isinstance(value, float) and abs(stored - value) > BOUND * abs(value):
+                return False
+            if isinstance(value, int) and stored != value:
+                return False
+    camera.matrix_world = Matrix(np.asarray(raw.matrix_world))
+    bpy.context.view_layer.update()
+    return bool(np.allclose(np.array(camera.matrix_world), raw.matrix_world, rtol=BOUND, atol=1e-30))
+
+
+RENDER = (
+    "resolution_x", "resolution_y", "pixel_aspect_x", "pixel_aspect_y", "use_border", "border_min_x", "border_max_x",
+    "border_min_y", "border_max_y",
+)  # fmt: skip
+TRACERS = {
+    "this caster": ours, "Mitsuba 3 (float32)": mitsuba, "Embree 4 (float32, triangles)": embree,
+    "Cycles (float32, triangles)": cycles, "scene.ray_cast (float32, triangles)": ray_cast,
+}  # fmt: skip
