@@ -189,7 +189,9 @@ def test_shapes_that_come_and_go_are_never_mixed():
 @pytest.mark.parametrize(
     ("settings", "said"),
     [
-        (ROWS | {"time_end": 10.0}, "time_start and time_end.*10.0"),
+        (ROWS | {"time_end": 10.0}, "time_start and time_end.*10 and 10"),
+        (ROWS | {"time_end": 3.4e38}, "time_start and time_end.*3.4e.38"),
+        (ROWS | {"time_start": float("nan")}, "time_start and time_end.*nan"),
         (ROWS | {"time_mode": "DIAGONAL"}, "DIAGONAL.*ROWS"),
         (ROWS | {"time_mode": "IMAGE"}, "image"),
         (ROWS | {"time_tolerance": 0.0}, "time_tolerance"),

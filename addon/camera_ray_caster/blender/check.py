@@ -1,10 +1,15 @@
 """A camera of a scene held against Blender's own answers."""
 
+from dataclasses import replace
+
 from ..core.camera import Camera
 from ..core.records import Finding
 from ..core.verify import verify
 from . import witness
 from .read import observing, read_camera
+
+MOVING_GRID = 2
+"""Pixels a side at which a moving camera is asked: each answer is sought through all of its times."""
 
 
 def verify_camera(scene, camera_object=None, frame=None, view="") -> list[Finding]:
@@ -17,8 +22,11 @@ def verify_camera(scene, camera_object=None, frame=None, view="") -> list[Findin
 def verify_evaluated(camera: Camera, camera_object, depsgraph, view="") -> list[Finding]:
     """Return the findings on a camera that was read of this object, as the depsgraph evaluated it.
 
-    Blender answers for its own models alone, and for an eye only where that is a camera object of its own.
+    Blender answers for its own models alone, for an eye only where that is a camera object of its own, and for the
+    depsgraph's frame: a camera with a motion is held against it there, and makes the round trip over all its times.
     """
     apart = not view or depsgraph.scene_eval.render.views_format == "MULTIVIEW"
     by_blender = camera.model.key == camera_object.data.type and apart
-    return verify(camera, witness.ask(camera_object, depsgraph) if by_blender else None)
+    still = replace(camera, clock=None, motion=None)
+    findings = verify(still, witness.ask(camera_object, depsgraph) if by_blender else None)
+    return findings if camera.motion is None else [*findings[:-1], *verify(camera, grid=MOVING_GRID)]

@@ -9,6 +9,7 @@ from time import perf_counter
 import bpy
 import numpy as np
 
+from ..core.motion import UNRESOLVED
 from ..core.records import BlenderCamera, Cancelled, InputError
 from ..core.report import Report
 from ..core.stereo import eye_record
@@ -96,6 +97,9 @@ class CameraRayCaster(Viewport, bpy.types.RenderEngine):
             self.report({"WARNING"}, f"{name!r} is left out: {reason}")
         if len(report.left_out) > WARNINGS:
             self.report({"WARNING"}, f"{len(report.left_out) - WARNINGS} more objects are left out: see the report")
+        for line in report.motion:
+            if line.startswith(UNRESOLVED):
+                self.report({"WARNING"}, line)
         for finding in report.findings:
             if not finding.passed:
                 self.report({"WARNING"}, f"{finding.witness} disagrees with the rays: see the report")

@@ -36,6 +36,7 @@ class RenderPanel(EnginePanel, bpy.types.Panel):
         layout.use_property_split = True
         layout.use_property_decorate = False
         layout.prop(context.scene.camera_ray_caster, "shading")
+        layout.prop(context.scene.camera_ray_caster, "samples")
         report = reports.latest()
         if report is not None:
             layout.label(text=f"{report.pixels} rays in {sum(report.seconds.values()):.3f} s")

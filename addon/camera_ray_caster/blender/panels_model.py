@@ -25,6 +25,18 @@ SETTINGS = {
 """The settings of each model in the order of the panel: our own, and Blender's that it shows for its own types only."""
 
 
+ENDS, EFFORT = ("time_start", "time_end"), ("time_tolerance", "time_evaluations")
+SHUTTER = ("motion_blur_position", "motion_blur_shutter", "rolling_shutter_duration")
+TIME = {
+    "NONE": (),
+    "ROWS": (*ENDS, *EFFORT),
+    "COLUMNS": (*ENDS, *EFFORT),
+    "IMAGE": ("time_image", *ENDS, *EFFORT),
+    "ROLLING_SHUTTER": (*SHUTTER, *EFFORT),
+}
+"""The same of each way to give the pixels their times; the shutter is the render's and Cycles' own."""
+
+
 class ModelPanel(bpy.types.Panel):
     """Camera properties: the model and its settings."""
 
@@ -54,11 +66,42 @@ class ModelPanel(bpy.types.Panel):
                 column.active = not own.calibration_file
 
 
+class TimePanel(bpy.types.Panel):
+    """Camera properties: the time of each pixel."""
+
+    bl_idname = "CAMERA_RAY_CASTER_PT_time"
+    bl_label = "Time"
+    bl_parent_id = ModelPanel.bl_idname
+    bl_space_type = ModelPanel.bl_space_type
+    bl_region_type = ModelPanel.bl_region_type
+    bl_context = ModelPanel.bl_context
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context):
+        """The list; below it what the chosen way needs. Without Cycles its shutter has no duration."""
+        layout = self.layout
+        layout.use_property_split = True
+        own, scene = context.camera.camera_ray_caster, context.scene
+        layout.prop(own, "time_mode")
+        owners = own, scene.render, getattr(scene, "cycles", None)
+        for name in TIME[own.time_mode]:
+            owner = next((owner for owner in owners if hasattr(owner, name)), None)
+            if name == "time_image":
+                layout.template_ID(own, name, open="image.open")
+            elif owner is not None:
+                layout.prop(owner, name)
+
+
+CLASSES = (ModelPanel, TimePanel)
+
+
 def register() -> None:
     """See ``registration``."""
-    bpy.utils.register_class(ModelPanel)
+    for cls in CLASSES:
+        bpy.utils.register_class(cls)
 
 
 def unregister() -> None:
     """See ``registration``."""
-    bpy.utils.unregister_class(ModelPanel)
+    for cls in reversed(CLASSES):
+        bpy.utils.unregister_class(cls)

@@ -14,6 +14,7 @@ from textwrap import fill
 
 import bpy
 
+from ..core.clock import LAST_FRAME
 from ..core.facts import camera_facts
 from ..core.passes import PASSES
 from ..core.records import Cancelled, InputError
@@ -28,9 +29,6 @@ from .read import find_camera, read_camera
 
 DEFAULT_PASSES = ("combined", "depth", "normal", "position", "object_index")
 """What is cast of a view layer that ticks nothing beside combined."""
-
-LAST_FRAME = 1048574
-"""Blender knows no frame beyond it, on either side of 0."""
 
 
 class Parser(argparse.ArgumentParser):

@@ -12,15 +12,15 @@ from __future__ import annotations
 
 from bisect import bisect_right
 from collections.abc import Callable
-from dataclasses import dataclass, fields, is_dataclass, replace
-from functools import cached_property
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
 
 from .camera import Camera
-from .records import Pose, Shapes
-from .rotations import polar, rotation, rotation_vector, sine_and_angle
+from .interpolation import Interval, State, matched
+from .records import Shapes
+from .rotations import polar, sine_and_angle
 
 PROBES = (0.381966, 0.618034)
 """Where an interval is probed: the golden section, so that no motion of a simple period hides from all probes."""
@@ -33,80 +33,6 @@ SHORTEST = 2.0**-10
 
 UNRESOLVED = "NOT RESOLVED"
 """How the report's line begins that says so."""
-
-State = tuple[Camera, Shapes]
-"""A scene as it was evaluated at one frame."""
-
-
-@dataclass(frozen=True)
-class Interval:
-    """Evaluations that belong together, in order, and the polynomial through them."""
-
-    frames: tuple[float, ...]
-    states: tuple[State, ...]
-
-    @classmethod
-    def of(cls, states: dict[float, State], frames: tuple[float, ...]) -> Interval:
-        """Return the interval of some of the evaluations."""
-        return cls(frames, tuple(states[frame] for frame in frames))
-
-    def at(self, frame: float) -> State:
-        """Return camera and shapes at a frame. Where shapes come or go, those of the evaluation before stand still."""
-        if frame in self.frames:
-            return self.states[self.frames.index(frame)]
-        weights = [
-            np.prod([(frame - other) / (node - other) for other in self.frames if other != node])
-            for node in self.frames
-        ]  # fmt: skip
-        cameras, shapes = zip(*self.states, strict=True)
-        lens = _mixed([(camera.model, camera.aperture) for camera in cameras], weights)
-        basis = self._camera_axes.at(weights)[0]
-        pose = Pose(_sum([camera.pose.eye for camera in cameras], weights), basis / np.linalg.norm(basis, axis=0))
-        camera = replace(cameras[0], pose=pose, model=lens[0], aperture=lens[1])
-        if self._shape_axes is None:
-            return camera, shapes[max(bisect_right(self.frames, frame) - 1, 0)]
-        centre = _sum([one.centre for one in shapes], weights)
-        return camera, replace(shapes[0], centre=centre, axes=self._shape_axes.at(weights))
-
-    @cached_property
-    def _camera_axes(self) -> Turning:
-        return Turning.of([camera.pose.basis[None] for camera, _ in self.states])
-
-    @cached_property
-    def _shape_axes(self) -> Turning | None:
-        """None where the evaluations do not hold the same shapes."""
-        shapes = [shapes for _, shapes in self.states]
-        if not all(_matched(shapes[0], other) for other in shapes[1:]):
-            return None
-        return Turning.of([one.axes for one in shapes])
-
-
-@dataclass(frozen=True)
-class Turning:
-    """Matrices (n, 3, 3) at some times, taken apart so that rotations are interpolated as rotations."""
-
-    first: np.ndarray
-    rotations: np.ndarray
-    """Of the first time."""
-    turns: list[np.ndarray]
-    """Rotation vectors (n, 3) from the first time to each."""
-    stretches: tuple[np.ndarray, ...]
-    still: np.ndarray
-    """(n, 1, 1) bool: those that never change stay exact."""
-
-    @classmethod
-    def of(cls, matrices) -> Turning:
-        """Return the matrices of some times taken apart."""
-        rotations, stretches = zip(*map(polar, matrices), strict=True)
-        back = np.swapaxes(rotations[0], 1, 2)
-        turns = [rotation_vector(other @ back) for other in rotations]
-        still = np.all([matrices[0] == other for other in matrices], axis=(0, 2, 3))
-        return cls(matrices[0], rotations[0], turns, stretches, still[:, None, None])
-
-    def at(self, weights) -> np.ndarray:
-        """Return the weighted mean of the matrices."""
-        moved = rotation(_sum(self.turns, weights)) @ self.rotations @ _sum(self.stretches, weights)
-        return np.where(self.still, self.first, moved)
 
 
 @dataclass(frozen=True)
@@ -127,17 +53,19 @@ class Motion:
 
     def camera_at(self, frame: float) -> Camera:
         """Return the camera at a frame, without its clock."""
-        return self.at(frame)[0]
+        return replace(self._interval(frame).camera_at(frame), clock=None, motion=None)
 
     def shapes_at(self, frame: float) -> Shapes:
         """Return the shapes at a frame."""
-        return self.at(frame)[1]
+        return self._interval(frame).shapes_at(frame)
 
     def at(self, frame: float) -> State:
         """Return both at once."""
+        return self.camera_at(frame), self.shapes_at(frame)
+
+    def _interval(self, frame: float) -> Interval:
         k = bisect_right(self.intervals, frame, key=lambda interval: interval.frames[0]) - 1
-        camera, shapes = self.intervals[max(k, 0)].at(frame)
-        return replace(camera, clock=None, motion=None), shapes
+        return self.intervals[max(k, 0)]
 
     def in_words(self) -> list[str]:
         """Return lines for the report."""
@@ -182,8 +110,8 @@ def resolve(evaluate: Callable[[float], State], first: float, last: float, toler
         waiting.sort(key=lambda ends: ends[1] - ends[0])
         a, b = waiting.pop()
         p, q = (a + (b - a) * place for place in PROBES)
-        matched = _matched(states[a][1], states[b][1])
-        if not matched and b - a <= SHORTEST:
+        matched_ends = matched(states[a][1], states[b][1])
+        if not matched_ends and b - a <= SHORTEST:
             done.append((a, b))
             continue
         if len(states) + (p not in states) + (q not in states) > most or not a < p < q < b:
@@ -196,7 +124,7 @@ def resolve(evaluate: Callable[[float], State], first: float, last: float, toler
             for probe, others in ((p, (a, q, b)), (q, (a, p, b)))
         )
         turn = max(_turn(states[early], states[late]) for early, late in pairwise((a, p, q, b)))
-        if matched and off <= tolerance and turn <= WIDEST_TURN:
+        if matched_ends and off <= tolerance and turn <= WIDEST_TURN:
             estimated = max(estimated, off)
             done.append((a, p, q, b))
         else:
@@ -243,41 +171,10 @@ def _landmarks(shapes: Shapes, camera: Camera) -> np.ndarray:
 def _turn(before: State, after: State) -> float:
     """Return the largest rotation between two evaluations, radians; 0 for shapes that cannot be matched."""
     turns = [_angle(before[0].pose.basis[None], after[0].pose.basis[None])]
-    if _matched(before[1], after[1]):
+    if matched(before[1], after[1]):
         turns.append(_angle(before[1].axes, after[1].axes))
     return max(float(turn.max(initial=0.0)) for turn in turns)
 
 
 def _angle(before, after) -> np.ndarray:
     return sine_and_angle(polar(after)[0] @ np.swapaxes(polar(before)[0], 1, 2))[2]
-
-
-def _matched(before: Shapes, after: Shapes) -> bool:
-    """Whether two evaluations hold the same shapes, row by row."""
-    return (
-        before.names == after.names
-        and np.array_equal(before.kind, after.kind)
-        and np.array_equal(before.name_index, after.name_index)
-    )
-
-
-def _mixed(values, weights):
-    """Return the weighted mean of all numbers in records of one kind; what is no number is the first one's."""
-    first = values[0]
-    if is_dataclass(first) and not isinstance(first, type) and all(type(value) is type(first) for value in values):
-        parts = {part.name: _mixed([getattr(value, part.name) for value in values], weights) for part in fields(first)}
-        changed = {name: part for name, part in parts.items() if part is not getattr(first, name)}
-        return replace(first, **changed) if changed else first
-    if isinstance(first, tuple):
-        return tuple(_mixed(entries, weights) for entries in zip(*values, strict=True))
-    if not isinstance(first, float | np.ndarray) or all(np.array_equal(first, value) for value in values[1:]):
-        return first
-    return _sum(values, weights)
-
-
-def _sum(values, weights) -> np.ndarray:
-    """Return the weighted mean, as what it adds to the first value: weights have the sum 1."""
-    total = values[0]
-    for value, weight in zip(values[1:], weights[1:], strict=True):
-        total = total + weight * (value - values[0])
-    return total
