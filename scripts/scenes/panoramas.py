@@ -73,5 +73,5 @@ def omnidirectional_stereo(scene):
     """a panorama for each eye, the left one above: the eyes move on a circle, so no point is the centre of all rays."""
     room(scene)
     own = {"model": "OMNIDIRECTIONAL_STEREO", "eye": "TOP_BOTTOM"}
-    made = photograph(scene, MIDDLE, AHEAD, 376, 376, own=own)
+    made = photograph(scene, MIDDLE, AHEAD, 360, 360, own=own)
     made.data.stereo.interocular_distance = 0.3

@@ -29,6 +29,7 @@ def small(scene, samples=2):
     """Make a scene's render small and quick."""
     scene.render.resolution_percentage = -(-100 * TALLEST_ROWS // scene.render.resolution_y)
     scene.camera_ray_caster.samples = samples
+    scene.camera.data.camera_ray_caster.time_tolerance = 1  # pixels
     return scene
 
 
