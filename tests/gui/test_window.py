@@ -21,8 +21,8 @@ SCENARIOS = (
     "panel", "no_camera", "left_out", "stop", "load_while_casting", "overlay", "ray_under_mouse", "viewport", "disable",
 )  # fmt: skip
 SIZE = "1400x900"
-LIMIT = 600
-"""Seconds for the whole walk: twenty times what it takes on two slow cores without a graphics card."""
+LIMIT = 1200
+"""Seconds for the whole walk: ten times what it takes on two idle cores without a graphics card."""
 
 
 def program():

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from re import sub
 from textwrap import wrap
 
 import bpy
@@ -73,6 +74,7 @@ def draw_facts(layout, context, facts) -> None:
 def scalars(context, facts):
     """Yield the facts beside vectors and K, by Blender's names for them."""
     across, up = facts["raster"]
+    yield "Model", sub("(?<=[a-z])(?=[A-Z])", " ", facts["model"])
     yield "Raster", f"{across} × {up} px"
     x0, x1, y0, y1 = facts["window"]
     if (x0, x1, y0, y1) != (0, across, 0, up):

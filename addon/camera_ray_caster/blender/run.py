@@ -84,7 +84,7 @@ class Job:
         )
 
     def cast(self, progress: Callable[[float], bool] | None = None, threads=None) -> tuple[Images, Report]:
-        """Cast the passes and report. ``progress`` and ``threads`` are as in ``cast``; raises Cancelled as that does."""
+        """Cast the passes and report. ``progress`` and ``threads`` are as in ``cast``, and so is Cancelled."""
         settings = {"shading": self.shading, "samples": self.samples}
         images = cast(self.camera, self.shapes, self.passes, **settings, threads=threads, progress=progress)
         seconds = {**self.seconds, **images.seconds}

@@ -8,7 +8,6 @@ from concurrent.futures import ThreadPoolExecutor, wait
 from threading import Event
 from typing import Any
 
-
 BESIDE = max(1, (os.cpu_count() or 1) - 1)
 """Threads for work that goes on beside a window, which keeps a core for itself."""
 
