@@ -27,8 +27,24 @@ def make_picture(name: str) -> int:
         sys.argv[1:] = [str(FOLDER / f"{name}.blend"), "--passes", "combined", "--output", folder]
         status = through("cast")
         if status == 0:
-            os.replace(Path(folder) / f"{name}.png", FOLDER / "pictures" / f"{name}.png")
+            picture = Path(folder) / f"{name}.png"
+            picture.write_bytes(without_text(picture.read_bytes()))
+            os.replace(picture, FOLDER / "pictures" / f"{name}.png")
     return status
+
+
+def without_text(png: bytes) -> bytes:
+    """Return a PNG file without its text chunks: Blender notes there where the file lay and when it was made.
+
+    Source: PNG Specification, section 5: an 8 byte signature, then chunks of length, type, data and checksum.
+    """
+    kept, at = [png[:8]], 8
+    while at < len(png):
+        size = 12 + int.from_bytes(png[at : at + 4], "big")
+        if png[at + 4 : at + 8] != b"tEXt":
+            kept.append(png[at : at + size])
+        at += size
+    return b"".join(kept)
 
 
 def main() -> int:

@@ -14,7 +14,7 @@ from camera_ray_caster.core.cast import cast
 COUNTS = (10, 100, 1_000, 10_000, 100_000, 1_000_000)
 SIZES = ((960, 540), (1920, 1080), (3840, 2160), (7680, 4320), (16384, 8192))
 PASSES = ("depth", "shape_index")
-PICTURE = Path(__file__).resolve().parents[1] / "blend_scenes" / "pictures" / "scaling"
+PICTURE = Path(__file__).resolve().parents[1] / "out" / "scaling"
 
 
 def run(rounds: int, threads: int) -> list[dict]:

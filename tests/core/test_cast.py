@@ -24,7 +24,7 @@ EVERY = tuple(PASSES)
 
 
 def shapes_of(*rows, **more):
-    """Return shapes from (kind, centre, axes or radius) rows, object index 10, 11, ... and material index 20, 21, ..."""
+    """Return shapes from (kind, centre, axes or radius) rows; object index 10, 11, ..., material index 20, 21, ..."""
     n = len(rows)
     axes = [np.eye(3) * a if np.ndim(a) == 0 else np.array(a, float) for _, _, a in rows]
     return Shapes(
@@ -269,9 +269,9 @@ def test_what_is_not_needed_is_said():
 
 
 def test_unknown_pass_and_shading_are_refused_by_name():
-    with pytest.raises(InputError, match="depht.*choose from.*depth"):
+    with pytest.raises(InputError, match=r"depht.*choose from.*depth"):
         cast(camera_at(), shapes_of(), ("depht",))
-    with pytest.raises(InputError, match="PHONG.*MATERIAL"):
+    with pytest.raises(InputError, match=r"PHONG.*MATERIAL"):
         cast(camera_at(), shapes_of(), ("depth",), shading="PHONG")
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from bisect import bisect_right
 from dataclasses import dataclass, fields, is_dataclass, replace
 from functools import cached_property
+from math import prod
 
 import numpy as np
 
@@ -55,7 +56,7 @@ class Interval:
     def _weights(self, frame: float) -> list[float]:
         """Return what each evaluation counts in the polynomial at a frame (Lagrange)."""
         return [
-            np.prod([(frame - other) / (node - other) for other in self.frames if other != node])
+            prod((frame - other) / (node - other) for other in self.frames if other != node)
             for node in self.frames
         ]  # fmt: skip
 
