@@ -11,7 +11,6 @@ from typing import Any
 import numpy as np
 
 from .conventions import EPS, gamma
-from .shapes.placed import inverse_rounding
 from .vector import cross, dot, matvec, norm, rows
 
 STEP = 2.0**-20
@@ -114,7 +113,7 @@ def local_rays(plan, at, rays: WorldRays, from_eye: bool) -> Local:
     unscaled = tuple(norm(row) for row in rows(matrix))
     matrix = np.ldexp(matrix, power[..., None, None])
     scale = np.ldexp(1.0, power)
-    rounding = inverse_rounding(shapes.axes)[at]
+    rounding = placed.rounding[at]
     lengths = tuple(norm(row) for row in rows(matrix))
     d = matvec(rows(matrix), rays.direction)
     relative = rays.direction_error + (rounding + gamma(4)) * norm(rays.direction)

@@ -9,12 +9,13 @@ import numpy as np
 from ..conventions import EPS, gamma
 from ..exact import solve, square_less_one, two_sum
 from ..records import INFINITE_PLANE, PLANE, SPHERE, InputError, Pose, Shapes
+from ..vector import cross, dot, norm
 
 SIZES = 1e-152, 1e152
 """What sizes, distances and their ratios may be: their squares are numbers, too."""
 
 SKEW = 32.0
-"""Axes beyond this ``skewness`` are inverted with twice the digits."""
+"""Axes beyond this skewness (see ``invert``) are inverted with twice the digits."""
 
 FLAT = 1e13
 """Beyond this skewness axes cannot be told from ones in one plane."""
@@ -37,6 +38,8 @@ class Placed:
     """(n, 3) camera frame."""
     shape_from_world: np.ndarray
     """(n, 3, 3)."""
+    rounding: np.ndarray
+    """(n,): by how much of its length each row of ``shape_from_world`` is wrong at most."""
     shape_from_camera: np.ndarray
     """(n, 3, 3)."""
     offset: np.ndarray
@@ -52,7 +55,7 @@ def place(shapes: Shapes, pose: Pose) -> Placed:
     """Return the shapes as a camera at this pose sees them.
 
     Rounding: a component of ``centre`` is right to gamma(4) of |centre - eye| times the condition number of the
-    basis (1 without shear); a row of ``shape_from_world`` to ``inverse_rounding`` of its length, of
+    basis (1 without shear); a row of ``shape_from_world`` to ``rounding`` of its length, of
     ``shape_from_camera`` to gamma(4) more; ``offset`` likewise times |centre - eye|. What cancels in ``outside`` near
     the surface, and in the z of ``offset`` near a plane, is a constant of the shape, and computed from its exact inputs
     with twice the digits: right to gamma(4) of itself there, so that a planet's ground is right from 2 m above it.
@@ -61,12 +64,13 @@ def place(shapes: Shapes, pose: Pose) -> Placed:
     away, lost = two_sum(shapes.centre, -pose.eye)
     camera_from_world = np.linalg.inv(pose.basis)
     with np.errstate(all="ignore"):  # what is flat or too far is refused by name
-        shape_from_world = inverse(shapes.axes)
-        offset = (shape_from_world @ away[..., None])[..., 0]
-        _refuse(shapes, away, offset)
-        axes = camera_from_world @ shapes.axes
-        squares = (axes * axes).sum(axis=1)
-        corner = np.sqrt(squares[:, 0] + squares[:, 1] + 2 * np.abs((axes[..., 0] * axes[..., 1]).sum(axis=1)))
+        shape_from_world, rounding, skewness = invert(shapes.axes)
+        offset = np.einsum("nij,nj->ni", shape_from_world, away)
+        _refuse(shapes, skewness, away, offset)
+        axes = (shapes.axes.transpose(0, 2, 1).reshape(-1, 3) @ camera_from_world.T).reshape(-1, 3, 3)  # row by row
+        squares = np.einsum("nij,nij->ni", axes, axes)
+        skew = np.abs(np.einsum("ni,ni->n", axes[:, 0], axes[:, 1]))
+        corner = np.sqrt(squares[:, 0] + squares[:, 1] + 2 * skew)
         radius = np.where(shapes.kind == PLANE, corner, np.sqrt(squares.sum(axis=1)))
         distance = np.sqrt((offset * offset).sum(axis=-1))
         outside = (distance - 1) * (distance + 1)
@@ -80,17 +84,18 @@ def place(shapes: Shapes, pose: Pose) -> Placed:
     return Placed(
         centre=away @ camera_from_world.T,
         shape_from_world=shape_from_world,
-        shape_from_camera=shape_from_world @ pose.basis,
+        rounding=rounding,
+        shape_from_camera=(shape_from_world.reshape(-1, 3) @ pose.basis).reshape(-1, 3, 3),
         offset=offset,
         outside=outside,
         radius=np.where(shapes.kind == INFINITE_PLANE, np.inf, radius),
     )
 
 
-def _refuse(shapes: Shapes, away, offset) -> None:
+def _refuse(shapes: Shapes, skewness, away, offset) -> None:
     """Raise InputError for the first shape that cannot be cast."""
-    size = np.abs(shapes.axes).max(axis=1)
-    flat = ~(skewness(shapes.axes) < FLAT)
+    size = _largest(shapes.axes)
+    flat = ~(skewness < FLAT)
     beyond = ~((size >= SIZES[0]) & (size <= SIZES[1])).all(axis=1)
     beyond |= ~((np.abs(away) <= SIZES[1]) & (np.abs(offset) <= SIZES[1])).all(axis=1)
     if flat.any() or beyond.any():
@@ -104,59 +109,56 @@ def _refuse(shapes: Shapes, away, offset) -> None:
         raise InputError(f"shape {name!r} {reason}")
 
 
-def inverse(axes):
-    """Return the inverses of (n, 3, 3) matrices, whose rows are right to ``inverse_rounding`` of their lengths.
+def invert(axes):
+    """Return the inverses of (n, 3, 3) matrices, by how much of its length each row of them is wrong at most, (n,), and
+    the skewness, (n,): how far from right-angled the axes are, whatever their sizes.
 
     Diagonal ones are right to EPS. A row of the others is the cross product of two columns over the determinant; the
-    columns are scaled to about 1 first, so that unequal sizes cost no digit; skew ones are corrected.
+    columns are scaled to about 1 first, so that unequal sizes cost no digit; skew ones are corrected. The skewness is
+    Hadamard's condition number, the product of the axes' lengths over their volume: from 1 up, inf or NaN where they
+    lie in one plane.
     """
-    result = np.zeros_like(axes)
+    result, rounding, skewness = np.zeros_like(axes), np.full(len(axes), EPS), np.ones(len(axes))
     straight = _straight(axes)
-    diagonal = np.einsum("nii->ni", axes)
-    np.einsum("nii->ni", result)[straight] = 1 / diagonal[straight]
+    for i in range(3):
+        result[straight, i, i] = 1 / axes[straight, i, i]
     if not straight.all():
-        turned = axes[~straight]
-        scaled, power = _scaled(turned)
-        first, second, third = np.moveaxis(scaled, 2, 0)
-        rows = np.stack((np.cross(second, third), np.cross(third, first), np.cross(first, second)), axis=1)
-        rows /= (rows[:, 0] * first).sum(axis=1)[:, None, None]
-        skew = skewness(turned)
-        skew = np.flatnonzero((skew > SKEW) & (skew < FLAT))
-        if skew.size:
-            units = (np.tile(unit, (len(skew), 1)) for unit in np.eye(3))
-            columns = [solve(scaled[skew], rows[skew], unit, np.zeros_like(unit))[0] for unit in units]
-            rows[skew] = np.stack(columns, axis=2)
-        result[~straight] = np.ldexp(rows, -power[..., None])
-    return result
+        turned = ~straight
+        result[turned], skewness[turned] = _invert_turned(axes[turned])
+        rounding[turned] = np.where(skewness[turned] > SKEW, gamma(4), gamma(16) * skewness[turned])
+    return result, rounding, skewness
 
 
-def inverse_rounding(axes):
-    """Return by how much of its length, at most, each row of ``inverse`` is wrong: (n,)."""
-    skew = skewness(axes)
-    return np.where(_straight(axes), EPS, np.where(skew > SKEW, gamma(4), gamma(16) * skew))
+def _invert_turned(axes):
+    """Return what ``invert`` does, for matrices that are not diagonal, but the rounding."""
+    scale = np.ldexp(1.0, -np.frexp(_largest(axes))[1])
+    scaled = axes * scale[:, None, :]
+    columns = np.ascontiguousarray(scaled.transpose(2, 1, 0))
+    first, second, third = columns
+    crossed = cross(second, third), cross(third, first), cross(first, second)
+    volume = dot(crossed[0], first)
+    skewness = norm(first) * norm(second) * norm(third) / np.abs(volume)
+    rows = np.empty_like(axes)
+    for i, row in enumerate(crossed):
+        for j, component in enumerate(row):
+            rows[:, i, j] = component / volume
+    skew = np.flatnonzero((skewness > SKEW) & (skewness < FLAT))
+    if skew.size:
+        units = (np.tile(unit, (len(skew), 1)) for unit in np.eye(3))
+        solved = [solve(scaled[skew], rows[skew], unit, np.zeros_like(unit))[0] for unit in units]
+        rows[skew] = np.stack(solved, axis=2)
+    return rows * scale[..., None], skewness
 
 
-def skewness(axes):
-    """Return how far from right-angled axes (n, 3, 3) are: the product of their lengths over their volume, from 1 up.
-
-    Hadamard's condition number: the sizes of the axes do not count. inf or NaN where the axes lie in one plane.
-    """
-    result = np.ones(len(axes))
-    turned = ~_straight(axes)
-    scaled, _ = _scaled(axes[turned])
-    first, second, third = np.moveaxis(scaled, 2, 0)
-    volume = np.abs((np.cross(first, second) * third).sum(axis=1))
-    with np.errstate(divide="ignore", invalid="ignore"):
-        result[turned] = np.sqrt((scaled * scaled).sum(axis=1)).prod(axis=1) / volume
-    return result
-
-
-def _scaled(axes):
-    """Return matrices with columns scaled by powers of two to about 1, and the powers that were taken out, (n, 3)."""
-    power = np.frexp(np.abs(axes).max(axis=1))[1]
-    return np.ldexp(axes, -power[:, None, :]), power
+def _largest(axes):
+    """Return the largest magnitude in each column, (n, 3)."""
+    return np.maximum(np.maximum(np.abs(axes[:, 0]), np.abs(axes[:, 1])), np.abs(axes[:, 2]))
 
 
 def _straight(axes):
-    diagonal = np.einsum("nii->ni", axes)
-    return (np.count_nonzero(axes, axis=(1, 2)) == 3) & (diagonal != 0).all(axis=1)
+    """Return which matrices are diagonal, with nothing that is 0 on the diagonal."""
+    straight = np.ones(len(axes), bool)
+    for i in range(3):
+        for j in range(3):
+            straight &= (axes[:, i, j] == 0) if i != j else (axes[:, i, j] != 0)
+    return straight
