@@ -140,6 +140,20 @@ def test_an_object_in_a_hidden_and_a_shown_collection_is_shown(scene):
     assert counts(read_shapes(scene)) == counts(in_a_render(scene)) == {"Both": 1}
 
 
+def test_a_background_set_is_shown_with_the_layer_that_it_renders(scene):
+    ball("Front")
+    behind = bpy.data.scenes.new("Behind")
+    ball("Back", behind.collection)
+    ball("Not rendered", behind.collection).hide_render = True
+    aside = bpy.data.collections.new("Aside")
+    behind.collection.children.link(aside)
+    ball("Excluded", aside)
+    behind.view_layers[0].use = False
+    behind.view_layers.new("Rendered").layer_collection.children["Aside"].exclude = True
+    scene.background_set = behind
+    assert counts(read_shapes(scene)) == counts(in_a_render(scene)) == {"Front": 1, "Back": 1}
+
+
 def test_what_the_camera_does_not_see_is_named(scene):
     ball("No camera rays").visible_camera = False
     indirect, holdout = new_collection("Indirect", scene.collection), new_collection("Holdout", scene.collection)

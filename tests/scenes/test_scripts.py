@@ -125,6 +125,29 @@ def test_frames_are_numbered(scene, tmp_path):
         assert json.loads((tmp_path / "out" / f"report_000{frame}.json").read_text())["frame"] == frame
 
 
+def test_frames_may_begin_before_0(scene, tmp_path):
+    done = script("cast", scene, "--frames", "-1:0", "--passes", "depth", "--output", tmp_path / "out")
+    assert (done.returncode, done.stderr) == (0, "")
+    frames = {json.loads((tmp_path / "out" / name).read_text())["frame"] for name in left(tmp_path / "out")
+              if name.startswith("report")}  # fmt: skip
+    assert frames == {-1, 0}
+
+
+def test_each_eye_has_its_files(blender, tmp_path):
+    path = small(blender, tmp_path / "stereo.blend", use_multiview=True)
+    camera = blender.data.objects["Top"]
+    camera.data.stereo.interocular_distance, camera.data.stereo.pivot = 0.5, "CENTER"
+    blender.ops.wm.save_as_mainfile(filepath=str(path))
+    done = script("cast", path, "--passes", "ray_origin", "--output", tmp_path / "out")
+    assert (done.returncode, done.stderr) == (0, "")
+    names = [f"stereo_{eye}.{kind}" for eye in "LR" for kind in ("exr", "png")]
+    assert left(tmp_path / "out") == ["report.json", *names]
+    for eye, place in ("L", -0.25), ("R", 0.25):
+        (x,) = (image for name, image in read_exr(tmp_path / "out" / f"stereo_{eye}.exr").items()
+                if "Ray Origin" in name and name.endswith("X"))  # fmt: skip
+        assert (x == place).all()
+
+
 def test_a_marker_does_not_take_the_chosen_cameras_place(blender, tmp_path):
     path = small(blender, tmp_path / "marked.blend")
     scene = blender.context.scene

@@ -15,10 +15,17 @@ from ..core.report import Report, as_json
 from . import reports
 from .engine import CameraRayCaster
 
-PICTURE = {"media_type": "IMAGE", "file_format": "PNG", "color_mode": "RGBA", "color_depth": "8"}
+PICTURE = {
+    "media_type": "IMAGE",
+    "file_format": "PNG",
+    "views_format": "INDIVIDUAL",
+    "color_mode": "RGBA",
+    "color_depth": "8",
+}
 LAYERS = {
     "media_type": "MULTI_LAYER_IMAGE",
     "file_format": "OPEN_EXR_MULTILAYER",
+    "views_format": "INDIVIDUAL",  # of several views a file each: what every reader reads
     "color_depth": "32",
     "exr_codec": "ZIP",
     "use_exr_interleave": True,  # one part: what every reader reads, at any pixel aspect
@@ -29,8 +36,9 @@ LAYERS = {
 def render(scene, folder: Path, name: str, number: str = "") -> tuple[Report, list[Path]]:
     """Render the scene's current frame into ``folder`` and return the report and the files.
 
-    They are NAME.png, NAME.exr and report.json, ``number`` before each dot. Raises InputError and leaves all as it
-    was where Blender cannot render or the folder cannot be written.
+    They are NAME.png, NAME.exr and report.json, ``number`` before each dot; of several views NAME_L.png, NAME_R.png and
+    so on, by the views' suffixes. Raises InputError and leaves all as it was where Blender cannot render or the folder
+    cannot be written.
     """
     with appearing(folder) as temporary:
         report = _rendered(scene)
@@ -96,4 +104,12 @@ def _save(scene, path: Path, settings) -> None:
     try:
         bpy.data.images["Render Result"].save_render(str(path), scene=scene)
     except RuntimeError as error:
-        raise OSError(0, str(error).strip()) from error
+        if not _views_written(scene.render, path):
+            raise OSError(0, str(error).strip()) from error
+
+
+def _views_written(render, path: Path) -> bool:
+    """Return whether each of several views has its file: Blender then misses one without a view's suffix."""
+    views = render.stereo_views if render.views_format == "STEREO_3D" else render.views
+    files = [path.with_stem(path.stem + view.file_suffix) for view in views if view.use]
+    return render.use_multiview and all(file.is_file() for file in files)

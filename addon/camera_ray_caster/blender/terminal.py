@@ -69,7 +69,7 @@ def cast(arguments: Sequence[str], prog: str) -> int:
                         f"the file ticks, or {', '.join(DEFAULT_PASSES)} where it ticks only combined")  # fmt: skip
     parser.add_argument("--shading", type=str.upper, choices=SHADINGS, help="of the combined pass; default: the file's")
     parser.add_argument("--output", type=Path, default=Path("out"), metavar="FOLDER", help="default: %(default)s")
-    options = parser.parse_args(arguments)
+    options = parser.parse_args(_joined(arguments, "--frames"))
     scene = _open(options)
     for layer in scene.view_layers:
         if options.passes or [entry.key for entry in ticked(scene, layer)] == ["combined"]:
@@ -139,6 +139,15 @@ def _parser(prog: str, purpose: str, example: str, result: str) -> Parser:
     parser.add_argument("--camera", metavar="NAME", help="default: the scene's active camera")
     parser.add_argument("--json", action="store_true", help="print the report as JSON in place of the table")
     return parser
+
+
+def _joined(arguments: Sequence[str], option: str) -> list[str]:
+    """Return the arguments with an option and its value as one word: argparse would take -3:-1 for an option."""
+    words = list(arguments)
+    if option in words[:-1]:
+        at = words.index(option)
+        words[at : at + 2] = [f"{option}={words[at + 1]}"]
+    return words
 
 
 def _add_frame(parser) -> None:

@@ -14,7 +14,7 @@ class Visibility:
     def __init__(self, depsgraph):
         self.layer = depsgraph.view_layer
         self.in_viewport = depsgraph.mode == "VIEWPORT"
-        self.rendered = set(_of_layer(self.layer.layer_collection)) if self.in_viewport else set()
+        self.rendered = set(_of_scene(depsgraph.scene, self.layer)) if self.in_viewport else set()
 
     def is_rendered(self, instance) -> bool:
         """Return whether a render shows it: what the user has hidden is left out without a word."""
@@ -73,6 +73,14 @@ def _shows_itself(item) -> bool:
     if item.is_instancer and not item.show_instancer_for_render:
         return False
     return item.parent is None or item.parent.instance_type not in {"VERTS", "FACES"}
+
+
+def _of_scene(scene, view_layer) -> Iterator:
+    """Yield the objects of a view layer that a render shows, and those of the scenes that are its background set."""
+    yield from _of_layer(view_layer.layer_collection)
+    behind = scene.background_set
+    if behind is not None:  # Blender shows the first of its layers that is rendered
+        yield from _of_scene(behind, next((one for one in behind.view_layers if one.use), behind.view_layers[0]))
 
 
 def _of_layer(layer) -> Iterator:

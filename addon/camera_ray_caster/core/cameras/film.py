@@ -8,6 +8,9 @@ import numpy as np
 
 from ..records import BlenderCamera, InputError, Raster
 
+FINITE = "shift_x", "shift_y", "border_min_x", "border_max_x", "border_min_y", "border_max_y"
+"""What Blender does not clamp where a driver or a script sets it to nan or inf."""
+
 
 def raster_from(raw: BlenderCamera) -> Raster:
     """Return the frame and the render window as Blender's pipeline computes them.
@@ -16,8 +19,12 @@ def raster_from(raw: BlenderCamera) -> Raster:
     including, int(max * width), rows likewise from the bottom, the product rounded to float32 first, as in Blender's
     C code (0.7 of 10 is column 7 there, 6 in float64). Cropping changes where the window is stored, not its rays.
 
-    Raises InputError for a frame or a border without pixels and for a pixel aspect that is not a positive number.
+    Raises InputError for a frame or a border without pixels, for a pixel aspect that is not a positive number and for
+    a shift or a border that is not finite.
     """
+    for name in FINITE:
+        if not np.isfinite(getattr(raw, name)):
+            raise InputError(f"{name} of camera {raw.name!r} is {getattr(raw, name)}: it must be a finite number")
     for name in ("pixel_aspect_x", "pixel_aspect_y"):
         if not 0 < getattr(raw, name) < np.inf:
             raise InputError(f"{name} is {getattr(raw, name)}: it must be a positive number")
