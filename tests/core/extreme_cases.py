@@ -210,3 +210,12 @@ PANORAMAS = [
 ]  # fmt: skip
 
 CASES = [*SCALE, *SURFACE, *TANGENT, *MATRICES, *LENSES, *PANORAMAS]
+
+STIFF = {
+    "at rest at every frame": (1.0, "whole turns a frame look like rest to whole frames"),
+    "thirty times a frame": (30.0, "a picture of one frame sees thirty turns"),
+    "an odd number": (97.3, "no common divisor with any even step"),
+    "backwards": (-12.5, "half turns look like turns the other way"),
+    "hopeless": (1e5, "no budget resolves it: it has to be said"),
+}
+"""Turns a frame of a bar that the time cameras see, and why that is hard."""

@@ -7,12 +7,13 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
+from camera_ray_caster.core.cameras import MODELS
 from camera_ray_caster.core.conventions import EPS
 from camera_ray_caster.core.exact import solve, square_less_one, total, two_product, two_sum
 from camera_ray_caster.core.rounding import world_rays
 from camera_ray_caster.core.shapes.placed import FLAT, invert
 
-from . import truth
+from . import truth, truth_lenses, truth_multiperspective
 from .model_examples import EXAMPLES, camera, raw_of
 
 RNG = np.random.default_rng(3)
@@ -80,3 +81,16 @@ def test_rays_are_exact_within_their_bound(key):
                 away = truth.norm(truth.minus(truth.exact(vector[pixel]), expected))
                 assert away <= error[pixel]
                 assert error[pixel] <= 1e-6
+
+
+def test_every_model_has_its_truth():
+    known = (truth.MODELS, truth_lenses.MODELS, truth_multiperspective.MODELS)
+    assert sorted(key for models in known for key in models) == sorted(model.key for model in MODELS)
+
+
+@pytest.mark.filterwarnings("ignore:Descending")  # the order of coefficients that every mpmath knows
+@pytest.mark.parametrize("key", truth_lenses.MODELS)
+def test_rays_of_further_lenses_are_those_of_60_digits(key, monkeypatch):
+    monkeypatch.setitem(truth.MODELS, key, truth_lenses.MODELS[key])
+    monkeypatch.setattr(truth, "PLANAR", truth.PLANAR | truth_lenses.PLANAR)
+    test_rays_are_exact_within_their_bound(key)

@@ -6,14 +6,16 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from mpmath import cos, mpf, pi, sin
 
 from camera_ray_caster.core.bounds import decision
 from camera_ray_caster.core.cast import cast
 from camera_ray_caster.core.conventions import EPS
+from camera_ray_caster.core.motion import resolve
 from camera_ray_caster.core.records import PLANE, SPHERE, InputError
 
 from . import truth
-from .extreme_cases import CASES, TURN, Case, shapes_of
+from .extreme_cases import CASES, STIFF, TURN, Case, shapes_of
 
 PASSES = (
     "depth", "distance", "position", "normal", "shape_index", "valid",
@@ -138,3 +140,26 @@ def test_what_cannot_be_cast_is_refused_by_name(kind, axes):
     shapes = shapes_of([(SPHERE, (0, 0, -5), 1.0), (kind, (0, 0, -5), axes)])
     with pytest.raises(InputError, match=r"'shape 1' (is flat|has a size)"):
         cast(Case("", "", []).camera, shapes)
+
+
+@pytest.mark.parametrize(("turns", "why"), STIFF.values(), ids=STIFF)
+def test_stiff_motion_is_resolved_or_said_not_to_be(turns, why):
+    """A bar that spins about the viewing axis: where it ends is known exactly at each time, the closed form turned."""
+
+    def turned(frame):
+        angle = 2 * mpf(turns) * mpf(float(frame)) * pi
+        return np.array([[cos(angle), -sin(angle), 0], [sin(angle), cos(angle), 0], [0, 0, 1]], float)
+
+    def evaluate(frame):
+        return camera, shapes_of([(PLANE, (0, 0, -5), turned(frame) @ np.diag([2.0, 0.2, 1.0]))])
+
+    camera = Case("", "", [], {"resolution_x": 64, "resolution_y": 64}).camera
+    motion = resolve(evaluate, 0.0, 1.0, tolerance=0.05, most=2000)
+    if abs(turns) > 1000:
+        assert motion.unresolved, why
+        return
+    assert not motion.unresolved, why
+    pixels = 32.0  # what the bar's end is from the axis, at most
+    for frame in np.random.default_rng(5).uniform(0, 1, 40):
+        away = np.abs(motion.shapes_at(frame).axes[0] - turned(frame) @ np.diag([2.0, 0.2, 1.0])).max()
+        assert away / 2.0 * pixels <= 0.05, why

@@ -185,6 +185,8 @@ MODELS = {
     "EQUIANGULAR_CUBEMAP_FACE": cube_face, "FISHEYE_EQUIDISTANT": equidistant, "FISHEYE_EQUISOLID": equisolid,
     "FISHEYE_LENS_POLYNOMIAL": polynomial, "MIRRORBALL": mirror_ball,
 }  # fmt: skip
+PLANAR = {"PERSP", "ORTHO"}
+"""Models whose t is the depth."""
 
 
 @dataclass(frozen=True)
@@ -208,7 +210,7 @@ def ray(raw, x, y):
     rows = exact(raw.matrix_world)[:3]
     axes = [[x / norm(axis) for x in axis] for axis in columns([row[:3] for row in rows])[:3]]
     origin, direction = (times(columns(axes), vector) for vector in found)
-    if key not in ("PERSP", "ORTHO"):
+    if key not in PLANAR:
         length = norm(direction)
         direction = [x / length for x in direction]
     return Ray(along(origin, [row[3] for row in rows], 1), direction)
