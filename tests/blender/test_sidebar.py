@@ -137,6 +137,15 @@ def test_one_pixel(blender, scene):
     assert image.pixels[0] == pytest.approx(5, abs=1e-6)
 
 
+def test_a_strip_of_16384_by_16_pixels(blender, scene):
+    scene.render.resolution_x, scene.render.resolution_y = 16384, 16
+    passes.tick(scene, blender.context.view_layer, ["depth"])
+    blender.ops.camera_ray_caster.cast()
+    image = blender.data.images["Ray Caster depth"]
+    assert tuple(image.size) == (16384, 16)
+    assert pixels_of(image)[8, 8192, 0] == pytest.approx(5, abs=1e-6)
+
+
 def test_a_corner_of_16384_pixels(blender, scene):
     """All of them would fill the memory of a small machine; their rays are the same."""
     render = scene.render
