@@ -3,6 +3,7 @@
 An extension that is installed and enabled steps aside for this process: the scripts run the code that they lie beside.
 """
 
+import signal
 import sys
 from pathlib import Path
 
@@ -16,6 +17,7 @@ def through(command: str) -> int:
     from camera_ray_caster.blender.quiet import keep_output
 
     keep_output()
+    signal.signal(signal.SIGTERM, signal.default_int_handler)  # as Ctrl C: what is under way is taken back
     try:
         import bpy
     except ModuleNotFoundError:

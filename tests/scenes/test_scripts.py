@@ -133,21 +133,6 @@ def test_frames_may_begin_before_0(scene, tmp_path):
     assert frames == {-1, 0}
 
 
-def test_each_eye_has_its_files(blender, tmp_path):
-    path = small(blender, tmp_path / "stereo.blend", use_multiview=True)
-    camera = blender.data.objects["Top"]
-    camera.data.stereo.interocular_distance, camera.data.stereo.pivot = 0.5, "CENTER"
-    blender.ops.wm.save_as_mainfile(filepath=str(path))
-    done = script("cast", path, "--passes", "ray_origin", "--output", tmp_path / "out")
-    assert (done.returncode, done.stderr) == (0, "")
-    names = [f"stereo_{eye}.{kind}" for eye in "LR" for kind in ("exr", "png")]
-    assert left(tmp_path / "out") == ["report.json", *names]
-    for eye, place in ("L", -0.25), ("R", 0.25):
-        (x,) = (image for name, image in read_exr(tmp_path / "out" / f"stereo_{eye}.exr").items()
-                if "Ray Origin" in name and name.endswith("X"))  # fmt: skip
-        assert (x == place).all()
-
-
 def test_a_marker_does_not_take_the_chosen_cameras_place(blender, tmp_path):
     path = small(blender, tmp_path / "marked.blend")
     scene = blender.context.scene
@@ -216,6 +201,7 @@ WRONG_WORDS = {
     "missing": (["missing.blend"], "there is no file 'missing.blend'"),
     "a folder": (["."], "there is no file '.'"),
     "no .blend": (["text.blend"], "'text.blend' is no .blend that this Blender can open"),
+    "a name that is too long for a file": (["a" * 300], "there is no file 'aaa"),
     "no such camera": (["small.blend", "--camera", "Front"], "no camera 'Front'; its cameras are: 'Side', 'Top'"),
     "no such option": (["small.blend", "--depth"], "unrecognized arguments: --depth"),
     "no number": (["small.blend", "--frame", "half"], "'half'"),
@@ -230,6 +216,7 @@ WRONG_FOR_CAST = {
     "frame and frames": (["small.blend", "--frame", "1", "--frames", "1:2"], "not allowed with"),
     "a file for a folder": (["small.blend", "--output", "text.blend"], "cannot write into 'text.blend'"),
     "below a file": (["small.blend", "--output", "text.blend/out"], "cannot write into 'text.blend/out'"),
+    "a name that is too long": (["small.blend", "--output", "a" * 300], "cannot write into"),
     "no place for a folder": (["small.blend", "--output", "/proc/out"], "cannot write into '/proc/out'"),
 }
 

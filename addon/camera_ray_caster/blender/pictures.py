@@ -54,8 +54,9 @@ def render(scene, folder: Path, name: str, number: str = "") -> tuple[Report, li
 @contextmanager
 def appearing(folder: Path) -> Iterator[Path]:
     """Yield an empty folder whose files move into ``folder`` in the end; if anything fails nothing is left of them."""
-    made = [path for path in (folder, *folder.parents) if not path.exists()]
+    made: list[Path] = []
     try:
+        made += [path for path in (folder, *folder.parents) if not path.exists()]
         folder.mkdir(parents=True, exist_ok=True)
         with TemporaryDirectory(prefix=".writing_", dir=folder) as temporary:
             yield Path(temporary)

@@ -6,6 +6,7 @@ Status 0: done; 1: done, but a witness disagrees with the camera's rays; 2: bad 
 
 import argparse
 import math
+import os
 import sys
 from collections.abc import Sequence
 from contextlib import redirect_stdout
@@ -184,7 +185,7 @@ def _open(options):
     """Open the file that the options name, and return its scene with the engine and the camera that they ask for."""
     path = options.file
     if path is not None:
-        if not path.is_file():
+        if not os.path.isfile(path):  # False, too, where Python may not look
             raise InputError(f"there is no file {str(path)!r}: give the path of a .blend")
         try:
             with redirect_stdout(None):  # where Python's copy of the error would go

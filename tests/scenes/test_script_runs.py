@@ -1,0 +1,46 @@
+"""Runs of the scripts that write more than one eye, or that are ended before they are done."""
+
+import signal
+import subprocess
+import sys
+import time
+
+import pytest
+
+from ..exr import read_exr
+from .test_scripts import ROOT, left, script, small
+
+
+def test_each_eye_has_its_files(blender, tmp_path):
+    path = small(blender, tmp_path / "stereo.blend", use_multiview=True)
+    camera = blender.data.objects["Top"]
+    camera.data.stereo.interocular_distance, camera.data.stereo.pivot = 0.5, "CENTER"
+    blender.ops.wm.save_as_mainfile(filepath=str(path))
+    done = script("cast", path, "--passes", "ray_origin", "--output", tmp_path / "out")
+    assert (done.returncode, done.stderr) == (0, "")
+    names = [f"stereo_{eye}.{kind}" for eye in "LR" for kind in ("exr", "png")]
+    assert left(tmp_path / "out") == ["report.json", *names]
+    for eye, place in ("L", -0.25), ("R", 0.25):
+        (x,) = (image for name, image in read_exr(tmp_path / "out" / f"stereo_{eye}.exr").items()
+                if "Ray Origin" in name and name.endswith("X"))  # fmt: skip
+        assert (x == place).all()
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows ends a process without telling it")
+@pytest.mark.parametrize("name", ["SIGINT", "SIGTERM"])
+def test_a_run_that_is_ended_leaves_good_files_and_nothing_else(blender, tmp_path, name):
+    path = small(blender, tmp_path / "large.blend", resolution_x=4000, resolution_y=4000)
+    out = tmp_path / "out"
+    out.mkdir()
+    (out / "large.exr").write_text("good")
+    words = [sys.executable, str(ROOT / "scripts" / "cast.py"), str(path), "--output", str(out)]
+    with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as run:
+        end = time.monotonic() + 60
+        while len(left(out)) == 1 and time.monotonic() < end:
+            time.sleep(0.05)
+        assert len(left(out)) == 2  # the folder in which the new files are being made
+        run.send_signal(getattr(signal, name))
+        assert run.wait(60) == 130
+        assert len(run.stderr.read().splitlines()) == 1
+    assert left(out) == ["large.exr"]
+    assert (out / "large.exr").read_text() == "good"
