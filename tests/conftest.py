@@ -1,6 +1,7 @@
 """What the tests share. Nothing here imports Blender until a test asks for it: tests/core runs without."""
 
 import os
+import sys
 import tempfile
 
 import pytest
@@ -21,3 +22,22 @@ def blender():
     camera_ray_caster.register()
     yield bpy
     camera_ray_caster.unregister()
+
+
+_STATUS = pytest.StashKey[int]()
+
+
+def pytest_sessionfinish(session, exitstatus):
+    """Keep the status for the end."""
+    session.config.stash[_STATUS] = int(exitstatus)
+
+
+@pytest.hookimpl(trylast=True)
+def pytest_unconfigure(config):
+    """End the process at once where pip's bpy was used: after many renders bpy 4.5 may hang in its own clean-up."""
+    bpy = sys.modules.get("bpy")
+    if bpy is not None and not bpy.app.binary_path and _STATUS in config.stash:
+        _PROFILE.cleanup()
+        sys.stdout.flush()
+        sys.stderr.flush()
+        os._exit(config.stash[_STATUS])
