@@ -162,14 +162,15 @@ def _rounded(view, real):
 
 def _reach(camera: Camera, placed: Placed, sampled: bool):
     """Return the least and the greatest t that a shape may have, (n,) each: unbounded where that is not known."""
-    radius = placed.radius * (1 + 8 * np.finfo(float).eps)
+    reach = placed.radius
     if camera.model.planar:
-        middle = -placed.centre[:, 2]
+        middle, reach = -placed.centre[:, 2], placed.reach
     elif camera.model.central and camera.is_rigid and not (sampled and camera.aperture):
         middle = np.sqrt((placed.centre * placed.centre).sum(axis=1))
     else:
-        return np.full(len(radius), -np.inf), np.full(len(radius), np.inf)
-    return middle - radius, middle + radius
+        return np.full(len(reach), -np.inf), np.full(len(reach), np.inf)
+    reach = reach * (1 + 8 * np.finfo(float).eps)
+    return middle - reach, middle + reach
 
 
 def _window_bounds(camera: Camera, placed: Placed, sampled: bool):

@@ -49,6 +49,8 @@ class Placed:
     radius: np.ndarray
     """(n,): of a sphere about the centre that holds the shape, camera frame; inf for infinite planes. A parallelogram's
     reaches its farther corners, an ellipsoid's has the root of the sum of the squared axes, which no skew exceeds."""
+    reach: np.ndarray
+    """(n,): how far the shape reaches from its centre along the camera's Z; inf for infinite planes."""
 
 
 def place(shapes: Shapes, pose: Pose) -> Placed:
@@ -72,6 +74,9 @@ def place(shapes: Shapes, pose: Pose) -> Placed:
         skew = np.abs(np.einsum("ni,ni->n", axes[:, 0], axes[:, 1]))
         corner = np.sqrt(squares[:, 0] + squares[:, 1] + 2 * skew)
         radius = np.where(shapes.kind == PLANE, corner, np.sqrt(squares.sum(axis=1)))
+        ahead = axes[..., 2]
+        flat = np.abs(ahead[:, 0]) + np.abs(ahead[:, 1])
+        reach = np.where(shapes.kind == PLANE, flat, np.sqrt(np.einsum("ni,ni->n", ahead, ahead)))
         distance = np.sqrt((offset * offset).sum(axis=-1))
         outside = (distance - 1) * (distance + 1)
         parts = np.abs(shape_from_world[:, 2] * away).sum(axis=-1)
@@ -89,6 +94,7 @@ def place(shapes: Shapes, pose: Pose) -> Placed:
         offset=offset,
         outside=outside,
         radius=np.where(shapes.kind == INFINITE_PLANE, np.inf, radius),
+        reach=np.where(shapes.kind == INFINITE_PLANE, np.inf, reach),
     )
 
 
