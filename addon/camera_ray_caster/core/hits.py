@@ -36,7 +36,7 @@ class Hits:
     """Column and row of the render window at which the rays begin."""
 
     def blocks(self):
-        """Yield (window, hits) of blocks small enough for a core's cache; many of them see one shape only.
+        """Yield (window, hits) of blocks; many of them see one shape only.
 
         Where the tile is lower or narrower than a block the blocks are as much longer.
         """

@@ -89,7 +89,7 @@ class Tile:
             np.copyto(index, group.at[row], where=closer)
 
     def _blocks(self, group: Group, view, window):
-        """Yield (rows of the window, t, where) of one shape, in blocks that fit a core's cache."""
+        """Yield (rows of the window, t, where) of one shape, in blocks."""
         (top, bottom), columns = (window[0].start, window[0].stop), window[1]
         step = max(1, BLOCK_PIXELS // (columns.stop - columns.start))
         direction = tuple(cut(component, window) for component in self.direction)

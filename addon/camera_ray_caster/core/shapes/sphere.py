@@ -123,7 +123,7 @@ def near_blocks(sphere: View, kind: int, direction, step: int, scratch):
     """Yield (rows, t, None) as ``intersect`` gives them for one sphere, rays from the eye and no start.
 
     direction is a pinhole's, x a row, y a column, z a number: each D is then a row plus a column, made once, and each
-    block of ``step`` rows takes what fits a core's cache.
+    block has ``step`` rows.
     """
     x, y, z = direction
     scale = float(np.sqrt(sphere.outside))
