@@ -14,7 +14,7 @@ from camera_ray_caster.core.cast import cast
 COUNTS = (10, 100, 1_000, 10_000, 100_000, 1_000_000)
 SIZES = ((960, 540), (1920, 1080), (3840, 2160), (7680, 4320), (16384, 8192))
 PASSES = ("depth", "shape_index")
-PICTURE = Path(__file__).resolve().parents[1] / "out" / "scaling"
+PICTURE = Path(__file__).resolve().parents[1] / "out" / "scaling.png"
 
 
 def run(rounds: int, threads: int) -> list[dict]:
@@ -62,5 +62,6 @@ def _draw(rows: list[dict]) -> None:
         axis.set_ylabel("milliseconds")
         axis.grid(True, which="major", alpha=0.3)
         axis.legend(frameon=False)
-    figure.savefig(PICTURE.with_suffix(".png"), dpi=110)
-    print(f"Wrote {PICTURE.with_suffix('.png').name}")
+    PICTURE.parent.mkdir(exist_ok=True)
+    figure.savefig(PICTURE, dpi=110)
+    print(f"Wrote out/{PICTURE.name}")
