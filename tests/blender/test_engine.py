@@ -92,12 +92,12 @@ def picture(channels, name, layer="ViewLayer"):
     return np.stack([channels[f"{layer}.{label}.{letter}"] for letter in letters], axis=-1)
 
 
-def expected(scene, name, **keywords):
+def expected(scene, name, precision="AUTOMATIC", **keywords):
     """A pass as the caster returns it, in the form in which Blender stores it."""
     from camera_ray_caster.blender.read import read_camera, read_shapes
 
     camera = read_camera(scene, **keywords)
-    image = cast(camera, read_shapes(scene, **keywords), [name])[name].astype(np.float32)
+    image = cast(camera, read_shapes(scene, **keywords), [name], precision=precision)[name].astype(np.float32)
     if name == "depth":
         image[np.isinf(image)] = FAR
     return image.reshape(*camera.raster.shape, -1)
@@ -111,6 +111,18 @@ def test_every_pass_comes_out_of_the_file_as_it_was_cast(scene, render, name):
     np.testing.assert_array_equal(found, cast_of_it)
     if name not in ("valid", "ray_origin"):  # the same everywhere in this picture
         assert np.ptp(found) > 0
+
+
+def test_a_render_searches_with_the_precision_that_is_set(scene, render):
+    from camera_ray_caster.blender import reports
+
+    robust = picture(render(), "distance")
+    scene.camera_ray_caster.precision = "FAST"
+    fast = picture(render(), "distance")
+    np.testing.assert_array_equal(robust, expected(scene, "distance"))
+    np.testing.assert_array_equal(fast, expected(scene, "distance", precision="FAST"))
+    assert not np.array_equal(robust, fast)
+    assert reports.latest().precision == "FAST"
 
 
 def test_the_file_holds_what_is_ticked_and_nothing_else(scene, render):

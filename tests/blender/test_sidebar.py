@@ -7,6 +7,7 @@ from camera_ray_caster.blender import cast_operator, images, passes, reports
 from camera_ray_caster.blender.read import read_camera, read_shapes
 from camera_ray_caster.core.cast import cast
 from camera_ray_caster.core.passes import PASSES
+from camera_ray_caster.core.plan import PRECISIONS
 
 WIDTH, HEIGHT = 24, 16
 
@@ -43,6 +44,29 @@ def test_cast_stores_every_pass_as_it_is(blender, scene, key):
     if channels == 1:
         assert np.array_equal(found[..., 2], found[..., 0])
     assert channels == 4 or (found[..., 3] == 1).all()
+
+
+@pytest.mark.parametrize("precision", PRECISIONS)
+def test_cast_searches_with_the_precision_that_is_set(blender, scene, precision):
+    passes.tick(scene, blender.context.view_layer, ["depth"])
+    scene.camera_ray_caster.precision = precision
+    blender.ops.camera_ray_caster.cast()
+    found = pixels_of(blender.data.images[images.image_name("depth")])[..., 0]
+    depths = {p: cast(read_camera(scene), read_shapes(scene), ["depth"], precision=p)["depth"] for p in PRECISIONS}
+    depths = {p: np.where(np.isinf(depth), np.float32(passes.FAR), depth) for p, depth in depths.items()}
+    assert np.array_equal(found, depths[precision])
+    assert np.array_equal(found, depths["ROBUST"]) == (precision != "FAST")
+    assert reports.latest().precision == precision
+    assert (reports.latest().accuracy.worst("relative_distance") > 1e-9) == (precision == "FAST")
+
+
+def test_the_precision_is_undone_as_other_settings_are(blender, scene):
+    assert scene.camera_ray_caster.precision == "AUTOMATIC"
+    blender.ops.ed.undo_push(message="before")
+    scene.camera_ray_caster.precision = "FAST"
+    blender.ops.ed.undo_push(message="after")
+    blender.ops.ed.undo()
+    assert blender.context.scene.camera_ray_caster.precision == "AUTOMATIC"
 
 
 def test_cast_again_writes_into_the_same_images(blender, scene):
@@ -172,7 +196,7 @@ def test_a_file_goes_without_the_add_on_and_comes_back_with_it(blender, scene, t
     """Blender keeps the settings of an add-on that is not there."""
     import camera_ray_caster
 
-    scene.camera_ray_caster.shading = "GRID"
+    scene.camera_ray_caster.shading, scene.camera_ray_caster.precision = "GRID", "FAST"
     scene.camera_ray_caster_overlay.show = True
     scene.render.engine = "CAMERA_RAY_CASTER"
     blender.data.objects["Suzanne"].camera_ray_caster.primitive = "SPHERE"
@@ -189,7 +213,7 @@ def test_a_file_goes_without_the_add_on_and_comes_back_with_it(blender, scene, t
         camera_ray_caster.register()
     blender.ops.wm.open_mainfile(filepath=path)
     scene = blender.context.scene
-    assert scene.camera_ray_caster.shading == "GRID"
+    assert (scene.camera_ray_caster.shading, scene.camera_ray_caster.precision) == ("GRID", "FAST")
     assert scene.camera_ray_caster_overlay.show
     assert blender.data.objects["Suzanne"].camera_ray_caster.primitive == "SPHERE"
     assert blender.ops.camera_ray_caster.cast() == {"FINISHED"}
@@ -239,6 +263,22 @@ def test_the_panels_say_what_the_camera_is_and_why_it_is_none(blender, scene):
     assert "no active camera" in drawn(blender, panels_camera.SidebarCamera)
     for panel in sidebar:
         drawn(blender, panel)
+
+
+def test_the_panels_say_how_right_the_hits_are(blender, scene):
+    from camera_ray_caster.blender import panels, panels_cast
+
+    blender.ops.camera_ray_caster.cast()
+    found = reports.latest().accuracy
+    assert found.hits > 0
+    assert 0 < reports.latest().seconds["accuracy"] < sum(reports.latest().seconds.values())
+    median, worst = (f"≤ {getattr(found, name)('relative_distance'):.0e}" for name in ("median", "worst"))
+    said = drawn(blender, panels_cast.SidebarReport)
+    assert f"Distance Error, Median {median} Distance Error, Worst {worst}" in said
+    assert f"Worst distance error: {worst}" in drawn(blender, panels.RenderPanel)
+    scene.camera.location.z = -6  # it looks away from all there is
+    blender.ops.camera_ray_caster.cast()
+    assert "Distance Error, Worst nothing hit" in drawn(blender, panels_cast.SidebarReport)
 
 
 def test_nothing_runs_after_a_cast(blender, scene):

@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from camera_ray_caster.core.accuracy import Accuracy, accuracy
 from camera_ray_caster.core.cameras import camera_from
 from camera_ray_caster.core.cast import cast
 from camera_ray_caster.core.facts import camera_facts
@@ -38,9 +39,10 @@ def report():
         names=("Sphere",),
         left_out=(("Suzanne", "it is a monkey " + "of many words " * 20),),
     )
-    images = cast(camera(), shapes, ("depth",))
+    images = cast(camera(), shapes, ("depth",), precision="ROBUST")
     seconds = {"read": 0.5, "plan": 0.01, "cast": 0.02, "passes": 0.03, "write": 0.25}
-    return report_cast(camera(), shapes, images, seconds, [GOOD], 1.5, "Layer")
+    bounds = accuracy(camera(), shapes, images.plan)
+    return report_cast(camera(), shapes, images, seconds, [GOOD], 1.5, "Layer", precision="ROBUST", accuracy=bounds)
 
 
 def strict(text):
@@ -78,7 +80,10 @@ def test_a_step_that_is_taken_again_adds_up(report):
 def test_of_several_layers_each_is_named_beside_what_it_did_not_do(report):
     assert any(line.startswith("passes combined") for line in report.not_done)
     images = cast(camera(), Shapes(*(np.zeros((0, *s)) for s in ((), (3,), (3, 3), (), (), (4,), ()))), ("depth",))
-    several = report_cast(camera(), Shapes(*(np.zeros(0),) * 7), images, {}, [], 1.0, "Layer", several=True)
+    nothing = Shapes(*(np.zeros(0),) * 7)
+    several = report_cast(
+        camera(), nothing, images, {}, [], 1.0, "Layer", several=True, precision="FAST", accuracy=Accuracy()
+    )
     assert several.not_done
     assert all(line.startswith("Layer: ") for line in several.not_done)
 
@@ -110,9 +115,44 @@ def test_the_table_says_all_and_fits(report):
     assert verdicts == {"good": "ok", "bad": "FAILED"}
 
 
+def test_the_bounds_of_hits_are_in_table_and_json_with_their_units(report):
+    bounds = np.array([[1e-15, 2e-15, 3e-15, 4e-15], [5e-15, 6e-15, 7e-15, 8e-15], [9e-15, 1e-14, 2e-14, np.inf]])
+    report = replace(report, accuracy=Accuracy(10, bounds))
+    data = strict(as_json(report))
+    assert data["precision"] == "ROBUST"
+    found = data["accuracy"]
+    assert (found["sampled_pixels"], found["hits"]) == (10, 3)
+    assert found["distance"] == {"unit": "world units", "median_bound": 5e-15, "worst_bound": 9e-15}
+    assert found["relative_distance"] == {"unit": "of the distance", "median_bound": 6e-15, "worst_bound": 1e-14}
+    assert (found["normal"]["median_bound"], found["normal"]["worst_bound"]) == (8e-15, None)
+    assert found["rounding_when_stored"] == 2.0**-24
+    lines = as_lines(report)
+    rows = {line[2:19].strip(): line[19:].split()[:2] for line in lines if line[19:].strip()[:1].isdigit()}
+    assert rows["distance"] == ["5.0e-15", "9.0e-15"]
+    assert rows["normal"] == ["8.0e-15", "inf"]
+    assert "  3 hits at 10 pixels all over the picture; precision ROBUST" in lines
+    assert max(map(len, lines)) <= WIDTH
+
+
+def test_the_samples_of_two_layers_are_one(report):
+    rows = np.ones((3, 4)), np.full((2, 4), 5.0)
+    one, other = (replace(report, accuracy=Accuracy(10, bounds)) for bounds in rows)
+    found = strict(as_json(one + other))["accuracy"]
+    assert (found["sampled_pixels"], found["hits"]) == (20, 5)
+    assert (found["position"]["median_bound"], found["position"]["worst_bound"]) == (1.0, 5.0)
+
+
+def test_where_nothing_is_hit_the_report_says_so(report):
+    report = replace(report, accuracy=Accuracy(10))
+    assert "Hits: none at 10 pixels all over the picture; precision ROBUST" in as_lines(report)
+    found = strict(as_json(report))["accuracy"]
+    assert found["hits"] == 0
+    assert found["distance"]["worst_bound"] is None
+
+
 def test_the_table_leaves_out_what_was_not_done():
     lines = as_lines(Report(camera=camera_facts(camera()), frame=1))
-    assert not any(line.startswith(("Witness", "Step", "Left out")) for line in lines)
+    assert not any(line.startswith(("Witness", "Hits", "Step", "Left out")) for line in lines)
 
 
 def test_facts_of_a_pinhole_by_hand():

@@ -31,15 +31,16 @@ class RenderPanel(EnginePanel, bpy.types.Panel):
     bl_context = "render"
 
     def draw(self, context):
-        """One setting, one line of result, one button."""
+        """The settings, what the latest render took and how right it is, one button."""
         layout = self.layout
         layout.use_property_split = True
         layout.use_property_decorate = False
-        layout.prop(context.scene.camera_ray_caster, "shading")
-        layout.prop(context.scene.camera_ray_caster, "samples")
+        for setting in ("shading", "samples", "precision"):
+            layout.prop(context.scene.camera_ray_caster, setting)
         report = reports.latest()
         if report is not None:
             layout.label(text=f"{report.pixels} rays in {sum(report.seconds.values()):.3f} s")
+            layout.label(text=f"Worst distance error: {reports.relative_error(report, 'worst')}")
         layout.operator("camera_ray_caster.write_report")
 
 

@@ -33,6 +33,7 @@ class SidebarCast(Sidebar, bpy.types.Panel):
         settings = context.scene.camera_ray_caster
         layout.row().prop(settings, "shading", expand=True)
         layout.prop(settings, "samples")
+        layout.prop(settings, "precision")
 
 
 class SidebarPasses(Sidebar, bpy.types.Panel):
@@ -66,7 +67,7 @@ class SidebarReport(Sidebar, bpy.types.Panel):
         self.layout.operator("camera_ray_caster.write_report", text="", icon="TEXT", emboss=False)
 
     def draw(self, context):
-        """Seconds a step, and rays a second."""
+        """Seconds a step, rays a second, and the error bounds of the distances, in parts of these."""
         report = reports.latest()
         box = self.layout.box().column(align=True)
         for step, seconds in report.seconds.items():
@@ -75,6 +76,8 @@ class SidebarReport(Sidebar, bpy.types.Panel):
         draw_row(box, "Shapes", [f"{report.shapes:,}"], 0.5)
         if report.rays_per_second is not None:
             draw_row(box, "Rays per Second", [f"{report.rays_per_second / 1e6:.3g} million"], 0.5)
+        for name in ("median", "worst"):
+            draw_row(box, f"Distance Error, {name.capitalize()}", [reports.relative_error(report, name)], 0.5)
 
 
 class SidebarLeftOut(Sidebar, bpy.types.Panel):

