@@ -204,7 +204,7 @@ class Ray:
 def ray(raw, x, y):
     """The exact ray through pixel coordinates, None where there is none."""
     key = raw.model or (raw.settings["panorama_type"] if raw.type == "PANO" else raw.type)
-    found = MODELS[key](raw, mpf(float(x)), mpf(float(y)))
+    found = MODELS[key](raw, mpf(x), mpf(y))
     if found is None:
         return None
     rows = exact(raw.matrix_world)[:3]
