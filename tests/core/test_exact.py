@@ -13,7 +13,7 @@ from camera_ray_caster.core.exact import solve, square_less_one, total, two_prod
 from camera_ray_caster.core.rounding import world_rays
 from camera_ray_caster.core.shapes.placed import FLAT, invert
 
-from . import truth, truth_lenses, truth_multiperspective
+from . import truth
 from .model_examples import EXAMPLES, camera, raw_of
 
 RNG = np.random.default_rng(3)
@@ -59,7 +59,8 @@ def test_inverses_are_right_to_their_bound_row_by_row(skew):
             assert truth.norm(truth.minus(truth.exact(row), exact)) <= bound * truth.norm(exact)
 
 
-@pytest.mark.parametrize("key", truth.MODELS)
+@pytest.mark.filterwarnings("ignore:Descending")  # the order of coefficients that every mpmath knows
+@pytest.mark.parametrize("key", truth.every_model()[0])
 def test_rays_are_exact_within_their_bound(key):
     for settings in EXAMPLES[key]:
         raw, cam = raw_of(key, settings), camera(key, settings)
@@ -84,13 +85,4 @@ def test_rays_are_exact_within_their_bound(key):
 
 
 def test_every_model_has_its_truth():
-    known = (truth.MODELS, truth_lenses.MODELS, truth_multiperspective.MODELS)
-    assert sorted(key for models in known for key in models) == sorted(model.key for model in MODELS)
-
-
-@pytest.mark.filterwarnings("ignore:Descending")  # the order of coefficients that every mpmath knows
-@pytest.mark.parametrize("key", truth_lenses.MODELS)
-def test_rays_of_further_lenses_are_those_of_60_digits(key, monkeypatch):
-    monkeypatch.setitem(truth.MODELS, key, truth_lenses.MODELS[key])
-    monkeypatch.setattr(truth, "PLANAR", truth.PLANAR | truth_lenses.PLANAR)
-    test_rays_are_exact_within_their_bound(key)
+    assert sorted(truth.every_model()[0]) == sorted(model.key for model in MODELS)

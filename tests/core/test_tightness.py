@@ -9,7 +9,6 @@ from camera_ray_caster.core.cameras import MODELS
 from camera_ray_caster.core.cast import cast
 from camera_ray_caster.core.conventions import EPS
 
-from . import truth, truth_lenses, truth_multiperspective
 from .condition import TIGHT, condition
 from .extreme_cases import around, shapes_of
 from .model_examples import EXAMPLES, camera, raw_of
@@ -19,14 +18,6 @@ GRID = 5
 
 USUAL = 25
 """What half of a model's bounds stay below, in the unit of TIGHT: measured are 7 to 22."""
-
-
-@pytest.fixture(autouse=True)
-def every_model(monkeypatch):
-    """The exact picture of all models."""
-    models = truth.MODELS | truth_lenses.MODELS | truth_multiperspective.MODELS
-    monkeypatch.setattr(truth, "MODELS", models)
-    monkeypatch.setattr(truth, "PLANAR", truth.PLANAR | truth_lenses.PLANAR)
 
 
 def factors(key):
