@@ -2,12 +2,13 @@
 
     python scripts/side_by_side.py                 prints a table in Markdown
     python scripts/side_by_side.py --details       and what each tracer made of each case
+    python scripts/side_by_side.py planet lens     the cases with one of these in their names
 
-Needs bpy and the packages of the ``compare`` extra; a tracer that is not installed is left out by name. All get the
+Needs the packages of the ``test`` extra, bpy and those of the ``compare`` extra; of a tracer that is not installed the
+table says so. All get the
 same rays, the exact chief rays rounded to their own precision, but Cycles, which makes its own from the camera.
 """
 
-import argparse
 import sys
 from pathlib import Path
 
@@ -17,12 +18,19 @@ sys.path[:0] = [str(ROOT / "addon"), str(ROOT), str(ROOT / "scripts")]
 
 def main() -> int:
     """Run every tracer on every case and print the table."""
-    from precision import comparison
+    from camera_ray_caster.blender.quiet import keep_output
 
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    keep_output()
+    try:
+        from precision import comparison, words
+    except ModuleNotFoundError as missing:
+        print(f"side_by_side.py: {missing}: install the packages of the test extra", file=sys.stderr)
+        return 2
+    parser = words.Parser(prog="side_by_side.py", description=__doc__.splitlines()[0])
+    parser.add_argument("cases", nargs="*", metavar="CASE", help="a part of the names of extreme cases; default: all")
     parser.add_argument("--details", action="store_true", help="list each case")
     options = parser.parse_args()
-    names, found = comparison.compared()
+    names, found = comparison.compared(words.cases_named(parser, options.cases))
     print(comparison.table(names, found))
     if options.details:
         print(comparison.details(names, found))

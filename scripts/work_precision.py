@@ -2,13 +2,15 @@
 
     python scripts/work_precision.py                        the chosen extreme cases, and the diagram
     python scripts/work_precision.py FILE.blend planet      a file's camera and shapes; the cases with this in the name
+    python scripts/work_precision.py --only samples         one family of methods, on scenes of its own
 
 Needs the packages of the ``test`` extra. Writes work_precision.json, .svg and .png into --output; prints the tables.
 """
 
-import argparse
 import json
+import os
 import sys
+from contextlib import redirect_stdout
 from dataclasses import asdict
 from pathlib import Path
 
@@ -18,47 +20,71 @@ sys.path[:0] = [str(ROOT / "addon"), str(ROOT), str(ROOT / "scripts")]
 
 def main() -> int:
     """Run, print and write; return the exit status."""
-    from precision import arithmetic, diagram, effort
-    from tests.core.extreme_cases import CASES
+    try:
+        from precision import arithmetic, diagram, effort, words
+    except ModuleNotFoundError as missing:
+        print(f"work_precision.py: {missing}: install the packages of the test extra", file=sys.stderr)
+        return 2
+    from camera_ray_caster.core.records import InputError
 
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = words.Parser(prog="work_precision.py", description=__doc__.splitlines()[0])
     parser.add_argument("scenes", nargs="*", metavar="SCENE", help="a .blend, or a part of the names of extreme cases")
-    parser.add_argument("--output", type=Path, default=Path("out"), metavar="FOLDER")
+    parser.add_argument("--only", choices=["arithmetic", *effort.FAMILIES], help="one family of methods; default: all")
+    parser.add_argument("--output", type=Path, default=Path("out"), metavar="FOLDER", help="default: %(default)s")
     options = parser.parse_args()
+    files = [name for name in options.scenes if name.endswith(".blend")]
+    named = [name for name in options.scenes if name not in files]
+    cases = words.cases_named(parser, named) if named else [] if files else arithmetic.DEFAULT
+    try:
+        scenes = [(Path(path).stem, *_read(path)) for path in files]
+        options.output.mkdir(parents=True, exist_ok=True)
+    except InputError as refusal:
+        parser.error(str(refusal))
+    except OSError as error:
+        parser.error(f"cannot write into {str(options.output)!r}: {error.strerror}; choose another folder")
     points = []
-    for scene in options.scenes:
-        if scene.endswith(".blend"):
-            points += arithmetic.measured(Path(scene).stem, *_read(scene))
-            continue
-        cases = [case for case in CASES if scene in case.name]
-        if not cases:
-            print(f"work_precision.py: no case has {scene!r} in its name: see the table of cases", file=sys.stderr)
-            return 2
+    if options.only in (None, "arithmetic"):
+        points += [point for name, raw, shapes in scenes for point in arithmetic.measured(name, raw, shapes)]
         points += [point for case in cases for point in arithmetic.measure(case)]
-    if not options.scenes:
-        points = [point for case in arithmetic.DEFAULT for point in arithmetic.measure(case)]
-    points += effort.points()
-    options.output.mkdir(parents=True, exist_ok=True)
+    for family, measure in effort.FAMILIES.items():
+        if options.only in (None, family):
+            points += measure()
     stem = options.output / "work_precision"
     record = json.dumps([asdict(point) for point in points], indent=1, default=float)
     stem.with_suffix(".json").write_text(record + "\n")
     diagram.draw(points, stem)
-    print(diagram.table(points), diagram.rest(points), sep="\n\n")
+    print("\n\n".join(filter(None, (diagram.table(points), diagram.rest(points)))))
     return 0
 
 
 def _read(path):
-    """Return the camera of a file, as Blender has it, and its shapes."""
-    import bpy
+    """Return the camera of a file, as Blender has it but in a small picture, and its shapes."""
+    from camera_ray_caster.blender.quiet import keep_output
+    from camera_ray_caster.core.records import InputError
+
+    if not os.path.isfile(path):
+        raise InputError(f"there is no file {path!r}: give the path of a .blend")
+    keep_output()
+    try:
+        import bpy
+    except ModuleNotFoundError as missing:
+        raise InputError(f"{path!r} needs pip's bpy, which is not installed") from missing
+    from precision.arithmetic import small
 
     import camera_ray_caster
     from camera_ray_caster.blender.read import camera_record, evaluated, shapes_record
 
     camera_ray_caster.register()
-    bpy.ops.wm.open_mainfile(filepath=path)
-    with evaluated(bpy.context.scene) as depsgraph:
-        scene = bpy.context.scene
-        return camera_record(scene, scene.camera, depsgraph), shapes_record(depsgraph)
+    try:
+        with redirect_stdout(None):  # where Python's copy of the error would go
+            bpy.ops.wm.open_mainfile(filepath=os.path.abspath(path))
+        with evaluated(bpy.context.scene) as depsgraph:
+            scene = bpy.context.scene
+            return small(camera_record(scene, scene.camera, depsgraph)), shapes_record(depsgraph)
+    except RuntimeError as error:
+        raise InputError(f"{path!r} is no .blend that this Blender can open") from error
+    finally:
+        camera_ray_caster.unregister()
 
 
 if __name__ == "__main__":

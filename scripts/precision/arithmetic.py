@@ -62,6 +62,12 @@ def caster(camera, shapes, precision):
     return images["distance"], images["shape_index"]
 
 
+def small(raw):
+    """Return a camera with a picture of about SIDE x SIDE pixels at most, of the same shape."""
+    fraction = SIDE / (raw.resolution_x * raw.resolution_y) ** 0.5
+    return replace(raw, resolution_percentage=max(1, min(raw.resolution_percentage, int(100 * fraction))))
+
+
 def measure(case) -> list[Point]:
     """Return a point a method for an extreme case at SIDE x SIDE pixels."""
     raw = replace(case.raw, resolution_x=SIDE, resolution_y=SIDE)

@@ -4,7 +4,6 @@ import sys
 
 import numpy as np
 from tests.core import truth
-from tests.core.extreme_cases import CASES
 
 from camera_ray_caster.core.bounds import decision
 from camera_ray_caster.core.cast import cast
@@ -56,17 +55,20 @@ def judged(tracer, case, given, exact):
         return None if found is None else error_of(found, exact)
 
 
-def compared():
-    """Return the names of the cases, and for each tracer that is installed its errors on them."""
-    cases = [(case, *rays_of(case)) for case in CASES]
-    cases = [(case, given, exact) for case, given, exact in cases if given.pixels]
+def compared(cases):
+    """Return the names of the cases that have decided pixels, and for each tracer its errors on them.
+
+    In place of the errors of a tracer that is not installed stands what is missing.
+    """
+    given = [(case, *rays_of(case)) for case in cases]
+    given = [(case, rays, exact) for case, rays, exact in given if rays.pixels]
     found = {}
     for name, tracer in TRACERS.items():
         try:
-            found[name] = [judged(tracer, case, given, exact) for case, given, exact in cases]
+            found[name] = [judged(tracer, *one) for one in given]
         except ModuleNotFoundError as missing:
-            print(f"{name} is left out: {missing}", file=sys.stderr)
-    return [case.name for case, *_ in cases], found
+            found[name] = f"not installed: {missing.name.split('.')[0]}"
+    return [case.name for case, *_ in given], found
 
 
 def table(names, found) -> str:
@@ -75,6 +77,9 @@ def table(names, found) -> str:
     heads = (f"of {len(names)} extreme cases", "can be set up", "every hit and miss right", *to, "their median error")
     lines = ["| " + " | ".join(heads) + " |", "|---" * len(heads) + "|"]
     for tracer, errors in found.items():
+        if isinstance(errors, str):
+            lines.append(f"| {tracer} | {errors} |" + " – |" * (len(heads) - 2))
+            continue
         tried = [error for error in errors if error is not None]
         right = [error for error in tried if np.isfinite(error)]
         within = " | ".join(str(sum(error <= limit for error in right)) for limit in LIMITS)
@@ -86,7 +91,11 @@ def table(names, found) -> str:
 def details(names, found) -> str:
     """Return what each tracer made of each case: its worst error, inf where a hit or a miss is wrong."""
     lines = ["| case | " + " | ".join(found) + " |", "|---" * (len(found) + 1) + "|"]
-    for name, *errors in zip(names, *found.values(), strict=True):
-        cells = ("not possible" if error is None else f"{error:.0e}" for error in errors)
+    for k, name in enumerate(names):
+        cells = (errors if isinstance(errors, str) else _cell(errors[k]) for errors in found.values())
         lines.append(f"| {name} | " + " | ".join(cells) + " |")
     return "\n".join(lines)
+
+
+def _cell(error) -> str:
+    return "not possible" if error is None else f"{error:.0e}"

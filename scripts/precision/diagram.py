@@ -27,13 +27,20 @@ TITLES = {
 def draw(points, stem: Path) -> None:
     """Write stem.svg and stem.png: error over time, log-log, a curve a method."""
     plt.rcParams |= {"font.size": 9, "axes.spines.top": False, "axes.spines.right": False, "svg.fonttype": "none"}
+    present = [family for family in TITLES if any(p.family == family for p in points)]
+    pairs = [present[i : i + 2] for i in range(0, len(present), 2)]
+    rows = [[pair[0], pair[-1]] for pair in pairs]
+    scenes = [p for p in points if p.family == "arithmetic"]
+    if scenes:
+        rows.insert(0, ["scenes", "scenes"])
+    heights = [1.35 if row[0] == "scenes" else 1 for row in rows]
     figure, axes = plt.subplot_mosaic(
-        [["scenes", "scenes"], ["samples", "inverse"], ["verification", "time"]],
-        figsize=(10, 11), height_ratios=[1.35, 1, 1], layout="constrained",
-    )  # fmt: skip
-    _scenes(axes["scenes"], [p for p in points if p.family == "arithmetic"])
-    for family, (title, label) in TITLES.items():
-        _curves(axes[family], [p for p in points if p.family == family], title, label)
+        rows, figsize=(10, 3.3 * sum(heights)), height_ratios=heights, layout="constrained"
+    )
+    if scenes:
+        _scenes(axes["scenes"], scenes)
+    for family in present:
+        _curves(axes[family], [p for p in points if p.family == family], *TITLES[family])
     for suffix, more in ((".svg", {"metadata": {"Date": None}}), (".png", {"dpi": 100})):
         figure.savefig(stem.with_suffix(suffix), **more)
     plt.close(figure)
@@ -77,6 +84,8 @@ def _curves(axis, points, title, label):
 
 def table(points) -> str:
     """Return the arithmetic's points as a Markdown table: worst relative error and ms per million rays a method."""
+    if all(p.family != "arithmetic" for p in points):
+        return ""
     lines = ["| scene | " + " | ".join(METHODS) + " | cheapest below 1e-12 |", "|---|" + "---|" * (len(METHODS) + 1)]
     for scene in dict.fromkeys(p.scene for p in points if p.family == "arithmetic"):
         own = {p.method: p for p in points if p.scene == scene and p.family == "arithmetic"}
@@ -88,6 +97,8 @@ def table(points) -> str:
 
 def rest(points) -> str:
     """Return all other points as a Markdown table."""
+    if all(p.family == "arithmetic" for p in points):
+        return ""
     lines = ["| method | effort | median error | worst error | ms per million | spread |", "|---|---|---|---|---|---|"]
     lines += [
         f"| {p.method} | {p.scene} | {p.median_error:.1e} {p.unit} | {p.worst_error:.1e} | {p.seconds * 1e3:.0f} | "

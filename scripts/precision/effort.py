@@ -26,11 +26,6 @@ FAULT = 0.5
 """Pixels by which the faulty camera's rays are wrong in the middle of its fault."""
 
 
-def points() -> list[Point]:
-    """Return the points of every family."""
-    return [*sampled(), *evaluated(), *stepped(), *verified()]
-
-
 def sampled() -> list[Point]:
     """Thin lens and camera obscura: samples against a picture of REFERENCE samples."""
     lens = replace(Case("", "", [], SMALL).camera, aperture=Aperture(0.05, 5.0))
@@ -130,3 +125,7 @@ def verified() -> list[Point]:
         missed = FAULT - findings[-1].worst_pixels
         found.append(Point("verification", scene, "round trip", missed, missed, "px not seen", seconds, spread))
     return found
+
+
+FAMILIES = {"samples": sampled, "time": evaluated, "inverse": stepped, "verification": verified}
+"""What measures each family of points, on scenes of its own."""
