@@ -5,8 +5,8 @@
     python scripts/side_by_side.py planet lens     the cases with one of these in their names
 
 Needs the packages of the ``test`` extra, bpy and those of the ``compare`` extra; of a tracer that is not installed the
-table says so. All get the
-same rays, the exact chief rays rounded to their own precision, but Cycles, which makes its own from the camera.
+table says so. All get the same rays, the exact chief rays rounded to their own precision, but Cycles, which makes its
+own from the camera.
 """
 
 import sys

@@ -25,6 +25,7 @@ def main() -> int:
     except ModuleNotFoundError as missing:
         print(f"work_precision.py: {missing}: install the packages of the test extra", file=sys.stderr)
         return 2
+    from camera_ray_caster.blender.quiet import keep_output
     from camera_ray_caster.core.records import InputError
 
     parser = words.Parser(prog="work_precision.py", description=__doc__.splitlines()[0])
@@ -35,6 +36,8 @@ def main() -> int:
     files = [name for name in options.scenes if name.endswith(".blend")]
     named = [name for name in options.scenes if name not in files]
     cases = words.cases_named(parser, named) if named else [] if files else arithmetic.DEFAULT
+    if files:
+        keep_output()
     try:
         scenes = [(Path(path).stem, *_read(path)) for path in files]
         options.output.mkdir(parents=True, exist_ok=True)
@@ -59,12 +62,10 @@ def main() -> int:
 
 def _read(path):
     """Return the camera of a file, as Blender has it but in a small picture, and its shapes."""
-    from camera_ray_caster.blender.quiet import keep_output
     from camera_ray_caster.core.records import InputError
 
     if not os.path.isfile(path):
         raise InputError(f"there is no file {path!r}: give the path of a .blend")
-    keep_output()
     try:
         import bpy
     except ModuleNotFoundError as missing:

@@ -109,14 +109,15 @@ def test_effort_buys_precision(work_precision, family):
 
 
 def test_a_blender_file_is_a_scene_too(blender, tmp_path):
-    path = small(blender, tmp_path / "small.blend")
-    done = script("work_precision", path, "--only", "arithmetic", "--output", tmp_path / "out")
+    paths = [small(blender, tmp_path / f"{name}.blend") for name in ("one", "other")]
+    done = script("work_precision", *paths, "--only", "arithmetic", "--output", tmp_path / "out")
     assert (done.returncode, done.stderr) == (0, "")
     points = json.loads((tmp_path / "out" / "work_precision.json").read_text())
-    assert {p["scene"] for p in points} == {"small"}
-    robust = named(points)["float64 robust"]
+    assert list(dict.fromkeys(p["scene"] for p in points)) == ["one", "other"]
+    robust = named(points, scene="one")["float64 robust"]
     assert (robust["wrong"], robust["worst_error"] < 1e-13) == (0, True)
-    assert all(line.startswith("|") for line in done.stdout.splitlines()), "nothing of Blender's"
+    lines = done.stdout.splitlines()
+    assert [line.split(" | ")[0] for line in lines] == ["| scene", lines[1], "| one", "| other"], "nothing of Blender's"
 
 
 @pytest.mark.parametrize(("name", "words", "said"), [
