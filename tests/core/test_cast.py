@@ -276,7 +276,7 @@ def test_unknown_pass_and_shading_are_refused_by_name():
 
 
 def test_progress_rises_to_one_and_can_stop_the_cast():
-    camera = camera_at(resolution_x=1024, resolution_y=1024)
+    camera = camera_at(resolution_x=2048, resolution_y=1024)
     told = []
     cast(camera, shapes_of(), ("depth",), progress=lambda fraction: told.append(fraction) or True)
     assert told == sorted(told)

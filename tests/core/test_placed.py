@@ -28,3 +28,16 @@ def test_the_bounding_sphere_holds_the_shape_however_skewed(kind, surface, skew)
     away = np.linalg.norm((world - pose.eye) @ np.linalg.inv(pose.basis).T - placed.centre[:, None], axis=-1)
     assert (away <= placed.radius[:, None] * (1 + 64 * EPS)).all()
     assert (away.max(axis=1) > placed.radius / 2).all()
+
+
+def test_the_bounding_sphere_of_a_ball_is_the_ball():
+    turned = np.linalg.qr(RNG.normal(size=(50, 3, 3)))[0]
+    radius = 10.0 ** RNG.uniform(-6, 6, 50)
+    none = np.zeros(50, np.int32)
+    shapes = Shapes(
+        np.full(50, SPHERE, np.uint8), np.zeros((50, 3)), turned * radius[:, None, None], none, none,
+        np.ones((50, 4), np.float32), none, ("x",),
+    )  # fmt: skip
+    placed = place(shapes, Pose(np.zeros(3), np.eye(3)))
+    assert placed.radius == pytest.approx(radius, rel=1e-8)  # MARGIN is 1e-9
+    assert (placed.radius >= radius).all()

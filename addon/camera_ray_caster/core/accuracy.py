@@ -11,7 +11,8 @@ from .bounds import Bounds
 from .camera import Camera
 from .clock import groups
 from .conventions import EPS32
-from .nearest import Scratch, nearest
+from .loops import Scratch
+from .nearest import nearest
 from .plan import Plan, make_plan
 from .records import Raster, Shapes
 from .vector import norm

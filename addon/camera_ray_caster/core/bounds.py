@@ -90,6 +90,8 @@ class Bounds:
                 aside = aside + tilt * q_error + size * (local.rounding + gamma(8)) * (np.abs(q[i]) + q_error)
                 along = along + size * q_error
             curved = np.where(along < length / 2, aside / (length - along), 2.0)
+            if self.plan.normals.unit:
+                curved = curved + along / length  # their length is not made 1
             error = np.where(self.is_sphere, curved, local.rounding) + gamma(8)
             return np.where(error < 2, error, 2.0)
 

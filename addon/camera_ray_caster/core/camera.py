@@ -12,7 +12,7 @@ from .clock import Clock, groups, meeting
 from .conventions import gamma
 from .records import BlenderCamera, InputError, Pose, Raster, Rays
 from .sampling import in_opening, sub_pixel
-from .vector import matvec, norm, unit
+from .vector import inverse, matvec, norm, unit
 
 BLOCK_PIXELS = 1 << 14
 """Pixels whose rays are made at once: their components stay in a core's cache."""
@@ -148,7 +148,7 @@ class Camera:
         if self.clock is not None and self.motion is not None:
             found = [meeting(self.clock, lambda t, p=point: self.at(t).project(p)) for point in points.reshape(-1, 3)]
             return np.reshape(found, (*points.shape[:-1], 2))
-        return self.model.project((points - self.pose.eye) @ np.linalg.inv(self.pose.basis).T)
+        return self.model.project((points - self.pose.eye) @ inverse(self.pose.basis).T)
 
 
 def is_grid(x, y) -> bool:

@@ -14,7 +14,8 @@ import numpy as np
 from .camera import Camera
 from .clock import Clock, groups
 from .hits import Hits
-from .nearest import Scratch, nearest
+from .loops import Scratch, whole_rows
+from .nearest import nearest
 from .passes import PASSES
 from .plan import Plan, make_plan
 from .records import Cancelled, InputError, Shapes
@@ -23,7 +24,7 @@ from .shading import MATERIAL
 STEPS = "rays", "cast", "passes"
 """What the seconds of a tile are spent on: rays, their nearest hits, the passes of these."""
 
-TILE_PIXELS = 1 << 18
+TILE_PIXELS = 1 << 19
 """Pixels of a tile, the unit of threads, progress and cancelling: whole rows, where the picture has one time."""
 
 
@@ -162,22 +163,25 @@ def _cast_tile(tile: Tile, plan: Plan, names, samples: int, images: Images, scra
             total += once
         seconds += generated - began, found - generated, perf_counter() - found
     if total is not None:
-        np.copyto(images["combined"][part], total / samples, where=_broadcast(tile.where), casting="same_kind")
+        mean = total / samples
+        np.copyto(images["combined"][part], mean, where=_broadcast(tile.where, mean), casting="same_kind")
     return seconds
 
 
 def _store(hits: Hits, outs: dict[str, np.ndarray], where) -> None:
-    """Write passes block by block, only where they are meant."""
-    for window, block in hits.blocks():
-        for name, out in outs.items():
-            target = out[window] if where is None else np.empty_like(out[window])
-            PASSES[name].write(block, target)
-            if where is not None:
-                out[window][where[window]] = target[where[window]]
+    """Write passes, only where they are meant."""
+    with whole_rows(hits.t.shape[1]):
+        for rows, block in hits.blocks():
+            for name, out in outs.items():
+                target = out[rows] if where is None else np.empty_like(out[rows])
+                PASSES[name].write(block, target)
+                if where is not None:
+                    np.copyto(out[rows], target, where=_broadcast(where[rows], target))
 
 
-def _broadcast(where):
-    return True if where is None else where[..., None]
+def _broadcast(where, image):
+    """Return what ``where`` is to numpy for images with channels or without."""
+    return True if where is None else where if image.ndim == 2 else where[..., None]
 
 
 def _in_threads(run, tiles, workers: int, progress) -> np.ndarray:

@@ -9,9 +9,13 @@ from typing import Any
 import numpy as np
 
 from .bounds import Bounds
-from .plan import BLOCK_PIXELS, BLOCK_ROWS, Plan
+from .loops import Scratch
+from .plan import Plan
 from .shapes import SHAPE_OF_KIND
-from .vector import along, components, difference, dot, matvec, rows
+from .vector import components, difference, dot, linear, matvec, rows
+
+BLOCK_PIXELS = 1 << 17
+"""Pixels whose passes are made at once."""
 
 NOTHING = -1
 """Shape index of a pixel that sees none."""
@@ -32,30 +36,35 @@ class Hits:
     """inf where nothing is hit."""
     index: np.ndarray
     """Row of the nearest shape, NOTHING where there is none."""
+    scratch: Scratch
     corner: tuple[int, int] = (0, 0)
     """Column and row of the render window at which the rays begin."""
 
     def blocks(self):
-        """Yield (window, hits) of blocks; many of them see one shape only.
-
-        Where the tile is lower or narrower than a block the blocks are as much longer.
-        """
+        """Yield (rows, hits) of some rows at a time, BLOCK_PIXELS of them: working arrays stay in a core's cache."""
         height, width = self.t.shape
-        wide = BLOCK_PIXELS // min(height, BLOCK_ROWS)
-        high = BLOCK_PIXELS // min(width, wide)
-        for top in range(0, height, high):
-            for left in range(0, width, wide):
-                window = slice(top, top + high), slice(left, left + wide)
-                origin, direction = (tuple(cut(c, window) for c in vector) for vector in (self.origin, self.direction))
-                corner = self.corner[0] + left, self.corner[1] + top
-                rays = self.plan, self.from_eye, origin, direction
-                yield window, Hits(*rays, self.t[window], self.index[window], corner)
+        step = max(1, BLOCK_PIXELS // width)
+        for first in range(0, height, step):
+            part = slice(first, first + step)
+            origin, direction = (
+                tuple(cut(c, (part, slice(None))) for c in vector) for vector in (self.origin, self.direction)
+            )
+            corner = self.corner[0], self.corner[1] + first
+            rays = self.plan, self.from_eye, origin, direction
+            yield part, Hits(*rays, self.t[part], self.index[part], self.scratch, corner)
 
     @cached_property
-    def key(self):
-        """What to look up in a table of the shapes: ``index``, or one number where all pixels see the same."""
-        first = self.index[0, 0]
-        return first if (self.index == first).all() else self.index
+    def rows(self) -> np.ndarray:
+        """The index as numpy looks things up."""
+        rows = self.scratch("rows", self.index.shape, np.intp)
+        np.copyto(rows, self.index)
+        return rows
+
+    def look_up(self, table, name: str) -> np.ndarray:
+        """Return what a table (n + 1,) has for each pixel's shape, its last entry where nothing is hit; an array that
+        the next call with this name overwrites.
+        """
+        return np.take(table, self.rows, mode="wrap", out=self.scratch(name, self.t.shape, table.dtype.type))
 
     @cached_property
     def seen(self) -> np.ndarray:
@@ -84,21 +93,26 @@ class Hits:
     @cached_property
     def point(self):
         """The hit points relative to the eye, as world components; no number of meaning where nothing is hit."""
-        t = self.t if self.missed is None else np.where(self.seen, self.t, 0.0)
-        if self.from_eye:
-            return tuple(t * component for component in self.world_direction)
-        return along(matvec(self.plan.camera.pose.basis, self.origin), self.world_direction, t)
+        point = tuple(self.scratch(f"point {axis}", self.t.shape, np.float64) for axis in "xyz")
+        offset, spare = (self.scratch(name, self.t.shape, np.float64) for name in ("across", "spare"))
+        for row, out in zip(self.plan.camera.pose.basis, point, strict=True):
+            np.multiply(self.t, linear(row, self.direction, out, spare), out=out)
+            if not self.from_eye:
+                np.add(linear(row, self.origin, offset, spare), out, out=out)
+        return point
 
     @cached_property
     def normal(self):
         """Unit world normals turned towards the rays' origins, as components; 0 where nothing is hit."""
-        normal = self.plan.normals.look_up(self.key, self.point)
+        normal = self.plan.normals.look_up(self)
         if not (self.from_eye and self.plan.eye_outside):
             facing = -np.sign(dot(normal, self.world_direction))
-            normal = tuple(facing * component for component in normal)
-        if self.missed is None:
-            return normal
-        return tuple(np.where(self.seen, component, 0.0) for component in normal)  # NaN where there is no ray
+            for component in normal:
+                np.multiply(facing, component, out=component)
+        if self.missed is not None:
+            for component in normal:
+                np.copyto(component, 0.0, where=self.missed)
+        return normal
 
     @cached_property
     def pixels(self):

@@ -69,12 +69,12 @@ def uv(hits: Hits, out):
 
 def object_index(hits: Hits, out):
     """Blender's pass index of the object."""
-    _look_up(hits, out, hits.plan.shapes.object_index)
+    out[...] = hits.look_up(hits.plan.object_index, "number")
 
 
 def material_index(hits: Hits, out):
     """Blender's pass index of the material."""
-    _look_up(hits, out, hits.plan.shapes.material_index)
+    out[...] = hits.look_up(hits.plan.material_index, "number")
 
 
 def shape_index(hits: Hits, out):
@@ -114,13 +114,6 @@ def normal_bound(hits: Hits, out):
     _bound(hits, out, hits.bounds.normal, 1.0)
 
 
-def _look_up(hits: Hits, out, table):
-    """Write what a table has for each shape, 0 where there is none."""
-    out[...] = table[hits.key] if len(table) else 0
-    if hits.missed is not None:
-        out[hits.missed] = 0
-
-
 def _bound(hits: Hits, out, bound, size):
     """Write bounds rounded up, with what storing a number of this size loses."""
     out[...] = 0
@@ -129,9 +122,9 @@ def _bound(hits: Hits, out, bound, size):
 
 def _write(out, vector, offset, blank):
     for axis, component in enumerate(vector):
-        out[..., axis] = component + offset[axis]
-    if blank is not None:
-        out[blank] = 0
+        np.add(component, offset[axis], out=out[..., axis], casting="same_kind")
+        if blank is not None:
+            np.copyto(out[..., axis], 0, where=blank)
 
 
 PASSES = {

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import product
 from typing import Any
 
 import numpy as np
@@ -14,11 +15,6 @@ from .records import SPHERE, InputError, Shapes
 from .shading import SHADINGS
 from .shapes import SHAPE_OF_KIND, Placed, place
 from .shapes.normals import NormalTable, normal_table
-
-BLOCK_ROWS, BLOCK_COLUMNS = 256, 1024
-BLOCK_PIXELS = BLOCK_ROWS * BLOCK_COLUMNS
-"""Pixels of a block, the unit of arithmetic. Smaller ones would fit a core's own cache, but numpy's calls, and threads
-waiting for each other at each of them, then cost more than that saves: measured from 2**13 to 2**18."""
 
 SMALL_PIXELS = 1 << 12
 """A shape with fewer pixels in its bounds is cast in a batch with others: numpy's call costs more than its pixels."""
@@ -37,11 +33,13 @@ KIND_NAMES = ("sphere", "plane", "infinite plane")
 
 @dataclass(frozen=True)
 class Group:
-    """Shapes of one kind that are tested alike; one row a shape, sorted by shape index."""
+    """Shapes of one kind that are tested alike; one row a shape."""
 
     kind: int
     simple: bool
     """Whether the origin is outside and nothing lies before the clip start: the near root alone decides."""
+    small: bool
+    """Whether they are cast many at once: sorted by the lowest row that they may be seen in."""
     at: np.ndarray
     """(m,) rows in ``Shapes``."""
     bounds: np.ndarray
@@ -53,6 +51,26 @@ class Group:
     def shape(self):
         """The module of this kind of shape."""
         return SHAPE_OF_KIND[self.kind]
+
+    @cached_property
+    def tallest(self) -> int:
+        """The most rows that one of them may be seen in."""
+        return int((self.bounds[:, 3] - self.bounds[:, 2]).max())
+
+    def within(self, corner, shape):
+        """Return which of them may be seen in a tile, (k,), and their bounds in it, (k, 4)."""
+        some = slice(None)
+        if self.small:
+            ends = corner[1] - self.tallest, corner[1] + shape[0]
+            some = slice(*np.searchsorted(self.bounds[:, 2], ends))
+        edges = np.clip(self.bounds[some] - np.repeat(corner, 2), 0, np.repeat(shape[::-1], 2))
+        here = np.flatnonzero((edges[:, 0] < edges[:, 1]) & (edges[:, 2] < edges[:, 3]))
+        return here + (some.start or 0), edges[here]
+
+    def constants(self, at, axes=()):
+        """Return the kernel's constants of one row, or of many with axes put in that broadcast with the rays."""
+        values = {name: getattr(self.view, name)[at] for name in self.view.__dataclass_fields__}
+        return type(self.view)(**{k: v.reshape(len(v), *axes, *v.shape[1:]) if axes else v for k, v in values.items()})
 
 
 @dataclass(frozen=True)
@@ -73,14 +91,25 @@ class Plan:
     """What hits are searched with: float64 or float32."""
 
     @cached_property
+    def object_index(self) -> np.ndarray:
+        """(n + 1,): the shapes' object indices, and 0 for what sees none."""
+        return np.append(self.shapes.object_index, np.int32(0))
+
+    @cached_property
+    def material_index(self) -> np.ndarray:
+        """(n + 1,): the shapes' material indices, and 0 for what sees none."""
+        return np.append(self.shapes.material_index, np.int32(0))
+
+    @cached_property
     def colours(self) -> np.ndarray:
-        """(n + 1, 4) float64: the shapes' colours, and transparent black for what sees none."""
-        return np.vstack((self.shapes.colour, np.zeros(4))).astype(np.float64)
+        """(4, n + 1) float64: the shapes' colours, and transparent black for what sees none."""
+        return np.hstack((self.shapes.colour.T, np.zeros((4, 1)))).astype(np.float64, order="C")
 
     @cached_property
     def normals(self) -> NormalTable:
         """The constants of the normals, made when a pass first asks for them."""
-        return normal_table(self.shapes, self.placed, self.camera.pose)
+        seen = np.concatenate([np.zeros(0, np.intp), *(group.at for group in self.groups)])
+        return normal_table(self.shapes, self.placed, self.camera.pose, seen)
 
     @property
     def eye_outside(self) -> bool:
@@ -133,13 +162,15 @@ def make_plan(
         bounds, seen = _window_bounds(camera, placed, sampled)
         seen &= (near <= camera.clip_end) & (far >= camera.clip_start)
     simple = near >= camera.clip_start
+    small = (bounds[:, 1] - bounds[:, 0]) * (bounds[:, 3] - bounds[:, 2]) < SMALL_PIXELS
     groups = []
-    for kind in np.unique(shapes.kind[seen]).tolist():
-        for is_simple in (False, True):
-            at = np.flatnonzero(seen & (shapes.kind == kind) & (simple == is_simple))
-            if len(at):
-                view = _rounded(SHAPE_OF_KIND[kind].view(placed, at), real)
-                groups.append(Group(kind, is_simple, at, bounds[at], view))
+    for kind, is_simple, is_small in product(np.unique(shapes.kind[seen]).tolist(), (False, True), (False, True)):
+        at = np.flatnonzero(seen & (shapes.kind == kind) & (simple == is_simple) & (small == is_small))
+        if len(at):
+            if is_small:
+                at = at[np.argsort(bounds[at, 2], kind="stable")]
+            view = _rounded(SHAPE_OF_KIND[kind].view(placed, at), real)
+            groups.append(Group(kind, is_simple, is_small, at, np.asfortranarray(bounds[at]), view))
     return Plan(
         camera=camera,
         shapes=shapes,

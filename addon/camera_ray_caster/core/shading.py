@@ -29,8 +29,9 @@ def shade(hits, out) -> None:
     lit = _headlight(hits) if len(shapes.lights.is_sun) == 0 else _lamps(hits, shapes.lights)
     grid = _grid(hits) if hits.plan.shading == GRID else 1.0
     for channel, light in enumerate(lit):
-        out[..., channel] = colour[hits.key, channel] * (light + shapes.world_colour[channel]) * grid
-    out[..., 3] = colour[hits.key, 3]
+        surface = hits.look_up(colour[channel], "colour")
+        out[..., channel] = surface * (light + shapes.world_colour[channel]) * grid
+    out[..., 3] = hits.look_up(colour[3], "colour")
     if hits.missed is not None:
         out[hits.missed] = shapes.world_colour
 

@@ -13,8 +13,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..records import SPHERE, Pose, Shapes
-from ..vector import components, dot, matvec, rows
+from ..vector import components, difference, matvec, norm, rows, unit
 from .placed import Placed
+
+FAR = 1e4
+"""Radii. The normal of a sphere nearer than that has unit length to 1e-11 as it comes: the root is left out."""
 
 
 @dataclass(frozen=True)
@@ -22,60 +25,73 @@ class NormalTable:
     """The constants of the normals, world frame, with a row of zeros at the end."""
 
     gain: np.ndarray
-    """(n + 1,): 1 for round spheres, else 0."""
+    """(n + 1,): 1 / radius for round spheres, else 0."""
     offset: np.ndarray
-    """(3, n + 1): from the centre to the eye for round spheres, towards the eye for planes."""
-    ellipsoid: np.ndarray | None
-    """(n + 1,) bool; None where there is none."""
+    """(3, n + 1): from the centre to the eye in radii for round spheres, unit normals towards the eye for planes."""
+    unit: bool
+    """Whether gain times point plus offset has unit length as it comes."""
+    curved: Curved | None
+    """The ellipsoids; None where there is none."""
+
+    def look_up(self, hits):
+        """Return unit normals as components, (rows, columns) arrays of the hits' scratch; 0 where nothing is hit.
+
+        Outward on spheres, towards the eye on planes. Right to EPS (distance / radius), in length, too.
+        """
+        gain = hits.look_up(self.gain, "gain")
+        spare = hits.scratch("spare", gain.shape, np.float64)
+        normal = tuple(hits.look_up(table, f"normal {axis}") for axis, table in zip("xyz", self.offset, strict=True))
+        for component, place in zip(normal, hits.point, strict=True):
+            np.add(component, np.multiply(gain, place, out=spare), out=component)
+        if self.curved is not None:
+            self.curved.put(hits, normal)
+        if not self.unit:
+            length = np.maximum(norm(normal), np.finfo(float).tiny)
+            for component in normal:
+                np.divide(component, length, out=component)
+        return normal
+
+
+@dataclass(frozen=True)
+class Curved:
+    """The constants of the ellipsoids' normals."""
+
+    where: np.ndarray
+    """(n + 1,): which shapes are ellipsoids, bool."""
     matrix: np.ndarray
     """(n, 3, 3): shape_from_world, scaled by powers of two to about 1."""
     centre: np.ndarray
     """(n, 3): matrix @ (centre - eye)."""
 
-    def look_up(self, index, point):
-        """Return unit normals as components for shape indices and eye-relative world points of the same shape.
-
-        index is an array like the points, or one number for all. Zero where it is -1. Outward on spheres, towards
-        the eye on planes. Right to EPS (distance / radius).
-        """
-        gain = self.gain[index]
-        if np.ndim(index) == 0 and gain == 0:
-            turned = tuple(self.offset[:, index])
-        else:
-            turned = tuple(gain * p + np.take(o, index) for p, o in zip(point, self.offset, strict=True))
-        if self.ellipsoid is not None and self.ellipsoid[index].any():
-            turned = tuple(np.array(np.broadcast_to(component, np.shape(point[0]))) for component in turned)
-            where = np.broadcast_to(self.ellipsoid[index], turned[0].shape)
-            index = np.broadcast_to(index, where.shape)
-            for component, curved in zip(turned, self._curved(index[where], point, where), strict=True):
-                component[where] = curved
-        length = np.sqrt(dot(turned, turned))
-        length = np.maximum(length, np.finfo(float).tiny)
-        return tuple(component / length for component in turned)
-
-    def _curved(self, at, point, where):
-        matrix = self.matrix[at]
-        point = tuple(np.broadcast_to(component, where.shape)[where] for component in point)
-        q = tuple(r - c for r, c in zip(matvec(rows(matrix), point), components(self.centre[at]), strict=True))
-        return matvec(rows(np.swapaxes(matrix, 1, 2)), q)
+    def put(self, hits, normal) -> None:
+        """Write the ellipsoids' unit normals over what the components have there."""
+        where = hits.look_up(self.where, "curved")
+        at = hits.rows[where]
+        q = difference(matvec(rows(self.matrix[at]), [part[where] for part in hits.point]), components(self.centre[at]))
+        for component, part in zip(normal, unit(matvec(rows(np.swapaxes(self.matrix[at], 1, 2)), q)), strict=True):
+            component[where] = part
 
 
-def normal_table(shapes: Shapes, placed: Placed, pose: Pose) -> NormalTable:
-    """Return the table of these shapes as seen from a pose."""
+def normal_table(shapes: Shapes, placed: Placed, pose: Pose, seen) -> NormalTable:
+    """Return the table of these shapes as seen from a pose; ``seen``: the rows of those that can be."""
     n = len(shapes)
     sphere = shapes.kind == SPHERE
     is_round = sphere & (shapes.axes == shapes.axes[:, :1, :1] * np.eye(3)).all(axis=(1, 2))
-    towards = np.where(placed.offset[:, 2] > 0, -1.0, 1.0)[:, None]
-    gain = np.append(is_round.astype(float), 0.0)
-    offset = np.zeros((n + 1, 3))
-    offset[:n] = np.where(is_round[:, None], pose.eye - shapes.centre, placed.shape_from_world[:, 2] * towards)
+    flat = placed.shape_from_world[:, 2] * np.where(placed.offset[:, 2] > 0, -1.0, 1.0)[:, None]
+    flat = flat / np.abs(flat).max(axis=1, initial=0.0, keepdims=True)
+    gain, offset = np.zeros(n + 1), np.zeros((n + 1, 3))
+    gain[:n][is_round] = 1 / np.abs(shapes.axes[is_round, 0, 0])
+    flat = flat / np.sqrt((flat * flat).sum(axis=1, keepdims=True))
+    offset[:n] = np.where(is_round[:, None], (pose.eye - shapes.centre) * gain[:n, None], flat)
+    curved = sphere & ~is_round
+    far = np.abs(offset[seen]).max(initial=0.0)
+    return NormalTable(
+        gain, np.ascontiguousarray(offset.T), bool(far < FAR), _curved(placed, curved) if curved[seen].any() else None
+    )
+
+
+def _curved(placed: Placed, where) -> Curved:
     matrix = placed.shape_from_world
     power = -np.frexp(np.abs(matrix).max(axis=(1, 2), initial=0.0))[1]
-    curved = sphere & ~is_round
-    return NormalTable(
-        gain,
-        np.ascontiguousarray(offset.T),
-        np.append(curved, False) if curved.any() else None,
-        np.ldexp(matrix, power[:, None, None]),
-        np.ldexp(placed.offset, power[:, None]),
-    )
+    scaled = np.ldexp(matrix, power[:, None, None])
+    return Curved(np.append(where, False), scaled, np.ldexp(placed.offset, power[:, None]))

@@ -9,7 +9,7 @@ import numpy as np
 from ..conventions import EPS, gamma
 from ..exact import solve, square_less_one, two_sum
 from ..records import INFINITE_PLANE, PLANE, SPHERE, InputError, Pose, Shapes
-from ..vector import cross, dot, norm
+from ..vector import cross, dot, inverse, norm
 
 SIZES = 1e-152, 1e152
 """What sizes, distances and their ratios may be: their squares are numbers, too."""
@@ -19,6 +19,9 @@ SKEW = 32.0
 
 FLAT = 1e13
 """Beyond this skewness axes cannot be told from ones in one plane."""
+
+MARGIN = 1 + 1e-9
+"""Widens what holds a shape: rounding moves its edge by 1e-12 of its size at most."""
 
 CLOSE = 2.0
 """Nearer than this many radii, c = n^2 - 1 is computed with twice the digits."""
@@ -48,7 +51,8 @@ class Placed:
     """(n,): |N|^2 - 1, positive where the eye is outside of the unit sphere."""
     radius: np.ndarray
     """(n,): of a sphere about the centre that holds the shape, camera frame; inf for infinite planes. A parallelogram's
-    reaches its farther corners, an ellipsoid's has the root of the sum of the squared axes, which no skew exceeds."""
+    reaches its farther corners; an ellipsoid's is the root of the largest row sum of its Gram matrix (Gershgorin):
+    the longest axis, where they are at right angles. Widened by MARGIN and by what the centre's rounding moves it."""
     reach: np.ndarray
     """(n,): how far the shape reaches from its centre along the camera's Z; inf for infinite planes."""
 
@@ -64,16 +68,16 @@ def place(shapes: Shapes, pose: Pose) -> Placed:
     Raises InputError that names a shape whose axes lie in one plane, or which is beyond SIZES.
     """
     away, lost = two_sum(shapes.centre, -pose.eye)
-    camera_from_world = np.linalg.inv(pose.basis)
+    camera_from_world = inverse(pose.basis)
     with np.errstate(all="ignore"):  # what is flat or too far is refused by name
         shape_from_world, rounding, skewness = invert(shapes.axes)
         offset = np.einsum("nij,nj->ni", shape_from_world, away)
         _refuse(shapes, skewness, away, offset)
-        axes = (shapes.axes.transpose(0, 2, 1).reshape(-1, 3) @ camera_from_world.T).reshape(-1, 3, 3)  # row by row
-        squares = np.einsum("nij,nij->ni", axes, axes)
-        skew = np.abs(np.einsum("ni,ni->n", axes[:, 0], axes[:, 1]))
-        corner = np.sqrt(squares[:, 0] + squares[:, 1] + 2 * skew)
-        radius = np.where(shapes.kind == PLANE, corner, np.sqrt(squares.sum(axis=1)))
+        axes = np.einsum("ij,njk->nki", camera_from_world, shapes.axes)  # an axis a row
+        gram = np.abs(np.einsum("nij,nkj->nik", axes, axes))
+        corner = gram[:, 0, 0] + gram[:, 1, 1] + 2 * gram[:, 0, 1]
+        radius = np.sqrt(np.where(shapes.kind == PLANE, corner, gram.sum(axis=2).max(axis=1)))
+        radius = radius * MARGIN + 16 * EPS * np.sqrt(np.einsum("ni,ni->n", away, away))
         ahead = axes[..., 2]
         flat = np.abs(ahead[:, 0]) + np.abs(ahead[:, 1])
         reach = np.where(shapes.kind == PLANE, flat, np.sqrt(np.einsum("ni,ni->n", ahead, ahead)))
@@ -87,10 +91,10 @@ def place(shapes: Shapes, pose: Pose) -> Placed:
         offset[fine] = pair[0]
         outside[fine] = square_less_one(*pair)
     return Placed(
-        centre=away @ camera_from_world.T,
+        centre=np.einsum("ij,nj->ni", camera_from_world, away),
         shape_from_world=shape_from_world,
         rounding=rounding,
-        shape_from_camera=(shape_from_world.reshape(-1, 3) @ pose.basis).reshape(-1, 3, 3),
+        shape_from_camera=np.einsum("nij,jk->nik", shape_from_world, pose.basis),
         offset=offset,
         outside=outside,
         radius=np.where(shapes.kind == INFINITE_PLANE, np.inf, radius),

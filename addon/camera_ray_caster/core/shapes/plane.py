@@ -15,7 +15,7 @@ import numpy as np
 
 from ..conventions import gamma
 from ..records import INFINITE_PLANE, PLANE
-from ..vector import components, cross, difference, linear, matvec, rows
+from ..vector import components, cross, difference, is_lattice, linear, matvec, rows
 from .placed import Placed
 
 KINDS = (PLANE, INFINITE_PLANE)
@@ -48,12 +48,14 @@ def view(placed: Placed, at) -> View:
 def intersect(plane: View, kind: int, origin, direction, start: float | None, scratch):
     """Return t of the crossing with the plane, and where it is one: inside and at or beyond ``start``.
 
-    Arguments as the sphere's. Both sides are seen. A ray in the plane does not hit it.
+    Arguments as the sphere's. Both sides are seen. A ray in the plane does not hit it. None for t: no ray hits it.
     """
+    if origin is None and start is None and np.ndim(plane.offset) == 0 and is_lattice(direction):
+        return _near_pinhole(plane, kind, direction, scratch)
     matrix = rows(plane.matrix)
     shape = np.broadcast_shapes(np.shape(plane.offset), *map(np.shape, direction), *map(np.shape, origin or ()))
-    d_z, t, across = (scratch(i, shape) for i in range(3))
-    linear(matrix[2], direction, out=d_z)
+    d_z, t, across = (scratch(name, shape) for name in ("ahead", "found", "across"))
+    linear(matrix[2], direction, d_z, across)
     if origin is None:
         np.divide(plane.offset, d_z, out=t)
     else:
@@ -64,42 +66,37 @@ def intersect(plane: View, kind: int, origin, direction, start: float | None, sc
         np.abs(d_z, out=d_z)
         for row in range(2):
             if origin is None:
-                linear(rows(plane.cross)[row], direction, out=across)
+                linear(rows(plane.cross)[row], direction, across, scratch("spare", shape))
             else:
                 np.copyto(across, cross(n, matvec(matrix, direction))[row])
             found &= np.abs(across, out=across) <= d_z
     return t, found
 
 
-def near_blocks(plane: View, kind: int, direction, step: int, scratch):
-    """Yield (rows, t, where) as ``intersect`` gives them for one plane, rays from the eye and no start; arguments as
-    the sphere's. Blocks that the plane covers or misses, as their corners tell, are not asked pixel by pixel.
+def _near_pinhole(plane: View, kind: int, direction, scratch):
+    """Return the same for one plane and the rays of a pinhole: where their corners tell that the plane covers them all
+    or misses them all, no other is asked.
     """
     x, y, z = direction
-    offset, edges = float(plane.offset), plane.cross.tolist() if kind == PLANE else []
-    parts = [(row[0] * x, row[1] * y + row[2] * z) for row in (plane.matrix[2].tolist(), *edges)]
-    reach = np.array([abs(x).max(), abs(y).max(), abs(z)])
-    doubt = gamma(8) * float(np.abs(plane.matrix[2]) @ reach + (np.abs(plane.cross) @ reach).max())
-    for first in range(0, len(y), step):
-        rows_here = slice(first, min(first + step, len(y)))
-        ends = [first, rows_here.stop - 1]
-        corners = [row[:, [0, -1]] + column[ends] for row, column in parts]
-        slack = [corners[0], *(corners[0] - across for edge in corners[1:] for across in (edge, -edge))]
-        if any(side.max() < -doubt for side in slack):
-            continue  # affine in the pixel: what all corners are beyond, all pixels are
-        shape = rows_here.stop - first, x.shape[1]
-        d_z, t, across = (scratch(i, shape) for i in range(3))
-        np.add(parts[0][0], parts[0][1][rows_here], out=d_z)
-        np.divide(offset, d_z, out=t)
-        if all(side.min() > doubt for side in slack):
-            yield rows_here, t, None
-            continue
-        found = t >= 0.0
-        np.abs(d_z, out=d_z)
-        for row, column in parts[1:]:
-            np.add(row, column[rows_here], out=across)
-            found &= np.abs(across, out=across) <= d_z
-        yield rows_here, t, found
+    edges = rows(plane.cross) if kind == PLANE else ()
+    parts = [(row[0] * x, row[1] * y + row[2] * z) for row in (rows(plane.matrix)[2], *edges)]
+    reach = np.array([np.abs(x).max(), np.abs(y).max(), abs(z)])
+    doubt = gamma(8) * (np.abs(plane.matrix[2]) @ reach + (np.abs(plane.cross) @ reach).max())
+    corners = [row[:, [0, -1]] + column[[0, -1]] for row, column in parts]
+    slack = np.array([corners[0], *(corners[0] - across for edge in corners[1:] for across in (edge, -edge))])
+    if (slack.max(axis=(1, 2)) < -doubt).any():
+        return None, None  # affine in the pixel: what all corners are beyond, all pixels are
+    d_z, t, across = (scratch(name, (len(y), x.shape[1])) for name in ("ahead", "found", "across"))
+    np.add(*parts[0], out=d_z)
+    np.divide(plane.offset, d_z, out=t)
+    if (slack > doubt).all():
+        return t, None
+    found = t >= 0.0
+    np.abs(d_z, out=d_z)
+    for part in parts[1:]:
+        np.add(*part, out=across)
+        found &= np.abs(across, out=across) <= d_z
+    return t, found
 
 
 def uv(q):

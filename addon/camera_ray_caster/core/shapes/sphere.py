@@ -21,7 +21,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..records import SPHERE
-from ..vector import components, cross, difference, dot, linear, matvec, norm, rows
+from ..vector import components, cross, difference, dot, is_lattice, linear, matvec, norm, rows
 from .placed import Placed
 
 KINDS = (SPHERE,)
@@ -32,7 +32,8 @@ class View:
     """The constants of spheres as the eye sees them, one row a sphere."""
 
     matrix: np.ndarray
-    """(n, 3, 3): camera direction to D, scaled, turned so that the eye sees the centre along its z axis."""
+    """(n, 3, 3): camera direction to D, scaled, turned so that the eye sees the centre along its z axis, and about that
+    until D_y does not depend on the direction's x."""
     scale: np.ndarray
     """(n,): the power of two that D is scaled by."""
     centre: np.ndarray
@@ -43,31 +44,48 @@ class View:
     """(n,): c = n^2 - 1, positive where the eye is outside."""
     near: np.ndarray
     """(n,): scale c."""
+    wide: np.ndarray
+    """(n, 2, 3): the first two rows of ``matrix`` times the root of c; NaN where the eye is inside."""
 
 
 def view(placed: Placed, at) -> View:
     """Return the constants of the spheres in these rows."""
-    offset, outside, matrix = placed.offset[at], placed.outside[at], placed.shape_from_camera[at]
-    distance = np.sqrt((offset * offset).sum(axis=-1))
-    power = -np.frexp(np.abs(matrix).max(axis=(1, 2)))[1]
-    matrix = _towards(offset, distance) @ np.ldexp(matrix, power[:, None, None])
-    scale = np.ldexp(1.0, power)
-    return View(matrix, scale, placed.centre[at], distance, outside, scale * outside)
+    outside = placed.outside[at]
+    offset = np.ascontiguousarray(placed.offset[at].T)
+    matrix = np.ascontiguousarray(placed.shape_from_camera[at].transpose(1, 2, 0))  # long arrays, so fast ones
+    scale = np.ldexp(1.0, -np.frexp(np.abs(matrix).max(axis=(0, 1)))[1])
+    matrix *= scale
+    distance = norm(offset)
+    matrix = np.stack(_levelled([dot(axis, matrix) for axis in _towards(offset, distance)]))
+    with np.errstate(invalid="ignore"):
+        wide = np.sqrt(outside) * matrix[:2]
+    matrix, wide = (np.ascontiguousarray(part.transpose(2, 0, 1)) for part in (matrix, wide))
+    return View(matrix, scale, placed.centre[at], distance, outside, scale * outside, wide)
 
 
-def _towards(vectors, length):
-    """Return rotations (n, 3, 3) that turn vectors onto +z: two unit normals and the unit vector, as rows.
+def _towards(vector, length):
+    """Return the axes, each three components, of a frame whose z axis is along a vector; any frame for length 0.
 
     The normals follow Duff et al., Building an Orthonormal Basis, Revisited (2017), which has no singular direction.
     """
-    somewhere = (length > 0)[:, None]
-    x, y, z = components(np.where(somewhere, vectors, (0.0, 0.0, 1.0)) / np.where(somewhere, length[:, None], 1.0))
+    somewhere = length > 0
+    x, y, z = np.where(somewhere, vector, [[0.0], [0.0], [1.0]]) / np.where(somewhere, length, 1.0)
     sign = np.copysign(1.0, z)
     a = -1 / (sign + z)
     b = x * y * a
-    first = np.stack((1 + sign * x * x * a, sign * b, -sign * x), axis=-1)
-    second = np.stack((b, sign + y * y * a, -y), axis=-1)
-    return np.stack((first, second, np.stack((x, y, z), axis=-1)), axis=-2)
+    return (1 + sign * x * x * a, sign * b, -sign * x), (b, sign + y * y * a, -y), (x, y, z)
+
+
+def _levelled(matrix):
+    """Return the rows of matrices turned about their z axis until the second begins with 0 (a Givens rotation)."""
+    first, second, third = matrix
+    size = np.hypot(first[0], second[0])
+    somewhere = size > 0
+    size = np.where(somewhere, size, 1.0)
+    cosine, sine = np.where(somewhere, first[0] / size, 1.0), second[0] / size
+    level = cosine * second - sine * first
+    level[0] = 0.0
+    return cosine * first + sine * second, level, third
 
 
 def intersect(sphere: View, kind: int, origin, direction, start: float | None, scratch):
@@ -76,10 +94,11 @@ def intersect(sphere: View, kind: int, origin, direction, start: float | None, s
     ``sphere`` holds one row, or rows shaped to broadcast with the rays. origin is None for rays from the eye, else
     three broadcastable components in the camera frame, as direction is. start is None where the eye is outside and
     nothing of the sphere lies before the clip start: then the near root alone decides. From inside, the far wall is
-    hit. A ray that is NaN hits nothing. ``scratch(i, shape)`` lends the i-th working array; t may lie in one.
+    hit. A ray that is NaN hits nothing. t may lie in an array of ``scratch``.
     """
     if origin is None and start is None:
-        return _near_from_eye(sphere, direction, scratch), None
+        near = _near_pinhole if is_lattice(direction) else _near_from_eye
+        return near(sphere, direction, scratch), None
     d = matvec(rows(sphere.matrix), direction)
     if origin is None:
         b = sphere.distance * d[2]
@@ -104,50 +123,41 @@ def intersect(sphere: View, kind: int, origin, direction, start: float | None, s
 
 def _near_from_eye(sphere: View, direction, scratch):
     """Return near / (b + sqrt(D_z |D_z| - c (D_x^2 + D_y^2))): NaN also where the ray looks away (D_z < 0)."""
-    to_x, to_y, to_z = rows(sphere.matrix)
-    scale = np.sqrt(sphere.outside)
-    shape = np.broadcast_shapes(np.shape(sphere.outside), *map(np.shape, direction))
-    z, t, across = (scratch(i, shape) for i in range(3))
-    linear(to_z, direction, out=z)
-    np.abs(z, out=t)
-    np.multiply(t, z, out=t)
-    for row in (to_x, to_y):
-        linear([scale * entry for entry in row], direction, out=across)
-        np.subtract(t, np.square(across, out=across), out=t)
-    np.sqrt(t, out=t)
-    np.add(t, np.multiply(z, sphere.distance, out=z), out=t)
-    return np.divide(sphere.near, t, out=t)
+    z, t, across = _working(sphere, direction, scratch)
+    linear(rows(sphere.matrix)[2], direction, z, across)
+    np.multiply(z, np.abs(z, out=t), out=t)
+    spare = scratch("spare", t.shape)
+    for row in rows(sphere.wide):
+        linear(row, direction, across, spare)
+        np.subtract(t, np.multiply(across, across, out=across), out=t)
+    return _near(sphere, z, t)
 
 
-def near_blocks(sphere: View, kind: int, direction, step: int, scratch):
-    """Yield (rows, t, None) as ``intersect`` gives them for one sphere, rays from the eye and no start.
-
-    direction is a pinhole's, x a row, y a column, z a number: each D is then a row plus a column, made once, and each
-    block has ``step`` rows.
-    """
+def _near_pinhole(sphere: View, direction, scratch):
+    """Return the same, for rays of which x is a row, y a column and z a number: each D is a row plus a column."""
     x, y, z = direction
-    scale = float(np.sqrt(sphere.outside))
-    to_x, to_y, to_z = sphere.matrix.tolist()
-    parts = [
-        (row[0] * x, row[1] * y + row[2] * z)
-        for row in ([scale * entry for entry in to_x], [scale * entry for entry in to_y], to_z)
-    ]
-    (x_row, x_column), (y_row, y_column), (z_row, z_column) = parts
-    distance, near = float(sphere.distance), float(sphere.near)
-    for first in range(0, len(y), step):
-        rows_here = slice(first, min(first + step, len(y)))
-        shape = rows_here.stop - first, x.shape[1]
-        ahead, t, across = (scratch(i, shape) for i in range(3))
-        np.add(z_row, z_column[rows_here], out=ahead)
-        np.abs(ahead, out=t)
-        np.multiply(t, ahead, out=t)
-        np.add(x_row, x_column[rows_here], out=across)
-        np.subtract(t, np.square(across, out=across), out=t)
-        np.add(y_row, y_column[rows_here], out=across)
-        np.subtract(t, np.square(across, out=across), out=t)
-        np.sqrt(t, out=t)
-        np.add(t, np.multiply(ahead, distance, out=ahead), out=t)
-        yield rows_here, np.divide(near, t, out=t), None
+    to_x, to_y = rows(sphere.wide)
+    to_z = rows(sphere.matrix)[2]
+    ahead, t, across = _working(sphere, direction, scratch)
+    np.add(to_z[0] * x, to_z[1] * y + to_z[2] * z, out=ahead)
+    np.multiply(ahead, np.abs(ahead, out=t), out=t)
+    np.add(to_x[0] * x, to_x[1] * y + to_x[2] * z, out=across)
+    np.subtract(t, np.multiply(across, across, out=across), out=t)
+    level = to_y[1] * y + to_y[2] * z
+    np.subtract(t, level * level, out=t)
+    return _near(sphere, ahead, t)
+
+
+def _working(sphere: View, direction, scratch):
+    shape = np.broadcast_shapes(np.shape(sphere.outside), *map(np.shape, direction))
+    return (scratch(name, shape) for name in ("ahead", "found", "across"))
+
+
+def _near(sphere: View, ahead, t):
+    """Turn discriminants into t, in place."""
+    np.sqrt(t, out=t)
+    np.add(t, np.multiply(ahead, sphere.distance, out=ahead), out=t)
+    return np.divide(sphere.near, t, out=t)
 
 
 def uv(q):
