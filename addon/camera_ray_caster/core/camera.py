@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -10,12 +12,13 @@ import numpy as np
 from .aperture import Aperture
 from .clock import Clock, groups, meeting
 from .conventions import gamma
+from .loops import whole_rows
 from .records import BlenderCamera, InputError, Pose, Raster, Rays
 from .sampling import in_opening, sub_pixel
 from .vector import inverse, matvec, norm, unit
 
-BLOCK_PIXELS = 1 << 14
-"""Pixels whose rays are made at once: their components stay in a core's cache."""
+BLOCK_PIXELS = 1 << 17
+"""Pixels whose rays are made at once: fewer, and threads would wait for each other at each of numpy's calls."""
 
 
 def pose_from(raw: BlenderCamera) -> Pose:
@@ -95,23 +98,25 @@ class Camera:
         shape = np.broadcast_shapes(x.shape, y.shape)
         directions = np.empty((*shape, 3))
         origins = np.broadcast_to(self.pose.eye, directions.shape) if self.model.central else np.empty((*shape, 3))
-        if is_grid(x, y):
-            step = max(1, BLOCK_PIXELS // x.size)
-            for first in range(0, y.size, step):
-                rows = slice(first, first + step)
-                self._fill(x, y[rows], origins[rows], directions[rows])
+        step = max(1, BLOCK_PIXELS // max(x.size, 1))
+        if is_grid(x, y) and y.size > step:
+            blocks = [slice(first, first + step) for first in range(0, y.size, step)]
+            with ThreadPoolExecutor(os.cpu_count()) as pool:  # numpy releases the interpreter
+                list(pool.map(lambda rows: self._fill(x, y[rows], origins[rows], directions[rows]), blocks))
         else:
             self._fill(x, y, origins, directions)
         return Rays(origins, directions, ~np.isnan(directions[..., 0]))
 
     def _fill(self, x, y, origins, directions) -> None:
         """Write the world rays through pixel coordinates; the origins only where there is more than the eye."""
-        origin, direction = self.camera_rays(x, y)
-        for axis, component in enumerate(unit(matvec(self.pose.basis, direction))):
-            directions[..., axis] = component
-        if not self.model.central:
-            for axis, component in enumerate(matvec(self.pose.basis, origin)):
-                origins[..., axis] = component + self.pose.eye[axis]
+        with whole_rows(np.shape(x)[-1] if np.ndim(x) else 1):
+            origin, direction = self.camera_rays(x, y)
+            direction = matvec(self.pose.basis, direction)
+            for axis, component in enumerate(unit(direction) if self.model.planar else direction):
+                directions[..., axis] = component
+            if not self.model.central:
+                for axis, component in enumerate(matvec(self.pose.basis, origin)):
+                    np.add(component, self.pose.eye[axis], out=origins[..., axis])
 
     def _timed_rays(self, clock: Clock, x, y) -> Rays:
         """Return what ``rays_at`` does, of the camera at each pixel's own time."""
