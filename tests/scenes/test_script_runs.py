@@ -1,10 +1,12 @@
-"""Runs of the scripts that write more than one eye, or that are ended before they are done."""
+"""Runs of the scripts that write more than one eye, search with a precision, or are ended before they are done."""
 
+import json
 import signal
 import subprocess
 import sys
 import time
 
+import numpy as np
 import pytest
 
 from ..exr import read_exr
@@ -24,6 +26,26 @@ def test_each_eye_has_its_files(blender, tmp_path):
         (x,) = (image for name, image in read_exr(tmp_path / "out" / f"stereo_{eye}.exr").items()
                 if "Ray Origin" in name and name.endswith("X"))  # fmt: skip
         assert (x == place).all()
+
+
+def test_cast_takes_the_precision_and_the_report_has_the_bounds_of_the_hits(blender, tmp_path):
+    scene, worst = small(blender, tmp_path / "small.blend"), {}
+    for words in ((), ("--precision", "fast")):
+        done = script("cast", scene, *words, "--output", tmp_path / "out")
+        assert (done.returncode, done.stderr) == (0, "")
+        report = json.loads((tmp_path / "out" / "report.json").read_text())
+        found = report["accuracy"]
+        assert found["sampled_pixels"] == 32 * 24
+        depth = read_exr(tmp_path / "out" / "small.exr")["ViewLayer.Depth.Z"]
+        assert found["hits"] == np.count_nonzero(depth < 1e9)
+        distance = found["distance"]
+        assert distance["unit"] == "world units"
+        assert 0 < distance["median_bound"] <= distance["worst_bound"]
+        assert report["seconds"]["accuracy"] > 0
+        worst[report["precision"]] = distance["worst_bound"]
+        assert f"precision {report['precision']}" in done.stdout
+        assert f"{distance['worst_bound']:.1e}  world units" in done.stdout
+    assert worst["AUTOMATIC"] < 1e-11 < 1e-8 < worst["FAST"]
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="Windows ends a process without telling it")

@@ -114,26 +114,6 @@ def test_cast_takes_camera_frame_passes_and_shading(scene, tmp_path):
     assert x == pytest.approx(np.full_like(x, 0.5), abs=1e-6)
 
 
-def test_cast_takes_the_precision_and_the_report_has_the_bounds_of_the_hits(scene, tmp_path):
-    worst = {}
-    for words in ((), ("--precision", "fast")):
-        done = script("cast", scene, *words, "--output", tmp_path / "out")
-        assert (done.returncode, done.stderr) == (0, "")
-        report = json.loads((tmp_path / "out" / "report.json").read_text())
-        found = report["accuracy"]
-        assert found["sampled_pixels"] == 32 * 24
-        depth = read_exr(tmp_path / "out" / "small.exr")["ViewLayer.Depth.Z"]
-        assert found["hits"] == np.count_nonzero(depth < 1e9)
-        distance = found["distance"]
-        assert distance["unit"] == "world units"
-        assert 0 < distance["median_bound"] <= distance["worst_bound"]
-        assert report["seconds"]["accuracy"] > 0
-        worst[report["precision"]] = distance["worst_bound"]
-        assert f"precision {report['precision']}" in done.stdout
-        assert f"{distance['worst_bound']:.1e}  world units" in done.stdout
-    assert worst["AUTOMATIC"] < 1e-11 < 1e-8 < worst["FAST"]
-
-
 def test_frames_are_numbered(scene, tmp_path):
     done = script("cast", scene, "--frames", "1:2", "--passes", "ray_origin", "--output", tmp_path / "out")
     assert done.returncode == 0
