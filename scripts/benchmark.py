@@ -4,7 +4,8 @@
     python scripts/benchmark.py --quick         the first two, fewer rounds
     python scripts/benchmark.py --scaling       cost against pixels and shapes, with a diagram
 
-Contenders take turns, round by round, so that what else the machine does falls on all of them. Times are milliseconds:
+Contenders take turns, round by round, so that what else the machine does falls on all of them, with a pause before
+each, in which the threads of the one before it come to rest. Times are milliseconds:
 least, median, and the spread (the middle half of the rounds) behind it; ratios are of medians.
 """
 
@@ -15,7 +16,7 @@ import gc
 import json
 import sys
 from pathlib import Path
-from time import perf_counter
+from time import perf_counter, sleep
 
 import numpy as np
 
@@ -99,6 +100,7 @@ def take_turns(runs: dict, rounds: int) -> dict[str, list[float]]:
     try:
         for _ in range(rounds):
             for name, run in runs.items():
+                sleep(c.PAUSE)
                 began = perf_counter()
                 kept = run()
                 times[name].append(1e3 * (perf_counter() - began))

@@ -19,6 +19,9 @@ from camera_ray_caster.core.records import PLANE, SPHERE, BlenderCamera, Shapes
 PASSES = ("depth", "normal", "position", "object_index")
 LENS, SENSOR = 50.0, 36.0
 
+PAUSE = 0.15
+"""Seconds of rest before each timing: the threads of OpenBLAS, for one, spin on for a tenth of a second."""
+
 
 def scene(count: int, width: int, height: int, **raw):
     """Return a camera, and ``count`` equal spheres before a wall that fills the picture behind them.

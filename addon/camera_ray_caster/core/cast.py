@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from threading import local
 from time import perf_counter
 
@@ -37,12 +37,12 @@ class Images(dict):
 
 @dataclass(frozen=True)
 class Tile:
-    """A part of the picture that is cast at once, with what it is cast of."""
+    """A part of the picture that is cast at once."""
 
-    camera: Camera
-    shapes: Shapes
     rows: slice
     columns: slice
+    frame: float | None = None
+    """The moment it is of; None where the picture has one time."""
     where: np.ndarray | None = None
     """The pixels of the part that are meant; None for all."""
 
@@ -85,12 +85,12 @@ def cast(
     chief = tuple(name for name in whole.passes if name not in sampled)
     plans: dict[bool, Plan] = {}
     if camera.clock is None:
-        tiles = list(_bands(camera, shapes))
+        tiles = list(_bands(slice(0, height), slice(0, width)))
         plans[False] = whole
         if sampled:
             plans[True] = make_plan(*middle, passes, known, shading, cull, True, precision)
     else:
-        tiles = list(_moments(camera, shapes, camera.clock))
+        tiles = list(_moments(camera, camera.clock))
     images.plan = whole
     images.seconds = {"plan": perf_counter() - started}
     own = local()
@@ -99,12 +99,11 @@ def cast(
         if not hasattr(own, "scratch"):
             own.scratch = Scratch(whole.real)
         seconds = np.zeros(len(STEPS))
+        then = (camera, shapes) if tile.frame is None else _moment(camera, shapes, tile.frame)
         for names, count in ((chief, 1), (sampled, samples)):
             if names:
                 with np.errstate(all="ignore"):  # NaN and inf are answers here: no ray, no hit
-                    plan = plans.get(count > 1) or make_plan(
-                        tile.camera, tile.shapes, names, known, shading, cull, count > 1, precision
-                    )
+                    plan = plans.get(count > 1) or make_plan(*then, names, known, shading, cull, count > 1, precision)
                     seconds += _cast_tile(tile, plan, names, count, images, own.scratch)
         return seconds
 
@@ -115,19 +114,20 @@ def cast(
     return images
 
 
-def _bands(camera: Camera, shapes: Shapes) -> Iterator[Tile]:
-    """Yield the picture in whole rows."""
-    height, width = camera.raster.shape
-    step = max(1, TILE_PIXELS // width)
-    for first in range(0, height, step):
-        yield Tile(camera, shapes, slice(first, min(first + step, height)), slice(0, width))
+def _bands(rows: slice, columns: slice) -> Iterator[Tile]:
+    """Yield a part of the picture in whole rows."""
+    step = max(1, TILE_PIXELS // (columns.stop - columns.start))
+    for first in range(rows.start, rows.stop, step):
+        yield Tile(slice(first, min(first + step, rows.stop)), columns)
 
 
-def _moments(camera: Camera, shapes: Shapes, clock: Clock) -> Iterator[Tile]:
-    """Yield the picture time by time, each with the camera and the shapes of that time."""
+def _moments(camera: Camera, clock: Clock) -> Iterator[Tile]:
+    """Yield the picture time by time."""
     for frame, rows, columns, where in groups(clock, camera.raster.columns(), camera.raster.rows()):
         rows, columns = (slice(*s.indices(n)) for s, n in zip((rows, columns), camera.raster.shape, strict=True))
-        yield Tile(*_moment(camera, shapes, frame), rows, columns, None if where.all() else where)
+        for tile in _bands(rows, columns):
+            meant = where[tile.rows.start - rows.start : tile.rows.stop - rows.start]
+            yield replace(tile, frame=frame, where=None if meant.all() else meant)
 
 
 def _moment(camera: Camera, shapes: Shapes, frame: float) -> tuple[Camera, Shapes]:
@@ -138,7 +138,8 @@ def _moment(camera: Camera, shapes: Shapes, frame: float) -> tuple[Camera, Shape
 
 def _cast_tile(tile: Tile, plan: Plan, names, samples: int, images: Images, scratch: Scratch) -> np.ndarray:
     """Cast one tile and store its passes; return the seconds of STEPS."""
-    raster = tile.camera.raster
+    camera = plan.camera
+    raster = camera.raster
     x, y = raster.columns()[:, tile.columns], raster.rows()[tile.rows]
     corner = tile.columns.start, tile.rows.start
     part = tile.rows, tile.columns
@@ -147,11 +148,11 @@ def _cast_tile(tile: Tile, plan: Plan, names, samples: int, images: Images, scra
     for sample in range(samples):
         began = perf_counter()
         if total is None:
-            from_eye = tile.camera.model.central
-            origin, direction = tile.camera.camera_rays(x, y)
+            from_eye = camera.model.central
+            origin, direction = camera.camera_rays(x, y)
         else:
-            from_eye = tile.camera.model.central and tile.camera.aperture is None
-            origin, direction = tile.camera.sample_rays(x, y, sample)
+            from_eye = camera.model.central and camera.aperture is None
+            origin, direction = camera.sample_rays(x, y, sample)
         generated = perf_counter()
         hits = nearest(plan, origin, direction, from_eye, corner, scratch)
         found = perf_counter()

@@ -1,0 +1,92 @@
+"""What a scene does not need is not done: shown by taking it away, and by pictures that are the same without it."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from camera_ray_caster.core import hits, plan
+from camera_ray_caster.core.camera import Camera
+from camera_ray_caster.core.cameras import MODELS
+from camera_ray_caster.core.cast import cast
+from camera_ray_caster.core.motion import Motion
+from camera_ray_caster.core.records import INFINITE_PLANE, PLANE, SPHERE
+from camera_ray_caster.core.shapes import plane, sphere
+
+from .model_examples import camera as camera_of
+from .test_cast import camera_at, random_shapes, shapes_of
+
+BALLS = shapes_of(*[(SPHERE, (x, y, -6 - x), 0.4) for x in range(-3, 4) for y in range(-3, 4)])
+WALLS = shapes_of((PLANE, (0, 0, -5), 2.0), (INFINITE_PLANE, (0, -1, 0), [[1, 0, 0], [0, 0, 1], [0, -1, 0]]))
+EVERY = "depth", "normal", "position", "uv", "object_index", "shape_index", "distance_bound"
+
+
+def forbidden(*_, **__):
+    raise AssertionError("this was not needed")
+
+
+@pytest.mark.parametrize(("shapes", "other"), [(BALLS, plane), (WALLS, sphere)])
+@pytest.mark.parametrize("precision", ["ROBUST", "FAST"])
+def test_kinds_that_are_not_there_are_not_tested(monkeypatch, shapes, other, precision):
+    for name in ("view", "intersect"):
+        monkeypatch.setattr(other, name, forbidden)
+    images = cast(camera_at(), shapes, EVERY, precision=precision)
+    assert (images["shape_index"] >= 0).any()
+
+
+def test_a_kind_out_of_view_is_not_tested(monkeypatch):
+    monkeypatch.setattr(plane, "intersect", forbidden)
+    behind = shapes_of((SPHERE, (0, 0, -6), 1.0), (PLANE, (0, 0, 5), 2.0), (PLANE, (90, 0, -5), 2.0))
+    images = cast(camera_at(), behind, EVERY)
+    assert images.plan.unseen == 2
+    assert set(np.unique(images["shape_index"])) == {-1, 0}
+
+
+@pytest.mark.parametrize("passes", [("depth",), ("depth", "shape_index", "object_index")])
+def test_depth_needs_no_points_normals_bounds_colours(monkeypatch, passes):
+    for name in ("point", "normal", "bounds", "world_direction", "surfaces"):
+        monkeypatch.setattr(hits.Hits, name, property(forbidden))
+    for name in ("normals", "colours", "material_index"):
+        monkeypatch.setattr(plan.Plan, name, property(forbidden))
+    assert list(cast(camera_at(), BALLS, passes)) == list(passes)
+
+
+def test_position_needs_no_normals(monkeypatch):
+    monkeypatch.setattr(plan, "normal_table", forbidden)
+    assert np.isfinite(cast(camera_at(), BALLS, ("position",))["position"]).all()
+
+
+def test_one_sample_needs_no_lens_and_one_time_no_motion(monkeypatch):
+    monkeypatch.setattr(Camera, "sample_rays", forbidden)
+    monkeypatch.setattr(Camera, "at", forbidden)
+    monkeypatch.setattr(Motion, "at", forbidden)
+    assert np.isfinite(cast(camera_at(), BALLS, ("combined",))["combined"]).all()
+
+
+def test_normals_of_near_balls_come_with_unit_length_and_only_those_of_far_ones_are_given_it():
+    near, far = (shapes_of((SPHERE, (0, 0, -distance), 1.0)) for distance in (50.0, 1e6))
+    for shapes, unit in ((near, True), (far, False)):
+        camera = camera_at(lens=18.0 * -shapes.centre[0, 2] / 2, clip_end=1e7)
+        images = cast(camera, shapes, ("normal", "shape_index"), np.float64)
+        assert images.plan.normals.unit is unit
+        length = np.linalg.norm(images["normal"], axis=-1)[images["shape_index"] >= 0]
+        assert length.size > 100
+        assert np.abs(length - 1).max() < 1e-12
+
+
+@pytest.mark.parametrize("model", MODELS, ids=lambda model: model.key)
+@pytest.mark.parametrize("seed", range(2))
+def test_every_model_sees_the_same_with_and_without_culling(model, seed):
+    """Large shapes, and small ones, which are cast in batches: without culling all are as large as the picture."""
+    rng = np.random.default_rng([seed, *map(ord, model.key)])
+    large = random_shapes(rng, 12)
+    dust = shapes_of(*[(SPHERE, rng.normal(size=3) * 6, rng.uniform(0.02, 0.2)) for _ in range(300)])
+    shapes = type(large)(**{
+        name: np.concatenate((getattr(large, name), getattr(dust, name)))
+        for name in ("kind", "centre", "axes", "object_index", "material_index", "colour", "name_index")
+    })  # fmt: skip
+    camera = camera_of(model.key, {"resolution_x": 96, "resolution_y": 64})
+    culled, unculled = (cast(camera, shapes, EVERY, np.float64, cull=cull) for cull in (True, False))
+    for name in EVERY:
+        assert np.array_equal(culled[name], unculled[name], equal_nan=True), name
+    assert (culled["shape_index"] > 12).any()
