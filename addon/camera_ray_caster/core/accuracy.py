@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field, replace
 from math import isqrt
 
@@ -13,7 +14,7 @@ from .clock import groups
 from .conventions import EPS32
 from .loops import Scratch
 from .nearest import nearest
-from .plan import Plan, make_plan
+from .plan import Group, Plan, make_plan
 from .records import Raster, Shapes
 from .vector import norm
 
@@ -107,11 +108,11 @@ def _bounds(plan: Plan, x, y, where=True) -> np.ndarray:
     """Return the bounds, (hits, 4), at the pixels of x (1, columns) and y (rows, 1) that are meant."""
     raster = plan.camera.raster
     columns, rows = x[0] - 0.5 - raster.x0, y[:, 0] - 0.5 - raster.y0
-    sampled = tuple(replace(group, bounds=_among(group.bounds, columns, rows)) for group in plan.groups)
+    thinned = replace(plan, groups=tuple(_thinned(plan.groups, columns, rows)))
     with np.errstate(all="ignore"):  # NaN and inf are answers here: no ray, no hit
         origin, direction = plan.camera.camera_rays(x, y)
         from_eye, scratch = plan.camera.model.central, Scratch(plan.real)
-        hits = nearest(replace(plan, groups=sampled), origin, direction, from_eye, (0, 0), scratch)
+        hits = nearest(thinned, origin, direction, from_eye, (0, 0), scratch)
         if not hits.seen.any():
             return np.zeros((0, len(QUANTITIES)))
         bounds = Bounds(hits, (x, y))
@@ -121,6 +122,12 @@ def _bounds(plan: Plan, x, y, where=True) -> np.ndarray:
     return np.where(np.isnan(found), np.inf, found)[meant]
 
 
-def _among(bounds, columns, rows):
-    """Return the shapes' bounds, pixels of the render window, as places among some of its columns and rows."""
-    return np.hstack((np.searchsorted(columns, bounds[:, :2]), np.searchsorted(rows, bounds[:, 2:])))
+def _thinned(whole: Iterable[Group], columns, rows) -> Iterator[Group]:
+    """Yield the shapes that some of the window's columns and rows may see, to be cast many at once."""
+    for group in whole:
+        window = group.bounds
+        bounds = np.hstack((np.searchsorted(columns, window[:, :2]), np.searchsorted(rows, window[:, 2:])))
+        here = np.flatnonzero((bounds[:, 0] < bounds[:, 1]) & (bounds[:, 2] < bounds[:, 3]))
+        here = here[np.argsort(bounds[here, 2], kind="stable")]
+        if here.size:
+            yield replace(group, small=True, at=group.at[here], bounds=bounds[here], view=group.constants(here))
