@@ -15,12 +15,13 @@ SOURCES = [*MODULES, *sorted((ROOT / "scripts").glob("*.py")), *sorted((ROOT / "
 
 # What a part of the package may import of the package: the longest name that fits counts. The lowest layer comes first.
 LOW = {"core.conventions", "core.records", "core.vector"}
-RAYS = LOW | {"core.aperture", "core.clock", "core.sampling"}
+RAYS = LOW | {"core.aperture", "core.clock", "core.loops", "core.sampling"}
 MAY_IMPORT = {
     "core.conventions": set(),
     "core.records": {"core.conventions"},
     "core.vector": {"core.conventions"},
     "core.sampling": set(),
+    "core.loops": set(),
     "core.aperture": LOW,
     "core.clock": LOW,
     "core.camera": RAYS,
