@@ -46,6 +46,12 @@ def dot(left, right):
     return left[0] * right[0] + (left[1] * right[1] + left[2] * right[2])
 
 
+def inner(left, right, out, spare):
+    """Return ``dot``, rounded alike, in ``out``; ``spare`` is a working array of the same shape."""
+    np.add(np.multiply(left[1], right[1], out=out), np.multiply(left[2], right[2], out=spare), out=out)
+    return np.add(np.multiply(left[0], right[0], out=spare), out, out=out)
+
+
 def cross(left, right):
     """Return the cross product, each component right to gamma(2) of the sum of the magnitudes of its two products."""
     return (

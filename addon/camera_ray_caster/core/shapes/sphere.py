@@ -21,7 +21,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..records import SPHERE
-from ..vector import components, cross, difference, dot, is_lattice, linear, matvec, norm, rows
+from ..vector import components, difference, dot, inner, is_lattice, linear, matvec, norm, rows
 from .placed import Placed
 
 KINDS = (SPHERE,)
@@ -99,26 +99,46 @@ def intersect(sphere: View, kind: int, origin, direction, start: float | None, s
     if origin is None and start is None:
         near = _near_pinhole if is_lattice(direction) else _near_from_eye
         return near(sphere, direction, scratch), None
-    d = matvec(rows(sphere.matrix), direction)
+    shape = np.broadcast_shapes(np.shape(sphere.outside), *map(np.shape, direction), *map(np.shape, origin or ()))
+    d = _turned(sphere.matrix, direction, "d", shape, scratch)
     if origin is None:
         b = sphere.distance * d[2]
         c = sphere.outside
         discriminant = d[2] * d[2] - c * (d[0] * d[0] + d[1] * d[1])
     else:
-        n = matvec(rows(sphere.matrix / sphere.scale[..., None, None]), difference(components(sphere.centre), origin))
-        n_cross_d = cross(n, d)
-        distance = norm(n)
-        b = dot(n, d)
-        c = (distance - 1) * (distance + 1)
-        discriminant = dot(d, d) - dot(n_cross_d, n_cross_d)
+        to_shape = sphere.matrix / sphere.scale[..., None, None]
+        n = _turned(to_shape, difference(components(sphere.centre), origin), "n", shape, scratch)
+        b, c, a, spare = (scratch(name, shape) for name in ("found", "ahead", "across", "spare"))
+        inner(n, d, b, spare)
+        distance = np.sqrt(inner(n, n, c, spare), out=a)
+        np.multiply(np.subtract(distance, 1, out=c), np.add(distance, 1, out=spare), out=c)
+        discriminant = np.subtract(inner(d, d, a, spare), _cross_square(n, d, shape, scratch), out=a)
     root = np.sqrt(discriminant)
     if start is None:
-        return sphere.scale * c / (b + root), None
+        return np.divide(sphere.scale * c, np.add(b, root, out=root), out=root), None
     stable = b + np.copysign(root, b)
     first, second = sphere.scale * c / stable, sphere.scale * stable / dot(d, d)
     near, far = np.minimum(first, second), np.maximum(first, second)
     t = np.where(near >= start, near, far)
     return np.where(t >= start, t, np.nan), None
+
+
+def _turned(matrix, vector, name: str, shape, scratch):
+    """Return matrix @ vector as components: in working arrays, where they are as large as those."""
+    if np.broadcast_shapes(*map(np.shape, vector)) != shape:
+        return matvec(rows(matrix), vector)
+    spare = scratch("spare", shape)
+    return tuple(linear(row, vector, scratch(f"{name} {i}", shape), spare) for i, row in enumerate(rows(matrix)))
+
+
+def _cross_square(n, d, shape, scratch):
+    """Return |N x D|^2 in a working array."""
+    total, product, other = (scratch(name, shape) for name in ("square", "product", "spare"))
+    total.fill(0)
+    for i, j in ((1, 2), (2, 0), (0, 1)):
+        np.subtract(np.multiply(n[i], d[j], out=product), np.multiply(n[j], d[i], out=other), out=product)
+        np.add(total, np.multiply(product, product, out=product), out=total)
+    return total
 
 
 def _near_from_eye(sphere: View, direction, scratch):
