@@ -15,7 +15,7 @@ from .conventions import gamma
 from .loops import whole_rows
 from .records import BlenderCamera, InputError, Pose, Raster, Rays
 from .sampling import in_opening, sub_pixel
-from .vector import inverse, matvec, norm, unit
+from .vector import inverse, is_one, matvec, norm, unit
 
 BLOCK_PIXELS = 1 << 17
 """Pixels whose rays are made at once: fewer, and threads would wait for each other at each of numpy's calls."""
@@ -83,6 +83,12 @@ class Camera:
             return origin, direction
         u, v = in_opening(sample, x, y)
         return self.aperture.through(origin, direction, self.model.planar, *self.aperture.points(u, v))
+
+    @property
+    def parallel(self):
+        """The direction that all chief rays have, three numbers in the camera frame; None where they differ."""
+        direction = self.model.rays(np.zeros((1, 1)), np.zeros((1, 1)))[1]
+        return direction if is_one(direction) else None
 
     @property
     def is_rigid(self) -> bool:

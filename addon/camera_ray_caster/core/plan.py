@@ -169,7 +169,7 @@ def make_plan(
         if len(at):
             if is_small:
                 at = at[np.argsort(bounds[at, 2], kind="stable")]
-            view = _rounded(SHAPE_OF_KIND[kind].view(placed, at), real)
+            view = _rounded(SHAPE_OF_KIND[kind].view(placed, at, camera.parallel), real)
             groups.append(Group(kind, is_simple, is_small, at, np.asfortranarray(bounds[at]), view))
     return Plan(
         camera=camera,

@@ -35,6 +35,11 @@ def inverse(matrix) -> np.ndarray:
     return crossed / dot(crossed[0], first)
 
 
+def is_one(components) -> bool:
+    """Whether it is one vector for all rays: three numbers."""
+    return all(np.ndim(component) == 0 for component in components)
+
+
 def is_lattice(components) -> bool:
     """Whether x is a row, y a column and z a number: a pinhole's directions over a window, or over many windows."""
     x, y, z = components

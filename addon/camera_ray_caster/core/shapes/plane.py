@@ -35,8 +35,8 @@ class View:
     """(n, 2, 3): camera direction to the x and y components of N x D, for rays from the eye."""
 
 
-def view(placed: Placed, at) -> View:
-    """Return the constants of the planes in these rows."""
+def view(placed: Placed, at, direction=None) -> View:
+    """Return the constants of the planes in these rows; arguments as the sphere's."""
     centre, matrix, offset = placed.centre[at], placed.shape_from_camera[at], placed.offset[at]
     sign = np.where(offset[..., 2] < 0, -1.0, 1.0)[..., None]  # q and -q are the same plane
     matrix, offset = matrix * sign[..., None], offset * sign

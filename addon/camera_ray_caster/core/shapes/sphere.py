@@ -21,7 +21,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..records import SPHERE
-from ..vector import components, difference, dot, inner, is_lattice, linear, matvec, norm, rows
+from ..vector import components, difference, dot, inner, is_lattice, is_one, linear, matvec, norm, rows
 from .placed import Placed
 
 KINDS = (SPHERE,)
@@ -32,8 +32,8 @@ class View:
     """The constants of spheres as the eye sees them, one row a sphere."""
 
     matrix: np.ndarray
-    """(n, 3, 3): camera direction to D, scaled, turned so that the eye sees the centre along its z axis, and about that
-    until D_y does not depend on the direction's x."""
+    """(n, 3, 3): camera direction to D, scaled, turned so that the eye sees the centre along its z axis, or so that
+    parallel rays run along it, and about that until D_y does not depend on the direction's x."""
     scale: np.ndarray
     """(n,): the power of two that D is scaled by."""
     centre: np.ndarray
@@ -48,15 +48,16 @@ class View:
     """(n, 2, 3): the first two rows of ``matrix`` times the root of c; NaN where the eye is inside."""
 
 
-def view(placed: Placed, at) -> View:
-    """Return the constants of the spheres in these rows."""
+def view(placed: Placed, at, direction=None) -> View:
+    """Return the constants of the spheres in these rows; for parallel rays with the direction that they all have."""
     outside = placed.outside[at]
     offset = np.ascontiguousarray(placed.offset[at].T)
     matrix = np.ascontiguousarray(placed.shape_from_camera[at].transpose(1, 2, 0))  # long arrays, so fast ones
     scale = np.ldexp(1.0, -np.frexp(np.abs(matrix).max(axis=(0, 1)))[1])
     matrix *= scale
     distance = norm(offset)
-    matrix = np.stack(_levelled([dot(axis, matrix) for axis in _towards(offset, distance)]))
+    axes = _towards(offset, distance) if direction is None else _towards(*_with_length(matvec(matrix, direction)))
+    matrix = np.stack(_levelled([dot(axis, matrix) for axis in axes]))
     with np.errstate(invalid="ignore"):
         wide = np.sqrt(outside) * matrix[:2]
     matrix, wide = (np.ascontiguousarray(part.transpose(2, 0, 1)) for part in (matrix, wide))
@@ -74,6 +75,10 @@ def _towards(vector, length):
     a = -1 / (sign + z)
     b = x * y * a
     return (1 + sign * x * x * a, sign * b, -sign * x), (b, sign + y * y * a, -y), (x, y, z)
+
+
+def _with_length(vector):
+    return vector, norm(vector)
 
 
 def _levelled(matrix):
@@ -99,6 +104,8 @@ def intersect(sphere: View, kind: int, origin, direction, start: float | None, s
     if origin is None and start is None:
         near = _near_pinhole if is_lattice(direction) else _near_from_eye
         return near(sphere, direction, scratch), None
+    if origin is not None and start is None and is_one(direction) and is_lattice(origin):
+        return _near_parallel(sphere, origin, direction, scratch), None
     shape = np.broadcast_shapes(np.shape(sphere.outside), *map(np.shape, direction), *map(np.shape, origin or ()))
     d = _turned(sphere.matrix, direction, "d", shape, scratch)
     if origin is None:
@@ -168,8 +175,21 @@ def _near_pinhole(sphere: View, direction, scratch):
     return _near(sphere, ahead, t)
 
 
-def _working(sphere: View, direction, scratch):
-    shape = np.broadcast_shapes(np.shape(sphere.outside), *map(np.shape, direction))
+def _near_parallel(sphere: View, origin, direction, scratch):
+    """Return (N_z - sqrt(1 - N_x^2 - N_y^2)) / D_z, for rays along z whose origins are a row and a column."""
+    x, y, z = difference(components(sphere.centre), origin)
+    to_x, to_y, to_z = rows(sphere.matrix)
+    ahead, t, across = _working(sphere, (x, y, z), scratch)
+    level = to_y[1] * y + to_y[2] * z
+    np.add(to_x[0] * x, to_x[1] * y + to_x[2] * z, out=across)
+    np.subtract(sphere.scale * sphere.scale - level * level, np.multiply(across, across, out=across), out=t)
+    np.add(to_z[0] * x, to_z[1] * y + to_z[2] * z, out=ahead)
+    np.subtract(ahead, np.sqrt(t, out=t), out=t)
+    return np.divide(t, dot(to_z, direction), out=t)
+
+
+def _working(sphere: View, vector, scratch):
+    shape = np.broadcast_shapes(np.shape(sphere.outside), *map(np.shape, vector))
     return (scratch(name, shape) for name in ("ahead", "found", "across"))
 
 
