@@ -51,6 +51,21 @@ def test_depth_needs_no_points_normals_bounds_colours(monkeypatch, passes):
     assert list(cast(camera_at(), BALLS, passes)) == list(passes)
 
 
+def test_the_clip_end_is_asked_only_where_something_reaches_beyond_it():
+    ball = shapes_of((SPHERE, (0, 0, -5), 1.0))
+    for end, clips, hit in ((100.0, False, 4.0), (5.5, True, 4.0), (3.9, False, np.inf)):
+        images = cast(camera_at(clip_end=end), ball, ("depth",), np.float64)
+        assert images.plan.clips is clips
+        assert images["depth"][16, 16] == hit
+    walls = shapes_of((PLANE, (0, 0, -5), [[9, 0, 0], [0, 1, -1], [0, 1, 1]]))  # it rises towards the camera
+    images = cast(camera_at(clip_end=5.0), walls, ("depth", "shape_index"), np.float64)
+    assert images.plan.clips
+    assert images["depth"][np.isfinite(images["depth"])].max() <= 5.0
+    assert ((images["shape_index"] >= 0) == np.isfinite(images["depth"])).all()
+    whole = cast(camera_at(), walls, ("shape_index",))["shape_index"] == 0
+    assert 0 < np.isfinite(images["depth"]).sum() < whole.sum()
+
+
 def test_position_needs_no_normals(monkeypatch):
     monkeypatch.setattr(plan, "normal_table", forbidden)
     assert np.isfinite(cast(camera_at(), BALLS, ("position",))["position"]).all()

@@ -22,7 +22,6 @@ def nearest(plan: Plan, origin, direction, from_eye: bool, corner, scratch: Scra
     the one with the lowest index counts, whatever order they are tested in. The hits lie in ``scratch``.
     """
     shape = np.broadcast_shapes(*map(np.shape, origin), *map(np.shape, direction), (1, 1))
-    beyond = np.nextafter(plan.real(plan.camera.clip_end), plan.real(np.inf))
     tile = Tile(
         None if from_eye else _rounded(origin, plan.real),
         _rounded(direction, plan.real),
@@ -31,7 +30,7 @@ def nearest(plan: Plan, origin, direction, from_eye: bool, corner, scratch: Scra
         scratch("index", shape, np.int32),
         scratch,
     )
-    tile.t.fill(beyond)
+    tile.t.fill(np.inf)
     tile.index.fill(NOTHING)
     large = []
     for group in plan.groups:
@@ -43,7 +42,10 @@ def nearest(plan: Plan, origin, direction, from_eye: bool, corner, scratch: Scra
             large += [(group, *one) for one in zip(at.tolist(), bounds.tolist(), strict=True)]
     for group, row, bounds in sorted(large, key=lambda one: one[0].at[one[1]]):
         tile.cast_one(group, row, bounds)
-    np.copyto(tile.t, np.inf, where=tile.index == NOTHING)
+    if plan.clips:
+        beyond = np.greater(tile.t, plan.real(plan.camera.clip_end), out=scratch("closer", shape, bool))
+        np.copyto(tile.index, NOTHING, where=beyond)
+        np.copyto(tile.t, np.inf, where=beyond)
     return Hits(plan, from_eye, origin, direction, tile.t, tile.index, scratch, corner)
 
 
@@ -56,7 +58,7 @@ class Tile:
     direction: Any
     start: float
     t: np.ndarray
-    """The nearest t so far; the first number beyond the clip end where nothing was hit."""
+    """The nearest t so far, inf where nothing was hit; it may lie beyond the clip end, where all others do, too."""
     index: np.ndarray
     scratch: Scratch
 

@@ -87,6 +87,8 @@ class Plan:
     """Shapes that no pixel can see."""
     spare_passes: tuple[str, ...]
     """Passes that were not asked for."""
+    clips: bool
+    """Whether anything that may be seen reaches beyond the clip end."""
     real: type
     """What hits are searched with: float64 or float32."""
 
@@ -126,6 +128,10 @@ class Plan:
         missing = [name for kind, name in enumerate(KIND_NAMES) if kind not in kinds]
         if missing:
             lines.append(f"kernels of {', '.join(missing)}: no such shape is in view")
+        if self.camera.model.central:
+            lines.append("origins of rays: all leave the eye")
+        if not self.clips:
+            lines.append("the clip end: nothing in view reaches beyond it")
         if self.spare_passes:
             lines.append(f"passes {', '.join(self.spare_passes)}: not asked for")
         return lines
@@ -180,6 +186,7 @@ def make_plan(
         groups=tuple(groups),
         unseen=int(np.count_nonzero(~seen)),
         spare_passes=tuple(name for name in known if name not in passes),
+        clips=bool((far[seen] > camera.clip_end).any()),
         real=real,
     )
 
