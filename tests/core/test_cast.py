@@ -277,10 +277,18 @@ def test_unknown_pass_and_shading_are_refused_by_name():
         cast(camera_at(), shapes_of(), ("depth",), shading="PHONG")
 
 
+def test_one_pass_may_be_named_alone_and_no_threads_are_refused():
+    ball = shapes_of((SPHERE, (0, 0, -5), 1.0))
+    assert list(cast(camera_at(), ball, "depth")) == ["depth"]
+    for threads in (0, -1):
+        with pytest.raises(InputError, match=f"{threads} threads"):
+            cast(camera_at(), ball, "depth", threads=threads)
+
+
 def test_progress_rises_to_one_and_can_stop_the_cast():
-    camera = camera_at(resolution_x=2048, resolution_y=1024)
+    camera = camera_at(resolution_x=1024, resolution_y=1024)
     told = []
-    cast(camera, shapes_of(), ("depth",), progress=lambda fraction: told.append(fraction) or True)
+    cast(camera, shapes_of(), ("depth",), threads=8, progress=lambda fraction: told.append(fraction) or True)
     assert told == sorted(told)
     assert told[-1] == 1.0
     assert len(told) >= 4

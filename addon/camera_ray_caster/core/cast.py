@@ -24,8 +24,10 @@ from .shading import MATERIAL
 STEPS = "rays", "cast", "passes"
 """What the seconds of a tile are spent on: rays, their nearest hits, the passes of these."""
 
-TILE_PIXELS = 1 << 19
-"""Pixels of a tile, the unit of threads, progress and cancelling: whole rows, where the picture has one time."""
+TILE_PIXELS = 1 << 17, 1 << 20
+"""The fewest and the most pixels of a tile, the unit of threads, progress and cancelling: whole rows, where the picture
+has one time. Between them a thread has one tile: in smaller ones threads wait for each other more often.
+"""
 
 
 class Images(dict):
@@ -50,7 +52,7 @@ class Tile:
 def cast(
     camera: Camera,
     shapes: Shapes,
-    passes: Sequence[str] = ("depth", "normal"),
+    passes: str | Sequence[str] = ("depth", "normal"),
     dtype=np.float32,
     *,
     shading: str = MATERIAL,
@@ -68,11 +70,15 @@ def cast(
     passes are of the chief rays. ``progress(fraction)`` is called in the calling thread after each tile; where it
     returns False the cast stops within the tiles under way and raises Cancelled. ``cull=False`` tests every shape at
     every pixel: the same picture, slower.
-    Raises InputError for an unknown pass, shading or precision and for less than one sample.
+    Raises InputError for an unknown pass, shading or precision and for less than one sample or thread.
     """
     if samples < 1:
         raise InputError(f"{samples} samples make no picture: ask for 1 or more")
     started = perf_counter()
+    threads = (os.cpu_count() or 1) if threads is None else threads
+    if threads < 1:
+        raise InputError(f"{threads} threads make no picture: ask for 1 or more")
+    passes = (passes,) if isinstance(passes, str) else passes
     known = tuple(PASSES)
     middle = _moment(camera, shapes, (camera.clock.first + camera.clock.last) / 2) if camera.clock else (camera, shapes)
     whole = make_plan(*middle, passes, known, shading, cull, False, precision)
@@ -83,14 +89,15 @@ def cast(
         images[name] = np.empty((height, width, kind.channels)[: 3 if kind.channels else 2], kind.dtype or dtype)
     sampled = ("combined",) if samples > 1 and "combined" in passes else ()
     chief = tuple(name for name in whole.passes if name not in sampled)
+    pixels = min(max(TILE_PIXELS[0], width * -(-height // threads)), TILE_PIXELS[1])
     plans: dict[bool, Plan] = {}
     if camera.clock is None:
-        tiles = list(_bands(slice(0, height), slice(0, width)))
+        tiles = list(_bands(slice(0, height), slice(0, width), pixels))
         plans[False] = whole
         if sampled:
             plans[True] = make_plan(*middle, passes, known, shading, cull, True, precision)
     else:
-        tiles = list(_moments(camera, camera.clock))
+        tiles = list(_moments(camera, camera.clock, pixels))
     images.plan = whole
     images.seconds = {"plan": perf_counter() - started}
     own = local()
@@ -108,24 +115,24 @@ def cast(
         return seconds
 
     began = perf_counter()
-    busy = _in_threads(run, tiles, threads or os.cpu_count() or 1, progress)
+    busy = _in_threads(run, tiles, threads, progress)
     share = (perf_counter() - began) / max(busy.sum(), np.finfo(float).tiny)
     images.seconds |= dict(zip(STEPS, busy * share, strict=True))
     return images
 
 
-def _bands(rows: slice, columns: slice) -> Iterator[Tile]:
-    """Yield a part of the picture in whole rows."""
-    step = max(1, TILE_PIXELS // (columns.stop - columns.start))
+def _bands(rows: slice, columns: slice, pixels: int) -> Iterator[Tile]:
+    """Yield a part of the picture in whole rows, about so many pixels at a time."""
+    step = max(1, pixels // (columns.stop - columns.start))
     for first in range(rows.start, rows.stop, step):
         yield Tile(slice(first, min(first + step, rows.stop)), columns)
 
 
-def _moments(camera: Camera, clock: Clock) -> Iterator[Tile]:
+def _moments(camera: Camera, clock: Clock, pixels: int) -> Iterator[Tile]:
     """Yield the picture time by time."""
     for frame, rows, columns, where in groups(clock, camera.raster.columns(), camera.raster.rows()):
         rows, columns = (slice(*s.indices(n)) for s, n in zip((rows, columns), camera.raster.shape, strict=True))
-        for tile in _bands(rows, columns):
+        for tile in _bands(rows, columns, pixels):
             meant = where[tile.rows.start - rows.start : tile.rows.stop - rows.start]
             yield replace(tile, frame=frame, where=None if meant.all() else meant)
 
