@@ -2,7 +2,8 @@
 
     python scripts/benchmark.py                 1920 x 1080: 10, 1,000, 10,000 and 100,000 spheres
     python scripts/benchmark.py --quick         the first two, fewer rounds
-    python scripts/benchmark.py --scaling       cost against pixels and shapes, with a diagram
+    python scripts/benchmark.py --models        rays and pictures of every camera model
+    python scripts/benchmark.py --scaling --picture FILE.png    cost against pixels and shapes
 
 Contenders take turns, round by round, so that what else the machine does falls on all of them, with a pause before
 each, in which the threads of the one before it come to rest. Times are milliseconds:
@@ -11,7 +12,6 @@ least, median, and the spread (the middle half of the rounds) behind it; ratios 
 
 from __future__ import annotations
 
-import argparse
 import gc
 import json
 import sys
@@ -22,7 +22,8 @@ import numpy as np
 
 sys.path[:0] = [str(Path(__file__).resolve().parent), str(Path(__file__).resolve().parents[1] / "addon")]
 
-import contenders as c  # noqa: E402  (it lies beside this file)
+import arguments  # noqa: E402  (it lies beside this file)
+import contenders as c  # noqa: E402
 
 COUNTS = (10, 1_000, 10_000, 100_000)
 EMBREE_MOST = 10_000
@@ -31,16 +32,20 @@ EMBREE_MOST = 10_000
 
 def main() -> int:
     """Run what the arguments ask for and print tables; with --json also write them."""
-    parser = argparse.ArgumentParser(description="Time the caster beside others, in one run.")
-    parser.add_argument("--quick", action="store_true", help="10 and 1,000 spheres, three rounds")
-    parser.add_argument("--rounds", type=int, default=9, help="default: %(default)s")
-    parser.add_argument("--threads", type=int, default=2, help="default: %(default)s")
-    parser.add_argument("--size", default="1920x1080", help="default: %(default)s")
+    parser = arguments.Parser(prog="benchmark.py", description=__doc__.splitlines()[0])
+    parser.add_argument("--quick", action="store_true", help="the smaller half of the scenes, three rounds")
+    parser.add_argument("--rounds", type=arguments.count, default=9, help="default: %(default)s")
+    parser.add_argument("--threads", type=arguments.count, default=2, help="default: %(default)s")
+    parser.add_argument("--size", type=arguments.size, default=(1920, 1080), help="default: 1920x1080")
     parser.add_argument("--models", action="store_true", help="ray generation and casting of every camera model")
     parser.add_argument("--scaling", action="store_true", help="cost against pixels and shapes")
+    parser.add_argument("--picture", type=Path, metavar="FILE", help="with --scaling: draw a diagram")
     parser.add_argument("--json", type=Path, metavar="FILE", help="write the figures")
     options = parser.parse_args()
-    width, height = map(int, options.size.split("x"))
+    for path in filter(None, (options.json, options.picture)):
+        if not path.absolute().parent.is_dir():
+            parser.error(f"there is no folder for {str(path)!r}: make it or choose another")
+    width, height = options.size
     rounds = 3 if options.quick else options.rounds
     if options.models:
         import by_model
@@ -49,7 +54,9 @@ def main() -> int:
     elif options.scaling:
         import scaling
 
-        figures = scaling.run(rounds, options.threads)
+        figures = scaling.run(rounds, options.threads, options.quick)
+        if options.picture:
+            scaling.draw(figures, options.picture)
     else:
         counts = COUNTS[:2] if options.quick else COUNTS
         figures = [row for count in counts for row in compare(count, width, height, rounds, options.threads)]

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import tracemalloc
-from pathlib import Path
 from time import perf_counter
 
 import contenders as c
@@ -14,12 +13,12 @@ from camera_ray_caster.core.cast import cast
 COUNTS = (10, 100, 1_000, 10_000, 100_000, 1_000_000)
 SIZES = ((960, 540), (1920, 1080), (3840, 2160), (7680, 4320), (16384, 8192))
 PASSES = ("depth", "shape_index")
-PICTURE = Path(__file__).resolve().parents[1] / "out" / "scaling.png"
 
 
-def run(rounds: int, threads: int) -> list[dict]:
-    """Print and return milliseconds and the largest memory beyond the pictures; draw them."""
-    cases = [("spheres", n, 1920, 1080) for n in COUNTS] + [("pixels", 100, w, h) for w, h in SIZES]
+def run(rounds: int, threads: int, quick: bool) -> list[dict]:
+    """Print and return milliseconds and the largest memory beyond the pictures."""
+    counts, sizes = (COUNTS[: len(COUNTS) // 2], SIZES[: len(SIZES) // 2]) if quick else (COUNTS, SIZES)
+    cases = [("spheres", n, 1920, 1080) for n in counts] + [("pixels", 100, w, h) for w, h in sizes]
     rows = []
     print(f"\ndepth and shape index, {threads} threads, median of {rounds}")
     print(f"  {'':>12}{'spheres':>10}{'pixels':>13}{'ms':>10}{'ns a pixel':>12}{'memory beside, MB':>19}")
@@ -42,11 +41,11 @@ def run(rounds: int, threads: int) -> list[dict]:
                      "beside_mb": beside / 1e6})  # fmt: skip
         print(f"  {what:>12}{count:10,}{width * height:13,}{median:10.1f}{1e6 * median / width / height:12.1f}"
               f"{beside / 1e6:19.1f}")  # fmt: skip
-    _draw(rows)
     return rows
 
 
-def _draw(rows: list[dict]) -> None:
+def draw(rows: list[dict], path) -> None:
+    """Draw the milliseconds against both, beside straight lines."""
     import matplotlib as mpl
 
     mpl.use("Agg")
@@ -62,6 +61,5 @@ def _draw(rows: list[dict]) -> None:
         axis.set_ylabel("milliseconds")
         axis.grid(True, which="major", alpha=0.3)
         axis.legend(frameon=False)
-    PICTURE.parent.mkdir(exist_ok=True)
-    figure.savefig(PICTURE, dpi=110)
-    print(f"Wrote out/{PICTURE.name}")
+    figure.savefig(path, dpi=110, metadata={"Software": None})
+    plt.close(figure)

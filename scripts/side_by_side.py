@@ -22,11 +22,12 @@ def main() -> int:
 
     keep_output()
     try:
+        from arguments import Parser
         from precision import comparison, words
     except ModuleNotFoundError as missing:
         print(f"side_by_side.py: {missing}: install the packages of the test extra", file=sys.stderr)
         return 2
-    parser = words.Parser(prog="side_by_side.py", description=__doc__.splitlines()[0])
+    parser = Parser(prog="side_by_side.py", description=__doc__.splitlines()[0])
     parser.add_argument("cases", nargs="*", metavar="CASE", help="a part of the names of extreme cases; default: all")
     parser.add_argument("--details", action="store_true", help="list each case")
     options = parser.parse_args()

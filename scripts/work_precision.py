@@ -21,6 +21,7 @@ sys.path[:0] = [str(ROOT / "addon"), str(ROOT), str(ROOT / "scripts")]
 def main() -> int:
     """Run, print and write; return the exit status."""
     try:
+        from arguments import Parser
         from precision import arithmetic, diagram, effort, words
     except ModuleNotFoundError as missing:
         print(f"work_precision.py: {missing}: install the packages of the test extra", file=sys.stderr)
@@ -28,7 +29,7 @@ def main() -> int:
     from camera_ray_caster.blender.quiet import keep_output
     from camera_ray_caster.core.records import InputError
 
-    parser = words.Parser(prog="work_precision.py", description=__doc__.splitlines()[0])
+    parser = Parser(prog="work_precision.py", description=__doc__.splitlines()[0])
     parser.add_argument("scenes", nargs="*", metavar="SCENE", help="a .blend, or a part of the names of extreme cases")
     parser.add_argument("--only", choices=["arithmetic", *effort.FAMILIES], help="one family of methods; default: all")
     parser.add_argument("--output", type=Path, default=Path("out"), metavar="FOLDER", help="default: %(default)s")

@@ -1,16 +1,6 @@
-"""What the scripts are told in words: bad input is refused in one line, with exit status 2."""
-
-import argparse
+"""The extreme cases that a script is told to take, in words."""
 
 from tests.core.extreme_cases import CASES
-
-
-class Parser(argparse.ArgumentParser):
-    """A parser that refuses in one line."""
-
-    def error(self, message):
-        """Say what is wrong and end."""
-        self.exit(2, f"{self.prog}: {message} (--help shows what can be given)\n")
 
 
 def cases_named(parser, words):

@@ -1,0 +1,58 @@
+"""The benchmark as a user runs it: tables and figures from measurements, ratios that follow, one-line refusals."""
+
+import json
+from importlib.util import find_spec
+
+import pytest
+
+from camera_ray_caster.core.cameras import MODELS
+
+from .test_scripts import refused, script
+
+
+def figures(tmp_path, *words):
+    """Run it and return what it printed and its JSON."""
+    done = script("benchmark", *words, "--json", tmp_path / "figures.json")
+    assert done.returncode == 0, done.stderr
+    return done.stdout, json.loads((tmp_path / "figures.json").read_text())
+
+
+def test_the_contest_times_all_that_is_installed(blender, tmp_path):
+    text, rows = figures(tmp_path, "--quick", "--size", "64x36")
+    ours = {"ours, 4 passes", "ours, depth + index"}
+    others = {"Cycles, 1 sample, 4 passes", "scene.ray_cast loop"}
+    for module, names in {
+        "mitsuba": {"Mitsuba 3, aov, 4 passes", "Mitsuba 3, intersection"}, "embreex": {"Embree, distance"},
+    }.items():  # fmt: skip
+        others |= names if find_spec(module) else set()
+    assert {row["name"] for row in rows} == ours | others
+    assert {row["spheres"] for row in rows} == {10, 1000}
+    assert all(0 < row["least_ms"] <= row["median_ms"] for row in rows)
+    for row in rows:
+        assert row["name"] in text
+    loop = next(row for row in rows if row["name"] == "scene.ray_cast loop")
+    base = [row for row in rows if row["spheres"] == 10 and row["name"] == "ours, depth + index"][-1]
+    assert loop["over_ours_depth"] == pytest.approx(loop["median_ms"] / base["median_ms"])
+
+
+def test_every_model_is_timed(tmp_path):
+    text, rows = figures(tmp_path, "--models", "--size", "48x32", "--rounds", "1")
+    assert [row["model"] for row in rows] == [model.key for model in MODELS]
+    assert all(row[name] > 0 for row in rows for name in ("fill", "rays", "pinhole", "cast"))
+    assert all(row["model"] in text for row in rows)
+
+
+def test_scaling_is_measured_and_drawn(tmp_path):
+    _, rows = figures(tmp_path, "--scaling", "--quick", "--picture", tmp_path / "scaling.png")
+    assert [row["spheres"] for row in rows if row["against"] == "spheres"] == [10, 100, 1000]
+    assert all(row["median_ms"] > 0 and 0 < row["beside_mb"] < 200 for row in rows)
+    assert (tmp_path / "scaling.png").read_bytes().startswith(b"\x89PNG")
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [(("--size", "1920"), "size"), (("--rounds", "0"), "from 1 up"), (("--threads", "-2"), "from 1 up"),
+     (("--json", "no/such/folder/x.json"), "no folder"), (("--fast",), "--fast")],
+)  # fmt: skip
+def test_bad_input_is_refused_in_one_line(tmp_path, words, said):
+    assert said in refused(script("benchmark", *words, folder=tmp_path))
