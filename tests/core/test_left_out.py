@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -87,6 +89,19 @@ def test_normals_of_near_balls_come_with_unit_length_and_only_those_of_far_ones_
         length = np.linalg.norm(images["normal"], axis=-1)[images["shape_index"] >= 0]
         assert length.size > 100
         assert np.abs(length - 1).max() < 1e-12
+
+
+@pytest.mark.parametrize("model", MODELS, ids=lambda model: model.key)
+def test_a_row_a_column_and_a_pixel_are_those_of_the_picture(model):
+    """Bit for bit, though whether rays are a row and a column, or shapes small, then differs."""
+    camera = camera_of(model.key, {"resolution_x": 64, "resolution_y": 80})
+    shapes = random_shapes(np.random.default_rng(3), 40)
+    whole = cast(camera, shapes, EVERY, np.float64)
+    for rows, columns in ((slice(33, 34), slice(0, 64)), (slice(0, 80), slice(21, 22)), (slice(50, 51), slice(40, 41))):
+        edges = {"x0": columns.start, "x1": columns.stop, "y0": rows.start, "y1": rows.stop}
+        part = cast(replace(camera, raster=replace(camera.raster, **edges)), shapes, EVERY, np.float64)
+        for name in EVERY:
+            assert np.array_equal(part[name], whole[name][rows, columns], equal_nan=True), name
 
 
 @pytest.mark.parametrize("model", MODELS, ids=lambda model: model.key)

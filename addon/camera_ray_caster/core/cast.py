@@ -26,7 +26,7 @@ STEPS = "rays", "cast", "passes"
 
 TILE_PIXELS = 1 << 17, 1 << 20
 """The fewest and the most pixels of a tile, the unit of threads, progress and cancelling: whole rows, where the picture
-has one time. Between them a thread has one tile: in smaller ones threads wait for each other more often.
+has one time. Between them a thread has two tiles: in smaller ones threads wait for each other more often.
 """
 
 
@@ -89,7 +89,8 @@ def cast(
         images[name] = np.empty((height, width, kind.channels)[: 3 if kind.channels else 2], kind.dtype or dtype)
     sampled = ("combined",) if samples > 1 and "combined" in passes else ()
     chief = tuple(name for name in whole.passes if name not in sampled)
-    pixels = min(max(TILE_PIXELS[0], width * -(-height // threads)), TILE_PIXELS[1])
+    least, most = TILE_PIXELS
+    pixels = least if sampled else min(max(least, width * -(-height // (2 * threads))), most)
     plans: dict[bool, Plan] = {}
     if camera.clock is None:
         tiles = list(_bands(slice(0, height), slice(0, width), pixels))

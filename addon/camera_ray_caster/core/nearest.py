@@ -145,4 +145,6 @@ def _gather(component, y, x):
     if np.ndim(component) == 0:
         return component
     rows, columns = component.shape
+    if rows == columns == 1:
+        return component[None]
     return component[y if rows > 1 else 0, x if columns > 1 else 0]
