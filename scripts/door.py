@@ -17,7 +17,9 @@ def through(command: str) -> int:
     from camera_ray_caster.blender.quiet import keep_output
 
     keep_output()
-    signal.signal(signal.SIGTERM, signal.default_int_handler)  # as Ctrl C: what is under way is taken back
+    for name in ("SIGTERM", "SIGHUP"):  # as Ctrl C: what is under way is taken back
+        if hasattr(signal, name):
+            signal.signal(getattr(signal, name), signal.default_int_handler)
     try:
         import bpy
     except ModuleNotFoundError:

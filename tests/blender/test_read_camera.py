@@ -190,6 +190,11 @@ def test_what_is_no_camera_is_refused_by_name(scene, data, kind):
             attempt()
 
 
+def test_a_name_is_no_camera(scene):
+    with pytest.raises(InputError, match=r"'Camera' is no object: give one, such as scene\.objects"):
+        read_camera(scene, "Camera")
+
+
 def test_an_unknown_name_says_which_cameras_there_are(scene):
     new_camera("Other")
     assert find_camera(scene, "Other").name == "Other"

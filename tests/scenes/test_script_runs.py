@@ -49,7 +49,7 @@ def test_cast_takes_the_precision_and_the_report_has_the_bounds_of_the_hits(blen
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="Windows ends a process without telling it")
-@pytest.mark.parametrize("name", ["SIGINT", "SIGTERM"])
+@pytest.mark.parametrize("name", ["SIGINT", "SIGTERM", "SIGHUP"])
 def test_a_run_that_is_ended_leaves_good_files_and_nothing_else(blender, tmp_path, name):
     path = small(blender, tmp_path / "large.blend", resolution_x=4000, resolution_y=4000)
     out = tmp_path / "out"

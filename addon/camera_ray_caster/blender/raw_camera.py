@@ -107,6 +107,8 @@ def check_camera(scene, camera_object) -> None:
     """Raise InputError unless the object is a camera. Blender itself takes any object for one."""
     if camera_object is None:
         raise InputError(f"scene {scene.name!r} has no active camera: add one, or set one in the Scene properties")
+    if not isinstance(camera_object, bpy.types.Object):
+        raise InputError(f"{camera_object!r} is no object: give one, such as scene.objects['Camera']")
     if camera_object.type != "CAMERA":
         kind = camera_object.type.replace("_", " ").lower()
         raise InputError(f"{camera_object.name!r} is of type {kind}, not a camera: set one in the Scene properties")
