@@ -17,9 +17,6 @@ def through(command: str) -> int:
     from camera_ray_caster.blender.quiet import keep_output
 
     keep_output()
-    for name in ("SIGTERM", "SIGHUP"):  # as Ctrl C: what is under way is taken back
-        if hasattr(signal, name):
-            signal.signal(getattr(signal, name), signal.default_int_handler)
     try:
         import bpy
     except ModuleNotFoundError:
@@ -33,6 +30,9 @@ def through(command: str) -> int:
     import camera_ray_caster
     from camera_ray_caster.blender import terminal
 
+    for name in ("SIGINT", "SIGTERM", "SIGHUP"):
+        if hasattr(signal, name):
+            signal.signal(getattr(signal, name), terminal.stop)
     camera_ray_caster.register()
     try:
         return terminal.main(command, _arguments(bool(bpy.app.binary_path)), f"{command}.py")

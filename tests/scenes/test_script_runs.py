@@ -66,3 +66,26 @@ def test_a_run_that_is_ended_leaves_good_files_and_nothing_else(blender, tmp_pat
         assert len(run.stderr.read().splitlines()) == 1
     assert left(out) == ["large.exr"]
     assert (out / "large.exr").read_text() == "good"
+
+
+def test_a_signal_that_blender_drops_ends_the_run_all_the_same(blender, tmp_path, capfd):
+    """Python runs a signal's handler where it next runs at all: that may be in a callback of Blender's."""
+    from camera_ray_caster.blender import terminal
+
+    path = small(blender, tmp_path / "small.blend")
+    called = []
+
+    @blender.app.handlers.persistent
+    def interrupted(*_):
+        called.append(True)
+        terminal.stop()
+
+    blender.app.handlers.render_post.append(interrupted)
+    try:
+        status = terminal.main("cast", [str(path), "--output", str(tmp_path / "out")], "cast.py")
+    finally:
+        blender.app.handlers.render_post.remove(interrupted)
+    assert called
+    assert status == 130
+    assert "cast.py: stopped" in capfd.readouterr().err
+    assert not (tmp_path / "out").exists() or left(tmp_path / "out") == []

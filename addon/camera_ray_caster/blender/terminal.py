@@ -55,6 +55,13 @@ def main(command: str, arguments: Sequence[str], prog: str) -> int:
         return 130
 
 
+def stop(*_) -> None:
+    """Take back what is under way: to be called where a signal ends the process. The engine is told, too, since Blender
+    drops an exception from a handler that it calls."""
+    CameraRayCaster.stopped = True
+    raise KeyboardInterrupt
+
+
 def cast(arguments: Sequence[str], prog: str) -> int:
     """Render frames of a file to pictures, EXR files and reports."""
     parser = _parser(
