@@ -18,6 +18,13 @@ from camera_ray_caster.core.cast import cast
 
 SPHERES = 1_000
 
+FRAME = {"calibration_width": 96, "calibration_height": 54}
+LENSES = {
+    "OPENCV_PINHOLE": {"k1": -0.28, "k2": 0.07, "p1": 1e-3, "p2": -5e-4, "k3": 0.01, **FRAME},
+    "OPENCV_FISHEYE": {"k1": 0.05, "k2": 0.01, "k3": -0.003, "k4": -1e-4, **FRAME},
+}
+"""Distortions such as real lenses have."""
+
 
 def run(width: int, height: int, rounds: int, threads: int) -> list[dict]:
     """Print and return the ratios of every model, each taken in turns with what it is compared to."""
@@ -29,7 +36,7 @@ def run(width: int, height: int, rounds: int, threads: int) -> list[dict]:
     print(f"  {'':28}{'rays ms':>9}{'x fill':>8}{'cast ms':>10}{'x pinhole':>11}")
     rows = []
     for model in MODELS:
-        one = camera(model.key, {"resolution_x": width, "resolution_y": height})
+        one = camera(model.key, {"resolution_x": width, "resolution_y": height, **LENSES.get(model.key, {})})
         entries = {
             "fill": lambda one=one: [np.full((height, width, 3), 1.0) for _ in range(1 if one.model.central else 2)],
             "rays": one.rays,

@@ -171,3 +171,17 @@ def test_a_frame_of_another_size_is_the_calibrated_picture_scaled():
     half = pinhole(*LENSES["tangential"], resolution_percentage=50, calibration_width=640, calibration_height=480)
     x, y = np.array([10.0, 300.5, 639.0]), np.array([470.0, 2.5, 240.0])
     np.testing.assert_array_equal(half.rays_at(x / 2, y / 2).directions, full.rays_at(x, y).directions)
+
+
+@pytest.mark.parametrize("name", LENSES)
+@pytest.mark.parametrize("width", [640, 2000])
+def test_rays_of_whole_rows_are_those_of_their_pixels(name, width):
+    """Rows go through a polynomial first, pixels do not; 2000 pixels reach out to where the barrel has no rays."""
+    eye = pinhole(*LENSES[name], resolution_x=width)
+    x, y = eye.raster.columns(), eye.raster.rows()[::37]
+    rows = eye.rays_at(x, y)
+    pixels = eye.rays_at(*(part.reshape(-1) for part in np.broadcast_arrays(x, y)))
+    assert np.array_equal(rows.valid.reshape(-1), pixels.valid)
+    assert rows.valid.all() == ((name, width) != ("barrel", 2000))
+    difference = np.abs(rows.directions.reshape(-1, 3) - pixels.directions)[pixels.valid]
+    assert difference.max() < 64 * EPS

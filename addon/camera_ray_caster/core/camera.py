@@ -12,7 +12,7 @@ import numpy as np
 from .aperture import Aperture
 from .clock import Clock, groups, meeting
 from .conventions import gamma
-from .loops import whole_rows
+from .loops import keep_memory, whole_rows
 from .records import BlenderCamera, InputError, Pose, Raster, Rays
 from .sampling import in_opening, sub_pixel
 from .vector import inverse, is_one, matvec, norm, unit
@@ -105,6 +105,7 @@ class Camera:
         directions = np.empty((*shape, 3))
         origins = np.broadcast_to(self.pose.eye, directions.shape) if self.model.central else np.empty((*shape, 3))
         step = max(1, BLOCK_PIXELS // max(x.size, 1))
+        keep_memory()
         if is_grid(x, y) and y.size > step:
             blocks = [slice(first, first + step) for first in range(0, y.size, step)]
             with ThreadPoolExecutor(os.cpu_count()) as pool:  # numpy releases the interpreter

@@ -14,7 +14,7 @@ import numpy as np
 from .camera import Camera
 from .clock import Clock, groups
 from .hits import Hits
-from .loops import Scratch, whole_rows
+from .loops import Scratch, keep_memory, whole_rows
 from .nearest import nearest
 from .passes import PASSES
 from .plan import Plan, make_plan
@@ -75,6 +75,7 @@ def cast(
     if samples < 1:
         raise InputError(f"{samples} samples make no picture: ask for 1 or more")
     started = perf_counter()
+    keep_memory()
     threads = (os.cpu_count() or 1) if threads is None else threads
     if threads < 1:
         raise InputError(f"{threads} threads make no picture: ask for 1 or more")

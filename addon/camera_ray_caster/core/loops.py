@@ -1,4 +1,4 @@
-"""What makes numpy's loops fast: rows taken whole, and working arrays that are kept.
+"""What makes numpy's loops fast: rows taken whole, and memory that is kept.
 
 A ufunc with an operand that is broadcast, or a window of a larger array, copies it to a buffer first, unless a row of
 it fills the buffer: a row plus a column then costs as little as two whole arrays, three to five times less than
@@ -20,6 +20,9 @@ MULTIPLE = 16
 NARROW = 128
 """Rows with fewer pixels are better copied: the loop's start costs more."""
 
+LARGEST_KEPT = 30 << 20
+"""Bytes."""
+
 
 @contextmanager
 def whole_rows(width: int) -> Iterator[None]:
@@ -32,6 +35,16 @@ def whole_rows(width: int) -> Iterator[None]:
         yield
     finally:
         np.setbufsize(usual)
+
+
+def keep_memory() -> None:
+    """Let the C library keep the memory of arrays that go, for those that come.
+
+    glibc hands back what is larger than a threshold, and the system clears it page by page when it is asked for again,
+    which costs two to three times what the arithmetic does. The threshold rises to the largest block that was freed, to
+    32 MB at most. Source: mallopt(3), M_MMAP_THRESHOLD. Elsewhere this does nothing.
+    """
+    np.empty(LARGEST_KEPT, np.uint8)
 
 
 class Scratch:
