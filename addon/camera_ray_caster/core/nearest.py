@@ -98,9 +98,9 @@ class Tile:
         closer = found <= t[pixel]
         if where is not None:
             closer &= where
-        closer = np.flatnonzero(closer)
-        shape = shapes[closer // (pixel.size // len(pixel))]
-        pixel, found = pixel.reshape(-1)[closer], found.reshape(-1)[closer]
+        hits = np.flatnonzero(closer)
+        shape = shapes[hits // (pixel.size // len(pixel))]
+        pixel, found = pixel.reshape(-1)[hits], found.reshape(-1)[hits]
         while pixel.size:  # of several hits in one pixel the last is written: what is nearer still tries again
             before = t[pixel]
             won = (found < before) | ((found == before) & (shape < index[pixel]))

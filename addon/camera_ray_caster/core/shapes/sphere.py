@@ -55,30 +55,26 @@ def view(placed: Placed, at, direction=None) -> View:
     matrix = np.ascontiguousarray(placed.shape_from_camera[at].transpose(1, 2, 0))  # long arrays, so fast ones
     scale = np.ldexp(1.0, -np.frexp(np.abs(matrix).max(axis=(0, 1)))[1])
     matrix *= scale
-    distance = norm(offset)
-    axes = _towards(offset, distance) if direction is None else _towards(*_with_length(matvec(matrix, direction)))
+    axes = _towards(offset if direction is None else matvec(matrix, direction))
     matrix = np.stack(_levelled([dot(axis, matrix) for axis in axes]))
     with np.errstate(invalid="ignore"):
         wide = np.sqrt(outside) * matrix[:2]
     matrix, wide = (np.ascontiguousarray(part.transpose(2, 0, 1)) for part in (matrix, wide))
-    return View(matrix, scale, placed.centre[at], distance, outside, scale * outside, wide)
+    return View(matrix, scale, placed.centre[at], norm(offset), outside, scale * outside, wide)
 
 
-def _towards(vector, length):
-    """Return the axes, each three components, of a frame whose z axis is along a vector; any frame for length 0.
+def _towards(vector):
+    """Return the axes, each three components, of a frame whose z axis is along a vector; any frame where that is 0.
 
     The normals follow Duff et al., Building an Orthonormal Basis, Revisited (2017), which has no singular direction.
     """
+    length = norm(vector)
     somewhere = length > 0
     x, y, z = np.where(somewhere, vector, [[0.0], [0.0], [1.0]]) / np.where(somewhere, length, 1.0)
     sign = np.copysign(1.0, z)
     a = -1 / (sign + z)
     b = x * y * a
     return (1 + sign * x * x * a, sign * b, -sign * x), (b, sign + y * y * a, -y), (x, y, z)
-
-
-def _with_length(vector):
-    return vector, norm(vector)
 
 
 def _levelled(matrix):
