@@ -91,12 +91,12 @@ class RadialTangential:
         """Return x' by x, x' by y, y' by x, y' by y."""
         bend_x, bend_y = 2 * (slope * x + self.p2), 2 * (slope * y + self.p1)  # of turn, by x and by y
         turn = gain + 2 * (self.p1 * y + self.p2 * x)
-        xx, yy = turn + x * bend_x + 2 * self.p2 * x, turn + y * bend_y + 2 * self.p1 * y
-        xy, yx = x * bend_y + 2 * self.p2 * y, y * bend_x + 2 * self.p1 * x
+        xx, yy = turn + x * (bend_x + 2 * self.p2), turn + y * (bend_y + 2 * self.p1)
+        xy = x * bend_y + 2 * self.p2 * y  # the same of y' by x
         if self._has_prism:
             prism_x, prism_y = 2 * self.s1 + 4 * s * self.s2, 2 * self.s3 + 4 * s * self.s4
-            return xx + x * prism_x, xy + y * prism_x, yx + x * prism_y, yy + y * prism_y
-        return xx, xy, yx, yy
+            return xx + x * prism_x, xy + y * prism_x, xy + x * prism_y, yy + y * prism_y
+        return xx, xy, xy, yy
 
     def off_radius(self, r):
         """Return a bound on how far a point at this radius is moved otherwise than along it."""
