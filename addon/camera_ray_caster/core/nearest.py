@@ -98,7 +98,7 @@ class Tile:
         closer = found <= t[pixel]
         if where is not None:
             closer &= where
-        hits = np.flatnonzero(closer)
+        hits = np.flatnonzero(closer)[::-1]  # of equals the first is then written last, and stays
         shape = shapes[hits // (pixel.size // len(pixel))]
         pixel, found = pixel.reshape(-1)[hits], found.reshape(-1)[hits]
         while pixel.size:  # of several hits in one pixel the last is written: what is nearer still tries again
