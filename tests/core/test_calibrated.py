@@ -184,4 +184,4 @@ def test_rays_of_whole_rows_are_those_of_their_pixels(name, width):
     assert np.array_equal(rows.valid.reshape(-1), pixels.valid)
     assert rows.valid.all() == ((name, width) != ("barrel", 2000))
     difference = np.abs(rows.directions.reshape(-1, 3) - pixels.directions)[pixels.valid]
-    assert difference.max() < 64 * EPS
+    assert difference.max() < 16 * EPS

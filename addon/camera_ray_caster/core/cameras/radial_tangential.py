@@ -35,8 +35,14 @@ NEAR = 1e-8
 
 STEPS = 200
 
-POINTS = 32
-"""Of a row, Chebyshev's, that a polynomial is laid through: its error is 1e-9 or so, and Newton's step squares it."""
+POINTS = 80
+"""Of a row, Chebyshev's, that polynomials are laid through."""
+
+TAIL = 4
+"""Coefficients that have to be as small as rounding, for a polynomial to be as right as its points."""
+
+ROUNDING = 4
+"""EPS of the row's end: what is smaller is left out."""
 
 LONG = 512
 """Rows with more pixels are worth it."""
@@ -136,8 +142,9 @@ class RadialTangential:
     def undistort(self, u, v):
         """Return (x, y) within the limit with distort(x, y) = (u, v); NaN where there is none.
 
-        Newton's method, from a polynomial through a few points of each row where u is a long row and v a column, else
-        from what the radius alone gives. Right to some EPS of the distorted radius, times the inverse of the Jacobian.
+        Newton's method, from what the radius alone gives. Where u is a long row and v a column it solves for some
+        points of each row, and polynomials through them give the others. Right to some EPS of the distorted radius, in
+        such a row to 8 EPS of the largest in it, times the inverse of the Jacobian.
         """
         if not any(getattr(self, field.name) for field in fields(self)):
             return tuple(np.array(part) for part in np.broadcast_arrays(u, v))
@@ -163,14 +170,27 @@ class RadialTangential:
         return x, y
 
     def _undistort_rows(self, u, v):
-        """Return what ``undistort`` does; what two steps from the polynomial do not settle is left to it."""
+        """Return what ``undistort`` does, by polynomials that end where their coefficients have sunk to rounding.
+
+        Where they do not, near the limit, Newton's method goes on from them; what two steps leave open, from the start.
+        Reference: J. Boyd, Chebyshev and Fourier Spectral Methods, 2nd ed. (2001), chapters 2 and 5.
+        """
         low, high = u.min(), u.max()
-        points = np.cos(np.pi * (np.arange(POINTS) + 0.5) / POINTS)
-        x, y = self.undistort((low + high) / 2 + (high - low) / 2 * points[None], v)
-        fit = chebvander(points, POINTS - 1) * (2 / POINTS)
+        turns = np.outer(2 * np.arange(POINTS) + 1, np.arange(POINTS)) % (4 * POINTS)  # whole ones taken off exactly
+        fit = np.cos(np.pi / (2 * POINTS) * turns) * (2 / POINTS)
         fit[:, 0] /= 2
-        basis = np.einsum("ij,wj->iw", fit, chebvander((2 * u[0] - low - high) / (high - low), POINTS - 1))
-        x, y = (np.einsum("hi,iw->hw", known, basis) for known in (x, y))  # matmul's threads would go on spinning
+        points = fit[:, 1] * POINTS / 2
+        u_known = (low + high) / 2 + (high - low) / 2 * points[None]
+        x, y = self.undistort(u_known, v)
+        series = np.einsum("chi,ij->chj", (x - u_known, y - v), fit)  # of how far they move: it keeps digits
+        size = np.abs(series).max(axis=(0, 1))
+        noise = ROUNDING * EPS * max(abs(low), abs(high))
+        terms = POINTS - int(np.argmax(size[::-1] > noise))
+        powers = chebvander((2 * u[0] - low - high) / (high - low), terms - 1).T
+        moved = (np.einsum("hj,jw->hw", part[:, :terms], powers) for part in series)  # matmul's threads would spin on
+        x, y = (part + there for part, there in zip(moved, (u, v), strict=True))
+        if terms <= POINTS - TAIL and (np.hypot(x[:, [0, -1]], y[:, [0, -1]]) <= self.limit).all():
+            return x, y
         for _ in range(2):
             step_x, step_y = self._step(x, y, u, v)
             x, y = x - step_x, y - step_y
