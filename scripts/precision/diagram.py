@@ -6,6 +6,7 @@ import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
+from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
 
 from .arithmetic import METHODS
 
@@ -41,6 +42,12 @@ def draw(points, stem: Path) -> None:
         _scenes(axes["scenes"], scenes)
     for family in present:
         _curves(axes[family], [p for p in points if p.family == family], *TITLES[family])
+    for axis in figure.axes:
+        low, high = axis.get_xlim()
+        if high < 30 * low:  # too few powers of ten to read a time by
+            axis.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+            axis.xaxis.set_major_formatter(StrMethodFormatter("{x:,.0f}"))
+        axis.xaxis.set_minor_formatter(NullFormatter())
     for suffix, more in ((".svg", {"metadata": {"Date": None}}), (".png", {"dpi": 100})):
         figure.savefig(stem.with_suffix(suffix), **more)
     plt.close(figure)
