@@ -43,11 +43,11 @@ class OpencvPinhole:
     def rays(self, x, y):
         """Return origin and direction, each a tuple of three broadcastable arrays, camera frame, direction_z = -1.
 
-        x and y are pixel coordinates of broadcastable shapes. NaN where there is no ray.
+        x and y are pixel coordinates of broadcastable shapes. x and y are NaN where there is no ray.
         """
         u, v = self.window.plane_from_pixels(x, y)
         across, down = self.distortion.undistort(u, -v)
-        return (0.0, 0.0, 0.0), (across, -down, np.where(np.isnan(across), np.nan, -1.0))
+        return (0.0, 0.0, 0.0), (across, -down, -1.0)
 
     def project(self, points):
         """Return the pixel coordinates (..., 2) of camera-frame points (..., 3).
