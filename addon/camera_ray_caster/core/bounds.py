@@ -91,7 +91,8 @@ class Bounds:
                 along = along + size * q_error
             curved = np.where(along < length / 2, aside / (length - along), 2.0)
             if self.plan.normals.unit:
-                curved = curved + along / length  # their length is not made 1
+                is_round = self.plan.normals.gain[self.at] > 0  # whose normals are stored as long as they come
+                curved = curved + np.where(is_round, along / length, 0.0)
             error = np.where(self.is_sphere, curved, local.rounding) + gamma(8)
             return np.where(error < 2, error, 2.0)
 

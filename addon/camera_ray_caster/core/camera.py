@@ -15,7 +15,7 @@ from .conventions import gamma
 from .loops import keep_memory, whole_rows
 from .records import BlenderCamera, InputError, Pose, Raster, Rays
 from .sampling import in_opening, sub_pixel
-from .vector import inverse, is_one, matvec, norm, unit
+from .vector import inverse, is_grid, is_one, matvec, norm, unit
 
 BLOCK_PIXELS = 1 << 17
 """Pixels whose rays are made at once: fewer, and threads would wait for each other at each of numpy's calls."""
@@ -105,8 +105,8 @@ class Camera:
         directions = np.empty((*shape, 3))
         origins = np.broadcast_to(self.pose.eye, directions.shape) if self.model.central else np.empty((*shape, 3))
         step = max(1, BLOCK_PIXELS // max(x.size, 1))
-        keep_memory()
         if is_grid(x, y) and y.size > step:
+            keep_memory()
             blocks = [slice(first, first + step) for first in range(0, y.size, step)]
             with ThreadPoolExecutor(os.cpu_count()) as pool:  # numpy releases the interpreter
                 list(pool.map(lambda rows: self._fill(x, y[rows], origins[rows], directions[rows]), blocks))
@@ -161,8 +161,3 @@ class Camera:
             found = [meeting(self.clock, lambda t, p=point: self.at(t).project(p)) for point in points.reshape(-1, 3)]
             return np.reshape(found, (*points.shape[:-1], 2))
         return self.model.project((points - self.pose.eye) @ inverse(self.pose.basis).T)
-
-
-def is_grid(x, y) -> bool:
-    """Whether x is a row (1, columns) and y a column (rows, 1)."""
-    return x.ndim == y.ndim == 2 and x.shape[0] == y.shape[1] == 1

@@ -40,10 +40,15 @@ def is_one(components) -> bool:
     return all(np.ndim(component) == 0 for component in components)
 
 
+def is_grid(x, y) -> bool:
+    """Whether x is a row (..., 1, columns) and y a column (..., rows, 1): of one window, or of many."""
+    return np.ndim(x) == np.ndim(y) > 1 and x.shape[-2] == y.shape[-1] == 1
+
+
 def is_lattice(components) -> bool:
-    """Whether x is a row, y a column and z a number: a pinhole's directions over a window, or over many windows."""
+    """Whether x is a row, y a column and z a number, as a pinhole's directions are."""
     x, y, z = components
-    return np.ndim(z) == 0 and np.ndim(x) == np.ndim(y) > 1 and x.shape[-2] == y.shape[-1] == 1
+    return np.ndim(z) == 0 and is_grid(x, y)
 
 
 def dot(left, right):

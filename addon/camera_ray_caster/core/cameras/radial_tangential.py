@@ -22,6 +22,7 @@ import numpy as np
 from numpy.polynomial.chebyshev import chebvander
 
 from ..conventions import EPS
+from ..vector import is_grid
 from .inversion import Inverse
 
 STEEPEST = tan(radians(89.9))
@@ -148,7 +149,7 @@ class RadialTangential:
         """
         if not any(getattr(self, field.name) for field in fields(self)):
             return tuple(np.array(part) for part in np.broadcast_arrays(u, v))
-        if np.ndim(u) == np.ndim(v) == 2 and np.shape(u)[0] == np.shape(v)[1] == 1 and np.size(u) > LONG:
+        if is_grid(u, v) and np.size(u) > LONG:
             return self._undistort_rows(u, v)
         u, v = np.broadcast_arrays(u, v)
         rho = np.hypot(u, v)
