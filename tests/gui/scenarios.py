@@ -113,14 +113,19 @@ def left_out(user, scenes):
     yield from user.scroll(60, down=False)
 
 
-def stop(user, scenes):
-    """A cast of 16384 x 16384 pixels leaves the window alive, shows how far it is, and Esc stops it."""
+def begin(user, scenes, size):
+    """Load the example and press Cast for its depth, in a picture of size x size pixels."""
     yield from load(user, scenes, "spheres_and_planes")
     scene = bpy.context.scene
-    scene.render.resolution_x = scene.render.resolution_y = 16384
+    scene.render.resolution_x = scene.render.resolution_y = size
     addon("passes").tick(scene, bpy.context.view_layer, ["depth"])
     yield from user.press(f"{BUTTON}cast(")
     yield from user.until(lambda: (addon("cast_operator").fraction() or 0) > 0, "it has begun")
+
+
+def stop(user, scenes):
+    """A cast of 16384 x 16384 pixels leaves the window alive, shows how far it is, and Esc stops it."""
+    yield from begin(user, scenes, 16384)
     times = [time.monotonic()]
     while times[-1] - times[0] < 2:
         yield
@@ -136,12 +141,7 @@ def stop(user, scenes):
 
 def load_while_casting(user, scenes):
     """Another file ends the cast of this one, and nothing of it stays."""
-    yield from load(user, scenes, "spheres_and_planes")
-    scene = bpy.context.scene
-    scene.render.resolution_x = scene.render.resolution_y = 8192
-    addon("passes").tick(scene, bpy.context.view_layer, ["depth"])
-    yield from user.press(f"{BUTTON}cast(")
-    yield from user.until(lambda: (addon("cast_operator").fraction() or 0) > 0, "it has begun")
+    yield from begin(user, scenes, 8192)
     bpy.ops.wm.open_mainfile(filepath=str(scenes / "orthographic.blend"), load_ui=False)
     yield from user.wait(1)
     assert addon("cast_operator").fraction() is None
