@@ -130,4 +130,6 @@ def _thinned(whole: Iterable[Group], columns, rows) -> Iterator[Group]:
         here = np.flatnonzero((bounds[:, 0] < bounds[:, 1]) & (bounds[:, 2] < bounds[:, 3]))
         here = here[np.argsort(bounds[here, 2], kind="stable")]
         if here.size:
-            yield replace(group, small=True, at=group.at[here], bounds=bounds[here], view=group.constants(here))
+            yield Group(
+                group.kind, group.simple, True, group.at[here], bounds[here], group.near[here], group.constants(here)
+            )

@@ -10,11 +10,10 @@ ed., chapters 1 and 3; S. Rump, Verification Methods, Acta Numerica 19 (2010), s
 
 from __future__ import annotations
 
-from functools import cached_property
-
 import numpy as np
 
 from .conventions import EPS, gamma
+from .loops import lazy
 from .records import PLANE, SPHERE
 from .rounding import Local, discriminant, inner_error, least, local_rays, world_rays
 from .shapes.placed import GRAZING
@@ -37,12 +36,12 @@ class Bounds:
             self.rays = world_rays(self.plan.camera, x, y)
             self.local = local_rays(self.plan, self.at, self.rays, hits.from_eye)
 
-    @cached_property
+    @lazy
     def is_sphere(self) -> np.ndarray:
         """Which of the pixels hit a sphere."""
         return self.plan.shapes.kind[self.at] == SPHERE
 
-    @cached_property
+    @lazy
     def t_error(self) -> np.ndarray:
         """Of t, the depth that Blender's pass shows; inf where nothing is known."""
         with np.errstate(all="ignore"):
@@ -50,13 +49,13 @@ class Bounds:
             error = np.where(self.is_sphere, _sphere(self.local, tau), _plane(self.local, tau))
             return np.where(np.isnan(error), np.inf, error * self.local.scale) + EPS * np.abs(self.t)
 
-    @cached_property
+    @lazy
     def distance(self) -> np.ndarray:
         """Of the distance along the ray; bounds depth, too, since directions are not shorter than 1."""
         length = norm(self.rays.direction)
         return self.t_error * length + np.abs(self.t) * (self.rays.direction_error + gamma(4) * length)
 
-    @cached_property
+    @lazy
     def point(self) -> np.ndarray:
         """Of the hit point relative to the eye, as a vector's length."""
         rays = self.rays
@@ -64,14 +63,14 @@ class Bounds:
         aside = np.abs(self.t) * (rays.direction_error + gamma(4) * norm(rays.direction))
         return along + aside + rays.origin_error + gamma(4) * norm(rays.origin)
 
-    @cached_property
+    @lazy
     def position(self) -> np.ndarray:
         """Of the hit point in the world, as a vector's length."""
         eye = self.plan.camera.pose.eye
         place = tuple(o + self.t * d + e for o, d, e in zip(self.rays.origin, self.rays.direction, eye, strict=True))
         return self.point + EPS * norm(place)
 
-    @cached_property
+    @lazy
     def normal(self) -> np.ndarray:
         """Of the unit normal, as a vector's length; 2 where nothing is known."""
         local = self.local

@@ -3,18 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
 from typing import Any
 
 import numpy as np
 
 from .bounds import Bounds
-from .loops import Scratch
+from .loops import Scratch, lazy
 from .plan import Plan
 from .shapes import SHAPE_OF_KIND
 from .vector import components, difference, dot, linear, matvec, rows
 
-BLOCK_PIXELS = 1 << 17
+BLOCK_PIXELS = 1 << 16
 """Pixels whose passes are made at once."""
 
 NOTHING = -1
@@ -53,31 +52,33 @@ class Hits:
             rays = self.plan, self.from_eye, origin, direction
             yield part, Hits(*rays, self.t[part], self.index[part], self.scratch, corner)
 
-    @cached_property
+    @lazy
     def rows(self) -> np.ndarray:
         """The index as numpy looks things up."""
         rows = self.scratch("rows", self.index.shape, np.intp)
         np.copyto(rows, self.index)
         return rows
 
-    def look_up(self, table, name: str) -> np.ndarray:
-        """Return what a table (n + 1,) has for each pixel's shape, its last entry where nothing is hit; an array that
-        the next call with this name overwrites.
+    def look_up(self, table, name: str, out=None) -> np.ndarray:
+        """Return what a table (..., n + 1) has for each pixel's shape, its last entry where nothing is hit: in ``out``,
+        or in an array that the next call with this name overwrites.
         """
-        return np.take(table, self.rows, mode="wrap", out=self.scratch(name, self.t.shape, table.dtype.type))
+        if out is None:
+            out = self.scratch(name, table.shape[:-1] + self.t.shape, table.dtype.type)
+        return np.take(table, self.rows, axis=-1, mode="wrap", out=out)
 
-    @cached_property
+    @lazy
     def seen(self) -> np.ndarray:
         """Where a shape is hit, bool."""
         return self.index != NOTHING
 
-    @cached_property
+    @lazy
     def missed(self) -> np.ndarray | None:
         """Where none is, bool; None where that is nowhere."""
         missed = ~self.seen
         return missed if missed.any() else None
 
-    @cached_property
+    @lazy
     def has_ray(self) -> np.ndarray:
         """Where the pixel has a ray, bool."""
         ray = np.ones(self.t.shape, bool)
@@ -85,48 +86,48 @@ class Hits:
             ray &= ~np.isnan(component)
         return ray
 
-    @cached_property
+    @lazy
     def world_direction(self):
         """The directions as world components, not of unit length."""
         return matvec(self.plan.camera.pose.basis, self.direction)
 
-    @cached_property
+    @lazy
     def point(self):
-        """The hit points relative to the eye, as world components; no number of meaning where nothing is hit."""
-        point = tuple(self.scratch(f"point {axis}", self.t.shape, np.float64) for axis in "xyz")
-        offset, spare = (self.scratch(name, self.t.shape, np.float64) for name in ("across", "spare"))
-        for row, out in zip(self.plan.camera.pose.basis, point, strict=True):
-            np.multiply(self.t, linear(row, self.direction, out, spare), out=out)
-            if not self.from_eye:
-                np.add(linear(row, self.origin, offset, spare), out, out=out)
+        """The hit points relative to the eye, (3, rows, columns) world components; no number of meaning where nothing
+        is hit.
+        """
+        shape = 3, *self.t.shape
+        point, spare = self.scratch("point", shape, np.float64), self.scratch("spare", shape, np.float64)
+        axes = self.plan.camera.pose.basis.T[..., None, None]
+        np.multiply(linear(axes, self.direction, point, spare), self.t, out=point)
+        if not self.from_eye:
+            offset = self.scratch("offset", shape, np.float64)
+            np.add(linear(axes, self.origin, offset, spare), point, out=point)
         return point
 
-    @cached_property
+    @lazy
     def normal(self):
-        """Unit world normals turned towards the rays' origins, as components; 0 where nothing is hit."""
+        """Unit world normals turned towards the rays' origins, (3, rows, columns); 0 where nothing is hit."""
         normal = self.plan.normals.look_up(self)
         if not (self.from_eye and self.plan.eye_outside):
-            facing = -np.sign(dot(normal, self.world_direction))
-            for component in normal:
-                np.multiply(facing, component, out=component)
+            np.multiply(-np.sign(dot(normal, self.world_direction)), normal, out=normal)
         if self.missed is not None:
-            for component in normal:
-                np.copyto(component, 0.0, where=self.missed)
+            np.copyto(normal, 0.0, where=self.missed)
         return normal
 
-    @cached_property
+    @lazy
     def pixels(self):
         """The pixel coordinates of the centres, (1, columns) and (rows, 1)."""
         raster, (column, row) = self.plan.camera.raster, self.corner
         height, width = self.t.shape
         return raster.columns()[:, column : column + width], raster.rows()[row : row + height]
 
-    @cached_property
+    @lazy
     def bounds(self) -> Bounds:
         """How far from the exact picture the hits are at most."""
         return Bounds(self)
 
-    @cached_property
+    @lazy
     def surfaces(self) -> list[Surface]:
         """The hit pixels kind by kind, only the kinds that are hit."""
         kinds = self.plan.shapes.kind[self.index[self.seen]]
@@ -146,12 +147,12 @@ class Surface:
     where: np.ndarray
     kind: Any
 
-    @cached_property
+    @lazy
     def rows(self) -> np.ndarray:
         """The row of each pixel's shape."""
         return self.hits.index[self.where]
 
-    @cached_property
+    @lazy
     def q(self):
         """The hit points in the shapes' frames, right to EPS (distance / size)."""
         shapes, pose = self.hits.plan.shapes, self.hits.plan.camera.pose

@@ -1,4 +1,4 @@
-"""What makes numpy's loops fast: rows taken whole, and memory that is kept.
+"""What makes numpy's loops fast: rows taken whole, memory that is kept, threads that do not wait for each other.
 
 A ufunc with an operand that is broadcast, or a window of a larger array, copies it to a buffer first, unless a row of
 it fills the buffer: a row plus a column then costs as little as two whole arrays, three to five times less than
@@ -8,11 +8,17 @@ Source: numpy's manual, setbufsize.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import sys
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from ctypes import CDLL
+from functools import cache
 from math import prod
+from typing import Any, Generic, TypeVar, overload
 
 import numpy as np
+
+T = TypeVar("T")
 
 MULTIPLE = 16
 """What widths of windows are multiples of."""
@@ -20,8 +26,11 @@ MULTIPLE = 16
 NARROW = 128
 """Rows with fewer pixels are better copied: the loop's start costs more."""
 
-LARGEST_KEPT = 30 << 20
+LARGEST_KEPT, MOST_KEPT = 32 << 20, 128 << 20
 """Bytes."""
+
+M_TRIM_THRESHOLD, M_MMAP_THRESHOLD = -1, -3
+"""glibc's names of its parameters, from malloc.h."""
 
 
 @contextmanager
@@ -37,14 +46,18 @@ def whole_rows(width: int) -> Iterator[None]:
         np.setbufsize(usual)
 
 
+@cache
 def keep_memory() -> None:
     """Let the C library keep the memory of arrays that go, for those that come.
 
     glibc hands back what is larger than a threshold, and the system clears it page by page when it is asked for again,
-    which costs two to three times what the arithmetic does. The threshold rises to the largest block that was freed, to
-    32 MB at most. Source: mallopt(3), M_MMAP_THRESHOLD. Elsewhere this does nothing.
+    which costs two to three times what the arithmetic does. Arrays beyond LARGEST_KEPT are handed back still, and what
+    is beyond MOST_KEPT altogether. Source: mallopt(3). Where the C library has no such thing this does nothing.
     """
-    np.empty(LARGEST_KEPT, np.uint8)
+    mallopt = getattr(CDLL(None), "mallopt", None) if sys.platform == "linux" else None
+    if mallopt is not None:
+        mallopt(M_MMAP_THRESHOLD, LARGEST_KEPT)
+        mallopt(M_TRIM_THRESHOLD, MOST_KEPT)
 
 
 class Scratch:
@@ -61,3 +74,25 @@ class Scratch:
         if found is None or found.size < size:
             found = self._arrays[name, dtype] = np.empty(size, dtype)
         return found[:size].reshape(shape)
+
+
+class lazy(Generic[T]):
+    """A property that is worked out when it is first asked for: functools.cached_property without its lock, which up to
+    Python 3.11 lets one thread at a time work out a property, of whatever object (CPython's issue 87634).
+    """
+
+    def __init__(self, func: Callable[[Any], T]):
+        self.func, self.__doc__ = func, func.__doc__
+
+    def __set_name__(self, owner, name: str) -> None:
+        self._name = name
+
+    @overload
+    def __get__(self, instance: None, owner) -> lazy[T]: ...
+    @overload
+    def __get__(self, instance: object, owner) -> T: ...
+    def __get__(self, instance, owner):
+        if instance is None:
+            return self
+        value = instance.__dict__[self._name] = self.func(instance)
+        return value

@@ -2,17 +2,26 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import partial
+from heapq import merge
+from operator import itemgetter
 from typing import Any
 
 import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
 
 from .hits import NOTHING, Hits, cut
 from .loops import MULTIPLE, Scratch, whole_rows
 from .plan import Group, Plan
+from .vector import is_lattice
 
-BATCH_PIXELS = 1 << 16
-"""Pixels of the bounds of the small shapes that are cast at once: the working arrays stay in a core's cache."""
+BATCH_PIXELS = 1 << 18
+"""Pixels of the bounds of the small shapes that are cast at once: fewer, and threads would wait for each other."""
+
+PREPARED_PIXELS = 1 << 16
+"""Rows and columns of large shapes whose terms are made at once."""
 
 
 def nearest(plan: Plan, origin, direction, from_eye: bool, corner, scratch: Scratch) -> Hits:
@@ -30,18 +39,15 @@ def nearest(plan: Plan, origin, direction, from_eye: bool, corner, scratch: Scra
         scratch("index", shape, np.int32),
         scratch,
     )
-    tile.t.fill(np.inf)
-    tile.index.fill(NOTHING)
-    large = []
-    for group in plan.groups:
-        at, bounds = group.within(corner, shape)
+    seen = [(group, *group.within(corner, shape)) for group in plan.groups]
+    large = (tile.prepared(*one) for one in seen if not one[0].small)
+    for index, window, solve in merge(*large, key=itemgetter(0), reverse=True):
+        tile.cast_one(index, window, solve)
+    tile.clear()
+    for group, at, bounds in seen:
         if group.small:
             for batch in _batches(bounds):
                 tile.cast_batch(group, at[batch], bounds[batch])
-        else:
-            large += [(group, *one) for one in zip(at.tolist(), bounds.tolist(), strict=True)]
-    for group, row, bounds in sorted(large, key=lambda one: one[0].at[one[1]]):
-        tile.cast_one(group, row, bounds)
     if plan.clips:
         beyond = np.greater(tile.t, plan.real(plan.camera.clip_end), out=scratch("closer", shape, bool))
         np.copyto(tile.index, NOTHING, where=beyond)
@@ -49,7 +55,7 @@ def nearest(plan: Plan, origin, direction, from_eye: bool, corner, scratch: Scra
     return Hits(plan, from_eye, origin, direction, tile.t, tile.index, scratch, corner)
 
 
-@dataclass(frozen=True)
+@dataclass
 class Tile:
     """The rays of a part of the window, and the nearest hits so far."""
 
@@ -61,52 +67,94 @@ class Tile:
     """The nearest t so far, inf where nothing was hit; it may lie beyond the clip end, where all others do, too."""
     index: np.ndarray
     scratch: Scratch
+    blank: bool = True
+    """Whether ``t`` and ``index`` are still to be written."""
 
-    def cast_one(self, group: Group, row: int, bounds) -> None:
+    def clear(self) -> None:
+        """Note that nothing was hit yet, unless something was."""
+        if self.blank:
+            self.t.fill(np.inf)
+            self.index.fill(NOTHING)
+            self.blank = False
+
+    def prepared(self, group: Group, at, bounds) -> Iterator[tuple[int, Any, Callable]]:
+        """Yield the index, the bounds and the kernel of some large shapes, the last one first."""
+        count = max(1, PREPARED_PIXELS // sum(self.t.shape))
+        for end in range(len(at), 0, -count):
+            some = slice(max(0, end - count), end)
+            solve = self._kernel(group, at[some])
+            for k in reversed(range(some.stop - some.start)):
+                yield int(group.at[at[some][k]]), bounds[some][k].tolist(), partial(solve, k)
+
+    def _kernel(self, group: Group, rows) -> Callable:
+        """Return what gives t and where there is one, of the k-th of some shapes in a window."""
+        if self.origin is None and group.simple and is_lattice(self.direction):
+            return group.shape.Lattice(group.constants(rows, axes=2), group.kind, self.direction).meet
+
+        def meet(k, window, scratch):
+            return self._intersect(group, group.constants(rows[k]), lambda component: cut(component, window))
+
+        return meet
+
+    def cast_one(self, index: int, bounds, solve: Callable) -> None:
         """Test one shape at the pixels of its bounds."""
         window = _widened(bounds, self.t.shape[1])
         with whole_rows(window[1].stop - window[1].start):
-            found, where = self._intersect(group, group.constants(row), lambda component: cut(component, window))
+            found, where = solve(window, self.scratch)
             if found is not None:
-                self._keep(window, found, where, group.at[row])
+                self._keep(window, found, where, index)
 
     def cast_batch(self, group: Group, at, bounds) -> None:
         """Test many small shapes at once: windows as large as the largest bounds, moved until they lie in the tile."""
-        x0, x1, y0, y1 = bounds.T
+        order = np.lexsort((-group.at[at], -group.near[at]))  # what hides others is written last: few try again
+        at, (x0, x1, y0, y1) = at[order], bounds[order].T
         wide, high = int((x1 - x0).max()), int((y1 - y0).max())
         x0, y0 = np.minimum(x0, self.t.shape[1] - wide), np.minimum(y0, self.t.shape[0] - high)
         x = x0[:, None, None] + np.arange(wide)
         y = y0[:, None, None] + np.arange(high)[:, None]
-        view = group.constants(at, axes=(1, 1))
+        view = group.constants(at, axes=2)
         found, where = self._intersect(group, view, lambda component: _gather(component, y, x))
-        self._keep_listed(y * self.t.shape[1] + x, np.broadcast_to(found, (len(at), high, wide)), where, group.at[at])
+        self._keep_all((y0, x0), np.broadcast_to(found, (len(at), high, wide)), where, group.at[at].astype(np.int32))
 
     def _keep(self, window, found, where, shape: int) -> None:
-        """Note the hits of one shape in a window that are nearer than those of all shapes with lower indices."""
+        """Note the hits of one shape in a window that are the nearest so far; no shape before had a lower index."""
         t, index = self.t[window], self.index[window]
-        closer = np.less(found, t, out=self.scratch("closer", t.shape, bool))
-        if where is None:
+        if self.blank and where is True and t.shape == self.t.shape:
+            np.copyto(t, found)
+            index.fill(shape)
+            self.blank = False
+            return
+        self.clear()
+        closer = np.less_equal(found, t, out=self.scratch("closer", t.shape, bool))
+        if where is None or where is True:
             np.fmin(t, found, out=t)
         else:
             closer &= where
             np.copyto(t, found, where=closer)
         np.copyto(index, shape, where=closer)
 
-    def _keep_listed(self, pixel, found, where, shapes) -> None:
+    def _keep_all(self, corners, found, where, shapes) -> None:
         """Note the hits of many shapes, each in its own window, that are the nearest so far, whatever their order."""
-        t, index = self.t.reshape(-1), self.index.reshape(-1)
-        closer = found <= t[pixel]
+        high, wide = found.shape[1:]
+        before = sliding_window_view(self.t, (high, wide))[corners]
+        closer, tied = found < before, found == before
+        if tied.any():
+            closer |= tied & (shapes[:, None, None] < sliding_window_view(self.index, (high, wide))[corners])
         if where is not None:
             closer &= where
-        hits = np.flatnonzero(closer)[::-1]  # of equals the first is then written last, and stays
-        shape = shapes[hits // (pixel.size // len(pixel))]
-        pixel, found = pixel.reshape(-1)[hits], found.reshape(-1)[hits]
-        while pixel.size:  # of several hits in one pixel the last is written: what is nearer still tries again
-            before = t[pixel]
-            won = (found < before) | ((found == before) & (shape < index[pixel]))
-            pixel, found, shape = pixel[won], found[won], shape[won]
-            t[pixel] = found
-            index[pixel] = shape
+        hits = np.flatnonzero(closer)
+        width = self.t.shape[1]
+        window = (np.arange(high)[:, None] * width + np.arange(wide)).reshape(-1)
+        pixel = ((corners[0] * width + corners[1])[:, None] + window).reshape(-1)[hits]
+        shape, found = shapes[hits // window.size], found.reshape(-1)[hits]
+        t, index = self.t.reshape(-1), self.index.reshape(-1)
+        while pixel.size:
+            t[pixel], index[pixel] = found, shape  # of several hits in one pixel the last stays: the others try again
+            lost = np.flatnonzero(index[pixel] != shape)
+            pixel, found, shape = pixel[lost], found[lost], shape[lost]
+            now = t[pixel]
+            nearer = (found < now) | ((found == now) & (shape < index[pixel]))
+            pixel, found, shape = pixel[nearer], found[nearer], shape[nearer]
 
     def _intersect(self, group: Group, view, part):
         origin = None if self.origin is None else tuple(map(part, self.origin))

@@ -69,12 +69,12 @@ def uv(hits: Hits, out):
 
 def object_index(hits: Hits, out):
     """Blender's pass index of the object."""
-    out[...] = hits.look_up(hits.plan.object_index, "number")
+    hits.look_up(hits.plan.object_index, "number", out)
 
 
 def material_index(hits: Hits, out):
     """Blender's pass index of the material."""
-    out[...] = hits.look_up(hits.plan.material_index, "number")
+    hits.look_up(hits.plan.material_index, "number", out)
 
 
 def shape_index(hits: Hits, out):

@@ -44,8 +44,10 @@ class Group:
     """(m,) rows in ``Shapes``."""
     bounds: np.ndarray
     """(m, 4) int: x0, x1, y0, y1 in the render window, x1 and y1 not included."""
+    near: np.ndarray
+    """(m,): the least t that each may have, -inf where that is not known."""
     view: Any
-    """The kernel's constants."""
+    """The kernel's constants: the last axis counts the shapes."""
 
     @property
     def shape(self):
@@ -63,14 +65,16 @@ class Group:
         if self.small:
             ends = corner[1] - self.tallest, corner[1] + shape[0]
             some = slice(*np.searchsorted(self.bounds[:, 2], ends))
-        edges = np.clip(self.bounds[some] - np.repeat(corner, 2), 0, np.repeat(shape[::-1], 2))
+        (left, low), (high, wide) = corner, shape
+        edges = np.maximum(self.bounds[some] - np.array((left, left, low, low)), 0)
+        np.minimum(edges, np.array((wide, wide, high, high)), out=edges)
         here = np.flatnonzero((edges[:, 0] < edges[:, 1]) & (edges[:, 2] < edges[:, 3]))
         return here + (some.start or 0), edges[here]
 
-    def constants(self, at, axes=()):
-        """Return the kernel's constants of one row, or of many with axes put in that broadcast with the rays."""
-        values = {name: getattr(self.view, name)[at] for name in self.view.__dataclass_fields__}
-        return type(self.view)(**{k: v.reshape(len(v), *axes, *v.shape[1:]) if axes else v for k, v in values.items()})
+    def constants(self, at, axes: int = 0):
+        """Return the kernel's constants of one row, or of many with so many more axes behind them."""
+        values = (getattr(self.view, name)[..., at] for name in self.view.__dataclass_fields__)
+        return type(self.view)(*(value.reshape(*value.shape, *(1,) * axes) if axes else value for value in values))
 
 
 @dataclass(frozen=True)
@@ -176,7 +180,7 @@ def make_plan(
             if is_small:
                 at = at[np.argsort(bounds[at, 2], kind="stable")]
             view = _rounded(SHAPE_OF_KIND[kind].view(placed, at, camera.parallel), real)
-            groups.append(Group(kind, is_simple, is_small, at, np.asfortranarray(bounds[at]), view))
+            groups.append(Group(kind, is_simple, is_small, at, np.asfortranarray(bounds[at]), near[at], view))
     return Plan(
         camera=camera,
         shapes=shapes,
@@ -192,11 +196,12 @@ def make_plan(
 
 
 def _rounded(view, real):
-    """Return a kernel's constants as what is calculated with; inf where float32 does not reach."""
+    """Return a kernel's constants as what is calculated with; NaN, which hits nothing, where float32 does not reach."""
     if real is np.float64:
         return view
-    with np.errstate(over="ignore"):
-        return type(view)(**{name: getattr(view, name).astype(real) for name in view.__dataclass_fields__})
+    largest = np.finfo(real).max
+    values = (getattr(view, name) for name in view.__dataclass_fields__)
+    return type(view)(*(np.where(np.abs(value) <= largest, value, np.nan).astype(real) for value in values))
 
 
 def _reach(camera: Camera, placed: Placed, sampled: bool):

@@ -16,9 +16,12 @@ def matvec(matrix, components):
 
 
 def linear(row, components, out, spare):
-    """Return one row of ``matvec``, rounded alike, in ``out``; ``spare`` is a working array of the same shape."""
+    """Return one row of ``matvec``, rounded alike, in ``out``; ``spare`` is a working array of the same shape.
+
+    Many rows at once are entries that are arrays, (m, 1, 1): fewer calls, in which no other thread can begin one.
+    """
     x, y, z = components
-    if np.size(y) + np.size(z) < out.size:
+    if out.shape[-1:] not in (np.shape(y)[-1:], np.shape(z)[-1:]):
         return np.add(row[0] * x, row[1] * y + row[2] * z, out=out)
     np.add(np.multiply(row[1], y, out=out), np.multiply(row[2], z, out=spare), out=out)
     return np.add(np.multiply(row[0], x, out=spare), out, out=out)

@@ -34,21 +34,18 @@ class NormalTable:
     """The ellipsoids; None where there is none."""
 
     def look_up(self, hits):
-        """Return unit normals as components, (rows, columns) arrays of the hits' scratch; 0 where nothing is hit.
+        """Return unit normals, (3, rows, columns) components, an array of the hits' scratch; 0 where nothing is hit.
 
         Outward on spheres, towards the eye on planes. Right to EPS (distance / radius), in length, too.
         """
         gain = hits.look_up(self.gain, "gain")
-        spare = hits.scratch("spare", gain.shape, np.float64)
-        normal = tuple(hits.look_up(table, f"normal {axis}") for axis, table in zip("xyz", self.offset, strict=True))
-        for component, place in zip(normal, hits.point, strict=True):
-            np.add(component, np.multiply(gain, place, out=spare), out=component)
+        normal = hits.look_up(self.offset, "normal")
+        spare = hits.scratch("spare", normal.shape, np.float64)
+        np.add(normal, np.multiply(gain, hits.point, out=spare), out=normal)
         if self.curved is not None:
             self.curved.put(hits, normal)
         if not self.unit:
-            length = np.maximum(norm(normal), np.finfo(float).tiny)
-            for component in normal:
-                np.divide(component, length, out=component)
+            np.divide(normal, np.maximum(norm(normal), np.finfo(float).tiny), out=normal)
         return normal
 
 

@@ -15,7 +15,7 @@ import numpy as np
 
 from ..conventions import gamma
 from ..records import INFINITE_PLANE, PLANE
-from ..vector import components, cross, difference, is_lattice, linear, matvec, rows
+from ..vector import cross, difference, linear, matvec
 from .placed import Placed
 
 KINDS = (PLANE, INFINITE_PLANE)
@@ -23,80 +23,92 @@ KINDS = (PLANE, INFINITE_PLANE)
 
 @dataclass(frozen=True)
 class View:
-    """The constants of planes as the eye sees them, one row a plane."""
+    """The constants of planes as the eye sees them; the last axis counts the planes."""
 
     matrix: np.ndarray
-    """(n, 3, 3): shape_from_camera, its sign such that the eye's ``offset`` is not negative."""
+    """(3, 3, n): shape_from_camera, its sign such that the eye's ``offset`` is not negative."""
     centre: np.ndarray
-    """(n, 3) camera frame."""
+    """(3, n) camera frame."""
     offset: np.ndarray
     """(n,): N_z for rays from the eye."""
     cross: np.ndarray
-    """(n, 2, 3): camera direction to the x and y components of N x D, for rays from the eye."""
+    """(2, 3, n): camera direction to the x and y components of N x D, for rays from the eye."""
 
 
 def view(placed: Placed, at, direction=None) -> View:
     """Return the constants of the planes in these rows; arguments as the sphere's."""
-    centre, matrix, offset = placed.centre[at], placed.shape_from_camera[at], placed.offset[at]
-    sign = np.where(offset[..., 2] < 0, -1.0, 1.0)[..., None]  # q and -q are the same plane
-    matrix, offset = matrix * sign[..., None], offset * sign
-    x, y, z = (component[..., None] for component in components(offset))
-    to_x, to_y, to_z = (matrix[..., i, :] for i in range(3))
-    return View(matrix, centre, offset[..., 2], np.stack((y * to_z - z * to_y, z * to_x - x * to_z), axis=-2))
+    centre, offset = placed.centre[at].T, placed.offset[at].T
+    matrix = placed.shape_from_camera[at].transpose(1, 2, 0)
+    sign = np.where(offset[2] < 0, -1.0, 1.0)  # q and -q are the same plane
+    matrix, offset = matrix * sign, offset * sign
+    (x, y, z), (to_x, to_y, to_z) = offset, matrix
+    return View(matrix, centre, z, np.stack((y * to_z - z * to_y, z * to_x - x * to_z)))
 
 
 def intersect(plane: View, kind: int, origin, direction, start: float | None, scratch):
     """Return t of the crossing with the plane, and where it is one: inside and at or beyond ``start``.
 
-    Arguments as the sphere's. Both sides are seen. A ray in the plane does not hit it. None for t: no ray hits it.
+    Arguments as the sphere's. Both sides are seen. A ray in the plane does not hit it. None for t: no ray hits it;
+    True for where: all do. Either may have one column that stands for all.
     """
-    if origin is None and start is None and np.ndim(plane.offset) == 0 and is_lattice(direction):
-        return _near_pinhole(plane, kind, direction, scratch)
-    matrix = rows(plane.matrix)
+    matrix = plane.matrix
     shape = np.broadcast_shapes(np.shape(plane.offset), *map(np.shape, direction), *map(np.shape, origin or ()))
     d_z, t, across = (scratch(name, shape) for name in ("ahead", "found", "across"))
     linear(matrix[2], direction, d_z, across)
     if origin is None:
         np.divide(plane.offset, d_z, out=t)
     else:
-        n = matvec(matrix, difference(components(plane.centre), origin))
+        n = matvec(matrix, difference(plane.centre, origin))
         np.divide(n[2], d_z, out=t)
-    found = t >= (0.0 if start is None else start)
+    found = (t >= (0.0 if start is None else start)) & (t < np.inf)
     if kind == PLANE:
         np.abs(d_z, out=d_z)
         for row in range(2):
             if origin is None:
-                linear(rows(plane.cross)[row], direction, across, scratch("spare", shape))
+                linear(plane.cross[row], direction, across, scratch("spare", shape))
             else:
                 np.copyto(across, cross(n, matvec(matrix, direction))[row])
             found &= np.abs(across, out=across) <= d_z
     return t, found
 
 
-def _near_pinhole(plane: View, kind: int, direction, scratch):
-    """Return the same for one plane and the rays of a pinhole: where their corners tell that the plane covers them all
-    or misses them all, no other is asked.
+class Lattice:
+    """Planes and the rays of a pinhole: x is a row, y a column, z a number. D_z and N x D are affine in the pixel then:
+    where the corners of a window tell that a plane covers it all or misses it all, no other is asked.
     """
-    x, y, z = direction
-    edges = rows(plane.cross) if kind == PLANE else ()
-    parts = [(row[0] * x, row[1] * y + row[2] * z) for row in (rows(plane.matrix)[2], *edges)]
-    reach = np.array([np.abs(x).max(), np.abs(y).max(), abs(z)])
-    doubt = gamma(8) * (np.abs(plane.matrix[2]) @ reach + (np.abs(plane.cross) @ reach).max())
-    corners = [row[:, [0, -1]] + column[[0, -1]] for row, column in parts]
-    slack = np.array([corners[0], *(corners[0] - across for edge in corners[1:] for across in (edge, -edge))])
-    if (slack.max(axis=(1, 2)) < -doubt).any():
-        return None, None  # affine in the pixel: what all corners are beyond, all pixels are
-    d_z, t, across = (scratch(name, (len(y), x.shape[1])) for name in ("ahead", "found", "across"))
-    np.add(*parts[0], out=d_z)
-    np.divide(plane.offset, d_z, out=t)
-    if (slack > doubt).all():
-        return t, None
-    found = t >= 0.0
-    np.abs(d_z, out=d_z)
-    for part in parts[1:]:
-        np.add(*part, out=across)
-        found &= np.abs(across, out=across) <= d_z
-    return t, found
+
+    def __init__(self, planes: View, kind: int, direction):
+        """Take constants with two axes behind the one that counts the planes."""
+        x, y, z = direction
+        edges = planes.cross if kind == PLANE else planes.cross[:0]
+        terms = np.concatenate((planes.matrix[2:], edges))
+        self._row, self._column = terms[:, 0] * x, terms[:, 1] * y + terms[:, 2] * z
+        reach = np.array([np.abs(x).max(), np.abs(y).max(), abs(z)])
+        most = (np.abs(terms) * reach.reshape(3, 1, 1, 1)).sum(axis=1)
+        self._doubt = (gamma(8) * (most[0] + most[1:].max(axis=0, initial=0)))[:, 0, 0]
+        self._offset = planes.offset
+        self._is_level = terms[0, 0, :, 0, 0] == 0
+
+    def meet(self, at: int, window, scratch):
+        """Return t in a window of the rays, and where it is a hit, of one plane, as ``intersect`` does."""
+        rows, columns = window
+        row, column = self._row[:, at, :, columns], self._column[:, at, rows]
+        corners = row[..., [0, -1]] + column[:, [0, -1]]
+        slack = np.concatenate((corners[:1], corners[0] - corners[1:], corners[0] + corners[1:]))
+        if (slack.max(axis=(1, 2)) < -self._doubt[at]).any():
+            return None, None
+        shape = column.shape[1], row.shape[2]
+        d_z = column[0]
+        if not self._is_level[at]:  # else all pixels of a row are alike: a floor's, seen by a camera that is not rolled
+            d_z = np.add(row[0], column[0], out=scratch("ahead", shape))
+        t = np.divide(self._offset[at], d_z, out=scratch("found", d_z.shape))
+        if (slack > self._doubt[at]).all():
+            return t, True
+        found, d_z = (t >= 0.0) & (t < np.inf), np.abs(d_z)
+        for part in zip(row[1:], column[1:], strict=True):
+            across = np.add(*part, out=scratch("across", shape))
+            found = found & (np.abs(across, out=across) <= d_z)
+        return t, found
 
 
 def uv(q):

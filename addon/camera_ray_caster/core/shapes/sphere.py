@@ -21,7 +21,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..records import SPHERE
-from ..vector import components, difference, dot, inner, is_lattice, is_one, linear, matvec, norm, rows
+from ..vector import difference, dot, inner, is_lattice, is_one, linear, matvec, norm
 from .placed import Placed
 
 KINDS = (SPHERE,)
@@ -29,15 +29,15 @@ KINDS = (SPHERE,)
 
 @dataclass(frozen=True)
 class View:
-    """The constants of spheres as the eye sees them, one row a sphere."""
+    """The constants of spheres as the eye sees them; the last axis counts the spheres."""
 
     matrix: np.ndarray
-    """(n, 3, 3): camera direction to D, scaled, turned so that the eye sees the centre along its z axis, or so that
+    """(3, 3, n): camera direction to D, scaled, turned so that the eye sees the centre along its z axis, or so that
     parallel rays run along it, and about that until D_y does not depend on the direction's x."""
     scale: np.ndarray
     """(n,): the power of two that D is scaled by."""
     centre: np.ndarray
-    """(n, 3) camera frame."""
+    """(3, n) camera frame."""
     distance: np.ndarray
     """(n,): n, from the eye to the centre in radii."""
     outside: np.ndarray
@@ -45,13 +45,17 @@ class View:
     near: np.ndarray
     """(n,): scale c."""
     wide: np.ndarray
-    """(n, 2, 3): the first two rows of ``matrix`` times the root of c; NaN where the eye is inside."""
+    """(2, 3, n): the first two rows of ``matrix`` times the root of c; NaN where the eye is inside."""
+    factors: np.ndarray
+    """(3, 4, n): what a direction's x, y and z count in D_z - wide D_x, D_z + wide D_x, n D_z and wide D_y, where wide
+    is the root of c."""
 
 
 def view(placed: Placed, at, direction=None) -> View:
     """Return the constants of the spheres in these rows; for parallel rays with the direction that they all have."""
     outside = placed.outside[at]
     offset = np.ascontiguousarray(placed.offset[at].T)
+    distance = norm(offset)
     matrix = np.ascontiguousarray(placed.shape_from_camera[at].transpose(1, 2, 0))  # long arrays, so fast ones
     scale = np.ldexp(1.0, -np.frexp(np.abs(matrix).max(axis=(0, 1)))[1])
     matrix *= scale
@@ -59,8 +63,8 @@ def view(placed: Placed, at, direction=None) -> View:
     matrix = np.stack(_levelled([dot(axis, matrix) for axis in axes]))
     with np.errstate(invalid="ignore"):
         wide = np.sqrt(outside) * matrix[:2]
-    matrix, wide = (np.ascontiguousarray(part.transpose(2, 0, 1)) for part in (matrix, wide))
-    return View(matrix, scale, placed.centre[at], norm(offset), outside, scale * outside, wide)
+    factors = np.stack((matrix[2] - wide[0], matrix[2] + wide[0], distance * matrix[2], wide[1]), axis=1)
+    return View(matrix, scale, placed.centre[at].T, distance, outside, scale * outside, wide, factors)
 
 
 def _towards(vector):
@@ -98,8 +102,9 @@ def intersect(sphere: View, kind: int, origin, direction, start: float | None, s
     hit. A ray that is NaN hits nothing. t may lie in an array of ``scratch``.
     """
     if origin is None and start is None:
-        near = _near_pinhole if is_lattice(direction) else _near_from_eye
-        return near(sphere, direction, scratch), None
+        if is_lattice(direction):
+            return Lattice(sphere, kind, direction).meet_all(scratch)
+        return _near_from_eye(sphere, direction, scratch), None
     if origin is not None and start is None and is_one(direction) and is_lattice(origin):
         return _near_parallel(sphere, origin, direction, scratch), None
     shape = np.broadcast_shapes(np.shape(sphere.outside), *map(np.shape, direction), *map(np.shape, origin or ()))
@@ -109,8 +114,8 @@ def intersect(sphere: View, kind: int, origin, direction, start: float | None, s
         c = sphere.outside
         discriminant = d[2] * d[2] - c * (d[0] * d[0] + d[1] * d[1])
     else:
-        to_shape = sphere.matrix / sphere.scale[..., None, None]
-        n = _turned(to_shape, difference(components(sphere.centre), origin), "n", shape, scratch)
+        to_shape = sphere.matrix / sphere.scale
+        n = _turned(to_shape, difference(sphere.centre, origin), "n", shape, scratch)
         b, c, a, spare = (scratch(name, shape) for name in ("found", "ahead", "across", "spare"))
         inner(n, d, b, spare)
         distance = np.sqrt(inner(n, n, c, spare), out=a)
@@ -129,9 +134,9 @@ def intersect(sphere: View, kind: int, origin, direction, start: float | None, s
 def _turned(matrix, vector, name: str, shape, scratch):
     """Return matrix @ vector as components: in working arrays, where they are as large as those."""
     if np.broadcast_shapes(*map(np.shape, vector)) != shape:
-        return matvec(rows(matrix), vector)
+        return matvec(matrix, vector)
     spare = scratch("spare", shape)
-    return tuple(linear(row, vector, scratch(f"{name} {i}", shape), spare) for i, row in enumerate(rows(matrix)))
+    return tuple(linear(row, vector, scratch(f"{name} {i}", shape), spare) for i, row in enumerate(matrix))
 
 
 def _cross_square(n, d, shape, scratch):
@@ -147,34 +152,62 @@ def _cross_square(n, d, shape, scratch):
 def _near_from_eye(sphere: View, direction, scratch):
     """Return near / (b + sqrt(D_z |D_z| - c (D_x^2 + D_y^2))): NaN also where the ray looks away (D_z < 0)."""
     z, t, across = _working(sphere, direction, scratch)
-    linear(rows(sphere.matrix)[2], direction, z, across)
+    linear(sphere.matrix[2], direction, z, across)
     np.multiply(z, np.abs(z, out=t), out=t)
     spare = scratch("spare", t.shape)
-    for row in rows(sphere.wide):
+    for row in sphere.wide:
         linear(row, direction, across, spare)
         np.subtract(t, np.multiply(across, across, out=across), out=t)
-    return _near(sphere, z, t)
+    return _roots(sphere, z, t)
 
 
-def _near_pinhole(sphere: View, direction, scratch):
-    """Return the same, for rays of which x is a row, y a column and z a number: each D is a row plus a column."""
-    x, y, z = direction
-    to_x, to_y = rows(sphere.wide)
-    to_z = rows(sphere.matrix)[2]
-    ahead, t, across = _working(sphere, direction, scratch)
-    np.add(to_z[0] * x, to_z[1] * y + to_z[2] * z, out=ahead)
-    np.multiply(ahead, np.abs(ahead, out=t), out=t)
-    np.add(to_x[0] * x, to_x[1] * y + to_x[2] * z, out=across)
-    np.subtract(t, np.multiply(across, across, out=across), out=t)
-    level = to_y[1] * y + to_y[2] * z
-    np.subtract(t, level * level, out=t)
-    return _near(sphere, ahead, t)
+class Lattice:
+    """Spheres and the rays of a pinhole: x is a row, y a column, z a number. The near roots follow from
+
+        D_z^2 - c (D_x^2 + D_y^2) = (D_z - wide D_x) (D_z + wide D_x) - (wide D_y)^2,
+
+    in which either factor is a row plus a column, and the last term a column.
+    """
+
+    def __init__(self, spheres: View, kind: int, direction):
+        """Take constants with two axes behind the one that counts the spheres."""
+        x, y, z = direction
+        to_x, to_y, to_z = spheres.factors
+        self._row, self._column = to_x[:3] * x, to_y * y + to_z * z
+        self._column[3] *= self._column[3]
+        self._near = spheres.near
+        self._away = self._row[2].min(axis=(1, 2)) + self._column[2].min(axis=(1, 2)) < 0
+
+    def meet(self, at: int, window, scratch):
+        """Return t in a window of the rays for one sphere, and None, as ``intersect`` does."""
+        rows, columns = window
+        terms = self._row[:, at, :, columns], self._column[:, at, rows]
+        return _near(*terms, self._near[at], self._away[at], scratch), None
+
+    def meet_all(self, scratch):
+        """Return the same for all spheres, each with the rays of a window of its own."""
+        return _near(self._row, self._column, self._near, self._away.any(), scratch), None
+
+
+def _near(row, column, near, away: bool, scratch):
+    """Return the near roots from their terms; ``away``: some of the rays may look away."""
+    shape = *column.shape[1:-1], row.shape[-1]
+    t, ahead = scratch("found", shape), scratch("ahead", shape)
+    np.add(row[0], column[0], out=t)
+    np.multiply(t, np.add(row[1], column[1], out=ahead), out=t)
+    np.subtract(t, column[3], out=t)
+    np.sqrt(t, out=t)
+    np.add(row[2], column[2], out=ahead)
+    np.divide(near, np.add(t, ahead, out=t), out=t)
+    if away:
+        np.copyto(t, np.nan, where=ahead < 0)
+    return t
 
 
 def _near_parallel(sphere: View, origin, direction, scratch):
     """Return (N_z - sqrt(1 - N_x^2 - N_y^2)) / D_z, for rays along z whose origins are a row and a column."""
-    x, y, z = difference(components(sphere.centre), origin)
-    to_x, to_y, to_z = rows(sphere.matrix)
+    x, y, z = difference(sphere.centre, origin)
+    to_x, to_y, to_z = sphere.matrix
     ahead, t, across = _working(sphere, (x, y, z), scratch)
     level = to_y[1] * y + to_y[2] * z
     np.add(to_x[0] * x, to_x[1] * y + to_x[2] * z, out=across)
@@ -189,7 +222,7 @@ def _working(sphere: View, vector, scratch):
     return (scratch(name, shape) for name in ("ahead", "found", "across"))
 
 
-def _near(sphere: View, ahead, t):
+def _roots(sphere: View, ahead, t):
     """Turn discriminants into t, in place."""
     np.sqrt(t, out=t)
     np.add(t, np.multiply(ahead, sphere.distance, out=ahead), out=t)
