@@ -17,7 +17,7 @@ from .records import BlenderCamera, InputError, Pose, Raster, Rays
 from .sampling import in_opening, sub_pixel
 from .vector import inverse, is_grid, is_one, matvec, norm, unit
 
-BLOCK_PIXELS = 1 << 17
+BLOCK_PIXELS = 1 << 18
 """Pixels whose rays are made at once: fewer, and threads would wait for each other at each of numpy's calls."""
 
 

@@ -6,6 +6,7 @@ import os
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from threading import local
 from time import perf_counter
 
@@ -25,8 +26,11 @@ STEPS = "rays", "cast", "passes"
 """What the seconds of a tile are spent on: rays, their nearest hits, the passes of these."""
 
 TILE_PIXELS = 1 << 17, 1 << 20
-"""The fewest and the most pixels of a tile, the unit of threads, progress and cancelling: whole rows, where the picture
-has one time. Between them a thread has two tiles: in smaller ones threads wait for each other more often.
+"""The fewest and the most pixels of a tile, the unit of threads, progress and cancelling."""
+
+TILE_WORK = 1 << 23
+"""Pixels that are tested in a tile, or written: a tenth of a second. Below that a thread has one tile: in smaller ones
+threads wait for each other more often.
 """
 
 
@@ -90,16 +94,14 @@ def cast(
         images[name] = np.empty((height, width, kind.channels)[: 3 if kind.channels else 2], kind.dtype or dtype)
     sampled = ("combined",) if samples > 1 and "combined" in passes else ()
     chief = tuple(name for name in whole.passes if name not in sampled)
-    least, most = TILE_PIXELS
-    pixels = least if sampled else min(max(least, width * -(-height // (2 * threads))), most)
     plans: dict[bool, Plan] = {}
-    if camera.clock is None:
-        tiles = list(_bands(slice(0, height), slice(0, width), pixels))
+    if camera.clock is not None:
+        tiles = list(_moments(camera, camera.clock))
+    else:
         plans[False] = whole
         if sampled:
             plans[True] = make_plan(*middle, passes, known, shading, cull, True, precision)
-    else:
-        tiles = list(_moments(camera, camera.clock, pixels))
+        tiles = list(_bands(slice(0, height), slice(0, width), TILE_PIXELS[0]) if sampled else _shares(whole, threads))
     images.plan = whole
     images.seconds = {"plan": perf_counter() - started}
     own = local()
@@ -123,6 +125,17 @@ def cast(
     return images
 
 
+def _shares(plan: Plan, threads: int) -> Iterator[Tile]:
+    """Yield the picture in whole rows, for each thread a share of about the same work."""
+    height, width = plan.camera.raster.shape
+    least, most = TILE_PIXELS
+    done = np.cumsum(plan.work)
+    count = min(threads * -(-int(done[-1]) // (threads * TILE_WORK)), -(-height * width // least))
+    cuts = np.searchsorted(done, done[-1] * np.arange(1, count) / count)
+    for first, last in pairwise((0, *cuts.tolist(), height)):
+        yield from _bands(slice(first, last), slice(0, width), most)
+
+
 def _bands(rows: slice, columns: slice, pixels: int) -> Iterator[Tile]:
     """Yield a part of the picture in whole rows, about so many pixels at a time."""
     step = max(1, pixels // (columns.stop - columns.start))
@@ -130,11 +143,11 @@ def _bands(rows: slice, columns: slice, pixels: int) -> Iterator[Tile]:
         yield Tile(slice(first, min(first + step, rows.stop)), columns)
 
 
-def _moments(camera: Camera, clock: Clock, pixels: int) -> Iterator[Tile]:
+def _moments(camera: Camera, clock: Clock) -> Iterator[Tile]:
     """Yield the picture time by time."""
     for frame, rows, columns, where in groups(clock, camera.raster.columns(), camera.raster.rows()):
         rows, columns = (slice(*s.indices(n)) for s, n in zip((rows, columns), camera.raster.shape, strict=True))
-        for tile in _bands(rows, columns, pixels):
+        for tile in _bands(rows, columns, TILE_PIXELS[0]):
             meant = where[tile.rows.start - rows.start : tile.rows.stop - rows.start]
             yield replace(tile, frame=frame, where=None if meant.all() else meant)
 
@@ -179,14 +192,18 @@ def _cast_tile(tile: Tile, plan: Plan, names, samples: int, images: Images, scra
 
 
 def _store(hits: Hits, outs: dict[str, np.ndarray], where) -> None:
-    """Write passes, only where they are meant."""
+    """Write passes, only where they are meant: block by block those that need more than the search has found."""
+    all_rows = slice(None)
     with whole_rows(hits.t.shape[1]):
-        for rows, block in hits.blocks():
-            for name, out in outs.items():
-                target = out[rows] if where is None else np.empty_like(out[rows])
-                PASSES[name].write(block, target)
-                if where is not None:
-                    np.copyto(out[rows], target, where=_broadcast(where[rows], target))
+        for derived, parts in ((False, [(all_rows, hits)]), (True, hits.blocks())):
+            names = [name for name in outs if PASSES[name].derived is derived]
+            for rows, block in parts if names else ():
+                for name in names:
+                    out = outs[name][rows]
+                    target = out if where is None else np.empty_like(out)
+                    PASSES[name].write(block, target)
+                    if where is not None:
+                        np.copyto(out, target, where=_broadcast(where[rows], target))
 
 
 def _broadcast(where, image):

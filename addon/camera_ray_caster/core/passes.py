@@ -27,6 +27,8 @@ class Pass:
     channels: int = 0
     dtype: type | None = None
     """What it is stored as; None takes the cast's dtype."""
+    derived: bool = True
+    """Whether more is needed than t and index of the hits."""
 
 
 def combined(hits: Hits, out):
@@ -129,14 +131,14 @@ def _write(out, vector, offset, blank):
 
 PASSES = {
     "combined": Pass(combined, 4),
-    "depth": Pass(depth),
+    "depth": Pass(depth, derived=False),
     "distance": Pass(distance),
     "position": Pass(position, 3),
     "normal": Pass(normal, 3),
     "uv": Pass(uv, 3),
     "object_index": Pass(object_index, 0, np.int32),
     "material_index": Pass(material_index, 0, np.int32),
-    "shape_index": Pass(shape_index, 0, np.int32),
+    "shape_index": Pass(shape_index, 0, np.int32, derived=False),
     "valid": Pass(valid, 0, np.bool_),
     "ray_origin": Pass(ray_origin, 3),
     "ray_direction": Pass(ray_direction, 3),
@@ -145,4 +147,3 @@ PASSES = {
     "normal_bound": Pass(normal_bound),
 }
 """Every pass by its name, in the order of the report."""
-

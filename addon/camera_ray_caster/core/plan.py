@@ -16,11 +16,14 @@ from .shading import SHADINGS
 from .shapes import SHAPE_OF_KIND, Placed, place
 from .shapes.normals import NormalTable, normal_table
 
-SMALL_PIXELS = 1 << 12
+SMALL_PIXELS = 1 << 13
 """A shape with fewer pixels in its bounds is cast in a batch with others: numpy's call costs more than its pixels."""
 
 SAMPLE_MARGIN = np.array([-0.5, 0.5, -0.5, 0.5])
 """Pixels by which bounds widen when samples lie all over the pixels."""
+
+STORED = 0.25
+"""What a pass costs, in tests of a pixel."""
 
 PRECISIONS = {"AUTOMATIC": np.float64, "ROBUST": np.float64, "FAST": np.float32}
 """What hits are searched with. float32 is for previews: it may miss what is smaller than 1e-7 of its distance, and its
@@ -95,6 +98,16 @@ class Plan:
     """Whether anything that may be seen reaches beyond the clip end."""
     real: type
     """What hits are searched with: float64 or float32."""
+
+    @property
+    def work(self) -> np.ndarray:
+        """(rows,) of the render window: about how many pixels are tested in each; a pass counts as STORED of a test."""
+        height, width = self.camera.raster.shape
+        change = np.zeros(height + 1)
+        for x0, x1, y0, y1 in (group.bounds.T for group in self.groups):
+            for edge, sign in ((y0, 1), (y1, -1)):
+                change += sign * np.bincount(edge, x1 - x0, height + 1)
+        return np.cumsum(change)[:height] + STORED * len(self.passes) * width
 
     @cached_property
     def object_index(self) -> np.ndarray:
@@ -237,5 +250,3 @@ def _window_bounds(camera: Camera, placed: Placed, sampled: bool):
     last = np.clip(np.floor(frame[:, 1::2] + 0.5) - corner, 0, size)
     seen &= (first < last).all(axis=1)
     return np.stack((first[:, 0], last[:, 0], first[:, 1], last[:, 1]), axis=1).astype(np.int64), seen
-
-

@@ -19,11 +19,11 @@ from functools import cached_property
 from math import atan, hypot, inf, radians, tan
 
 import numpy as np
-from numpy.polynomial.chebyshev import chebvander
 
 from ..conventions import EPS
 from ..vector import is_grid
 from .inversion import Inverse
+from .panels import on_grid
 
 STEEPEST = tan(radians(89.9))
 """The largest undistorted radius that an endless picture is given."""
@@ -36,17 +36,11 @@ NEAR = 1e-8
 
 STEPS = 200
 
-POINTS = 80
-"""Of a row, Chebyshev's, that polynomials are laid through."""
-
-TAIL = 4
-"""Coefficients that have to be as small as rounding, for a polynomial to be as right as its points."""
-
 ROUNDING = 4
-"""EPS of the row's end: what is smaller is left out."""
+"""EPS of the grid's end: coefficients that are smaller are left out."""
 
-LONG = 512
-"""Rows with more pixels are worth it."""
+MANY = 1 << 16
+"""Pixels of a grid that are worth laying polynomials through."""
 
 
 @dataclass(frozen=True)
@@ -143,14 +137,14 @@ class RadialTangential:
     def undistort(self, u, v):
         """Return (x, y) within the limit with distort(x, y) = (u, v); NaN where there is none.
 
-        Newton's method, from what the radius alone gives. Where u is a long row and v a column it solves for some
-        points of each row, and polynomials through them give the others. Right to some EPS of the distorted radius, in
-        such a row to 8 EPS of the largest in it, times the inverse of the Jacobian.
+        Newton's method, from what the radius alone gives. Where u is a row and v a column of many pixels it solves for
+        some, and polynomials through these give the others. Right to some EPS of the distorted radius, on such a grid
+        to 8 EPS of the largest there, times the inverse of the Jacobian.
         """
         if not any(getattr(self, field.name) for field in fields(self)):
             return tuple(np.array(part) for part in np.broadcast_arrays(u, v))
-        if is_grid(u, v) and np.size(u) > LONG:
-            return self._undistort_rows(u, v)
+        if is_grid(u, v) and u.ndim == 2 and u.size * v.size > MANY:
+            return self._undistort_grid(u, v)
         u, v = np.broadcast_arrays(u, v)
         rho = np.hypot(u, v)
         r = self._radius(rho)
@@ -170,38 +164,19 @@ class RadialTangential:
             x[slow], y[slow] = self._careful(u[slow], v[slow])
         return x, y
 
-    def _undistort_rows(self, u, v):
-        """Return what ``undistort`` does, by polynomials that end where their coefficients have sunk to rounding.
+    def _undistort_grid(self, u, v):
+        """Return what ``undistort`` does: by polynomials of how far points move, which keeps digits, where they do."""
 
-        Where they do not, near the limit, Newton's method goes on from them; what two steps leave open, from the start.
-        Reference: J. Boyd, Chebyshev and Fourier Spectral Methods, 2nd ed. (2001), chapters 2 and 5.
-        """
-        low, high = u.min(), u.max()
-        turns = np.outer(2 * np.arange(POINTS) + 1, np.arange(POINTS)) % (4 * POINTS)  # whole ones taken off exactly
-        fit = np.cos(np.pi / (2 * POINTS) * turns) * (2 / POINTS)
-        fit[:, 0] /= 2
-        points = fit[:, 1] * POINTS / 2
-        u_known = (low + high) / 2 + (high - low) / 2 * points[None]
-        x, y = self.undistort(u_known, v)
-        series = np.einsum("chi,ij->chj", (x - u_known, y - v), fit)  # of how far they move: it keeps digits
-        size = np.abs(series).max(axis=(0, 1))
-        noise = ROUNDING * EPS * max(abs(low), abs(high))
-        terms = POINTS - int(np.argmax(size[::-1] > noise))
-        powers = chebvander((2 * u[0] - low - high) / (high - low), terms - 1).T
-        moved = (np.einsum("hj,jw->hw", part[:, :terms], powers) for part in series)  # matmul's threads would spin on
-        x, y = (part + there for part, there in zip(moved, (u, v), strict=True))
-        if terms <= POINTS - TAIL and (np.hypot(x[:, [0, -1]], y[:, [0, -1]]) <= self.limit).all():
-            return x, y
-        for _ in range(2):
-            step_x, step_y = self._step(x, y, u, v)
-            x, y = x - step_x, y - step_y
-            r = np.abs(x) + np.abs(y)
-            open_ = ~((np.abs(step_x) + np.abs(step_y) <= NEAR * r) & (r <= self.limit))
-            if np.count_nonzero(open_) < open_.size // 8:
-                break
-        if open_.any():
+        def moved(u, v):
+            x, y = self.undistort(u, v)
+            return x - u, y - v
+
+        x, y = on_grid(moved, u, v, ROUNDING * EPS * max(np.abs(u).max(), np.abs(v).max()))
+        x, y = x + u, y + v
+        left = np.isnan(x)
+        if left.any():
             u, v = np.broadcast_arrays(u, v)
-            x[open_], y[open_] = self.undistort(u[open_], v[open_])
+            x[left], y[left] = self.undistort(u[left], v[left])
         return x, y
 
     def _step(self, x, y, u, v):

@@ -94,7 +94,7 @@ def place(shapes: Shapes, pose: Pose) -> Placed:
         centre=np.einsum("ij,nj->ni", camera_from_world, away),
         shape_from_world=shape_from_world,
         rounding=rounding,
-        shape_from_camera=np.einsum("nij,jk->nik", shape_from_world, pose.basis),
+        shape_from_camera=np.einsum("nij,kj->nik", shape_from_world, np.ascontiguousarray(pose.basis.T)),
         offset=offset,
         outside=outside,
         radius=np.where(shapes.kind == INFINITE_PLANE, np.inf, radius),
