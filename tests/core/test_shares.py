@@ -1,0 +1,68 @@
+"""How a picture is divided among threads: every pixel once, about the same work for each."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from camera_ray_caster.core import cast as module
+from camera_ray_caster.core.cast import TILE_PIXELS, cast
+from camera_ray_caster.core.passes import PASSES
+from camera_ray_caster.core.plan import STORED, make_plan
+from camera_ray_caster.core.records import SPHERE
+
+from .test_cast import camera_at, shapes_of
+
+HIGH_UP = shapes_of(*[(SPHERE, (x / 4, 2.6, -8), 0.9) for x in range(-12, 13)])
+"""25 overlapping balls in the upper quarter of the picture."""
+
+
+def plan_of(camera, passes=("depth",)):
+    return make_plan(camera, HIGH_UP, passes, tuple(PASSES), "MATERIAL", True, False)
+
+
+def test_the_work_of_a_row_is_the_pixels_that_are_tested_in_it_and_written():
+    plan = plan_of(camera_at(resolution_x=640, resolution_y=480), ("depth", "normal"))
+    counted = np.full(480, STORED * 2 * 640)
+    for group in plan.groups:
+        for x0, x1, y0, y1 in group.bounds:
+            counted[y0:y1] += x1 - x0
+    np.testing.assert_array_equal(plan.work, counted)
+    assert counted.max() > 4 * counted.min()
+
+
+@pytest.mark.parametrize("threads", [1, 2, 3, 8])
+@pytest.mark.parametrize(("size", "work"), [((640, 480), 1 << 23), ((1000, 999), 1 << 23), ((1000, 999), 1 << 18)])
+def test_shares_hold_each_row_once_and_about_the_same_work(monkeypatch, threads, size, work):
+    monkeypatch.setattr(module, "TILE_WORK", work)
+    plan = plan_of(camera_at(resolution_x=size[0], resolution_y=size[1]))
+    rows = [(tile.rows.start, tile.rows.stop) for tile in module._shares(plan, threads)]
+    assert [first for first, _ in rows] == [0, *(last for _, last in rows[:-1])]
+    assert rows[-1][1] == size[1]
+    most = -(-size[0] * size[1] // TILE_PIXELS[0])
+    assert len(rows) == min(most, threads * -(-int(plan.work.sum()) // (threads * work)))
+    shares = [plan.work[first:last].sum() for first, last in rows]
+    assert np.ptp(shares) <= 2 * plan.work.max()  # a row at either end
+    if len(rows) == 2:
+        assert rows[0][1] > 0.6 * size[1]  # the upper share is thinner, since all the balls are there
+
+
+def test_no_tile_is_larger_than_the_memory_that_is_stated():
+    plan = plan_of(camera_at(resolution_x=4000, resolution_y=3000))
+    tiles = list(module._shares(plan, 1))
+    assert max((tile.rows.stop - tile.rows.start) * 4000 for tile in tiles) <= TILE_PIXELS[1]
+    assert sum(tile.rows.stop - tile.rows.start for tile in tiles) == 3000
+
+
+@pytest.mark.parametrize("passes", [(), ("depth",), ("shape_index", "normal")])
+def test_the_picture_is_the_same_in_one_share_and_in_many(monkeypatch, passes):
+    camera = camera_at(resolution_x=320, resolution_y=240)
+    whole = cast(camera, HIGH_UP, passes, np.float64, threads=1)
+    monkeypatch.setattr(module, "TILE_PIXELS", (1 << 10, 1 << 14))
+    monkeypatch.setattr(module, "TILE_WORK", 1 << 12)
+    fractions = []
+    parts = cast(camera, HIGH_UP, passes, np.float64, threads=2, progress=lambda done: not fractions.append(done))
+    assert len(fractions) >= (4 if passes else 1)
+    assert list(parts) == list(passes)
+    for name in passes:
+        np.testing.assert_array_equal(parts[name], whole[name])
