@@ -46,9 +46,6 @@ class View:
     """(n,): scale c."""
     wide: np.ndarray
     """(2, 3, n): the first two rows of ``matrix`` times the root of c; NaN where the eye is inside."""
-    factors: np.ndarray
-    """(3, 4, n): what a direction's x, y and z count in D_z - wide D_x, D_z + wide D_x, n D_z and wide D_y, where wide
-    is the root of c."""
 
 
 def view(placed: Placed, at, direction=None) -> View:
@@ -63,8 +60,7 @@ def view(placed: Placed, at, direction=None) -> View:
     matrix = np.stack(_levelled([dot(axis, matrix) for axis in axes]))
     with np.errstate(invalid="ignore"):
         wide = np.sqrt(outside) * matrix[:2]
-    factors = np.stack((matrix[2] - wide[0], matrix[2] + wide[0], distance * matrix[2], wide[1]), axis=1)
-    return View(matrix, scale, placed.centre[at].T, distance, outside, scale * outside, wide, factors)
+    return View(matrix, scale, placed.centre[at].T, distance, outside, scale * outside, wide)
 
 
 def _towards(vector):
@@ -164,7 +160,7 @@ def _near_from_eye(sphere: View, direction, scratch):
 class Lattice:
     """Spheres and the rays of a pinhole: x is a row, y a column, z a number. The near roots follow from
 
-        D_z^2 - c (D_x^2 + D_y^2) = (D_z - wide D_x) (D_z + wide D_x) - (wide D_y)^2,
+        D_z^2 - c (D_x^2 + D_y^2) = (D_z - wide D_x) (D_z + wide D_x) - (wide D_y)^2,  wide = root of c,
 
     in which either factor is a row plus a column, and the last term a column.
     """
@@ -172,7 +168,8 @@ class Lattice:
     def __init__(self, spheres: View, kind: int, direction):
         """Take constants with two axes behind the one that counts the spheres."""
         x, y, z = direction
-        to_x, to_y, to_z = spheres.factors
+        (across, up), ahead = spheres.wide, spheres.matrix[2]
+        to_x, to_y, to_z = np.stack((ahead - across, ahead + across, spheres.distance * ahead, up), axis=1)
         self._row, self._column = to_x[:3] * x, to_y * y + to_z * z
         self._column[3] *= self._column[3]
         self._near = spheres.near
