@@ -12,13 +12,13 @@ import numpy as np
 from .aperture import Aperture
 from .clock import Clock, groups, meeting
 from .conventions import gamma
-from .loops import keep_memory, whole_rows
+from .loops import BAND, keep_memory, whole_rows
 from .records import BlenderCamera, InputError, Pose, Raster, Rays
 from .sampling import in_opening, sub_pixel
-from .vector import inverse, is_grid, is_one, matvec, norm, unit
+from .vector import inverse, is_grid, is_one, matvec, norm
 
 BLOCK_PIXELS = 1 << 18
-"""Pixels whose rays are made at once: fewer, and threads would wait for each other at each of numpy's calls."""
+"""Pixels whose rays are made at once, in whole bands: fewer, and threads would wait at each of numpy's calls."""
 
 
 def pose_from(raw: BlenderCamera) -> Pose:
@@ -104,23 +104,26 @@ class Camera:
         shape = np.broadcast_shapes(x.shape, y.shape)
         directions = np.empty((*shape, 3))
         origins = np.broadcast_to(self.pose.eye, directions.shape) if self.model.central else np.empty((*shape, 3))
-        step = max(1, BLOCK_PIXELS // max(x.size, 1))
+        valid = np.empty(shape, bool)
+        step = BAND * max(1, round(BLOCK_PIXELS / max(x.size, 1) / BAND))
         if is_grid(x, y) and y.size > step:
             keep_memory()
             blocks = [slice(first, first + step) for first in range(0, y.size, step)]
             with ThreadPoolExecutor(os.cpu_count()) as pool:  # numpy releases the interpreter
-                list(pool.map(lambda rows: self._fill(x, y[rows], origins[rows], directions[rows]), blocks))
+                list(pool.map(lambda r: self._fill(x, y[r], origins[r], directions[r], valid[r]), blocks))
         else:
-            self._fill(x, y, origins, directions)
-        return Rays(origins, directions, ~np.isnan(directions[..., 0]))
+            self._fill(x, y, origins, directions, valid)
+        return Rays(origins, directions, valid)
 
-    def _fill(self, x, y, origins, directions) -> None:
+    def _fill(self, x, y, origins, directions, valid) -> None:
         """Write the world rays through pixel coordinates; the origins only where there is more than the eye."""
-        with whole_rows(np.shape(x)[-1] if np.ndim(x) else 1):
+        with whole_rows(valid.shape[-1] if valid.ndim else 1):
             origin, direction = self.camera_rays(x, y)
             direction = matvec(self.pose.basis, direction)
-            for axis, component in enumerate(unit(direction) if self.model.planar else direction):
-                directions[..., axis] = component
+            length = norm(direction) if self.model.planar else None
+            for axis, component in enumerate(direction):
+                directions[..., axis] = component if length is None else component / length
+            valid[...] = ~np.isnan(direction[0])
             if not self.model.central:
                 for axis, component in enumerate(matvec(self.pose.basis, origin)):
                     np.add(component, self.pose.eye[axis], out=origins[..., axis])

@@ -26,6 +26,9 @@ MULTIPLE = 16
 NARROW = 128
 """Rows with fewer pixels are better copied: the loop's start costs more."""
 
+BAND = 144
+"""Rows that are best worked on together, where nothing else tells."""
+
 LARGEST_KEPT, MOST_KEPT = 32 << 20, 128 << 20
 """Bytes."""
 

@@ -17,7 +17,7 @@ STEP = 2.0**-20
 """Pixels by which a ray is moved to see how fast the picture's rays turn: beside singular rims still on the picture."""
 
 IN_RAYS = gamma(16)
-"""Of a ray's own length: a model's last operations; numpy's sine and cosine take up to 8 of them."""
+"""Of a ray's own length: a model's last operations; numpy's sine and cosine take up to 8 of them, polynomials more."""
 
 
 @dataclass(frozen=True)
@@ -42,9 +42,10 @@ def world_rays(camera, x, y) -> WorldRays:
     basis = camera.pose.basis.tolist()
     stretch = np.linalg.norm(camera.pose.basis, 2)
     in_pixels = _in_pixels(camera, x, y)
+    by_panels = getattr(camera.model, "by_panels", False)
     parts = []
     for part in range(2):
-        error = (gamma(2) if camera.model.planar else IN_RAYS) * norm(here[part])
+        error = (gamma(2) if camera.model.planar and not by_panels else IN_RAYS) * norm(here[part])
         for axis in range(2):
             turned = [_moved(camera.camera_rays(x + dx, y + dy)[part], here[part]) for dx, dy in moves[axis]]
             error = error + in_pixels[axis] / STEP * np.fmax(*turned)

@@ -21,6 +21,7 @@ import numpy as np
 from ..records import BlenderCamera, InputError, Raster
 from .film import Film, Window
 from .inversion import Inverse
+from .panels import on_raster
 from .radial import AT_THE_RIM, TINY, Radial
 from .settings import FULL_TURN, WIDEST_FISHEYE, number, positive
 from .silhouette import pixel_bounds, radial_intervals
@@ -91,6 +92,9 @@ class FisheyePolynomial(Radial):
         k1, k2, k3, k4 = (sign * i * k for i, k in enumerate(self.coefficients[1:], 1))
         slope = lambda r: k1 + r * (k2 + r * (k3 + r * k4))  # noqa: E731
         return Inverse(lambda r: sign * self.angle(r), slope, 0.0, self.limit)
+
+    def _factors_at(self, x, y):
+        return on_raster(super()._factors_at, x, y)
 
     def radius(self, theta):
         """See Radial: negative where theta is seen on the other side of the axis."""

@@ -19,6 +19,7 @@ import numpy as np
 from ..records import BlenderCamera, Raster
 from .calibration import FISHEYE, Calibration
 from .inversion import Inverse
+from .panels import on_raster
 from .radial import AT_THE_RIM, TINY, Radial
 
 
@@ -63,6 +64,9 @@ class OpencvFisheye(Radial):
         r = np.maximum(np.sqrt(r_squared), TINY)
         theta = self._angle(r)
         return np.sin(theta) / r, np.cos(theta)
+
+    def _factors_at(self, x, y):
+        return on_raster(super()._factors_at, x, y)
 
     def radius(self, theta):
         """See Radial."""

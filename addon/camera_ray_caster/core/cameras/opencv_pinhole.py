@@ -18,6 +18,7 @@ from ..records import BlenderCamera, Raster
 from ..vector import components
 from .calibration import RADIAL_TANGENTIAL, Calibration
 from .film import Window
+from .panels import on_raster
 from .radial import AT_THE_RIM
 from .radial_tangential import RadialTangential
 from .silhouette import angular_radius, pixel_bounds, radial_intervals
@@ -34,6 +35,11 @@ class OpencvPinhole:
     planar = True
     central = True
 
+    @property
+    def by_panels(self) -> bool:
+        """Whether polynomials give the rays of a picture; see panels."""
+        return self.distortion.bends
+
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> OpencvPinhole:
         """Build it from the settings of the same names or a calibration file; see Calibration for what is refused."""
@@ -45,9 +51,14 @@ class OpencvPinhole:
 
         x and y are pixel coordinates of broadcastable shapes. x and y are NaN where there is no ray.
         """
+        straight = self.window.plane_from_pixels
+        across, up = on_raster(self._undistorted, x, y) if self.by_panels else straight(x, y)
+        return (0.0, 0.0, 0.0), (across, up, -1.0)
+
+    def _undistorted(self, x, y):
         u, v = self.window.plane_from_pixels(x, y)
         across, down = self.distortion.undistort(u, -v)
-        return (0.0, 0.0, 0.0), (across, -down, -1.0)
+        return across, -down
 
     def project(self, points):
         """Return the pixel coordinates (..., 2) of camera-frame points (..., 3).

@@ -1,7 +1,7 @@
-"""A smooth function on a grid of pixels, by Chebyshev polynomials of both variables, panel by panel.
+"""A smooth function of the pixel for many of them: Chebyshev polynomials in x and y, panel by panel of the raster.
 
-The function is asked at few points of each panel, and the polynomials through them give the others: some ten products a
-pixel, whatever the function takes. Where their coefficients have not sunk to rounding nothing is given.
+The function is asked at few points of each panel, and the polynomials through them give the pixels: some ten products
+each, whatever the function takes. Where the coefficients have not sunk to rounding, each pixel is asked for itself.
 References: J. Boyd, Chebyshev and Fourier Spectral Methods, 2nd ed. (2001), chapters 2, 4 and 5; L. Trefethen,
 Approximation Theory and Approximation Practice (2013), chapters 3 and 8.
 """
@@ -10,66 +10,81 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import cache
+from math import floor
 
 import numpy as np
 from numpy.polynomial.chebyshev import chebvander
 
-ROWS, COLUMNS = 144, 96
-"""Pixels of a panel, at most: its products stay below 2^18, beyond which OpenBLAS wakes threads of its own."""
+from ..conventions import EPS
+from ..loops import BAND
+from ..vector import is_grid
 
-POINTS = 10, 18
-"""Of a panel's side, its ends among them: more only where fewer do not suffice."""
+ROWS, COLUMNS = BAND, 96
+"""Of a panel. They begin at multiples of these, so that a pixel has the same one in whatever part of the picture. Their
+products stay below 2^18, beyond which OpenBLAS wakes threads of its own.
+"""
+
+POINTS = 16
+"""Of a panel's side, its ends among them."""
 
 TAIL = 2
 """Coefficients that have to be as small as rounding, for a polynomial to be as right as its points."""
 
+ROUNDING = 4
+"""EPS of a panel's largest value."""
 
-def on_grid(function: Callable, x, y, noise: float) -> np.ndarray:
-    """Return a function's two values, (2, rows, columns), at x (1, columns) and y (rows, 1); NaN where not known.
+FEWEST = 32, 256
+"""Rows and columns that are worth it."""
 
-    function: of two arrays of one shape, gives two such arrays; where one has no value, NaN, the panel is not known.
-    Right to 8 times the function's own error, the norm of the interpolation, and to ``noise``, absolute, which the last
-    coefficients are smaller than.
+
+def on_raster(function: Callable, x, y):
+    """Return a function's two values at pixel coordinates: by polynomials at a row and a column of centres in line.
+
+    function: of two arrays that broadcast, gives two arrays; where one has no value, NaN, so has the other. Right to 8
+    times the function's own error, the norm of the interpolation, and to ROUNDING of the larger value in the panel.
     """
-    bands = np.array_split(y[:, 0], -(-y.size // ROWS))
-    values = [_band(function, x[0], band, noise) for band in bands]
-    return values[0] if len(values) == 1 else np.concatenate(values, axis=1)
+    if not (is_grid(x, y) and x.ndim == 2 and _are_centres(y[:, 0], FEWEST[0]) and _are_centres(x[0], FEWEST[1])):
+        return function(x, y)
+    left, low = floor(x[0, 0]), floor(y[0, 0])
+    panels = np.arange(left // COLUMNS, (left + x.size - 1) // COLUMNS + 1)
+    values = np.empty((2, y.size, len(panels), COLUMNS))
+    for band in range(low // ROWS, (low + y.size - 1) // ROWS + 1):
+        first, last = (np.clip((band + i) * ROWS, low, low + y.size) for i in (0, 1))
+        rows = range(first - band * ROWS, last - band * ROWS)
+        _fill(function, panels, band, rows, values[:, first - low : last - low])
+    return values.reshape(2, y.size, -1)[..., left % COLUMNS :][..., : x.size]
 
 
-def _band(function, x, y, noise):
-    """Return what ``on_grid`` does, for the rows of one row of panels."""
-    count = -(-x.size // COLUMNS)
-    wide = -(-x.size // count)
-    columns = np.pad(x, (0, count * wide - x.size), mode="edge").reshape(count, wide)
-    out = np.full((2, y.size, count, wide), np.nan)
-    left = np.arange(count)
-    for points in POINTS:
-        (x_nodes, x_terms), (y_nodes, y_terms) = _terms(columns[left], points), _terms(y[None], points)
-        values = np.stack(function(*np.broadcast_arrays(x_nodes.reshape(1, -1), y_nodes.reshape(-1, 1))))
-        fit = _fit(points)
-        series = fit @ values.reshape(2, points, len(left), points).swapaxes(1, 2) @ fit.T
-        size = np.abs(series).max(axis=0)
-        tail = np.maximum(size[:, -TAIL:].max(axis=(1, 2)), size[..., -TAIL:].max(axis=(1, 2)))
-        right = tail <= noise
-        out[:, :, left[right]] = (y_terms @ series[:, right] @ x_terms[right].swapaxes(1, 2)).swapaxes(1, 2)
-        left = left[~right]
-        if not left.size:
-            break
-    return out.reshape(2, y.size, -1)[..., : x.size]
+def _are_centres(places, fewest: int) -> bool:
+    return places.size >= fewest and places[0] % 1 == 0.5 and bool((np.diff(places) == 1).all())
 
 
-def _terms(places, points):
-    """Return the nodes of intervals that hold some places each, (n, points), and the polynomials, (n, m, points)."""
-    low, high = places.min(axis=1, keepdims=True), places.max(axis=1, keepdims=True)
-    middle, half = (low + high) / 2, (high - low) / 2
-    nodes = middle + half * np.cos(np.pi / (points - 1) * np.arange(points))
-    nodes[:, 0], nodes[:, -1] = high[:, 0], low[:, 0]
-    return nodes, chebvander((places - middle) / np.where(half > 0, half, 1.0), points - 1)
+def _fill(function, panels, band: int, rows: range, values) -> None:
+    """Write some rows of a row of panels, (2, rows, panels, COLUMNS)."""
+    places = (1 + np.cos(np.pi / (POINTS - 1) * np.arange(POINTS))) / 2
+    x, y = (panels[:, None] + places) * COLUMNS, (band + places) * ROWS
+    asked = np.stack(function(x.reshape(1, -1), y[:, None])).reshape(2, POINTS, -1, POINTS).swapaxes(1, 2)
+    start = asked[..., :1, :1]  # what is left is small, and so is the rounding of the sums
+    series = _fit() @ (asked - start) @ _fit().T
+    tail = np.maximum(*(np.abs(part).max(axis=(0, 2, 3)) for part in (series[..., -TAIL:, :], series[..., -TAIL:])))
+    right = tail <= ROUNDING * EPS * np.abs(asked).max(axis=(0, 2, 3))
+    found = _terms(ROWS) @ series[:, right] @ _terms(COLUMNS).T  # all rows: sums of some would be rounded otherwise
+    values[:, :, right] = (found + start[:, right])[:, :, rows.start : rows.stop].swapaxes(1, 2)
+    if not right.all():
+        left = panels[~right]
+        x, y = left[:, None] * COLUMNS + np.arange(COLUMNS) + 0.5, band * ROWS + np.array(rows) + 0.5
+        values[:, :, ~right] = np.stack(function(x.reshape(1, -1), y[:, None])).reshape(2, len(rows), -1, COLUMNS)
 
 
 @cache
-def _fit(points):
+def _terms(pixels: int) -> np.ndarray:
+    """Return the polynomials at the pixel centres of a panel, (pixels, POINTS)."""
+    return chebvander((2 * np.arange(pixels) + 1) / pixels - 1, POINTS - 1)
+
+
+@cache
+def _fit() -> np.ndarray:
     """Return the matrix that brings values at Chebyshev's points of the second kind to coefficients."""
-    turns = np.outer(np.arange(points), np.arange(points)) % (2 * (points - 1))  # whole ones taken off exactly
-    weight = np.where(np.arange(points) % (points - 1) == 0, 0.5, 1.0)
-    return np.cos(np.pi / (points - 1) * turns) * weight * weight[:, None] * (2 / (points - 1))
+    turns = np.outer(np.arange(POINTS), np.arange(POINTS)) % (2 * (POINTS - 1))  # whole ones taken off exactly
+    weight = np.where(np.arange(POINTS) % (POINTS - 1) == 0, 0.5, 1.0)
+    return np.cos(np.pi / (POINTS - 1) * turns) * weight * weight[:, None] * (2 / (POINTS - 1))

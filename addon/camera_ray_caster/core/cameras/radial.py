@@ -54,8 +54,12 @@ class Radial(ABC):
         to some EPS of 1 + theta.
         """
         a, b = self.window.plane_from_pixels(x, y)
-        scale, cosine = self.factors(a * a + b * b)
+        scale, cosine = self._factors_at(x, y)
         return (0.0, 0.0, 0.0), (a * scale, b * scale, -cosine)
+
+    def _factors_at(self, x, y):
+        a, b = self.window.plane_from_pixels(x, y)
+        return self.factors(a * a + b * b)
 
     def project(self, points):
         """Return the pixel coordinates (..., 2) of camera-frame points (..., 3); NaN for those that no ray meets.

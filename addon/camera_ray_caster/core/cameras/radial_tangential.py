@@ -21,9 +21,7 @@ from math import atan, hypot, inf, radians, tan
 import numpy as np
 
 from ..conventions import EPS
-from ..vector import is_grid
 from .inversion import Inverse
-from .panels import on_grid
 
 STEEPEST = tan(radians(89.9))
 """The largest undistorted radius that an endless picture is given."""
@@ -35,12 +33,6 @@ NEAR = 1e-8
 """Of the radius: where the last step is shorter, its own error is below rounding."""
 
 STEPS = 200
-
-ROUNDING = 4
-"""EPS of the grid's end: coefficients that are smaller are left out."""
-
-MANY = 1 << 16
-"""Pixels of a grid that are worth laying polynomials through."""
 
 
 @dataclass(frozen=True)
@@ -59,6 +51,11 @@ class RadialTangential:
     s2: float = 0.0
     s3: float = 0.0
     s4: float = 0.0
+
+    @property
+    def bends(self) -> bool:
+        """Whether there is any distortion."""
+        return any(getattr(self, field.name) for field in fields(self))
 
     def gain(self, r_squared):
         """Return g and its derivative by r^2."""
@@ -137,14 +134,11 @@ class RadialTangential:
     def undistort(self, u, v):
         """Return (x, y) within the limit with distort(x, y) = (u, v); NaN where there is none.
 
-        Newton's method, from what the radius alone gives. Where u is a row and v a column of many pixels it solves for
-        some, and polynomials through these give the others. Right to some EPS of the distorted radius, on such a grid
-        to 8 EPS of the largest there, times the inverse of the Jacobian.
+        Newton's method, from what the radius alone gives. Right to some EPS of the distorted radius, times the inverse
+        of the Jacobian.
         """
-        if not any(getattr(self, field.name) for field in fields(self)):
+        if not self.bends:
             return tuple(np.array(part) for part in np.broadcast_arrays(u, v))
-        if is_grid(u, v) and u.ndim == 2 and u.size * v.size > MANY:
-            return self._undistort_grid(u, v)
         u, v = np.broadcast_arrays(u, v)
         rho = np.hypot(u, v)
         r = self._radius(rho)
@@ -162,21 +156,6 @@ class RadialTangential:
         slow = (slow | (r > self.limit)) & ~np.isnan(u)
         if slow.any():
             x[slow], y[slow] = self._careful(u[slow], v[slow])
-        return x, y
-
-    def _undistort_grid(self, u, v):
-        """Return what ``undistort`` does: by polynomials of how far points move, which keeps digits, where they do."""
-
-        def moved(u, v):
-            x, y = self.undistort(u, v)
-            return x - u, y - v
-
-        x, y = on_grid(moved, u, v, ROUNDING * EPS * max(np.abs(u).max(), np.abs(v).max()))
-        x, y = x + u, y + v
-        left = np.isnan(x)
-        if left.any():
-            u, v = np.broadcast_arrays(u, v)
-            x[left], y[left] = self.undistort(u[left], v[left])
         return x, y
 
     def _step(self, x, y, u, v):
