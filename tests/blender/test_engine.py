@@ -228,7 +228,15 @@ def test_each_tile_shows_progress_and_asks_whether_to_stop(stopped):
     assert shown == [0.25]
 
 
-def test_the_whole_way_is_shown(scene, monkeypatch):
+@pytest.fixture
+def slow(monkeypatch):
+    """A picture counts as one that takes long, and so is cast in many tiles."""
+    from camera_ray_caster.core import cast
+
+    monkeypatch.setattr(cast, "TILE_WORK", 1 << 16)
+
+
+def test_the_whole_way_is_shown(scene, slow, monkeypatch):
     import bpy
 
     from camera_ray_caster.blender.engine import CameraRayCaster
@@ -242,7 +250,7 @@ def test_the_whole_way_is_shown(scene, monkeypatch):
     assert shown[-1] == 1
 
 
-def test_a_stop_ends_the_render_after_a_tile_and_leaves_no_report(scene, monkeypatch):
+def test_a_stop_ends_the_render_after_a_tile_and_leaves_no_report(scene, slow, monkeypatch):
     import bpy
 
     from camera_ray_caster.blender import reports
