@@ -28,7 +28,7 @@ STORED = 0.25
 PRECISIONS = {"AUTOMATIC": np.float64, "ROBUST": np.float64, "FAST": np.float32}
 """What hits are searched with. float32 is for previews: it may miss what is smaller than 1e-7 of its distance, and its
 bound is never within the rounding of a stored float32, so that AUTOMATIC has no picture for which it suffices. Nor does
-it gain much: 1.05 to 1.17 times the speed of a whole cast, measured alternately, since memory and passes cost the rest.
+it gain much: 1.03 to 1.28 times the speed of a whole cast, measured alternately, since memory and passes cost the rest.
 """
 
 KIND_NAMES = ("sphere", "plane", "infinite plane")
