@@ -11,7 +11,13 @@ from camera_ray_caster.core.passes import PASSES
 from camera_ray_caster.core.plan import STORED, make_plan
 from camera_ray_caster.core.records import SPHERE
 
+from .model_examples import camera as model_camera
 from .test_cast import camera_at, shapes_of
+
+LENSES = {
+    "OPENCV_PINHOLE": {"k1": -0.28, "k2": 0.07, "p1": 1e-3, "calibration_width": 96, "calibration_height": 54},
+    "OPENCV_FISHEYE": {"k1": 0.05, "k2": 0.01, "calibration_width": 96, "calibration_height": 54},
+}
 
 HIGH_UP = shapes_of(*[(SPHERE, (x / 4, 2.6, -8), 0.9) for x in range(-12, 13)])
 """25 overlapping balls in the upper quarter of the picture."""
@@ -64,5 +70,18 @@ def test_the_picture_is_the_same_in_one_share_and_in_many(monkeypatch, passes):
     parts = cast(camera, HIGH_UP, passes, np.float64, threads=2, progress=lambda done: not fractions.append(done))
     assert len(fractions) >= (4 if passes else 1)
     assert list(parts) == list(passes)
+    for name in passes:
+        np.testing.assert_array_equal(parts[name], whole[name])
+
+
+@pytest.mark.parametrize("key", ["PERSP", "OPENCV_PINHOLE", "OPENCV_FISHEYE", "FISHEYE_LENS_POLYNOMIAL"])
+def test_a_ray_does_not_depend_on_how_threads_share_the_picture(monkeypatch, key):
+    """Bit for bit, though lenses are solved panel by panel."""
+    camera = model_camera(key, {"resolution_x": 320, "resolution_y": 288, **LENSES.get(key, {})})
+    passes = ("ray_direction", "depth", "valid")
+    whole = cast(camera, HIGH_UP, passes, np.float64, threads=1)
+    monkeypatch.setattr(module, "TILE_PIXELS", (1 << 14, 1 << 14))
+    monkeypatch.setattr(module, "TILE_WORK", 1 << 12)
+    parts = cast(camera, HIGH_UP, passes, np.float64, threads=3)
     for name in passes:
         np.testing.assert_array_equal(parts[name], whole[name])
