@@ -7,6 +7,7 @@ import pytest
 
 from camera_ray_caster.core import cast as module
 from camera_ray_caster.core.cast import TILE_PIXELS, cast
+from camera_ray_caster.core.loops import STRIP
 from camera_ray_caster.core.passes import PASSES
 from camera_ray_caster.core.plan import STORED, make_plan
 from camera_ray_caster.core.records import SPHERE
@@ -46,10 +47,13 @@ def test_shares_hold_each_row_once_and_about_the_same_work(monkeypatch, threads,
     assert [first for first, _ in rows] == [0, *(last for _, last in rows[:-1])]
     assert rows[-1][1] == size[1]
     most = -(-size[0] * size[1] // TILE_PIXELS[0])
-    assert len(rows) == min(most, threads * -(-int(plan.work.sum()) // (threads * work)))
-    shares = [plan.work[first:last].sum() for first, last in rows]
-    assert np.ptp(shares) <= 2 * plan.work.max()  # a row at either end
-    if len(rows) == 2:
+    assert len(rows) <= min(most, threads * -(-int(plan.work.sum()) // (threads * work)))
+    assert len(rows) >= min(most, threads) / 2
+    assert min(last - first for first, last in rows) >= STRIP
+    assert all(first % STRIP == 0 for first, _ in rows)
+    if len(rows) == threads == 2:
+        shares = [plan.work[first:last].sum() for first, last in rows]
+        assert np.ptp(shares) <= STRIP * plan.work.max()  # half a strip more here, half a strip less there
         assert rows[0][1] > 0.6 * size[1]  # the upper share is thinner, since all the balls are there
 
 

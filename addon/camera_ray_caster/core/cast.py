@@ -15,7 +15,7 @@ import numpy as np
 from .camera import Camera
 from .clock import Clock, groups
 from .hits import Hits
-from .loops import Scratch, keep_memory, whole_rows
+from .loops import STRIP, Scratch, keep_memory, whole_rows
 from .nearest import nearest
 from .passes import PASSES
 from .plan import Plan, make_plan
@@ -126,21 +126,23 @@ def cast(
 
 
 def _shares(plan: Plan, threads: int) -> Iterator[Tile]:
-    """Yield the picture in whole rows, for each thread a share of about the same work."""
+    """Yield the picture in whole strips, for each thread a share of about the same work."""
     height, width = plan.camera.raster.shape
     least, most = TILE_PIXELS
     done = np.cumsum(plan.work)
     count = min(threads * -(-int(done[-1]) // (threads * TILE_WORK)), -(-height * width // least))
     cuts = np.searchsorted(done, done[-1] * np.arange(1, count) / count)
-    for first, last in pairwise((0, *cuts.tolist(), height)):
+    cuts = np.unique(np.clip(np.rint(cuts / STRIP), 1, height // STRIP - 1).astype(int)) * STRIP
+    for first, last in pairwise((0, *cuts[(cuts > 0) & (cuts < height)].tolist(), height)):
         yield from _bands(slice(first, last), slice(0, width), most)
 
 
 def _bands(rows: slice, columns: slice, pixels: int) -> Iterator[Tile]:
-    """Yield a part of the picture in whole rows, about so many pixels at a time."""
+    """Yield a part of the picture in whole rows, so many pixels at a time at most, all alike."""
     step = max(1, pixels // (columns.stop - columns.start))
-    for first in range(rows.start, rows.stop, step):
-        yield Tile(slice(first, min(first + step, rows.stop)), columns)
+    count = -(-(rows.stop - rows.start) // step)
+    for first, last in pairwise(np.linspace(rows.start, rows.stop, count + 1).astype(int).tolist()):
+        yield Tile(slice(first, last), columns)
 
 
 def _moments(camera: Camera, clock: Clock) -> Iterator[Tile]:

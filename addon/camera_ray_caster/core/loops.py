@@ -26,8 +26,8 @@ MULTIPLE = 16
 NARROW = 128
 """Rows with fewer pixels are better copied: the loop's start costs more."""
 
-BAND = 144
-"""Rows that are best worked on together, where nothing else tells."""
+BAND, STRIP = 144, 36
+"""Rows that are best worked on together, and the fewest that are, where nothing else tells."""
 
 LARGEST_KEPT, MOST_KEPT = 32 << 20, 128 << 20
 """Bytes."""

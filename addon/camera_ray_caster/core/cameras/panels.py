@@ -16,7 +16,7 @@ import numpy as np
 from numpy.polynomial.chebyshev import chebvander
 
 from ..conventions import EPS
-from ..loops import BAND
+from ..loops import BAND, STRIP
 from ..vector import is_grid
 
 ROWS, COLUMNS = BAND, 96
@@ -33,7 +33,7 @@ TAIL = 2
 ROUNDING = 4
 """EPS of a panel's largest value."""
 
-FEWEST = 32, 256
+FEWEST = STRIP, 256
 """Rows and columns that are worth it."""
 
 
