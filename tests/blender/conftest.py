@@ -7,3 +7,11 @@ import pytest
 def empty_file(blender):
     """See ``blender``, which does the work and takes it back."""
     return blender
+
+
+@pytest.fixture
+def slow(monkeypatch):
+    """A picture counts as one that takes long, and so is cast in many tiles."""
+    from camera_ray_caster.core import cast
+
+    monkeypatch.setattr(cast, "TILE_WORK", 1 << 16)

@@ -228,14 +228,6 @@ def test_each_tile_shows_progress_and_asks_whether_to_stop(stopped):
     assert shown == [0.25]
 
 
-@pytest.fixture
-def slow(monkeypatch):
-    """A picture counts as one that takes long, and so is cast in many tiles."""
-    from camera_ray_caster.core import cast
-
-    monkeypatch.setattr(cast, "TILE_WORK", 1 << 16)
-
-
 def test_the_whole_way_is_shown(scene, slow, monkeypatch):
     import bpy
 
