@@ -1,13 +1,11 @@
 """The benchmark, model by model: rays against a plain fill of the same arrays, 1,000 spheres against the pinhole.
 
-A fill makes the arrays that ``rays`` makes (``np.full``): the directions, and the origins where there is more than one.
-Plain numpy does so in a process of its own, since this caster lets the C library keep memory. "in place" is a fill of
-arrays that are there. The cameras are the contract test's, at the size that was asked for.
+A fill is that of arrays that exist: the directions, and the origins where there is more than one. To make such arrays
+and fill them (``np.full``) takes one to three times as long. The cameras are the contract test's, at the size asked for.
 """
 
 from __future__ import annotations
 
-import subprocess
 import sys
 from pathlib import Path
 from time import perf_counter
@@ -28,40 +26,6 @@ LENSES = {
 """Distortions such as real lenses have."""
 
 
-WARM_UP = 10
-"""Fills that do not count: a virtual machine is slow to give memory that it never gave before."""
-
-PLAIN = """
-import sys
-import numpy as np
-shape = tuple(map(int, sys.argv[1:]))
-for line in sys.stdin:
-    arrays = [np.full(shape, 1.0) for _ in range(int(line))]
-    print(flush=True)
-    del arrays
-"""
-
-
-class Fill:
-    """A process that fills arrays when it is told to."""
-
-    def __init__(self, *shape: int):
-        command = [sys.executable, "-c", PLAIN, *map(str, shape)]
-        self._process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
-        for _ in range(WARM_UP):
-            self(2)
-
-    def __call__(self, count: int) -> None:
-        """Fill so many arrays at once."""
-        self._process.stdin.write(f"{count}\n")
-        self._process.stdin.flush()
-        self._process.stdout.readline()
-
-    def close(self) -> None:
-        """End the process."""
-        self._process.communicate()
-
-
 def run(width: int, height: int, rounds: int, threads: int) -> list[dict]:
     """Print and return the ratios of every model, each taken in turns with what it is compared to."""
     sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
@@ -69,14 +33,13 @@ def run(width: int, height: int, rounds: int, threads: int) -> list[dict]:
 
     pinhole, shapes = c.scene(SPHERES, width, height)
     print(f"\n{width} x {height}, {threads} threads, {rounds} rounds; {SPHERES} spheres")
-    print(f"  {'':28}{'rays ms':>9}{'x fill':>8}{'in place':>10}{'cast ms':>10}{'x pinhole':>11}")
+    print(f"  {'':28}{'rays ms':>9}{'x fill':>8}{'cast ms':>10}{'x pinhole':>11}")
     rows = []
-    fill, there = Fill(height, width, 3), np.empty((2, height, width, 3))
+    there = np.empty((2, height, width, 3))
     for model in MODELS:
         one = camera(model.key, {"resolution_x": width, "resolution_y": height, **LENSES.get(model.key, {})})
         entries = {
-            "fill": lambda one=one: fill(1 if one.model.central else 2),
-            "in_place": lambda one=one: there[: 1 if one.model.central else 2].fill(1.0),
+            "fill": lambda one=one: there[: 1 if one.model.central else 2].fill(1.0),
             "rays": one.rays,
             "pinhole": lambda: cast(pinhole, shapes, c.PASSES, threads=threads),
             "cast": lambda one=one: cast(one, shapes, c.PASSES, threads=threads),
@@ -90,8 +53,6 @@ def run(width: int, height: int, rounds: int, threads: int) -> list[dict]:
                     times[name].append(1e3 * (perf_counter() - began))
         median = {name: float(np.median(own)) for name, own in times.items()}
         rows.append({"model": model.key, **median})
-        rays, cast_ = median["rays"], median["cast"]
-        ratios = f"{rays / median['fill']:8.1f}{rays / median['in_place']:10.1f}"
-        print(f"  {model.key:28}{rays:9.1f}{ratios}{cast_:10.1f}{cast_ / median['pinhole']:11.2f}")
-    fill.close()
+        print(f"  {model.key:28}{median['rays']:9.1f}{median['rays'] / median['fill']:8.1f}"
+              f"{median['cast']:10.1f}{median['cast'] / median['pinhole']:11.2f}")  # fmt: skip
     return rows
