@@ -1,7 +1,7 @@
 """The benchmark, model by model: rays against a plain fill of the same arrays, 1,000 spheres against the pinhole.
 
 A fill is that of arrays that exist: the directions, and the origins where there is more than one. To make such arrays
-and fill them (``np.full``) takes one to three times as long. The cameras are the contract test's, at the size asked for.
+and fill them (``np.full``) takes one to three times as long. The cameras are the contract test's, at the size wanted.
 """
 
 from __future__ import annotations

@@ -97,7 +97,7 @@ class SceneProperties(bpy.types.PropertyGroup):
         items=(
             ("AUTOMATIC", "Automatic", "As Robust: Fast was never found right to the rounding of a stored float32"),
             ("ROBUST", "Robust", "float64: error bounds of about 1e-14 of the distance, as measured"),
-            ("FAST", "Fast", "float32, for previews: as measured 1.1 times as fast, and right to about 1e-6 of "
+            ("FAST", "Fast", "float32, for previews: as measured 1.0 to 1.3 times as fast, and right to about 1e-6 of "
              "the distance; it may miss what is smaller than 1e-7 of its distance"),
         ),
         default="AUTOMATIC",
