@@ -6,8 +6,8 @@ import cv2
 import numpy as np
 import pytest
 
-from camera_ray_caster.core.cameras.panels import FEWEST
 from camera_ray_caster.core.conventions import EPS
+from camera_ray_caster.core.panels import FEWEST
 
 from .model_examples import camera
 
@@ -94,6 +94,23 @@ def test_every_pixel_s_ray_is_the_one_that_opencv_projects_there(lens):
     x, y = np.meshgrid(np.arange(640) + 0.5, np.arange(480) + 0.5)
     there = opencv_pinhole(rays.directions.reshape(-1, 3), LENSES[lens])
     assert np.abs(there - np.stack((x.ravel(), y.ravel()), axis=-1)).max() < 1e-9
+
+
+def test_rays_are_found_where_the_terms_of_a_lens_cancel_each_other():
+    """Near a pole, where the denominator's terms are up to a thousand times larger than their sum."""
+    given = {"k1": 0.3, "k4": 0.5, "k5": 0.1, "k6": -0.01, "s1": 1e-3, "s4": -2e-3}
+    frame = {"fx": 60.0, "fy": 61.0, "cx": 48.0, "cy": 27.0}
+    cam = camera("OPENCV_PINHOLE", {**given, **frame, "resolution_x": 400, "resolution_y": 800})
+    rays = cam.rays()
+    assert rays.valid.all()
+    assert cam.rays_at(399.5, 0.5).valid  # alone, as two numbers
+    matrix = np.array([[60.0, 0, 48.0], [0, 61.0, 27.0], [0, 0, 1]])
+    ahead = rays.directions.reshape(-1, 3) * OPENCV_FROM_CAMERA
+    coefficients = np.array([given.get(name, 0.0) for name in ORDER])
+    pixels = cv2.projectPoints(ahead, np.zeros(3), np.zeros(3), matrix, coefficients)[0].reshape(800, 400, 2)
+    column, row = np.meshgrid(np.arange(400), np.arange(800)[::-1])
+    assert np.abs(pixels[..., 0] - column).max() < 1e-9
+    assert np.abs(pixels[..., 1] - row).max() < 1e-9
 
 
 @pytest.mark.parametrize("lens", FISHEYES)

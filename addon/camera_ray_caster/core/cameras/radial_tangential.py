@@ -19,6 +19,7 @@ from functools import cached_property
 from math import atan, hypot, inf, radians, tan
 
 import numpy as np
+from numpy.polynomial.polynomial import polyval
 
 from ..conventions import EPS
 from .inversion import Inverse
@@ -68,6 +69,13 @@ class RadialTangential:
         below_slope = self.k4 + s * (2 * self.k5 + s * (3 * self.k6))
         gain = above / below
         return gain, (above_slope - gain * below_slope) / below
+
+    def cancelled(self, r_squared):
+        """Return how much larger the terms of g are than their sums: what its rounding is multiplied with."""
+        s, k = np.asarray(r_squared), self
+        terms = ((k.k1, k.k2, k.k3), (k.k4, k.k5, k.k6))
+        parts = (((1.0, *own), (1.0, *map(abs, own))) for own in terms)
+        return sum(polyval(s, larger) / np.abs(polyval(s, own)) for own, larger in parts)
 
     def distort(self, x, y):
         """Return (x', y') of undistorted coordinates."""
@@ -155,6 +163,7 @@ class RadialTangential:
                 break
         slow = (slow | (r > self.limit)) & ~np.isnan(u)
         if slow.any():
+            x, y = np.array(x), np.array(y)
             x[slow], y[slow] = self._careful(u[slow], v[slow])
         return x, y
 
@@ -174,7 +183,8 @@ class RadialTangential:
         x, y, share = np.zeros_like(u), np.zeros_like(v), np.ones_like(u)
         off = self._off(x, y, u, v)
         for _ in range(STEPS):
-            goal = 8 * EPS * (np.hypot(u, v) + self.off_radius(np.hypot(x, y)))
+            radius = np.hypot(x, y)
+            goal = 8 * EPS * (np.hypot(u, v) * self.cancelled(radius * radius) + self.off_radius(radius))
             error = np.hypot(*off)
             if not (error > goal).any():
                 break
