@@ -15,7 +15,7 @@ SOURCES = [*MODULES, *sorted((ROOT / "scripts").glob("*.py")), *sorted((ROOT / "
 
 # What a part of the package may import of the package: the longest name that fits counts. The lowest layer comes first.
 LOW = {"core.conventions", "core.records", "core.vector"}
-RAYS = LOW | {"core.aperture", "core.clock", "core.loops", "core.sampling"}
+RAYS = LOW | {"core.aperture", "core.clock", "core.loops", "core.panels", "core.sampling"}
 MAY_IMPORT = {
     "core.conventions": set(),
     "core.records": {"core.conventions"},
@@ -24,6 +24,7 @@ MAY_IMPORT = {
     "core.loops": set(),
     "core.aperture": LOW,
     "core.clock": LOW,
+    "core.panels": LOW | {"core.loops"},
     "core.camera": RAYS,
     "core.cameras": RAYS | {"core.camera", "core.cameras"},
     "core.exact": set(),

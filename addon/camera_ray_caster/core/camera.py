@@ -13,12 +13,18 @@ from .aperture import Aperture
 from .clock import Clock, groups, meeting
 from .conventions import gamma
 from .loops import BAND, keep_memory, whole_rows
+from .panels import fill, is_raster
 from .records import BlenderCamera, InputError, Pose, Raster, Rays
 from .sampling import in_opening, sub_pixel
-from .vector import inverse, is_grid, is_one, matvec, norm
+from .vector import dot, inverse, is_grid, is_lattice, is_one, matvec, norm
 
-BLOCK_PIXELS = 1 << 18
+BLOCK_PIXELS, SMOOTH_PIXELS = 1 << 18, 1 << 19
 """Pixels whose rays are made at once, in whole bands: fewer, and threads would wait at each of numpy's calls."""
+
+
+def _is_cheap(direction) -> bool:
+    """Whether directions are one, or a row and a column."""
+    return is_one(direction) or is_lattice(direction)
 
 
 def pose_from(raw: BlenderCamera) -> Pose:
@@ -105,28 +111,53 @@ class Camera:
         directions = np.empty((*shape, 3))
         origins = np.broadcast_to(self.pose.eye, directions.shape) if self.model.central else np.empty((*shape, 3))
         valid = np.empty(shape, bool)
-        step = BAND * max(1, round(BLOCK_PIXELS / max(x.size, 1) / BAND))
+        smooth = is_raster(x, y) and not _is_cheap(self.model.rays(x[:, :2], y[:2])[1])
+        write, pixels = (self._write_smooth, SMOOTH_PIXELS) if smooth else (self._write, BLOCK_PIXELS)
+        step = BAND * max(1, round(pixels / max(x.size, 1) / BAND))
         if is_grid(x, y) and y.size > step:
             keep_memory()
             blocks = [slice(first, first + step) for first in range(0, y.size, step)]
             with ThreadPoolExecutor(os.cpu_count()) as pool:  # numpy releases the interpreter
-                list(pool.map(lambda r: self._fill(x, y[r], origins[r], directions[r], valid[r]), blocks))
+                list(pool.map(lambda r: write(x, y[r], origins[r], directions[r], valid[r]), blocks))
         else:
-            self._fill(x, y, origins, directions, valid)
+            write(x, y, origins, directions, valid)
         return Rays(origins, directions, valid)
 
-    def _fill(self, x, y, origins, directions, valid) -> None:
+    def _write(self, x, y, origins, directions, valid) -> None:
         """Write the world rays through pixel coordinates; the origins only where there is more than the eye."""
         with whole_rows(valid.shape[-1] if valid.ndim else 1):
             origin, direction = self.camera_rays(x, y)
-            direction = matvec(self.pose.basis, direction)
-            length = norm(direction) if self.model.planar else None
-            for axis, component in enumerate(direction):
-                directions[..., axis] = component if length is None else component / length
-            valid[...] = ~np.isnan(direction[0])
-            if not self.model.central:
-                for axis, component in enumerate(matvec(self.pose.basis, origin)):
-                    np.add(component, self.pose.eye[axis], out=origins[..., axis])
+            length = self._length(direction)
+            for axis, row in enumerate(self.pose.basis):
+                component = dot(row, direction)
+                np.divide(component, length, out=directions[..., axis])
+                if not self.model.central:
+                    np.add(dot(row, origin), self.pose.eye[axis], out=origins[..., axis])
+            np.logical_not(np.isnan(component), out=valid)
+
+    def _write_smooth(self, x, y, origins, directions, valid) -> None:
+        """Do what ``_write`` does for a raster and a model whose rays take more than a polynomial does."""
+
+        def origin(x, y):
+            turned = matvec(self.pose.basis, self.camera_rays(x, y)[0])
+            return tuple(component + eye for component, eye in zip(turned, self.pose.eye, strict=True))
+
+        def direction(x, y):
+            direction = self.camera_rays(x, y)[1]
+            length = self._length(direction)
+            return tuple(component / length for component in matvec(self.pose.basis, direction))
+
+        middle = getattr(self.model, "middle", None)
+        fill(direction, x, y, directions[None], middle)
+        if not self.model.central:
+            fill(origin, x, y, origins[None], middle)
+        np.logical_not(np.isnan(directions[..., 0]), out=valid)
+
+    def _length(self, direction):
+        """Return the length in the world of what ``camera_rays`` gives; that of a row and a column is one sum."""
+        if not self.model.planar:
+            return 1.0
+        return norm(direction if self.is_rigid else matvec(self.pose.basis, direction))
 
     def _timed_rays(self, clock: Clock, x, y) -> Rays:
         """Return what ``rays_at`` does, of the camera at each pixel's own time."""
@@ -150,7 +181,8 @@ class Camera:
 
         With a clock each ray is the camera's at the pixel's own time. Undefined (NaN, valid False) where the model has
         no ray. Each component of a direction is right to a few EPS relative to the unit length, amplified by the
-        frame's offset (shift) over the pixel's own.
+        frame's offset (shift) over the pixel's own. Where rays are smooth functions of the pixel, polynomials give those
+        of a picture (see panels), so that a pixel asked for alone may differ by as much.
         """
         return self.rays_at(self.raster.columns(), self.raster.rows())
 

@@ -18,10 +18,10 @@ from math import hypot
 
 import numpy as np
 
+from ..panels import on_raster
 from ..records import BlenderCamera, InputError, Raster
 from .film import Film, Window
 from .inversion import Inverse
-from .panels import on_raster
 from .radial import AT_THE_RIM, TINY, Radial
 from .settings import FULL_TURN, WIDEST_FISHEYE, number, positive
 from .silhouette import pixel_bounds, radial_intervals
@@ -62,6 +62,11 @@ class FisheyePolynomial(Radial):
             )
         return cls(window, coefficients, half_fov, float(turns[0]) if turns.size else corner)
 
+    @property
+    def middle(self) -> tuple[float, float] | None:
+        """See Radial: a ring where angles fall."""
+        return super().middle if self._sign > 0 <= self.coefficients[0] else None
+
     def angle(self, r):
         """Return theta (rad) of radii in mm."""
         k0, k1, k2, k3, k4 = self.coefficients
@@ -94,7 +99,7 @@ class FisheyePolynomial(Radial):
         return Inverse(lambda r: sign * self.angle(r), slope, 0.0, self.limit)
 
     def _factors_at(self, x, y):
-        return on_raster(super()._factors_at, x, y)
+        return on_raster(super()._factors_at, x, y, self.middle)
 
     def radius(self, theta):
         """See Radial: negative where theta is seen on the other side of the axis."""

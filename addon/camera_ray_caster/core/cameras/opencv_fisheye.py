@@ -16,10 +16,10 @@ from functools import cached_property
 
 import numpy as np
 
+from ..panels import on_raster
 from ..records import BlenderCamera, Raster
 from .calibration import FISHEYE, Calibration
 from .inversion import Inverse
-from .panels import on_raster
 from .radial import AT_THE_RIM, TINY, Radial
 
 
@@ -66,7 +66,7 @@ class OpencvFisheye(Radial):
         return np.sin(theta) / r, np.cos(theta)
 
     def _factors_at(self, x, y):
-        return on_raster(super()._factors_at, x, y)
+        return on_raster(super()._factors_at, x, y, self.middle)
 
     def radius(self, theta):
         """See Radial."""

@@ -14,11 +14,11 @@ from math import atan
 
 import numpy as np
 
+from ..panels import on_raster
 from ..records import BlenderCamera, Raster
 from ..vector import components
 from .calibration import RADIAL_TANGENTIAL, Calibration
 from .film import Window
-from .panels import on_raster
 from .radial import AT_THE_RIM
 from .radial_tangential import RadialTangential
 from .silhouette import angular_radius, pixel_bounds, radial_intervals

@@ -47,6 +47,11 @@ class Radial(ABC):
     def widest(self) -> float:
         """Return the angle at the rim: r grows with theta from 0 to there, beyond pi the picture repeats."""
 
+    @property
+    def middle(self) -> tuple[float, float] | None:
+        """The pixel coordinates about which the picture is an ellipse; None where it may be a ring."""
+        return self.window.centre_x, self.window.centre_y
+
     def rays(self, x, y):
         """Return origin and direction, each a tuple of three broadcastable arrays, camera frame, of unit length.
 

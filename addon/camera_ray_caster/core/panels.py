@@ -1,0 +1,143 @@
+"""A smooth function of the pixel for many of them: Chebyshev polynomials in x and y, panel by panel of the raster.
+
+The function is asked at few points of each panel, and the polynomials through them give the pixels: some ten products
+each, whatever the function takes. Where the coefficients have not sunk to rounding, each pixel is asked for itself.
+References: J. Boyd, Chebyshev and Fourier Spectral Methods, 2nd ed. (2001), chapters 2, 4 and 5; L. Trefethen,
+Approximation Theory and Approximation Practice (2013), chapters 3 and 8.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import cache
+from math import floor
+
+import numpy as np
+from numpy.polynomial.chebyshev import chebvander
+
+from .conventions import EPS
+from .loops import BAND, STRIP
+from .vector import is_grid
+
+ROWS, COLUMNS = BAND // 2, 64
+"""Of a panel. They begin at multiples of these, so that a pixel has the same one in whatever part of the picture; most
+pictures are so many panels.
+"""
+
+POINTS = 14
+"""Of a panel's side, its ends among them. The products of three values side by side stay below 2^18, beyond which
+OpenBLAS wakes threads of its own.
+"""
+
+TAIL = 2
+"""Coefficients that have to be as small as rounding, for a polynomial to be as right as its points."""
+
+ROUNDING = 4
+"""EPS of a panel's largest value."""
+
+FEWEST = STRIP, 256
+"""Rows and columns that are worth it."""
+
+
+def is_raster(x, y) -> bool:
+    """Whether x and y are a row and a column of neighbouring pixel centres, and enough of them."""
+    return is_grid(x, y) and x.ndim == 2 and _are_centres(y[:, 0], FEWEST[0]) and _are_centres(x[0], FEWEST[1])
+
+
+def _are_centres(places, fewest: int) -> bool:
+    return places.size >= fewest and places[0] % 1 == 0.5 and bool((np.diff(places) == 1).all())
+
+
+def on_raster(function: Callable, x, y, middle=None):
+    """Return a function's two values at pixel coordinates: as ``fill`` does where they are a raster."""
+    if not is_raster(x, y):
+        return function(x, y)
+    values = np.empty((2, y.size, x.size, 1))
+    fill(function, x, y, values, middle)
+    return values[..., 0]
+
+
+def fill(function: Callable, x, y, out, middle=None) -> None:
+    """Write a function's values on a raster into ``out``, (m, rows, columns, n): m times n values, n side by side.
+
+    function: of x (..., 1, columns) and y (..., rows, 1), gives as many arrays that broadcast; where one has no value,
+    NaN, so have the others. With a ``middle``, pixel coordinates, they have values within an ellipse about it alone.
+    Right to 8 times the function's own error, the norm of the interpolation, and to ROUNDING of the largest value in
+    the panel.
+    """
+    m, n = out.shape[0], out.shape[-1]
+    (low, bands), (left, panels) = _panels(y[:, 0], ROWS), _panels(x[0], COLUMNS)
+    size = ROWS * len(bands), COLUMNS * len(panels)
+    whole = out.shape[1:3] == size
+    found = out if whole else np.empty((m, *size, n))
+    shaped = found.reshape(m, len(bands), ROWS, len(panels), COLUMNS * n).swapaxes(2, 3)
+    left_over = ~_interpolated(function, bands, panels, shaped, n)
+    if middle is not None and left_over.any():
+        x, y = np.clip(middle[0] / COLUMNS, panels, panels + 1), np.clip(middle[1] / ROWS, bands, bands + 1)
+        empty = left_over & np.isnan(function(x[None] * COLUMNS, y[:, None] * ROWS)[0])
+        shaped[:, empty] = np.nan
+        left_over &= ~empty
+    if left_over.any():
+        band, panel = np.nonzero(left_over)
+        x = panels[panel, None, None] * COLUMNS + np.arange(COLUMNS) + 0.5
+        y = bands[band, None, None] * ROWS + np.arange(ROWS)[:, None] + 0.5
+        values = np.empty((m, len(band), ROWS, COLUMNS, n))
+        for i, value in enumerate(function(x, y)):
+            values[i // n, ..., i % n] = value
+        shaped[:, band, panel] = values.reshape(*values.shape[:3], -1)
+    if not whole:
+        out[...] = found[:, low:, left:][:, : out.shape[1], : out.shape[2]]
+
+
+def _interpolated(function, bands, panels, shaped, n: int) -> np.ndarray:
+    """Write what polynomials give into (m, bands, panels, ROWS, COLUMNS n); return which panels are right so."""
+    x, y = (panels[:, None] + _places()) * COLUMNS, (bands[:, None] + _places()) * ROWS
+    m = len(shaped)
+    asked = np.empty((m * n, len(bands), POINTS, len(panels), POINTS))
+    for own, value in zip(asked, function(x.reshape(1, -1), y.reshape(-1, 1)), strict=True):
+        own.reshape(y.size, x.size)[...] = value
+    asked = asked.swapaxes(2, 3)
+    start = asked[..., :1, :1].copy()  # what is left is small, and so is the rounding of the sums
+    size = np.abs(asked).max(axis=(0, 3, 4))
+    asked -= start
+    tails = _fit()[-TAIL:] @ asked, asked @ _fit()[-TAIL:].T
+    right = np.maximum(*(np.abs(tail).max(axis=(0, 3, 4)) for tail in tails)) <= ROUNDING * EPS * size
+    if right.any():
+        rows = np.empty((m, *right.shape, POINTS + 1, COLUMNS, n))
+        for i, part in enumerate(asked @ _between(COLUMNS).T):
+            rows[i // n, ..., :-1, :, i % n] = part
+            rows[i // n, ..., -1:, :, i % n] = start[i]
+        np.matmul(_between_and_start(ROWS), rows.reshape(*rows.shape[:4], -1), out=shaped)
+    return right
+
+
+def _panels(places, size: int):
+    """Return how far into its panel the first pixel is, and the panels' numbers."""
+    first = floor(places[0])
+    return first % size, np.arange(first // size, (first + places.size - 1) // size + 1)
+
+
+@cache
+def _places() -> np.ndarray:
+    """Return Chebyshev's points of the second kind from 1 down to 0."""
+    return (1 + np.cos(np.pi / (POINTS - 1) * np.arange(POINTS))) / 2
+
+
+@cache
+def _fit() -> np.ndarray:
+    """Return the matrix that brings values at the points to coefficients."""
+    turns = np.outer(np.arange(POINTS), np.arange(POINTS)) % (2 * (POINTS - 1))  # whole ones taken off exactly
+    weight = np.where(np.arange(POINTS) % (POINTS - 1) == 0, 0.5, 1.0)
+    return np.cos(np.pi / (POINTS - 1) * turns) * weight * weight[:, None] * (2 / (POINTS - 1))
+
+
+@cache
+def _between(pixels: int) -> np.ndarray:
+    """Return the matrix that brings values at the points to those at a panel's pixel centres, (pixels, POINTS)."""
+    return chebvander((2 * np.arange(pixels) + 1) / pixels - 1, POINTS - 1) @ _fit()
+
+
+@cache
+def _between_and_start(pixels: int) -> np.ndarray:
+    """Return the same with a column that adds the start, (pixels, POINTS + 1)."""
+    return np.column_stack((_between(pixels), np.ones(pixels)))
