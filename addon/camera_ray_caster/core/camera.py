@@ -181,8 +181,8 @@ class Camera:
 
         With a clock each ray is the camera's at the pixel's own time. Undefined (NaN, valid False) where the model has
         no ray. Each component of a direction is right to a few EPS relative to the unit length, amplified by the
-        frame's offset (shift) over the pixel's own. Where rays are smooth functions of the pixel, polynomials give those
-        of a picture (see panels), so that a pixel asked for alone may differ by as much.
+        frame's offset (shift) over the pixel's own. Where the rays of a picture are smooth functions of the pixel,
+        polynomials give them (see panels): one asked for alone may differ by as much.
         """
         return self.rays_at(self.raster.columns(), self.raster.rows())
 
