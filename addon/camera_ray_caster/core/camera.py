@@ -130,7 +130,7 @@ class Camera:
             length = self._length(direction)
             for axis, row in enumerate(self.pose.basis):
                 component = dot(row, direction)
-                np.divide(component, length, out=directions[..., axis])
+                np.divide(component, 1.0 if length is None else length, out=directions[..., axis])
                 if not self.model.central:
                     np.add(dot(row, origin), self.pose.eye[axis], out=origins[..., axis])
             np.logical_not(np.isnan(component), out=valid)
@@ -144,8 +144,8 @@ class Camera:
 
         def direction(x, y):
             direction = self.camera_rays(x, y)[1]
-            length = self._length(direction)
-            return tuple(component / length for component in matvec(self.pose.basis, direction))
+            turned, length = matvec(self.pose.basis, direction), self._length(direction)
+            return turned if length is None else tuple(component / length for component in turned)
 
         middle = getattr(self.model, "middle", None)
         fill(direction, x, y, directions[None], middle)
@@ -154,9 +154,9 @@ class Camera:
         np.logical_not(np.isnan(directions[..., 0]), out=valid)
 
     def _length(self, direction):
-        """Return the length in the world of what ``camera_rays`` gives; that of a row and a column is one sum."""
+        """Return the length in the world of what ``camera_rays`` gives, None for 1; that of a row and a column is one sum."""
         if not self.model.planar:
-            return 1.0
+            return None
         return norm(direction if self.is_rigid else matvec(self.pose.basis, direction))
 
     def _timed_rays(self, clock: Clock, x, y) -> Rays:

@@ -81,10 +81,8 @@ def fill(function: Callable, x, y, out, middle=None) -> None:
         band, panel = np.nonzero(left_over)
         x = panels[panel, None, None] * COLUMNS + np.arange(COLUMNS) + 0.5
         y = bands[band, None, None] * ROWS + np.arange(ROWS)[:, None] + 0.5
-        values = np.empty((m, len(band), ROWS, COLUMNS, n))
         for i, value in enumerate(function(x, y)):
-            values[i // n, ..., i % n] = value
-        shaped[:, band, panel] = values.reshape(*values.shape[:3], -1)
+            shaped[i // n, band, panel, :, i % n :: n] = value
     if not whole:
         out[...] = found[:, low:, left:][:, : out.shape[1], : out.shape[2]]
 
