@@ -154,7 +154,7 @@ class Camera:
         np.logical_not(np.isnan(directions[..., 0]), out=valid)
 
     def _length(self, direction):
-        """Return the length in the world of what ``camera_rays`` gives, None for 1; that of a row and a column is one sum."""
+        """Return the world's length of what ``camera_rays`` gives, None for 1; of a row and a column it is one sum."""
         if not self.model.planar:
             return None
         return norm(direction if self.is_rigid else matvec(self.pose.basis, direction))
