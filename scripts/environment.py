@@ -12,6 +12,7 @@ import os
 import shutil
 import subprocess
 import sys
+from concurrent.futures import ThreadPoolExecutor
 
 # A bpy wheel is built for one Python.
 PYTHON_OF_BPY = {"4.5": (3, 11), "5.0": (3, 11), "5.2": (3, 13)}
@@ -43,21 +44,33 @@ def find_python(version):
 
 
 def test_all():
-    """Run `make test` for each supported bpy; the exit status is 0 when at least one ran and none failed."""
-    # the sub-makes get their own settings, not those of the make that called
-    environment = {name: value for name, value in os.environ.items() if not name.startswith(("MAKE", "MFLAGS"))}
-    results = {}
+    """Run `make test` for each supported bpy, as many at a time as there are cores; the exit status is 0 when at least
+    one ran and none failed.
+    """
+    pythons = {bpy: find_python(version) for bpy, version in PYTHON_OF_BPY.items()}
+    found = {bpy: python for bpy, python in pythons.items() if python}
+    for bpy, python in found.items():  # one after another: each installs from this folder
+        if make(f".venv/bpy-{bpy}/ready", bpy, python).returncode:
+            return 1
+    with ThreadPoolExecutor(os.cpu_count()) as pool:
+        running = {bpy: pool.submit(make, "test", bpy, python, subprocess.PIPE) for bpy, python in found.items()}
+        for bpy, run in running.items():
+            print(f"== bpy {bpy} on {found[bpy]}")
+            print(run.result().stdout, flush=True)
+    passed = {bpy: run.result().returncode == 0 for bpy, run in running.items()}
     for bpy, version in PYTHON_OF_BPY.items():
-        python = find_python(version)
-        if python is None:
-            results[bpy] = f"not run, no Python {dotted(version)} with pip found"
-            continue
-        print(f"== bpy {bpy} on {python}", flush=True)
-        make = subprocess.run(["make", "test", "PYTHON=" + python, "BPY=" + bpy], env=environment)
-        results[bpy] = "FAILED" if make.returncode else "passed"
-    for bpy, result in results.items():
-        print(f"bpy {bpy}: {result}")
-    return int("FAILED" in results.values() or "passed" not in results.values())
+        missing = f"not run, no Python {dotted(version)} with pip found"
+        print(f"bpy {bpy}: " + {True: "passed", False: "FAILED"}.get(passed.get(bpy), missing))
+    return int(not passed or not all(passed.values()))
+
+
+def make(target, bpy, python, output=None):
+    """Run make for a bpy on a Python; ``output`` takes what it says on both channels."""
+    # it gets its own settings, not those of the make that called
+    environment = {name: value for name, value in os.environ.items() if not name.startswith(("MAKE", "MFLAGS"))}
+    command = ["make", target, f"PYTHON={python}", f"BPY={bpy}"]
+    errors = output and subprocess.STDOUT
+    return subprocess.run(command, env=environment, stdout=output, stderr=errors, encoding="utf-8")
 
 
 if __name__ == "__main__":
