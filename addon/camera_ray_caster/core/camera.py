@@ -5,6 +5,8 @@ from __future__ import annotations
 import os
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
+from itertools import pairwise
+from math import floor
 from typing import Any
 
 import numpy as np
@@ -16,7 +18,7 @@ from .loops import BAND, keep_memory, whole_rows
 from .panels import fill, is_raster
 from .records import BlenderCamera, InputError, Pose, Raster, Rays
 from .sampling import in_opening, sub_pixel
-from .vector import dot, inverse, is_grid, is_lattice, is_one, matvec, norm
+from .vector import dot, inverse, is_grid, is_lattice, is_one, matvec, norm, unit
 
 BLOCK_PIXELS, SMOOTH_PIXELS = 1 << 18, 1 << 19
 """Pixels whose rays are made at once, in whole bands: fewer, and threads would wait at each of numpy's calls."""
@@ -111,12 +113,15 @@ class Camera:
         directions = np.empty((*shape, 3))
         origins = np.broadcast_to(self.pose.eye, directions.shape) if self.model.central else np.empty((*shape, 3))
         valid = np.empty(shape, bool)
-        smooth = is_raster(x, y) and not _is_cheap(self.model.rays(x[:, :2], y[:2])[1])
+        smooth = getattr(self.model, "smooth", True) and is_raster(x, y)
+        smooth = smooth and not _is_cheap(self.model.rays(x[:, :2], y[:2])[1])
         write, pixels = (self._write_smooth, SMOOTH_PIXELS) if smooth else (self._write, BLOCK_PIXELS)
         step = BAND * max(1, round(pixels / max(x.size, 1) / BAND))
         if is_grid(x, y) and y.size > step:
             keep_memory()
-            blocks = [slice(first, first + step) for first in range(0, y.size, step)]
+            begin = -floor(y[0, 0]) % BAND if smooth else 0  # where the raster's first whole band does
+            edges = sorted({0, *range(begin, y.size, step), y.size})
+            blocks = [slice(*ends) for ends in pairwise(edges)]
             with ThreadPoolExecutor(os.cpu_count()) as pool:  # numpy releases the interpreter
                 list(pool.map(lambda r: write(x, y[r], origins[r], directions[r], valid[r]), blocks))
         else:
@@ -127,10 +132,10 @@ class Camera:
         """Write the world rays through pixel coordinates; the origins only where there is more than the eye."""
         with whole_rows(valid.shape[-1] if valid.ndim else 1):
             origin, direction = self.camera_rays(x, y)
-            length = self._length(direction)
+            length = self._length(direction) if self.model.planar else 1.0
             for axis, row in enumerate(self.pose.basis):
                 component = dot(row, direction)
-                np.divide(component, 1.0 if length is None else length, out=directions[..., axis])
+                np.divide(component, length, out=directions[..., axis])
                 if not self.model.central:
                     np.add(dot(row, origin), self.pose.eye[axis], out=origins[..., axis])
             np.logical_not(np.isnan(component), out=valid)
@@ -143,9 +148,8 @@ class Camera:
             return tuple(component + eye for component, eye in zip(turned, self.pose.eye, strict=True))
 
         def direction(x, y):
-            direction = self.camera_rays(x, y)[1]
-            turned, length = matvec(self.pose.basis, direction), self._length(direction)
-            return turned if length is None else tuple(component / length for component in turned)
+            turned = matvec(self.pose.basis, self.camera_rays(x, y)[1])
+            return unit(turned) if self.model.planar else turned
 
         middle = getattr(self.model, "middle", None)
         fill(direction, x, y, directions[None], middle)
@@ -154,9 +158,7 @@ class Camera:
         np.logical_not(np.isnan(directions[..., 0]), out=valid)
 
     def _length(self, direction):
-        """Return the world's length of what ``camera_rays`` gives, None for 1; of a row and a column it is one sum."""
-        if not self.model.planar:
-            return None
+        """Return the world's length of what ``camera_rays`` gives; of a row and a column it is one sum."""
         return norm(direction if self.is_rigid else matvec(self.pose.basis, direction))
 
     def _timed_rays(self, clock: Clock, x, y) -> Rays:

@@ -1,7 +1,8 @@
 """A smooth function of the pixel for many of them: Chebyshev polynomials in x and y, panel by panel of the raster.
 
-The function is asked at few points of each panel, and the polynomials through them give the pixels: some ten products
-each, whatever the function takes. Where the coefficients have not sunk to rounding, each pixel is asked for itself.
+The function is asked at few points of each panel, and the polynomials through them give the pixels: some twenty
+products each, whatever the function takes. Where the coefficients have not sunk to rounding, each pixel is asked for
+itself.
 References: J. Boyd, Chebyshev and Fourier Spectral Methods, 2nd ed. (2001), chapters 2, 4 and 5; L. Trefethen,
 Approximation Theory and Approximation Practice (2013), chapters 3 and 8.
 """
@@ -20,8 +21,8 @@ from .loops import BAND, STRIP
 from .vector import is_grid
 
 ROWS, COLUMNS = BAND // 2, 64
-"""Of a panel. They begin at multiples of these, so that a pixel has the same one in whatever part of the picture; most
-pictures are so many panels.
+"""Of a panel. They begin at multiples of these, so that a pixel has the same one in whatever part of the picture, and
+pictures of the usual sizes are whole panels.
 """
 
 POINTS = 14
@@ -36,7 +37,7 @@ ROUNDING = 4
 """EPS of a panel's largest value."""
 
 FEWEST = STRIP, 256
-"""Rows and columns that are worth it."""
+"""Rows and columns that are worth it: in smaller parts of a picture each pixel is asked for itself."""
 
 
 def is_raster(x, y) -> bool:
@@ -68,33 +69,37 @@ def fill(function: Callable, x, y, out, middle=None) -> None:
     m, n = out.shape[0], out.shape[-1]
     (low, bands), (left, panels) = _panels(y[:, 0], ROWS), _panels(x[0], COLUMNS)
     size = ROWS * len(bands), COLUMNS * len(panels)
-    whole = out.shape[1:3] == size
+    whole = out.shape[1:3] == size and out.flags.c_contiguous
     found = out if whole else np.empty((m, *size, n))
     shaped = found.reshape(m, len(bands), ROWS, len(panels), COLUMNS * n).swapaxes(2, 3)
-    left_over = ~_interpolated(function, bands, panels, shaped, n)
-    if middle is not None and left_over.any():
+    left_over, empty = _interpolate(function, bands, panels, shaped, n)
+    if middle is not None and empty.any():
         x, y = np.clip(middle[0] / COLUMNS, panels, panels + 1), np.clip(middle[1] / ROWS, bands, bands + 1)
-        empty = left_over & np.isnan(function(x[None] * COLUMNS, y[:, None] * ROWS)[0])
+        empty &= np.isnan(function(x[None] * COLUMNS, y[:, None] * ROWS)[0])
         shaped[:, empty] = np.nan
         left_over &= ~empty
-    if left_over.any():
-        band, panel = np.nonzero(left_over)
+    spans = np.clip(np.array([[low, low + out.shape[1]]]) - np.arange(len(bands))[:, None] * ROWS, 0, ROWS)
+    for span in np.unique(spans, axis=0) if left_over.any() else ():  # all rows of most bands, some of the outer ones
+        band, panel = np.nonzero(left_over & (spans == span).all(axis=1)[:, None])
         x = panels[panel, None, None] * COLUMNS + np.arange(COLUMNS) + 0.5
-        y = bands[band, None, None] * ROWS + np.arange(ROWS)[:, None] + 0.5
+        y = bands[band, None, None] * ROWS + np.arange(*span)[:, None] + 0.5
         for i, value in enumerate(function(x, y)):
-            shaped[i // n, band, panel, :, i % n :: n] = value
+            shaped[i // n, band, panel, slice(*span), i % n :: n] = value
     if not whole:
         out[...] = found[:, low:, left:][:, : out.shape[1], : out.shape[2]]
 
 
-def _interpolated(function, bands, panels, shaped, n: int) -> np.ndarray:
-    """Write what polynomials give into (m, bands, panels, ROWS, COLUMNS n); return which panels are right so."""
+def _interpolate(function, bands, panels, shaped, n: int) -> tuple[np.ndarray, np.ndarray]:
+    """Write what polynomials give into (m, bands, panels, ROWS, COLUMNS n); return for which panels they are not right,
+    and which have no value at any point.
+    """
     x, y = (panels[:, None] + _places()) * COLUMNS, (bands[:, None] + _places()) * ROWS
     m = len(shaped)
     asked = np.empty((m * n, len(bands), POINTS, len(panels), POINTS))
     for own, value in zip(asked, function(x.reshape(1, -1), y.reshape(-1, 1)), strict=True):
         own.reshape(y.size, x.size)[...] = value
     asked = asked.swapaxes(2, 3)
+    empty = np.isnan(asked[0]).all(axis=(2, 3))
     start = asked[..., :1, :1].copy()  # what is left is small, and so is the rounding of the sums
     size = np.abs(asked).max(axis=(0, 3, 4))
     asked -= start
@@ -106,7 +111,7 @@ def _interpolated(function, bands, panels, shaped, n: int) -> np.ndarray:
             rows[i // n, ..., :-1, :, i % n] = part
             rows[i // n, ..., -1:, :, i % n] = start[i]
         np.matmul(_between_and_start(ROWS), rows.reshape(*rows.shape[:4], -1), out=shaped)
-    return right
+    return ~right, empty
 
 
 def _panels(places, size: int):

@@ -96,7 +96,7 @@ class Rays:
     origins: np.ndarray
     """(rows, columns, 3) float64; a read-only broadcast view where all rays leave one eye."""
     directions: np.ndarray
-    """(rows, columns, 3) float64, unit length to 4 EPS, NaN where there is no ray."""
+    """(rows, columns, 3) float64, unit length to 8 EPS, NaN where there is no ray."""
     valid: np.ndarray
     """(rows, columns) bool."""
     time: np.ndarray | None = None

@@ -62,11 +62,6 @@ class FisheyePolynomial(Radial):
             )
         return cls(window, coefficients, half_fov, float(turns[0]) if turns.size else corner)
 
-    @property
-    def middle(self) -> tuple[float, float] | None:
-        """See Radial: a ring where angles fall."""
-        return super().middle if self._sign > 0 <= self.coefficients[0] else None
-
     def angle(self, r):
         """Return theta (rad) of radii in mm."""
         k0, k1, k2, k3, k4 = self.coefficients

@@ -49,8 +49,8 @@ class Radial(ABC):
 
     @property
     def middle(self) -> tuple[float, float] | None:
-        """The pixel coordinates about which the picture is an ellipse; None where it may be a ring."""
-        return self.window.centre_x, self.window.centre_y
+        """The pixel coordinates about which all rays lie within an ellipse; None where they may lie in a ring."""
+        return (self.window.centre_x, self.window.centre_y) if self.widest < np.inf else None
 
     def rays(self, x, y):
         """Return origin and direction, each a tuple of three broadcastable arrays, camera frame, of unit length.

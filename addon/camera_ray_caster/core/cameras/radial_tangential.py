@@ -163,7 +163,7 @@ class RadialTangential:
                 break
         slow = (slow | (r > self.limit)) & ~np.isnan(u)
         if slow.any():
-            x, y = np.array(x), np.array(y)
+            x, y = np.asarray(x), np.asarray(y)
             x[slow], y[slow] = self._careful(u[slow], v[slow])
         return x, y
 

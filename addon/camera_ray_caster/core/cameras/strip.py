@@ -43,6 +43,8 @@ class Strip:
     key = "STRIP"
     planar = False
     central = False
+    smooth = False
+    """A path may bend between neighbouring columns."""
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> Strip:
