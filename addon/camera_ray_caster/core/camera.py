@@ -18,7 +18,7 @@ from .loops import BAND, keep_memory, whole_rows
 from .panels import fill, is_raster
 from .records import BlenderCamera, InputError, Pose, Raster, Rays
 from .sampling import in_opening, sub_pixel
-from .vector import dot, inverse, is_grid, is_lattice, is_one, matvec, norm, unit
+from .vector import dot, inverse, is_grid, is_lattice, is_one, matvec, norm
 
 BLOCK_PIXELS, SMOOTH_PIXELS = 1 << 18, 1 << 19
 """Pixels whose rays are made at once, in whole bands: fewer, and threads would wait at each of numpy's calls."""
@@ -144,12 +144,16 @@ class Camera:
         """Do what ``_write`` does for a raster and a model whose rays take more than a polynomial does."""
 
         def origin(x, y):
-            turned = matvec(self.pose.basis, self.camera_rays(x, y)[0])
-            return tuple(component + eye for component, eye in zip(turned, self.pose.eye, strict=True))
+            start = self.camera_rays(x, y)[0]
+            for row, eye in zip(self.pose.basis, self.pose.eye, strict=True):
+                yield dot(row, start) + eye
 
         def direction(x, y):
-            turned = matvec(self.pose.basis, self.camera_rays(x, y)[1])
-            return unit(turned) if self.model.planar else turned
+            along = self.camera_rays(x, y)[1]
+            length = self._length(along) if self.model.planar else None
+            for row in self.pose.basis:
+                component = dot(row, along)
+                yield component if length is None else component / length
 
         middle = getattr(self.model, "middle", None)
         fill(direction, x, y, directions[None], middle)

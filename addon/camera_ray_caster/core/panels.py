@@ -75,7 +75,7 @@ def fill(function: Callable, x, y, out, middle=None) -> None:
     left_over, empty = _interpolate(function, bands, panels, shaped, n)
     if middle is not None and empty.any():
         x, y = np.clip(middle[0] / COLUMNS, panels, panels + 1), np.clip(middle[1] / ROWS, bands, bands + 1)
-        empty &= np.isnan(function(x[None] * COLUMNS, y[:, None] * ROWS)[0])
+        empty &= np.isnan(next(iter(function(x[None] * COLUMNS, y[:, None] * ROWS))))
         shaped[:, empty] = np.nan
         left_over &= ~empty
     spans = np.clip(np.array([[low, low + out.shape[1]]]) - np.arange(len(bands))[:, None] * ROWS, 0, ROWS)
@@ -106,11 +106,13 @@ def _interpolate(function, bands, panels, shaped, n: int) -> tuple[np.ndarray, n
     tails = _fit()[-TAIL:] @ asked, asked @ _fit()[-TAIL:].T
     right = np.maximum(*(np.abs(tail).max(axis=(0, 3, 4)) for tail in tails)) <= ROUNDING * EPS * size
     if right.any():
-        rows = np.empty((m, *right.shape, POINTS + 1, COLUMNS, n))
-        for i, part in enumerate(asked @ _between(COLUMNS).T):
+        columns = np.flatnonzero(right.any(axis=0))
+        used = slice(columns[0], columns[-1] + 1)
+        rows = np.empty((m, *right[:, used].shape, POINTS + 1, COLUMNS, n))
+        for i, part in enumerate(asked[:, :, used] @ _between(COLUMNS).T):
             rows[i // n, ..., :-1, :, i % n] = part
-            rows[i // n, ..., -1:, :, i % n] = start[i]
-        np.matmul(_between_and_start(ROWS), rows.reshape(*rows.shape[:4], -1), out=shaped)
+            rows[i // n, ..., -1:, :, i % n] = start[i, :, used]
+        np.matmul(_between_and_start(ROWS), rows.reshape(*rows.shape[:4], -1), out=shaped[:, :, used])
     return ~right, empty
 
 
