@@ -156,10 +156,9 @@ class Camera:
                 yield component if length is None else component / length
 
         middle = getattr(self.model, "middle", None)
-        fill(direction, x, y, directions[None], middle)
+        valid[...] = fill(direction, x, y, directions[None], middle)
         if not self.model.central:
             fill(origin, x, y, origins[None], middle)
-        np.logical_not(np.isnan(directions[..., 0]), out=valid)
 
     def _length(self, direction):
         """Return the world's length of what ``camera_rays`` gives; of a row and a column it is one sum."""

@@ -58,8 +58,9 @@ def on_raster(function: Callable, x, y, middle=None):
     return values[..., 0]
 
 
-def fill(function: Callable, x, y, out, middle=None) -> None:
+def fill(function: Callable, x, y, out, middle=None) -> np.ndarray:
     """Write a function's values on a raster into ``out``, (m, rows, columns, n): m times n values, n side by side.
+    Return where it has values, (rows, columns) bool.
 
     function: of x (..., 1, columns) and y (..., rows, 1), gives as many arrays that broadcast; where one has no value,
     NaN, so have the others. With a ``middle``, pixel coordinates, they have values within an ellipse about it alone.
@@ -72,11 +73,13 @@ def fill(function: Callable, x, y, out, middle=None) -> None:
     whole = out.shape[1:3] == size and out.flags.c_contiguous
     found = out if whole else np.empty((m, *size, n))
     shaped = found.reshape(m, len(bands), ROWS, len(panels), COLUMNS * n).swapaxes(2, 3)
+    there = np.ones(size, bool)
+    shaped_there = there.reshape(len(bands), ROWS, len(panels), COLUMNS).swapaxes(1, 2)
     left_over, empty = _interpolate(function, bands, panels, shaped, n)
     if middle is not None and empty.any():
         x, y = np.clip(middle[0] / COLUMNS, panels, panels + 1), np.clip(middle[1] / ROWS, bands, bands + 1)
         empty &= np.isnan(next(iter(function(x[None] * COLUMNS, y[:, None] * ROWS))))
-        shaped[:, empty] = np.nan
+        shaped[:, empty], shaped_there[empty] = np.nan, False
         left_over &= ~empty
     spans = np.clip(np.array([[low, low + out.shape[1]]]) - np.arange(len(bands))[:, None] * ROWS, 0, ROWS)
     for span in np.unique(spans, axis=0) if left_over.any() else ():  # all rows of most bands, some of the outer ones
@@ -85,8 +88,10 @@ def fill(function: Callable, x, y, out, middle=None) -> None:
         y = bands[band, None, None] * ROWS + np.arange(*span)[:, None] + 0.5
         for i, value in enumerate(function(x, y)):
             shaped[i // n, band, panel, slice(*span), i % n :: n] = value
+        shaped_there[band, panel, slice(*span)] = ~np.isnan(value)
     if not whole:
         out[...] = found[:, low:, left:][:, : out.shape[1], : out.shape[2]]
+    return there[low:, left:][: out.shape[1], : out.shape[2]]
 
 
 def _interpolate(function, bands, panels, shaped, n: int) -> tuple[np.ndarray, np.ndarray]:
