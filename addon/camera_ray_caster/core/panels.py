@@ -36,6 +36,9 @@ TAIL = 2
 ROUNDING = 4
 """EPS of a panel's largest value."""
 
+AT_ONCE = 16
+"""Panels whose pixels are asked each for itself: more, and their working arrays would not stay in a core's cache."""
+
 FEWEST = STRIP, 256
 """Rows and columns that are worth it: in smaller parts of a picture each pixel is asked for itself."""
 
@@ -81,9 +84,7 @@ def fill(function: Callable, x, y, out, middle=None) -> np.ndarray:
         empty &= np.isnan(next(iter(function(x[None] * COLUMNS, y[:, None] * ROWS))))
         shaped[:, empty], shaped_there[empty] = np.nan, False
         left_over &= ~empty
-    spans = np.clip(np.array([[low, low + out.shape[1]]]) - np.arange(len(bands))[:, None] * ROWS, 0, ROWS)
-    for span in np.unique(spans, axis=0) if left_over.any() else ():  # all rows of most bands, some of the outer ones
-        band, panel = np.nonzero(left_over & (spans == span).all(axis=1)[:, None])
+    for band, panel, span in _parts(left_over, low, out.shape[1]):
         x = panels[panel, None, None] * COLUMNS + np.arange(COLUMNS) + 0.5
         y = bands[band, None, None] * ROWS + np.arange(*span)[:, None] + 0.5
         for i, value in enumerate(function(x, y)):
@@ -92,6 +93,15 @@ def fill(function: Callable, x, y, out, middle=None) -> np.ndarray:
     if not whole:
         out[...] = found[:, low:, left:][:, : out.shape[1], : out.shape[2]]
     return there[low:, left:][: out.shape[1], : out.shape[2]]
+
+
+def _parts(panels, low: int, count: int):
+    """Yield the indices of marked (bands, panels), some at a time, and which of their rows are among the raster's."""
+    spans = np.clip(np.array([[low, low + count]]) - np.arange(len(panels))[:, None] * ROWS, 0, ROWS)
+    for span in np.unique(spans, axis=0) if panels.any() else ():  # all rows of most bands, some of the outer ones
+        at = np.argwhere(panels & (spans == span).all(axis=1)[:, None])
+        for first in range(0, len(at), AT_ONCE):
+            yield *at[first : first + AT_ONCE].T, span
 
 
 def _interpolate(function, bands, panels, shaped, n: int) -> tuple[np.ndarray, np.ndarray]:
