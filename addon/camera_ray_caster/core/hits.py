@@ -13,7 +13,7 @@ from .plan import Plan
 from .shapes import SHAPE_OF_KIND
 from .vector import components, difference, dot, linear, matvec, rows
 
-BLOCK_PIXELS = 1 << 17
+BLOCK_PIXELS = 1 << 16
 """Pixels whose passes are made at once."""
 
 NOTHING = -1
