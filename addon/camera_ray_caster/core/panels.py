@@ -79,7 +79,7 @@ def fill(function: Callable, x, y, out, middle=None) -> np.ndarray:
     there = np.ones(size, bool)
     shaped_there = there.reshape(len(bands), ROWS, len(panels), COLUMNS).swapaxes(1, 2)
     left_over, empty = _interpolate(function, bands, panels, shaped, n)
-    if middle is not None and empty.any():
+    if middle is not None and empty.any():  # none at the points, and none nearest to the middle: none at all
         x, y = np.clip(middle[0] / COLUMNS, panels, panels + 1), np.clip(middle[1] / ROWS, bands, bands + 1)
         empty &= np.isnan(next(iter(function(x[None] * COLUMNS, y[:, None] * ROWS))))
         shaped[:, empty], shaped_there[empty] = np.nan, False
