@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from hypothesis import given, settings
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from camera_ray_caster.core.cast import cast
@@ -23,14 +23,13 @@ PASSES = (
 
 numbers = st.floats(-1, 1, allow_subnormal=False).map(lambda value: value if abs(value) > 1e-30 else 0.0)
 vectors = st.tuples(numbers, numbers, numbers)
-angles = numbers.map(lambda value: 7 * value)  # a tiny one would make subnormal axes, which no scale keeps exact
 exponents = st.floats(-4, 4)
 
 
 @st.composite
 def matrices(draw):
     """Axes that span space: a rotation, sizes over six decades, and some shear."""
-    turn = rotation(draw(vectors), draw(angles))
+    turn = rotation(draw(vectors), draw(st.floats(0, 2 * np.pi)))
     shear = np.eye(3) + 0.8 * np.triu(np.array([draw(vectors) for _ in range(3)]), 1)
     return turn @ shear @ np.diag([10 ** draw(st.floats(-2, 1)) * draw(st.sampled_from([-1, 1])) for _ in range(3)])
 
@@ -55,7 +54,7 @@ def scenes(draw):
     raw = BlenderCamera(
         name="Camera",
         type=draw(st.sampled_from(["PERSP", "ORTHO"])),
-        matrix_world=pose(rotation(draw(vectors), draw(angles)), 5 * np.array(draw(vectors))),
+        matrix_world=pose(rotation(draw(vectors), draw(st.floats(0, 7))), 5 * np.array(draw(vectors))),
         lens=draw(st.floats(8, 100)), ortho_scale=draw(st.floats(1, 20)), resolution_x=8, resolution_y=6,
         clip_start=0.0078125, clip_end=2.0**40,
     )  # fmt: skip
@@ -66,11 +65,11 @@ def pictures(raw, shapes):
     return cast(camera_from(raw), shapes, PASSES, np.float64)
 
 
-few = settings(max_examples=40, deadline=None, derandomize=True)  # the same for everyone: a failure is a change's
+few = settings(max_examples=100, deadline=None, derandomize=True)  # the same for everyone: a failure is a change's
 
 
 @few
-@given(scenes(), vectors, angles, vectors)
+@given(scenes(), vectors, st.floats(0, 7), vectors)
 def test_a_rigid_motion_of_everything_changes_no_distance(scene, axis, angle, move):
     raw, shapes = scene
     turn, move = rotation(axis, angle), 10 * np.array(move)
@@ -88,6 +87,8 @@ def test_a_rigid_motion_of_everything_changes_no_distance(scene, axis, angle, mo
 @given(scenes(), st.integers(-40, 40))
 def test_a_scale_by_a_power_of_two_is_exact(scene, power):
     raw, shapes = scene
+    sizes = np.abs(np.concatenate((shapes.axes.ravel(), raw.matrix_world.ravel())))
+    assume(((sizes == 0) | (sizes > 1e-30)).all())  # no scale keeps what becomes subnormal exact
     k = 2.0**power
     matrix = raw.matrix_world.copy()
     matrix[:3, 3] *= k
