@@ -24,11 +24,6 @@ BLOCK_PIXELS, SMOOTH_PIXELS = 1 << 18, 1 << 19
 """Pixels whose rays are made at once, in whole bands: fewer, and threads would wait at each of numpy's calls."""
 
 
-def _is_cheap(direction) -> bool:
-    """Whether directions are one, or a row and a column."""
-    return is_one(direction) or is_lattice(direction)
-
-
 def pose_from(raw: BlenderCamera) -> Pose:
     """Return the pose of an evaluated world matrix, as Blender takes it: each axis normalised for itself.
 
@@ -113,8 +108,7 @@ class Camera:
         directions = np.empty((*shape, 3))
         origins = np.broadcast_to(self.pose.eye, directions.shape) if self.model.central else np.empty((*shape, 3))
         valid = np.empty(shape, bool)
-        smooth = getattr(self.model, "smooth", True) and is_raster(x, y)
-        smooth = smooth and not _is_cheap(self.model.rays(x[:, :2], y[:2])[1])
+        smooth = self._is_smooth(x, y)
         write, pixels = (self._write_smooth, SMOOTH_PIXELS) if smooth else (self._write, BLOCK_PIXELS)
         step = BAND * max(1, round(pixels / max(x.size, 1) / BAND))
         if is_grid(x, y) and y.size > step:
@@ -127,6 +121,13 @@ class Camera:
         else:
             write(x, y, origins, directions, valid)
         return Rays(origins, directions, valid)
+
+    def _is_smooth(self, x, y) -> bool:
+        """Whether polynomials are to give the rays: a raster's, whose directions are more than a row and a column."""
+        if not (getattr(self.model, "smooth", True) and is_raster(x, y)):
+            return False
+        direction = self.model.rays(x[:, :2], y[:2])[1]
+        return not (is_one(direction) or is_lattice(direction))
 
     def _write(self, x, y, origins, directions, valid) -> None:
         """Write the world rays through pixel coordinates; the origins only where there is more than the eye."""
@@ -141,7 +142,7 @@ class Camera:
             np.logical_not(np.isnan(component), out=valid)
 
     def _write_smooth(self, x, y, origins, directions, valid) -> None:
-        """Do what ``_write`` does for a raster and a model whose rays take more than a polynomial does."""
+        """Do what ``_write`` does where ``_is_smooth``."""
 
         def origin(x, y):
             start = self.camera_rays(x, y)[0]
