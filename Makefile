@@ -24,7 +24,7 @@ cast: $(VENV)/ready  ## render the example scene into out/ and print the report
 test: $(VENV)/ready  ## run every test with this Python
 	$(VENV)/bin/python -m pytest
 
-test-all:  ## run every test on each supported bpy for which a Python is found
+test-all:  ## run the tests on each supported bpy for which a Python is found, but those in a window
 	@$(PYTHON) scripts/environment.py test-all
 
 test-blender: .venv/pure/ready  ## run tests/blender inside a real Blender, and tests/gui in its window: BLENDER=/path

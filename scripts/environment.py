@@ -66,9 +66,9 @@ def test_all():
 
 def make(target, bpy, python, output=None):
     """Run make for a bpy on a Python; ``output`` takes what it says on both channels."""
-    # it gets its own settings, not those of the make that called; a window's Blender is the same with every bpy
+    # it gets its own settings, not those of the make that called; the window's Blender is the same with every bpy
     environment = {name: value for name, value in os.environ.items() if not name.startswith(("MAKE", "MFLAGS"))}
-    environment["PYTEST_ADDOPTS"] = "--ignore=tests/gui"
+    environment["PYTEST_ADDOPTS"] = os.environ.get("PYTEST_ADDOPTS", "") + " --ignore=tests/gui"
     command = ["make", target, f"PYTHON={python}", f"BPY={bpy}"]
     errors = output and subprocess.STDOUT
     return subprocess.run(command, env=environment, stdout=output, stderr=errors, encoding="utf-8", errors="replace")
