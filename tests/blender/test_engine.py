@@ -218,13 +218,13 @@ def curves(item):
     return action.layers[0].strips[0].channelbag(item.animation_data.action_slot).fcurves
 
 
-@pytest.mark.parametrize("stopped", [True, False])
-def test_each_tile_shows_progress_and_asks_whether_to_stop(stopped):
+@pytest.mark.parametrize(("stopped", "ending"), [(True, False), (False, True), (False, False)])
+def test_each_tile_shows_progress_and_asks_whether_to_stop(stopped, ending):
     from camera_ray_caster.blender.engine import CameraRayCaster
 
     shown = []
-    stand_in = SimpleNamespace(update_progress=shown.append, test_break=lambda: stopped)
-    assert CameraRayCaster.advance(stand_in, 0.25) is not stopped
+    stand_in = SimpleNamespace(update_progress=shown.append, test_break=lambda: stopped, ending=ending)
+    assert CameraRayCaster.advance(stand_in, 0.25) is not (stopped or ending)
     assert shown == [0.25]
 
 

@@ -68,11 +68,14 @@ def test_a_run_that_is_ended_leaves_good_files_and_nothing_else(blender, tmp_pat
     assert (out / "large.exr").read_text() == "good"
 
 
-def test_a_signal_that_blender_drops_ends_the_run_all_the_same(blender, tmp_path, capfd):
-    """Python runs a signal's handler where it next runs at all: that may be in a callback of Blender's."""
+@pytest.mark.parametrize("callback", ["load_post", "depsgraph_update_post", "render_init", "render_post"])
+def test_a_signal_within_a_callback_of_blenders_ends_the_run_in_one_line(blender, tmp_path, capfd, callback):
+    """Python runs a signal's handler where it next runs at all, and Blender prints and drops what a callback raises."""
     from camera_ray_caster.blender import terminal
+    from camera_ray_caster.blender.engine import CameraRayCaster
 
     path = small(blender, tmp_path / "small.blend")
+    handlers = getattr(blender.app.handlers, callback)
     called = []
 
     @blender.app.handlers.persistent
@@ -80,12 +83,13 @@ def test_a_signal_that_blender_drops_ends_the_run_all_the_same(blender, tmp_path
         called.append(True)
         terminal.stop()
 
-    blender.app.handlers.render_post.append(interrupted)
+    handlers.append(interrupted)
     try:
         status = terminal.main("cast", [str(path), "--output", str(tmp_path / "out")], "cast.py")
     finally:
-        blender.app.handlers.render_post.remove(interrupted)
+        handlers.remove(interrupted)
     assert called
     assert status == 130
-    assert "cast.py: stopped" in capfd.readouterr().err
-    assert not (tmp_path / "out").exists() or left(tmp_path / "out") == []
+    assert capfd.readouterr().err == "cast.py: stopped; what was under way has left nothing\n"
+    assert not (tmp_path / "out").exists()
+    assert not CameraRayCaster.ending  # the next run goes its whole way

@@ -31,6 +31,8 @@ class CameraRayCaster(Viewport, bpy.types.RenderEngine):
     done: Report | None = None
     stopped = False
     """Whether a render was stopped since whoever asks has set it False."""
+    ending = False
+    """Whether this process is to end: every render stops at its next tile."""
 
     def update_render_passes(self, scene=None, renderlayer=None):
         """Tell the compositor which sockets a view layer has."""
@@ -109,7 +111,7 @@ class CameraRayCaster(Viewport, bpy.types.RenderEngine):
     def advance(self, fraction: float) -> bool:
         """Show how far the cast is; return whether to go on."""
         self.update_progress(fraction)
-        return not self.test_break()
+        return not (self.ending or self.test_break())
 
 
 def register() -> None:

@@ -37,8 +37,8 @@ def render(scene, folder: Path, name: str, number: str = "") -> tuple[Report, li
     """Render the scene's current frame into ``folder`` and return the report and the files.
 
     They are NAME.png, NAME.exr and report.json, ``number`` before each dot; of several views NAME_L.png, NAME_R.png and
-    so on, by the views' suffixes. Raises InputError and leaves all as it was where Blender cannot render or the folder
-    cannot be written.
+    so on, by the views' suffixes. Leaves all as it was and raises InputError where Blender cannot render or the folder
+    cannot be written, Cancelled where it is stopped.
     """
     with appearing(folder) as temporary:
         report = _rendered(scene)
@@ -48,6 +48,8 @@ def render(scene, folder: Path, name: str, number: str = "") -> tuple[Report, li
         report = report.with_seconds(files=perf_counter() - started)
         (temporary / f"report{number}.json").write_text(as_json(report), encoding="utf-8")
         names = sorted(os.listdir(temporary))
+        if CameraRayCaster.ending:
+            raise Cancelled
     return report, [folder / name for name in names]
 
 

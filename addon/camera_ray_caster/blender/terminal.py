@@ -53,13 +53,14 @@ def main(command: str, arguments: Sequence[str], prog: str) -> int:
     except (Cancelled, KeyboardInterrupt):
         print(f"{prog}: stopped; what was under way has left nothing", file=sys.stderr)
         return 130
+    finally:
+        CameraRayCaster.ending = False
 
 
 def stop(*_) -> None:
-    """Take back what is under way: to be called where a signal ends the process. The engine is told, too, since Blender
-    drops an exception from a handler that it calls."""
-    CameraRayCaster.stopped = True
-    raise KeyboardInterrupt
+    """Let what is under way be taken back: to be called where a signal ends the process. It raises nothing, since
+    Python may run it in a callback of Blender's, which prints an exception and drops it."""
+    CameraRayCaster.ending = True
 
 
 def cast(arguments: Sequence[str], prog: str) -> int:
