@@ -12,7 +12,9 @@ from camera_ray_caster.core.camera import Camera
 from camera_ray_caster.core.cameras import MODELS
 from camera_ray_caster.core.cast import cast
 from camera_ray_caster.core.motion import Motion
+from camera_ray_caster.core.passes import PASSES
 from camera_ray_caster.core.records import INFINITE_PLANE, PLANE, SPHERE
+from camera_ray_caster.core.shading import SHADINGS
 from camera_ray_caster.core.shapes import plane, sphere
 
 from .model_examples import camera as camera_of
@@ -46,7 +48,7 @@ def test_a_kind_out_of_view_is_not_tested(monkeypatch):
 
 @pytest.mark.parametrize("passes", [("depth",), ("depth", "shape_index", "object_index")])
 def test_depth_needs_no_points_normals_bounds_colours(monkeypatch, passes):
-    for name in ("point", "normal", "bounds", "world_direction", "surfaces"):
+    for name in ("point", "normal_terms", "normal", "bounds", "world_direction", "surfaces"):
         monkeypatch.setattr(hits.Hits, name, property(forbidden))
     for name in ("normals", "colours", "material_index"):
         monkeypatch.setattr(plan.Plan, name, property(forbidden))
@@ -89,6 +91,25 @@ def test_normals_of_near_balls_come_with_unit_length_and_only_those_of_far_ones_
         length = np.linalg.norm(images["normal"], axis=-1)[images["shape_index"] >= 0]
         assert length.size > 100
         assert np.abs(length - 1).max() < 1e-12
+
+
+@pytest.mark.parametrize("shading", SHADINGS)
+@pytest.mark.parametrize(
+    "shapes",
+    [
+        BALLS,
+        shapes_of((SPHERE, (0, 0, -5), [[2, 0, 0], [0, 1, 0], [0, 0, 1]]), (SPHERE, (1, 1, -4), 0.5)),
+        shapes_of((SPHERE, (0, 0, 0), 3.0), (SPHERE, (0, 0, -2), 0.5)),
+        random_shapes(np.random.default_rng(5), 30),
+    ],
+    ids=["balls", "an ellipsoid and a ball", "around the eye", "all kinds"],
+)
+def test_a_pass_is_the_same_alone_and_among_all_others(shapes, shading):
+    """Passes share working arrays: none may find what another left there."""
+    every = cast(camera_at(), shapes, tuple(PASSES), np.float64, shading=shading)
+    for name in PASSES:
+        alone = cast(camera_at(), shapes, (name,), np.float64, shading=shading)[name]
+        assert np.array_equal(alone, every[name], equal_nan=True), name
 
 
 @pytest.mark.parametrize("model", MODELS, ids=lambda model: model.key)

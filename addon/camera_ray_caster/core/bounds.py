@@ -90,7 +90,7 @@ class Bounds:
                 along = along + size * q_error
             curved = np.where(along < length / 2, aside / (length - along), 2.0)
             if self.plan.normals.unit:
-                is_round = self.plan.normals.gain[self.at] > 0  # whose normals are stored as long as they come
+                is_round = self.plan.normals.constants[0, self.at] > 0  # whose normals are stored as long as they come
                 curved = curved + np.where(is_round, along / length, 0.0)
             error = np.where(self.is_sphere, curved, local.rounding) + gamma(8)
             return np.where(error < 2, error, 2.0)

@@ -14,7 +14,7 @@ import numpy as np
 
 from .camera import Camera
 from .clock import Clock, groups
-from .hits import Hits
+from .hits import ALL, Hits
 from .loops import STRIP, Scratch, keep_memory, whole_rows
 from .nearest import nearest
 from .passes import PASSES
@@ -195,9 +195,8 @@ def _cast_tile(tile: Tile, plan: Plan, names, samples: int, images: Images, scra
 
 def _store(hits: Hits, outs: dict[str, np.ndarray], where) -> None:
     """Write passes, only where they are meant: block by block those that need more than the search has found."""
-    all_rows = slice(None)
     with whole_rows(hits.t.shape[1]):
-        for derived, parts in ((False, [(all_rows, hits)]), (True, hits.blocks())):
+        for derived, parts in ((False, [(ALL, hits)]), (True, hits.blocks())):
             names = [name for name in outs if PASSES[name].derived is derived]
             for rows, block in parts if names else ():
                 for name in names:

@@ -11,10 +11,14 @@ from .bounds import Bounds
 from .loops import Scratch, lazy
 from .plan import Plan
 from .shapes import SHAPE_OF_KIND
+from .shapes.normals import ZERO
 from .vector import components, difference, dot, linear, matvec, rows
 
 BLOCK_PIXELS = 1 << 16
 """Pixels whose passes are made at once."""
+
+ALL = slice(None)
+"""Every row, or every column."""
 
 NOTHING = -1
 """Shape index of a pixel that sees none."""
@@ -45,9 +49,7 @@ class Hits:
         step = max(1, BLOCK_PIXELS // width)
         for first in range(0, height, step):
             part = slice(first, first + step)
-            origin, direction = (
-                tuple(cut(c, (part, slice(None))) for c in vector) for vector in (self.origin, self.direction)
-            )
+            origin, direction = (tuple(cut(c, (part, ALL)) for c in vector) for vector in (self.origin, self.direction))
             corner = self.corner[0], self.corner[1] + first
             rays = self.plan, self.from_eye, origin, direction
             yield part, Hits(*rays, self.t[part], self.index[part], self.scratch, corner)
@@ -59,12 +61,12 @@ class Hits:
         np.copyto(rows, self.index)
         return rows
 
-    def look_up(self, table, name: str, out=None) -> np.ndarray:
+    def look_up(self, table, out) -> np.ndarray:
         """Return what a table (..., n + 1) has for each pixel's shape, its last entry where nothing is hit: in ``out``,
-        or in an array that the next call with this name overwrites.
+        an array, or the name of one that the next call with this name overwrites.
         """
-        if out is None:
-            out = self.scratch(name, table.shape[:-1] + self.t.shape, table.dtype.type)
+        if isinstance(out, str):
+            out = self.scratch(out, table.shape[:-1] + self.t.shape, table.dtype.type)
         return np.take(table, self.rows, axis=-1, mode="wrap", out=out)
 
     @lazy
@@ -75,8 +77,7 @@ class Hits:
     @lazy
     def missed(self) -> np.ndarray | None:
         """Where none is, bool; None where that is nowhere."""
-        missed = ~self.seen
-        return missed if missed.any() else None
+        return ~self.seen if self.index.min(initial=0) == NOTHING else None
 
     @lazy
     def has_ray(self) -> np.ndarray:
@@ -106,11 +107,18 @@ class Hits:
         return point
 
     @lazy
+    def normal_terms(self) -> tuple[np.ndarray, np.ndarray]:
+        """Two terms whose sum is ``normal`` where something is hit: storing it can add them."""
+        terms = self.plan.normals.look_up(self)
+        if self.from_eye and self.plan.eye_outside:
+            return terms
+        normal = np.add(*terms, out=terms[0])
+        return np.multiply(-np.sign(dot(normal, self.world_direction)), normal, out=normal), ZERO
+
+    @lazy
     def normal(self):
         """Unit world normals turned towards the rays' origins, (3, rows, columns); 0 where nothing is hit."""
-        normal = self.plan.normals.look_up(self)
-        if not (self.from_eye and self.plan.eye_outside):
-            np.multiply(-np.sign(dot(normal, self.world_direction)), normal, out=normal)
+        normal = np.add(*self.normal_terms, out=self.scratch("normal", (3, *self.t.shape), np.float64))
         if self.missed is not None:
             np.copyto(normal, 0.0, where=self.missed)
         return normal
@@ -167,6 +175,7 @@ class Surface:
 
 def cut(component, window):
     """Return the part of a broadcastable component that covers a window of the tile."""
-    if np.ndim(component) == 0:
+    if not (isinstance(component, np.ndarray) and component.ndim):
         return component
-    return component[tuple(w if size > 1 else slice(None) for w, size in zip(window, component.shape, strict=True))]
+    (rows, columns), (height, width) = window, component.shape
+    return component[rows if height > 1 else ALL, columns if width > 1 else ALL]

@@ -13,6 +13,7 @@ import numpy as np
 
 from .hits import Hits
 from .shading import shade
+from .shapes.normals import ZERO
 from .vector import matvec, norm, unit
 
 ROUNDED_UP = 1 + 2.0**-9
@@ -52,13 +53,12 @@ def distance(hits: Hits, out):
 
 def position(hits: Hits, out):
     """The hit point in the world."""
-    _write(out, hits.point, hits.plan.camera.pose.eye, hits.missed)
+    _write(out, hits.point, hits.plan.camera.pose.eye[:, None, None], hits.missed)
 
 
 def normal(hits: Hits, out):
     """The surface's unit normal in the world, turned towards the ray's origin."""
-    for axis, component in enumerate(hits.normal):
-        out[..., axis] = component
+    _write(out, *hits.normal_terms, hits.missed)
 
 
 def uv(hits: Hits, out):
@@ -71,12 +71,12 @@ def uv(hits: Hits, out):
 
 def object_index(hits: Hits, out):
     """Blender's pass index of the object."""
-    hits.look_up(hits.plan.object_index, "number", out)
+    hits.look_up(hits.plan.object_index, out)
 
 
 def material_index(hits: Hits, out):
     """Blender's pass index of the material."""
-    hits.look_up(hits.plan.material_index, "number", out)
+    hits.look_up(hits.plan.material_index, out)
 
 
 def shape_index(hits: Hits, out):
@@ -92,12 +92,12 @@ def valid(hits: Hits, out):
 def ray_origin(hits: Hits, out):
     """The origin of the chief ray in the world."""
     pose = hits.plan.camera.pose
-    _write(out, matvec(pose.basis, hits.origin), pose.eye, ~hits.has_ray)
+    _write(out, matvec(pose.basis, hits.origin), pose.eye[:, None, None], ~hits.has_ray)
 
 
 def ray_direction(hits: Hits, out):
     """The unit direction of the chief ray in the world."""
-    _write(out, unit(hits.world_direction), (0.0, 0.0, 0.0), ~hits.has_ray)
+    _write(out, unit(hits.world_direction), ZERO, ~hits.has_ray)
 
 
 def distance_bound(hits: Hits, out):
@@ -123,9 +123,14 @@ def _bound(hits: Hits, out, bound, size):
 
 
 def _write(out, vector, offset, blank):
-    for axis, component in enumerate(vector):
-        np.add(component, offset[axis], out=out[..., axis], casting="same_kind")
-        if blank is not None:
+    """Store vector plus offset, three components each, and 0 where ``blank``, which may be None."""
+    if isinstance(vector, np.ndarray):  # all at once: fewer calls, in which no other thread can begin one
+        np.add(vector, offset, out=out.transpose(2, 0, 1), casting="same_kind")
+    else:
+        for axis, component in enumerate(vector):
+            np.add(component, offset[axis], out=out[..., axis], casting="same_kind")
+    if blank is not None:
+        for axis in range(3):
             np.copyto(out[..., axis], 0, where=blank)
 
 

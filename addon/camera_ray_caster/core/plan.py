@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import product
 from typing import Any
 
 import numpy as np
@@ -187,13 +186,14 @@ def make_plan(
     simple = near >= camera.clip_start
     small = (bounds[:, 1] - bounds[:, 0]) * (bounds[:, 3] - bounds[:, 2]) < SMALL_PIXELS
     groups = []
-    for kind, is_simple, is_small in product(np.unique(shapes.kind[seen]).tolist(), (False, True), (False, True)):
-        at = np.flatnonzero(seen & (shapes.kind == kind) & (simple == is_simple) & (small == is_small))
-        if len(at):
-            if is_small:
-                at = at[np.argsort(bounds[at, 2], kind="stable")]
-            view = _rounded(SHAPE_OF_KIND[kind].view(placed, at, camera.parallel), real)
-            groups.append(Group(kind, is_simple, is_small, at, np.asfortranarray(bounds[at]), near[at], view))
+    alike = 4 * shapes.kind + 2 * simple + small
+    for code in np.unique(alike[seen]).tolist():
+        kind, is_simple, is_small = code // 4, bool(code & 2), bool(code & 1)
+        at = np.flatnonzero(seen & (alike == code))
+        if is_small:
+            at = at[np.argsort(bounds[at, 2], kind="stable")]
+        view = _rounded(SHAPE_OF_KIND[kind].view(placed, at, camera.parallel), real)
+        groups.append(Group(kind, is_simple, is_small, at, np.asfortranarray(bounds[at]), near[at], view))
     return Plan(
         camera=camera,
         shapes=shapes,

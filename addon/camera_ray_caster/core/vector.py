@@ -21,7 +21,7 @@ def linear(row, components, out, spare):
     Many rows at once are entries that are arrays, (m, 1, 1): fewer calls, in which no other thread can begin one.
     """
     x, y, z = components
-    if out.shape[-1:] not in (np.shape(y)[-1:], np.shape(z)[-1:]):
+    if not any(isinstance(part, np.ndarray) and part.shape[-1:] == out.shape[-1:] for part in (y, z)):
         return np.add(row[0] * x, row[1] * y + row[2] * z, out=out)
     np.add(np.multiply(row[1], y, out=out), np.multiply(row[2], z, out=spare), out=out)
     return np.add(np.multiply(row[0], x, out=spare), out, out=out)

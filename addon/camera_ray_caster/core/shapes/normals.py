@@ -16,6 +16,9 @@ from ..records import SPHERE, Pose, Shapes
 from ..vector import components, difference, matvec, norm, rows, unit
 from .placed import Placed
 
+ZERO = np.zeros((3, 1, 1))
+"""The term that adds nothing."""
+
 FAR = 1e4
 """Radii. The normal of a sphere nearer than that has unit length to 1e-11 as it comes: the root is left out."""
 
@@ -24,29 +27,32 @@ FAR = 1e4
 class NormalTable:
     """The constants of the normals, world frame, with a row of zeros at the end."""
 
-    gain: np.ndarray
-    """(n + 1,): 1 / radius for round spheres, else 0."""
-    offset: np.ndarray
-    """(3, n + 1): from the centre to the eye in radii for round spheres, unit normals towards the eye for planes."""
+    constants: np.ndarray
+    """(4, n + 1): the gain, 1 / radius for round spheres, else 0, and the offset, from the centre to the eye in radii
+    for round spheres, unit normals towards the eye for planes.
+    """
     unit: bool
     """Whether gain times point plus offset has unit length as it comes."""
     curved: Curved | None
     """The ellipsoids; None where there is none."""
 
-    def look_up(self, hits):
-        """Return unit normals, (3, rows, columns) components, an array of the hits' scratch; 0 where nothing is hit.
+    def look_up(self, hits) -> tuple[np.ndarray, np.ndarray]:
+        """Return two terms whose sum is the unit normal where something is hit, (3, rows, columns) components in arrays
+        of the hits' scratch; the second is ZERO where there is more to do than to add them.
 
         Outward on spheres, towards the eye on planes. Right to EPS (distance / radius), in length, too.
         """
-        gain = hits.look_up(self.gain, "gain")
-        normal = hits.look_up(self.offset, "normal")
-        spare = hits.scratch("spare", normal.shape, np.float64)
-        np.add(normal, np.multiply(gain, hits.point, out=spare), out=normal)
+        constants = hits.look_up(self.constants, "constants")
+        gain, offset = constants[0], constants[1:]
+        normal = np.multiply(gain, hits.point, out=hits.scratch("turned", offset.shape, np.float64))
+        if self.curved is None and self.unit:
+            return normal, offset
+        np.add(normal, offset, out=normal)
         if self.curved is not None:
             self.curved.put(hits, normal)
         if not self.unit:
             np.divide(normal, np.maximum(norm(normal), np.finfo(float).tiny), out=normal)
-        return normal
+        return normal, ZERO
 
 
 @dataclass(frozen=True)
@@ -83,7 +89,7 @@ def normal_table(shapes: Shapes, placed: Placed, pose: Pose, seen) -> NormalTabl
     curved = sphere & ~is_round
     far = np.abs(offset[seen]).max(initial=0.0)
     return NormalTable(
-        gain, np.ascontiguousarray(offset.T), bool(far < FAR), _curved(placed, curved) if curved[seen].any() else None
+        np.vstack((gain, offset.T)), bool(far < FAR), _curved(placed, curved) if curved[seen].any() else None
     )
 
 
