@@ -28,11 +28,11 @@ def through(command: str) -> int:
     if installed is not None:
         addon_utils.disable(installed.__module__.removesuffix(".blender.engine"))
     import camera_ray_caster
-    from camera_ray_caster.blender import terminal
+    from camera_ray_caster.blender import ending, terminal
 
     for name in ("SIGINT", "SIGTERM", "SIGHUP"):
         if hasattr(signal, name):
-            signal.signal(getattr(signal, name), terminal.stop)
+            signal.signal(getattr(signal, name), ending.note)
     camera_ray_caster.register()
     try:
         return terminal.main(command, _arguments(bool(bpy.app.binary_path)), f"{command}.py")

@@ -218,13 +218,14 @@ def curves(item):
     return action.layers[0].strips[0].channelbag(item.animation_data.action_slot).fcurves
 
 
-@pytest.mark.parametrize(("stopped", "ending"), [(True, False), (False, True), (False, False)])
-def test_each_tile_shows_progress_and_asks_whether_to_stop(stopped, ending):
-    from camera_ray_caster.blender.engine import CameraRayCaster
+@pytest.mark.parametrize(("stopped", "ends"), [(True, False), (False, True), (False, False)])
+def test_each_tile_shows_progress_and_asks_whether_to_stop(stopped, ends, monkeypatch):
+    from camera_ray_caster.blender import ending, engine
 
     shown = []
-    stand_in = SimpleNamespace(update_progress=shown.append, test_break=lambda: stopped, ending=ending)
-    assert CameraRayCaster.advance(stand_in, 0.25) is not (stopped or ending)
+    stand_in = SimpleNamespace(update_progress=shown.append, test_break=lambda: stopped)
+    monkeypatch.setattr(ending, "_noted", ends)
+    assert engine.CameraRayCaster.advance(stand_in, 0.25) is not (stopped or ends)
     assert shown == [0.25]
 
 

@@ -71,8 +71,7 @@ def test_a_run_that_is_ended_leaves_good_files_and_nothing_else(blender, tmp_pat
 @pytest.mark.parametrize("callback", ["load_post", "depsgraph_update_post", "render_init", "render_post"])
 def test_a_signal_within_a_callback_of_blenders_ends_the_run_in_one_line(blender, tmp_path, capfd, callback):
     """Python runs a signal's handler where it next runs at all, and Blender prints and drops what a callback raises."""
-    from camera_ray_caster.blender import terminal
-    from camera_ray_caster.blender.engine import CameraRayCaster
+    from camera_ray_caster.blender import ending, terminal
 
     path = small(blender, tmp_path / "small.blend")
     handlers = getattr(blender.app.handlers, callback)
@@ -80,8 +79,9 @@ def test_a_signal_within_a_callback_of_blenders_ends_the_run_in_one_line(blender
 
     @blender.app.handlers.persistent
     def interrupted(*_):
+        if not called:
+            ending.note()
         called.append(True)
-        terminal.stop()
 
     handlers.append(interrupted)
     try:
@@ -92,4 +92,57 @@ def test_a_signal_within_a_callback_of_blenders_ends_the_run_in_one_line(blender
     assert status == 130
     assert capfd.readouterr().err == "cast.py: stopped; what was under way has left nothing\n"
     assert not (tmp_path / "out").exists()
-    assert not CameraRayCaster.ending  # the next run goes its whole way
+    assert not ending.noted()  # the next run goes its whole way
+
+
+@pytest.mark.parametrize("command", ["cast", "verify"])
+def test_a_signal_ends_the_reading_of_a_camera_that_moves(blender, tmp_path, capfd, command):
+    from camera_ray_caster.blender import ending, terminal
+
+    visited = []
+
+    @blender.app.handlers.persistent
+    def interrupted(*_):
+        visited.append(True)
+        if len(visited) == 1:
+            ending.note()
+
+    blender.app.handlers.frame_change_post.append(interrupted)
+    output = ("--output", str(tmp_path / "out")) if command == "cast" else ()
+    try:
+        status = terminal.main(command, [str(ROOT / "blend_scenes" / "rolling_shutter.blend"), *output], "it")
+    finally:
+        blender.app.handlers.frame_change_post.remove(interrupted)
+    assert status == 130
+    assert capfd.readouterr().err == "it: stopped; what was under way has left nothing\n"
+    assert len(visited) <= 2  # the second puts the frame back
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_signal_after_the_render_ends_the_run_before_files_are_written(blender, tmp_path, monkeypatch):
+    from camera_ray_caster.blender import ending, pictures, terminal
+
+    path = small(blender, tmp_path / "small.blend")
+    rendered, save, saved = pictures._rendered, pictures._save, []
+
+    def interrupted(scene):
+        report = rendered(scene)
+        ending.note()
+        return report
+
+    monkeypatch.setattr(pictures, "_rendered", interrupted)
+    monkeypatch.setattr(pictures, "_save", lambda *given: save(*given) or saved.append(given))
+    assert terminal.main("cast", [str(path), "--output", str(tmp_path / "out")], "cast.py") == 130
+    assert saved == []
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_second_signal_is_not_waited_for():
+    from camera_ray_caster.blender import ending
+
+    try:
+        ending.note()
+        with pytest.raises(KeyboardInterrupt):
+            ending.note()
+    finally:
+        ending.forget()

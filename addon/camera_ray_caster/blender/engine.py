@@ -13,7 +13,7 @@ from ..core.motion import UNRESOLVED
 from ..core.records import BlenderCamera, Cancelled, InputError
 from ..core.report import Report
 from ..core.stereo import eye_record
-from . import reports
+from . import ending, reports
 from .passes import stored, ticked
 from .run import run
 from .viewport import Viewport
@@ -31,8 +31,6 @@ class CameraRayCaster(Viewport, bpy.types.RenderEngine):
     done: Report | None = None
     stopped = False
     """Whether a render was stopped since whoever asks has set it False."""
-    ending = False
-    """Whether this process is to end: every render stops at its next tile."""
 
     def update_render_passes(self, scene=None, renderlayer=None):
         """Tell the compositor which sockets a view layer has."""
@@ -111,7 +109,7 @@ class CameraRayCaster(Viewport, bpy.types.RenderEngine):
     def advance(self, fraction: float) -> bool:
         """Show how far the cast is; return whether to go on."""
         self.update_progress(fraction)
-        return not (self.ending or self.test_break())
+        return not (ending.noted() or self.test_break())
 
 
 def register() -> None:

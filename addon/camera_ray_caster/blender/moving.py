@@ -9,6 +9,7 @@ from ..core.camera import Camera
 from ..core.cameras import camera_from
 from ..core.motion import measure, resolve
 from ..core.records import Shapes
+from .ending import heed
 from .raw_camera import camera_record
 from .raw_shapes import shapes_record
 
@@ -30,6 +31,7 @@ def with_motion(
 
     def evaluate(frame: float) -> tuple[Camera, Shapes]:
         depsgraph = go_to(frame)
+        heed()
         raw = eye(camera_record(depsgraph.scene_eval, camera_object, depsgraph))
         return replace(camera_from(raw), clock=clock), shapes_record(depsgraph)
 

@@ -12,7 +12,7 @@ import bpy
 
 from ..core.records import Cancelled, InputError
 from ..core.report import Report, as_json
-from . import reports
+from . import ending, reports
 from .engine import CameraRayCaster
 
 PICTURE = {
@@ -48,8 +48,7 @@ def render(scene, folder: Path, name: str, number: str = "") -> tuple[Report, li
         report = report.with_seconds(files=perf_counter() - started)
         (temporary / f"report{number}.json").write_text(as_json(report), encoding="utf-8")
         names = sorted(os.listdir(temporary))
-        if CameraRayCaster.ending:
-            raise Cancelled
+        ending.heed()
     return report, [folder / name for name in names]
 
 
@@ -92,6 +91,7 @@ def _rendered(scene) -> Report:
         raise InputError(str(error).strip().splitlines()[0].removeprefix("Error: ")) from error
     elapsed = perf_counter() - started
     report = reports.latest()
+    ending.heed()
     if CameraRayCaster.stopped:
         raise Cancelled
     if report is None:
@@ -101,6 +101,7 @@ def _rendered(scene) -> Report:
 
 def _save(scene, path: Path, settings) -> None:
     """Let Blender write the render to a file."""
+    ending.heed()
     for name, value in settings.items():
         if hasattr(scene.render.image_settings, name):  # media_type: from 5.0 on; use_exr_interleave: not everywhere
             setattr(scene.render.image_settings, name, value)

@@ -1,7 +1,7 @@
 """The commands for a terminal: arguments in, files and a table out, and an exit status.
 
 Status 0: done; 1: done, but a witness disagrees with the camera's rays; 2: bad input, one line on standard error;
-130: stopped by Ctrl C.
+130: stopped by Ctrl C or another signal that ends a process.
 """
 
 import argparse
@@ -22,7 +22,7 @@ from ..core.plan import PRECISIONS
 from ..core.records import Cancelled, InputError
 from ..core.report import WIDTH, Report, as_json, as_lines
 from ..core.shading import SHADINGS
-from . import pictures
+from . import ending, pictures
 from .check import verify_camera
 from .engine import CameraRayCaster
 from .passes import tick, ticked
@@ -54,13 +54,7 @@ def main(command: str, arguments: Sequence[str], prog: str) -> int:
         print(f"{prog}: stopped; what was under way has left nothing", file=sys.stderr)
         return 130
     finally:
-        CameraRayCaster.ending = False
-
-
-def stop(*_) -> None:
-    """Let what is under way be taken back: to be called where a signal ends the process. It raises nothing, since
-    Python may run it in a callback of Blender's, which prints an exception and drops it."""
-    CameraRayCaster.ending = True
+        ending.forget()
 
 
 def cast(arguments: Sequence[str], prog: str) -> int:
@@ -114,6 +108,7 @@ def verify(arguments: Sequence[str], prog: str) -> int:
     _go_to(scene, options.frame)
     facts = camera_facts(read_camera(scene))
     report = Report(camera=facts, frame=scene.frame_current_final, findings=tuple(verify_camera(scene)))
+    ending.heed()
     _show(report, options.json, "All witnesses agree" if report.passed else "A witness disagrees")
     return int(not report.passed)
 

@@ -124,7 +124,7 @@ def _bound(hits: Hits, out, bound, size):
 
 def _write(out, vector, offset, blank):
     """Store vector plus offset, three components each, and 0 where ``blank``, which may be None."""
-    if isinstance(vector, np.ndarray):  # all at once: fewer calls, in which no other thread can begin one
+    if isinstance(vector, np.ndarray):  # all at once: fewer calls, between which other threads wait
         np.add(vector, offset, out=out.transpose(2, 0, 1), casting="same_kind")
     else:
         for axis, component in enumerate(vector):

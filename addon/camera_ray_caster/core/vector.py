@@ -18,7 +18,7 @@ def matvec(matrix, components):
 def linear(row, components, out, spare):
     """Return one row of ``matvec``, rounded alike, in ``out``; ``spare`` is a working array of the same shape.
 
-    Many rows at once are entries that are arrays, (m, 1, 1): fewer calls, in which no other thread can begin one.
+    Many rows at once are entries that are arrays, (m, 1, 1): fewer calls, between which other threads wait.
     """
     x, y, z = components
     if not any(isinstance(part, np.ndarray) and part.shape[-1:] == out.shape[-1:] for part in (y, z)):

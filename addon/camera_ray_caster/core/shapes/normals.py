@@ -1,9 +1,9 @@
-"""Unit normals of many shapes at once: one table row a shape, looked up by each pixel's shape index.
+"""Unit normals of many shapes at once: one table column a shape, looked up by each pixel's shape index.
 
 As far as its direction goes, the normal at P of a round sphere is P - centre, of a plane its third inverse row, and of
 an ellipsoid A^-T q with q = A^-1 (P - centre) in two steps: the product A^-T A^-1 would square the ratio of its axes,
-whereas an error of q along a short axis is an error along the normal, which does not count. A last row of zeros serves
-the pixels that hit nothing (index -1).
+whereas an error of q along a short axis is an error along the normal, which does not count. A last column of zeros
+serves the pixels that hit nothing (index -1).
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ FAR = 1e4
 
 @dataclass(frozen=True)
 class NormalTable:
-    """The constants of the normals, world frame, with a row of zeros at the end."""
+    """The constants of the normals, world frame, with a column of zeros at the end."""
 
     constants: np.ndarray
     """(4, n + 1): the gain, 1 / radius for round spheres, else 0, and the offset, from the centre to the eye in radii
