@@ -91,7 +91,6 @@ def _rendered(scene) -> Report:
         raise InputError(str(error).strip().splitlines()[0].removeprefix("Error: ")) from error
     elapsed = perf_counter() - started
     report = reports.latest()
-    ending.heed()
     if CameraRayCaster.stopped:
         raise Cancelled
     if report is None:
