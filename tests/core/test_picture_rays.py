@@ -20,7 +20,7 @@ SAME = 16 * EPS
 ROUNDED = 8 * EPS
 """What polynomials and world coordinates add to a ray's own bound."""
 
-PLAIN = {"PERSP", "ORTHO", "CAMERA_OBSCURA", "STRIP"}
+PLAIN = {"PERSP", "ORTHO", "CAMERA_OBSCURA", "STRIP", "MIRRORBALL", "FISHEYE_EQUISOLID", "FISHEYE_ORTHOGRAPHIC"}
 """Models whose pixels are each worked out for themselves."""
 
 each_model = pytest.mark.parametrize("key", [model.key for model in MODELS])

@@ -14,14 +14,14 @@ import numpy as np
 from .aperture import Aperture
 from .clock import Clock, groups, meeting
 from .conventions import gamma
-from .loops import BAND, keep_memory, whole_rows
-from .panels import fill, is_raster
+from .loops import keep_memory, whole_rows
+from .panels import ROWS, fill, is_raster
 from .records import BlenderCamera, InputError, Pose, Raster, Rays
 from .sampling import in_opening, sub_pixel
 from .vector import dot, inverse, is_grid, is_lattice, is_one, matvec, norm
 
-BLOCK_PIXELS, SMOOTH_PIXELS = 1 << 18, 1 << 19
-"""Pixels whose rays are made at once, in whole bands: fewer, and threads would wait at each of numpy's calls."""
+BLOCK_PIXELS, SMOOTH_PIXELS = 1 << 17, 1 << 19
+"""Pixels whose rays are made at once, in whole panels: fewer, and threads would wait at each of numpy's calls."""
 
 
 def pose_from(raw: BlenderCamera) -> Pose:
@@ -110,10 +110,10 @@ class Camera:
         valid = np.empty(shape, bool)
         smooth = self._is_smooth(x, y)
         write, pixels = (self._write_smooth, SMOOTH_PIXELS) if smooth else (self._write, BLOCK_PIXELS)
-        step = BAND * max(1, round(pixels / max(x.size, 1) / BAND))
+        step = ROWS * max(1, round(pixels / max(x.size, 1) / ROWS))
         if is_grid(x, y) and y.size > step:
             keep_memory()
-            begin = -floor(y[0, 0]) % BAND if smooth else 0  # where the raster's first whole band does
+            begin = -floor(y[0, 0]) % ROWS if smooth else 0  # where the raster's first whole panels do
             edges = sorted({0, *range(begin, y.size, step), y.size})
             blocks = [slice(*ends) for ends in pairwise(edges)]
             with ThreadPoolExecutor(os.cpu_count()) as pool:  # numpy releases the interpreter
@@ -124,7 +124,7 @@ class Camera:
 
     def _is_smooth(self, x, y) -> bool:
         """Whether polynomials are to give the rays: a raster's, whose directions are more than a row and a column."""
-        if not (getattr(self.model, "smooth", True) and is_raster(x, y)):
+        if not (getattr(self.model, "by_panels", True) and is_raster(x, y)):
             return False
         direction = self.model.rays(x[:, :2], y[:2])[1]
         return not (is_one(direction) or is_lattice(direction))
@@ -132,6 +132,10 @@ class Camera:
     def _write(self, x, y, origins, directions, valid) -> None:
         """Write the world rays through pixel coordinates; the origins only where there is more than the eye."""
         with whole_rows(valid.shape[-1] if valid.ndim else 1):
+            if hasattr(self.model, "turned") and self.is_rigid:
+                self.model.turned(self.pose.basis, x, y, directions)
+                np.logical_not(np.isnan(directions[..., 0]), out=valid)
+                return
             origin, direction = self.camera_rays(x, y)
             length = self._length(direction) if self.model.planar else 1.0
             for axis, row in enumerate(self.pose.basis):

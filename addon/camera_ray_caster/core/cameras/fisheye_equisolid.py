@@ -29,6 +29,7 @@ class FisheyeEquisolid(Radial):
     """Largest s that has a ray."""
 
     key = "FISHEYE_EQUISOLID"
+    by_panels = False
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> FisheyeEquisolid:

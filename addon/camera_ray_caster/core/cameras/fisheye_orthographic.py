@@ -27,6 +27,7 @@ class FisheyeOrthographic(Radial):
     """sin(fov / 2)."""
 
     key = "FISHEYE_ORTHOGRAPHIC"
+    by_panels = False
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> FisheyeOrthographic:

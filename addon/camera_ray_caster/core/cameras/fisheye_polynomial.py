@@ -67,13 +67,10 @@ class FisheyePolynomial(Radial):
         k0, k1, k2, k3, k4 = self.coefficients
         return k0 + r * (k1 + r * (k2 + r * (k3 + r * k4)))
 
-    def rays(self, x, y):
-        """See Radial; at r = 0 with k0 not 0 the ray is turned up."""
-        origin, (dx, dy, dz) = super().rays(x, y)
-        if self.coefficients[0]:
-            a, b = self.window.plane_from_pixels(x, y)
-            dy = np.where((a == 0) & (b == 0), np.sin(self.coefficients[0]) + 0 * dz, dy)
-        return origin, (dx, dy, dz)
+    def _plane(self, x, y):
+        """At r = 0 with k0 not 0 the ray is turned up."""
+        a, b = super()._plane(x, y)
+        return a, np.where(b == 0, TINY, b) if self.coefficients[0] else b
 
     def factors(self, r_squared):
         """See Radial."""

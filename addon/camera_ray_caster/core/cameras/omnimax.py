@@ -47,12 +47,6 @@ RADIUS = Inverse(angle, slope, 0.0, 1.0)
 class Lens(Radial):
     """The lens alone, with its axis along the viewing direction."""
 
-    def rays(self, x, y):
-        """See Radial."""
-        origin, (dx, dy, dz) = super().rays(x, y)
-        below = dy < dz
-        return origin, tuple(np.where(below, np.nan, component) for component in (dx, dy, dz))
-
     def project(self, points):
         """See Radial."""
         _, y, z = components(points)
@@ -64,6 +58,11 @@ class Lens(Radial):
         r = radii_within(r_squared, 1.0)
         theta = angle(r)
         return np.sin(theta) / r, np.cos(theta)
+
+    def _factors_at(self, x, y):
+        scale, cosine = super()._factors_at(x, y)
+        below = self._plane(x, y)[1] * scale < -cosine
+        return np.where(below, np.nan, scale), np.where(below, np.nan, cosine)
 
     def radius(self, theta):
         """See Radial: by Newton's method."""

@@ -21,7 +21,11 @@ class Pitched(Radial):
     def rays(self, x, y):
         """See Radial."""
         origin, direction = super().rays(x, y)
-        return origin, self._turned(direction, self.elevation)
+        return origin, self._pitched(direction, self.elevation)
+
+    def turned(self, matrix, x, y, out) -> None:
+        """See Radial."""
+        super().turned(matrix @ np.array(self._pitched(np.eye(3), self.elevation)), x, y, out)
 
     def project(self, points):
         """See Radial."""
@@ -32,8 +36,8 @@ class Pitched(Radial):
         return super().bounds(self._in_lens(centres), radii)
 
     def _in_lens(self, points):
-        return np.stack(self._turned(components(np.asarray(points, np.float64)), -self.elevation), axis=-1)
+        return np.stack(self._pitched(components(np.asarray(points, np.float64)), -self.elevation), axis=-1)
 
-    def _turned(self, vector, angle):
+    def _pitched(self, vector, angle):
         x, y, z = vector
         return x, cos(angle) * y - sin(angle) * z, sin(angle) * y + cos(angle) * z

@@ -33,6 +33,10 @@ class Radial(ABC):
 
     planar = False
     central = True
+    by_panels = True
+    """Whether polynomials give the rays of a picture (see panels): not where all that the factors take is a root, which
+    is singular at the rim or little beyond.
+    """
 
     @abstractmethod
     def factors(self, r_squared):
@@ -58,12 +62,22 @@ class Radial(ABC):
         x and y are pixel coordinates of broadcastable shapes. NaN where there is no ray. Each component is right
         to some EPS of 1 + theta.
         """
-        a, b = self.window.plane_from_pixels(x, y)
+        a, b = self._plane(x, y)
         scale, cosine = self._factors_at(x, y)
         return (0.0, 0.0, 0.0), (a * scale, b * scale, -cosine)
 
+    def turned(self, matrix, x, y, out) -> None:
+        """Write matrix @ direction of ``rays`` into (..., 3): what a and b bring may stay a row and a column."""
+        a, b = self._plane(x, y)
+        scale, cosine = self._factors_at(x, y)
+        for axis, (across, up, back) in enumerate(matrix):
+            np.subtract((across * a + up * b) * scale, back * cosine, out=out[..., axis])
+
+    def _plane(self, x, y):
+        return self.window.plane_from_pixels(x, y)
+
     def _factors_at(self, x, y):
-        a, b = self.window.plane_from_pixels(x, y)
+        a, b = self._plane(x, y)
         return self.factors(a * a + b * b)
 
     def project(self, points):
