@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from camera_ray_caster.core.conventions import EPS
-from camera_ray_caster.core.panels import COLUMNS, FEWEST, POINTS, ROWS, fill, on_raster
+from camera_ray_caster.core.panels import COLUMNS, FEWEST, POINTS, ROWS, Disc, fill, on_raster
 from camera_ray_caster.core.rounding import world_rays
 
 from . import truth
@@ -114,19 +114,29 @@ def test_values_go_where_they_belong_in_part_of_an_array():
 
 
 @pytest.mark.parametrize("middle", [(500, 400), (-90, 700), (5000, 300)], ids=["inside", "at the side", "far away"])
-def test_panels_outside_the_ellipse_of_a_picture_are_not_asked(middle):
-    """All that is asked: some points of every panel, and the panels at the rim."""
+@pytest.mark.parametrize(("ends", "most"), [(True, 0.35), (False, 0.06)], ids=["with the picture", "never"])
+def test_outside_a_disc_there_is_nothing_and_only_points_of_panels_are_asked(middle, ends, most):
+    """And the panels at the rim, where the function ends there, too."""
 
-    def disc(x, y):
-        a, b = (x - middle[0]) / 400, (y - middle[1]) / 300
-        a = np.where(a * a + b * b <= 1, a, np.nan)
+    def offset(x, y):
+        return (x - middle[0]) / 400, (y - middle[1]) / 300
+
+    def holds(x, y):
+        a, b = offset(x, y)
+        return a * a + b * b <= 1
+
+    def values(x, y):
+        a, b = offset(x, y)
         return a * b, a + b
 
+    def ending(x, y):
+        return (np.where(holds(x, y), value, np.nan) for value in values(x, y))
+
     x, y = centres(1000, 800)
-    function = Counted(disc)
-    found, exact = on_raster(function, x, y, middle), np.stack(disc(x, y))
+    function = Counted(ending if ends else values)
+    found, exact = on_raster(function, x, y, Disc(middle, holds)), np.stack(list(ending(x, y)))
     np.testing.assert_allclose(found, exact, rtol=0, atol=8 * EPS)
-    assert function.asked < 0.35 * x.size * y.size
+    assert function.asked < most * x.size * y.size
 
 
 @pytest.mark.filterwarnings("ignore:Descending")  # the order of coefficients that every mpmath knows

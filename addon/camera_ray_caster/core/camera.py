@@ -20,8 +20,8 @@ from .records import BlenderCamera, InputError, Pose, Raster, Rays
 from .sampling import in_opening, sub_pixel
 from .vector import dot, inverse, is_grid, is_lattice, is_one, matvec, norm
 
-BLOCK_PIXELS, SMOOTH_PIXELS = 1 << 17, 1 << 19
-"""Pixels whose rays are made at once, in whole panels: fewer, and threads would wait at each of numpy's calls."""
+BLOCK_PIXELS, SMOOTH_PIXELS = 1 << 17, 1 << 20
+"""The most pixels whose rays are made at once: fewer, and threads would wait at each of numpy's calls."""
 
 
 def pose_from(raw: BlenderCamera) -> Pose:
@@ -110,13 +110,14 @@ class Camera:
         valid = np.empty(shape, bool)
         smooth = self._is_smooth(x, y)
         write, pixels = (self._write_smooth, SMOOTH_PIXELS) if smooth else (self._write, BLOCK_PIXELS)
-        step = ROWS * max(1, round(pixels / max(x.size, 1) / ROWS))
+        threads = os.cpu_count() or 1
+        step = ROWS * max(1, round(min(pixels / max(x.size, 1), y.size / threads) / ROWS))
         if is_grid(x, y) and y.size > step:
             keep_memory()
             begin = -floor(y[0, 0]) % ROWS if smooth else 0  # where the raster's first whole panels do
             edges = sorted({0, *range(begin, y.size, step), y.size})
             blocks = [slice(*ends) for ends in pairwise(edges)]
-            with ThreadPoolExecutor(os.cpu_count()) as pool:  # numpy releases the interpreter
+            with ThreadPoolExecutor(threads) as pool:  # numpy releases the interpreter
                 list(pool.map(lambda r: write(x, y[r], origins[r], directions[r], valid[r]), blocks))
         else:
             write(x, y, origins, directions, valid)
@@ -147,23 +148,24 @@ class Camera:
 
     def _write_smooth(self, x, y, origins, directions, valid) -> None:
         """Do what ``_write`` does where ``_is_smooth``."""
+        disc = getattr(self.model, "disc", None)
+        endless = self if disc is None else replace(self, model=self.model.endless)
 
         def origin(x, y):
-            start = self.camera_rays(x, y)[0]
+            start = endless.camera_rays(x, y)[0]
             for row, eye in zip(self.pose.basis, self.pose.eye, strict=True):
                 yield dot(row, start) + eye
 
         def direction(x, y):
-            along = self.camera_rays(x, y)[1]
+            along = endless.camera_rays(x, y)[1]
             length = self._length(along) if self.model.planar else None
             for row in self.pose.basis:
                 component = dot(row, along)
                 yield component if length is None else component / length
 
-        middle = getattr(self.model, "middle", None)
-        valid[...] = fill(direction, x, y, directions[None], middle)
+        valid[...] = fill(direction, x, y, directions[None], disc)
         if not self.model.central:
-            fill(origin, x, y, origins[None], middle)
+            fill(origin, x, y, origins[None], disc)
 
     def _length(self, direction):
         """Return the world's length of what ``camera_rays`` gives; of a row and a column it is one sum."""

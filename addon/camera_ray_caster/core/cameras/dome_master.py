@@ -31,4 +31,4 @@ class DomeMaster(Pitched, FisheyeEquidistant):
         """Build it from ``fov``, ``tilt`` and shift; InputError for an angle without meaning."""
         half_fov = positive(raw, "fov", FULL_TURN, "deg") / 2
         tilt = number(raw, "tilt", 0.0, pi / 2, "deg")
-        return cls(Window.inscribed_circle(raw, raster, 1.0), half_fov=half_fov, elevation=pi / 2 - tilt)
+        return cls(Window.inscribed_circle(raw, raster, 1.0), 1.0, half_fov=half_fov, elevation=pi / 2 - tilt)

@@ -15,7 +15,7 @@ import numpy as np
 
 from ..records import BlenderCamera, Raster
 from .film import Window
-from .radial import Radial, radii_within, up_to
+from .radial import Radial, radii, up_to
 from .settings import WIDEST_FISHEYE, positive
 
 
@@ -32,17 +32,17 @@ class FisheyeEquidistant(Radial):
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> FisheyeEquidistant:
         """Build it from fisheye_fov and shift; InputError where the field of view has no meaning."""
         fov = positive(raw, "fisheye_fov", WIDEST_FISHEYE, "deg")
-        return cls(Window.over_frame(raw, raster, (-1.0, 1.0), (-1.0, 1.0)), fov / 2)
+        return cls(Window.over_frame(raw, raster, (-1.0, 1.0), (-1.0, 1.0)), 1.0, fov / 2)
 
     def factors(self, r_squared):
         """See Radial."""
-        r = radii_within(r_squared, 1.0)
+        r = radii(r_squared)
         theta = r * self.half_fov
         return np.sin(theta) / r, np.cos(theta)
 
     def radius(self, theta):
         """See Radial."""
-        return up_to(1.0, theta / self.half_fov)
+        return up_to(self.rim, theta / self.half_fov)
 
     @property
     def widest(self) -> float:

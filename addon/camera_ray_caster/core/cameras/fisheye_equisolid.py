@@ -25,9 +25,6 @@ from .settings import WIDEST_FISHEYE, positive
 class FisheyeEquisolid(Radial):
     """s = r / 2f = sin(theta / 2); the window gives s."""
 
-    rim: float
-    """Largest s that has a ray."""
-
     key = "FISHEYE_EQUISOLID"
     by_panels = False
 
@@ -42,8 +39,7 @@ class FisheyeEquisolid(Radial):
 
     def factors(self, r_squared):
         """See Radial."""
-        s_squared = np.where(r_squared > self.rim * self.rim, np.nan, r_squared)
-        return 2 * np.sqrt(1 - s_squared), 1 - 2 * s_squared
+        return 2 * np.sqrt(1 - r_squared), 1 - 2 * r_squared
 
     def radius(self, theta):
         """See Radial."""

@@ -21,10 +21,7 @@ from .settings import positive
 
 @dataclass(frozen=True)
 class FisheyeOrthographic(Radial):
-    """The window gives sin(theta)."""
-
-    rim: float
-    """sin(fov / 2)."""
+    """The window gives sin(theta); the rim is sin(fov / 2)."""
 
     key = "FISHEYE_ORTHOGRAPHIC"
     by_panels = False
@@ -37,8 +34,7 @@ class FisheyeOrthographic(Radial):
 
     def factors(self, r_squared):
         """See Radial."""
-        sine_squared = np.where(r_squared > self.rim * self.rim, np.nan, r_squared)
-        return 1.0 + 0 * sine_squared, np.sqrt(1 - sine_squared)
+        return 1.0 + 0 * r_squared, np.sqrt(1 - r_squared)
 
     def radius(self, theta):
         """See Radial."""

@@ -12,7 +12,7 @@ Reference: Blender manual, Cameras > Panoramic; rays read out of Cycles.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from math import hypot
 
@@ -22,9 +22,14 @@ from ..panels import on_raster
 from ..records import BlenderCamera, InputError, Raster
 from .film import Film, Window
 from .inversion import Inverse
-from .radial import AT_THE_RIM, TINY, Radial
+from .radial import AT_THE_RIM, TINY, Radial, radii
 from .settings import FULL_TURN, WIDEST_FISHEYE, number, positive
 from .silhouette import pixel_bounds, radial_intervals
+
+BEYOND = 1 + 1e-6
+"""The rim, in radii at which theta leaves the field of view, which ends the picture: where theta is flat, its inverse
+errs by the root of EPS.
+"""
 
 NAMES = tuple(f"fisheye_polynomial_k{i}" for i in range(5))
 
@@ -60,7 +65,8 @@ class FisheyePolynomial(Radial):
                 f"the fisheye polynomial of camera {raw.name!r} ({names}) turns back {turns[0]:.6g} mm from the axis "
                 f"and folds the picture: it must grow or fall all the way to the corner at {corner:.6g} mm"
             )
-        return cls(window, coefficients, half_fov, float(turns[0]) if turns.size else corner)
+        lens = cls(window, np.inf, coefficients, half_fov, float(turns[0]) if turns.size else corner)
+        return replace(lens, rim=float(lens.radius(half_fov)) * BEYOND) if lens.widest == half_fov else lens
 
     def angle(self, r):
         """Return theta (rad) of radii in mm."""
@@ -74,7 +80,7 @@ class FisheyePolynomial(Radial):
 
     def factors(self, r_squared):
         """See Radial."""
-        r = np.maximum(np.sqrt(r_squared), TINY)
+        r = radii(r_squared)
         theta = self.angle(r)
         theta = np.where(np.abs(theta) > self.half_fov, np.nan, theta)
         return np.sin(theta) / r, np.cos(theta)
@@ -91,7 +97,7 @@ class FisheyePolynomial(Radial):
         return Inverse(lambda r: sign * self.angle(r), slope, 0.0, self.limit)
 
     def _factors_at(self, x, y):
-        return on_raster(super()._factors_at, x, y, self.middle)
+        return on_raster(super()._factors_at, x, y, self.disc)
 
     def radius(self, theta):
         """See Radial: negative where theta is seen on the other side of the axis."""

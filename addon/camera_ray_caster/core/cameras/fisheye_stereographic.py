@@ -24,10 +24,7 @@ WIDEST = radians(359)
 
 @dataclass(frozen=True)
 class FisheyeStereographic(Radial):
-    """The window gives tan(theta / 2)."""
-
-    rim: float
-    """tan(fov / 4), or inf where the frame alone ends the picture."""
+    """The window gives tan(theta / 2); the rim is tan(fov / 4), or inf where the frame alone ends the picture."""
 
     key = "FISHEYE_STEREOGRAPHIC"
 
@@ -39,9 +36,8 @@ class FisheyeStereographic(Radial):
 
     def factors(self, r_squared):
         """See Radial."""
-        w_squared = np.where(r_squared > self.rim * self.rim, np.nan, r_squared)
-        scale = 1 / (1 + w_squared)
-        return 2 * scale, (1 - w_squared) * scale
+        scale = 1 / (1 + r_squared)
+        return 2 * scale, (1 - r_squared) * scale
 
     def radius(self, theta):
         """See Radial."""

@@ -16,6 +16,9 @@ from ..conventions import EPS
 KNOTS = 16385
 """Points of the table: a guess from it is right to about 1e-9, and one Newton step to its square."""
 
+SPARSE = 64
+"""A table so much shorter is looked up four times as fast."""
+
 NEAR = 1e-8
 """Of x: the square root of rounding. Where the step is shorter, what it leaves is less than the function's rounding."""
 
@@ -42,6 +45,11 @@ class Inverse:
     def _table(self):
         knots = self.spacing(self.low, self.high, KNOTS)
         return knots, self.function(knots)
+
+    def guess(self, target):
+        """Return what every SPARSE-th entry of the table gives, right to about 1e-5; NaN for a target outside."""
+        knots, values = self._table
+        return np.interp(target, values[::SPARSE], knots[::SPARSE], np.nan, np.nan)
 
     def __call__(self, target):
         """Return the inverse of an array of targets."""

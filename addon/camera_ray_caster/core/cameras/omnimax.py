@@ -22,7 +22,7 @@ from ..vector import components
 from .film import Window
 from .inversion import Inverse
 from .pitched import Pitched
-from .radial import Radial, radii_within
+from .radial import Radial, radii
 from .settings import number
 
 ASPECT = 1.283458
@@ -55,7 +55,7 @@ class Lens(Radial):
 
     def factors(self, r_squared):
         """See Radial."""
-        r = radii_within(r_squared, 1.0)
+        r = radii(r_squared)
         theta = angle(r)
         return np.sin(theta) / r, np.cos(theta)
 
@@ -87,4 +87,4 @@ class Omnimax(Pitched, Lens):
         across = max(aspect / ASPECT, 1.0)
         bottom, top = (1 - 2 / min(aspect, ASPECT), 1.0) if aspect > 1 else (-1 / aspect, 1 / aspect)
         window = Window.over_frame(raw, raster, (-across, across), (bottom, top))
-        return cls(window, elevation=number(raw, "tilt", 0.0, pi / 2, "deg"))
+        return cls(window, 1.0, elevation=number(raw, "tilt", 0.0, pi / 2, "deg"))

@@ -11,8 +11,9 @@ camera model.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Self
 
 import numpy as np
 
@@ -20,7 +21,7 @@ from ..panels import on_raster
 from ..records import BlenderCamera, Raster
 from .calibration import FISHEYE, Calibration
 from .inversion import Inverse
-from .radial import AT_THE_RIM, TINY, Radial
+from .radial import AT_THE_RIM, Radial, radii
 
 
 @dataclass(frozen=True)
@@ -41,7 +42,14 @@ class OpencvFisheye(Radial):
         coefficients = tuple(calibration.coefficients[name] for name in FISHEYE)
         squares = np.polynomial.Polynomial([1.0, *((2 * i + 3) * k for i, k in enumerate(coefficients))]).roots()
         turns = squares.real[(np.abs(squares.imag) <= 1e-9 * np.abs(squares)) & (squares.real > 0)]
-        return cls(calibration.window(raster), coefficients, min(np.pi, *np.sqrt(turns).tolist(), np.pi))
+        limit = min(np.pi, *np.sqrt(turns).tolist(), np.pi)
+        lens = cls(calibration.window(raster), np.inf, coefficients, limit)
+        return replace(lens, rim=lens.distorted(limit) * AT_THE_RIM)
+
+    @property
+    def endless(self) -> Self:
+        """See Radial: beyond the limit the inverse has nothing."""
+        return self
 
     def distorted(self, theta):
         """Return r of angles."""
@@ -61,12 +69,12 @@ class OpencvFisheye(Radial):
 
     def factors(self, r_squared):
         """See Radial."""
-        r = np.maximum(np.sqrt(r_squared), TINY)
+        r = radii(r_squared)
         theta = self._angle(r)
         return np.sin(theta) / r, np.cos(theta)
 
     def _factors_at(self, x, y):
-        return on_raster(super()._factors_at, x, y, self.middle)
+        return on_raster(super()._factors_at, x, y, self.disc)
 
     def radius(self, theta):
         """See Radial."""

@@ -9,11 +9,13 @@ Reference: Blender manual, Cameras > Panoramic; Kannala and Brandt (2006), secti
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Self
 
 import numpy as np
 
 from ..conventions import gamma
+from ..panels import Disc
 from ..vector import components
 from .film import Window
 from .silhouette import pixel_bounds, radial_intervals
@@ -30,6 +32,8 @@ class Radial(ABC):
     """A central model with rays (a k, b k, -c) where (k, c) = factors(a^2 + b^2)."""
 
     window: Window
+    rim: float
+    """The r beyond which there is no ray; inf where the factors, or the frame alone, know an end."""
 
     planar = False
     central = True
@@ -40,7 +44,10 @@ class Radial(ABC):
 
     @abstractmethod
     def factors(self, r_squared):
-        """Return sin(theta) / r and cos(theta) for squared radii; NaN in both where there is no ray."""
+        """Return sin(theta) / r and cos(theta) for squared radii; NaN in both where there is no ray.
+
+        Up to the rim; beyond it whatever the formula gives there.
+        """
 
     @abstractmethod
     def radius(self, theta):
@@ -52,9 +59,15 @@ class Radial(ABC):
         """Return the angle at the rim: r grows with theta from 0 to there, beyond pi the picture repeats."""
 
     @property
-    def middle(self) -> tuple[float, float] | None:
-        """The pixel coordinates about which all rays lie within an ellipse; None where they may lie in a ring."""
-        return (self.window.centre_x, self.window.centre_y) if self.widest < np.inf else None
+    def disc(self) -> Disc | None:
+        """The part of the picture within the rim; None where it has none."""
+        middle = self.window.centre_x, self.window.centre_y
+        return Disc(middle, self._is_within) if self.rim < np.inf else None
+
+    @property
+    def endless(self) -> Self:
+        """The same lens without a rim: smooth where this one ends."""
+        return replace(self, rim=np.inf)
 
     def rays(self, x, y):
         """Return origin and direction, each a tuple of three broadcastable arrays, camera frame, of unit length.
@@ -76,9 +89,18 @@ class Radial(ABC):
     def _plane(self, x, y):
         return self.window.plane_from_pixels(x, y)
 
-    def _factors_at(self, x, y):
+    def _r_squared(self, x, y):
         a, b = self._plane(x, y)
-        return self.factors(a * a + b * b)
+        return a * a + b * b
+
+    def _is_within(self, x, y):
+        return self._r_squared(x, y) <= self.rim * self.rim
+
+    def _factors_at(self, x, y):
+        r_squared = self._r_squared(x, y)
+        if self.rim < np.inf:
+            r_squared = np.where(r_squared > self.rim * self.rim, np.nan, r_squared)
+        return self.factors(r_squared)
 
     def project(self, points):
         """Return the pixel coordinates (..., 2) of camera-frame points (..., 3); NaN for those that no ray meets.
@@ -98,9 +120,9 @@ class Radial(ABC):
         return pixel_bounds(self.window, *radial_intervals(centres, radii, self.radius, self.widest))
 
 
-def radii_within(r_squared, rim: float):
-    """Return the radii of their squares, at least TINY, and NaN beyond the rim."""
-    return np.maximum(np.sqrt(np.where(r_squared > rim * rim, np.nan, r_squared)), TINY)
+def radii(r_squared):
+    """Return the radii of their squares, at least TINY."""
+    return np.maximum(np.sqrt(r_squared), TINY)
 
 
 def up_to(rim: float, r):

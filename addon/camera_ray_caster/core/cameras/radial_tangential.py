@@ -80,10 +80,12 @@ class RadialTangential:
     def distort(self, x, y):
         """Return (x', y') of undistorted coordinates."""
         s = x * x + y * y
-        return self._moved(x, y, s, self.gain(s)[0])
+        return self._moved(x, y, s, self._turn(x, y, self.gain(s)[0]))
 
-    def _moved(self, x, y, s, gain):
-        turn = gain + 2 * (self.p1 * y + self.p2 * x)
+    def _turn(self, x, y, gain):
+        return gain + 2 * (self.p1 * y + self.p2 * x)
+
+    def _moved(self, x, y, s, turn):
         moved_x, moved_y = x * turn + self.p2 * s, y * turn + self.p1 * s
         if self._has_prism:
             moved_x, moved_y = moved_x + s * (self.s1 + s * self.s2), moved_y + s * (self.s3 + s * self.s4)
@@ -93,10 +95,9 @@ class RadialTangential:
     def _has_prism(self) -> bool:
         return any((self.s1, self.s2, self.s3, self.s4))
 
-    def _derivatives(self, x, y, s, gain, slope):
+    def _derivatives(self, x, y, s, turn, slope):
         """Return x' by x, x' by y, y' by x, y' by y."""
         bend_x, bend_y = 2 * (slope * x + self.p2), 2 * (slope * y + self.p1)  # of turn, by x and by y
-        turn = gain + 2 * (self.p1 * y + self.p2 * x)
         xx, yy = turn + x * (bend_x + 2 * self.p2), turn + y * (bend_y + 2 * self.p1)
         xy = x * bend_y + 2 * self.p2 * y  # the same of y' by x
         if self._has_prism:
@@ -148,20 +149,22 @@ class RadialTangential:
         if not self.bends:
             return tuple(np.array(part) for part in np.broadcast_arrays(u, v))
         u, v = np.broadcast_arrays(u, v)
+        radial = not any((self.p1, self.p2, self.s1, self.s2, self.s3, self.s4))
         rho = np.hypot(u, v)
-        r = self._radius(rho)
+        r = self._radius(rho) if radial else self._radius.guess(rho)
         scale = np.where(rho > 0, r / np.where(rho > 0, rho, 1.0), 1.0)
         x, y = u * scale, v * scale
-        if not any((self.p1, self.p2, self.s1, self.s2, self.s3, self.s4)):
+        if radial:
             return x, y
-        for _ in range(FAST_STEPS):
-            step_x, step_y = self._step(x, y, u, v)
-            x, y = x - step_x, y - step_y
-            r = np.abs(x) + np.abs(y)
-            slow = ~(np.abs(step_x) + np.abs(step_y) <= NEAR * r)
-            if not slow.any():
-                break
-        slow = (slow | (r > self.limit)) & ~np.isnan(u)
+        with np.errstate(over="ignore", invalid="ignore"):  # what runs away is slow
+            for _ in range(FAST_STEPS):
+                step_x, step_y = self._step(x, y, u, v)
+                x, y = x - step_x, y - step_y
+                r = np.abs(x) + np.abs(y)
+                slow = ~(np.abs(step_x) + np.abs(step_y) <= NEAR * r)
+                if not slow.any():
+                    break
+        slow = (slow | ~(r <= min(self.limit, np.finfo(float).max))) & ~np.isnan(u)
         if slow.any():
             x, y = np.asarray(x), np.asarray(y)
             x[slow], y[slow] = self._careful(u[slow], v[slow])
@@ -171,9 +174,10 @@ class RadialTangential:
         """Return Newton's step."""
         s = x * x + y * y
         gain, slope = self.gain(s)
-        moved_x, moved_y = self._moved(x, y, s, gain)
+        turn = self._turn(x, y, gain)
+        moved_x, moved_y = self._moved(x, y, s, turn)
         off_x, off_y = moved_x - u, moved_y - v
-        xx, xy, yx, yy = self._derivatives(x, y, s, gain, slope)
+        xx, xy, yx, yy = self._derivatives(x, y, s, turn, slope)
         with np.errstate(divide="ignore", invalid="ignore"):
             inverse = 1 / (xx * yy - xy * yx)
             return (yy * off_x - xy * off_y) * inverse, (xx * off_y - yx * off_x) * inverse
