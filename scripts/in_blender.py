@@ -13,7 +13,7 @@ from camera_ray_caster.core.cast import cast
 from camera_ray_caster.core.records import SPHERE
 
 LOOP_RAYS = 20_000
-"""Rays that the loop casts; its time is scaled to the picture."""
+"""Rays that the loops cast; their time is scaled to the picture. Rays are given: making them is not timed."""
 
 
 def run(camera, shapes, passes, threads: int, rounds: int = 3) -> list[dict]:
@@ -32,6 +32,21 @@ def run(camera, shapes, passes, threads: int, rounds: int = 3) -> list[dict]:
             scene.ray_cast(depsgraph, origin, direction)
         return (perf_counter() - began) * pixels / LOOP_RAYS
 
+    def keeping_loop():
+        """Lists that become arrays at the end take less time than arrays that are written ray by ray."""
+        began = perf_counter()
+        depth, normal, position, index = [], [], [], []
+        for direction in directions:
+            is_hit, place, across, _, thing, _ = scene.ray_cast(depsgraph, origin, direction)
+            depth.append(-place.z if is_hit else np.inf)
+            normal.extend(across)
+            position.extend(place)
+            index.append(thing.pass_index if is_hit else 0)
+        for values in (depth, normal, position):
+            np.array(values, np.float32)
+        np.array(index, np.int32)
+        return (perf_counter() - began) * pixels / LOOP_RAYS
+
     def ours(wanted):
         began = perf_counter()
         cast(camera, shapes, wanted, threads=threads)
@@ -47,6 +62,7 @@ def run(camera, shapes, passes, threads: int, rounds: int = 3) -> list[dict]:
         "ours, depth + index": lambda: ours(("depth", "shape_index")),
         "Cycles, 1 sample, 4 passes": cycles,
         "scene.ray_cast loop": loop,
+        "the same, its 4 passes kept": keeping_loop,
     }
     times: dict[str, list[float]] = {name: [] for name in contest}
     for turn in range(rounds + 1):
