@@ -17,7 +17,7 @@ LOOP_RAYS = 20_000
 
 
 def run(camera, shapes, passes, threads: int, rounds: int = 3) -> list[dict]:
-    """Print and return milliseconds a picture, taken in turns."""
+    """Print and return milliseconds a picture, each of the others in turns with both of ours."""
     scene = _scene(camera, shapes)
     rays = camera.rays()
     pixels = rays.valid.size
@@ -57,23 +57,26 @@ def run(camera, shapes, passes, threads: int, rounds: int = 3) -> list[dict]:
         bpy.ops.render.render()
         return perf_counter() - began
 
-    contest = {
+    own_entries = {
         "ours, 4 passes": lambda: ours(passes),
         "ours, depth + index": lambda: ours(("depth", "shape_index")),
+    }
+    others = {
         "Cycles, 1 sample, 4 passes": cycles,
         "scene.ray_cast loop": loop,
         "the same, its 4 passes kept": keeping_loop,
     }
-    times: dict[str, list[float]] = {name: [] for name in contest}
+    times: dict[str, list[float]] = {name: [] for name in (*own_entries, *others)}
     for turn in range(rounds + 1):
-        for name, one in contest.items():
-            sleep(c.PAUSE)
-            seconds = one()
-            if turn:
-                times[name].append(1e3 * seconds)
+        for other, one in others.items():
+            for name, entry in (*own_entries.items(), (other, one)):
+                sleep(c.PAUSE)
+                seconds = entry()
+                if turn:
+                    times[name].append(1e3 * seconds)
     print(f"\nBlender {bpy.app.version_string}, {len(shapes) - 1} spheres and a wall, ms a picture")
     print(f"  {'':28}{'least':>10}{'median':>10}{'over our 4':>12}{'over our 2':>12}")
-    four, two = (float(np.median(times[name])) for name in list(contest)[:2])
+    four, two = (float(np.median(times[name])) for name in own_entries)
     rows = []
     for name, own in times.items():
         median = float(np.median(own))
