@@ -76,6 +76,29 @@ def test_a_panel_that_has_rays_beyond_its_nearest_point_is_no_empty_one():
     assert_same(cam.rays_at(x, y), by_pixel(cam, x, y))
 
 
+def test_a_fisheye_that_goes_around_more_than_once_has_all_its_rays():
+    slope, half_fov = 0.3, 1.5 * np.pi
+    settings = {"resolution_x": 600, "resolution_y": 600, "fisheye_fov": 2 * half_fov, "fisheye_polynomial_k1": -slope}
+    rays = camera("FISHEYE_LENS_POLYNOMIAL", settings).rays()
+    a, b = np.meshgrid(*2 * [(np.arange(600) - 299.5) * 0.06], sparse=True)  # 36 mm wide
+    r = np.hypot(a, b)
+    theta = slope * r
+    np.testing.assert_array_equal(rays.valid, theta <= half_fov)
+    exact = np.stack((a / r * np.sin(theta), b / r * np.sin(theta), -np.cos(theta)), axis=-1)
+    np.testing.assert_allclose(rays.directions[rays.valid], exact[rays.valid], rtol=0, atol=SAME)
+
+
+@pytest.mark.parametrize("key", ["PERSP", "MIRRORBALL", "FISHEYE_EQUIDISTANT", "PUSHBROOM"])
+def test_windows_on_top_of_each_other_have_the_rays_of_each(key):
+    cam = camera(key, {})
+    x, y = np.arange(40.0).reshape(2, 1, 20), np.arange(300.0).reshape(2, 150, 1) / 6
+    rays = cam.rays_at(x, y)
+    for k in range(2):
+        one = cam.rays_at(x[k], y[k])
+        np.testing.assert_array_equal(rays.directions[k], one.directions)
+        np.testing.assert_array_equal(rays.origins[k], one.origins)
+
+
 def test_a_bend_between_columns_is_in_its_columns():
     """A path makes a detour of six columns, and heads on as before."""
     u = 4 / 1100

@@ -21,7 +21,9 @@ from .sampling import in_opening, sub_pixel
 from .vector import dot, inverse, is_grid, is_lattice, is_one, matvec, norm
 
 BLOCK_PIXELS, SMOOTH_PIXELS = 1 << 17, 1 << 20
-"""The most pixels whose rays are made at once: fewer, and threads would wait at each of numpy's calls."""
+"""Pixels whose rays are made at once, where a thread's share has as many: fewer, and threads would wait at each of
+numpy's calls.
+"""
 
 
 def pose_from(raw: BlenderCamera) -> Pose:
@@ -112,7 +114,7 @@ class Camera:
         write, pixels = (self._write_smooth, SMOOTH_PIXELS) if smooth else (self._write, BLOCK_PIXELS)
         threads = os.cpu_count() or 1
         step = ROWS * max(1, round(min(pixels / max(x.size, 1), y.size / threads) / ROWS))
-        if is_grid(x, y) and y.size > step:
+        if is_grid(x, y) and y.ndim == 2 and y.size > step:
             keep_memory()
             begin = -floor(y[0, 0]) % ROWS if smooth else 0  # where the raster's first whole panels do
             edges = sorted({0, *range(begin, y.size, step), y.size})
@@ -125,7 +127,7 @@ class Camera:
 
     def _is_smooth(self, x, y) -> bool:
         """Whether polynomials are to give the rays: a raster's, whose directions are more than a row and a column."""
-        if not (getattr(self.model, "by_panels", True) and is_raster(x, y)):
+        if not (getattr(self.model, "smooth", True) and is_raster(x, y)):
             return False
         direction = self.model.rays(x[:, :2], y[:2])[1]
         return not (is_one(direction) or is_lattice(direction))
@@ -133,8 +135,8 @@ class Camera:
     def _write(self, x, y, origins, directions, valid) -> None:
         """Write the world rays through pixel coordinates; the origins only where there is more than the eye."""
         with whole_rows(valid.shape[-1] if valid.ndim else 1):
-            if hasattr(self.model, "turned") and self.is_rigid:
-                self.model.turned(self.pose.basis, x, y, directions)
+            if hasattr(self.model, "write_directions") and self.is_rigid:
+                self.model.write_directions(self.pose.basis, x, y, directions)
                 np.logical_not(np.isnan(directions[..., 0]), out=valid)
                 return
             origin, direction = self.camera_rays(x, y)
@@ -151,11 +153,6 @@ class Camera:
         disc = getattr(self.model, "disc", None)
         endless = self if disc is None else replace(self, model=self.model.endless)
 
-        def origin(x, y):
-            start = endless.camera_rays(x, y)[0]
-            for row, eye in zip(self.pose.basis, self.pose.eye, strict=True):
-                yield dot(row, start) + eye
-
         def direction(x, y):
             along = endless.camera_rays(x, y)[1]
             length = self._length(along) if self.model.planar else None
@@ -163,9 +160,14 @@ class Camera:
                 component = dot(row, along)
                 yield component if length is None else component / length
 
+        def origin(x, y):
+            start = self.camera_rays(x, y)[0]
+            for row, eye in zip(self.pose.basis, self.pose.eye, strict=True):
+                yield dot(row, start) + eye
+
         valid[...] = fill(direction, x, y, directions[None], disc)
         if not self.model.central:
-            fill(origin, x, y, origins[None], disc)
+            fill(origin, x, y, origins[None])
 
     def _length(self, direction):
         """Return the world's length of what ``camera_rays`` gives; of a row and a column it is one sum."""

@@ -15,7 +15,7 @@ import numpy as np
 
 from ..records import BlenderCamera, Raster
 from .film import Window
-from .radial import Radial, radii, up_to
+from .radial import Radial, radii_of, up_to
 from .settings import WIDEST_FISHEYE, positive
 
 
@@ -36,7 +36,7 @@ class FisheyeEquidistant(Radial):
 
     def factors(self, r_squared):
         """See Radial."""
-        r = radii(r_squared)
+        r = radii_of(r_squared)
         theta = r * self.half_fov
         return np.sin(theta) / r, np.cos(theta)
 

@@ -26,7 +26,7 @@ class FisheyeEquisolid(Radial):
     """s = r / 2f = sin(theta / 2); the window gives s."""
 
     key = "FISHEYE_EQUISOLID"
-    by_panels = False
+    smooth = False
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> FisheyeEquisolid:

@@ -24,7 +24,7 @@ class FisheyeOrthographic(Radial):
     """The window gives sin(theta); the rim is sin(fov / 2)."""
 
     key = "FISHEYE_ORTHOGRAPHIC"
-    by_panels = False
+    smooth = False
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> FisheyeOrthographic:

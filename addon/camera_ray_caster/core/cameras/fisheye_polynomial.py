@@ -22,7 +22,7 @@ from ..panels import on_raster
 from ..records import BlenderCamera, InputError, Raster
 from .film import Film, Window
 from .inversion import Inverse
-from .radial import AT_THE_RIM, TINY, Radial, radii
+from .radial import AT_THE_RIM, TINY, Radial, radii_of
 from .settings import FULL_TURN, WIDEST_FISHEYE, number, positive
 from .silhouette import pixel_bounds, radial_intervals
 
@@ -66,7 +66,9 @@ class FisheyePolynomial(Radial):
                 f"and folds the picture: it must grow or fall all the way to the corner at {corner:.6g} mm"
             )
         lens = cls(window, np.inf, coefficients, half_fov, float(turns[0]) if turns.size else corner)
-        return replace(lens, rim=float(lens.radius(half_fov)) * BEYOND) if lens.widest == half_fov else lens
+        if lens.widest < half_fov or lens.widest == np.inf:
+            return lens
+        return replace(lens, rim=float(np.fmax(lens._inverse(half_fov), 0.0)) * BEYOND)  # 0 where theta begins beyond
 
     def angle(self, r):
         """Return theta (rad) of radii in mm."""
@@ -80,7 +82,7 @@ class FisheyePolynomial(Radial):
 
     def factors(self, r_squared):
         """See Radial."""
-        r = radii(r_squared)
+        r = radii_of(r_squared)
         theta = self.angle(r)
         theta = np.where(np.abs(theta) > self.half_fov, np.nan, theta)
         return np.sin(theta) / r, np.cos(theta)

@@ -16,8 +16,10 @@ from ..conventions import EPS
 KNOTS = 16385
 """Points of the table: a guess from it is right to about 1e-9, and one Newton step to its square."""
 
-SPARSE = 64
-"""A table so much shorter is looked up four times as fast."""
+SPARSE, ORDINARY = 64, 0.9
+"""A table so much shorter is looked up four times as fast, and does for this part of it: entries may lie far apart near
+its end.
+"""
 
 NEAR = 1e-8
 """Of x: the square root of rounding. Where the step is shorter, what it leaves is less than the function's rounding."""
@@ -47,9 +49,11 @@ class Inverse:
         return knots, self.function(knots)
 
     def guess(self, target):
-        """Return what every SPARSE-th entry of the table gives, right to about 1e-5; NaN for a target outside."""
+        """Return what a table gives, a start for Newton's method; NaN for a target outside."""
         knots, values = self._table
-        return np.interp(target, values[::SPARSE], knots[::SPARSE], np.nan, np.nan)
+        if not (target > values[int(ORDINARY * KNOTS)]).any():
+            knots, values = knots[::SPARSE], values[::SPARSE]
+        return np.interp(target, values, knots, np.nan, np.nan)
 
     def __call__(self, target):
         """Return the inverse of an array of targets."""

@@ -22,7 +22,7 @@ from ..vector import components
 from .film import Window
 from .inversion import Inverse
 from .pitched import Pitched
-from .radial import Radial, radii
+from .radial import Radial, radii_of
 from .settings import number
 
 ASPECT = 1.283458
@@ -30,7 +30,7 @@ LINEAR, CUBIC, QUINTIC = 1.411269, -0.09439, 0.25674
 
 
 def angle(r):
-    """Return theta (rad) of radii up to 1."""
+    """Return theta (rad) of radii; those up to 1 are the lens."""
     return r * (LINEAR + r * r * (CUBIC + r * r * QUINTIC))
 
 
@@ -55,7 +55,7 @@ class Lens(Radial):
 
     def factors(self, r_squared):
         """See Radial."""
-        r = radii(r_squared)
+        r = radii_of(r_squared)
         theta = angle(r)
         return np.sin(theta) / r, np.cos(theta)
 

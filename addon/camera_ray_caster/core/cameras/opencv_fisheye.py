@@ -21,7 +21,7 @@ from ..panels import on_raster
 from ..records import BlenderCamera, Raster
 from .calibration import FISHEYE, Calibration
 from .inversion import Inverse
-from .radial import AT_THE_RIM, Radial, radii
+from .radial import AT_THE_RIM, Radial, radii_of
 
 
 @dataclass(frozen=True)
@@ -69,7 +69,7 @@ class OpencvFisheye(Radial):
 
     def factors(self, r_squared):
         """See Radial."""
-        r = radii(r_squared)
+        r = radii_of(r_squared)
         theta = self._angle(r)
         return np.sin(theta) / r, np.cos(theta)
 

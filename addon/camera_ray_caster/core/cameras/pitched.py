@@ -23,9 +23,9 @@ class Pitched(Radial):
         origin, direction = super().rays(x, y)
         return origin, self._pitched(direction, self.elevation)
 
-    def turned(self, matrix, x, y, out) -> None:
+    def write_directions(self, matrix, x, y, out) -> None:
         """See Radial."""
-        super().turned(matrix @ np.array(self._pitched(np.eye(3), self.elevation)), x, y, out)
+        super().write_directions(matrix @ np.array(self._pitched(np.eye(3), self.elevation)), x, y, out)
 
     def project(self, points):
         """See Radial."""

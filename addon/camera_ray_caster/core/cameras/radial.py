@@ -37,7 +37,7 @@ class Radial(ABC):
 
     planar = False
     central = True
-    by_panels = True
+    smooth = True
     """Whether polynomials give the rays of a picture (see panels): not where all that the factors take is a root, which
     is singular at the rim or little beyond.
     """
@@ -66,7 +66,7 @@ class Radial(ABC):
 
     @property
     def endless(self) -> Self:
-        """The same lens without a rim: smooth where this one ends."""
+        """The same lens without a rim: it goes on as far as its formula does."""
         return replace(self, rim=np.inf)
 
     def rays(self, x, y):
@@ -79,7 +79,7 @@ class Radial(ABC):
         scale, cosine = self._factors_at(x, y)
         return (0.0, 0.0, 0.0), (a * scale, b * scale, -cosine)
 
-    def turned(self, matrix, x, y, out) -> None:
+    def write_directions(self, matrix, x, y, out) -> None:
         """Write matrix @ direction of ``rays`` into (..., 3): what a and b bring may stay a row and a column."""
         a, b = self._plane(x, y)
         scale, cosine = self._factors_at(x, y)
@@ -120,7 +120,7 @@ class Radial(ABC):
         return pixel_bounds(self.window, *radial_intervals(centres, radii, self.radius, self.widest))
 
 
-def radii(r_squared):
+def radii_of(r_squared):
     """Return the radii of their squares, at least TINY."""
     return np.maximum(np.sqrt(r_squared), TINY)
 

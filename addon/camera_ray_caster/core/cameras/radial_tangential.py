@@ -164,7 +164,7 @@ class RadialTangential:
                 slow = ~(np.abs(step_x) + np.abs(step_y) <= NEAR * r)
                 if not slow.any():
                     break
-        slow = (slow | ~(r <= min(self.limit, np.finfo(float).max))) & ~np.isnan(u)
+        slow = (slow | (r > self.limit) | ~np.isfinite(r)) & ~np.isnan(u)
         if slow.any():
             x, y = np.asarray(x), np.asarray(y)
             x[slow], y[slow] = self._careful(u[slow], v[slow])

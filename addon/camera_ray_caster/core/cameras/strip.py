@@ -43,7 +43,7 @@ class Strip:
     key = "STRIP"
     planar = False
     central = False
-    by_panels = False
+    smooth = False
     """A path may bend between neighbouring columns."""
 
     @classmethod
