@@ -60,7 +60,7 @@ def run(camera, shapes, passes, threads: int, rounds: int = 3) -> list[dict]:
         bpy.ops.render.render()
         return perf_counter() - began
 
-    own_entries = {
+    both_of_ours = {
         "ours, 4 passes": lambda: ours(passes),
         "ours, depth + index": lambda: ours(("depth", "shape_index")),
     }
@@ -69,17 +69,17 @@ def run(camera, shapes, passes, threads: int, rounds: int = 3) -> list[dict]:
         "scene.ray_cast loop": loop,
         "the same, its 4 passes kept": keeping_loop,
     }
-    times: dict[str, list[float]] = {name: [] for name in (*own_entries, *others)}
+    times: dict[str, list[float]] = {name: [] for name in (*both_of_ours, *others)}
     for turn in range(rounds + 1):
         for other, one in others.items():
-            for name, entry in (*own_entries.items(), (other, one)):
+            for name, entry in (*both_of_ours.items(), (other, one)):
                 sleep(c.PAUSE)
                 seconds = entry()
                 if turn:
                     times[name].append(1e3 * seconds)
     print(f"\nBlender {bpy.app.version_string}, {len(shapes) - 1} spheres and a wall, ms a picture")
     print(f"  {'':28}{'least':>10}{'median':>10}{'over our 4':>12}{'over our 2':>12}")
-    four, two = (float(np.median(times[name])) for name in own_entries)
+    four, two = (float(np.median(times[name])) for name in both_of_ours)
     rows = []
     for name, own in times.items():
         median = float(np.median(own))

@@ -6,6 +6,7 @@ import cv2
 import numpy as np
 import pytest
 
+from camera_ray_caster.core.cameras.radial_tangential import RadialTangential
 from camera_ray_caster.core.conventions import EPS
 from camera_ray_caster.core.panels import FEWEST
 
@@ -205,3 +206,14 @@ def test_rays_of_a_picture_are_those_of_its_pixels(name, width):
     assert rows.valid.all() == ((name, width) != ("barrel", 2000))
     difference = np.abs(rows.directions.reshape(-1, 3) - pixels.directions)[pixels.valid]
     assert difference.max() < 16 * EPS
+
+
+@pytest.mark.parametrize("farthest", [1.0, 10.0, 500.0], ids=["45 degrees", "84 degrees", "89.9 degrees"])
+def test_a_picture_without_an_end_is_undistorted_by_whole_newton_steps(farthest, monkeypatch):
+    """However far apart the entries of the table lie from which they start."""
+    monkeypatch.setattr(RadialTangential, "_careful", lambda self, u, v: pytest.fail(f"{u.size} take halved steps"))
+    lens = RadialTangential(k1=-0.3, k2=0.1, p1=1e-3)
+    r, azimuth = np.linspace(0, farthest, 20_001)[1:], 0.1
+    x, y = r * math.cos(azimuth), r * math.sin(azimuth)
+    found = np.hypot(*np.subtract(lens.undistort(*lens.distort(x, y)), (x, y)))
+    assert (found <= 16 * EPS * r * lens.cancelled(r * r)).all()
