@@ -14,7 +14,7 @@ import numpy as np
 
 from .camera import Camera
 from .clock import Clock, groups
-from .hits import ALL, Hits
+from .hits import Hits
 from .loops import STRIP, Scratch, keep_memory, whole_rows
 from .nearest import nearest
 from .passes import PASSES
@@ -196,15 +196,24 @@ def _cast_tile(tile: Tile, plan: Plan, names, samples: int, images: Images, scra
 def _store(hits: Hits, outs: dict[str, np.ndarray], where) -> None:
     """Write passes, only where they are meant: block by block those that need more than the search has found."""
     with whole_rows(hits.t.shape[1]):
-        for derived, parts in ((False, [(ALL, hits)]), (True, hits.blocks())):
-            names = [name for name in outs if PASSES[name].derived is derived]
-            for rows, block in parts if names else ():
-                for name in names:
-                    out = outs[name][rows]
-                    target = out if where is None else np.empty_like(out)
-                    PASSES[name].write(block, target)
-                    if where is not None:
-                        np.copyto(out, target, where=_broadcast(where[rows], target))
+        at_once = {name: PASSES[name].at_once(hits) for name in outs}
+        for name, write in at_once.items():
+            if write is not None:
+                _put(write, hits, outs[name], where)
+        block_by_block = [name for name, write in at_once.items() if write is None]
+        for rows, block in hits.blocks() if block_by_block else ():
+            for name in block_by_block:
+                _put(PASSES[name].write, block, outs[name][rows], None if where is None else where[rows])
+
+
+def _put(write, hits: Hits, out, where) -> None:
+    """Write a pass, only where it is meant; None for all pixels."""
+    if where is None:
+        write(hits, out)
+        return
+    target = np.empty_like(out)
+    write(hits, target)
+    np.copyto(out, target, where=_broadcast(where, target))
 
 
 def _broadcast(where, image):

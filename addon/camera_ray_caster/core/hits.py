@@ -12,7 +12,7 @@ from .loops import Scratch, lazy
 from .plan import Plan
 from .shapes import SHAPE_OF_KIND
 from .shapes.normals import ZERO
-from .vector import components, difference, dot, linear, matvec, rows
+from .vector import components, difference, dot, is_lattice, linear, matvec, rows
 
 BLOCK_PIXELS = 1 << 16
 """Pixels whose passes are made at once."""
@@ -24,7 +24,7 @@ NOTHING = -1
 """Shape index of a pixel that sees none."""
 
 
-@dataclass(frozen=True)
+@dataclass(eq=False)
 class Hits:
     """The hits of some rows, (rows, columns) arrays, and what follows from them, worked out when a pass asks."""
 
@@ -42,17 +42,29 @@ class Hits:
     scratch: Scratch
     corner: tuple[int, int] = (0, 0)
     """Column and row of the render window at which the rays begin."""
+    full: bool = False
+    """Whether it is known that every ray hits something."""
 
     def blocks(self):
         """Yield (rows, hits) of some rows at a time, BLOCK_PIXELS of them: working arrays stay in a core's cache."""
         height, width = self.t.shape
         step = max(1, BLOCK_PIXELS // width)
         for first in range(0, height, step):
-            part = slice(first, first + step)
-            origin, direction = (tuple(cut(c, (part, ALL)) for c in vector) for vector in (self.origin, self.direction))
-            corner = self.corner[0], self.corner[1] + first
-            rays = self.plan, self.from_eye, origin, direction
-            yield part, Hits(*rays, self.t[part], self.index[part], self.scratch, corner)
+            rows = slice(first, first + step)
+            yield rows, self.part(rows, slice(0, width))
+
+    def part(self, rows: slice, columns: slice) -> Hits:
+        """Return the hits of a window of these."""
+        window = rows, columns
+        origin, direction = (tuple(cut(c, window) for c in vector) for vector in (self.origin, self.direction))
+        hits = Hits(
+            self.plan, self.from_eye, origin, direction, self.t[window], self.index[window], self.scratch,
+            (self.corner[0] + columns.start, self.corner[1] + rows.start), self.full,
+        )  # fmt: skip
+        if self.lattice is not None:
+            row, column = self.lattice
+            hits.lattice = row[..., columns], column[:, rows]
+        return hits
 
     @lazy
     def rows(self) -> np.ndarray:
@@ -77,7 +89,7 @@ class Hits:
     @lazy
     def missed(self) -> np.ndarray | None:
         """Where none is, bool; None where that is nowhere."""
-        return ~self.seen if self.index.min(initial=0) == NOTHING else None
+        return None if self.full or self.index.min(initial=0) != NOTHING else ~self.seen
 
     @lazy
     def has_ray(self) -> np.ndarray:
@@ -93,6 +105,18 @@ class Hits:
         return matvec(self.plan.camera.pose.basis, self.direction)
 
     @lazy
+    def lattice(self) -> tuple[np.ndarray, np.ndarray] | None:
+        """The two terms of a pinhole's directions, (3, 1, columns) and (3, rows, 1) world components; None for others.
+
+        They are made for a whole tile: short calls, too, are a moment in which threads wait for each other.
+        """
+        if not is_lattice(self.direction):
+            return None
+        x, y, z = self.direction
+        to_x, to_y, to_z = self.plan.camera.pose.basis.T[..., None, None]
+        return to_x * x, to_y * y + to_z * z
+
+    @lazy
     def point(self):
         """The hit points relative to the eye, (3, rows, columns) world components; no number of meaning where nothing
         is hit.
@@ -100,7 +124,11 @@ class Hits:
         shape = 3, *self.t.shape
         point, spare = self.scratch("point", shape, np.float64), self.scratch("spare", shape, np.float64)
         axes = self.plan.camera.pose.basis.T[..., None, None]
-        np.multiply(linear(axes, self.direction, point, spare), self.t, out=point)
+        if self.lattice is not None:
+            np.add(*self.lattice, out=point)
+        else:
+            linear(axes, self.direction, point, spare)
+        np.multiply(point, self.t, out=point)
         if not self.from_eye:
             offset = self.scratch("offset", shape, np.float64)
             np.add(linear(axes, self.origin, offset, spare), point, out=point)

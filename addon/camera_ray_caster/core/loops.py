@@ -49,6 +49,14 @@ def whole_rows(width: int) -> Iterator[None]:
         np.setbufsize(usual)
 
 
+def widened(bounds, width: int) -> tuple[slice, slice]:
+    """Return the window of some bounds, as much wider as ``whole_rows`` likes it, within a tile of this width."""
+    x0, x1, y0, y1 = bounds
+    wide = min(-(-(x1 - x0) // MULTIPLE) * MULTIPLE, width)
+    x0 = min(x0, width - wide)
+    return slice(y0, y1), slice(x0, x0 + wide)
+
+
 @cache
 def keep_memory() -> None:
     """Let the C library keep the memory of arrays that go, for those that come.

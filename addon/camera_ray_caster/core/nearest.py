@@ -13,7 +13,7 @@ import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 
 from .hits import NOTHING, Hits, cut
-from .loops import MULTIPLE, Scratch, whole_rows
+from .loops import Scratch, whole_rows, widened
 from .plan import Group, Plan
 from .vector import is_lattice
 
@@ -52,7 +52,8 @@ def nearest(plan: Plan, origin, direction, from_eye: bool, corner, scratch: Scra
         beyond = np.greater(tile.t, plan.real(plan.camera.clip_end), out=scratch("closer", shape, bool))
         np.copyto(tile.index, NOTHING, where=beyond)
         np.copyto(tile.t, np.inf, where=beyond)
-    return Hits(plan, from_eye, origin, direction, tile.t, tile.index, scratch, corner)
+    full = tile.covered and not plan.clips
+    return Hits(plan, from_eye, origin, direction, tile.t, tile.index, scratch, corner, full)
 
 
 @dataclass
@@ -69,6 +70,8 @@ class Tile:
     scratch: Scratch
     blank: bool = True
     """Whether ``t`` and ``index`` are still to be written."""
+    covered: bool = False
+    """Whether every ray is known to hit something."""
 
     def clear(self) -> None:
         """Note that nothing was hit yet, unless something was."""
@@ -98,7 +101,7 @@ class Tile:
 
     def cast_one(self, index: int, bounds, solve: Callable) -> None:
         """Test one shape at the pixels of its bounds."""
-        window = _widened(bounds, self.t.shape[1])
+        window = widened(bounds, self.t.shape[1])
         with whole_rows(window[1].stop - window[1].start):
             found, where = solve(window, self.scratch)
             if found is not None:
@@ -122,7 +125,7 @@ class Tile:
         if self.blank and where is True and t.shape == self.t.shape:
             np.copyto(t, found)
             index.fill(shape)
-            self.blank = False
+            self.blank, self.covered = False, True
             return
         self.clear()
         closer = np.less_equal(found, t, out=self.scratch("closer", t.shape, bool))
@@ -166,14 +169,6 @@ class Tile:
 def _rounded(vector, real):
     """Return components as float32 where that is what is calculated with; as they are otherwise."""
     return vector if real is np.float64 else tuple(np.asarray(component, real) for component in vector)
-
-
-def _widened(bounds, width: int):
-    """Return the window of some bounds, as much wider as numpy's loops like it, within a tile of this width."""
-    x0, x1, y0, y1 = bounds
-    wide = min(-(-(x1 - x0) // MULTIPLE) * MULTIPLE, width)
-    x0 = min(x0, width - wide)
-    return slice(y0, y1), slice(x0, x0 + wide)
 
 
 def _batches(bounds):

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from . import painting
 from .hits import Hits
 from .shading import shade
 from .shapes.normals import ZERO
@@ -20,16 +21,20 @@ ROUNDED_UP = 1 + 2.0**-9
 """Makes up for rounding the bounds themselves, to what they are stored as."""
 
 
+def never(hits: Hits) -> None:
+    """A pass that is written block by block: its working arrays stay in a core's cache."""
+
+
 @dataclass(frozen=True)
 class Pass:
-    """How a pass is stored and made. ``write(hits, out)`` fills a tile of ``out``, (rows, columns[, channels])."""
+    """How a pass is stored and made. ``write(hits, out)`` fills a part of ``out``, (rows, columns[, channels])."""
 
     write: Callable[[Hits, np.ndarray], None]
     channels: int = 0
     dtype: type | None = None
     """What it is stored as; None takes the cast's dtype."""
-    derived: bool = True
-    """Whether more is needed than t and index of the hits."""
+    at_once: Callable[[Hits], Callable[[Hits, np.ndarray], None] | None] = never
+    """Given the hits of a tile, returns what writes it as a whole; None where ``write`` is better called for blocks."""
 
 
 def combined(hits: Hits, out):
@@ -136,14 +141,14 @@ def _write(out, vector, offset, blank):
 
 PASSES = {
     "combined": Pass(combined, 4),
-    "depth": Pass(depth, derived=False),
+    "depth": Pass(depth, at_once=lambda hits: depth),
     "distance": Pass(distance),
     "position": Pass(position, 3),
-    "normal": Pass(normal, 3),
+    "normal": Pass(normal, 3, at_once=painting.normal),
     "uv": Pass(uv, 3),
-    "object_index": Pass(object_index, 0, np.int32),
-    "material_index": Pass(material_index, 0, np.int32),
-    "shape_index": Pass(shape_index, 0, np.int32, derived=False),
+    "object_index": Pass(object_index, 0, np.int32, lambda hits: painting.constant(hits, hits.plan.object_index)),
+    "material_index": Pass(material_index, 0, np.int32, lambda hits: painting.constant(hits, hits.plan.material_index)),
+    "shape_index": Pass(shape_index, 0, np.int32, lambda hits: shape_index),
     "valid": Pass(valid, 0, np.bool_),
     "ray_origin": Pass(ray_origin, 3),
     "ray_direction": Pass(ray_direction, 3),

@@ -24,6 +24,9 @@ SAMPLE_MARGIN = np.array([-0.5, 0.5, -0.5, 0.5])
 STORED = 0.25
 """What a pass costs, in tests of a pixel."""
 
+PAINTED = 2.0
+"""Pixels in the bounds of the shapes, for each of the picture, up to which painting them takes less than looking up."""
+
 PRECISIONS = {"AUTOMATIC": np.float64, "ROBUST": np.float64, "FAST": np.float32}
 """What hits are searched with. float32 is for previews: it may miss what is smaller than 1e-7 of its distance, and its
 bound is never within the rounding of a stored float32, so that AUTOMATIC has no picture for which it suffices. Nor does
@@ -128,6 +131,14 @@ class Plan:
         """The constants of the normals, made when a pass first asks for them."""
         seen = np.concatenate([np.zeros(0, np.intp), *(group.at for group in self.groups)])
         return normal_table(self.shapes, self.placed, self.camera.pose, seen)
+
+    @cached_property
+    def is_painted(self) -> bool:
+        """Whether the shapes in view are few and large: what is theirs is painted, not looked up by every pixel."""
+        height, width = self.camera.raster.shape
+        edges = np.concatenate([np.zeros((0, 4), int), *(group.bounds for group in self.groups)])
+        pixels = ((edges[:, 1] - edges[:, 0]) * (edges[:, 3] - edges[:, 2])).sum()
+        return pixels <= PAINTED * height * width and not any(group.small for group in self.groups)
 
     @property
     def eye_outside(self) -> bool:

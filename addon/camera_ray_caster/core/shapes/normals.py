@@ -36,6 +36,11 @@ class NormalTable:
     curved: Curved | None
     """The ellipsoids; None where there is none."""
 
+    @property
+    def is_sum(self) -> bool:
+        """Whether gain times point plus offset is all there is to do."""
+        return self.unit and self.curved is None
+
     def look_up(self, hits) -> tuple[np.ndarray, np.ndarray]:
         """Return two terms whose sum is the unit normal where something is hit, (3, rows, columns) components in arrays
         of the hits' scratch; the second is ZERO where there is more to do than to add them.
@@ -45,7 +50,7 @@ class NormalTable:
         constants = hits.look_up(self.constants, "constants")
         gain, offset = constants[0], constants[1:]
         normal = np.multiply(gain, hits.point, out=hits.scratch("turned", offset.shape, np.float64))
-        if self.curved is None and self.unit:
+        if self.is_sum:
             return normal, offset
         np.add(normal, offset, out=normal)
         if self.curved is not None:

@@ -1,0 +1,91 @@
+"""Passes painted shape by shape, a whole tile at once: bit for bit what they are when each pixel looks its shape up in
+a table, in less time where the shapes in view are few and large.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from functools import partial
+
+import numpy as np
+
+from .hits import NOTHING, Hits
+from .loops import whole_rows, widened
+from .records import SPHERE
+
+BLOCK_PIXELS = 1 << 18
+"""Pixels that are painted at once."""
+
+
+def constant(hits: Hits, table) -> Callable[[Hits, np.ndarray], None] | None:
+    """Return what writes each shape's entry of a table (n + 1,), its last one where nothing is hit; None where looking
+    up takes less.
+    """
+    return partial(_paint_constant, table) if hits.plan.is_painted else None
+
+
+def normal(hits: Hits) -> Callable[[Hits, np.ndarray], None] | None:
+    """Return what writes the unit normals, 0 where nothing is hit; None where looking up takes less."""
+    if not (hits.plan.is_painted and hits.from_eye and hits.plan.eye_outside and hits.lattice is not None):
+        return None
+    return _paint_normal if hits.plan.normals.is_sum else None
+
+
+def _paint_constant(table, hits: Hits, out) -> None:
+    backdrop, others = _layers(hits)
+    out.fill(table[backdrop])
+    for shape, window, mask in others:
+        np.copyto(out[window], table[shape], where=mask)
+
+
+def _paint_normal(hits: Hits, out) -> None:
+    gains, *offsets = hits.plan.normals.constants
+    backdrop, others = _layers(hits)
+    flat = np.array([offset[backdrop] for offset in offsets], out.dtype)
+    np.copyto(
+        out, np.tile(flat, (out.shape[1], 1))
+    )  # rows that are there are copied faster than a pixel again and again
+    for shape, window, mask in others:
+        target = out[window]
+        if gains[shape] == 0:
+            for axis, offset in enumerate(offsets):
+                np.copyto(target[..., axis], offset[shape], where=mask, casting="same_kind")
+            continue
+        with whole_rows(mask.shape[1]):
+            point = hits.part(*window).point
+            np.multiply(point, gains[shape], out=point)
+            for axis, offset in enumerate(offsets):
+                component = np.add(point[axis], offset[shape], out=point[axis])
+                np.copyto(target[..., axis], component, where=mask, casting="same_kind")
+
+
+def _layers(hits: Hits) -> tuple[int, Iterator[tuple[int, tuple[slice, slice], np.ndarray]]]:
+    """Return the flat shape with the largest bounds, or NOTHING, which is painted first, everywhere; and all others that
+    are seen, each with windows and the pixels of these that see it.
+    """
+    height, width = hits.t.shape
+    bounds: dict[int, list[int]] = {}
+    for group in hits.plan.groups:
+        at, edges = group.within(hits.corner, hits.t.shape)
+        bounds |= zip(group.at[at].tolist(), edges.tolist(), strict=True)
+    flat = (shape for shape in bounds if hits.plan.shapes.kind[shape] != SPHERE)
+    backdrop = max(flat, key=lambda shape: _pixels(*bounds[shape]), default=NOTHING)
+    if hits.missed is not None:
+        bounds[NOTHING] = [0, width, 0, height]
+    bounds.pop(backdrop, None)
+    return backdrop, _seen(hits, bounds)
+
+
+def _pixels(x0: int, x1: int, y0: int, y1: int) -> int:
+    return (x1 - x0) * (y1 - y0)
+
+
+def _seen(hits: Hits, bounds):
+    for shape, (x0, x1, y0, y1) in bounds.items():
+        step = max(1, BLOCK_PIXELS // (x1 - x0))
+        for first in range(y0, y1, step):
+            window = widened((x0, x1, first, min(first + step, y1)), hits.t.shape[1])
+            index = hits.index[window]
+            mask = np.equal(index, shape, out=hits.scratch("closer", index.shape, bool))
+            if mask.any():
+                yield shape, window, mask
