@@ -60,8 +60,8 @@ def _paint_normal(hits: Hits, out) -> None:
 
 
 def _layers(hits: Hits) -> tuple[int, Iterator[tuple[int, tuple[slice, slice], np.ndarray]]]:
-    """Return the flat shape with the largest bounds, or NOTHING, which is painted first, everywhere; and all others that
-    are seen, each with windows and the pixels of these that see it.
+    """Return what is painted first, everywhere: the flat shape with the largest bounds, NOTHING without one. And all
+    others that are seen, each with windows and with the pixels of these that see it.
     """
     height, width = hits.t.shape
     bounds: dict[int, list[int]] = {}

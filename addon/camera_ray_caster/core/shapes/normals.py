@@ -90,7 +90,7 @@ def normal_table(shapes: Shapes, placed: Placed, pose: Pose, seen) -> NormalTabl
     gain, offset = np.zeros(n + 1), np.zeros((n + 1, 3))
     gain[:n][is_round] = 1 / np.abs(shapes.axes[is_round, 0, 0])
     flat = flat / np.sqrt((flat * flat).sum(axis=1, keepdims=True))
-    offset[:n] = np.where(is_round[:, None], (pose.eye - shapes.centre) * gain[:n, None], flat)
+    offset[:n] = np.where(is_round[:, None], (pose.eye - shapes.centre) * gain[:n, None], flat) + 0.0  # never -0
     curved = sphere & ~is_round
     far = np.abs(offset[seen]).max(initial=0.0)
     return NormalTable(
