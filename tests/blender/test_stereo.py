@@ -96,9 +96,34 @@ def test_an_eye_stands_and_looks_as_blender_says(scene, ask_blender, kind, mode,
 @pytest.mark.parametrize(("mode", "pivot"), [("OFFAXIS", "CENTER"), ("TOE", "LEFT"), ("PARALLEL", "RIGHT")])
 @pytest.mark.parametrize("kind", KINDS)
 def test_both_eyes_are_rendered(blender, scene, tmp_path, kind, mode, pivot):
+    set_up(scene, kind, mode, pivot)
+    render_position(blender, scene, tmp_path)
+    for view in VIEWS:
+        expected = cast(read_camera(scene, view=view), read_shapes(scene), ["position"])["position"]
+        assert expected.any(axis=2).mean() > 0.4
+        assert_same_position(tmp_path, view, expected)
+
+
+@pytest.mark.parametrize("mode", ["OFFAXIS", "TOE"])
+def test_a_model_with_eyes_of_its_own_is_rendered_with_each(blender, scene, tmp_path, mode):
+    """What either eye shows is what a scene without stereo shows of the model's eye of that name."""
+    set_up(scene, "panorama", mode, "CENTER")
+    own = scene.camera.data.camera_ray_caster
+    own.model = "OMNIDIRECTIONAL_STEREO"
+    render_position(blender, scene, tmp_path)
+    scene.render.use_multiview = False
+    for view in VIEWS:
+        own.eye = view.upper()
+        assert_same_position(tmp_path, view, cast(read_camera(scene), read_shapes(scene), ["position"])["position"])
+    own.eye, scene.render.use_multiview = "TOP_BOTTOM", True
+    with pytest.raises(RuntimeError, match="both eyes in one picture"):
+        blender.ops.render.render()
+
+
+def render_position(blender, scene, folder):
+    """Render the position pass of both eyes into folder/picture_L.exr and _R."""
     from camera_ray_caster.blender import passes
 
-    set_up(scene, kind, mode, pivot)
     scene.render.engine = "CAMERA_RAY_CASTER"
     settings = scene.render.image_settings
     if hasattr(settings, "media_type"):
@@ -107,18 +132,19 @@ def test_both_eyes_are_rendered(blender, scene, tmp_path, kind, mode, pivot):
     if hasattr(settings, "use_exr_interleave"):
         settings.use_exr_interleave = True
     passes.tick(scene, blender.context.view_layer, ["combined", "position"])
-    scene.render.filepath = str(tmp_path / "picture.exr")
+    scene.render.filepath = str(folder / "picture.exr")
     blender.ops.render.render(write_still=True)
-    for view, suffix in zip(VIEWS, "LR", strict=True):
-        channels = read_exr(tmp_path / f"picture_{suffix}.exr")
-        layers = [next(c for name, c in channels.items() if f"Position.{axis}" in name) for axis in "XYZ"]
-        expected = cast(read_camera(scene, view=view), read_shapes(scene), ["position"])["position"]
-        hit = expected.any(axis=2)
-        assert hit.mean() > 0.4
-        difference = np.abs(np.stack(layers, axis=-1) - expected)
-        far = np.linalg.norm(expected - (0.5, -1, 6), axis=2, keepdims=True)
-        slope = far / 6  # of the floor, from 6 above
-        assert (difference <= 64 * EPS32 * far * slope)[hit].all()
+
+
+def assert_same_position(folder, view, expected):
+    channels = read_exr(folder / f"picture_{view[0].upper()}.exr")
+    layers = [next(c for name, c in channels.items() if f"Position.{axis}" in name) for axis in "XYZ"]
+    hit = expected.any(axis=2)
+    difference = np.abs(np.stack(layers, axis=-1) - expected)
+    far = np.linalg.norm(expected - (0.5, -1, 6), axis=2, keepdims=True)
+    slope = far / 6  # of the floor, from 6 above
+    assert hit.any()
+    assert (difference <= 64 * EPS32 * far * slope)[hit].all()
 
 
 @pytest.mark.parametrize("view", VIEWS)

@@ -98,3 +98,22 @@ def test_names_of_multi_view_cameras():
     assert camera_name("Rig_L", "_R", suffixes) == "Rig_R"
     assert camera_name("Rig_far_R", "_L", suffixes) == "Rig_L"
     assert camera_name("Rig", "_L", suffixes) == "Rig"
+
+
+@pytest.mark.parametrize("mode", ["OFFAXIS", "PARALLEL", "TOE"])
+@pytest.mark.parametrize("shown", ["LEFT", "RIGHT"])
+def test_a_camera_with_eyes_of_its_own_is_moved_once(mode, shown):
+    """Straight ahead of an omnidirectional pair the eyes are half the distance beside the camera, and look ahead."""
+    record = replace(raw(convergence_mode=mode, eye=shown), model="OMNIDIRECTIONAL_STEREO")
+    for side, eye in zip((-1, 1), eyes(record), strict=True):
+        rays = eye.rays_at(np.array([200.0]), np.array([100.0]))
+        assert rays.origins[0] == pytest.approx([side * DISTANCE / 2, 0, 0], abs=1e-15)
+        assert rays.directions[0] == pytest.approx([0, 0, -1], abs=1e-15)
+
+
+@pytest.mark.parametrize("layout", ["TOP_BOTTOM", "SIDE_BY_SIDE"])
+def test_both_eyes_in_one_picture_are_no_view_of_a_stereo_scene(layout):
+    record = replace(raw(eye=layout), model="OMNIDIRECTIONAL_STEREO")
+    with pytest.raises(InputError, match="both eyes in one picture: let it show one, or switch Stereoscopy off"):
+        eye_record(record, "left")
+    assert eye_record(record, "") is record

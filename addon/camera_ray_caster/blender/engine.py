@@ -84,9 +84,9 @@ class CameraRayCaster(Viewport, bpy.types.RenderEngine):
 
     def eye(self, raw: BlenderCamera, view: str) -> BlenderCamera:
         """Return the record of a stereo eye with the matrix and the shift that Blender hands over for it."""
-        ours = eye_record(raw, view)  # which refuses what has no model, and is the record itself where nothing moves
-        if ours is raw:
-            return raw
+        ours = eye_record(raw, view)  # which refuses what has no model, and keeps the matrix where nothing moves
+        if ours.matrix_world is raw.matrix_world:
+            return ours
         camera = self.camera_override
         shift_x = raw.shift_x if raw.type == "PANO" else self.camera_shift_x(camera)
         return replace(raw, matrix_world=np.array(self.camera_model_matrix(camera), np.float64), shift_x=shift_x)
