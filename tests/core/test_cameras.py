@@ -53,6 +53,19 @@ def test_rays_have_unit_length_and_are_as_valid_as_they_say(key, settings):
 
 
 @each_example
+def test_a_place_that_is_not_finite_has_no_ray(key, settings):
+    """Nor do numbers too large warn: a warning would fail."""
+    cam = camera(key, settings)
+    x, y = np.array([(np.inf, 1), (1, -np.inf), (np.inf, np.inf), (np.nan, 1), (1e300, 1e300), (1e160, -1e200)]).T
+    for across, up in ((x, y), (x[:, None], y)):
+        rays = cam.rays_at(across, up)
+        finite = np.isfinite(across) & np.isfinite(up)
+        assert not rays.valid[~finite].any()
+        assert (np.isnan(rays.directions).any(axis=-1) == np.isnan(rays.directions).all(axis=-1)).all()
+        assert (rays.valid == ~np.isnan(rays.directions[..., 0])).all()
+
+
+@each_example
 def test_rays_are_those_through_pixel_centres(key, settings):
     cam = camera(key, settings)
     rays = cam.rays()

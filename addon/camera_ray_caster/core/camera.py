@@ -20,6 +20,9 @@ from .records import BlenderCamera, InputError, Pose, Raster, Rays
 from .sampling import in_opening, sub_pixel
 from .vector import dot, inverse, is_grid, is_lattice, is_one, matvec, norm
 
+FARTHEST = 1e30
+"""Pixels from the frame, within which no ray's length overflows."""
+
 BLOCK_PIXELS, SMOOTH_PIXELS = 1 << 17, 1 << 20
 """Pixels whose rays are made at once, where a thread's share has as many: fewer, and threads would wait at each of
 numpy's calls.
@@ -102,7 +105,10 @@ class Camera:
         return bool(np.abs(gram - np.eye(3)).max() <= gamma(8))
 
     def rays_at(self, x, y) -> Rays:
-        """Return the world rays through pixel coordinates x, y (scalars or arrays that broadcast), as ``rays`` does."""
+        """Return the world rays through pixel coordinates x, y (scalars or arrays that broadcast), as ``rays`` does.
+
+        Pixel coordinates that are not finite have no ray.
+        """
         x, y = np.asarray(x, np.float64), np.asarray(y, np.float64)
         if self.clock is not None:
             return self._timed_rays(self.clock, x, y)
@@ -114,15 +120,23 @@ class Camera:
         write, pixels = (self._write_smooth, SMOOTH_PIXELS) if smooth else (self._write, BLOCK_PIXELS)
         threads = os.cpu_count() or 1
         step = ROWS * max(1, round(min(pixels / max(x.size, 1), y.size / threads) / ROWS))
+
+        def put(part) -> None:
+            with np.errstate(all="ignore"):  # NaN is an answer: no ray
+                write(x, y[part], origins[part], directions[part], valid[part])
+
         if is_grid(x, y) and y.ndim == 2 and y.size > step:
             keep_memory()
             begin = -floor(y[0, 0]) % ROWS if smooth else 0  # where the raster's first whole panels do
             edges = sorted({0, *range(begin, y.size, step), y.size})
             blocks = [slice(*ends) for ends in pairwise(edges)]
             with ThreadPoolExecutor(threads) as pool:  # numpy releases the interpreter
-                list(pool.map(lambda r: write(x, y[r], origins[r], directions[r], valid[r]), blocks))
+                list(pool.map(put, blocks))
         else:
-            write(x, y, origins, directions, valid)
+            put(...)
+        if not (_is_near(x) and _is_near(y)):
+            lost = np.isnan(directions).any(axis=-1) | ~(np.isfinite(x) & np.isfinite(y))
+            directions[lost], valid[...] = np.nan, ~lost
         return Rays(origins, directions, valid)
 
     def _is_smooth(self, x, y) -> bool:
@@ -210,3 +224,8 @@ class Camera:
             found = [meeting(self.clock, lambda t, p=point: self.at(t).project(p)) for point in points.reshape(-1, 3)]
             return np.reshape(found, (*points.shape[:-1], 2))
         return self.model.project((points - self.pose.eye) @ inverse(self.pose.basis).T)
+
+
+def _is_near(places) -> bool:
+    """Whether all pixel coordinates are finite, and none farther out than rays are sure to be numbers."""
+    return bool(-FARTHEST < places.min(initial=0.0) <= places.max(initial=0.0) < FARTHEST)
