@@ -3,7 +3,9 @@
 from dataclasses import replace
 
 from ..core.camera import Camera
+from ..core.facts import camera_facts
 from ..core.records import Finding
+from ..core.report import Report
 from ..core.verify import verify
 from . import witness
 from .read import observing, read_camera
@@ -17,6 +19,12 @@ def verify_camera(scene, camera_object=None, frame=None, view="") -> list[Findin
     camera = read_camera(scene, camera_object, frame, view)
     with observing(scene, camera_object, frame, view) as (active, depsgraph):
         return verify_evaluated(camera, active, depsgraph, view)
+
+
+def verified(scene) -> Report:
+    """Return the report on the scene's camera: what it is, and the findings. Raises what ``read_camera`` raises."""
+    facts = camera_facts(read_camera(scene))
+    return Report(camera=facts, frame=scene.frame_current_final, findings=tuple(verify_camera(scene)))
 
 
 def verify_evaluated(camera: Camera, camera_object, depsgraph, view="") -> list[Finding]:

@@ -7,7 +7,7 @@ from ..core.facts import camera_facts
 from ..core.records import InputError
 from ..core.report import Report, as_json
 from . import reports
-from .check import verify_camera
+from .check import verified
 from .read import read_camera
 
 NO_CAMERA = "The scene has no active camera: add one, or set one in the Scene properties"
@@ -28,13 +28,11 @@ class Verify(bpy.types.Operator):
 
     def execute(self, context):
         """Verify, keep what was found for the panel, and say it in one line."""
-        scene = context.scene
         try:
-            facts, findings = camera_facts(read_camera(scene)), verify_camera(scene)
+            report = verified(context.scene)
         except InputError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
-        report = Report(camera=facts, frame=scene.frame_current_final, findings=tuple(findings))
         reports.keep_verified(report)
         if report.passed:
             self.report({"INFO"}, "The rays agree with every witness")

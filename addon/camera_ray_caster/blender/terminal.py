@@ -16,14 +16,13 @@ from textwrap import fill
 import bpy
 
 from ..core.clock import LAST_FRAME
-from ..core.facts import camera_facts
 from ..core.passes import PASSES
 from ..core.plan import PRECISIONS
 from ..core.records import Cancelled, InputError
 from ..core.report import WIDTH, Report, as_json, as_lines
 from ..core.shading import SHADINGS
 from . import ending, pictures
-from .check import verify_camera
+from .check import verified
 from .engine import CameraRayCaster
 from .passes import tick, ticked
 from .quiet import keep_output
@@ -106,8 +105,7 @@ def verify(arguments: Sequence[str], prog: str) -> int:
     options = parser.parse_args(arguments)
     scene = _open(options)
     _go_to(scene, options.frame)
-    facts = camera_facts(read_camera(scene))
-    report = Report(camera=facts, frame=scene.frame_current_final, findings=tuple(verify_camera(scene)))
+    report = verified(scene)
     ending.heed()
     _show(report, options.json, "All witnesses agree" if report.passed else "A witness disagrees")
     return int(not report.passed)
