@@ -12,7 +12,7 @@ from .loops import Scratch, lazy
 from .plan import Plan
 from .shapes import SHAPE_OF_KIND
 from .shapes.normals import ZERO
-from .vector import components, difference, dot, is_lattice, linear, matvec, rows
+from .vector import components, difference, dot, inner, is_lattice, linear, matvec, rows
 
 BLOCK_PIXELS = 1 << 16
 """Pixels whose passes are made at once."""
@@ -100,9 +100,22 @@ class Hits:
         return ray
 
     @lazy
+    def lost(self) -> np.ndarray | None:
+        """Where the pixel has no ray, bool; None where that is nowhere."""
+        return ~self.has_ray if any(np.isnan(component).any() for component in self.direction) else None
+
+    @lazy
     def world_direction(self):
         """The directions as world components, not of unit length."""
-        return matvec(self.plan.camera.pose.basis, self.direction)
+        if self.lattice is None:
+            return matvec(self.plan.camera.pose.basis, self.direction)
+        return np.add(*self.lattice, out=self.scratch("direction", (3, *self.t.shape), np.float64))
+
+    @lazy
+    def length(self) -> np.ndarray:
+        """Of ``world_direction``: distance over t."""
+        length, spare = (self.scratch(name, self.t.shape, np.float64) for name in ("length", "spare"))
+        return np.sqrt(inner(self.world_direction, self.world_direction, length, spare), out=length)
 
     @lazy
     def lattice(self) -> tuple[np.ndarray, np.ndarray] | None:

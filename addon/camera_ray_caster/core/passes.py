@@ -40,8 +40,8 @@ class Pass:
 def combined(hits: Hits, out):
     """Linear RGBA: the shading's colour, the world's where nothing is hit, transparent black where there is no ray."""
     shade(hits, out)
-    if not hits.has_ray.all():
-        out[~hits.has_ray] = 0
+    if hits.lost is not None:
+        out[hits.lost] = 0
 
 
 def depth(hits: Hits, out):
@@ -51,7 +51,7 @@ def depth(hits: Hits, out):
 
 def distance(hits: Hits, out):
     """The length of the ray from its origin to the hit."""
-    np.multiply(hits.t, norm(hits.world_direction), out=out, casting="same_kind")
+    np.multiply(hits.t, hits.length, out=out, casting="same_kind")
     if hits.missed is not None:
         out[hits.missed] = np.inf
 
@@ -97,12 +97,12 @@ def valid(hits: Hits, out):
 def ray_origin(hits: Hits, out):
     """The origin of the chief ray in the world."""
     pose = hits.plan.camera.pose
-    _write(out, matvec(pose.basis, hits.origin), pose.eye[:, None, None], ~hits.has_ray)
+    _write(out, matvec(pose.basis, hits.origin), pose.eye[:, None, None], hits.lost)
 
 
 def ray_direction(hits: Hits, out):
     """The unit direction of the chief ray in the world."""
-    _write(out, unit(hits.world_direction), ZERO, ~hits.has_ray)
+    _write(out, unit(hits.world_direction), ZERO, hits.lost)
 
 
 def distance_bound(hits: Hits, out):

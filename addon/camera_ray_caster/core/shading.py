@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from .records import Lights
-from .vector import difference, dot, norm
+from .vector import difference, dot, inner
 
 MATERIAL, GRID = "MATERIAL", "GRID"
 SHADINGS = (MATERIAL, GRID)
@@ -27,10 +27,13 @@ def shade(hits, out) -> None:
     shapes = hits.plan.shapes
     colour = hits.plan.colours
     lit = _headlight(hits) if len(shapes.lights.is_sun) == 0 else _lamps(hits, shapes.lights)
-    grid = _grid(hits) if hits.plan.shading == GRID else 1.0
+    grid = _grid(hits) if hits.plan.shading == GRID else None
     for channel, light in enumerate(lit):
+        light = np.add(light, shapes.world_colour[channel], out=hits.scratch("spare", hits.t.shape, np.float64))
+        if grid is not None:
+            np.multiply(light, grid, out=light)
         surface = hits.look_up(colour[channel], "colour")
-        out[..., channel] = surface * (light + shapes.world_colour[channel]) * grid
+        np.multiply(surface, light, out=out[..., channel], casting="same_kind")
     out[..., 3] = hits.look_up(colour[3], "colour")
     if hits.missed is not None:
         out[hits.missed] = shapes.world_colour
@@ -49,8 +52,9 @@ def _grid(hits) -> np.ndarray:
 
 
 def _headlight(hits):
-    direction = hits.world_direction
-    light = np.abs(dot(hits.normal, direction)) / norm(direction)
+    light, spare = (hits.scratch(name, hits.t.shape, np.float64) for name in ("light", "spare"))
+    inner(hits.normal, hits.world_direction, light, spare)
+    np.divide(np.abs(light, out=light), hits.length, out=light)
     return light, light, light
 
 
