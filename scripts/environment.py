@@ -15,7 +15,7 @@ import sys
 from concurrent.futures import ThreadPoolExecutor
 
 # Two runs that together are all the tests: the last bpy's would otherwise leave a core idle.
-HALVES = "--ignore=tests/core", "--ignore=tests/blender"
+HALVES = "--ignore=tests/core", "tests/core"
 
 # A bpy wheel is built for one Python.
 PYTHON_OF_BPY = {"4.5": (3, 11), "5.0": (3, 11), "5.2": (3, 13)}

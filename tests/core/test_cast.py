@@ -7,7 +7,7 @@ import pytest
 
 from camera_ray_caster.core.cameras import camera_from
 from camera_ray_caster.core.cast import cast
-from camera_ray_caster.core.conventions import EPS, EPS32
+from camera_ray_caster.core.conventions import EPS
 from camera_ray_caster.core.passes import PASSES
 from camera_ray_caster.core.records import (
     INFINITE_PLANE,
@@ -16,7 +16,6 @@ from camera_ray_caster.core.records import (
     BlenderCamera,
     Cancelled,
     InputError,
-    Lights,
     Shapes,
 )
 
@@ -233,32 +232,6 @@ def test_fast_arithmetic_is_float32_and_its_errors_stay_within_the_bounds():
         assert error.max() > 100 * EPS
     with pytest.raises(InputError, match=r"QUICK.*AUTOMATIC"):
         cast(camera_at(), ball, passes, precision="QUICK")
-
-
-def test_sun_point_light_and_headlight_by_hand():
-    wall = (INFINITE_PLANE, (0, 0, -2), 1.0)
-    colour = np.float32([0.5, 0.25, 1.0])
-    middle = 16, 16
-    sun = Lights(np.array([[0.0, 0.6, 0.8]]), np.array([True]), np.array([[np.pi, np.pi, np.pi]]))
-    assert cast(camera_at(), shapes_of(wall, lights=sun), ("combined",))["combined"][middle] == pytest.approx(
-        [*(0.8 * colour), 1.0], rel=8 * EPS32
-    )
-    point = Lights(np.array([[0.0, 0.0, 1.0]]), np.array([False]), np.full((1, 3), 36 * np.pi**2))
-    assert cast(camera_at(), shapes_of(wall, lights=point), ("combined",))["combined"][middle] == pytest.approx(
-        [*colour, 1.0], rel=8 * EPS32
-    )
-    head = cast(camera_at(), shapes_of(wall), ("combined", "ray_direction"), np.float64)
-    assert head["combined"][..., 0] == pytest.approx(0.5 * -head["ray_direction"][..., 2])
-
-
-def test_the_grid_draws_lines_of_constant_uv():
-    square = shapes_of((PLANE, (0, 0, -1), 1.0))
-    images = cast(camera_at(), square, ("combined", "uv"), np.float64, shading="GRID")
-    off_line = np.abs(images["uv"][..., 0] * 24 - np.rint(images["uv"][..., 0] * 24)) > 0.06
-    off_line &= np.abs(images["uv"][..., 1] * 12 - np.rint(images["uv"][..., 1] * 12)) > 0.06
-    light = images["combined"][..., 0] / cast(camera_at(), square, ("combined",))["combined"][..., 0]
-    assert light[off_line] == pytest.approx(1.0, rel=1e-6)
-    assert light[~off_line] == pytest.approx(0.15, rel=1e-6)
 
 
 def test_what_is_not_needed_is_said():

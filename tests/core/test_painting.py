@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from camera_ray_caster.core import hits, plan
+from camera_ray_caster.core import cast as core_cast
+from camera_ray_caster.core import hits, painting, plan
 from camera_ray_caster.core.cast import cast
 from camera_ray_caster.core.records import INFINITE_PLANE, PLANE, SPHERE
 
@@ -21,6 +22,7 @@ SCENES = {
     "balls before a wall": shapes_of(*BALLS, (PLANE, (0, 0, -20), 40.0)),
     "balls on a floor": shapes_of(*BALLS, FLOOR),
     "planes": shapes_of(FLOOR, (PLANE, (1, 0, -8), TURNED), (PLANE, (-1, 0, -9), 2.0)),
+    "in a ball": shapes_of((SPHERE, (0, 0, 0), 30.0), *BALLS),
     "behind the camera": shapes_of((SPHERE, (0, 0, 9), 1.0)),
 }
 
@@ -29,6 +31,9 @@ SCENES = {
 def small_pictures(monkeypatch):
     """Plan for these pictures as for ones of millions of pixels."""
     monkeypatch.setattr(plan, "SMALL_PIXELS", 100)
+    monkeypatch.setattr(hits, "BLOCK_PIXELS", 1 << 13)
+    monkeypatch.setattr(painting, "BLOCK_PIXELS", 3000)
+    monkeypatch.setattr(core_cast, "TILE_PIXELS", (1 << 14, 1 << 15))
 
 
 def rotation(*angles):
@@ -58,7 +63,10 @@ def same(painted, other):
 
 @pytest.mark.parametrize("scene", SCENES)
 @pytest.mark.parametrize("dtype", [np.float32, np.float64])
-@pytest.mark.parametrize("settings", [{}, {"clip_end": 7.5}, {"lens": 20.0, "shift_x": 0.3}])
+@pytest.mark.parametrize(
+    "settings",
+    [{}, {"clip_end": 7.5}, {"clip_end": 20.2}, {"lens": 20.0, "shift_x": 0.3}, {"type": "ORTHO", "ortho_scale": 8.0}],
+)
 def test_painted_or_looked_up_is_all_the_same(monkeypatch, scene, dtype, settings):
     monkeypatch.setattr(plan, "PAINTED", 9.0)
     camera = camera_at(pose(rotation(0.1, -0.2, 0.3), (0.3, 0.1, 0.2)), **SIZE, **settings)

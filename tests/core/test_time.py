@@ -90,6 +90,19 @@ def moving(evaluate, first, last, tolerance=0.05, most=400):
     return replace(cam, motion=motion), replace(still, motion=motion), motion
 
 
+def test_each_pixel_shows_the_time_that_an_image_gives_it():
+    """And nothing of the other times, though the passes of each are made of whole parts of the picture."""
+    image = ROWS | {"time_mode": "IMAGE", "time_image": np.eye(8)}
+    cam, scene, motion = moving(lambda f: (camera(image), shapes(((0.1 * (f - 15), 0, -5), 1.2))), 10, 20)
+    passes = ("depth", "normal", "object_index", "position", "combined")
+    timed, time = cast(cam, scene, passes), cam.rays().time
+    assert len(np.unique(time)) > 1
+    for frame in np.unique(time):
+        still = cast(*motion.at(frame), passes)
+        for name in passes:
+            assert np.array_equal(timed[name][time == frame], still[name][time == frame]), name
+
+
 def test_a_sphere_at_constant_speed_is_a_sheared_ellipse():
     """x moves by 0.1 a frame and the frame by 10 / 48 a row: row y sees the disc displaced by 0.1 (t - 15)."""
     cam, scene, motion = moving(lambda f: (camera(ROWS), shapes(((0.1 * (f - 15), 0, -5), 1.2))), 10, 20)

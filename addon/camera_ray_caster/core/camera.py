@@ -18,7 +18,7 @@ from .loops import keep_memory, whole_rows
 from .panels import ROWS, fill, is_raster
 from .records import BlenderCamera, InputError, Pose, Raster, Rays
 from .sampling import in_opening, sub_pixel
-from .vector import dot, inverse, is_grid, is_lattice, is_one, matvec, norm
+from .vector import components, dot, inverse, is_grid, is_lattice, is_one, matvec, norm
 
 FARTHEST = 1e30
 """Pixels from the frame, within which no ray's length overflows."""
@@ -135,7 +135,7 @@ class Camera:
         else:
             put(...)
         if not (_is_near(x) and _is_near(y)):
-            lost = np.isnan(directions).any(axis=-1) | ~(np.isfinite(x) & np.isfinite(y))
+            lost = ~(np.isfinite(x) & np.isfinite(y) & (np.abs(norm(components(directions)) - 1) < gamma(8)))
             directions[lost], valid[...] = np.nan, ~lost
         return Rays(origins, directions, valid)
 

@@ -39,24 +39,18 @@ def _paint_constant(table, hits: Hits, out) -> None:
 
 
 def _paint_normal(hits: Hits, out) -> None:
-    gains, *offsets = hits.plan.normals.constants
+    constants = hits.plan.normals.constants
     backdrop, others = _layers(hits)
-    flat = np.array([offset[backdrop] for offset in offsets], out.dtype)
-    np.copyto(
-        out, np.tile(flat, (out.shape[1], 1))
-    )  # rows that are there are copied faster than a pixel again and again
+    row = np.tile(constants[1:, backdrop].astype(out.dtype), (out.shape[1], 1))
+    np.copyto(out, row)  # a row at a time: a pixel at a time takes several times as long
     for shape, window, mask in others:
-        target = out[window]
-        if gains[shape] == 0:
-            for axis, offset in enumerate(offsets):
-                np.copyto(target[..., axis], offset[shape], where=mask, casting="same_kind")
-            continue
+        gain, normal = constants[0, shape], constants[1:, shape]
         with whole_rows(mask.shape[1]):
-            point = hits.part(*window).point
-            np.multiply(point, gains[shape], out=point)
-            for axis, offset in enumerate(offsets):
-                component = np.add(point[axis], offset[shape], out=point[axis])
-                np.copyto(target[..., axis], component, where=mask, casting="same_kind")
+            if gain:
+                point = hits.part(*window).point
+                normal = np.add(np.multiply(point, gain, out=point), normal[:, None, None], out=point)
+            for axis in range(3):
+                np.copyto(out[window][..., axis], normal[axis], where=mask, casting="same_kind")
 
 
 def _layers(hits: Hits) -> tuple[int, Iterator[tuple[int, tuple[slice, slice], np.ndarray]]]:
@@ -70,7 +64,7 @@ def _layers(hits: Hits) -> tuple[int, Iterator[tuple[int, tuple[slice, slice], n
         bounds |= zip(group.at[at].tolist(), edges.tolist(), strict=True)
     flat = (shape for shape in bounds if hits.plan.shapes.kind[shape] != SPHERE)
     backdrop = max(flat, key=lambda shape: _pixels(*bounds[shape]), default=NOTHING)
-    if hits.missed is not None:
+    if not hits.full:
         bounds[NOTHING] = [0, width, 0, height]
     bounds.pop(backdrop, None)
     return backdrop, _seen(hits, bounds)
