@@ -120,8 +120,9 @@ def test_passes_made_in_many_blocks_are_those_made_at_once(monkeypatch, key):
     shapes = random_shapes(np.random.default_rng(3), 40)
     once = cast(camera, shapes, tuple(PASSES), np.float64)
     monkeypatch.setattr(hits, "BLOCK_PIXELS", 300)
-    for name, image in cast(camera, shapes, tuple(PASSES), np.float64).items():
-        assert np.array_equal(image, once[name], equal_nan=True), name
+    for order in (tuple(PASSES), tuple(reversed(PASSES))):
+        for name, image in cast(camera, shapes, order, np.float64).items():
+            assert np.array_equal(image, once[name], equal_nan=True), name
 
 
 @pytest.mark.parametrize("model", MODELS, ids=lambda model: model.key)
