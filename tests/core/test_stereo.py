@@ -86,7 +86,11 @@ def test_the_camera_itself_is_the_empty_view():
 
 @pytest.mark.parametrize(
     ("view", "settings", "said"),
-    [("middle", {}, "choose one of left, right"), ("left", {"use_spherical_stereo": True}, "Spherical Stereo")],
+    [
+        ("middle", {}, "choose one of left, right"),
+        ("left", {"use_spherical_stereo": True}, "Spherical Stereo.*: switch it off"),
+        ("left", {"use_spherical_stereo": True, "type": "PANO"}, "Spherical Stereo.*: take the model Omnidirectional"),
+    ],
 )
 def test_what_is_no_eye_is_refused(view, settings, said):
     with pytest.raises(InputError, match=said):

@@ -42,7 +42,8 @@ def eye_record(raw: BlenderCamera, view: str) -> BlenderCamera:
             raise InputError(f"{both}: let it show one, or switch Stereoscopy off")
         return replace(raw, settings={**settings, "eye": view.upper()})
     if settings["use_spherical_stereo"] and raw.type in ("PERSP", "PANO"):
-        raise InputError(f"camera {raw.name!r} has Spherical Stereo, whose eyes turn with every ray: switch it off")
+        cure = "take the model Omnidirectional Stereo" if raw.type == "PANO" else "switch it off"
+        raise InputError(f"camera {raw.name!r} has Spherical Stereo, whose eyes turn with every ray: {cure}")
     side, mode, pivot = SIDES[view], settings["convergence_mode"], settings["pivot"]
     distance, convergence = float(settings["interocular_distance"]), float(settings["convergence_distance"])
     share = {"CENTER": 0.5, view.upper(): 0.0}.get(pivot, 1.0)
