@@ -66,6 +66,20 @@ def test_a_place_that_is_not_finite_has_no_ray(key, settings):
 
 
 @each_example
+def test_a_point_that_is_not_finite_has_no_pixel(key, settings):
+    """Nor do numbers too large warn: a warning would fail. One point gives what it gives among others."""
+    cam = camera(key, settings)
+    infinite = [(np.inf, 0, -5), (0, -np.inf, -5), (0, 0, -np.inf), (np.nan, 0, -5), (-np.inf, -np.inf, -np.inf)]
+    points = np.array([*infinite, (1e300, 1, -5), (1, 1e200, -1e200), (0, 0, -1e300), (0.1, 0.2, -5)])
+    pixels = cam.project(points)
+    assert np.isnan(pixels[: len(infinite)]).all()
+    assert (np.isnan(pixels).any(axis=1) == np.isnan(pixels).all(axis=1)).all()
+    assert not np.isinf(pixels).any()
+    for point, pixel in zip(points, pixels, strict=True):
+        assert np.allclose(cam.project(point), pixel, rtol=1e-9, atol=1e-9, equal_nan=True)
+
+
+@each_example
 def test_rays_are_those_through_pixel_centres(key, settings):
     cam = camera(key, settings)
     rays = cam.rays()

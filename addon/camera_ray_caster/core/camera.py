@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import nullcontext
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from math import floor
@@ -20,8 +21,8 @@ from .records import BlenderCamera, InputError, Pose, Raster, Rays
 from .sampling import in_opening, sub_pixel
 from .vector import components, dot, inverse, is_grid, is_lattice, is_one, matvec, norm
 
-FARTHEST = 1e30
-"""Pixels from the frame, within which no ray's length overflows."""
+FARTHEST = 1e15
+"""Pixels, or Blender units, within which no length or polynomial overflows."""
 
 BLOCK_PIXELS, SMOOTH_PIXELS = 1 << 17, 1 << 20
 """Pixels whose rays are made at once, where a thread's share has as many: fewer, and threads would wait at each of
@@ -121,8 +122,10 @@ class Camera:
         threads = os.cpu_count() or 1
         step = ROWS * max(1, round(min(pixels / max(x.size, 1), y.size / threads) / ROWS))
 
+        near = _is_near(x) and _is_near(y)
+
         def put(part) -> None:
-            with np.errstate(all="ignore"):  # NaN is an answer: no ray
+            with _quiet(near):
                 write(x, y[part], origins[part], directions[part], valid[part])
 
         if is_grid(x, y) and y.ndim == 2 and y.size > step:
@@ -134,7 +137,7 @@ class Camera:
                 list(pool.map(put, blocks))
         else:
             put(...)
-        if not (_is_near(x) and _is_near(y)):
+        if not near:
             lost = ~(np.isfinite(x) & np.isfinite(y) & (np.abs(norm(components(directions)) - 1) < gamma(8)))
             directions[lost], valid[...] = np.nan, ~lost
         return Rays(origins, directions, valid)
@@ -215,7 +218,8 @@ class Camera:
         return self.rays_at(self.raster.columns(), self.raster.rows())
 
     def project(self, points) -> np.ndarray:
-        """Return the pixel coordinates (..., 2) in the full frame of world points (..., 3); NaN where none sees it.
+        """Return the pixel coordinates (..., 2) in the full frame of world points (..., 3); NaN where none sees it, and
+        for points that are not finite.
 
         With a clock and a moving camera each point, taken to stand still, is sought by itself: see ``meeting``.
         """
@@ -223,9 +227,19 @@ class Camera:
         if self.clock is not None and self.motion is not None:
             found = [meeting(self.clock, lambda t, p=point: self.at(t).project(p)) for point in points.reshape(-1, 3)]
             return np.reshape(found, (*points.shape[:-1], 2))
-        return self.model.project((points - self.pose.eye) @ inverse(self.pose.basis).T)
+        near = _is_near(points)
+        with _quiet(near):
+            pixels = self.model.project((points - self.pose.eye) @ inverse(self.pose.basis).T)
+        if not near:
+            pixels[~(np.isfinite(points).all(axis=-1) & np.isfinite(pixels).all(axis=-1))] = np.nan
+        return pixels
 
 
 def _is_near(places) -> bool:
-    """Whether all pixel coordinates are finite, and none farther out than rays are sure to be numbers."""
+    """Whether all coordinates are finite, and none is farther out than what follows is sure to be a number."""
     return bool(-FARTHEST < places.min(initial=0.0) <= places.max(initial=0.0) < FARTHEST)
+
+
+def _quiet(near: bool):
+    """Let numbers overflow, and NaN come of them, only where that is meant: far out it is an answer."""
+    return nullcontext() if near else np.errstate(all="ignore")
