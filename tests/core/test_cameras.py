@@ -66,6 +66,16 @@ def test_a_place_that_is_not_finite_has_no_ray(key, settings):
 
 
 @each_example
+def test_a_place_far_out_takes_no_ray_from_the_others(key, settings):
+    """Which may change by the roundings of an iteration that begins elsewhere."""
+    cam = camera(key, settings)
+    x, y = np.random.default_rng(1).uniform(0, cam.raster.width, (2, 2000))
+    alone, among = cam.rays_at(x, y), cam.rays_at(np.append(x, np.nan), np.append(y, 1e300))
+    np.testing.assert_array_equal(among.valid, [*alone.valid, False])
+    np.testing.assert_allclose(among.directions[:-1], alone.directions, rtol=0, atol=8 * EPS)
+
+
+@each_example
 def test_a_point_that_is_not_finite_has_no_pixel(key, settings):
     """Nor do numbers too large warn: a warning would fail. One point gives what it gives among others."""
     cam = camera(key, settings)

@@ -121,7 +121,6 @@ class Camera:
         write, pixels = (self._write_smooth, SMOOTH_PIXELS) if smooth else (self._write, BLOCK_PIXELS)
         threads = os.cpu_count() or 1
         step = ROWS * max(1, round(min(pixels / max(x.size, 1), y.size / threads) / ROWS))
-
         near = _is_near(x) and _is_near(y)
 
         def put(part) -> None:
@@ -138,7 +137,8 @@ class Camera:
         else:
             put(...)
         if not near:
-            lost = ~(np.isfinite(x) & np.isfinite(y) & (np.abs(norm(components(directions)) - 1) < gamma(8)))
+            is_unit = norm(components(directions)) > 0.5  # 0 or NaN where something overflowed
+            lost = ~(np.isfinite(x) & np.isfinite(y) & is_unit)
             directions[lost], valid[...] = np.nan, ~lost
         return Rays(origins, directions, valid)
 
