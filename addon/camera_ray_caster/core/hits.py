@@ -12,7 +12,7 @@ from .loops import Scratch, lazy
 from .plan import Plan
 from .shapes import SHAPE_OF_KIND
 from .shapes.normals import ZERO
-from .vector import components, difference, dot, inner, is_lattice, linear, matvec, rows
+from .vector import components, difference, dot, inner, is_lattice, is_one, linear, matvec, norm, rows
 
 BLOCK_PIXELS = 1 << 16
 """Pixels whose passes are made at once."""
@@ -113,7 +113,9 @@ class Hits:
 
     @lazy
     def length(self) -> np.ndarray:
-        """Of ``world_direction``: distance over t."""
+        """Of ``world_direction``: distance over t; one for all parallel rays."""
+        if is_one(self.world_direction):
+            return np.full((1, 1), norm(self.world_direction))
         length, spare = (self.scratch(name, self.t.shape, np.float64) for name in ("length", "spare"))
         return np.sqrt(inner(self.world_direction, self.world_direction, length, spare), out=length)
 
