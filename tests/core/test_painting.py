@@ -11,6 +11,7 @@ from camera_ray_caster.core.cast import cast
 from camera_ray_caster.core.records import INFINITE_PLANE, PLANE, SPHERE
 
 from .test_cast import camera_at, pose, random_shapes, shapes_of
+from .test_time import turn
 
 PASSES = "normal", "object_index", "material_index", "shape_index"
 SIZE = {"resolution_x": 400, "resolution_y": 300}
@@ -36,17 +37,6 @@ def small_pictures(monkeypatch):
     monkeypatch.setattr(core_cast, "TILE_PIXELS", (1 << 14, 1 << 15))
 
 
-def rotation(*angles):
-    """The product of rotations about x, y and z."""
-    matrix = np.eye(3)
-    for axis, angle in enumerate(angles):
-        turn, (i, j) = np.eye(3), {0, 1, 2} - {axis}
-        turn[i, i] = turn[j, j] = np.cos(angle)
-        turn[i, j], turn[j, i] = -np.sin(angle), np.sin(angle)
-        matrix = matrix @ turn
-    return matrix
-
-
 def looked_up(monkeypatch, *arguments, **settings):
     with monkeypatch.context() as patch:
         patch.setattr(plan, "PAINTED", -1.0)
@@ -69,7 +59,7 @@ def same(painted, other):
 )
 def test_painted_or_looked_up_is_all_the_same(monkeypatch, scene, dtype, settings):
     monkeypatch.setattr(plan, "PAINTED", 9.0)
-    camera = camera_at(pose(rotation(0.1, -0.2, 0.3), (0.3, 0.1, 0.2)), **SIZE, **settings)
+    camera = camera_at(pose(turn(0.1, 0) @ turn(-0.2, 1) @ turn(0.3), (0.3, 0.1, 0.2)), **SIZE, **settings)
     painted = cast(camera, SCENES[scene], PASSES, dtype)
     same(painted, looked_up(monkeypatch, camera, SCENES[scene], PASSES, dtype))
 

@@ -194,7 +194,7 @@ def _cast_tile(tile: Tile, plan: Plan, names, samples: int, images: Images, scra
 
 
 def _store(hits: Hits, outs: dict[str, np.ndarray], where) -> None:
-    """Write passes, only where they are meant: block by block those that need more than the search has found."""
+    """Write passes, only where they are meant: at once those that can be, the others block by block."""
     with whole_rows(hits.t.shape[1]):
         at_once = {name: PASSES[name].at_once(hits) for name in outs}
         for name, write in at_once.items():

@@ -11,6 +11,7 @@ import numpy as np
 
 from .hits import NOTHING, Hits
 from .loops import whole_rows, widened
+from .plan import pixels_in
 from .records import SPHERE
 
 BLOCK_PIXELS = 1 << 18
@@ -59,19 +60,18 @@ def _layers(hits: Hits) -> tuple[int, Iterator[tuple[int, tuple[slice, slice], n
     """
     height, width = hits.t.shape
     bounds: dict[int, list[int]] = {}
+    flat: dict[int, int] = {}
     for group in hits.plan.groups:
         at, edges = group.within(hits.corner, hits.t.shape)
-        bounds |= zip(group.at[at].tolist(), edges.tolist(), strict=True)
-    flat = (shape for shape in bounds if hits.plan.shapes.kind[shape] != SPHERE)
-    backdrop = max(flat, key=lambda shape: _pixels(*bounds[shape]), default=NOTHING)
+        shapes = group.at[at].tolist()
+        bounds |= zip(shapes, edges.tolist(), strict=True)
+        if group.kind != SPHERE:
+            flat |= zip(shapes, pixels_in(edges).tolist(), strict=True)
+    backdrop = max(flat, key=lambda shape: flat[shape], default=NOTHING)
     if not hits.full:
         bounds[NOTHING] = [0, width, 0, height]
     bounds.pop(backdrop, None)
     return backdrop, _seen(hits, bounds)
-
-
-def _pixels(x0: int, x1: int, y0: int, y1: int) -> int:
-    return (x1 - x0) * (y1 - y0)
 
 
 def _seen(hits: Hits, bounds):

@@ -136,8 +136,7 @@ class Plan:
     def is_painted(self) -> bool:
         """Whether the shapes in view are few and large: what is theirs is painted, not looked up by every pixel."""
         height, width = self.camera.raster.shape
-        edges = np.concatenate([np.zeros((0, 4), int), *(group.bounds for group in self.groups)])
-        pixels = ((edges[:, 1] - edges[:, 0]) * (edges[:, 3] - edges[:, 2])).sum()
+        pixels = sum(pixels_in(group.bounds).sum() for group in self.groups)
         return pixels <= PAINTED * height * width and not any(group.small for group in self.groups)
 
     @property
@@ -195,7 +194,7 @@ def make_plan(
         bounds, seen = _window_bounds(camera, placed, sampled)
         seen &= (near <= camera.clip_end) & (far >= camera.clip_start)
     simple = near >= camera.clip_start
-    small = (bounds[:, 1] - bounds[:, 0]) * (bounds[:, 3] - bounds[:, 2]) < SMALL_PIXELS
+    small = pixels_in(bounds) < SMALL_PIXELS
     groups = []
     alike = 4 * shapes.kind + 2 * simple + small
     for code in np.unique(alike[seen]).tolist():
@@ -217,6 +216,11 @@ def make_plan(
         clips=bool((far[seen] > camera.clip_end).any()),
         real=real,
     )
+
+
+def pixels_in(bounds) -> np.ndarray:
+    """Return how many pixels lie in bounds (n, 4), each x0, x1, y0, y1."""
+    return (bounds[:, 1] - bounds[:, 0]) * (bounds[:, 3] - bounds[:, 2])
 
 
 def _rounded(view, real):
