@@ -17,6 +17,7 @@ from .clock import Clock, groups
 from .hits import Hits
 from .loops import STRIP, Scratch, keep_memory, whole_rows
 from .nearest import nearest
+from .painting import paint
 from .passes import PASSES
 from .plan import Plan, make_plan
 from .records import Cancelled, InputError, Shapes
@@ -194,26 +195,24 @@ def _cast_tile(tile: Tile, plan: Plan, names, samples: int, images: Images, scra
 
 
 def _store(hits: Hits, outs: dict[str, np.ndarray], where) -> None:
-    """Write passes, only where they are meant: at once those that can be, the others block by block."""
-    with whole_rows(hits.t.shape[1]):
-        at_once = {name: PASSES[name].at_once(hits) for name in outs}
-        for name, write in at_once.items():
-            if write is not None:
-                _put(write, hits, outs[name], where)
-        block_by_block = [name for name, write in at_once.items() if write is None]
-        for rows, block in hits.blocks() if block_by_block else ():
-            for name in block_by_block:
-                _put(PASSES[name].write, block, outs[name][rows], None if where is None else where[rows])
-
-
-def _put(write, hits: Hits, out, where) -> None:
-    """Write a pass, only where it is meant; None for all pixels."""
-    if where is None:
-        write(hits, out)
+    """Write passes, only where they are meant; None for all pixels."""
+    if where is not None:
+        meant = {name: np.empty_like(out) for name, out in outs.items()}
+        _store(hits, meant, None)
+        for name, out in outs.items():
+            np.copyto(out, meant[name], where=_broadcast(where, out))
         return
-    target = np.empty_like(out)
-    write(hits, target)
-    np.copyto(out, target, where=_broadcast(where, target))
+    with whole_rows(hits.t.shape[1]):
+        painted = {name: brush for name in outs if (brush := PASSES[name].brush(hits)) is not None}
+        if painted:
+            paint(hits, [(brush, outs[name]) for name, brush in painted.items()])
+        for name in outs:
+            if PASSES[name].whole:
+                PASSES[name].write(hits, outs[name])
+        in_blocks = [name for name in outs if name not in painted and not PASSES[name].whole]
+        for rows, block in hits.blocks() if in_blocks else ():
+            for name in in_blocks:
+                PASSES[name].write(block, outs[name][rows])
 
 
 def _broadcast(where, image):

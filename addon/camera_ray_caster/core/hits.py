@@ -14,7 +14,7 @@ from .shapes import SHAPE_OF_KIND
 from .shapes.normals import ZERO
 from .vector import components, difference, dot, inner, is_lattice, is_one, linear, matvec, norm, rows
 
-BLOCK_PIXELS = 1 << 16
+BLOCK_PIXELS = 1 << 17
 """Pixels whose passes are made at once."""
 
 ALL = slice(None)
@@ -132,22 +132,32 @@ class Hits:
         return to_x * x, to_y * y + to_z * z
 
     @lazy
-    def point(self):
-        """The hit points relative to the eye, (3, rows, columns) world components; no number of meaning where nothing
-        is hit.
+    def point(self) -> np.ndarray:
+        """``points`` of all pixels."""
+        return self.points((ALL, ALL))
+
+    def points(self, window) -> np.ndarray:
+        """Return the hit points of a window relative to the eye, (3, rows, columns) world components, in an array that
+        the next call overwrites; no number of meaning where nothing is hit.
         """
-        shape = 3, *self.t.shape
-        point, spare = self.scratch("point", shape, np.float64), self.scratch("spare", shape, np.float64)
-        axes = self.plan.camera.pose.basis.T[..., None, None]
+        t = self.t[window]
+        point = self.scratch("point", (3, *t.shape), np.float64)
         if self.lattice is not None:
-            np.add(*self.lattice, out=point)
+            (row, column), (rows, columns) = self.lattice, window
+            np.add(row[..., columns], column[:, rows], out=point)
         else:
-            linear(axes, self.direction, point, spare)
-        np.multiply(point, self.t, out=point)
+            self._to_world(self.direction, window, point)
+        np.multiply(point, t, out=point)
         if not self.from_eye:
-            offset = self.scratch("offset", shape, np.float64)
-            np.add(linear(axes, self.origin, offset, spare), point, out=point)
+            offset = self.scratch("offset", point.shape, np.float64)
+            np.add(self._to_world(self.origin, window, offset), point, out=point)
         return point
+
+    def _to_world(self, vector, window, out) -> np.ndarray:
+        """Return camera-frame components in a window as world components, in ``out``."""
+        axes = self.plan.camera.pose.basis.T[..., None, None]
+        parts = tuple(cut(component, window) for component in vector)
+        return linear(axes, parts, out, self.scratch("spare", out.shape, np.float64))
 
     @lazy
     def normal_terms(self) -> tuple[np.ndarray, np.ndarray]:

@@ -30,7 +30,7 @@ def nearest(plan: Plan, origin, direction, from_eye: bool, corner, scratch: Scra
     corner: the column and row of the render window at which the rays begin. Of shapes hit at exactly the same t
     the one with the lowest index counts, whatever order they are tested in. The hits lie in ``scratch``.
     """
-    shape = np.broadcast_shapes(*map(np.shape, origin), *map(np.shape, direction), (1, 1))
+    shape = np.broadcast(*origin, *direction, np.zeros((1, 1))).shape
     tile = Tile(
         None if from_eye else _rounded(origin, plan.real),
         _rounded(direction, plan.real),

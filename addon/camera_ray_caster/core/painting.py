@@ -4,8 +4,9 @@ a table, in less time where the shapes in view are few and large.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from functools import partial
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 
@@ -18,46 +19,74 @@ BLOCK_PIXELS = 1 << 18
 """Pixels that are painted at once."""
 
 
-def constant(hits: Hits, table) -> Callable[[Hits, np.ndarray], None] | None:
-    """Return what writes each shape's entry of a table (n + 1,), its last one where nothing is hit; None where looking
-    up takes less.
-    """
-    return partial(_paint_constant, table) if hits.plan.is_painted else None
+class Brush(Protocol):
+    """What paints a pass."""
+
+    def fill(self, out: np.ndarray, shape: int) -> None:
+        """Paint a flat shape, or NOTHING, everywhere."""
+
+    def paint(self, hits: Hits, out: np.ndarray, shape: int, window, mask: np.ndarray) -> None:
+        """Paint a shape over what is there, in a window where ``mask``."""
 
 
-def normal(hits: Hits) -> Callable[[Hits, np.ndarray], None] | None:
-    """Return what writes the unit normals, 0 where nothing is hit; None where looking up takes less."""
+@dataclass(frozen=True)
+class Constant:
+    """Paints each shape's entry of a table (n + 1,), its last one where nothing is hit."""
+
+    table: np.ndarray
+
+    def fill(self, out, shape):
+        out.fill(self.table[shape])
+
+    def paint(self, hits, out, shape, window, mask):
+        np.copyto(out[window], self.table[shape], where=mask)
+
+
+@dataclass(frozen=True)
+class Normal:
+    """Paints the unit normals, 0 where nothing is hit."""
+
+    constants: np.ndarray
+    """As ``NormalTable`` has them."""
+
+    def fill(self, out, shape):
+        row = np.tile(self.constants[1:, shape].astype(out.dtype), (out.shape[1], 1))
+        np.copyto(out, row)  # a row at a time: a pixel at a time takes several times as long
+
+    def paint(self, hits, out, shape, window, mask):
+        gain, normal = self.constants[0, shape], self.constants[1:, shape]
+        if gain:
+            point = hits.points(window)
+            normal = np.add(np.multiply(point, gain, out=point), normal[:, None, None], out=point)
+        for axis in range(3):
+            np.copyto(out[window][..., axis], normal[axis], where=mask, casting="same_kind")
+
+
+def constant(hits: Hits, table) -> Brush | None:
+    """Return what paints an entry of a table; None where looking up takes less."""
+    return Constant(table) if hits.plan.is_painted else None
+
+
+def normal(hits: Hits) -> Brush | None:
+    """Return what paints the normals; None where looking up takes less."""
     if not (hits.plan.is_painted and hits.from_eye and hits.plan.eye_outside and hits.lattice is not None):
         return None
-    return _paint_normal if hits.plan.normals.is_sum else None
+    return Normal(hits.plan.normals.constants) if hits.plan.normals.is_sum else None
 
 
-def _paint_constant(table, hits: Hits, out) -> None:
+def paint(hits: Hits, outs: list[tuple[Brush, np.ndarray]]) -> None:
+    """Paint passes: first, everywhere, the flat shape with the largest bounds, NOTHING without one; then all others."""
     backdrop, others = _layers(hits)
-    out.fill(table[backdrop])
-    for shape, window, mask in others:
-        np.copyto(out[window], table[shape], where=mask)
-
-
-def _paint_normal(hits: Hits, out) -> None:
-    constants = hits.plan.normals.constants
-    backdrop, others = _layers(hits)
-    row = np.tile(constants[1:, backdrop].astype(out.dtype), (out.shape[1], 1))
-    np.copyto(out, row)  # a row at a time: a pixel at a time takes several times as long
-    for shape, window, mask in others:
-        gain, normal = constants[0, shape], constants[1:, shape]
+    for brush, out in outs:
+        brush.fill(out, backdrop)
+    for shape, window, mask in _seen(hits, others):
         with whole_rows(mask.shape[1]):
-            if gain:
-                point = hits.part(*window).point
-                normal = np.add(np.multiply(point, gain, out=point), normal[:, None, None], out=point)
-            for axis in range(3):
-                np.copyto(out[window][..., axis], normal[axis], where=mask, casting="same_kind")
+            for brush, out in outs:
+                brush.paint(hits, out, shape, window, mask)
 
 
-def _layers(hits: Hits) -> tuple[int, Iterator[tuple[int, tuple[slice, slice], np.ndarray]]]:
-    """Return what is painted first, everywhere: the flat shape with the largest bounds, NOTHING without one. And all
-    others that are seen, each with windows and with the pixels of these that see it.
-    """
+def _layers(hits: Hits) -> tuple[int, dict[int, list[int]]]:
+    """Return what is painted first, and the bounds x0, x1, y0, y1 in the tile of all others that may be seen."""
     height, width = hits.t.shape
     bounds: dict[int, list[int]] = {}
     flat: dict[int, int] = {}
@@ -71,10 +100,11 @@ def _layers(hits: Hits) -> tuple[int, Iterator[tuple[int, tuple[slice, slice], n
     if not hits.full:
         bounds[NOTHING] = [0, width, 0, height]
     bounds.pop(backdrop, None)
-    return backdrop, _seen(hits, bounds)
+    return backdrop, bounds
 
 
-def _seen(hits: Hits, bounds):
+def _seen(hits: Hits, bounds) -> Iterator[tuple[int, tuple[slice, slice], np.ndarray]]:
+    """Yield each shape that is seen, with windows and with the pixels of these that see it."""
     for shape, (x0, x1, y0, y1) in bounds.items():
         step = max(1, BLOCK_PIXELS // (x1 - x0))
         for first in range(y0, y1, step):

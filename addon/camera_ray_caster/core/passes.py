@@ -21,8 +21,8 @@ ROUNDED_UP = 1 + 2.0**-9
 """Makes up for rounding the bounds themselves, to what they are stored as."""
 
 
-def never(hits: Hits) -> None:
-    """A pass that is written block by block: its working arrays stay in a core's cache."""
+def unpainted(hits: Hits) -> None:
+    """A pass that no brush paints."""
 
 
 @dataclass(frozen=True)
@@ -33,8 +33,10 @@ class Pass:
     channels: int = 0
     dtype: type | None = None
     """What it is stored as; None takes the cast's dtype."""
-    at_once: Callable[[Hits], Callable[[Hits, np.ndarray], None] | None] = never
-    """Given the hits of a tile, returns what writes it as a whole; None where ``write`` is better called for blocks."""
+    whole: bool = False
+    """Whether ``write`` is called for a whole tile, not for blocks whose working arrays stay in a core's cache."""
+    brush: Callable[[Hits], painting.Brush | None] = unpainted
+    """Given the hits of a tile, returns what paints it; None where ``write`` takes less."""
 
 
 def combined(hits: Hits, out):
@@ -141,14 +143,16 @@ def _write(out, vector, offset, blank):
 
 PASSES = {
     "combined": Pass(combined, 4),
-    "depth": Pass(depth, at_once=lambda hits: depth),
+    "depth": Pass(depth, whole=True),
     "distance": Pass(distance),
     "position": Pass(position, 3),
-    "normal": Pass(normal, 3, at_once=painting.normal),
+    "normal": Pass(normal, 3, brush=painting.normal),
     "uv": Pass(uv, 3),
-    "object_index": Pass(object_index, 0, np.int32, lambda hits: painting.constant(hits, hits.plan.object_index)),
-    "material_index": Pass(material_index, 0, np.int32, lambda hits: painting.constant(hits, hits.plan.material_index)),
-    "shape_index": Pass(shape_index, 0, np.int32, lambda hits: shape_index),
+    "object_index": Pass(object_index, 0, np.int32, brush=lambda hits: painting.constant(hits, hits.plan.object_index)),
+    "material_index": Pass(
+        material_index, 0, np.int32, brush=lambda hits: painting.constant(hits, hits.plan.material_index)
+    ),
+    "shape_index": Pass(shape_index, 0, np.int32, whole=True),
     "valid": Pass(valid, 0, np.bool_),
     "ray_origin": Pass(ray_origin, 3),
     "ray_direction": Pass(ray_direction, 3),
