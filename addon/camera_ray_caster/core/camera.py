@@ -157,10 +157,10 @@ class Camera:
                 np.logical_not(np.isnan(directions[..., 0]), out=valid)
                 return
             origin, direction = self.camera_rays(x, y)
-            length = self._length(direction) if self.model.planar else 1.0
+            scale = 1.0 / self._length(direction) if self.model.planar else 1.0
             for axis, row in enumerate(self.pose.basis):
                 component = dot(row, direction)
-                np.divide(component, length, out=directions[..., axis])
+                np.multiply(component, scale, out=directions[..., axis])
                 if not self.model.central:
                     np.add(dot(row, origin), self.pose.eye[axis], out=origins[..., axis])
             np.logical_not(np.isnan(component), out=valid)
