@@ -22,6 +22,7 @@ SCENES = {
     "balls": shapes_of(*BALLS),
     "balls before a wall": shapes_of(*BALLS, (PLANE, (0, 0, -20), 40.0)),
     "balls on a floor": shapes_of(*BALLS, FLOOR),
+    "a large ball": shapes_of((SPHERE, (0, -2, -12), 4.0), *BALLS),
     "planes": shapes_of(FLOOR, (PLANE, (1, 0, -8), TURNED), (PLANE, (-1, 0, -9), 2.0)),
     "in a ball": shapes_of((SPHERE, (0, 0, 0), 30.0), *BALLS),
     "behind the camera": shapes_of((SPHERE, (0, 0, 9), 1.0)),
