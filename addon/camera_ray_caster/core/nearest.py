@@ -36,7 +36,7 @@ def nearest(plan: Plan, origin, direction, from_eye: bool, corner, scratch: Scra
         _rounded(direction, plan.real),
         plan.camera.clip_start,
         scratch("t", shape),
-        scratch("index", shape, np.int32),
+        scratch("index", shape, plan.row_type),
         scratch,
     )
     seen = [(group, *group.within(corner, shape)) for group in plan.groups]
@@ -117,7 +117,8 @@ class Tile:
         y = y0[:, None, None] + np.arange(high)[:, None]
         view = group.constants(at, axes=2)
         found, where = self._intersect(group, view, lambda component: _gather(component, y, x))
-        self._keep_all((y0, x0), np.broadcast_to(found, (len(at), high, wide)), where, group.at[at].astype(np.int32))
+        shapes = group.at[at].astype(self.index.dtype)
+        self._keep_all((y0, x0), np.broadcast_to(found, (len(at), high, wide)), where, shapes)
 
     def _keep(self, window, found, where, shape: int) -> None:
         """Note the hits of one shape in a window that are the nearest so far; no shape before had a lower index."""

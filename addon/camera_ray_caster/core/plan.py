@@ -111,6 +111,11 @@ class Plan:
                 change += sign * np.bincount(edge, x1 - x0, height + 1)
         return np.cumsum(change)[:height] + STORED * len(self.passes) * width
 
+    @property
+    def row_type(self) -> np.dtype:
+        """The smallest integers that hold every row in ``Shapes``, and -1: each pixel has one."""
+        return np.min_scalar_type(-max(len(self.shapes), 1))
+
     @cached_property
     def object_index(self) -> np.ndarray:
         """(n + 1,): the shapes' object indices, and 0 for what sees none."""
