@@ -2,18 +2,22 @@
 
 from __future__ import annotations
 
+from concurrent.futures import ThreadPoolExecutor
+
 import numpy as np
 import pytest
 
+from camera_ray_caster.core import camera as camera_module
 from camera_ray_caster.core import cast as module
-from camera_ray_caster.core.cast import TILE_PIXELS, cast
-from camera_ray_caster.core.loops import STRIP
+from camera_ray_caster.core.cast import ALONE, TILE_PIXELS, cast
+from camera_ray_caster.core.loops import STRIP, sharing
 from camera_ray_caster.core.passes import PASSES
 from camera_ray_caster.core.plan import STORED, make_plan
 from camera_ray_caster.core.records import SPHERE
 
 from .model_examples import camera as model_camera
 from .test_cast import camera_at, shapes_of
+from .test_time import ROWS
 
 LENSES = {
     "OPENCV_PINHOLE": {"k1": -0.28, "k2": 0.07, "p1": 1e-3, "calibration_width": 96, "calibration_height": 54},
@@ -47,6 +51,7 @@ def test_shares_hold_each_row_once_and_about_the_same_work(monkeypatch, threads,
     assert [first for first, _ in rows] == [0, *(last for _, last in rows[:-1])]
     assert rows[-1][1] == size[1]
     most = -(-size[0] * size[1] // TILE_PIXELS[0])
+    threads = sharing(threads, plan.work.sum() / ALONE)
     assert len(rows) <= min(most, threads * -(-int(plan.work.sum()) // (threads * work)))
     assert len(rows) >= min(most, threads) / 2
     assert min(last - first for first, last in rows) >= STRIP
@@ -55,6 +60,46 @@ def test_shares_hold_each_row_once_and_about_the_same_work(monkeypatch, threads,
         shares = [plan.work[first:last].sum() for first, last in rows]
         assert np.ptp(shares) <= STRIP * plan.work.max()  # half a strip more here, half a strip less there
         assert rows[0][1] > 0.6 * size[1]  # the upper share is thinner, since all the balls are there
+
+
+@pytest.mark.parametrize(("work", "least"), [(0.0, 1), (0.5, 1), (1.0, 1), (2.9, 2), (20.0, 4), (1000.0, 31)])
+def test_so_many_threads_share_work_that_none_waits(work, least):
+    """Each share takes its part of the work, and 1 more that no two of them do at a time."""
+    time = {n: max(work / n + 1, n) for n in range(1, 65)}
+    assert time[sharing(64, work)] <= min(time.values()) + 1
+    assert sharing(64, work) >= least
+    assert sharing(2, work) == min(2, sharing(64, work))
+
+
+class Pools(list):
+    """Stands in for the pool of threads, and notes how many threads were asked for."""
+
+    def __call__(self, threads):
+        self.append(threads)
+        return ThreadPoolExecutor(threads)
+
+
+@pytest.mark.parametrize("samples", [1, 32])
+def test_threads_that_would_wait_are_not_asked(monkeypatch, samples):
+    pools = Pools()
+    monkeypatch.setattr(module, "ThreadPoolExecutor", pools)
+    large, timed = {"resolution_x": 1280, "resolution_y": 960}, {"resolution_y": 960, "settings": ROWS}
+    for raw in (large, {}, timed):  # of the last each row has its own time and plan, and is done soon
+        cast(camera_at(**raw), HIGH_UP, ("combined",), threads=16, samples=samples)
+    assert 2 <= pools[0] <= 4  # work of 0.9 million: 3.3 times ALONE
+    assert pools[1:] == [1, 1]
+
+
+@pytest.mark.parametrize(("size", "used"), [((320, 240), 1), ((800, 660), 2), ((1600, 1320), 4)])
+def test_rays_of_small_pictures_are_not_shared_by_many_threads(monkeypatch, size, used):
+    pools = Pools()
+    monkeypatch.setattr(camera_module, "ThreadPoolExecutor", pools)
+    monkeypatch.setattr(camera_module.os, "cpu_count", lambda: 16)
+    for key in ("PERSP", "OMNIMAX", "PUSHBROOM"):
+        pools.clear()
+        model_camera(key, {"resolution_x": size[0], "resolution_y": size[1]}).rays()
+        assert set(pools) <= {used}, key
+        assert pools or used == 1, key
 
 
 def test_no_tile_is_larger_than_the_memory_that_is_stated():

@@ -15,7 +15,7 @@ import numpy as np
 from .aperture import Aperture
 from .clock import Clock, groups, meeting
 from .conventions import gamma
-from .loops import keep_memory, whole_rows
+from .loops import keep_memory, sharing, whole_rows
 from .panels import ROWS, fill, is_raster
 from .records import BlenderCamera, InputError, Pose, Raster, Rays
 from .sampling import in_opening, sub_pixel
@@ -28,6 +28,9 @@ BLOCK_PIXELS, SMOOTH_PIXELS = 1 << 17, 1 << 20
 """Pixels whose rays are made at once, where a thread's share has as many: fewer, and threads would wait at each of
 numpy's calls.
 """
+
+ALONE = 1 << 17
+"""Pixels whose rays take as long as what threads do one at a time for a share: see ``sharing``."""
 
 
 def pose_from(raw: BlenderCamera) -> Pose:
@@ -119,7 +122,7 @@ class Camera:
         valid = np.empty(shape, bool)
         smooth = self._is_smooth(x, y)
         write, pixels = (self._write_smooth, SMOOTH_PIXELS) if smooth else (self._write, BLOCK_PIXELS)
-        threads = os.cpu_count() or 1
+        threads = sharing(os.cpu_count() or 1, valid.size / ALONE)
         step = ROWS * max(1, round(min(pixels / max(x.size, 1), y.size / threads) / ROWS))
         near = _is_near(x) and _is_near(y)
 

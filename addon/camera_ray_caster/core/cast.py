@@ -15,7 +15,7 @@ import numpy as np
 from .camera import Camera
 from .clock import Clock, groups
 from .hits import Hits
-from .loops import STRIP, Scratch, keep_memory, whole_rows
+from .loops import STRIP, Scratch, keep_memory, sharing, whole_rows
 from .nearest import nearest
 from .painting import paint
 from .passes import PASSES
@@ -26,12 +26,15 @@ from .shading import MATERIAL
 STEPS = "rays", "cast", "passes"
 """What the seconds of a tile are spent on: rays, their nearest hits, the passes of these."""
 
-TILE_PIXELS = 1 << 17, 1 << 20
+TILE_PIXELS = 1 << 18, 1 << 20
 """The fewest and the most pixels of a tile, the unit of threads, progress and cancelling."""
 
 TILE_WORK = 1 << 23
-"""Pixels that are tested in a tile, or written: a tenth of a second. Below that a thread has one tile: in smaller ones
-threads wait for each other more often.
+"""Of a tile, with all its samples: a tenth of a second. Below that a thread has one tile."""
+
+ALONE = 1 << 18
+"""Work that takes as long as what threads do one at a time for a tile, holding the interpreter: 0.4 to 3 ms, measured
+with 1 to 15 tiles. Without heed to it 16 threads took two to four times as long as two.
 """
 
 
@@ -72,9 +75,10 @@ def cast(
     dtype is what passes of real numbers are stored as; the arithmetic is float64, but ``precision="FAST"`` searches for
     hits with float32. object_index, material_index and shape_index are int32, valid is bool. With ``samples`` above 1
     the combined pass is the mean of as many rays a pixel, all over the pixel and the camera's aperture; all other
-    passes are of the chief rays. ``progress(fraction)`` is called in the calling thread after each tile; where it
-    returns False the cast stops within the tiles under way and raises Cancelled. ``cull=False`` tests every shape at
-    every pixel: the same picture, slower.
+    passes are of the chief rays. ``threads``: so many at most, one a processor if None; fewer where they
+    would wait for each other. ``progress(fraction)`` is called in the calling thread after each tile; where it returns
+    False the cast stops within the tiles under way and raises Cancelled. ``cull=False`` tests every shape at every
+    pixel: the same picture, slower.
     Raises InputError for an unknown pass, shading or precision and for less than one sample or thread.
     """
     if samples < 1:
@@ -102,7 +106,7 @@ def cast(
         plans[False] = whole
         if sampled:
             plans[True] = make_plan(*middle, passes, known, shading, cull, True, precision)
-        tiles = list(_bands(slice(0, height), slice(0, width), TILE_PIXELS[0]) if sampled else _shares(whole, threads))
+        tiles = list(_shares(plans.get(True, whole), threads, samples if sampled else 1))
     images.plan = whole
     images.seconds = {"plan": perf_counter() - started}
     own = local()
@@ -120,18 +124,20 @@ def cast(
         return seconds
 
     began = perf_counter()
-    busy = _in_threads(run, tiles, threads, progress)
+    meanwhile = round(whole.work.sum() / len(tiles) / ALONE)  # other threads may hold the interpreter so many times
+    busy = _in_threads(run, tiles, min(threads, 1 + meanwhile), progress)
     share = (perf_counter() - began) / max(busy.sum(), np.finfo(float).tiny)
     images.seconds |= dict(zip(STEPS, busy * share, strict=True))
     return images
 
 
-def _shares(plan: Plan, threads: int) -> Iterator[Tile]:
-    """Yield the picture in whole strips, for each thread a share of about the same work."""
+def _shares(plan: Plan, threads: int, samples: int = 1) -> Iterator[Tile]:
+    """Yield the picture in whole strips, for each thread that gains by it a share of about the same work."""
     height, width = plan.camera.raster.shape
     least, most = TILE_PIXELS
     done = np.cumsum(plan.work)
-    count = min(threads * -(-int(done[-1]) // (threads * TILE_WORK)), -(-height * width // least))
+    threads = sharing(threads, done[-1] / ALONE)
+    count = min(threads * -(-int(done[-1] * samples) // (threads * TILE_WORK)), -(-height * width // least))
     cuts = np.searchsorted(done, done[-1] * np.arange(1, count) / count)
     cuts = np.unique(np.clip(np.rint(cuts / STRIP), 1, height // STRIP - 1).astype(int)) * STRIP
     for first, last in pairwise((0, *cuts[(cuts > 0) & (cuts < height)].tolist(), height)):

@@ -13,7 +13,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from ctypes import CDLL
 from functools import cache
-from math import prod
+from math import prod, sqrt
 from typing import Any, Generic, TypeVar, overload
 
 import numpy as np
@@ -34,6 +34,13 @@ LARGEST_KEPT, MOST_KEPT = 32 << 20, 128 << 20
 
 M_TRIM_THRESHOLD, M_MMAP_THRESHOLD = -1, -3
 """glibc's names of its parameters, from malloc.h."""
+
+
+def sharing(threads: int, work: float) -> int:
+    """Return how many of some threads gain by sharing work. Beside it each share has a part, counted as 1, that threads
+    do one at a time, holding the interpreter: n threads take work / n + 1 at least, and n at least.
+    """
+    return max(1, min(threads, round(sqrt(work))))
 
 
 @contextmanager

@@ -21,8 +21,8 @@ SMALL_PIXELS = 1 << 13
 SAMPLE_MARGIN = np.array([-0.5, 0.5, -0.5, 0.5])
 """Pixels by which bounds widen when samples lie all over the pixels."""
 
-STORED = 0.25
-"""What a pass costs, in tests of a pixel."""
+STORED, MANY_ORIGINS = 0.25, 8.0
+"""What a pass costs, and a test where rays leave many points and go all ways, in tests of a pixel."""
 
 PAINTED = 2.0
 """Pixels in the bounds of the shapes, for each of the picture, up to which painting them takes less than looking up."""
@@ -103,13 +103,17 @@ class Plan:
 
     @property
     def work(self) -> np.ndarray:
-        """(rows,) of the render window: about how many pixels are tested in each; a pass counts as STORED of a test."""
+        """(rows,) of the render window: about how many pixels are tested in each; a pass counts as STORED of a test, a
+        test as MANY_ORIGINS where rays have neither a point nor a direction in common.
+        """
         height, width = self.camera.raster.shape
         change = np.zeros(height + 1)
         for x0, x1, y0, y1 in (group.bounds.T for group in self.groups):
             for edge, sign in ((y0, 1), (y1, -1)):
                 change += sign * np.bincount(edge, x1 - x0, height + 1)
-        return np.cumsum(change)[:height] + STORED * len(self.passes) * width
+        tested = np.cumsum(change)[:height]
+        simple = self.camera.model.central or self.camera.parallel is not None
+        return (1.0 if simple else MANY_ORIGINS) * tested + STORED * len(self.passes) * width
 
     @property
     def row_type(self) -> np.dtype:
