@@ -14,7 +14,7 @@ from .shapes import SHAPE_OF_KIND
 from .shapes.normals import ZERO
 from .vector import components, difference, dot, inner, is_lattice, is_one, linear, matvec, norm, rows
 
-BLOCK_PIXELS = 1 << 17
+BLOCK_PIXELS = 1 << 16
 """Pixels whose passes are made at once."""
 
 ALL = slice(None)
