@@ -30,7 +30,7 @@ TILE_PIXELS = 1 << 18, 1 << 20
 """The fewest and the most pixels of a tile, the unit of threads, progress and cancelling."""
 
 TILE_WORK = 1 << 23
-"""Of a tile, with all its samples: a tenth of a second. Below that a thread has one tile."""
+"""The most work of a tile, all its samples counted: a tenth of a second. Below that a thread has one tile."""
 
 ALONE = 1 << 18
 """Work that takes as long as what threads do one at a time for a tile, holding the interpreter: 0.4 to 3 ms, measured
@@ -132,9 +132,13 @@ def cast(
 
 
 def _shares(plan: Plan, threads: int, samples: int = 1) -> Iterator[Tile]:
-    """Yield the picture in whole strips, for each thread that gains by it a share of about the same work."""
+    """Yield the picture in whole strips, for each thread that gains by it a share of about the same work.
+
+    samples: how many rays each pixel has.
+    """
     height, width = plan.camera.raster.shape
     least, most = TILE_PIXELS
+    most //= 1 if samples == 1 else 2  # their sum takes as much memory as all else
     done = np.cumsum(plan.work)
     threads = sharing(threads, done[-1] / ALONE)
     count = min(threads * -(-int(done[-1] * samples) // (threads * TILE_WORK)), -(-height * width // least))
@@ -190,14 +194,21 @@ def _cast_tile(tile: Tile, plan: Plan, names, samples: int, images: Images, scra
         if total is None:
             _store(hits, {name: images[name][part] for name in names}, tile.where)
         else:
-            once = np.empty_like(total)
-            _store(hits, {"combined": once}, None)
-            total += once
+            _add_combined(hits, total)
         seconds += generated - began, found - generated, perf_counter() - found
     if total is not None:
-        mean = total / samples
-        np.copyto(images["combined"][part], mean, where=_broadcast(tile.where, mean), casting="same_kind")
+        total /= samples
+        np.copyto(images["combined"][part], total, where=_broadcast(tile.where, total), casting="same_kind")
     return seconds
+
+
+def _add_combined(hits: Hits, total: np.ndarray) -> None:
+    """Add a sample's combined pass to the sum of those before."""
+    with whole_rows(hits.t.shape[1]):
+        for rows, block in hits.blocks():
+            once = hits.scratch("once", total[rows].shape, total.dtype)
+            PASSES["combined"].write(block, once)
+            total[rows] += once
 
 
 def _store(hits: Hits, outs: dict[str, np.ndarray], where) -> None:
