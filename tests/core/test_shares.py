@@ -9,7 +9,7 @@ import pytest
 
 from camera_ray_caster.core import camera as camera_module
 from camera_ray_caster.core import cast as module
-from camera_ray_caster.core.cast import ALONE, TILE_PIXELS, cast
+from camera_ray_caster.core.cast import ALONE, PLACED, TILE_PIXELS, cast
 from camera_ray_caster.core.loops import STRIP, sharing
 from camera_ray_caster.core.passes import PASSES
 from camera_ray_caster.core.plan import STORED, make_plan
@@ -79,7 +79,7 @@ class Pools(list):
         return ThreadPoolExecutor(threads)
 
 
-@pytest.mark.parametrize("samples", [1, 32])
+@pytest.mark.parametrize("samples", [1, 4])
 def test_threads_that_would_wait_are_not_asked(monkeypatch, samples):
     pools = Pools()
     monkeypatch.setattr(module, "ThreadPoolExecutor", pools)
@@ -88,6 +88,14 @@ def test_threads_that_would_wait_are_not_asked(monkeypatch, samples):
         cast(camera_at(**raw), HIGH_UP, ("combined",), threads=16, samples=samples)
     assert 2 <= pools[0] <= 4  # work of 0.9 million: 3.3 times ALONE
     assert pools[1:] == [1, 1]
+
+
+def test_plans_of_many_shapes_are_shared_by_threads(monkeypatch):
+    pools = Pools()
+    monkeypatch.setattr(module, "ThreadPoolExecutor", pools)
+    crowd = shapes_of(*[(SPHERE, (0, 0, -8), 0.9)] * (2 * ALONE // PLACED))
+    cast(camera_at(resolution_y=9, settings=ROWS), crowd, ("depth",), threads=16)
+    assert pools == [3]
 
 
 @pytest.mark.parametrize(("size", "used"), [((320, 240), 1), ((800, 660), 2), ((1600, 1320), 4)])

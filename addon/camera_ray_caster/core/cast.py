@@ -14,11 +14,9 @@ import numpy as np
 
 from .camera import Camera
 from .clock import Clock, groups
-from .hits import Hits
-from .loops import STRIP, Scratch, keep_memory, sharing, whole_rows
+from .loops import STRIP, Scratch, keep_memory, sharing
 from .nearest import nearest
-from .painting import paint
-from .passes import PASSES
+from .passes import PASSES, add_combined, put, store
 from .plan import Plan, make_plan
 from .records import Cancelled, InputError, Shapes
 from .shading import MATERIAL
@@ -36,6 +34,9 @@ ALONE = 1 << 18
 """Work that takes as long as what threads do one at a time for a tile, holding the interpreter: 0.4 to 3 ms, measured
 with 1 to 15 tiles. Without heed to it 16 threads took two to four times as long as two.
 """
+
+PLACED = 64
+"""Work that takes as long as what a plan does for a shape without the interpreter."""
 
 
 class Images(dict):
@@ -124,8 +125,9 @@ def cast(
         return seconds
 
     began = perf_counter()
-    meanwhile = round(whole.work.sum() / len(tiles) / ALONE)  # other threads may hold the interpreter so many times
-    busy = _in_threads(run, tiles, min(threads, 1 + meanwhile), progress)
+    work = whole.work.sum() / len(tiles) + (0 if plans else PLACED * len(shapes))
+    others = round(work / ALONE)  # may hold the interpreter meanwhile
+    busy = _in_threads(run, tiles, min(threads, 1 + others), progress)
     share = (perf_counter() - began) / max(busy.sum(), np.finfo(float).tiny)
     images.seconds |= dict(zip(STEPS, busy * share, strict=True))
     return images
@@ -192,49 +194,14 @@ def _cast_tile(tile: Tile, plan: Plan, names, samples: int, images: Images, scra
         hits = nearest(plan, origin, direction, from_eye, corner, scratch)
         found = perf_counter()
         if total is None:
-            _store(hits, {name: images[name][part] for name in names}, tile.where)
+            store(hits, {name: images[name][part] for name in names}, tile.where)
         else:
-            _add_combined(hits, total)
+            add_combined(hits, total)
         seconds += generated - began, found - generated, perf_counter() - found
     if total is not None:
         total /= samples
-        np.copyto(images["combined"][part], total, where=_broadcast(tile.where, total), casting="same_kind")
+        put(total, images["combined"][part], tile.where)
     return seconds
-
-
-def _add_combined(hits: Hits, total: np.ndarray) -> None:
-    """Add a sample's combined pass to the sum of those before."""
-    with whole_rows(hits.t.shape[1]):
-        for rows, block in hits.blocks():
-            once = hits.scratch("once", total[rows].shape, total.dtype)
-            PASSES["combined"].write(block, once)
-            total[rows] += once
-
-
-def _store(hits: Hits, outs: dict[str, np.ndarray], where) -> None:
-    """Write passes, only where they are meant; None for all pixels."""
-    if where is not None:
-        meant = {name: np.empty_like(out) for name, out in outs.items()}
-        _store(hits, meant, None)
-        for name, out in outs.items():
-            np.copyto(out, meant[name], where=_broadcast(where, out))
-        return
-    with whole_rows(hits.t.shape[1]):
-        painted = {name: brush for name in outs if (brush := PASSES[name].brush(hits)) is not None}
-        if painted:
-            paint(hits, [(brush, outs[name]) for name, brush in painted.items()])
-        for name in outs:
-            if PASSES[name].whole:
-                PASSES[name].write(hits, outs[name])
-        in_blocks = [name for name in outs if name not in painted and not PASSES[name].whole]
-        for rows, block in hits.blocks() if in_blocks else ():
-            for name in in_blocks:
-                PASSES[name].write(block, outs[name][rows])
-
-
-def _broadcast(where, image):
-    """Return what ``where`` is to numpy for images with channels or without."""
-    return True if where is None else where if image.ndim == 2 else where[..., None]
 
 
 def _in_threads(run, tiles, workers: int, progress) -> np.ndarray:

@@ -13,6 +13,7 @@ import numpy as np
 
 from . import painting
 from .hits import Hits
+from .loops import whole_rows
 from .shading import shade
 from .shapes.normals import ZERO
 from .vector import matvec, norm, unit
@@ -161,3 +162,39 @@ PASSES = {
     "normal_bound": Pass(normal_bound),
 }
 """Every pass by its name, in the order of the report."""
+
+
+def store(hits: Hits, outs: dict[str, np.ndarray], where=None) -> None:
+    """Write passes into parts of images, only ``where`` they are meant: (rows, columns) bool, None for all pixels."""
+    if where is not None:
+        meant = {name: np.empty_like(out) for name, out in outs.items()}
+        store(hits, meant)
+        for name, out in outs.items():
+            put(meant[name], out, where)
+        return
+    with whole_rows(hits.t.shape[1]):
+        painted = {name: brush for name in outs if (brush := PASSES[name].brush(hits)) is not None}
+        if painted:
+            painting.paint(hits, [(brush, outs[name]) for name, brush in painted.items()])
+        for name in outs:
+            if PASSES[name].whole:
+                PASSES[name].write(hits, outs[name])
+        in_blocks = [name for name in outs if name not in painted and not PASSES[name].whole]
+        for rows, block in hits.blocks() if in_blocks else ():
+            for name in in_blocks:
+                PASSES[name].write(block, outs[name][rows])
+
+
+def add_combined(hits: Hits, total: np.ndarray) -> None:
+    """Add the combined pass to a sum, (rows, columns, 4)."""
+    with whole_rows(hits.t.shape[1]):
+        for rows, block in hits.blocks():
+            once = hits.scratch("once", total[rows].shape, total.dtype)
+            combined(block, once)
+            total[rows] += once
+
+
+def put(image: np.ndarray, out: np.ndarray, where) -> None:
+    """Copy an image, (rows, columns[, channels]), only ``where`` it is meant; None for all pixels."""
+    meant = True if where is None else where if image.ndim == 2 else where[..., None]
+    np.copyto(out, image, where=meant, casting="same_kind")
