@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -12,7 +13,7 @@ from camera_ray_caster.core import cast as module
 from camera_ray_caster.core.cast import ALONE, PLACED, TILE_PIXELS, cast
 from camera_ray_caster.core.loops import STRIP, sharing
 from camera_ray_caster.core.passes import PASSES
-from camera_ray_caster.core.plan import STORED, make_plan
+from camera_ray_caster.core.plan import MANY_ORIGINS, STORED, make_plan
 from camera_ray_caster.core.records import SPHERE
 
 from .model_examples import camera as model_camera
@@ -40,6 +41,23 @@ def test_the_work_of_a_row_is_the_pixels_that_are_tested_in_it_and_written():
             counted[y0:y1] += x1 - x0
     np.testing.assert_array_equal(plan.work, counted)
     assert counted.max() > 4 * counted.min()
+
+
+@pytest.mark.parametrize(
+    ("key", "cost"), [("PERSP", 1), ("ORTHO", 1), ("EQUIRECTANGULAR", 1), ("PUSHBROOM", MANY_ORIGINS)]
+)
+def test_rays_with_neither_a_point_nor_a_direction_in_common_count_as_what_they_cost(key, cost):
+    camera = model_camera(key, {"resolution_x": 64, "resolution_y": 80})
+    plan = make_plan(camera, HIGH_UP, ("depth",), tuple(PASSES), "MATERIAL", False, False)
+    assert (plan.work == cost * len(HIGH_UP) * 64 + STORED * 64).all()
+
+
+@pytest.mark.parametrize(("shapes", "size"), [(0, 1), (1, 1), (128, 1), (129, 2), (1 << 15, 2), ((1 << 15) + 1, 4)])
+def test_rows_take_as_few_bytes_as_hold_them(shapes, size):
+    plan = replace(plan_of(camera_at()), shapes=range(shapes))
+    assert plan.row_type.itemsize == size
+    assert np.iinfo(plan.row_type).min < 0
+    assert np.iinfo(plan.row_type).max >= shapes - 1
 
 
 @pytest.mark.parametrize("threads", [1, 2, 3, 8])

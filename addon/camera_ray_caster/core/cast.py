@@ -36,7 +36,7 @@ with 1 to 15 tiles. Without heed to it 16 threads took two to four times as long
 """
 
 PLACED = 64
-"""Work that takes as long as what a plan does for a shape without the interpreter."""
+"""Work that takes as long as what a tile's own plan does for a shape without the interpreter."""
 
 
 class Images(dict):
@@ -125,8 +125,8 @@ def cast(
         return seconds
 
     began = perf_counter()
-    work = whole.work.sum() / len(tiles) + (0 if plans else PLACED * len(shapes))
-    others = round(work / ALONE)  # may hold the interpreter meanwhile
+    own_plan = 0 if camera.clock is None else PLACED * len(shapes)
+    others = round((whole.work.sum() / len(tiles) + own_plan) / ALONE)  # may hold the interpreter meanwhile
     busy = _in_threads(run, tiles, min(threads, 1 + others), progress)
     share = (perf_counter() - began) / max(busy.sum(), np.finfo(float).tiny)
     images.seconds |= dict(zip(STEPS, busy * share, strict=True))
@@ -140,7 +140,8 @@ def _shares(plan: Plan, threads: int, samples: int = 1) -> Iterator[Tile]:
     """
     height, width = plan.camera.raster.shape
     least, most = TILE_PIXELS
-    most //= 1 if samples == 1 else 2  # their sum takes as much memory as all else
+    if samples > 1:
+        most //= 2  # their sum takes as much memory as all else
     done = np.cumsum(plan.work)
     threads = sharing(threads, done[-1] / ALONE)
     count = min(threads * -(-int(done[-1] * samples) // (threads * TILE_WORK)), -(-height * width // least))

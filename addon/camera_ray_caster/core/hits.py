@@ -51,19 +51,18 @@ class Hits:
         step = max(1, BLOCK_PIXELS // width)
         for first in range(0, height, step):
             rows = slice(first, first + step)
-            yield rows, self.part(rows, slice(0, width))
+            yield rows, self._part(rows)
 
-    def part(self, rows: slice, columns: slice) -> Hits:
-        """Return the hits of a window of these."""
-        window = rows, columns
-        origin, direction = (tuple(cut(c, window) for c in vector) for vector in (self.origin, self.direction))
+    def _part(self, rows: slice) -> Hits:
+        """Return the hits of some rows of these."""
+        origin, direction = (tuple(cut(c, (rows, ALL)) for c in vector) for vector in (self.origin, self.direction))
         hits = Hits(
-            self.plan, self.from_eye, origin, direction, self.t[window], self.index[window], self.scratch,
-            (self.corner[0] + columns.start, self.corner[1] + rows.start), self.full,
+            self.plan, self.from_eye, origin, direction, self.t[rows], self.index[rows], self.scratch,
+            (self.corner[0], self.corner[1] + rows.start), self.full,
         )  # fmt: skip
         if self.lattice is not None:
             row, column = self.lattice
-            hits.lattice = row[..., columns], column[:, rows]
+            hits.lattice = row, column[:, rows]
         return hits
 
     @lazy

@@ -101,7 +101,7 @@ class Plan:
     real: type
     """What hits are searched with: float64 or float32."""
 
-    @property
+    @cached_property
     def work(self) -> np.ndarray:
         """(rows,) of the render window: about how many pixels are tested in each; a pass counts as STORED of a test, a
         test as MANY_ORIGINS where rays have neither a point nor a direction in common.
