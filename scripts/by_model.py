@@ -29,7 +29,7 @@ LENSES = {
 def run(width: int, height: int, rounds: int, threads: int) -> list[dict]:
     """Print and return the ratios of every model, each taken in turns with what it is compared to."""
     sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
-    from tests.core.model_examples import camera
+    from tests.core.cameras.model_examples import camera
 
     pinhole, shapes = c.scene(SPHERES, width, height)
     print(f"\n{width} x {height}, {threads} threads, {rounds} rounds; {SPHERES} spheres")

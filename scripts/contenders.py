@@ -12,7 +12,7 @@ from importlib.util import find_spec
 
 import numpy as np
 
-from camera_ray_caster.core.cameras import camera_from
+from camera_ray_caster.core.camera.build import camera_from
 from camera_ray_caster.core.cast import cast
 from camera_ray_caster.core.records import PLANE, SPHERE, BlenderCamera, Shapes
 
@@ -33,14 +33,14 @@ def scene(count: int, width: int, height: int, **raw):
     tangent_y = tangent_x * height / width
     depth = rng.uniform(12, 30, count)
     across, up = rng.uniform(-1, 1, (2, count))
-    centre = np.stack((across * tangent_x, up * tangent_y, -np.ones(count)), axis=1)
+    center = np.stack((across * tangent_x, up * tangent_y, -np.ones(count)), axis=1)
     radius = np.sqrt(0.6 * 4 * tangent_x * tangent_y / np.pi / np.sum(1 / depth**2))
-    centre = np.vstack((centre * depth[:, None], (0, 0, -32)))
+    center = np.vstack((center * depth[:, None], (0, 0, -32)))
     axes = np.vstack((np.broadcast_to(np.eye(3) * radius, (count, 3, 3)), 40 * np.eye(3)[None]))
     index = np.arange(1, count + 2, dtype=np.int32)
     shapes = Shapes(
-        kind=np.array([SPHERE] * count + [PLANE], np.uint8), centre=centre, axes=axes, object_index=index,
-        material_index=index, colour=np.ones((count + 1, 4), np.float32), name_index=index - 1,
+        kind=np.array([SPHERE] * count + [PLANE], np.uint8), center=center, axes=axes, object_index=index,
+        material_index=index, color=np.ones((count + 1, 4), np.float32), name_index=index - 1,
     )  # fmt: skip
     raw = {"type": "PERSP", "lens": LENS, "sensor_width": SENSOR} | raw
     camera = camera_from(
@@ -81,10 +81,10 @@ def mitsuba(aovs: str | None) -> Callable:
         for k in range(len(shapes)):
             if shapes.kind[k] == SPHERE:
                 content[f"s{k}"] = {
-                    "type": "sphere", "center": shapes.centre[k].tolist(), "radius": float(shapes.axes[k, 0, 0])
+                    "type": "sphere", "center": shapes.center[k].tolist(), "radius": float(shapes.axes[k, 0, 0])
                 }  # fmt: skip
             else:
-                place = mi.ScalarTransform4f().translate(shapes.centre[k].tolist()).scale(float(shapes.axes[k, 0, 0]))
+                place = mi.ScalarTransform4f().translate(shapes.center[k].tolist()).scale(float(shapes.axes[k, 0, 0]))
                 content[f"s{k}"] = {"type": "rectangle", "to_world": place}
         world = mi.load_dict(content)
         if aovs is not None:
@@ -116,7 +116,7 @@ def embree(camera, shapes):
     corners = []
     for k in range(len(shapes)):
         points, faces = (ball.vertices, ball.faces) if shapes.kind[k] == SPHERE else (square, [[0, 1, 2], [0, 2, 3]])
-        corners.append((points @ shapes.axes[k].T + shapes.centre[k])[np.asarray(faces)])
+        corners.append((points @ shapes.axes[k].T + shapes.center[k])[np.asarray(faces)])
     world = EmbreeScene()
     TriangleMesh(world, np.concatenate(corners).astype(np.float32))
     rays = camera.rays()

@@ -14,7 +14,7 @@ ENGINE = "CAMERA_RAY_CASTER"
 def through(command: str) -> int:
     """Run a command of the add-on's terminal with this process's arguments and return its exit status."""
     sys.path.insert(0, str(ADDON))
-    from camera_ray_caster.blender.quiet import keep_output
+    from camera_ray_caster.blender.terminal.standard_output import keep_output
 
     keep_output()
     try:
@@ -28,14 +28,14 @@ def through(command: str) -> int:
     if installed is not None:
         addon_utils.disable(installed.__module__.removesuffix(".blender.engine"))
     import camera_ray_caster
-    from camera_ray_caster.blender import ending, terminal
+    from camera_ray_caster.blender.terminal import commands, signals
 
     for name in ("SIGINT", "SIGTERM", "SIGHUP"):
         if hasattr(signal, name):
-            signal.signal(getattr(signal, name), ending.note)
+            signal.signal(getattr(signal, name), signals.note)
     camera_ray_caster.register()
     try:
-        return terminal.main(command, _arguments(bool(bpy.app.binary_path)), f"{command}.py")
+        return commands.main(command, _arguments(bool(bpy.app.binary_path)), f"{command}.py")
     finally:
         camera_ray_caster.unregister()  # Blender may hang at its end otherwise
 

@@ -101,7 +101,7 @@ def _scene(camera, shapes):
         bpy.data.objects.remove(made)
     for k in range(len(shapes)):
         thing = bpy.data.objects.new(f"{k}", ball if shapes.kind[k] == SPHERE else square)
-        thing.location, thing.scale = shapes.centre[k], np.diag(shapes.axes[k])
+        thing.location, thing.scale = shapes.center[k], np.diag(shapes.axes[k])
         thing.pass_index = int(shapes.object_index[k])
         scene.collection.objects.link(thing)
     data = bpy.data.cameras.new("Camera")

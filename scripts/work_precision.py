@@ -26,7 +26,7 @@ def main() -> int:
     except ModuleNotFoundError as missing:
         print(f"work_precision.py: {missing}: install the packages of the test extra", file=sys.stderr)
         return 2
-    from camera_ray_caster.blender.quiet import keep_output
+    from camera_ray_caster.blender.terminal.standard_output import keep_output
     from camera_ray_caster.core.records import InputError
 
     parser = Parser(prog="work_precision.py", description=__doc__.splitlines()[0])
@@ -74,7 +74,7 @@ def _read(path):
     from precision.arithmetic import small
 
     import camera_ray_caster
-    from camera_ray_caster.blender.read import camera_record, evaluated, shapes_record
+    from camera_ray_caster.blender.read.scene import camera_record, evaluated, shapes_record
 
     camera_ray_caster.register()
     try:

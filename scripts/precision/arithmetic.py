@@ -3,12 +3,12 @@
 from dataclasses import replace
 
 import numpy as np
-from tests.core import truth
-from tests.core.extreme_cases import CASES, Case, around
+from tests.core.errors.extreme_cases import CASES, Case, around
+from tests.core.truth import truth
 
-from camera_ray_caster.core.bounds import decision
-from camera_ray_caster.core.cameras import camera_from
+from camera_ray_caster.core.camera.build import camera_from
 from camera_ray_caster.core.cast import cast
+from camera_ray_caster.core.errors.hits import decision
 from camera_ray_caster.core.records import INFINITE_PLANE, SPHERE
 
 from .points import Point, timed
@@ -39,9 +39,9 @@ def textbook(camera, shapes, real):
     origins, directions = (a.reshape(-1, 3).astype(real) for a in (rays.origins, rays.directions))
     distance, index = np.full(len(directions), real(camera.clip_end)), np.full(len(directions), -1)
     with np.errstate(all="ignore"):
-        for k, (kind, centre, axes) in enumerate(zip(shapes.kind, shapes.centre, shapes.axes, strict=True)):
+        for k, (kind, center, axes) in enumerate(zip(shapes.kind, shapes.center, shapes.axes, strict=True)):
             to_shape = np.linalg.inv(axes).astype(real)
-            o, d = (origins - centre.astype(real)) @ to_shape.T, directions @ to_shape.T
+            o, d = (origins - center.astype(real)) @ to_shape.T, directions @ to_shape.T
             if kind == SPHERE:
                 a, b, c = (d * d).sum(axis=1), (o * d).sum(axis=1), (o * o).sum(axis=1) - real(1)
                 root = np.sqrt(b * b - a * c)

@@ -3,10 +3,10 @@
 import sys
 
 import numpy as np
-from tests.core import truth
+from tests.core.truth import truth
 
-from camera_ray_caster.core.bounds import decision
 from camera_ray_caster.core.cast import cast
+from camera_ray_caster.core.errors.hits import decision
 
 from .tracers import TRACERS, Given
 

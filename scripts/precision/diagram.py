@@ -10,7 +10,7 @@ from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
 
 from .arithmetic import METHODS
 
-COLOURS = {
+COLORS = {
     "float32 textbook": "#d1495b", "float32 robust": "#edae49", "float64 textbook": "#66a182",
     "float64 robust": "#2e4057",
 }  # fmt: skip
@@ -59,7 +59,7 @@ def _scenes(axis, points):
         own = [p for p in points if p.method == method]
         x, y = [p.seconds * 1e3 for p in own], [max(p.worst_error, FLOOR) for p in own]
         marker = "o" if method.endswith("robust") else "s"
-        axis.scatter(x, y, s=110, color=COLOURS[method], marker=marker, label=method, edgecolors="white", zorder=3)
+        axis.scatter(x, y, s=110, color=COLORS[method], marker=marker, label=method, edgecolors="white", zorder=3)
         for p, a, b in zip(own, x, y, strict=True):
             number = scenes.index(p.scene) + 1
             axis.annotate(number, (a, b), ha="center", va="center", fontsize=7, color="white", zorder=4)
@@ -76,13 +76,13 @@ def _scenes(axis, points):
 
 def _curves(axis, points, title, label):
     use_median = points[0].family == "samples"
-    for colour, method in zip(OTHERS, dict.fromkeys(p.method for p in points), strict=False):
+    for color, method in zip(OTHERS, dict.fromkeys(p.method for p in points), strict=False):
         own = [p for p in points if p.method == method]
         y = [max(p.median_error if use_median else p.worst_error, FLOOR) for p in own]
-        axis.plot([p.seconds * 1e3 for p in own], y, "o-", ms=4, color=colour, label=method)
+        axis.plot([p.seconds * 1e3 for p in own], y, "o-", ms=4, color=color, label=method)
         for p, error in zip(own, y, strict=True):
             place = p.seconds * 1e3, error
-            axis.annotate(p.scene, place, (5, 4), textcoords="offset points", fontsize=7, color=colour)
+            axis.annotate(p.scene, place, (5, 4), textcoords="offset points", fontsize=7, color=color)
     axis.set(xscale="log", yscale="log", title=title, ylabel=label, xlabel="ms per million pixels")
     axis.margins(x=0.15, y=0.12)
     axis.legend(frameon=False, fontsize=8)

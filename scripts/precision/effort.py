@@ -4,16 +4,16 @@ from dataclasses import replace
 from functools import partial
 
 import numpy as np
-from tests.core.extreme_cases import Case, shapes_of
-from tests.core.model_examples import camera as example
+from tests.core.cameras.model_examples import camera as example
+from tests.core.errors.extreme_cases import Case, shapes_of
 
-from camera_ray_caster.core.aperture import Aperture
-from camera_ray_caster.core.cameras.inversion import Inverse
+from camera_ray_caster.core.cameras.parts.aperture import Aperture
 from camera_ray_caster.core.cast import cast
-from camera_ray_caster.core.motion import measure as difference
-from camera_ray_caster.core.motion import resolve
+from camera_ray_caster.core.maths.inversion import Inverse
+from camera_ray_caster.core.motion.evaluations import measure as difference
+from camera_ray_caster.core.motion.evaluations import resolve
 from camera_ray_caster.core.records import PLANE, SPHERE
-from camera_ray_caster.core.verify import verify
+from camera_ray_caster.core.report.verification import verify
 
 from .points import Point, timed
 

@@ -50,7 +50,7 @@ def triangles(shapes, k, origin):
         ball = trimesh.creation.icosphere(subdivisions=4)
         return ball.vertices, ball.faces, axes
     if shapes.kind[k] == INFINITE_PLANE:
-        reach = ENDLESS * max(np.linalg.norm(shapes.centre[k] - origin), 1e-30)
+        reach = ENDLESS * max(np.linalg.norm(shapes.center[k] - origin), 1e-30)
         axes = axes / np.linalg.norm(axes, axis=0) * reach
     return *SQUARE, axes
 
@@ -59,7 +59,7 @@ def meshes(case, given):
     """Yield the world vertices and the faces of each shape."""
     for k in range(len(case.shapes)):
         points, faces, axes = triangles(case.shapes, k, given.origins[0])
-        yield points @ axes.T + case.shapes.centre[k], faces
+        yield points @ axes.T + case.shapes.center[k], faces
 
 
 def ours(case, given):
@@ -92,7 +92,7 @@ def mitsuba(case, given):
         for k, (points, faces) in enumerate(meshes(case, given)):
             axes = shapes.axes[k]
             if shapes.kind[k] == SPHERE and np.array_equal(axes, axes[0, 0] * np.eye(3)):
-                content[f"s{k}"] = {"type": "sphere", "center": shapes.centre[k].tolist(), "radius": float(axes[0, 0])}
+                content[f"s{k}"] = {"type": "sphere", "center": shapes.center[k].tolist(), "radius": float(axes[0, 0])}
                 continue
             path = str(Path(folder) / f"{k}.ply")
             trimesh.Trimesh(points, faces, process=False).export(path)
@@ -120,7 +120,7 @@ def ray_cast(case, given):
 def cycles(case, given):
     """Cycles with one sample a pixel: its own camera, triangles, float32."""
     import bpy
-    from tests.blender.cycles import cycles_surface
+    from tests.blender.cycles.cycles import cycles_surface
 
     build(case, given)
     if not set_camera(bpy.context.scene, case.raw):
@@ -145,7 +145,7 @@ def build(case, given) -> None:
         item = bpy.data.objects.new("Shape", mesh)
         bpy.context.scene.collection.objects.link(item)
         matrix = np.eye(4)
-        matrix[:3, :3], matrix[:3, 3] = axes, case.shapes.centre[k]
+        matrix[:3, :3], matrix[:3, 3] = axes, case.shapes.center[k]
         item.matrix_world = Matrix(matrix)  # lists it would take by columns
     bpy.context.view_layer.update()
 

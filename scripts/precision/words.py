@@ -1,6 +1,6 @@
 """The extreme cases that a script is told to take, in words."""
 
-from tests.core.extreme_cases import CASES
+from tests.core.errors.extreme_cases import CASES
 
 
 def cases_named(parser, words):

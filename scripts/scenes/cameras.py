@@ -9,11 +9,11 @@ from .parts import add, camera, ico_sphere, lamp, render, square, sun, uv_sphere
 
 def stage(scene, *, parent=None):
     """Add a floor, three spheres that tell left from right and up from down, and sunlight."""
-    add(scene, "Floor", square(), scale=3, colour="d9d2c6", index=1, parent=parent)
-    add(scene, "Red", uv_sphere(), (-1.4, 0, 1), colour="e2674a", index=2, parent=parent)
-    add(scene, "Green", uv_sphere(), (1.2, 0.6, 0.6), scale=0.6, colour="2a9d8f", index=3, parent=parent)
+    add(scene, "Floor", square(), scale=3, color="d9d2c6", index=1, parent=parent)
+    add(scene, "Red", uv_sphere(), (-1.4, 0, 1), color="e2674a", index=2, parent=parent)
+    add(scene, "Green", uv_sphere(), (1.2, 0.6, 0.6), scale=0.6, color="2a9d8f", index=3, parent=parent)
     pill = (0.6, -1.4, 0.3), (0, 0, 30), (0.5, 0.3, 0.3)
-    add(scene, "Yellow", uv_sphere(), *pill, colour="f0b941", index=4, parent=parent)
+    add(scene, "Yellow", uv_sphere(), *pill, color="f0b941", index=4, parent=parent)
     sun(scene, (46, 0, -46), 2)
 
 
@@ -80,10 +80,10 @@ def animated(scene):
 
 
 def inside_a_sphere(scene):
-    """the camera is inside a sphere, off its centre, and sees it from within in every pixel."""
-    add(scene, "Room", uv_sphere(), (0, 0, 0), scale=6, colour="9fb4c7", index=1)
-    add(scene, "Ball", ico_sphere(), (0.5, 2, -0.4), colour="e2674a", index=2)
-    add(scene, "Pill", uv_sphere(), (-1.8, 1, 0.7), (0, 40, 0), (0.4, 0.4, 1.1), colour="2a9d8f", index=3)
+    """the camera is inside a sphere, off its center, and sees it from within in every pixel."""
+    add(scene, "Room", uv_sphere(), (0, 0, 0), scale=6, color="9fb4c7", index=1)
+    add(scene, "Ball", ico_sphere(), (0.5, 2, -0.4), color="e2674a", index=2)
+    add(scene, "Pill", uv_sphere(), (-1.8, 1, 0.7), (0, 40, 0), (0.4, 0.4, 1.1), color="2a9d8f", index=3)
     lamp(scene, (2, -3, 3), 1000)
     camera(scene, (0.4, -4.5, 0.3), (0, 0, 0), lens=20)
     render(scene, world="2b2d42")
@@ -93,7 +93,7 @@ def far_and_small(scene):
     """spheres of radius 0.1 at 400 units through a 5 m lens: single precision would lose them."""
     for k in range(5):
         place = (0.55 * (k - 2), 0.15 * k, 0.2 * sin(2.4 * k))
-        add(scene, f"Ball {k}", ico_sphere(), place, scale=0.1, colour=("e2674a", "2a9d8f")[k % 2], index=k + 1)
+        add(scene, f"Ball {k}", ico_sphere(), place, scale=0.1, color=("e2674a", "2a9d8f")[k % 2], index=k + 1)
     sun(scene, (46, 0, -46), 2)
     camera(scene, (0, -400, 0), lens=5000)
     render(scene)

@@ -23,10 +23,10 @@ from .parts import (
 
 def instances(scene):
     """what no object list shows: collection instances, instances and points of geometry nodes, particles."""
-    add(scene, "Floor", square(), scale=(5, 4, 1), colour="d9d2c6", index=1)
+    add(scene, "Floor", square(), scale=(5, 4, 1), color="d9d2c6", index=1)
     snowman = bpy.data.collections.new("Snowman")
-    for height, size, colour in ((0.5, 0.5, "eae1d0"), (1.2, 0.35, "f0b941")):
-        part = add(scene, "Part", uv_sphere(), (0, 0, height), scale=size, colour=colour, index=2)
+    for height, size, color in ((0.5, 0.5, "eae1d0"), (1.2, 0.35, "f0b941")):
+        part = add(scene, "Part", uv_sphere(), (0, 0, height), scale=size, color=color, index=2)
         scene.collection.objects.unlink(part)
         snowman.objects.link(part)
     for x, scale in ((-3, 1), (-1.6, (0.7, 0.7, -1.3))):
@@ -35,10 +35,10 @@ def instances(scene):
 
     helix = [(cos(k / 2), sin(k / 2), k / 12) for k in range(40)]
     cloud = points(helix, [0.06 + 0.002 * k for k in range(40)])
-    spheres_of_points(add(scene, "Points", cloud, (0.4, 0, 0), colour="e2674a", index=3))
-    ball = add(scene, "Ball", ico_sphere(), (3.6, -1.6, 0.3), scale=0.3, colour="2a9d8f", index=4)
+    spheres_of_points(add(scene, "Points", cloud, (0.4, 0, 0), color="e2674a", index=3))
+    ball = add(scene, "Ball", ico_sphere(), (3.6, -1.6, 0.3), scale=0.3, color="2a9d8f", index=4)
     circle = [(1.2 * cos(pi * k / 5), 0, 1.5 + 1.2 * sin(pi * k / 5)) for k in range(10)]
-    instances_of_points(add(scene, "Wheel", points(circle, [0.0] * 10), (3.2, 1, 0), colour="2a9d8f"), ball)
+    instances_of_points(add(scene, "Wheel", points(circle, [0.0] * 10), (3.2, 1, 0), color="2a9d8f"), ball)
     particles(add(scene, "Emitter", square(), (0, 3.6, 1.7), (90, 0, 0), (4.5, 1.2, 1), index=6), ball)
     sun(scene, (46, 0, -46), 2)
     camera(scene, (0.5, -11, 4.2), (0, 0, 1.1), lens=42)
@@ -56,8 +56,8 @@ def particles(emitter, instance, count: int = 40) -> None:
 
 def left_out(scene):
     """a monkey, a cube, a text, a bent quad, a flattened sphere: named in the report; what is hidden is not drawn."""
-    add(scene, "Floor", square(), scale=4, colour="d9d2c6", index=1)
-    add(scene, "Sphere", uv_sphere(), (0, 0, 0.8), scale=0.8, colour="e2674a", index=2)
+    add(scene, "Floor", square(), scale=4, color="d9d2c6", index=1)
+    add(scene, "Sphere", uv_sphere(), (0, 0, 0.8), scale=0.8, color="e2674a", index=2)
     add(scene, "Monkey", mesh("monkey"), (-2.2, 0, 1), index=3)
     add(scene, "Cube", mesh("cube", size=1), (2.2, 0, 0.5), index=4)
     add(scene, "Cylinder", mesh("cone", segments=32, radius1=0.5, radius2=0.5, depth=1), (2.2, 2, 0.5), index=5)
@@ -66,7 +66,7 @@ def left_out(scene):
     bent.from_pydata([(-1, -1, 0), (1, -1, 0), (1, 1, 0.5), (-1, 1, 0)], [], [(0, 1, 2, 3)])
     add(scene, "Bent quad", bent, (-2.2, 2, 0.5), index=7)
     add(scene, "Flat sphere", uv_sphere(), (0, -1.5, 0.5), scale=(0.5, 0.5, 0), index=8)
-    add(scene, "Hidden", uv_sphere(), (0, -2.5, 1.2), colour="f0b941", index=9).hide_render = True
+    add(scene, "Hidden", uv_sphere(), (0, -2.5, 1.2), color="f0b941", index=9).hide_render = True
     sun(scene, (46, 0, -46), 2)
     camera(scene, (1, -9, 3.5), (0, 0, 0.8), lens=40)
     render(scene)
@@ -75,10 +75,10 @@ def left_out(scene):
 def cast_as(scene):
     """objects that are told what they stand for: a cube cast as a sphere, a monkey as a plane, a floor without end."""
     things = (
-        ("INFINITE_PLANE", add(scene, "Floor", square(), colour="d9d2c6", index=1)),
-        ("SPHERE", add(scene, "Cube", mesh("cube", size=1.2), (-1.3, 0, 1.1), colour="e2674a", index=2)),
-        ("PLANE", add(scene, "Monkey", mesh("monkey"), (1.3, 0, 1), (70, 0, 20), colour="2a9d8f", index=3)),
-        ("IGNORE", add(scene, "Nothing", uv_sphere(), (0, -2, 0.6), scale=0.6, colour="f0b941", index=4)),
+        ("INFINITE_PLANE", add(scene, "Floor", square(), color="d9d2c6", index=1)),
+        ("SPHERE", add(scene, "Cube", mesh("cube", size=1.2), (-1.3, 0, 1.1), color="e2674a", index=2)),
+        ("PLANE", add(scene, "Monkey", mesh("monkey"), (1.3, 0, 1), (70, 0, 20), color="2a9d8f", index=3)),
+        ("IGNORE", add(scene, "Nothing", uv_sphere(), (0, -2, 0.6), scale=0.6, color="f0b941", index=4)),
     )
     for primitive, thing in things:
         thing.camera_ray_caster.primitive = primitive
@@ -91,8 +91,8 @@ def view_layers(scene):
     """two view layers, one of the spheres with all passes, one of the planes with few: each has its own shapes."""
     for name in ("Spheres", "Planes"):
         scene.collection.children.link(bpy.data.collections.new(name))
-    floor = add(scene, "Floor", square(), scale=3, colour="d9d2c6", index=1)
-    ball = add(scene, "Ball", uv_sphere(), (0, 0, 1), colour="e2674a", index=2)
+    floor = add(scene, "Floor", square(), scale=3, color="d9d2c6", index=1)
+    ball = add(scene, "Ball", uv_sphere(), (0, 0, 1), color="e2674a", index=2)
     for thing, name in ((ball, "Spheres"), (floor, "Planes")):
         scene.collection.objects.unlink(thing)
         scene.collection.children[name].objects.link(thing)

@@ -25,7 +25,7 @@ def camera_obscura(scene):
 
 
 def thin_lens(scene):
-    """depth of field: sharp on the plane of the red ball's centre, blurred before and behind it."""
+    """depth of field: sharp on the plane of the red ball's center, blurred before and behind it."""
     room(scene)
     made = photograph(scene, CORNER, AHEAD, 352, 220, lens=22)
     lens = made.data.dof
@@ -46,7 +46,7 @@ def fisheye_stereographic(scene):
 
 
 def opencv_pinhole(scene):
-    """a calibrated lens with strong barrel distortion and a decentred axis: inverted without a formula."""
+    """a calibrated lens with strong barrel distortion and a decentered axis: inverted without a formula."""
     room(scene)
     own = {"model": "OPENCV_PINHOLE", **calibrated(448, 280, 210), "k1": -0.24, "k2": 0.045, "p1": 0.004, "p2": -0.006}
     photograph(scene, CORNER, AHEAD, 448, 280, own=own)
@@ -75,5 +75,5 @@ def dome_master(scene):
 
 def calibrated(width: int, height: int, focal: float) -> dict[str, float]:
     """Return the settings of a calibrated picture of this size with its axis in the middle; focal in pixels."""
-    centre = {"cx": (width - 1) / 2, "cy": (height - 1) / 2}
-    return {"calibration_width": width, "calibration_height": height, "fx": focal, "fy": focal, **centre}
+    center = {"cx": (width - 1) / 2, "cy": (height - 1) / 2}
+    return {"calibration_width": width, "calibration_height": height, "fx": focal, "fy": focal, **center}

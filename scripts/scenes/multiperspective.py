@@ -19,8 +19,8 @@ def slit(scene, name: str, location, turn=(0, 0, 0)):
     return made
 
 
-def circle(scene, centre, radius: float, corners: int = 128):
-    """Add a closed curve, anticlockwise as seen from above, that starts before its centre (at -Y)."""
+def circle(scene, center, radius: float, corners: int = 128):
+    """Add a closed curve, anticlockwise as seen from above, that starts before its center (at -Y)."""
     data = bpy.data.curves.new("Path", "CURVE")
     data.dimensions = "3D"
     spline = data.splines.new("POLY")
@@ -29,7 +29,7 @@ def circle(scene, centre, radius: float, corners: int = 128):
     for k, point in enumerate(spline.points):
         angle = 2 * pi * k / corners - pi / 2
         point.co = radius * cos(angle), radius * sin(angle), 0, 1
-    return add(scene, "Path", data, centre)
+    return add(scene, "Path", data, center)
 
 
 def general_linear(scene):
@@ -72,10 +72,10 @@ def strip(scene):
     """each column from another place on a circle around a figure: all its sides unrolled, the room swept behind it."""
     room(scene)
     clear_middle(scene)
-    add(scene, "Body", uv_sphere(), (0, 0, 1.3), scale=(0.9, 0.6, 1.3), colour="e2674a", index=20)
-    add(scene, "Head", uv_sphere(), (0, 0, 3.1), scale=0.62, colour="f0b941", index=21)
-    for angle, colour in ((-90, "2b2d42"), (0, "2a9d8f"), (90, "8a63b8"), (180, "3f7cc0")):
+    add(scene, "Body", uv_sphere(), (0, 0, 1.3), scale=(0.9, 0.6, 1.3), color="e2674a", index=20)
+    add(scene, "Head", uv_sphere(), (0, 0, 3.1), scale=0.62, color="f0b941", index=21)
+    for angle, color in ((-90, "2b2d42"), (0, "2a9d8f"), (90, "8a63b8"), (180, "3f7cc0")):
         place = 0.55 * cos(radians(angle)), 0.55 * sin(radians(angle)), 3.2
-        add(scene, "Eye", uv_sphere(), place, scale=0.22, colour=colour, index=22)
+        add(scene, "Eye", uv_sphere(), place, scale=0.22, color=color, index=22)
     own = {"model": "STRIP", "path": circle(scene, (0, 0, 2), 3.4), "follow_path": True}
     photograph(scene, (0, -3.4, 2), (0, 0, 2), 480, 336, own=own, lens=14)

@@ -36,7 +36,7 @@ def fisheye_equidistant(scene):
 
 
 def fisheye_equisolid(scene):
-    """equal solid angles are equal areas; lens and sensor in millimetres cut the disc at the frame's top and bottom."""
+    """equal solid angles are equal areas; lens and sensor in millimeters cut the disc at the frame's top and bottom."""
     panorama(scene, "FISHEYE_EQUISOLID", 450, 300, fisheye_lens=9.5, fisheye_fov=radians(180), sensor_width=36)
 
 
@@ -70,7 +70,7 @@ def little_planet(scene):
 
 
 def omnidirectional_stereo(scene):
-    """a panorama for each eye, the left one above: the eyes move on a circle, so no point is the centre of all rays."""
+    """a panorama for each eye, the left one above: the eyes move on a circle, so no point is the center of all rays."""
     room(scene)
     own = {"model": "OMNIDIRECTIONAL_STEREO", "eye": "TOP_BOTTOM"}
     made = photograph(scene, MIDDLE, AHEAD, 360, 360, own=own)

@@ -13,38 +13,38 @@ ENGINE = "CAMERA_RAY_CASTER"
 
 
 def linear(hexadecimal: str) -> tuple[float, float, float, float]:
-    """Return the linear RGBA of an sRGB colour such as "e07a5f", by IEC 61966-2-1."""
+    """Return the linear RGBA of an sRGB color such as "e07a5f", by IEC 61966-2-1."""
     srgb = [int(hexadecimal[k : k + 2], 16) / 255 for k in (0, 2, 4)]
     return (*(c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in srgb), 1.0)
 
 
-def material(colour: str):
-    """Return the material of an sRGB viewport colour, made once; pass indices count the materials from 1."""
-    found = bpy.data.materials.get(colour)
+def material(color: str):
+    """Return the material of an sRGB viewport color, made once; pass indices count the materials from 1."""
+    found = bpy.data.materials.get(color)
     if found is None:
-        found = bpy.data.materials.new(colour)
-        found.diffuse_color = linear(colour)
+        found = bpy.data.materials.new(color)
+        found.diffuse_color = linear(color)
         found.pass_index = len(bpy.data.materials)
     return found
 
 
 def add(
-    scene, name: str, data=None, location=(0, 0, 0), turn=(0, 0, 0), scale=(1, 1, 1), *, colour="", index=0, parent=None
+    scene, name: str, data=None, location=(0, 0, 0), turn=(0, 0, 0), scale=(1, 1, 1), *, color="", index=0, parent=None
 ):
     """Link an object to the scene; ``turn`` is Euler XYZ in degrees, ``index`` its pass index.
 
-    The material belongs to the object, so that objects of different colours share their data.
+    The material belongs to the object, so that objects of different colors share their data.
     """
     thing = bpy.data.objects.new(name, data)
     thing.location, thing.scale = location, (scale,) * 3 if isinstance(scale, float | int) else scale
     thing.rotation_euler = [radians(angle) for angle in turn]
     thing.pass_index = index
     thing.parent = parent
-    if colour:
+    if color:
         if not data.materials:
             data.materials.append(None)
         thing.material_slots[0].link = "OBJECT"
-        thing.material_slots[0].material = material(colour)
+        thing.material_slots[0].material = material(color)
     scene.collection.objects.link(thing)
     return thing
 
@@ -128,17 +128,17 @@ def camera(scene, location, target=(0, 0, 0), *, type="PERSP", **settings):
     return made
 
 
-def sun(scene, turn, energy: float, colour: str = "ffffff"):
+def sun(scene, turn, energy: float, color: str = "ffffff"):
     """Add sunlight that falls along -Z of Euler angles in degrees; energy in W/m^2."""
     data = bpy.data.lights.new("Sun", "SUN")
-    data.energy, data.color = energy, linear(colour)[:3]
+    data.energy, data.color = energy, linear(color)[:3]
     return add(scene, "Sun", data, (0, 0, 8), turn)
 
 
-def lamp(scene, location, energy: float, colour: str = "ffffff"):
+def lamp(scene, location, energy: float, color: str = "ffffff"):
     """Add a point light; energy in W."""
     data = bpy.data.lights.new("Lamp", "POINT")
-    data.energy, data.color = energy, linear(colour)[:3]
+    data.energy, data.color = energy, linear(color)[:3]
     return add(scene, "Lamp", data, location)
 
 

@@ -18,7 +18,7 @@ BALLS = (
     ("Lamp", (1.4, 0.6, 4.6), 0.5, "f2a65a"),
     ("Moon", (-2.2, 3.0, 4.2), 0.7, "c65d7b"),
 )
-"""Balls all around: name, centre, radius, colour."""
+"""Balls all around: name, center, radius, color."""
 
 
 def room(scene) -> None:
@@ -33,11 +33,11 @@ def room(scene) -> None:
         ("Ceiling", (0, 3, 6), (180, 0, 0), "eceae6"),
         ("Ceiling", (0, -3, 6), (180, 0, 0), "eceae6"),
     )
-    for index, (name, place, turn, colour) in enumerate(panels, 1):
+    for index, (name, place, turn, color) in enumerate(panels, 1):
         overlapping = 6.001, 3.001, 1  # no ray slips out
-        add(scene, name, square(), place, turn, overlapping, colour=colour, index=index)
-    for index, (name, place, radius, colour) in enumerate(BALLS, len(panels) + 1):
-        add(scene, name, uv_sphere(), place, (12 * index, 0, 31 * index), radius, colour=colour, index=index)
+        add(scene, name, square(), place, turn, overlapping, color=color, index=index)
+    for index, (name, place, radius, color) in enumerate(BALLS, len(panels) + 1):
+        add(scene, name, uv_sphere(), place, (12 * index, 0, 31 * index), radius, color=color, index=index)
     sun(scene, (40, 0, -38), 2.0, "fff0d9")
     sun(scene, (140, 0, 140), 1.0, "dfe9ff")
 
@@ -50,22 +50,22 @@ def clear_middle(scene) -> None:
 
 def meadow(scene) -> None:
     """Fill the scene with a ground without end, cells of 2, a ring of trees around the origin, hills and clouds."""
-    ground = add(scene, "Ground", square(), scale=(24, 12, 1), colour="a9c08a", index=1)
+    ground = add(scene, "Ground", square(), scale=(24, 12, 1), color="a9c08a", index=1)
     ground.camera_ray_caster.primitive = "INFINITE_PLANE"
     for k in range(11):
         angle, away = 2 * pi * (k + 0.3) / 11, 9 + 2.5 * sin(2.4 * k)
         x, y, tall = away * cos(angle), away * sin(angle), 1.7 + 0.5 * sin(1.7 * k)
         crown = ("4f8f63", "6fa35a", "d98a4a")[k % 3]
-        add(scene, "Trunk", ico_sphere(), (x, y, 1), scale=(0.22, 0.22, 1.4), colour="8a6a52", index=2)
-        add(scene, "Tree", uv_sphere(), (x, y, 1.6 + tall), scale=(1.2, 1.2, tall), colour=crown, index=3)
+        add(scene, "Trunk", ico_sphere(), (x, y, 1), scale=(0.22, 0.22, 1.4), color="8a6a52", index=2)
+        add(scene, "Tree", uv_sphere(), (x, y, 1.6 + tall), scale=(1.2, 1.2, tall), color=crown, index=3)
     for k in range(9):
         angle, wide = 2 * pi * k / 9, 11 + 3 * sin(2 * k)
         place = 34 * cos(angle), 34 * sin(angle), -1
-        add(scene, "Hill", uv_sphere(), place, scale=(wide, wide, 6 + 2 * cos(3 * k)), colour="7fa08c", index=4)
+        add(scene, "Hill", uv_sphere(), place, scale=(wide, wide, 6 + 2 * cos(3 * k)), color="7fa08c", index=4)
     for k in range(7):
         angle = 2 * pi * (k + 0.5) / 7
         place = 30 * cos(angle), 30 * sin(angle), 15 + 3 * sin(3 * k)
-        add(scene, "Cloud", uv_sphere(), place, (90, 0, degrees(angle)), (3.2, 2.2, 6), colour="fbfbf8", index=5)
+        add(scene, "Cloud", uv_sphere(), place, (90, 0, degrees(angle)), (3.2, 2.2, 6), color="fbfbf8", index=5)
     sun(scene, (42, 0, -40), 2.2, "fff3df")
 
 

@@ -21,11 +21,11 @@ def driven(thing, path: str, axis: int, expression: str) -> None:
 def tower(scene, place, half: float = 1.1, high: float = 2.4):
     """Add a square tower of four walls; return the empty that turns it."""
     axis = add(scene, "Tower", None, place)
-    for k, colour in enumerate(("e2674a", "f0b941", "2a9d8f", "8a63b8")):
+    for k, color in enumerate(("e2674a", "f0b941", "2a9d8f", "8a63b8")):
         angle = pi / 2 * k
         side = half * sin(angle), -half * cos(angle), high
         turn, scale = (90, -90, 90 * k), (high, half, 1)
-        add(scene, "Wall", square(), side, turn, scale, colour=colour, index=20 + k, parent=axis)
+        add(scene, "Wall", square(), side, turn, scale, color=color, index=20 + k, parent=axis)
     return axis
 
 
@@ -43,15 +43,15 @@ def slit_scan_columns(scene):
     room(scene)
     clear_middle(scene)
     flights = (4.5, 0.22, "e2674a"), (3.2, 0.11, "f0b941"), (1.9, 0.0, "eae1d0"), (0.62, -0.3, "2a9d8f")
-    for index, (height, speed, colour) in enumerate(flights, 30):
-        ball = add(scene, "Ball", uv_sphere(), (0, 0.2, height), (0, 0, 40), 0.62, colour=colour, index=index)
+    for index, (height, speed, color) in enumerate(flights, 30):
+        ball = add(scene, "Ball", uv_sphere(), (0, 0.2, height), (0, 0, 40), 0.62, color=color, index=index)
         driven(ball, "location", 0, f"(frame - 13) * {speed}")
     own = {"time_mode": "COLUMNS", "time_start": 1, "time_end": 25}
     photograph(scene, STAND, AHEAD, own=own, lens=22)
 
 
 def time_displacement(scene):
-    """a grey image of rings tells each pixel's frame, black early and white late: a turning tower seen as in water."""
+    """a gray image of rings tells each pixel's frame, black early and white late: a turning tower seen as in water."""
     room(scene)
     clear_middle(scene)
     driven(tower(scene, (0, 1.8, 0.3)), "rotation_euler", 2, f"frame * {pi / 24:.6f}")
@@ -60,13 +60,13 @@ def time_displacement(scene):
 
 
 def rings(width: int, height: int):
-    """Return a packed image of three waves from its middle to its sides, in 32 greys: each is a cast of its own."""
+    """Return a packed image of three waves from its middle to its sides, in 32 grays: each is a cast of its own."""
     y, x = np.mgrid[:height, :width]
     away = np.hypot(x + 0.5 - width / 2, y + 0.5 - height / 2) / (width / 2)
-    grey = np.rint((1 - np.cos(6 * pi * away)) / 2 * 31) / 31
+    gray = np.rint((1 - np.cos(6 * pi * away)) / 2 * 31) / 31
     image = bpy.data.images.new("Rings", width, height)
     image.colorspace_settings.name = "Non-Color"
-    image.pixels.foreach_set(np.stack((grey, grey, grey, np.ones_like(grey)), axis=-1).astype(np.float32).ravel())
+    image.pixels.foreach_set(np.stack((gray, gray, gray, np.ones_like(gray)), axis=-1).astype(np.float32).ravel())
     image.pack()
     return image
 
@@ -80,9 +80,9 @@ def rolling_shutter(scene):
         angle = 72 * k
         place = 1.25 * cos(radians(angle)), 1.25 * sin(radians(angle)), 0
         blade = place, (90, 0, 90 + angle), (0.3, 0.06, 1.05)
-        add(scene, "Blade", uv_sphere(), *blade, colour="f0b941" if k else "e2674a", index=40, parent=fan)
-    add(scene, "Hub", uv_sphere(), (0, 1.3, 2.7), scale=0.4, colour="2b2d42", index=41)
-    add(scene, "Post", uv_sphere(), (0, 1.9, 1.2), scale=(0.14, 0.14, 1.5), colour="eae1d0", index=42)
+        add(scene, "Blade", uv_sphere(), *blade, color="f0b941" if k else "e2674a", index=40, parent=fan)
+    add(scene, "Hub", uv_sphere(), (0, 1.3, 2.7), scale=0.4, color="2b2d42", index=41)
+    add(scene, "Post", uv_sphere(), (0, 1.9, 1.2), scale=(0.14, 0.14, 1.5), color="eae1d0", index=42)
     driven(fan, "rotation_euler", 1, f"-frame * {pi:.6f}")
     scene.render.motion_blur_shutter = 1
     scene.cycles.rolling_shutter_duration = 0

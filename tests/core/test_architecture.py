@@ -14,24 +14,24 @@ MODULES = sorted(PACKAGE.rglob("*.py"))
 SOURCES = [*MODULES, *sorted((ROOT / "scripts").glob("*.py")), *sorted((ROOT / "tests").rglob("*.py"))]
 
 # What a part of the package may import of the package: the longest name that fits counts. The lowest layer comes first.
-LOW = {"core.conventions", "core.records", "core.vector"}
-RAYS = LOW | {"core.aperture", "core.clock", "core.loops", "core.panels", "core.sampling"}
+LOW = {"core.conventions", "core.records", "core.maths"}
+RAYS = LOW | {"core.cameras", "core.camera"}
+HITS = RAYS | {"core.shapes", "core.errors", "core.casting"}
 MAY_IMPORT = {
     "core.conventions": set(),
     "core.records": {"core.conventions"},
-    "core.vector": {"core.conventions"},
-    "core.sampling": set(),
-    "core.loops": set(),
-    "core.aperture": LOW,
-    "core.clock": LOW,
-    "core.panels": LOW | {"core.loops"},
+    "core.maths": {"core.conventions", "core.maths"},
+    "core.cameras": LOW | {"core.cameras"},
     "core.camera": RAYS,
-    "core.cameras": RAYS | {"core.camera", "core.cameras"},
-    "core.exact": set(),
-    "core.shapes": LOW | {"core.exact", "core.shapes"},
-    "core.verify": LOW,  # a witness that knew a camera model's formula would be no witness
+    "core.shapes": LOW | {"core.shapes"},
+    "core.errors": RAYS | {"core.shapes", "core.errors"},
+    "core.casting": HITS,
+    "core.cast": HITS,
+    "core.motion": RAYS | {"core.motion"},
+    "core.report.verification": LOW,  # a witness that knew a camera model's formula would be no witness
+    "core.report": HITS | {"core.cast", "core.report"},
     "core": {"core"},
-    "blender.witness": LOW,
+    "blender.verification.witness": LOW,
     "blender": {"blender", "core"},
     "": {"blender"},
 }

@@ -82,7 +82,7 @@ def panel(user, scenes):
 
 
 def no_camera(user, scenes):
-    """Without a camera the buttons are grey and the panel says why."""
+    """Without a camera the buttons are gray and the panel says why."""
     yield from load(user, scenes, "empty")
     bpy.context.scene.camera = None
     yield from user.wait(0.5)

@@ -6,8 +6,8 @@ from math import pi
 import numpy as np
 import pytest
 
+from camera_ray_caster.core.camera.pixel_time import TIME_MODES
 from camera_ray_caster.core.cameras import MODELS
-from camera_ray_caster.core.clock import TIME_MODES
 
 from .test_scenes import FOLDER, README, look, opened, rendered
 
@@ -47,7 +47,7 @@ def test_pictures_are_there_and_small():
 
 
 def test_every_model_and_every_time_has_a_scene(blender):
-    from camera_ray_caster.blender.read import read_camera
+    from camera_ray_caster.blender.read.scene import read_camera
 
     models, times, lenses = set(), set(), 0
     for path in FOLDER.glob("*.blend"):
@@ -63,7 +63,7 @@ def test_every_model_and_every_time_has_a_scene(blender):
 
 @pytest.mark.parametrize("name", NAMES)
 def test_scene_renders_and_verifies(blender, name, tmp_path):
-    from camera_ray_caster.blender.run import run
+    from camera_ray_caster.blender.engine.job import run
 
     scene = opened(blender, name)
     with (FOLDER / "pictures" / f"{name}.png").open("rb") as file:
@@ -140,7 +140,7 @@ def test_slit_scan_stretches_what_flies_with_it(blender):
 
 def masks_at_their_times(bpy, *indices):
     """Return where pass indices are seen in the slit scan of the columns."""
-    from camera_ray_caster.blender.run import run
+    from camera_ray_caster.blender.engine.job import run
 
     scene = opened(bpy, "slit_scan_columns")
     scene.camera_ray_caster.samples = 1

@@ -24,7 +24,7 @@ def opened(bpy, name):
 
 def look(scene, frame=None):
     """Return what the caster reads, and its passes in double precision."""
-    from camera_ray_caster.blender.read import read_camera, read_shapes
+    from camera_ray_caster.blender.read.scene import read_camera, read_shapes
 
     camera, shapes = read_camera(scene, frame=frame), read_shapes(scene, frame=frame)
     return camera, shapes, cast(camera, shapes, PASSES, dtype=np.float64)
@@ -76,7 +76,7 @@ def test_render_shows_what_the_caster_reads(blender, name, tmp_path):
 
 @pytest.mark.parametrize("name", NAMES)
 def test_rays_agree_with_blender(blender, name):
-    from camera_ray_caster.blender.check import verify_camera
+    from camera_ray_caster.blender.verification.check import verify_camera
 
     findings = verify_camera(opened(blender, name))
     assert [finding for finding in findings if not finding.passed] == []
@@ -129,7 +129,7 @@ def test_orthographic(blender):
     np.testing.assert_allclose((across, up), (6.5 * 499 / 500, 6.5 * 399 / 500 * 1.2), rtol=1e-6)
     assert images["depth"].min() >= camera.clip_start
     green = images["object_index"] == 3
-    outwards = images["position"][green] - shapes.centre[shapes.object_index == 3]
+    outwards = images["position"][green] - shapes.center[shapes.object_index == 3]
     from_outside = (images["normal"][green] * outwards).sum(axis=1) > 0
     assert from_outside.any()
     assert not from_outside.all()  # the near plane opens it: the far side is seen from within
@@ -185,10 +185,10 @@ def test_inside_a_sphere(blender):
 def test_far_and_small(blender):
     _, shapes, images = look(opened(blender, "far_and_small"))
     diameter = 2 * 0.1 * 5000 / 36 * 640 / 400
-    for k, centre in enumerate(shapes.centre):
+    for k, center in enumerate(shapes.center):
         ball = images["shape_index"] == k
         assert abs(ball.any(axis=0).sum() - diameter) <= 1  # whole pixels
-        radii = np.linalg.norm(images["position"][ball] - centre, axis=1)
+        radii = np.linalg.norm(images["position"][ball] - center, axis=1)
         # single precision is good to 400 x 6e-8 = 2e-5 here, double to 4e-14, times up to 1 / cos where rays graze
         assert np.ptp(radii) < 1e-10
 

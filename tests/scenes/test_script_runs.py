@@ -71,7 +71,7 @@ def test_a_run_that_is_ended_leaves_good_files_and_nothing_else(blender, tmp_pat
 @pytest.mark.parametrize("callback", ["load_post", "depsgraph_update_post", "render_init", "render_post"])
 def test_a_signal_within_a_callback_of_blenders_ends_the_run_in_one_line(blender, tmp_path, capfd, callback):
     """Python runs a signal's handler where it next runs at all, and Blender prints and drops what a callback raises."""
-    from camera_ray_caster.blender import ending, terminal
+    from camera_ray_caster.blender.terminal import commands, signals
 
     path = small(blender, tmp_path / "small.blend")
     handlers = getattr(blender.app.handlers, callback)
@@ -80,24 +80,24 @@ def test_a_signal_within_a_callback_of_blenders_ends_the_run_in_one_line(blender
     @blender.app.handlers.persistent
     def interrupted(*_):
         if not called:
-            ending.note()
+            signals.note()
         called.append(True)
 
     handlers.append(interrupted)
     try:
-        status = terminal.main("cast", [str(path), "--output", str(tmp_path / "out")], "cast.py")
+        status = commands.main("cast", [str(path), "--output", str(tmp_path / "out")], "cast.py")
     finally:
         handlers.remove(interrupted)
     assert called
     assert status == 130
     assert capfd.readouterr().err == "cast.py: stopped; what was under way has left nothing\n"
     assert not (tmp_path / "out").exists()
-    assert not ending.noted()  # the next run goes its whole way
+    assert not signals.noted()  # the next run goes its whole way
 
 
 @pytest.mark.parametrize("command", ["cast", "verify"])
 def test_a_signal_ends_the_reading_of_a_camera_that_moves(blender, tmp_path, capfd, command):
-    from camera_ray_caster.blender import ending, terminal
+    from camera_ray_caster.blender.terminal import commands, signals
 
     visited = []
 
@@ -105,12 +105,12 @@ def test_a_signal_ends_the_reading_of_a_camera_that_moves(blender, tmp_path, cap
     def interrupted(*_):
         visited.append(True)
         if len(visited) == 1:
-            ending.note()
+            signals.note()
 
     blender.app.handlers.frame_change_post.append(interrupted)
     output = ("--output", str(tmp_path / "out")) if command == "cast" else ()
     try:
-        status = terminal.main(command, [str(ROOT / "blend_scenes" / "rolling_shutter.blend"), *output], "it")
+        status = commands.main(command, [str(ROOT / "blend_scenes" / "rolling_shutter.blend"), *output], "it")
     finally:
         blender.app.handlers.frame_change_post.remove(interrupted)
     assert status == 130
@@ -120,29 +120,30 @@ def test_a_signal_ends_the_reading_of_a_camera_that_moves(blender, tmp_path, cap
 
 
 def test_a_signal_after_the_render_ends_the_run_before_files_are_written(blender, tmp_path, monkeypatch):
-    from camera_ray_caster.blender import ending, pictures, terminal
+    from camera_ray_caster.blender.output import files
+    from camera_ray_caster.blender.terminal import commands, signals
 
     path = small(blender, tmp_path / "small.blend")
-    rendered, save, saved = pictures._rendered, pictures._save, []
+    rendered, save, saved = files._rendered, files._save, []
 
     def interrupted(scene):
         report = rendered(scene)
-        ending.note()
+        signals.note()
         return report
 
-    monkeypatch.setattr(pictures, "_rendered", interrupted)
-    monkeypatch.setattr(pictures, "_save", lambda *given: save(*given) or saved.append(given))
-    assert terminal.main("cast", [str(path), "--output", str(tmp_path / "out")], "cast.py") == 130
+    monkeypatch.setattr(files, "_rendered", interrupted)
+    monkeypatch.setattr(files, "_save", lambda *given: save(*given) or saved.append(given))
+    assert commands.main("cast", [str(path), "--output", str(tmp_path / "out")], "cast.py") == 130
     assert saved == []
     assert not (tmp_path / "out").exists()
 
 
 def test_a_second_signal_is_not_waited_for():
-    from camera_ray_caster.blender import ending
+    from camera_ray_caster.blender.terminal import signals
 
     try:
-        ending.note()
+        signals.note()
         with pytest.raises(KeyboardInterrupt):
-            ending.note()
+            signals.note()
     finally:
-        ending.forget()
+        signals.forget()

@@ -225,7 +225,7 @@ WRONG_FOR_CAST = {
 @pytest.mark.parametrize("command", ["cast", "verify"])
 @pytest.mark.parametrize("case", WRONG_WORDS | WRONG_FOR_CAST)
 def test_wrong_words_are_refused(scene, monkeypatch, command, case):
-    from camera_ray_caster.blender import terminal
+    from camera_ray_caster.blender.terminal import commands
     from camera_ray_caster.core.records import InputError
 
     if command == "verify" and case in WRONG_FOR_CAST:
@@ -236,7 +236,7 @@ def test_wrong_words_are_refused(scene, monkeypatch, command, case):
     Path("text.blend").write_text("no .blend")
     before = left(scene.parent)
     with pytest.raises(InputError) as error:
-        terminal.COMMANDS[command](words, command)
+        commands.COMMANDS[command](words, command)
     assert said in str(error.value)
     assert "\n" not in str(error.value)
     assert left(scene.parent) == before

@@ -1,26 +1,23 @@
 """What Blender is told of: the modules in the order in which they are registered."""
 
-from . import (
+from .engine import engine, viewport
+from .output import reports
+from .properties import groups
+from .terminal import commands
+from .ui import (
+    camera_panels,
     cast_operator,
-    engine,
-    mouse_gizmo,
-    observed,
+    cast_panels,
+    model_panels,
     operators,
-    overlay,
-    panels,
-    panels_camera,
-    panels_cast,
-    panels_model,
-    panels_overlay,
-    properties,
-    reports,
-    terminal,
-    viewport,
+    overlay_panels,
+    render_panels,
 )
+from .view3d import mouse_gizmo, overlay, scene_cache
 
 MODULES = (
-    properties, reports, observed, viewport, engine, operators, cast_operator, overlay, mouse_gizmo,
-    panels, panels_model, panels_camera, panels_cast, panels_overlay, terminal,
+    groups, reports, scene_cache, viewport, engine, operators, cast_operator, overlay, mouse_gizmo,
+    render_panels, model_panels, camera_panels, cast_panels, overlay_panels, commands,
 )  # fmt: skip
 
 

@@ -12,20 +12,20 @@ from time import perf_counter
 
 import numpy as np
 
-from .camera import Camera
-from .clock import Clock, groups
-from .loops import STRIP, Scratch, keep_memory, sharing
-from .nearest import nearest
-from .passes import PASSES, add_combined, put, store
-from .plan import Plan, make_plan
+from .camera.camera import Camera
+from .camera.pixel_time import PixelTime, groups
+from .casting.passes import PASSES, add_combined, put, store
+from .casting.plan import Plan, make_plan
+from .casting.search import nearest
+from .casting.shading import MATERIAL
+from .maths.speed import STRIP, Scratch, keep_memory, sharing
 from .records import Cancelled, InputError, Shapes
-from .shading import MATERIAL
 
 STEPS = "rays", "cast", "passes"
 """What the seconds of a tile are spent on: rays, their nearest hits, the passes of these."""
 
 TILE_PIXELS = 1 << 18, 1 << 20
-"""The fewest and the most pixels of a tile, the unit of threads, progress and cancelling."""
+"""The fewest and the most pixels of a tile, the unit of threads, progress and canceling."""
 
 TILE_WORK = 1 << 23
 """The most work of a tile, all its samples counted: a tenth of a second. Below that a thread has one tile."""
@@ -91,7 +91,8 @@ def cast(
         raise InputError(f"{threads} threads make no picture: ask for 1 or more")
     passes = (passes,) if isinstance(passes, str) else passes
     known = tuple(PASSES)
-    middle = _moment(camera, shapes, (camera.clock.first + camera.clock.last) / 2) if camera.clock else (camera, shapes)
+    time = camera.pixel_time
+    middle = _moment(camera, shapes, (time.first + time.last) / 2) if time else (camera, shapes)
     whole = make_plan(*middle, passes, known, shading, cull, False, precision)
     height, width = camera.raster.shape
     images = Images()
@@ -101,8 +102,8 @@ def cast(
     sampled = ("combined",) if samples > 1 and "combined" in passes else ()
     chief = tuple(name for name in whole.passes if name not in sampled)
     plans: dict[bool, Plan] = {}
-    if camera.clock is not None:
-        tiles = list(_moments(camera, camera.clock))
+    if camera.pixel_time is not None:
+        tiles = list(_moments(camera, camera.pixel_time))
     else:
         plans[False] = whole
         if sampled:
@@ -125,7 +126,7 @@ def cast(
         return seconds
 
     began = perf_counter()
-    own_plan = 0 if camera.clock is None else PLACED * len(shapes)
+    own_plan = 0 if camera.pixel_time is None else PLACED * len(shapes)
     others = round((whole.work.sum() / len(tiles) + own_plan) / ALONE)  # may hold the interpreter meanwhile
     busy = _in_threads(run, tiles, min(threads, 1 + others), progress)
     share = (perf_counter() - began) / max(busy.sum(), np.finfo(float).tiny)
@@ -159,9 +160,9 @@ def _bands(rows: slice, columns: slice, pixels: int) -> Iterator[Tile]:
         yield Tile(slice(first, last), columns)
 
 
-def _moments(camera: Camera, clock: Clock) -> Iterator[Tile]:
+def _moments(camera: Camera, pixel_time: PixelTime) -> Iterator[Tile]:
     """Yield the picture time by time."""
-    for frame, rows, columns, where in groups(clock, camera.raster.columns(), camera.raster.rows()):
+    for frame, rows, columns, where in groups(pixel_time, camera.raster.columns(), camera.raster.rows()):
         rows, columns = (slice(*s.indices(n)) for s, n in zip((rows, columns), camera.raster.shape, strict=True))
         for tile in _bands(rows, columns, TILE_PIXELS[0]):
             meant = where[tile.rows.start - rows.start : tile.rows.stop - rows.start]

@@ -3,16 +3,16 @@
 Frames
     world     Blender's world, right-handed, Z up, in Blender units.
     camera    +X right, +Y up, the camera looks along -Z. The lecture's orthobasis is u = +X, v = +Y, w = -Z. Its
-              axes in the world are the columns of the camera's matrix, each normalised for itself, as Blender does:
+              axes in the world are the columns of the camera's matrix, each normalized for itself, as Blender does:
               scale is ignored, a negative scale mirrors, shear stays (then u, v, w are unit but not orthogonal).
-    shape     the unit sphere |q| = 1, or the square |q_x| <= 1, |q_y| <= 1 on q_z = 0; world = centre + axes @ q.
+    shape     the unit sphere |q| = 1, or the square |q_x| <= 1, |q_y| <= 1 on q_z = 0; world = center + axes @ q.
     Arrays and matrices name the target first: ``world_from_camera``.
 
 Pixels
     Column 0 is the left one, row 0 the BOTTOM one, y is up, as in Blender's image buffers. Pixel coordinates are
-    continuous over the full frame: (0, 0) is its bottom left corner, the centre of pixel (i, j) is (i + 1/2, j + 1/2).
-    Normalised view coordinates are [-1, 1] x [-1, 1] over the full frame.
-    K (the camera matrix of computer vision) has y DOWN and its origin in the centre of the top left pixel, as OpenCV.
+    continuous over the full frame: (0, 0) is its bottom left corner, the center of pixel (i, j) is (i + 1/2, j + 1/2).
+    Normalized view coordinates are [-1, 1] x [-1, 1] over the full frame.
+    K (the camera matrix of computer vision) has y DOWN and its origin in the center of the top left pixel, as OpenCV.
 
 Rays
     A ray is origin + t direction. Public directions have unit length. Inside, a direction is scaled so that t is the
@@ -22,7 +22,7 @@ Rays
 
 Numbers
     float64 inside; what Blender stores as float32 is taken as exact. ``dtype`` of a cast is only what is stored.
-    Angles are radians, lengths Blender units except lens, sensor and film lengths, which are millimetres.
+    Angles are radians, lengths Blender units except lens, sensor and film lengths, which are millimeters.
 """
 
 import numpy as np

@@ -71,11 +71,11 @@ class Raster:
         return self.y1 - self.y0, self.x1 - self.x0
 
     def columns(self) -> np.ndarray:
-        """Return the x of the window's pixel centres, (1, columns) float64, exact."""
+        """Return the x of the window's pixel centers, (1, columns) float64, exact."""
         return np.arange(self.x0, self.x1, dtype=np.float64)[None, :] + 0.5
 
     def rows(self) -> np.ndarray:
-        """Return the y of the window's pixel centres, (rows, 1) float64, exact."""
+        """Return the y of the window's pixel centers, (rows, 1) float64, exact."""
         return np.arange(self.y0, self.y1, dtype=np.float64)[:, None] + 0.5
 
 
@@ -111,27 +111,27 @@ SPHERE, PLANE, INFINITE_PLANE = 0, 1, 2
 class Lights:
     """Sun and point lights: ``position[k]`` is a place, or with ``is_sun`` the unit direction towards the sun.
 
-    (n, 3), (n,) and (n, 3) arrays; ``colour`` is the light's colour times its strength as Blender states it: watts
-    for a point light, watts a square metre for a sun.
+    (n, 3), (n,) and (n, 3) arrays; ``color`` is the light's color times its strength as Blender states it: watts
+    for a point light, watts a square meter for a sun.
     """
 
     position: np.ndarray = field(default_factory=lambda: np.zeros((0, 3)))
     is_sun: np.ndarray = field(default_factory=lambda: np.zeros(0, bool))
-    colour: np.ndarray = field(default_factory=lambda: np.zeros((0, 3)))
+    color: np.ndarray = field(default_factory=lambda: np.zeros((0, 3)))
 
 
 @dataclass(frozen=True)
 class Shapes:
     """The spheres and planes of a scene, one row a shape; ``shape_index`` of a pixel is the row.
 
-    world = centre + axes @ q with the unit sphere or unit square in q (see the conventions), so that every affine
+    world = center + axes @ q with the unit sphere or unit square in q (see the conventions), so that every affine
     image of a sphere is an ellipsoid and every plane a parallelogram. An infinite plane ignores the lengths of its
     first two axes for what it covers; they scale its uv.
     """
 
     kind: np.ndarray
     """(n,) uint8: SPHERE, PLANE or INFINITE_PLANE."""
-    centre: np.ndarray
+    center: np.ndarray
     """(n, 3) float64, world."""
     axes: np.ndarray
     """(n, 3, 3) float64: the columns are the images of the shape's axes. Invertible (the reader sees to it)."""
@@ -139,13 +139,13 @@ class Shapes:
     """(n,) int32: the object's pass index."""
     material_index: np.ndarray
     """(n,) int32: the material's pass index, 0 without a material."""
-    colour: np.ndarray
+    color: np.ndarray
     """(n, 4) float32: linear RGBA for the combined pass."""
     name_index: np.ndarray
     """(n,) int32 into ``names``: instances and points share their object's name."""
     names: tuple[str, ...] = ()
     lights: Lights = field(default_factory=Lights)
-    world_colour: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 1.0)
+    world_color: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 1.0)
     motion: Any = None
     """The ``Motion`` that knows the shapes at other frames, for cameras whose pixels have each their own; else None."""
     left_out: tuple[tuple[str, str], ...] = ()

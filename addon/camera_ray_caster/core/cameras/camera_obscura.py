@@ -13,11 +13,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ..aperture import Aperture
 from ..records import BlenderCamera, Raster
-from .film import Window
+from .parts.aperture import Aperture
+from .parts.film import Window
+from .parts.settings import positive
 from .perspective import Perspective
-from .settings import positive
 
 
 @dataclass(frozen=True)
@@ -41,7 +41,7 @@ class CameraObscura:
         """
         depth, width, hole = (positive(raw, f"obscura_{name}") for name in ("depth", "width", "hole"))
         wall = Window.from_blender(raw, raster, width / depth)
-        turned = Window(wall.centre_x, wall.centre_y, -wall.pitch_x, -wall.pitch_y)
+        turned = Window(wall.center_x, wall.center_y, -wall.pitch_x, -wall.pitch_y)
         return cls(Perspective(turned), Aperture(hole / 2, -depth))
 
     def rays(self, x, y):
@@ -52,6 +52,6 @@ class CameraObscura:
         """Return where the chief ray of camera-frame points falls; as ``Perspective.project``."""
         return self.pinhole.project(points)
 
-    def bounds(self, centres, radii):
+    def bounds(self, centers, radii):
         """Return the pixel bounds of spheres; as ``Perspective.bounds``."""
-        return self.pinhole.bounds(centres, radii)
+        return self.pinhole.bounds(centers, radii)

@@ -13,8 +13,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..records import BlenderCamera, Raster
-from .meridians import Meridians
-from .settings import positive, span
+from .parts.meridians import Meridians
+from .parts.settings import positive, span
 
 
 @dataclass(frozen=True)

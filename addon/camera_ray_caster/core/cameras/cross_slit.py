@@ -17,13 +17,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..maths.intervals import Interval
+from ..maths.vector import components, cross, difference, dot, norm
 from ..records import BlenderCamera, InputError, Raster
-from ..vector import components, cross, difference, dot, norm
-from .film import Window
-from .intervals import Interval
+from .parts.film import Window
+from .parts.lines import ROUNDING, slit_from
+from .parts.silhouette import pinhole_interval, pixel_bounds
 from .perspective import Perspective
-from .silhouette import pinhole_interval, pixel_bounds
-from .slits import ROUNDING, slit_from
 
 MIDDLE = np.array((0.0, 0.0, -1.0))
 """Of the window's plane."""
@@ -81,7 +81,7 @@ class CrossSlit:
         scale = np.where((z <= 0) & (scale != 0), scale, np.nan)
         return np.stack(self.window.pixels_from_plane(across / scale, up / scale), axis=-1)
 
-    def bounds(self, centres, radii):
+    def bounds(self, centers, radii):
         """Return (n, 4) pixel bounds x0, x1, y0, y1 outside of which no point of the spheres (camera frame) is seen.
 
         The planes through a slit that touch a sphere are the two tangents of a disc as seen from a point.
@@ -89,7 +89,7 @@ class CrossSlit:
         normals = []
         for point, direction in self.slits:
             across, ahead = _axes_about(direction)
-            beside = centres - point
+            beside = centers - point
             rise, depth = beside @ across, beside @ ahead
             side = np.where(depth < 0, -1.0, 1.0)  # a plane goes on behind its slit
             tangent = Interval(*pinhole_interval(side * rise, side * depth, radii))
@@ -97,7 +97,7 @@ class CrossSlit:
         across, up, scale = self._crossing(*normals)
         x, y = across / scale, up / scale
         bounds = pixel_bounds(self.window, (x.low, x.high), (y.low, y.high))
-        bounds[centres[:, 2] > radii] = np.nan
+        bounds[centers[:, 2] > radii] = np.nan
         return bounds
 
     def _normals(self, point):

@@ -15,10 +15,10 @@ from math import pi
 
 import numpy as np
 
+from ..maths.vector import components
 from ..records import BlenderCamera, Raster
-from ..vector import components
-from .film import Window
-from .silhouette import pinhole_interval, pixel_bounds, turned
+from .parts.film import Window
+from .parts.silhouette import pinhole_interval, pixel_bounds, turned
 
 
 @dataclass(frozen=True)
@@ -60,9 +60,9 @@ class CubemapFace:
             angles.append(angle - pi * np.rint((angle - (low + high) / 2) / pi))
         return np.stack(self.window.pixels_from_plane(*angles), axis=-1)
 
-    def bounds(self, centres, radii):
+    def bounds(self, centers, radii):
         """Return (n, 4) pixel bounds x0, x1, y0, y1 outside of which no point of the spheres (camera frame) is seen."""
-        x, y, z = components(centres)
+        x, y, z = components(centers)
         intervals = []
         for side, frame in ((x, self.extent[:2]), (y, self.extent[2:])):
             tangents = pinhole_interval(side, -z, radii)

@@ -13,7 +13,7 @@ from math import radians, tan
 
 from ..records import BlenderCamera, Raster
 from .central_cylindrical import CentralCylindrical
-from .settings import span
+from .parts.settings import span
 
 STEEPEST = radians(89)
 

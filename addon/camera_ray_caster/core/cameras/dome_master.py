@@ -1,6 +1,6 @@
 """The dome master: what a planetarium's projectors are given, the half sphere above the audience as a disc.
 
-Assumption: the camera is level and looks to the audience's front; the centre of the picture is the dome's zenith, the
+Assumption: the camera is level and looks to the audience's front; the center of the picture is the dome's zenith, the
 rim its edge, the bottom the front. ``tilt`` tips the dome towards the front, as over rising seats.
 Formula: an equidistant fisheye, theta = r fov / 2 from the zenith, round, touching the nearer sides of the frame (which
 should be square); no ray beyond. fov is 180 degrees for a half sphere.
@@ -14,10 +14,10 @@ from dataclasses import dataclass
 from math import pi
 
 from ..records import BlenderCamera, Raster
-from .film import Window
 from .fisheye_equidistant import FisheyeEquidistant
-from .pitched import Pitched
-from .settings import FULL_TURN, number, positive
+from .parts.film import Window
+from .parts.pitched import Pitched
+from .parts.settings import FULL_TURN, number, positive
 
 
 @dataclass(frozen=True)

@@ -14,9 +14,9 @@ from math import pi
 import numpy as np
 
 from ..records import BlenderCamera, Raster
-from .meridians import Meridians
-from .settings import span
-from .silhouette import EVERYWHERE
+from .parts.meridians import Meridians
+from .parts.settings import span
+from .parts.silhouette import EVERYWHERE
 
 
 @dataclass(frozen=True)
@@ -40,8 +40,8 @@ class Equirectangular(Meridians):
         """See Meridians; between the poles, though rows may lie beyond."""
         return np.arctan2(sine, cosine)
 
-    def bounds(self, centres, radii):
+    def bounds(self, centers, radii):
         """See Meridians; everywhere in a frame that looks over a pole."""
-        bounds = super().bounds(centres, radii)
+        bounds = super().bounds(centers, radii)
         farthest_row = max(-self.extent[2], self.extent[3]) - abs(self.window.pitch_y) / 2
         return np.tile((*EVERYWHERE, *EVERYWHERE), (len(bounds), 1)) if farthest_row > pi / 2 else bounds

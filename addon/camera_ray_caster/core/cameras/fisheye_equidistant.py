@@ -14,9 +14,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..records import BlenderCamera, Raster
-from .film import Window
-from .radial import Radial, radii_of, up_to
-from .settings import WIDEST_FISHEYE, positive
+from .parts.film import Window
+from .parts.radial import Radial, radii_of, up_to
+from .parts.settings import WIDEST_FISHEYE, positive
 
 
 @dataclass(frozen=True)

@@ -1,7 +1,7 @@
 """The equisolid fisheye: Blender's FISHEYE_EQUISOLID, the usual photographic lens.
 
 Assumption: equal areas of the sensor see equal solid angles; the sensor is fitted to the frame as a pinhole's is.
-Formula: r = 2 f sin(theta / 2), r and f in millimetres; no ray beyond r = 2 f sin(fov / 4), which Cycles keeps for a
+Formula: r = 2 f sin(theta / 2), r and f in millimeters; no ray beyond r = 2 f sin(fov / 4), which Cycles keeps for a
 fov above 360 degrees, too, where it shrinks again, to nothing at 720.
 No angle is computed: with s = r / 2f, sin(theta) / r = sqrt(1 - s^2) / f and cos(theta) = 1 - 2 s^2.
 Singular: r = 2 f, the point straight behind the eye.
@@ -16,9 +16,9 @@ from math import asin, sin
 import numpy as np
 
 from ..records import BlenderCamera, Raster
-from .film import Film, Window
-from .radial import Radial, up_to
-from .settings import WIDEST_FISHEYE, positive
+from .parts.film import Film, Window
+from .parts.radial import Radial, up_to
+from .parts.settings import WIDEST_FISHEYE, positive
 
 
 @dataclass(frozen=True)

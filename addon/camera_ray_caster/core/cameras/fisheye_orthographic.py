@@ -14,9 +14,9 @@ from math import asin, pi, sin
 import numpy as np
 
 from ..records import BlenderCamera, Raster
-from .film import Window
-from .radial import Radial, up_to
-from .settings import positive
+from .parts.film import Window
+from .parts.radial import Radial, up_to
+from .parts.settings import positive
 
 
 @dataclass(frozen=True)

@@ -1,6 +1,6 @@
 """The fisheye of a measured lens: Blender's FISHEYE_LENS_POLYNOMIAL.
 
-Assumption: the angle from the axis is a polynomial of the radius on the sensor, in millimetres; the sensor is fitted
+Assumption: the angle from the axis is a polynomial of the radius on the sensor, in millimeters; the sensor is fitted
 to the frame as a pinhole's is.
 Formula: theta = -(k0 + k1 r + k2 r^2 + k3 r^3 + k4 r^4); no ray where abs(theta) > fov / 2. The minus is Blender's: an
 upright picture needs k1 < 0. A negative theta lies on the other side of the axis. The inverse is Newton's.
@@ -18,13 +18,13 @@ from math import hypot
 
 import numpy as np
 
-from ..panels import on_raster
+from ..maths.chebyshev import on_raster
+from ..maths.inversion import Inverse
 from ..records import BlenderCamera, InputError, Raster
-from .film import Film, Window
-from .inversion import Inverse
-from .radial import AT_THE_RIM, TINY, Radial, radii_of
-from .settings import FULL_TURN, WIDEST_FISHEYE, number, positive
-from .silhouette import pixel_bounds, radial_intervals
+from .parts.film import Film, Window
+from .parts.radial import AT_THE_RIM, TINY, Radial, radii_of
+from .parts.settings import FULL_TURN, WIDEST_FISHEYE, number, positive
+from .parts.silhouette import pixel_bounds, radial_intervals
 
 BEYOND = 1 + 1e-6
 """The rim, in radii at which theta leaves the field of view, which ends the picture: where theta is flat, its inverse
@@ -110,10 +110,10 @@ class FisheyePolynomial(Radial):
         r = self._inverse(np.where(np.abs(target) <= self.half_fov * AT_THE_RIM, target, np.nan))
         return np.where(same <= across, r, -r)
 
-    def bounds(self, centres, radii):
-        """See Radial; the cone about the axis that nothing sees counts as the centre of the picture."""
+    def bounds(self, centers, radii):
+        """See Radial; the cone about the axis that nothing sees counts as the center of the picture."""
         seen = lambda theta: self.radius(np.maximum(theta, self.coefficients[0]))  # noqa: E731
-        return pixel_bounds(self.window, *radial_intervals(centres, radii, seen, self.widest))
+        return pixel_bounds(self.window, *radial_intervals(centers, radii, seen, self.widest))
 
     @property
     def widest(self) -> float:

@@ -15,9 +15,9 @@ from math import atan, radians, tan
 import numpy as np
 
 from ..records import BlenderCamera, Raster
-from .film import Window
-from .radial import Radial, up_to
-from .settings import positive
+from .parts.film import Window
+from .parts.radial import Radial, up_to
+from .parts.settings import positive
 
 WIDEST = radians(359)
 

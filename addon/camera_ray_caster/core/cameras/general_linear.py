@@ -19,11 +19,11 @@ from functools import cached_property
 import numpy as np
 
 from ..conventions import EPS32
+from ..maths.intervals import Interval
+from ..maths.vector import components
 from ..records import BlenderCamera, InputError, Raster
-from ..vector import components
-from .intervals import Interval
-from .settings import numbers
-from .silhouette import MARGIN
+from .parts.settings import numbers
+from .parts.silhouette import MARGIN
 
 ROUNDING = 16 * EPS32
 """What is below this, relative to the rays' own numbers, counts as zero: Blender stores the rays as float32."""
@@ -87,12 +87,12 @@ class GeneralLinear:
         determinant = np.where((z <= 0) & (determinant != 0), determinant, np.nan)
         return np.stack((across / determinant * self.size[0], up / determinant * self.size[1]), axis=-1)
 
-    def bounds(self, centres, radii):
+    def bounds(self, centers, radii):
         """Return (n, 4) pixel bounds x0, x1, y0, y1 outside of which no point of the spheres (camera frame) is seen."""
-        across, up, determinant = self._solved(*(Interval.around(c, radii) for c in components(centres)))
+        across, up, determinant = self._solved(*(Interval.around(c, radii) for c in components(centers)))
         x, y = across / determinant * self.size[0], up / determinant * self.size[1]
         bounds = np.stack((x.low - MARGIN, x.high + MARGIN, y.low - MARGIN, y.high + MARGIN), axis=-1)
-        bounds[centres[:, 2] > radii] = np.nan
+        bounds[centers[:, 2] > radii] = np.nan
         return bounds
 
     def _solved(self, x, y, z):

@@ -12,8 +12,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ..records import BlenderCamera, Raster
-from .film import Window
 from .fisheye_equisolid import FisheyeEquisolid
+from .parts.film import Window
 
 
 @dataclass(frozen=True)

@@ -1,6 +1,6 @@
 """Omnidirectional stereo: the equirectangular panorama of an eye that moves on its circle as the head turns.
 
-Each column has its own eye, half the interocular distance to the left or right of the centre, and looks straight ahead
+Each column has its own eye, half the interocular distance to the left or right of the center, and looks straight ahead
 of itself: the rays are tangents of the circle. With side = (cos lon, 0, sin lon), s = -1 the left eye, +1 the right:
 origin = s (d / 2) side, direction = (cos lat sin lon, sin lat, -cos lat cos lon).
 The frame spans 360 x 180 degrees an eye; for both eyes it is halved: TOP_BOTTOM has the left eye's picture above,
@@ -18,11 +18,11 @@ from math import pi
 
 import numpy as np
 
+from ..maths.vector import components
 from ..records import BlenderCamera, Raster
-from ..vector import components
-from .film import Window
-from .settings import FULL_TURN, choice, number
-from .silhouette import longitude_latitude, pixel_bounds, turned
+from .parts.film import Window
+from .parts.settings import FULL_TURN, choice, number
+from .parts.silhouette import longitude_latitude, pixel_bounds, turned
 
 EYES = {"LEFT": (-1.0, -1.0), "RIGHT": (1.0, 1.0), "TOP_BOTTOM": (1.0, -1.0), "SIDE_BY_SIDE": (-1.0, 1.0)}
 """The eye, s, of the lower half of the frame (or the left one, side by side) and of the other half."""
@@ -63,7 +63,7 @@ class OmnidirectionalStereo:
         """Return the pixel coordinates (..., 2) of camera-frame points (..., 3); NaN within the eyes' circle.
 
         Where both eyes have a picture, the left eye's pixel. At a distance r from the axis the eye looks past the
-        centre by asin(d / 2 r), and has sqrt(r^2 - d^2 / 4) to go.
+        center by asin(d / 2 r), and has sqrt(r^2 - d^2 / 4) to go.
         """
         x, y, z = components(np.asarray(points, np.float64))
         first, second = EYES[self.eye]
@@ -76,13 +76,13 @@ class OmnidirectionalStereo:
         column, row = self.window.pixels_from_plane(longitude, np.arctan2(y, way))
         return np.stack(self._in_frame(column, row, first != side), axis=-1)
 
-    def bounds(self, centres, radii):
+    def bounds(self, centers, radii):
         """Return (n, 4) pixel bounds x0, x1, y0, y1 outside of which no point of the spheres (camera frame) is seen.
 
         Both eyes' pictures of a sphere share one rectangle.
         """
-        x, y, z = components(centres)
-        (low, high), _ = longitude_latitude(centres, radii)
+        x, y, z = components(centers)
+        (low, high), _ = longitude_latitude(centers, radii)
         across = np.hypot(x, z)
         near, far = (
             np.sqrt(np.maximum(r - self.radius, 0) * (r + self.radius)) for r in (across - radii, across + radii)

@@ -1,6 +1,6 @@
 """Omnimax: the fisheye of IMAX Dome films, whose axis lies below the middle of the frame.
 
-Assumption: the film is seen from the dome's centre; the dome's ``tilt`` pitches the lens up from the camera's viewing
+Assumption: the film is seen from the dome's center; the dome's ``tilt`` pitches the lens up from the camera's viewing
 direction. About 180 degrees across; above the axis 90 degrees, below it 45.
 Formula: theta = 1.411269 r - 0.09439 r^3 + 0.25674 r^5, azimuth kept. The circle r = 1 touches the frame's top and
 sides; the film's frame is 1.283458 times as wide as high, a wider one stays empty at the sides, a narrower one shows
@@ -17,13 +17,13 @@ from math import pi
 import numpy as np
 
 from ..conventions import gamma
+from ..maths.inversion import Inverse
+from ..maths.vector import components
 from ..records import BlenderCamera, Raster
-from ..vector import components
-from .film import Window
-from .inversion import Inverse
-from .pitched import Pitched
-from .radial import Radial, radii_of
-from .settings import number
+from .parts.film import Window
+from .parts.pitched import Pitched
+from .parts.radial import Radial, radii_of
+from .parts.settings import number
 
 ASPECT = 1.283458
 LINEAR, CUBIC, QUINTIC = 1.411269, -0.09439, 0.25674

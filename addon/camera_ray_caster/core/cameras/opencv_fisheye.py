@@ -17,11 +17,11 @@ from typing import Self
 
 import numpy as np
 
-from ..panels import on_raster
+from ..maths.chebyshev import on_raster
+from ..maths.inversion import Inverse
 from ..records import BlenderCamera, Raster
-from .calibration import FISHEYE, Calibration
-from .inversion import Inverse
-from .radial import AT_THE_RIM, Radial, radii_of
+from .parts.calibration import FISHEYE, Calibration
+from .parts.radial import AT_THE_RIM, Radial, radii_of
 
 
 @dataclass(frozen=True)

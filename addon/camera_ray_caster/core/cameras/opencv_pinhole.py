@@ -14,14 +14,14 @@ from math import atan
 
 import numpy as np
 
-from ..panels import on_raster
+from ..maths.chebyshev import on_raster
+from ..maths.vector import components
 from ..records import BlenderCamera, Raster
-from ..vector import components
-from .calibration import RADIAL_TANGENTIAL, Calibration
-from .film import Window
-from .radial import AT_THE_RIM
-from .radial_tangential import RadialTangential
-from .silhouette import angular_radius, pixel_bounds, radial_intervals
+from .parts.calibration import RADIAL_TANGENTIAL, Calibration
+from .parts.film import Window
+from .parts.radial import AT_THE_RIM
+from .parts.radial_tangential import RadialTangential
+from .parts.silhouette import angular_radius, pixel_bounds, radial_intervals
 
 
 @dataclass(frozen=True)
@@ -73,7 +73,7 @@ class OpencvPinhole:
         u, v = self.distortion.distort(across, down)
         return np.stack(self.window.pixels_from_plane(u, -v), axis=-1)
 
-    def bounds(self, centres, radii):
+    def bounds(self, centers, radii):
         """Return (n, 4) pixel bounds x0, x1, y0, y1 outside of which no point of the spheres (camera frame) is seen."""
         widest = atan(self.distortion.limit)
 
@@ -81,8 +81,8 @@ class OpencvPinhole:
             r = np.tan(theta)
             return r * self.distortion.gain(r * r)[0]
 
-        across = np.hypot(centres[:, 0], centres[:, 1])
-        far = np.arctan2(across, -centres[:, 2]) + angular_radius(np.hypot(across, centres[:, 2]), radii)
+        across = np.hypot(centers[:, 0], centers[:, 1])
+        far = np.arctan2(across, -centers[:, 2]) + angular_radius(np.hypot(across, centers[:, 2]), radii)
         spread = self.distortion.off_radius(np.tan(np.minimum(far, widest)))
-        intervals = radial_intervals(centres, radii, radius, widest)
+        intervals = radial_intervals(centers, radii, radius, widest)
         return pixel_bounds(self.window, *((low - spread, high + spread) for low, high in intervals))

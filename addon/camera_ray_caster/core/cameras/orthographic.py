@@ -13,8 +13,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..records import BlenderCamera, InputError, Raster
-from .film import Window
-from .silhouette import pixel_bounds
+from .parts.film import Window
+from .parts.silhouette import pixel_bounds
 
 
 @dataclass(frozen=True)
@@ -46,9 +46,9 @@ class Orthographic:
         """Return the pixel coordinates (..., 2) of camera-frame points (..., 3): defined for all, behind too."""
         return np.stack(self.window.pixels_from_plane(points[..., 0], points[..., 1]), axis=-1)
 
-    def bounds(self, centres, radii):
+    def bounds(self, centers, radii):
         """Return (n, 4) pixel bounds x0, x1, y0, y1 outside of which no point of the spheres (camera frame) is seen."""
-        x, y = centres[:, 0], centres[:, 1]
-        behind = centres[:, 2] - radii > 0
+        x, y = centers[:, 0], centers[:, 1]
+        behind = centers[:, 2] - radii > 0
         radii = np.where(behind, np.nan, radii)
         return pixel_bounds(self.window, (x - radii, x + radii), (y - radii, y + radii))

@@ -15,14 +15,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..maths.intervals import Interval
+from ..maths.vector import along, components, difference, dot, norm
 from ..records import BlenderCamera, Raster
-from ..vector import along, components, difference, dot, norm
-from .film import Window
-from .intervals import Interval
+from .parts.film import Window
+from .parts.lines import image_axes, slit_from
+from .parts.settings import number
+from .parts.silhouette import pinhole_interval, pixel_bounds
 from .perspective import Perspective
-from .settings import number
-from .silhouette import pinhole_interval, pixel_bounds
-from .slits import image_axes, slit_from
 
 
 @dataclass(frozen=True)
@@ -65,9 +65,9 @@ class Pencil:
         depth = np.where(known & (z < 0), -z, np.nan)
         return np.stack(self.window.pixels_from_plane(x / depth, y / depth), axis=-1)
 
-    def bounds(self, centres, radii):
+    def bounds(self, centers, radii):
         """Return (n, 4) pixel bounds x0, x1, y0, y1 outside of which no point of the spheres (camera frame) is seen."""
-        beside, rise, ahead = ((centres - self.point) @ self.axes.T).T
+        beside, rise, ahead = ((centers - self.point) @ self.axes.T).T
         side = np.where(ahead < 0, -1.0, 1.0)  # a line through the slit has the same m on both sides of it
         m, tangent = (Interval(*pinhole_interval(side * part, side * ahead, radii)) for part in (rise, beside))
         depth = Interval.around(ahead, radii)
@@ -76,7 +76,7 @@ class Pencil:
         across, up, away = (a * tangent + b * m + c for a, b, c in self.axes.T.tolist())
         x, y = across / -away, up / -away
         bounds = pixel_bounds(self.window, (x.low, x.high), (y.low, y.high))
-        height = Interval.around(centres[:, 2] - self.point[2], radii) - lag * self.axes[0, 2]
+        height = Interval.around(centers[:, 2] - self.point[2], radii) - lag * self.axes[0, 2]
         bounds[height.low >= 0] = np.nan
         return bounds
 

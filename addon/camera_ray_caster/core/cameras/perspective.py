@@ -14,8 +14,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..records import BlenderCamera, InputError, Raster
-from .film import Film, Window
-from .silhouette import pinhole_interval, pixel_bounds
+from .parts.film import Film, Window
+from .parts.silhouette import pinhole_interval, pixel_bounds
 
 
 @dataclass(frozen=True)
@@ -49,7 +49,7 @@ class Perspective:
         depth = np.where(depth > 0, depth, np.nan)
         return np.stack(self.window.pixels_from_plane(points[..., 0] / depth, points[..., 1] / depth), axis=-1)
 
-    def bounds(self, centres, radii):
+    def bounds(self, centers, radii):
         """Return (n, 4) pixel bounds x0, x1, y0, y1 outside of which no point of the spheres (camera frame) is seen."""
-        x, y, depth = centres[:, 0], centres[:, 1], -centres[:, 2]
+        x, y, depth = centers[:, 0], centers[:, 1], -centers[:, 2]
         return pixel_bounds(self.window, pinhole_interval(x, depth, radii), pinhole_interval(y, depth, radii))

@@ -15,15 +15,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..maths.intervals import Interval
+from ..maths.vector import along as point_along
+from ..maths.vector import components, difference, dot
 from ..records import BlenderCamera, Raster
-from ..vector import along as point_along
-from ..vector import components, difference, dot
-from .film import Window
-from .intervals import Interval
 from .orthographic import Orthographic
+from .parts.film import Window
+from .parts.lines import image_axes, slit_from
+from .parts.silhouette import pinhole_interval, pixel_bounds
 from .perspective import Perspective
-from .silhouette import pinhole_interval, pixel_bounds
-from .slits import image_axes, slit_from
 
 
 @dataclass(frozen=True)
@@ -72,13 +72,13 @@ class Pushbroom:
         depth = np.where(beside[2] < 0, -beside[2], np.nan)
         return np.stack(self.window.pixels_from_plane(*self._plane(place, dot(self.across, beside) / depth)), axis=-1)
 
-    def bounds(self, centres, radii):
+    def bounds(self, centers, radii):
         """Return (n, 4) pixel bounds x0, x1, y0, y1 outside of which no point of the spheres (camera frame) is seen."""
         inward = self.along * self.step[2] - (0.0, 0.0, 1.0)  # a point's depth before its eye is a linear form of it
         length = np.linalg.norm(inward)
-        beside = centres - self.start
+        beside = centers - self.start
         slope = pinhole_interval(beside @ self.across, beside @ inward / length, radii)
-        x, y = self._plane(Interval.around(centres @ self.along, radii), Interval(*slope) * (1 / length))
+        x, y = self._plane(Interval.around(centers @ self.along, radii), Interval(*slope) * (1 / length))
         bounds = pixel_bounds(self.window, (x.low, x.high), (y.low, y.high))
         bounds[np.isnan(slope[0])] = np.nan
         return bounds

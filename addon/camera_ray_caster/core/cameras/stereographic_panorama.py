@@ -1,4 +1,4 @@
-"""The stereographic panorama: all around in one picture without a rim. Centred on the ground it is a "little planet".
+"""The stereographic panorama: all around in one picture without a rim. Centerd on the ground it is a "little planet".
 
 Assumption: round pixels; the lens looks ``elevation`` above the viewing direction: at -90 degrees the ground lies in
 the middle and the front on top, at 90 degrees the sky and the front at the bottom.
@@ -13,10 +13,10 @@ from dataclasses import dataclass
 from math import inf, pi, tan
 
 from ..records import BlenderCamera, Raster
-from .film import Window
 from .fisheye_stereographic import WIDEST, FisheyeStereographic
-from .pitched import Pitched
-from .settings import number, positive
+from .parts.film import Window
+from .parts.pitched import Pitched
+from .parts.settings import number, positive
 
 
 @dataclass(frozen=True)

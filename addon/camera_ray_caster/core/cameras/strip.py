@@ -1,4 +1,4 @@
-"""The strip camera, a multiple-centre-of-projection image: each column is seen from another place on a path.
+"""The strip camera, a multiple-center-of-projection image: each column is seen from another place on a path.
 
 The path, a curve of the scene, is walked at constant speed from its first point, at the left edge, to its last, at the
 right edge. A column is the middle column of a perspective camera that stands there: its rows are the perspective
@@ -15,13 +15,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..maths.intervals import Interval
+from ..maths.vector import components
 from ..records import BlenderCamera, InputError, Raster
-from ..vector import components
-from .film import Window
-from .intervals import Interval
+from .parts.film import Window
+from .parts.lines import path_from
+from .parts.silhouette import MARGIN
 from .perspective import Perspective
-from .silhouette import MARGIN
-from .slits import path_from
 
 BESIDE = 1e-9
 """Fraction of a stretch of the path by which a column may lie beyond its end: rounding must not lose one at a joint."""
@@ -44,7 +44,7 @@ class Strip:
     planar = False
     central = False
     smooth = False
-    """A path may bend between neighbouring columns."""
+    """A path may bend between neighboring columns."""
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> Strip:
@@ -92,22 +92,22 @@ class Strip:
         slope = (points[..., 1] - eye[1]) / np.where(depth > 0, depth, np.nan)
         return np.stack((x, self.rows.pixels_from_plane(0.0, slope)[1]), axis=-1)
 
-    def bounds(self, centres, radii):
+    def bounds(self, centers, radii):
         """Return (n, 4) pixel bounds x0, x1, y0, y1 outside of which no point of the spheres (camera frame) is seen.
 
-        Piece by piece of the path: a piece counts where the columns' planes come within the radius of the centre.
+        Piece by piece of the path: a piece counts where the columns' planes come within the radius of the center.
         """
         marks = np.union1d(self.columns, np.linspace(0, self.columns[-1], PIECES + 1))
         eyes = np.stack([np.interp(marks, self.columns, c) for c in self.eyes.T], axis=1)
         normals = np.stack([np.interp(marks, self.columns, c) for c in self.normals.T], axis=1)
-        bounds = np.tile((np.inf, -np.inf), (len(centres), 2))
+        bounds = np.tile((np.inf, -np.inf), (len(centers), 2))
         for k in range(len(marks) - 1):
-            c, b, a = _crossing(centres, eyes[k], eyes[k + 1] - eyes[k], normals[k], normals[k + 1] - normals[k])
+            c, b, a = _crossing(centers, eyes[k], eyes[k + 1] - eyes[k], normals[k], normals[k + 1] - normals[k])
             ends = c, c + b / 2, c + b + a  # the quadratic's Bernstein coefficients, between which it stays
             touched = (np.minimum.reduce(ends) <= radii) & (np.maximum.reduce(ends) >= -radii)
-            rise = Interval.around(centres[:, 1], radii) - Interval(*np.sort(eyes[k : k + 2, 1]))
+            rise = Interval.around(centers[:, 1], radii) - Interval(*np.sort(eyes[k : k + 2, 1]))
             middle, half = (eyes[k] + eyes[k + 1]) / 2, np.hypot(*(eyes[k + 1] - eyes[k])[[0, 2]]) / 2
-            away = np.hypot(centres[:, 0] - middle[0], centres[:, 2] - middle[2])
+            away = np.hypot(centers[:, 0] - middle[0], centers[:, 2] - middle[2])
             slope = rise / Interval.around(away, radii + half)
             bottom, top = (self.rows.pixels_from_plane(0.0, end)[1] for end in (slope.low, slope.high))
             for edge, value in ((0, marks[k]), (2, bottom)):

@@ -17,8 +17,8 @@ import numpy as np
 from ..records import BlenderCamera, Raster
 from .general_linear import GeneralLinear
 from .orthographic import Orthographic
-from .settings import number
-from .slits import image_axes, slit_from
+from .parts.lines import image_axes, slit_from
+from .parts.settings import number
 
 
 @dataclass(frozen=True)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from . import plane, sphere
-from .placed import Placed, place
+from .in_camera import Placed, place
 
 SHAPES = (sphere, plane)
 """Every shape: a module with ``KINDS``, ``view``, ``intersect`` and ``uv``."""

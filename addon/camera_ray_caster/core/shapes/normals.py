@@ -1,7 +1,7 @@
 """Unit normals of many shapes at once: one table column a shape, looked up by each pixel's shape index.
 
-As far as its direction goes, the normal at P of a round sphere is P - centre, of a plane its third inverse row, and of
-an ellipsoid A^-T q with q = A^-1 (P - centre) in two steps: the product A^-T A^-1 would square the ratio of its axes,
+As far as its direction goes, the normal at P of a round sphere is P - center, of a plane its third inverse row, and of
+an ellipsoid A^-T q with q = A^-1 (P - center) in two steps: the product A^-T A^-1 would square the ratio of its axes,
 whereas an error of q along a short axis is an error along the normal, which does not count. A last column of zeros
 serves the pixels that hit nothing (index -1).
 """
@@ -12,9 +12,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..maths.vector import components, difference, matvec, norm, rows, unit
 from ..records import SPHERE, Pose, Shapes
-from ..vector import components, difference, matvec, norm, rows, unit
-from .placed import Placed
+from .in_camera import Placed
 
 ZERO = np.zeros((3, 1, 1))
 """The term that adds nothing."""
@@ -28,7 +28,7 @@ class NormalTable:
     """The constants of the normals, world frame, with a column of zeros at the end."""
 
     constants: np.ndarray
-    """(4, n + 1): the gain, 1 / radius for round spheres, else 0, and the offset, from the centre to the eye in radii
+    """(4, n + 1): the gain, 1 / radius for round spheres, else 0, and the offset, from the center to the eye in radii
     for round spheres, unit normals towards the eye for planes.
     """
     unit: bool
@@ -68,14 +68,14 @@ class Curved:
     """(n + 1,): which shapes are ellipsoids, bool."""
     matrix: np.ndarray
     """(n, 3, 3): shape_from_world, scaled by powers of two to about 1."""
-    centre: np.ndarray
-    """(n, 3): matrix @ (centre - eye)."""
+    center: np.ndarray
+    """(n, 3): matrix @ (center - eye)."""
 
     def put(self, hits, normal) -> None:
         """Write the ellipsoids' unit normals over what the components have there."""
         where = hits.look_up(self.where, "curved")
         at = hits.rows[where]
-        q = difference(matvec(rows(self.matrix[at]), [part[where] for part in hits.point]), components(self.centre[at]))
+        q = difference(matvec(rows(self.matrix[at]), [part[where] for part in hits.point]), components(self.center[at]))
         for component, part in zip(normal, unit(matvec(rows(np.swapaxes(self.matrix[at], 1, 2)), q)), strict=True):
             component[where] = part
 
@@ -90,7 +90,7 @@ def normal_table(shapes: Shapes, placed: Placed, pose: Pose, seen) -> NormalTabl
     gain, offset = np.zeros(n + 1), np.zeros((n + 1, 3))
     gain[:n][is_round] = 1 / np.abs(shapes.axes[is_round, 0, 0])
     flat = flat / np.sqrt((flat * flat).sum(axis=1, keepdims=True))
-    offset[:n] = np.where(is_round[:, None], (pose.eye - shapes.centre) * gain[:n, None], flat) + 0.0  # never -0
+    offset[:n] = np.where(is_round[:, None], (pose.eye - shapes.center) * gain[:n, None], flat) + 0.0  # never -0
     curved = sphere & ~is_round
     far = np.abs(offset[seen]).max(initial=0.0)
     return NormalTable(

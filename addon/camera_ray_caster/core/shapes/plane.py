@@ -14,9 +14,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..conventions import gamma
+from ..maths.vector import cross, difference, linear, matvec
 from ..records import INFINITE_PLANE, PLANE
-from ..vector import cross, difference, linear, matvec
-from .placed import Placed
+from .in_camera import Placed
 
 KINDS = (PLANE, INFINITE_PLANE)
 
@@ -27,7 +27,7 @@ class View:
 
     matrix: np.ndarray
     """(3, 3, n): shape_from_camera, its sign such that the eye's ``offset`` is not negative."""
-    centre: np.ndarray
+    center: np.ndarray
     """(3, n) camera frame."""
     offset: np.ndarray
     """(n,): N_z for rays from the eye."""
@@ -37,12 +37,12 @@ class View:
 
 def view(placed: Placed, at, direction=None) -> View:
     """Return the constants of the planes in these rows; arguments as the sphere's."""
-    centre, offset = placed.centre[at].T, placed.offset[at].T
+    center, offset = placed.center[at].T, placed.offset[at].T
     matrix = placed.shape_from_camera[at].transpose(1, 2, 0)
     sign = np.where(offset[2] < 0, -1.0, 1.0)  # q and -q are the same plane
     matrix, offset = matrix * sign, offset * sign
     (x, y, z), (to_x, to_y, to_z) = offset, matrix
-    return View(matrix, centre, z, np.stack((y * to_z - z * to_y, z * to_x - x * to_z)))
+    return View(matrix, center, z, np.stack((y * to_z - z * to_y, z * to_x - x * to_z)))
 
 
 def intersect(plane: View, kind: int, origin, direction, start: float | None, scratch):
@@ -58,7 +58,7 @@ def intersect(plane: View, kind: int, origin, direction, start: float | None, sc
     if origin is None:
         np.divide(plane.offset, d_z, out=t)
     else:
-        n = matvec(matrix, difference(plane.centre, origin))
+        n = matvec(matrix, difference(plane.center, origin))
         np.divide(n[2], d_z, out=t)
     found = (t >= (0.0 if start is None else start)) & (t < np.inf)
     if kind == PLANE:

@@ -1,6 +1,6 @@
 """The sphere and, by an affine matrix, the ellipsoid: |q| = 1 in the shape's frame.
 
-The unit sphere may be turned at will, so each one is turned until its centre lies on its own z axis, N = (0, 0, n).
+The unit sphere may be turned at will, so each one is turned until its center lies on its own z axis, N = (0, 0, n).
 With D the ray's direction there, |t D - N|^2 = 1 has a = |D|^2, b = n D_z, c = n^2 - 1 and the discriminant
 
     b^2 - a c = |D|^2 - |N x D|^2 = D_z^2 - c (D_x^2 + D_y^2):
@@ -20,9 +20,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..maths.vector import difference, dot, inner, is_lattice, is_one, linear, matvec, norm
 from ..records import SPHERE
-from ..vector import difference, dot, inner, is_lattice, is_one, linear, matvec, norm
-from .placed import Placed
+from .in_camera import Placed
 
 KINDS = (SPHERE,)
 
@@ -32,14 +32,14 @@ class View:
     """The constants of spheres as the eye sees them; the last axis counts the spheres."""
 
     matrix: np.ndarray
-    """(3, 3, n): camera direction to D, scaled, turned so that the eye sees the centre along its z axis, or so that
+    """(3, 3, n): camera direction to D, scaled, turned so that the eye sees the center along its z axis, or so that
     parallel rays run along it, and about that until D_y does not depend on the direction's x."""
     scale: np.ndarray
     """(n,): the power of two that D is scaled by."""
-    centre: np.ndarray
+    center: np.ndarray
     """(3, n) camera frame."""
     distance: np.ndarray
-    """(n,): n, from the eye to the centre in radii."""
+    """(n,): n, from the eye to the center in radii."""
     outside: np.ndarray
     """(n,): c = n^2 - 1, positive where the eye is outside."""
     near: np.ndarray
@@ -60,7 +60,7 @@ def view(placed: Placed, at, direction=None) -> View:
     matrix = np.stack(_levelled([dot(axis, matrix) for axis in axes]))
     with np.errstate(invalid="ignore"):
         wide = np.sqrt(outside) * matrix[:2]
-    return View(matrix, scale, placed.centre[at].T, distance, outside, scale * outside, wide)
+    return View(matrix, scale, placed.center[at].T, distance, outside, scale * outside, wide)
 
 
 def _towards(vector):
@@ -111,7 +111,7 @@ def intersect(sphere: View, kind: int, origin, direction, start: float | None, s
         discriminant = d[2] * d[2] - c * (d[0] * d[0] + d[1] * d[1])
     else:
         to_shape = sphere.matrix / sphere.scale
-        n = _turned(to_shape, difference(sphere.centre, origin), "n", shape, scratch)
+        n = _turned(to_shape, difference(sphere.center, origin), "n", shape, scratch)
         b, c, a, spare = (scratch(name, shape) for name in ("found", "ahead", "across", "spare"))
         inner(n, d, b, spare)
         distance = np.sqrt(inner(n, n, c, spare), out=a)
@@ -203,7 +203,7 @@ def _near(row, column, near, away: bool, scratch):
 
 def _near_parallel(sphere: View, origin, direction, scratch):
     """Return (N_z - sqrt(1 - N_x^2 - N_y^2)) / D_z, for rays along z whose origins are a row and a column."""
-    x, y, z = difference(sphere.centre, origin)
+    x, y, z = difference(sphere.center, origin)
     to_x, to_y, to_z = sphere.matrix
     ahead, t, across = _working(sphere, (x, y, z), scratch)
     level = to_y[1] * y + to_y[2] * z

@@ -1,0 +1,123 @@
+"""The render engine: Blender asks for a picture, the walk makes it, Blender stores, shows and writes it."""
+
+import math
+from dataclasses import replace
+from functools import partial, reduce
+from operator import add
+from time import perf_counter
+
+import bpy
+import numpy as np
+
+from ...core.camera.stereo import eye_record
+from ...core.motion.evaluations import UNRESOLVED
+from ...core.records import BlenderCamera, Cancelled, InputError
+from ...core.report.report import Report
+from ..output import reports
+from ..terminal import signals
+from .job import run
+from .passes import stored, ticked
+from .viewport import Viewport
+
+WARNINGS = 10
+"""Objects that are warned of by name; the report has them all."""
+
+
+class CameraRayCaster(Viewport, bpy.types.RenderEngine):
+    """Rays of the scene's camera, cast at spheres and planes."""
+
+    bl_idname = "CAMERA_RAY_CASTER"
+    bl_label = "Camera Ray Caster"
+    bl_use_eevee_viewport = True
+    done: Report | None = None
+    stopped = False
+    """Whether a render was stopped since whoever asks has set it False."""
+
+    def update_render_passes(self, scene=None, renderlayer=None):
+        """Tell the compositor which sockets a view layer has."""
+        for entry in ticked(scene, renderlayer):
+            self.register_pass(scene, renderlayer, entry.label, len(entry.channels), entry.channels, entry.kind)
+
+    def render(self, depsgraph):
+        """Render one view layer."""
+        try:
+            report = self.render_layer(depsgraph)
+        except InputError as error:
+            self.report({"ERROR"}, str(error))
+        except (Cancelled, KeyboardInterrupt):
+            type(self).stopped = True
+        else:
+            self.keep(report)
+
+    def render_layer(self, depsgraph) -> Report:
+        """Cast the ticked passes of a view layer, for every eye, and store them in Blender's result."""
+        layer = depsgraph.view_layer_eval
+        wanted = ticked(depsgraph.scene_eval, layer)
+        for entry in wanted:
+            if entry.key != "combined":  # Blender adds that one
+                self.add_pass(entry.label, len(entry.channels), entry.channels, layer=layer.name)
+        eyes = [self.render_eye(depsgraph, wanted, view.name) for view in self.get_result().views]
+        return reduce(add, eyes)
+
+    def render_eye(self, depsgraph, wanted, view: str) -> Report:
+        """Cast and store one eye; the view is empty where the scene is not a stereo one."""
+        layer = depsgraph.view_layer_eval.name
+        self.active_view_set(view)
+        self.update_stats(layer, f"Casting rays {view}".rstrip())
+        keys = [entry.key for entry in wanted]
+        images, report = run(
+            depsgraph, self.camera_override, keys, self.advance,
+            visit=partial(self.visit, depsgraph), view=view, eye=partial(self.eye, view=view),
+        )  # fmt: skip
+        started = perf_counter()
+        height, width = next(iter(images.values())).shape[:2]
+        result = self.begin_result(0, 0, width, height, layer=layer, view=view)
+        for entry in wanted:
+            found = result.layers[0].passes.find_by_name(entry.label, view)
+            found.rect.foreach_set(stored(entry.key, images[entry.key]))
+        self.end_result(result)
+        return report.with_seconds(write=perf_counter() - started)
+
+    def visit(self, depsgraph, frame: float):
+        """Evaluate the scene at another frame."""
+        self.frame_set(math.floor(frame), frame - math.floor(frame))
+        return depsgraph
+
+    def eye(self, raw: BlenderCamera, view: str) -> BlenderCamera:
+        """Return the record of a stereo eye with the matrix and the shift that Blender hands over for it."""
+        ours = eye_record(raw, view)  # which refuses what has no model, and keeps the matrix where nothing moves
+        if ours.matrix_world is raw.matrix_world:
+            return ours
+        camera = self.camera_override
+        shift_x = raw.shift_x if raw.type == "PANO" else self.camera_shift_x(camera)
+        return replace(raw, matrix_world=np.array(self.camera_model_matrix(camera), np.float64), shift_x=shift_x)
+
+    def keep(self, report: Report) -> None:
+        """Warn of what was left out, and add the report to those of this frame's other view layers."""
+        for name, reason in report.left_out[:WARNINGS]:
+            self.report({"WARNING"}, f"{name!r} is left out: {reason}")
+        if len(report.left_out) > WARNINGS:
+            self.report({"WARNING"}, f"{len(report.left_out) - WARNINGS} more objects are left out: see the report")
+        for line in report.motion:
+            if line.startswith(UNRESOLVED):
+                self.report({"WARNING"}, line)
+        for finding in report.findings:
+            if not finding.passed:
+                self.report({"WARNING"}, f"{finding.witness} disagrees with the rays: see the report")
+        self.done = report if self.done is None else self.done + report
+        reports.keep(self.done)
+
+    def advance(self, fraction: float) -> bool:
+        """Show how far the cast is; return whether to go on."""
+        self.update_progress(fraction)
+        return not (signals.noted() or self.test_break())
+
+
+def register() -> None:
+    """See ``registration``."""
+    bpy.utils.register_class(CameraRayCaster)
+
+
+def unregister() -> None:
+    """See ``registration``."""
+    bpy.utils.unregister_class(CameraRayCaster)

@@ -1,0 +1,105 @@
+"""The one walk that every door takes: scene → camera → rays → hits → passes → report."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import partial
+from time import perf_counter
+
+from ...core.camera.build import camera_from
+from ...core.camera.camera import Camera
+from ...core.camera.stereo import eye_record
+from ...core.cast import Images, cast
+from ...core.records import BlenderCamera, Finding, Shapes
+from ...core.report.accuracy import accuracy
+from ...core.report.report import Report, report_cast
+from ..read.motion import with_motion
+from ..read.scene import camera_record, go_to, shapes_record
+from ..verification.check import verify_evaluated
+
+
+@dataclass(frozen=True)
+class Job:
+    """All that a cast needs of Blender: from here on it may go on in another thread."""
+
+    camera: Camera
+    shapes: Shapes
+    passes: Sequence[str]
+    shading: str
+    samples: int
+    precision: str
+    findings: list[Finding]
+    seconds: dict[str, float]
+    frame: float
+    layer: str
+    several: bool
+    """Whether the layer is one of several that are rendered."""
+
+    @classmethod
+    def read(
+        cls,
+        depsgraph,
+        camera_object,
+        passes: Sequence[str],
+        visit: Callable | None = None,
+        view: str = "",
+        eye: Callable[[BlenderCamera], BlenderCamera] | None = None,
+    ) -> Job:
+        """Read an evaluated scene with one camera, and hold the camera against its witnesses.
+
+        Reads the depsgraph only, so that a render's thread may call it. ``visit(frame)`` evaluates the scene at another
+        frame and returns its depsgraph: for a camera whose pixels have each their own time; the default sets the
+        scene's frame, which a render may not. ``view`` names a multi-view eye, ``eye(raw)`` is the record of that eye;
+        the default is ours. Raises InputError where the camera cannot be cast.
+        """
+        scene = depsgraph.scene_eval
+        started = perf_counter()
+        eye = eye or partial(eye_record, view=view)
+        camera = camera_from(eye(camera_record(scene, camera_object, depsgraph)))
+        shapes = shapes_record(depsgraph)
+        read = perf_counter()
+        findings = verify_evaluated(camera, camera_object, depsgraph, view)
+        verified = perf_counter()
+        frame, layer = scene.frame_current_final, depsgraph.view_layer_eval.name
+        several = sum(layer.use for layer in scene.view_layers) > 1
+        settings = scene.camera_ray_caster
+        shading, samples, precision = settings.shading, settings.samples, settings.precision
+        if camera.pixel_time is not None:
+            visit = visit or partial(go_to, depsgraph.scene)
+            try:
+                camera, shapes = with_motion(camera, shapes, camera_object, visit, eye)
+            finally:
+                visit(frame)
+        moved = perf_counter()
+        return cls(
+            camera=camera,
+            shapes=shapes,
+            passes=passes,
+            shading=shading,
+            samples=samples,
+            precision=precision,
+            findings=findings,
+            seconds={"read": read - started + moved - verified, "verify": verified - read},
+            frame=frame,
+            layer=layer,
+            several=several,
+        )
+
+    def cast(self, progress: Callable[[float], bool] | None = None, threads=None) -> tuple[Images, Report]:
+        """Cast the passes and report. ``progress`` and ``threads`` are as in ``cast``, and so is Cancelled."""
+        settings = {"shading": self.shading, "samples": self.samples, "precision": self.precision}
+        images = cast(self.camera, self.shapes, self.passes, **settings, threads=threads, progress=progress)
+        began = perf_counter()
+        bounds = accuracy(self.camera, self.shapes, images.plan, self.precision)
+        seconds = {**self.seconds, **images.seconds, "accuracy": perf_counter() - began}
+        report = report_cast(
+            self.camera, self.shapes, images, seconds, self.findings, self.frame, self.layer, self.several,
+            precision=self.precision, accuracy=bounds,
+        )  # fmt: skip
+        return images, report
+
+
+def run(depsgraph, camera_object, passes: Sequence[str], progress=None, **eye) -> tuple[Images, Report]:
+    """Read and cast in one go: see ``Job``."""
+    return Job.read(depsgraph, camera_object, passes, **eye).cast(progress)

@@ -1,0 +1,176 @@
+"""Rendered shading in the 3D View: a coarse picture at once, then finer ones from a thread while nothing moves."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import partial
+from typing import Any
+
+import bpy
+import gpu
+import numpy as np
+from gpu_extras.presets import draw_texture_2d
+
+from ...core.camera.build import camera_from
+from ...core.camera.camera import Camera
+from ...core.camera.view_records import frame_record, view_record
+from ...core.cast import cast
+from ...core.casting.worker import BESIDE, Worker
+from ...core.records import BlenderCamera, InputError
+from ..view3d.camera_frame import camera_frame
+from ..view3d.scene_cache import observe
+
+STEPS = (8, 2, 1)
+"""Pixels of the window to a side of the picture's, from coarse to fine. The first is cast at once."""
+
+INTERVAL = 0.03
+"""Seconds between two looks for a finer picture."""
+
+_workers: list[Worker] = []
+
+
+@dataclass(frozen=True)
+class Target:
+    """A rectangle of the region, and the camera whose picture fills it."""
+
+    left: float
+    bottom: float
+    width: float
+    height: float
+    raw: BlenderCamera
+    seen: tuple[float, float, float, float]
+    """The part of the camera's frame that the region shows, in fractions: left, bottom, right, top."""
+
+    def camera(self, step: int) -> Camera:
+        """Return the camera with pixels of ``step`` pixels of the window."""
+        width, height = (max(1, round(side / step)) for side in (self.width, self.height))
+        return replace(camera_from(frame_record(self.raw, width, height, self.seen)), pixel_time=None)
+
+    def rectangle(self, raster) -> tuple[float, float, float, float]:
+        """Return left, bottom, width and height in the region of a raster's render window."""
+        x, y = self.width / raster.width, self.height / raster.height
+        rows, columns = raster.shape
+        return self.left + raster.x0 * x, self.bottom + raster.y0 * y, columns * x, rows * y
+
+
+class Viewport:
+    """What the engine does in a 3D View."""
+
+    _key: Any = None
+    """What the latest picture is of."""
+    _step = 0
+    """The place in STEPS of the picture that is being cast, or was cast last."""
+    _worker: Worker | None = None
+    _picture: tuple | None = None
+    """(texture, its rectangle)."""
+
+    def view_update(self, context, depsgraph):
+        """Something has changed: ``observe`` knows what."""
+
+    def view_draw(self, context, depsgraph):
+        """Draw the latest picture of this view, and have a finer one cast."""
+        observed = observe(context)
+        view = context.region_data
+        settings = context.scene.camera_ray_caster
+        shown = {"shading": settings.shading, "precision": settings.precision}
+        matrices = [tuple(row) for row in (*view.view_matrix, *view.window_matrix)]
+        key = observed, matrices, context.region.width, context.region.height, shown
+        if self._key != key:
+            self._key, self._step, self._picture = key, 0, None
+            self._abandon()
+            self._begin(context, observed, shown)
+        elif self._worker is not None and self._worker.done:
+            self._take()
+            self._refine()
+        if self._picture is not None:
+            self._draw(depsgraph.scene)
+
+    def _begin(self, context, observed, shown) -> None:
+        """Cast the coarsest picture at once, and start on the next."""
+        try:
+            self._target = _target(context, observed.raw)
+            if self._target is None:
+                return
+            self._target.camera(1)
+        except InputError:
+            return  # the sidebar says why
+        self._cast = partial(_cast, self._target, observed.shapes, shown)
+        self._show(self._cast(STEPS[0]))
+        self._refine()
+
+    def _refine(self) -> None:
+        self._step += 1
+        if self._step < len(STEPS):
+            self._worker = Worker(partial(self._cast, STEPS[self._step]))
+            _workers.append(self._worker)
+            if not bpy.app.timers.is_registered(look):
+                bpy.app.timers.register(look, first_interval=INTERVAL)
+
+    def _take(self) -> None:
+        worker, self._worker = self._worker, None
+        self._show(worker.result())
+
+    def _abandon(self) -> None:
+        if self._worker is not None:
+            self._worker.abandon()
+            self._worker = None
+
+    def _show(self, picture) -> None:
+        pixels, rectangle = picture
+        height, width = pixels.shape[:2]
+        buffer = gpu.types.Buffer("FLOAT", pixels.size, pixels.ravel())
+        self._picture = gpu.types.GPUTexture((width, height), format="RGBA16F", data=buffer), rectangle
+
+    def _draw(self, scene) -> None:
+        texture, (left, bottom, width, height) = self._picture
+        gpu.state.blend_set("ALPHA_PREMULT")
+        self.bind_display_space_shader(scene)
+        draw_texture_2d(texture, (left, bottom), width, height)
+        self.unbind_display_space_shader()
+        gpu.state.blend_set("NONE")
+
+
+def _target(context, raw: BlenderCamera | None) -> Target | None:
+    """Return what fills the region; None where it looks through a camera that cannot be cast."""
+    region, view = context.region, context.region_data
+    if view.view_perspective != "CAMERA":
+        record = view_record(view.view_matrix, view.window_matrix, region.width, region.height)
+        return Target(0, 0, region.width, region.height, record, (0, 0, 1, 1))
+    frame = camera_frame(context)
+    if frame is None or raw is None:
+        return None
+    left, bottom, right, top = frame
+    width, height = right - left, top - bottom
+    seen = -left / width, -bottom / height, (region.width - left) / width, (region.height - bottom) / height
+    return Target(left, bottom, width, height, raw, seen)
+
+
+def _cast(target: Target, shapes, shown: dict[str, str], step: int, progress=None):
+    """Return the combined pass at a step, (rows, columns, 4) float32, and its rectangle. It may run on a thread."""
+    camera = target.camera(step)
+    images = cast(camera, shapes, ("combined",), np.float32, **shown, threads=BESIDE, progress=progress)
+    return images["combined"], target.rectangle(camera.raster)
+
+
+def look() -> float | None:
+    """Redraw the 3D Views once a finer picture is there; Blender calls this until there is none to wait for."""
+    finished = [worker for worker in _workers if worker.done]
+    if finished:
+        _workers[:] = [worker for worker in _workers if worker not in finished]
+        for window in bpy.context.window_manager.windows:
+            for area in window.screen.areas:
+                if area.type == "VIEW_3D":
+                    area.tag_redraw()
+    return INTERVAL if _workers else None
+
+
+def register() -> None:
+    """See ``registration``."""
+
+
+def unregister() -> None:
+    """Stop what is under way."""
+    while _workers:
+        _workers.pop().stop()
+    if bpy.app.timers.is_registered(look):
+        bpy.app.timers.unregister(look)

@@ -1,0 +1,1 @@
+"""What leaves Blender: image datablocks, files, reports."""

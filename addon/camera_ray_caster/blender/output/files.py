@@ -1,0 +1,119 @@
+"""A rendered frame as files: a picture, an EXR with all passes, and the report. They appear whole or not at all."""
+
+import os
+from collections.abc import Iterator
+from contextlib import contextmanager, redirect_stdout
+from errno import EISDIR
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from time import perf_counter
+
+import bpy
+
+from ...core.records import Cancelled, InputError
+from ...core.report.report import Report, as_json
+from ..engine.engine import CameraRayCaster
+from ..terminal import signals
+from . import reports
+
+PICTURE = {
+    "media_type": "IMAGE",
+    "file_format": "PNG",
+    "views_format": "INDIVIDUAL",
+    "color_mode": "RGBA",
+    "color_depth": "8",
+}
+LAYERS = {
+    "media_type": "MULTI_LAYER_IMAGE",
+    "file_format": "OPEN_EXR_MULTILAYER",
+    "views_format": "INDIVIDUAL",  # of several views a file each: what every reader reads
+    "color_depth": "32",
+    "exr_codec": "ZIP",
+    "use_exr_interleave": True,  # one part: what every reader reads, at any pixel aspect
+}
+"""Image settings by Blender's names, in the order in which they have to be set."""
+
+
+def render(scene, folder: Path, name: str, number: str = "") -> tuple[Report, list[Path]]:
+    """Render the scene's current frame into ``folder`` and return the report and the files.
+
+    They are NAME.png, NAME.exr and report.json, ``number`` before each dot; of several views NAME_L.png, NAME_R.png and
+    so on, by the views' suffixes. Leaves all as it was and raises InputError where Blender cannot render or the folder
+    cannot be written, Cancelled where it is stopped.
+    """
+    with appearing(folder) as temporary:
+        report = _rendered(scene)
+        started = perf_counter()
+        _save(scene, temporary / f"{name}{number}.png", PICTURE)
+        _save(scene, temporary / f"{name}{number}.exr", LAYERS)
+        report = report.with_seconds(files=perf_counter() - started)
+        (temporary / f"report{number}.json").write_text(as_json(report), encoding="utf-8")
+        names = sorted(os.listdir(temporary))
+        signals.heed()
+    return report, [folder / name for name in names]
+
+
+@contextmanager
+def appearing(folder: Path) -> Iterator[Path]:
+    """Yield an empty folder whose files move into ``folder`` in the end; if anything fails nothing is left of them."""
+    made: list[Path] = []
+    try:
+        made += [path for path in (folder, *folder.parents) if not path.exists()]
+        folder.mkdir(parents=True, exist_ok=True)
+        with TemporaryDirectory(prefix=".writing_", dir=folder) as temporary:
+            yield Path(temporary)
+            targets = {path: folder / path.name for path in Path(temporary).iterdir()}
+            for target in targets.values():
+                if target.is_dir():  # found before the first file has moved
+                    raise IsADirectoryError(EISDIR, f"{target.name!r} is a folder there")
+            for path, target in targets.items():
+                os.replace(path, target)
+    except BaseException as error:
+        for path in made:
+            if path.is_dir():
+                path.rmdir()
+        if isinstance(error, OSError):
+            raise InputError(f"cannot write into {str(folder)!r}: {error.strerror}; choose another folder") from error
+        raise
+
+
+def _rendered(scene) -> Report:
+    """Render the current frame and return its report, with Blender's share of the time; Cancelled where it stopped."""
+    if not any(layer.use for layer in scene.view_layers):
+        raise InputError(f"no view layer of scene {scene.name!r} is used for rendering: enable one")
+    reports.forget()
+    CameraRayCaster.stopped = False
+    scene.render.use_sequencer = False  # a strip would be shown in place of the cast
+    started = perf_counter()
+    try:
+        with redirect_stdout(None):  # warnings and errors are in the report and in the exception
+            bpy.ops.render.render(scene=scene.name)
+    except RuntimeError as error:
+        raise InputError(str(error).strip().splitlines()[0].removeprefix("Error: ")) from error
+    elapsed = perf_counter() - started
+    report = reports.latest()
+    if CameraRayCaster.stopped:
+        raise Cancelled
+    if report is None:
+        raise RuntimeError("the render failed: what went wrong stands above")
+    return report.with_seconds(blender=elapsed - sum(report.seconds.values()))
+
+
+def _save(scene, path: Path, settings) -> None:
+    """Let Blender write the render to a file."""
+    signals.heed()
+    for name, value in settings.items():
+        if hasattr(scene.render.image_settings, name):  # media_type: from 5.0 on; use_exr_interleave: not everywhere
+            setattr(scene.render.image_settings, name, value)
+    try:
+        bpy.data.images["Render Result"].save_render(str(path), scene=scene)
+    except RuntimeError as error:
+        if not _views_written(scene.render, path):
+            raise OSError(0, str(error).strip()) from error
+
+
+def _views_written(render, path: Path) -> bool:
+    """Return whether each of several views has its file: Blender then misses one without a view's suffix."""
+    views = render.stereo_views if render.views_format == "STEREO_3D" else render.views
+    files = [path.with_stem(path.stem + view.file_suffix) for view in views if view.use]
+    return render.use_multiview and all(file.is_file() for file in files)

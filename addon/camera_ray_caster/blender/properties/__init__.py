@@ -1,0 +1,1 @@
+"""What the add-on stores in a .blend."""

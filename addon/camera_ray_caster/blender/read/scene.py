@@ -1,0 +1,93 @@
+"""Blender in, plain records out. The scene is as it was afterwards."""
+
+import math
+from contextlib import contextmanager
+from functools import partial
+
+import bpy
+
+from ...core.camera.build import camera_from
+from ...core.camera.camera import Camera
+from ...core.camera.stereo import eye_record
+from ...core.records import InputError, Shapes
+from .camera import camera_record, check_camera, eye_object, find_camera
+from .motion import with_motion
+from .shapes import shapes_record
+
+__all__ = ["camera_record", "evaluated", "find_camera", "read_camera", "read_shapes", "shapes_record"]
+
+
+def read_camera(scene, camera_object=None, frame=None, view="") -> Camera:
+    """Return the scene's camera as it is evaluated: parents, constraints, drivers, animation, timeline markers.
+
+    ``camera_object``: default the scene's active camera at that frame. ``frame``: default the current one; its
+    fraction is the subframe. ``view``: "" for the camera itself, else the name of a multi-view eye, "left" or "right".
+    A camera whose pixels have each their own time comes with its motion: the scene is evaluated for it.
+    Raises InputError where there is no camera, for what no model here can do, and for parameters without meaning.
+    """
+    if camera_object is not None:
+        check_camera(scene, camera_object)
+    with observing(scene, camera_object, frame, view) as (active, depsgraph):
+        eye = partial(eye_record, view=view)
+        camera = camera_from(eye(camera_record(scene, active, depsgraph)))
+        if camera.pixel_time is None:
+            return camera
+        shapes = shapes_record(depsgraph)
+        return with_motion(camera, shapes, active, partial(go_to, scene), eye)[0]
+
+
+@contextmanager
+def observing(scene, camera_object=None, frame=None, view=""):
+    """Yield the camera object that ``read_camera`` reads for these arguments, and the depsgraph that evaluates it."""
+    with evaluated(scene, frame, camera_object), evaluated(scene, None, eye_object(scene, view)) as depsgraph:
+        yield scene.camera, depsgraph
+
+
+def read_shapes(scene, frame=None) -> Shapes:
+    """Return the scene's spheres and planes as they are evaluated, in the world, and the names of what is neither.
+
+    ``frame`` is as in ``read_camera``. Outside a render Blender has evaluated what the viewport shows, with the
+    viewport's modifier and particle settings; what only a render shows is named among ``left_out``.
+    """
+    with evaluated(scene, frame) as depsgraph:
+        shapes = shapes_record(depsgraph)
+        active = scene.camera
+        if active is None or active.type != "CAMERA":
+            return shapes
+        raw = camera_record(scene, active, depsgraph)
+        if raw.settings["time_mode"] == "NONE":
+            return shapes
+        return with_motion(camera_from(raw), shapes, active, partial(go_to, scene), partial(eye_record, view=""))[1]
+
+
+def go_to(scene, frame: float):
+    """Set a scene to a frame, its fraction the subframe, and return the depsgraph evaluated there."""
+    scene.frame_set(math.floor(frame), subframe=frame - math.floor(frame))
+    return _layer(scene).depsgraph
+
+
+def _layer(scene):
+    return bpy.context.view_layer if scene == bpy.context.scene else scene.view_layers[0]
+
+
+@contextmanager
+def evaluated(scene, frame=None, camera_object=None):
+    """Yield the scene's depsgraph at a frame with a camera active, and put frame and camera back in the end."""
+    if frame is not None and not abs(frame) < 2**31:
+        raise InputError(f"frame {frame} is not one that Blender can hold: choose one nearer to 0")
+    layer = _layer(scene)
+    before = scene.frame_current, scene.frame_subframe, scene.camera
+    try:
+        if frame is not None:
+            go_to(scene, frame)
+        if camera_object is not None and camera_object != scene.camera:
+            scene.camera = camera_object  # a camera that is hidden is evaluated only while it is the active one,
+            scene.frame_current = scene.frame_current  # and animated only when the time is told to it
+        layer.update()
+        yield layer.depsgraph
+    finally:
+        if (scene.frame_current, scene.frame_subframe) != before[:2]:
+            scene.frame_set(before[0], subframe=before[1])
+        if scene.camera != before[2]:
+            scene.camera = before[2]  # also where a timeline marker has bound another one
+            layer.update()

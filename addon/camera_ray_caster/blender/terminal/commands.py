@@ -1,0 +1,228 @@
+"""The commands for a terminal: arguments in, files and a table out, and an exit status.
+
+Status 0: done; 1: done, but a witness disagrees with the camera's rays; 2: bad input, one line on standard error;
+130: stopped by Ctrl C or another signal that ends a process.
+"""
+
+import argparse
+import math
+import os
+import sys
+from collections.abc import Sequence
+from contextlib import redirect_stdout
+from pathlib import Path
+from textwrap import fill
+
+import bpy
+
+from ...core.camera.pixel_time import LAST_FRAME
+from ...core.casting.passes import PASSES
+from ...core.casting.plan import PRECISIONS
+from ...core.casting.shading import SHADINGS
+from ...core.records import Cancelled, InputError
+from ...core.report.report import WIDTH, Report, as_json, as_lines
+from ..engine.engine import CameraRayCaster
+from ..engine.passes import tick, ticked
+from ..output import files
+from ..read.scene import find_camera, read_camera
+from ..verification.check import verified
+from . import signals
+from .standard_output import keep_output
+
+DEFAULT_PASSES = ("combined", "depth", "normal", "position", "object_index")
+"""What is cast of a view layer that ticks nothing beside combined."""
+
+
+class Parser(argparse.ArgumentParser):
+    """A parser that refuses in one line."""
+
+    def error(self, message):
+        """Raise InputError."""
+        raise InputError(f"{message} (--help shows what can be given)")
+
+
+def main(command: str, arguments: Sequence[str], prog: str) -> int:
+    """Run a command of COMMANDS and return its exit status."""
+    try:
+        if command not in COMMANDS:
+            raise InputError(f"there is no command {command!r}: choose from {', '.join(COMMANDS)}")
+        return COMMANDS[command](arguments, prog)
+    except InputError as error:
+        print(f"{prog}: {error}", file=sys.stderr)
+        return 2
+    except (Cancelled, KeyboardInterrupt):
+        print(f"{prog}: stopped; what was under way has left nothing", file=sys.stderr)
+        return 130
+    finally:
+        signals.forget()
+
+
+def cast(arguments: Sequence[str], prog: str) -> int:
+    """Render frames of a file to pictures, EXR files and reports."""
+    parser = _parser(
+        prog,
+        "Cast the rays of a Blender file's camera at its spheres and planes.",
+        f"{prog} blend_scenes/spheres_and_planes.blend --output out --passes combined,depth",
+        "writes out/spheres_and_planes.png, the 32-bit multilayer out/spheres_and_planes.exr with a layer a pass, and "
+        "out/report.json; with --frames each name ends in its frame's number.",
+    )
+    frames = parser.add_mutually_exclusive_group()
+    _add_frame(frames)
+    frames.add_argument("--frames", type=frame_range, metavar="A:B", help="every whole frame from A to B")
+    parser.add_argument("--passes", type=pass_names, metavar="A,B,...", help=f"of {', '.join(PASSES)}; default: what "
+                        f"the file ticks, or {', '.join(DEFAULT_PASSES)} where it ticks only combined")  # fmt: skip
+    parser.add_argument("--shading", type=str.upper, choices=SHADINGS, help="of the combined pass; default: the file's")
+    parser.add_argument("--precision", type=str.upper, choices=PRECISIONS,
+                        help="what hits are searched with; default: the file's")  # fmt: skip
+    parser.add_argument("--output", type=Path, default=Path("out"), metavar="FOLDER", help="default: %(default)s")
+    options = parser.parse_args(_joined(arguments, "--frames"))
+    scene = _open(options)
+    for layer in scene.view_layers:
+        if options.passes or [entry.key for entry in ticked(scene, layer)] == ["combined"]:
+            tick(scene, layer, options.passes or DEFAULT_PASSES)
+    for setting in ("shading", "precision"):
+        if getattr(options, setting):
+            setattr(scene.camera_ray_caster, setting, getattr(options, setting))
+    passed = True
+    for frame in options.frames or [options.frame]:
+        _go_to(scene, frame)
+        read_camera(scene)  # a camera that cannot be cast is refused before anything is made
+        number = f"_{frame:04d}" if options.frames else ""
+        report, paths = files.render(scene, options.output, _stem(), number)
+        _show(report, options.json, f"Wrote {', '.join(map(str, paths))}")
+        passed &= report.passed
+    return int(not passed)
+
+
+def verify(arguments: Sequence[str], prog: str) -> int:
+    """Hold a file's camera against Blender's own answers."""
+    parser = _parser(
+        prog,
+        "Hold the rays of a Blender file's camera against Blender's own frame.",
+        f"{prog} blend_scenes/spheres_and_planes.blend --frame 12.5",
+        "prints the largest and the median error of the rays beside the bound that each witness can reach.",
+    )
+    _add_frame(parser)
+    options = parser.parse_args(arguments)
+    scene = _open(options)
+    _go_to(scene, options.frame)
+    report = verified(scene)
+    signals.heed()
+    _show(report, options.json, "All witnesses agree" if report.passed else "A witness disagrees")
+    return int(not report.passed)
+
+
+COMMANDS = {"cast": cast, "verify": verify}
+
+
+_handles = []
+
+
+def register() -> None:
+    """Add ``blender --command camera_ray_caster cast FILE.blend``; see ``registration``."""
+    _handles.append(bpy.utils.register_cli_command("camera_ray_caster", _from_blender))
+
+
+def unregister() -> None:
+    """See ``registration``."""
+    bpy.utils.unregister_cli_command(_handles.pop())
+
+
+def _from_blender(arguments: Sequence[str]) -> int:
+    keep_output()
+    command, *rest = arguments or [""]
+    return main(command, rest, f"camera_ray_caster {command}".strip())
+
+
+def _parser(prog: str, purpose: str, example: str, result: str) -> Parser:
+    ends = fill("exit status: 0 done; 1 done, but the camera's rays disagree with a witness; 2 bad input.", WIDTH)
+    parser = Parser(
+        prog=prog,
+        description=purpose,
+        epilog=f"example:\n  {example}\n{fill(result, WIDTH)}\n\n{ends}",
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument("file", nargs="?", type=Path, metavar="FILE.blend", help="default: the file that is open")
+    parser.add_argument("--camera", metavar="NAME", help="default: the scene's active camera")
+    parser.add_argument("--json", action="store_true", help="print the report as JSON in place of the table")
+    return parser
+
+
+def _joined(arguments: Sequence[str], option: str) -> list[str]:
+    """Return the arguments with an option and its value as one word: argparse would take -3:-1 for an option."""
+    words = list(arguments)
+    if option in words[:-1]:
+        at = words.index(option)
+        words[at : at + 2] = [f"{option}={words[at + 1]}"]
+    return words
+
+
+def _add_frame(parser) -> None:
+    parser.add_argument("--frame", type=frame_number, help="default: the file's; a fraction is between frames")
+
+
+def frame_number(text: str) -> float:
+    """Return a frame; argparse names this function where the text is none."""
+    frame = float(text)
+    if not abs(frame) <= LAST_FRAME:
+        raise argparse.ArgumentTypeError(f"{text} is beyond Blender's last frame, {LAST_FRAME}")
+    return frame
+
+
+def frame_range(text: str) -> range:
+    """Return the frames of "A:B"."""
+    first, last = (int(part) for part in text.split(":"))
+    frame_number(str(first)), frame_number(str(last))
+    if first > last:
+        raise argparse.ArgumentTypeError(f"{text} holds no frame: give the first one first")
+    return range(first, last + 1)
+
+
+def pass_names(text: str) -> list[str]:
+    """Return the passes of "A,B,..."."""
+    names = text.split(",")
+    unknown = [name for name in names if name not in PASSES]
+    if unknown:
+        raise argparse.ArgumentTypeError(f"no pass is called {unknown[0]!r}: choose from {', '.join(PASSES)}")
+    return names
+
+
+def _open(options):
+    """Open the file that the options name, and return its scene with the engine and the camera that they ask for."""
+    path = options.file
+    if path is not None:
+        if not os.path.isfile(path):  # False, too, where Python may not look
+            raise InputError(f"there is no file {str(path)!r}: give the path of a .blend")
+        try:
+            with redirect_stdout(None):  # where Python's copy of the error would go
+                bpy.ops.wm.open_mainfile(filepath=str(path.resolve()))
+        except RuntimeError as error:
+            raise InputError(f"{str(path)!r} is no .blend that this Blender can open: {_line(error)}") from error
+    elif not bpy.app.binary_path:
+        raise InputError("no file is open: give the path of a .blend")
+    scene = bpy.context.scene
+    scene.render.engine = CameraRayCaster.bl_idname
+    if options.camera is not None:
+        camera = find_camera(scene, options.camera)
+        for marker in scene.timeline_markers:
+            marker.camera = None  # it would take the camera's place at its frame
+        scene.camera = camera
+    return scene
+
+
+def _go_to(scene, frame: float | None) -> None:
+    if frame is not None:
+        scene.frame_set(math.floor(frame), subframe=frame - math.floor(frame))
+
+
+def _stem() -> str:
+    return Path(bpy.data.filepath).stem or "untitled"
+
+
+def _show(report: Report, json: bool, last_line: str) -> None:
+    print(as_json(report) if json else "\n".join((*as_lines(report), "", last_line)), flush=True)
+
+
+def _line(error: RuntimeError) -> str:
+    """Return the first thing that an operator reported, without its label."""
+    return str(error).strip().splitlines()[0].removeprefix("Error: ")

@@ -1,0 +1,199 @@
+"""The camera as the lecture describes it, in the 3D View's sidebar and in the camera's own properties."""
+
+from __future__ import annotations
+
+from re import sub
+from textwrap import wrap
+
+import bpy
+
+from ...core.camera.build import camera_from
+from ...core.records import InputError
+from ...core.report.facts import camera_facts
+from ..output import reports
+from ..read.scene import camera_record
+
+LETTER = 6.0
+"""About the width of a letter in a panel, in units of the interface's scale."""
+
+
+WITNESSES = {
+    "view_frame": "View Frame",
+    "calc_matrix_camera": "Camera Matrix",
+    "world_to_camera_view": "View Position",
+    "round trip": "Round Trip",
+}
+"""What the panel calls a witness, by its name in the report."""
+
+
+class Sidebar:
+    """What our panels in the 3D View's sidebar have in common."""
+
+    bl_space_type = "VIEW_3D"
+    bl_region_type = "UI"
+    bl_category = "Ray Caster"
+
+
+def facts_of(context, camera_object) -> tuple[dict[str, object] | None, str]:
+    """Return the facts of a camera as the window shows it, or None and in one line why there are none.
+
+    A tenth of a millisecond: cheap enough to be read at every redraw, so that nothing has to be kept up to date.
+    """
+    try:
+        raw = camera_record(context.scene, camera_object, context.evaluated_depsgraph_get())
+        return camera_facts(camera_from(raw)), ""
+    except InputError as error:
+        return None, str(error)
+
+
+def draw_message(layout, context, text: str, icon: str = "INFO") -> None:
+    """Draw a sentence in as many lines as the panel's width asks for, its first letter a capital."""
+    width = context.region.width / (context.preferences.system.ui_scale or 1.0)  # 0 without a window
+    column = layout.column(align=True)
+    column.scale_y = 0.85
+    for i, line in enumerate(wrap(text[:1].upper() + text[1:], max(16, int((width - 65) / LETTER)))):
+        column.label(text=line, icon="BLANK1" if i else icon)
+
+
+def draw_facts(layout, context, facts) -> None:
+    """Draw the facts of a camera: one table, lengths and angles in the scene's units."""
+    box = layout.box().column(align=True)
+    vectors = [("Eye", [length(context, value) for value in facts["eye"]])]
+    vectors += [(name, [f"{value:.4f}" for value in facts[name]]) for name in "uvw"]
+    for name, cells in vectors:
+        draw_row(box, name, cells, 0.16)
+    box = layout.box().column(align=True)
+    for name, text in scalars(context, facts):
+        draw_row(box, name, [text], 0.5)
+    if "K" in facts:
+        box = layout.box().column(align=True)
+        for name, row in zip(("K", "", ""), facts["K"], strict=True):
+            draw_row(box, name, [f"{value:.6g}" for value in row], 0.16)
+
+
+def scalars(context, facts):
+    """Yield the facts beside vectors and K, by Blender's names for them."""
+    across, up = facts["raster"]
+    yield "Model", sub("(?<=[a-z])(?=[A-Z])", " ", facts["model"])
+    yield "Raster", f"{across} × {up} px"
+    x0, x1, y0, y1 = facts["window"]
+    if (x0, x1, y0, y1) != (0, across, 0, up):
+        yield "Render Region", f"{x0} to {x1}, {y0} to {y1}"
+    if facts["pixel_aspect"] != 1:
+        yield "Pixel Aspect", f"{facts['pixel_aspect']:.6g}"
+    if "field_of_view" in facts:
+        yield "Field of View", " × ".join(f"{angle:.4g}°" for angle in facts["field_of_view"])
+        yield "Plane Distance d", f"{facts['d']:.6g}"
+        yield "Aspect", f"{facts['aspect']:.6g}"
+    if "kind" in facts:
+        yield "Kind", facts["kind"]
+    if "frame" in facts:
+        yield "Frame", " × ".join(length(context, side) for side in facts["frame"])
+    yield "Clip", " to ".join(length(context, distance) for distance in facts["clip"])
+
+
+def length(context, value: float) -> str:
+    """Return a length in the scene's units."""
+    units = context.scene.unit_settings
+    if units.system == "NONE":
+        return f"{value:.5g}"
+    return bpy.utils.units.to_string(units.system, "LENGTH", value * units.scale_length, precision=4)
+
+
+def draw_row(layout, name: str, cells, factor: float) -> None:
+    """Draw a row of a table: its name, then its cells in columns of equal width."""
+    row = layout.split(factor=factor, align=True)
+    row.label(text=name)
+    row = row.split(align=True)
+    for cell in cells:
+        column = row.column(align=True)
+        column.alignment = "RIGHT"
+        column.label(text=cell)
+
+
+class SidebarCamera(Sidebar, bpy.types.Panel):
+    """The scene's active camera."""
+
+    bl_idname = "CAMERA_RAY_CASTER_PT_camera"
+    bl_label = "Camera"
+
+    def draw_header_preset(self, context):
+        """A button that copies the facts."""
+        self.layout.operator("camera_ray_caster.copy_facts", text="", icon="COPYDOWN", emboss=False)
+
+    def draw(self, context):
+        """Which camera, and what it is, or why it is none."""
+        layout = self.layout
+        layout.prop(context.scene, "camera", text="")
+        facts, reason = facts_of(context, context.scene.camera)
+        if facts is None:
+            draw_message(layout, context, reason, "ERROR")
+        else:
+            draw_facts(layout, context, facts)
+
+
+class SidebarVerify(Sidebar, bpy.types.Panel):
+    """The camera held against Blender's own answers."""
+
+    bl_idname = "CAMERA_RAY_CASTER_PT_verify"
+    bl_label = "Verification"
+
+    def draw(self, context):
+        """The button, the verdict, and each witness's worst error beside its bound."""
+        layout = self.layout
+        layout.operator("camera_ray_caster.verify", icon="CHECKMARK")
+        report = reports.verified()
+        if report is None:
+            return
+        if report.camera != facts_of(context, context.scene.camera)[0]:
+            draw_message(layout, context, "The camera has changed since it was verified")
+            layout = layout.column()
+            layout.active = False
+        said = "All witnesses agree" if report.passed else "A witness disagrees with the rays"
+        draw_message(layout, context, said, "CHECKMARK" if report.passed else "ERROR")
+        box = layout.box().column(align=True)
+        draw_row(box, "Pixels", ["Worst", "Bound"], 0.46)
+        for finding in report.findings:
+            errors = [f"{error:.1e}" for error in (finding.worst_pixels, finding.bound_pixels)]
+            row = box.row()
+            row.alert = not finding.passed
+            draw_row(row, WITNESSES.get(finding.witness, finding.witness), errors, 0.46)
+
+
+class CameraData(bpy.types.Panel):
+    """The same facts in the camera's tab of the Properties editor."""
+
+    bl_idname = "CAMERA_RAY_CASTER_PT_camera_data"
+    bl_label = "Ray Caster"
+    bl_space_type = "PROPERTIES"
+    bl_region_type = "WINDOW"
+    bl_context = "data"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    @classmethod
+    def poll(cls, context):
+        """Show it for camera objects."""
+        return context.object is not None and context.object.type == "CAMERA"
+
+    def draw(self, context):
+        """What this camera is, or why it is none."""
+        facts, reason = facts_of(context, context.object)
+        if facts is None:
+            draw_message(self.layout, context, reason, "ERROR")
+        else:
+            draw_facts(self.layout, context, facts)
+
+
+CLASSES = (SidebarCamera, SidebarVerify, CameraData)
+
+
+def register() -> None:
+    """See ``registration``."""
+    for cls in CLASSES:
+        bpy.utils.register_class(cls)
+
+
+def unregister() -> None:
+    """See ``registration``."""
+    for cls in reversed(CLASSES):
+        bpy.utils.unregister_class(cls)

@@ -1,0 +1,143 @@
+"""Cast from a button: the passes of the view layer into Image datablocks, while the window stays alive."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import partial
+from typing import Any
+
+import bpy
+
+from ...core.casting.worker import BESIDE, Worker
+from ...core.records import InputError
+from ...core.report.report import Report
+from ..engine.job import Job
+from ..engine.passes import ticked
+from ..output import images, reports
+from .operators import NO_CAMERA
+
+INTERVAL = 0.1
+"""Seconds between two looks at how far the work is."""
+
+_running: list[Running] = []
+
+
+@dataclass(frozen=True)
+class Running:
+    """The cast that is under way, and the timer that looks after it."""
+
+    worker: Worker
+    timer: Any
+
+
+def fraction() -> float | None:
+    """Return how far the cast is that is running, 0 to 1; None where none is."""
+    return _running[0].worker.fraction if _running else None
+
+
+class Cast(bpy.types.Operator):
+    """Cast the chosen passes of the active camera into images"""
+
+    bl_idname = "camera_ray_caster.cast"
+    bl_label = "Cast"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context):
+        """Grayed out without a camera, and while a cast is running."""
+        cls.poll_message_set("A cast is running: Esc stops it" if _running else NO_CAMERA)
+        return context.scene.camera is not None and not _running
+
+    def execute(self, context):
+        """Cast at once and wait for it."""
+        try:
+            return self.finish(context, *self.read(context).cast())
+        except InputError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+
+    def invoke(self, context, event):
+        """Read the scene, then cast on a thread; Blender calls ``modal`` until that has ended."""
+        try:
+            job = self.read(context)
+        except InputError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        timer = context.window_manager.event_timer_add(INTERVAL, window=context.window)
+        _running.append(Running(Worker(partial(job.cast, threads=BESIDE)), timer))
+        context.window_manager.modal_handler_add(self)
+        show_progress()
+        return {"RUNNING_MODAL"}
+
+    def modal(self, context, event):
+        """Show how far it is; take Esc; let every other event pass to Blender."""
+        if event.type == "ESC" and event.value == "PRESS":
+            stop()
+            self.report({"INFO"}, "Stopped: the images are as they were")
+            return {"CANCELLED"}
+        worker = _running[0].worker
+        if event.type != "TIMER":
+            return {"PASS_THROUGH"}
+        if not worker.done:
+            show_progress()
+            return {"PASS_THROUGH"}
+        stop()
+        try:
+            return self.finish(context, *worker.result())
+        except InputError as error:
+            self.report({"ERROR"}, str(error))
+        except MemoryError:
+            self.report({"ERROR"}, "There is not enough memory for these passes: choose fewer, or a smaller resolution")
+        return {"CANCELLED"}
+
+    def cancel(self, context):
+        """Stop; Blender calls this when it ends the operator itself, to load another file say."""
+        stop()
+
+    def read(self, context) -> Job:
+        """Read the scene as the window shows it."""
+        keys = [entry.key for entry in ticked(context.scene, context.view_layer)]
+        return Job.read(context.evaluated_depsgraph_get(), context.scene.camera, keys)
+
+    def finish(self, context, passes, report: Report):
+        """Store and show the images, and keep the report."""
+        images.show(context.window_manager, images.store(passes))
+        reports.keep(report)
+        if report.shapes == 0:
+            self.report({"WARNING"}, "There is no sphere and no plane to cast at: the images show the background")
+        else:
+            self.report({"INFO"}, f"{report.pixels} rays cast at {report.shapes} shapes")
+        return {"FINISHED"}
+
+
+def show_progress() -> None:
+    """Show in the status bar and in the sidebars how far the cast is; nothing where none is running."""
+    done = fraction()
+    text = None if done is None else f"Casting Rays  {done:.0%}      Esc: Stop"
+    for window in bpy.context.window_manager.windows:
+        window.workspace.status_text_set(text)
+        for area in window.screen.areas:
+            if area.type == "VIEW_3D":
+                for region in area.regions:
+                    if region.type == "UI":
+                        region.tag_redraw()
+
+
+def stop() -> None:
+    """End the cast that is running, if one is."""
+    while _running:
+        running = _running.pop()
+        running.worker.stop()
+        bpy.context.window_manager.event_timer_remove(running.timer)
+        show_progress()
+
+
+def register() -> None:
+    """See ``registration``."""
+    bpy.utils.register_class(Cast)
+
+
+def unregister() -> None:
+    """See ``registration``."""
+    stop()
+    bpy.utils.unregister_class(Cast)

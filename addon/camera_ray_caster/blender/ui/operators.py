@@ -1,0 +1,122 @@
+"""The operators: each a line or three around the walk."""
+
+import bpy
+from bpy.props import StringProperty
+
+from ...core.records import InputError
+from ...core.report.facts import camera_facts
+from ...core.report.report import Report, as_json
+from ..output import reports
+from ..read.scene import read_camera
+from ..verification.check import verified
+
+NO_CAMERA = "The scene has no active camera: add one, or set one in the Scene properties"
+
+
+class Verify(bpy.types.Operator):
+    """Hold the rays of the active camera against Blender's own view frame, camera matrix and projection"""
+
+    bl_idname = "camera_ray_caster.verify"
+    bl_label = "Verify"
+    bl_options = {"REGISTER"}
+
+    @classmethod
+    def poll(cls, context):
+        """Grayed out without a camera."""
+        cls.poll_message_set(NO_CAMERA)
+        return context.scene.camera is not None
+
+    def execute(self, context):
+        """Verify, keep what was found for the panel, and say it in one line."""
+        try:
+            report = verified(context.scene)
+        except InputError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        reports.keep_verified(report)
+        if report.passed:
+            self.report({"INFO"}, "The rays agree with every witness")
+        else:
+            self.report({"WARNING"}, "A witness disagrees with the rays: see the sidebar")
+        return {"FINISHED"}
+
+
+class CopyFacts(bpy.types.Operator):
+    """Copy what the active camera is to the clipboard, as JSON with all digits"""
+
+    bl_idname = "camera_ray_caster.copy_facts"
+    bl_label = "Copy Camera"
+    bl_options = {"INTERNAL"}
+
+    @classmethod
+    def poll(cls, context):
+        """Grayed out without a camera."""
+        cls.poll_message_set(NO_CAMERA)
+        return context.scene.camera is not None
+
+    def execute(self, context):
+        """Copy it."""
+        try:
+            facts = camera_facts(read_camera(context.scene))
+        except InputError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        context.window_manager.clipboard = as_json(Report(camera=facts, frame=context.scene.frame_current_final))
+        return {"FINISHED"}
+
+
+class SelectLeftOut(bpy.types.Operator):
+    """Select this object and make it active"""
+
+    bl_idname = "camera_ray_caster.select"
+    bl_label = "Select"
+    bl_options = {"REGISTER", "UNDO"}
+
+    name: StringProperty(name="Name", description="The object's name", options={"SKIP_SAVE"})
+
+    def execute(self, context):
+        """Select it alone, where the view layer has it and it can be selected."""
+        found = context.view_layer.objects.get(self.name)
+        if found is None:
+            self.report({"ERROR"}, f"{self.name!r} is not in this view layer: it was renamed, removed or excluded")
+            return {"CANCELLED"}
+        for item in context.selected_objects:
+            item.select_set(False)
+        found.select_set(True)
+        context.view_layer.objects.active = found
+        return {"FINISHED"}
+
+
+class WriteReport(bpy.types.Operator):
+    """Write the report of the latest render into a text datablock"""
+
+    bl_idname = "camera_ray_caster.write_report"
+    bl_label = "Report to Text"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context):
+        """Grayed out before the first render."""
+        cls.poll_message_set("Render with the Camera Ray Caster first (F12)")
+        return reports.latest() is not None
+
+    def execute(self, context):
+        """Write it, and say where it is."""
+        text = reports.write_text(reports.latest())
+        self.report({"INFO"}, f"The report is the text {text.name!r}, in the Text Editor")
+        return {"FINISHED"}
+
+
+CLASSES = (Verify, CopyFacts, SelectLeftOut, WriteReport)
+
+
+def register() -> None:
+    """See ``registration``."""
+    for cls in CLASSES:
+        bpy.utils.register_class(cls)
+
+
+def unregister() -> None:
+    """See ``registration``."""
+    for cls in reversed(CLASSES):
+        bpy.utils.unregister_class(cls)

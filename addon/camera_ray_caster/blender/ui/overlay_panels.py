@@ -1,0 +1,36 @@
+"""The overlay's switches in the 3D View's sidebar."""
+
+import bpy
+
+from .camera_panels import Sidebar
+
+
+class SidebarOverlay(Sidebar, bpy.types.Panel):
+    """What the overlay shows."""
+
+    bl_idname = "CAMERA_RAY_CASTER_PT_overlay"
+    bl_label = "Overlay"
+
+    def draw_header(self, context):
+        """The switch of all of it."""
+        self.layout.prop(context.scene.camera_ray_caster_overlay, "show", text="")
+
+    def draw(self, context):
+        """The switches of its parts."""
+        layout, settings = self.layout, context.scene.camera_ray_caster_overlay
+        layout.active = settings.show
+        grid = layout.grid_flow(columns=2, even_columns=True, align=True)
+        for name in ("show_frustum", "show_rays", "show_hits", "show_normals"):
+            grid.prop(settings, name)
+        layout.prop(settings, "show_ray")
+        layout.prop(settings, "rays")
+
+
+def register() -> None:
+    """See ``registration``."""
+    bpy.utils.register_class(SidebarOverlay)
+
+
+def unregister() -> None:
+    """See ``registration``."""
+    bpy.utils.unregister_class(SidebarOverlay)

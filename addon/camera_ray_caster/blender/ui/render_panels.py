@@ -1,0 +1,93 @@
+"""The engine's panels in the Properties editor, and the panels of Blender's own that hold for it too."""
+
+from collections.abc import Iterator
+
+import bpy
+
+from ..engine.engine import CameraRayCaster
+from ..engine.passes import PASSES
+from ..output import reports
+
+ENGINE = CameraRayCaster.bl_idname
+
+
+class EnginePanel:
+    """What a panel of the engine has in common: it shows only where the engine is chosen."""
+
+    bl_space_type = "PROPERTIES"
+    bl_region_type = "WINDOW"
+
+    @classmethod
+    def poll(cls, context):
+        """Show it with this engine only."""
+        return context.engine == ENGINE
+
+
+class RenderPanel(EnginePanel, bpy.types.Panel):
+    """Render properties: how shapes are shown, and what the latest render took."""
+
+    bl_idname = "CAMERA_RAY_CASTER_PT_render"
+    bl_label = "Camera Ray Caster"
+    bl_context = "render"
+
+    def draw(self, context):
+        """The settings, what the latest render took and how right it is, one button."""
+        layout = self.layout
+        layout.use_property_split = True
+        layout.use_property_decorate = False
+        for setting in ("shading", "samples", "precision"):
+            layout.prop(context.scene.camera_ray_caster, setting)
+        report = reports.latest()
+        if report is not None:
+            layout.label(text=f"{report.pixels} rays in {sum(report.seconds.values()):.3f} s")
+            layout.label(text=f"Worst distance error: {reports.relative_error(report, 'worst')}")
+        layout.operator("camera_ray_caster.write_report")
+
+
+class PassesPanel(EnginePanel, bpy.types.Panel):
+    """View Layer properties: the passes."""
+
+    bl_idname = "CAMERA_RAY_CASTER_PT_passes"
+    bl_label = "Passes"
+    bl_context = "view_layer"
+
+    def draw(self, context):
+        """The tick boxes: Blender's of this view layer, then our own of the scene."""
+        layout = self.layout
+        layout.use_property_split = True
+        layout.use_property_decorate = False
+        for heading, own in (("Include", False), ("All View Layers", True)):
+            column = layout.column(heading=heading, align=True)
+            for entry in PASSES:
+                if entry.own == own:
+                    column.prop(entry.settings(context.scene, context.view_layer), entry.tick)
+
+
+CLASSES = (RenderPanel, PassesPanel)
+
+BORROWED = {"EEVEE_MATERIAL_PT_context_material", "DATA_PT_EEVEE_light", "EEVEE_WORLD_PT_surface"}
+"""Panels of Blender's engines that hold here too: material slots, a light's strength, the world's color."""
+
+
+def compatible() -> Iterator[set[str]]:
+    """Yield the engines of each panel that is for every engine (those name BLENDER_RENDER) or BORROWED."""
+    for name in dir(bpy.types):
+        engines = getattr(getattr(bpy.types, name), "COMPAT_ENGINES", ())
+        if "BLENDER_RENDER" in engines or name in BORROWED:
+            yield engines
+
+
+def register() -> None:
+    """See ``registration``."""
+    for cls in CLASSES:
+        bpy.utils.register_class(cls)
+    for engines in compatible():
+        engines.add(ENGINE)
+
+
+def unregister() -> None:
+    """See ``registration``."""
+    for engines in compatible():
+        engines.discard(ENGINE)
+    for cls in reversed(CLASSES):
+        bpy.utils.unregister_class(cls)

@@ -1,0 +1,1 @@
+"""A camera held against Blender's own answers."""

@@ -1,0 +1,124 @@
+"""In camera view, what the ray of the pixel under the mouse meets: a gizmo, since Blender tells those of the mouse."""
+
+from __future__ import annotations
+
+import math
+
+import blf
+import bpy
+import gpu
+from gpu_extras.batch import batch_for_shader
+
+from ...core.report.diagram import Probe, probe
+from ..ui.camera_panels import length
+from .camera_frame import camera_frame
+from .scene_cache import observe
+
+MARGIN = 14
+"""Pixels between mouse and text, at the interface's scale 1."""
+
+
+class RayUnderMouse(bpy.types.Gizmo):
+    """Draws the text; it can neither be hit nor dragged."""
+
+    bl_idname = "CAMERA_RAY_CASTER_GT_ray"
+    mouse: tuple[int, int] | None = None
+
+    def test_select(self, context, location):
+        """Blender asks whether the mouse at this place of the region is over the gizmo: it never is."""
+        self.mouse = tuple(location)
+        context.region.tag_redraw()
+        return -1
+
+    def draw(self, context):
+        """Write what the ray meets beside the mouse, where that is inside the camera's frame."""
+        frame = camera_frame(context)
+        camera = observe(context).camera
+        if self.mouse is None or frame is None or camera is None:
+            return
+        left, bottom, right, top = frame
+        x, y = (self.mouse[0] - left) / (right - left), (self.mouse[1] - bottom) / (top - bottom)
+        if not (0 <= x < 1 and 0 <= y < 1):
+            return
+        raster = camera.raster
+        found = probe(camera, observe(context).shapes, int(x * raster.width), int(y * raster.height))
+        _write(context, self.mouse, _lines(context, found))
+
+
+class RayUnderMouseGroup(bpy.types.GizmoGroup):
+    """The gizmo, in every 3D View that looks through the camera while the overlay is on."""
+
+    bl_idname = "CAMERA_RAY_CASTER_GGT_ray"
+    bl_label = "Ray under Mouse"
+    bl_space_type = "VIEW_3D"
+    bl_region_type = "WINDOW"
+    bl_options = {"PERSISTENT", "SCALE"}
+
+    @classmethod
+    def poll(cls, context):
+        """With the overlay on, in camera view."""
+        settings = context.scene.camera_ray_caster_overlay
+        wanted = settings.show and settings.show_ray and context.space_data.overlay.show_overlays
+        return wanted and context.region_data.view_perspective == "CAMERA"
+
+    def setup(self, context):
+        """Add the one gizmo."""
+        self.gizmos.new(RayUnderMouse.bl_idname)
+
+
+def _lines(context, found: Probe) -> list[tuple[str, str]]:
+    lines = [
+        ("Pixel", f"{found.pixel[0]}, {found.pixel[1]}"),
+        ("View", f"{found.view[0]:.4f}, {found.view[1]:.4f}"),
+    ]
+    if math.isnan(found.direction[0]):
+        return [*lines, ("Ray", "none: the camera sees nothing here")]
+    lines.append(("Direction", ", ".join(f"{component:.4f}" for component in found.direction)))
+    if math.isinf(found.distance):
+        return [*lines, ("Hit", "nothing")]
+    return [*lines, ("Hit", found.name), ("Distance", length(context, found.distance))]
+
+
+def _write(context, mouse, lines) -> None:
+    """Write a table of two columns on a dark ground beside the mouse, on the side where there is room."""
+    scale = context.preferences.system.ui_scale
+    font, size, margin = 0, 12 * scale, MARGIN * scale
+    blf.size(font, size)
+    names = max(blf.dimensions(font, name)[0] for name, _ in lines) + size
+    width, step = names + max(blf.dimensions(font, text)[0] for _, text in lines), 1.5 * size
+    height = step * len(lines)
+    x, y = mouse[0] + 2 * margin, mouse[1] - margin
+    if x + width + margin > context.region.width:
+        x = mouse[0] - 2 * margin - width
+    y = max(y, height + margin)
+    _ground(x - size, x + width + size, y - height - size, y + size / 2)
+    for name, text in lines:
+        y -= step
+        for offset, color, word in ((0, 0.65, name), (names, 0.95, text)):
+            blf.color(font, color, color, color, 1.0)
+            blf.position(font, x + offset, y, 0)
+            blf.draw(font, word)
+
+
+def _ground(left, right, bottom, top) -> None:
+    shader = gpu.shader.from_builtin("UNIFORM_COLOR")
+    corners = ((left, bottom), (right, bottom), (left, top), (right, top))
+    gpu.state.blend_set("ALPHA")
+    shader.bind()
+    shader.uniform_float("color", (0.06, 0.06, 0.06, 0.78))
+    batch_for_shader(shader, "TRI_STRIP", {"pos": corners}).draw(shader)
+
+
+CLASSES = (RayUnderMouse, RayUnderMouseGroup)
+
+
+def register() -> None:
+    """See ``registration``."""
+    for cls in CLASSES:
+        bpy.utils.register_class(cls)
+
+
+def unregister() -> None:
+    """See ``registration``."""
+    for cls in reversed(CLASSES):
+        bpy.utils.unregister_class(cls)

@@ -1,0 +1,133 @@
+"""The overlay in the 3D View: the camera's image in space with its orthobasis, some of its rays, what they hit."""
+
+from __future__ import annotations
+
+import bpy
+import gpu
+from bpy.props import BoolProperty, IntProperty, PointerProperty
+from gpu_extras.batch import batch_for_shader
+
+from ...core.report.diagram import Diagram, diagram
+from .scene_cache import Observed, observe
+
+
+class OverlayProperties(bpy.types.PropertyGroup):
+    """``scene.camera_ray_caster_overlay``"""
+
+    show: BoolProperty(name="Overlay", description="Draw in the 3D View what the active camera's rays do")
+    show_frustum: BoolProperty(name="Frustum", description="The image in space, and the orthobasis", default=True)
+    show_rays: BoolProperty(name="Rays", description="Some of the rays, up to what they hit", default=True)
+    show_hits: BoolProperty(name="Hit Points", description="Where these rays hit", default=True)
+    show_normals: BoolProperty(name="Normals", description="The surface normals there", default=True)
+    show_ray: BoolProperty(name="Ray under Mouse", description="In camera view, what its ray hits", default=True)
+    rays: IntProperty(name="Rays Across", description="Of the picture", default=12, min=1, soft_max=32, max=128)
+
+
+WIDE, THIN = 2.0, 1.0
+AXES = ((1.0, 0.2, 0.32, 1.0), (0.545, 0.863, 0.0, 1.0), (0.157, 0.565, 1.0, 1.0))
+"""u, v and w in the colors of Blender's X, Y and Z."""
+STYLES = {
+    "grid": ((0.9, 0.9, 0.9, 0.3), THIN),
+    "border": ((0.95, 0.95, 0.95, 0.8), WIDE),
+    "missed_rays": ((0.6, 0.6, 0.6, 0.22), THIN),
+    "hit_rays": ((1.0, 0.72, 0.2, 0.5), THIN),
+    "normals": ((0.3, 0.9, 0.95, 0.95), WIDE),
+    "hits": ((1.0, 0.85, 0.3, 1.0), 6.0),
+}
+"""Color, and width of lines or points in pixels, in the order in which they are drawn."""
+
+_drawn: list[tuple] = []
+"""The latest (what it was made of, batches)."""
+_handles: list = []
+
+
+def draw() -> None:
+    """Draw the overlay of the window's scene; called by Blender for each 3D View."""
+    context = bpy.context
+    settings = context.scene.camera_ray_caster_overlay
+    if not settings.show or not context.space_data.overlay.show_overlays:
+        return
+    observed = observe(context)
+    if observed.camera is None:
+        return
+    in_camera = context.region_data.view_perspective == "CAMERA"
+    batches = _batches(observed, context.scene.camera.data.display_size, settings.rays)
+    scale = context.preferences.system.ui_scale
+    gpu.state.blend_set("ALPHA")
+    gpu.state.depth_test_set("LESS_EQUAL")
+    for name in _wanted(settings, in_camera):
+        color, width = STYLES[name]
+        _draw(batches[name], "POINT" if name == "hits" else "POLYLINE", color, width * scale)
+    if settings.show_frustum and not in_camera:
+        gpu.state.depth_test_set("NONE")
+        for batch, color in zip(batches["basis"], AXES, strict=True):
+            _draw(batch, "POLYLINE", color, 1.5 * WIDE * scale)
+    gpu.state.depth_test_set("NONE")
+    gpu.state.blend_set("NONE")
+
+
+def _wanted(settings, in_camera: bool) -> list[str]:
+    """Return the parts to draw: from the eye itself rays are points, and the frustum is the camera's frame."""
+    shown = {
+        "grid": settings.show_frustum and not in_camera,
+        "border": settings.show_frustum and not in_camera,
+        "missed_rays": settings.show_rays and not in_camera,
+        "hit_rays": settings.show_rays and not in_camera,
+        "normals": settings.show_normals,
+        "hits": settings.show_hits,
+    }
+    return [name for name in STYLES if shown[name]]
+
+
+def _batches(observed: Observed, size: float, rays: int) -> dict:
+    """Return the batches of the diagram, made anew after a change."""
+    made_of = observed, size, rays
+    if not _drawn or _drawn[0][0] != made_of:
+        _drawn[:] = [(made_of, _made(diagram(observed.camera, observed.shapes, size, rays)))]
+    return _drawn[0][1]
+
+
+def _made(parts: Diagram) -> dict:
+    """Return the batches by the names of STYLES, None where a part is empty, and those of u, v and w."""
+
+    def batch(kind: str, form: str, points):
+        return batch_for_shader(_shader(kind), form, {"pos": points.reshape(-1, 3)}) if len(points) else None
+
+    batches = {name: batch("POLYLINE", "LINES", getattr(parts, name)) for name in STYLES if name != "hits"}
+    batches["hits"] = batch("POINT", "POINTS", parts.hits)
+    batches["basis"] = [batch("POLYLINE", "LINES", axis) for axis in parts.basis]
+    return batches
+
+
+def _shader(kind: str):
+    return gpu.shader.from_builtin(f"{kind}_UNIFORM_COLOR")
+
+
+def _draw(batch, kind: str, color, width: float) -> None:
+    if batch is None:
+        return
+    shader = _shader(kind)
+    shader.bind()
+    shader.uniform_float("color", color)
+    if kind == "POINT":
+        gpu.state.point_size_set(width)
+    else:
+        shader.uniform_float("viewportSize", gpu.state.viewport_get()[2:])
+        shader.uniform_float("lineWidth", width)
+    batch.draw(shader)
+
+
+def register() -> None:
+    """See ``registration``."""
+    bpy.utils.register_class(OverlayProperties)
+    bpy.types.Scene.camera_ray_caster_overlay = PointerProperty(type=OverlayProperties)
+    _handles.append(bpy.types.SpaceView3D.draw_handler_add(draw, (), "WINDOW", "POST_VIEW"))
+
+
+def unregister() -> None:
+    """See ``registration``."""
+    while _handles:
+        bpy.types.SpaceView3D.draw_handler_remove(_handles.pop(), "WINDOW")
+    _drawn.clear()
+    del bpy.types.Scene.camera_ray_caster_overlay
+    bpy.utils.unregister_class(OverlayProperties)

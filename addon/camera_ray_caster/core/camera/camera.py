@@ -1,0 +1,229 @@
+"""A camera: a model of its lens, a pose, a raster and a clip range. Pixels become world rays here, and nowhere else."""
+
+from __future__ import annotations
+
+import os
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import nullcontext
+from dataclasses import dataclass, replace
+from itertools import pairwise
+from math import floor
+from typing import Any
+
+import numpy as np
+
+from ..cameras.parts.aperture import Aperture
+from ..conventions import gamma
+from ..maths.chebyshev import ROWS, fill, is_raster
+from ..maths.speed import keep_memory, sharing, whole_rows
+from ..maths.vector import components, dot, inverse, is_grid, is_lattice, is_one, matvec, norm
+from ..records import Pose, Raster, Rays
+from .pixel_time import PixelTime, groups, meeting
+from .sampling import in_opening, sub_pixel
+
+FARTHEST = 1e15
+"""Pixels, or Blender units, within which no length or polynomial overflows."""
+
+BLOCK_PIXELS, SMOOTH_PIXELS = 1 << 17, 1 << 20
+"""Pixels whose rays are made at once, where a thread's share has as many: fewer, and threads would wait at each of
+numpy's calls.
+"""
+
+ALONE = 1 << 17
+"""Pixels whose rays take as long as what threads do one at a time for a share: see ``sharing``."""
+
+
+@dataclass(frozen=True)
+class Camera:
+    """What ``read_camera`` returns. ``model`` is one of MODELS; the public faces are rays, rays_at and project."""
+
+    name: str
+    model: Any
+    pose: Pose
+    raster: Raster
+    clip_start: float
+    clip_end: float
+    aperture: Aperture | None = None
+    """What lets rays beside the chief ray in; None for a pinhole."""
+    pixel_time: PixelTime | None = None
+    """The frame of each pixel; None where the picture has one time."""
+    motion: Any = None
+    """With a pixel_time, the ``Motion`` that knows the camera at other frames; None for a camera that stands still."""
+
+    def at(self, frame: float) -> Camera:
+        """Return the camera at a frame, without its pixel_time."""
+        return replace(self, pixel_time=None, motion=None) if self.motion is None else self.motion.camera_at(frame)
+
+    def camera_rays(self, x, y):
+        """Return the camera-frame (origin, direction) components for pixel coordinates, scaled so that t is depth.
+
+        x and y broadcast; so do the components, which is what lets a pinhole stay rows and columns.
+        """
+        origin, direction = self.model.rays(x, y)
+        if not self.model.planar and not self.is_rigid:
+            length = norm(matvec(self.pose.basis, direction))
+            direction = tuple(component / length for component in direction)
+        return origin, direction
+
+    def sample_rays(self, x, y, sample: int):
+        """Return what ``camera_rays`` does for a sample within the pixels with the centers x, y: the sample has its
+        own place in the pixel, the same in all of them, and its own in the aperture.
+        """
+        off_x, off_y = sub_pixel(sample)
+        origin, direction = self.camera_rays(x + off_x, y + off_y)
+        if self.aperture is None:
+            return origin, direction
+        u, v = in_opening(sample, x, y)
+        return self.aperture.through(origin, direction, self.model.planar, *self.aperture.points(u, v))
+
+    @property
+    def parallel(self):
+        """The direction that all chief rays have, three numbers in the camera frame; None where they differ."""
+        direction = self.model.rays(np.zeros((1, 1)), np.zeros((1, 1)))[1]
+        return direction if is_one(direction) else None
+
+    @property
+    def is_rigid(self) -> bool:
+        """Whether the basis is orthogonal to rounding, so that camera lengths are world lengths."""
+        gram = self.pose.basis.T @ self.pose.basis
+        return bool(np.abs(gram - np.eye(3)).max() <= gamma(8))
+
+    def rays_at(self, x, y) -> Rays:
+        """Return the world rays through pixel coordinates x, y (scalars or arrays that broadcast), as ``rays`` does.
+
+        Pixel coordinates that are not finite have no ray.
+        """
+        x, y = np.asarray(x, np.float64), np.asarray(y, np.float64)
+        if self.pixel_time is not None:
+            return self._timed_rays(self.pixel_time, x, y)
+        shape = np.broadcast_shapes(x.shape, y.shape)
+        directions = np.empty((*shape, 3))
+        origins = np.broadcast_to(self.pose.eye, directions.shape) if self.model.central else np.empty((*shape, 3))
+        valid = np.empty(shape, bool)
+        smooth = self._is_smooth(x, y)
+        write, pixels = (self._write_smooth, SMOOTH_PIXELS) if smooth else (self._write, BLOCK_PIXELS)
+        threads = sharing(os.cpu_count() or 1, valid.size / ALONE)
+        step = ROWS * max(1, round(min(pixels / max(x.size, 1), y.size / threads) / ROWS))
+        near = _is_near(x) and _is_near(y)
+
+        def put(part) -> None:
+            with _quiet(near):
+                write(x, y[part], origins[part], directions[part], valid[part])
+
+        if is_grid(x, y) and y.ndim == 2 and y.size > step:
+            keep_memory()
+            begin = -floor(y[0, 0]) % ROWS if smooth else 0  # where the raster's first whole panels do
+            edges = sorted({0, *range(begin, y.size, step), y.size})
+            blocks = [slice(*ends) for ends in pairwise(edges)]
+            with ThreadPoolExecutor(threads) as pool:  # numpy releases the interpreter
+                list(pool.map(put, blocks))
+        else:
+            put(...)
+        if not near:
+            is_unit = norm(components(directions)) > 0.5  # 0 or NaN where something overflowed
+            lost = ~(np.isfinite(x) & np.isfinite(y) & is_unit)
+            directions[lost], valid[...] = np.nan, ~lost
+        return Rays(origins, directions, valid)
+
+    def _is_smooth(self, x, y) -> bool:
+        """Whether polynomials are to give the rays: a raster's, whose directions are more than a row and a column."""
+        if not (getattr(self.model, "smooth", True) and is_raster(x, y)):
+            return False
+        direction = self.model.rays(x[:, :2], y[:2])[1]
+        return not (is_one(direction) or is_lattice(direction))
+
+    def _write(self, x, y, origins, directions, valid) -> None:
+        """Write the world rays through pixel coordinates; the origins only where there is more than the eye."""
+        with whole_rows(valid.shape[-1] if valid.ndim else 1):
+            if hasattr(self.model, "write_directions") and self.is_rigid:
+                self.model.write_directions(self.pose.basis, x, y, directions)
+                np.logical_not(np.isnan(directions[..., 0]), out=valid)
+                return
+            origin, direction = self.camera_rays(x, y)
+            scale = 1.0 / self._length(direction) if self.model.planar else 1.0
+            for axis, row in enumerate(self.pose.basis):
+                component = dot(row, direction)
+                np.multiply(component, scale, out=directions[..., axis])
+                if not self.model.central:
+                    np.add(dot(row, origin), self.pose.eye[axis], out=origins[..., axis])
+            np.logical_not(np.isnan(component), out=valid)
+
+    def _write_smooth(self, x, y, origins, directions, valid) -> None:
+        """Do what ``_write`` does where ``_is_smooth``."""
+        disc = getattr(self.model, "disc", None)
+        endless = self if disc is None else replace(self, model=self.model.endless)
+
+        def direction(x, y):
+            along = endless.camera_rays(x, y)[1]
+            length = self._length(along) if self.model.planar else None
+            for row in self.pose.basis:
+                component = dot(row, along)
+                yield component if length is None else component / length
+
+        def origin(x, y):
+            start = self.camera_rays(x, y)[0]
+            for row, eye in zip(self.pose.basis, self.pose.eye, strict=True):
+                yield dot(row, start) + eye
+
+        valid[...] = fill(direction, x, y, directions[None], disc)
+        if not self.model.central:
+            fill(origin, x, y, origins[None])
+
+    def _length(self, direction):
+        """Return the world's length of what ``camera_rays`` gives; of a row and a column it is one sum."""
+        return norm(direction if self.is_rigid else matvec(self.pose.basis, direction))
+
+    def _timed_rays(self, pixel_time: PixelTime, x, y) -> Rays:
+        """Return what ``rays_at`` does, of the camera at each pixel's own time."""
+        time = np.broadcast_to(pixel_time.frame_at(x, y), np.broadcast_shapes(x.shape, y.shape))
+        origins, directions = np.full((2, *time.shape, 3), np.nan)
+        parts: Any
+        if is_grid(x, y):
+            parts = ((frame, x[:, columns], y[rows], np.s_[rows, columns], where)
+                     for frame, rows, columns, where in groups(pixel_time, x, y))  # fmt: skip
+        else:
+            x, y = np.broadcast_arrays(x, y)
+            parts = ((frame, x, y, np.s_[...], time == frame) for frame in np.unique(time))
+        for frame, part_x, part_y, place, where in parts:
+            part = self.at(frame).rays_at(part_x, part_y)
+            np.copyto(origins[place], part.origins, where=where[..., None])
+            np.copyto(directions[place], part.directions, where=where[..., None])
+        return Rays(origins, directions, ~np.isnan(directions[..., 0]), time)
+
+    def rays(self) -> Rays:
+        """Return the chief rays of the render window: through its pixel centers, world frame, unit directions.
+
+        With a clock each ray is the camera's at the pixel's own time. Undefined (NaN, valid False) where the model has
+        no ray. Each component of a direction is right to a few EPS relative to the unit length, amplified by the
+        frame's offset (shift) over the pixel's own. Where the rays of a picture are smooth functions of the pixel,
+        polynomials give them (see panels): one asked for alone may differ by as much.
+        """
+        return self.rays_at(self.raster.columns(), self.raster.rows())
+
+    def project(self, points) -> np.ndarray:
+        """Return the pixel coordinates (..., 2) in the full frame of world points (..., 3); NaN where none sees it, and
+        for points that are not finite.
+
+        With a clock and a moving camera each point, taken to stand still, is sought by itself: see ``meeting``.
+        """
+        points = np.asarray(points, dtype=np.float64)
+        if self.pixel_time is not None and self.motion is not None:
+            time, each = self.pixel_time, points.reshape(-1, 3)
+            found = [meeting(time, lambda t, p=point: self.at(t).project(p)) for point in each]
+            return np.reshape(found, (*points.shape[:-1], 2))
+        near = _is_near(points)
+        with _quiet(near):
+            pixels = self.model.project((points - self.pose.eye) @ inverse(self.pose.basis).T)
+        if not near:
+            pixels[~(np.isfinite(points).all(axis=-1) & np.isfinite(pixels).all(axis=-1))] = np.nan
+        return pixels
+
+
+def _is_near(places) -> bool:
+    """Whether all coordinates are finite, and none is farther out than what follows is sure to be a number."""
+    return bool(-FARTHEST < places.min(initial=0.0) <= places.max(initial=0.0) < FARTHEST)
+
+
+def _quiet(near: bool):
+    """Let numbers overflow, and NaN come of them, only where that is meant: far out it is an answer."""
+    return nullcontext() if near else np.errstate(all="ignore")

@@ -1,0 +1,203 @@
+"""Time as a dimension of the picture: the frame at which each pixel's ray is cast.
+
+Slit scan: the time is a linear function of the row or the column; time displacement: it is read from a gray image;
+a rolling shutter is the slit scan of the rows that a sensor reads one after another.
+Sources: the lecture; G. Levin, An Informal Catalogue of Slit-Scan Video Artworks (2005); the rolling shutter as
+Cycles has it (type Top-Bottom): row j of H, counted from the bottom, is cast at the fraction (H - j) / H of the shutter
+interval, by row index and not by row center; with a duration d the rows share d of the interval, and the chief
+ray is in the middle of its row's.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+
+from ..records import BlenderCamera, InputError, Raster
+
+ROWS, COLUMNS, IMAGE, ROLLING_SHUTTER = "ROWS", "COLUMNS", "IMAGE", "ROLLING_SHUTTER"
+TIME_MODES = ("NONE", ROWS, COLUMNS, IMAGE, ROLLING_SHUTTER)
+
+SHUTTER_STARTS = {"START": 0.0, "CENTER": -0.5, "END": -1.0}
+"""Where the shutter interval begins, in lengths of itself."""
+
+LAST_FRAME = 1048574
+"""Blender knows no frame beyond it, on either side of 0."""
+
+LEVELS = 256
+"""Times that a gray image is rounded to, from black to white: what an 8 bit image holds."""
+
+
+@dataclass(frozen=True)
+class LinearTime:
+    """frame = origin + per_column x + per_row y, over the pixel coordinates of the full frame."""
+
+    origin: float
+    per_column: float
+    per_row: float
+    first: float
+    """The earliest frame of a pixel center; ``last`` the latest."""
+    last: float
+    tolerance: float
+    """Pixels by which motion between evaluations of the scene may be off."""
+    most: int
+    """Evaluations of the scene that are allowed."""
+
+    def frame_at(self, x, y):
+        """Return the frame at pixel coordinates, in their broadcast shape or one that broadcasts to it."""
+        if self.per_column == 0:
+            return self.origin + self.per_row * y
+        return self.origin + self.per_column * x
+
+
+@dataclass(frozen=True)
+class ImageTime:
+    """The frame of every pixel of the full raster, (height, width); the rest as in ``LinearTime``."""
+
+    frames: np.ndarray
+    tolerance: float
+    most: int
+
+    @property
+    def first(self) -> float:
+        """The earliest frame."""
+        return float(self.frames.min())
+
+    @property
+    def last(self) -> float:
+        """The latest frame."""
+        return float(self.frames.max())
+
+    def frame_at(self, x, y):
+        """Return the frame of the pixels that hold these pixel coordinates; beyond the raster, of the nearest one."""
+        row, column = np.floor(y).astype(int), np.floor(x).astype(int)
+        height, width = self.frames.shape
+        return self.frames[np.clip(row, 0, height - 1), np.clip(column, 0, width - 1)]
+
+
+PixelTime = LinearTime | ImageTime
+
+
+def groups(pixel_time: PixelTime, x, y):
+    """Yield (frame, rows, columns, where) for each frame of pixels x (1, columns), y (rows, 1): the slices hold all
+    pixels of that frame, and ``where``, bool in their shape, tells which those are.
+    """
+    frames = np.broadcast_to(pixel_time.frame_at(x, y), np.broadcast_shapes(x.shape, y.shape))
+    if isinstance(pixel_time, LinearTime):
+        along_rows = pixel_time.per_column == 0
+        for i, frame in enumerate(frames[:, 0] if along_rows else frames[0]):
+            lane = slice(i, i + 1)
+            rows, columns = (lane, slice(None)) if along_rows else (slice(None), lane)
+            yield float(frame), rows, columns, np.ones(frames[rows, columns].shape, bool)
+        return
+    for frame in np.unique(frames):
+        same = frames == frame
+        held = [np.flatnonzero(same.any(axis=axis)) for axis in (1, 0)]
+        box = tuple(slice(lane[0], lane[-1] + 1) for lane in held)
+        yield float(frame), *box, same[box]
+
+
+def meeting(pixel_time: PixelTime, project, steps: int = 64) -> np.ndarray:
+    """Return the pixel (2,) that sees a point at the pixel's own time; NaN where none does, the earliest of several.
+
+    ``project(frame)`` is the pixel at which the camera of that frame sees it. The frame at which pixel and camera agree
+    is bracketed in ``steps`` equal parts of the clock and halved until it is exact: a point that agrees twice
+    within one part may be missed. On an ImageTime the frames are those of the image.
+    """
+    if isinstance(pixel_time, ImageTime):
+        for frame in np.unique(pixel_time.frames):
+            pixel = project(frame)
+            if not np.isnan(pixel).any() and pixel_time.frame_at(*pixel) == frame:
+                return pixel
+        return np.full(2, np.nan)
+
+    def late(frame):
+        return float(pixel_time.frame_at(*project(frame))) - frame
+
+    margin = (abs(pixel_time.per_column) + abs(pixel_time.per_row)) / 2  # half a pixel: centers to edges
+    frames = np.linspace(pixel_time.first - margin, pixel_time.last + margin, steps + 1)
+    lates = [late(frame) for frame in frames]
+    for (a, at_a), (b, at_b) in pairwise(zip(frames, lates, strict=True)):
+        if at_a == 0:
+            return project(a)
+        if at_a * at_b < 0:
+            while a < (middle := a + (b - a) / 2) < b:
+                if late(middle) * at_a > 0:
+                    a = middle
+                else:
+                    b = middle
+            return project(b)
+    return project(frames[-1]) if lates[-1] == 0 else np.full(2, np.nan)
+
+
+def pixel_time_from(raw: BlenderCamera, raster: Raster) -> PixelTime | None:
+    """Return the clock that a camera's settings describe; None where all pixels share one time.
+
+    Slit scan: row or column centers span ``time_start`` .. ``time_end``, bottom or left first. IMAGE: black is the
+    start, white the end; the image is stretched over the frame, nearest pixel. Raises InputError for an unknown
+    mode, equal or non-finite ends and a missing image.
+    """
+    mode = raw.settings.get("time_mode", "NONE")
+    if mode not in TIME_MODES:
+        raise InputError(f"time mode {mode!r} of camera {raw.name!r} is unknown: use one of {', '.join(TIME_MODES)}")
+    if mode == "NONE":
+        return None
+    if mode == ROLLING_SHUTTER:
+        return _rolling_shutter(raw, raster)
+    start, end = float(raw.settings["time_start"]), float(raw.settings["time_end"])
+    if not (abs(start) <= LAST_FRAME and abs(end) <= LAST_FRAME and start != end):
+        raise InputError(
+            f"time_start and time_end of camera {raw.name!r} are {start:g} and {end:g}: "
+            f"set two different frames from -{LAST_FRAME} to {LAST_FRAME}"
+        )
+    if mode == IMAGE:
+        return ImageTime(start + _image_share(raw, raster) * (end - start), *_effort(raw))
+    if mode == ROWS:
+        return _linear(raw, start, 0.0, (end - start) / raster.height, raster)
+    return _linear(raw, start, (end - start) / raster.width, 0.0, raster)
+
+
+def _effort(raw: BlenderCamera) -> tuple[float, int]:
+    tolerance, most = float(raw.settings["time_tolerance"]), int(raw.settings["time_evaluations"])
+    if not tolerance > 0 or most < 2:
+        raise InputError(
+            f"camera {raw.name!r} asks for motion within {tolerance} pixels from {most} evaluations: "
+            "set time_tolerance above 0 and time_evaluations to 2 or more"
+        )
+    return tolerance, most
+
+
+def _linear(raw: BlenderCamera, origin: float, per_column: float, per_row: float, raster: Raster) -> LinearTime:
+    corners = [
+        origin + per_column * x + per_row * y
+        for x in (0.5, raster.width - 0.5)
+        for y in (0.5, raster.height - 0.5)
+    ]  # fmt: skip
+    return LinearTime(origin, per_column, per_row, min(corners), max(corners), *_effort(raw))
+
+
+def _rolling_shutter(raw: BlenderCamera, raster: Raster) -> LinearTime:
+    shutter = float(raw.settings["motion_blur_shutter"])
+    duration = float(raw.settings["rolling_shutter_duration"])
+    if not shutter > 0 or not 0 <= duration <= 1:
+        raise InputError(
+            f"the shutter of camera {raw.name!r} is {shutter} frames with a rolling duration of {duration}: "
+            "set a shutter above 0 and a duration from 0 to 1"
+        )
+    begin = SHUTTER_STARTS[raw.settings["motion_blur_position"]]
+    per_row = -shutter * (1 - duration) / raster.height
+    # row j has its center at y = j + 1/2 and its time at H - j: half a row on
+    top = raw.settings["frame"] + (begin + duration / 2) * shutter - per_row * (raster.height + 0.5)
+    return _linear(raw, top, 0.0, per_row, raster)
+
+
+def _image_share(raw: BlenderCamera, raster: Raster) -> np.ndarray:
+    gray = raw.settings.get("time_image")
+    if gray is None:
+        raise InputError(f"camera {raw.name!r} reads its time from an image, but has none: choose a gray image")
+    gray = np.asarray(gray, np.float64)
+    rows = (2 * np.arange(raster.height) + 1) * gray.shape[0] // (2 * raster.height)
+    columns = (2 * np.arange(raster.width) + 1) * gray.shape[1] // (2 * raster.width)
+    return np.rint(np.clip(gray[np.ix_(rows, columns)], 0, 1) * (LEVELS - 1)) / (LEVELS - 1)

@@ -1,0 +1,78 @@
+"""The eyes of a stereo camera: from a camera's record and the name of a view to the record of that eye.
+
+With s = +1 for the left eye and -1 for the right one, iod the interocular and cv the convergence distance (Blender
+units), k the share of the pivot that an eye bears (CENTER 1/2 each; LEFT and RIGHT: that eye 0, the other one 1) and
+the camera's axes normalized each for itself:
+    PARALLEL  the eye moves by -s k iod along the camera's X.
+    OFFAXIS   the same, and the shift grows by s k (iod / sensor width) (lens / cv), whatever the sensor fit.
+    TOE       alpha = atan(iod / (2 cv)). CENTER: the eye moves as above and turns by alpha about its Y, inwards. LEFT
+              and RIGHT: the other eye stands at (-s iod cos alpha, 0, -iod sin alpha) and turns by 2 alpha.
+Orthographic cameras take the off-axis shift with their lens, which they do not use otherwise; panoramas take none.
+A camera of the model OMNIDIRECTIONAL_STEREO has eyes of its own, iod apart: it stays, and the view tells which it is.
+Source: Blender manual, Stereoscopy; measured against RenderEngine.camera_model_matrix and camera_shift_x.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from math import atan, cos, sin
+
+import numpy as np
+
+from ..records import BlenderCamera, InputError
+
+SIDES = {"left": 1.0, "right": -1.0}
+"""The views of Blender's Stereo 3D, each with the sign of its convergence."""
+
+
+def eye_record(raw: BlenderCamera, view: str) -> BlenderCamera:
+    """Return the record of an eye; the empty view is the camera itself, and so are those of the Multi-View format.
+
+    In Multi-View each view is a camera object of its own: the record is already that object's. Raises InputError for
+    another view, for spherical stereo and for a model that shows both eyes in one picture.
+    """
+    settings = raw.settings
+    if not view or settings["views_format"] == "MULTIVIEW":
+        return raw
+    if view not in SIDES:
+        raise InputError(f"view {view!r} is no eye of Stereo 3D: choose one of {', '.join(SIDES)}")
+    if raw.model == "OMNIDIRECTIONAL_STEREO":
+        if settings["eye"].lower() not in SIDES:
+            both = f"camera {raw.name!r} has both eyes in one picture"
+            raise InputError(f"{both}: let it show one, or switch Stereoscopy off")
+        return replace(raw, settings={**settings, "eye": view.upper()})
+    if settings["use_spherical_stereo"] and raw.type in ("PERSP", "PANO"):
+        cure = "take the model Omnidirectional Stereo" if raw.type == "PANO" else "switch it off"
+        raise InputError(f"camera {raw.name!r} has Spherical Stereo, whose eyes turn with every ray: {cure}")
+    side, mode, pivot = SIDES[view], settings["convergence_mode"], settings["pivot"]
+    distance, convergence = float(settings["interocular_distance"]), float(settings["convergence_distance"])
+    share = {"CENTER": 0.5, view.upper(): 0.0}.get(pivot, 1.0)
+    if mode == "TOE":
+        angle = atan(distance / (2 * convergence))
+        if pivot == "CENTER":
+            return _moved(raw, -side * distance / 2, 0.0, -side * angle)
+        distance *= share
+        return _moved(raw, -side * distance * cos(angle), -distance * sin(angle), -side * share * 2 * angle)
+    shift = 0.0
+    if mode == "OFFAXIS" and raw.type != "PANO":
+        shift = side * share * distance / raw.sensor_width * raw.lens / convergence
+    return replace(_moved(raw, -side * share * distance, 0.0, 0.0), shift_x=raw.shift_x + shift)
+
+
+def camera_name(name: str, suffix: str, suffixes: list[str]) -> str:
+    """Return the name of the camera that stands in for another in a view of Multi-View, by the views' suffixes.
+
+    The longest suffix in which the name ends is replaced; a name that ends in none has no stand-in.
+    """
+    ends = [end for end in suffixes if name.endswith(end)]
+    return name.removesuffix(max(ends, key=len)) + suffix if ends else name
+
+
+def _moved(raw: BlenderCamera, x: float, z: float, turn: float) -> BlenderCamera:
+    """Return the camera moved along its own normalized axes, and turned about its Y."""
+    world_from_camera = np.array(raw.matrix_world, np.float64)
+    axes = world_from_camera[:3, :3]
+    axes /= np.linalg.norm(axes, axis=0)
+    world_from_camera[:3, 3] += axes @ (x, 0.0, z)
+    world_from_camera[:3, :3] = axes @ [[cos(turn), 0.0, sin(turn)], [0.0, 1.0, 0.0], [-sin(turn), 0.0, cos(turn)]]
+    return replace(raw, matrix_world=world_from_camera)

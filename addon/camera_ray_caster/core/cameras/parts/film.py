@@ -1,0 +1,144 @@
+"""From Blender's resolution, border, sensor fit and shift to a raster and a window on the image plane."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...records import BlenderCamera, InputError, Raster
+
+FINITE = "shift_x", "shift_y", "border_min_x", "border_max_x", "border_min_y", "border_max_y"
+"""What Blender does not clamp where a driver or a script sets it to nan or inf."""
+
+
+def raster_from(raw: BlenderCamera) -> Raster:
+    """Return the frame and the render window as Blender's pipeline computes them.
+
+    The frame is resolution * percentage / 100, truncated. A border selects columns int(min * width) up to, not
+    including, int(max * width), rows likewise from the bottom, the product rounded to float32 first, as in Blender's
+    C code (0.7 of 10 is column 7 there, 6 in float64). Cropping changes where the window is stored, not its rays.
+
+    Raises InputError for a frame or a border without pixels, for a pixel aspect that is not a positive number and for
+    a shift or a border that is not finite.
+    """
+    for name in FINITE:
+        if not np.isfinite(getattr(raw, name)):
+            raise InputError(f"{name} of camera {raw.name!r} is {getattr(raw, name)}: it must be a finite number")
+    for name in ("pixel_aspect_x", "pixel_aspect_y"):
+        if not 0 < getattr(raw, name) < np.inf:
+            raise InputError(f"{name} is {getattr(raw, name)}: it must be a positive number")
+    width = raw.resolution_x * raw.resolution_percentage // 100
+    height = raw.resolution_y * raw.resolution_percentage // 100
+    if width < 1 or height < 1:
+        raise InputError(
+            f"the picture has no pixels ({raw.resolution_x} x {raw.resolution_y} at {raw.resolution_percentage} %): "
+            "raise the resolution or its percentage"
+        )
+    x0, x1, y0, y1 = 0, width, 0, height
+    if raw.use_border:
+        x0, x1 = _border(raw.border_min_x, raw.border_max_x, width)
+        y0, y1 = _border(raw.border_min_y, raw.border_max_y, height)
+        if x0 >= x1 or y0 >= y1:
+            raise InputError("the render border holds no pixel: draw it larger (Ctrl B) or clear it (Ctrl Alt B)")
+    return Raster(width, height, raw.pixel_aspect_y / raw.pixel_aspect_x, x0, y0, x1, y1)
+
+
+def _border(low: float, high: float, size: int) -> tuple[int, int]:
+    """Return the first pixel inside a border and the first one behind it."""
+    return int(np.float32(low) * np.float32(size)), int(np.float32(high) * np.float32(size))
+
+
+@dataclass(frozen=True)
+class Film:
+    """The sensor as Blender fits it to the frame: which side counts, how long it is, and the shift.
+
+    Source: Blender manual, Camera > Lens and Sensor; measured on calc_matrix_camera. AUTO fits the longer side (in
+    square units, the width when equal) and uses the sensor's WIDTH for it, in portrait too. Shift counts in units
+    of the fitted side on both axes.
+    """
+
+    size: float
+    """Length of the fitted side, mm."""
+    fitted_pixels: float
+    """The fitted side in pixel widths."""
+
+    @classmethod
+    def from_blender(cls, raw: BlenderCamera, raster: Raster) -> Film:
+        """Fit the sensor; InputError names a sensor fit or size without meaning."""
+        height = raster.height * raster.pixel_aspect
+        fits = {
+            "HORIZONTAL": (raw.sensor_width, raster.width),
+            "VERTICAL": (raw.sensor_height, height),
+            "AUTO": (raw.sensor_width, max(raster.width, height)),
+        }
+        if raw.sensor_fit not in fits:
+            raise InputError(f"sensor fit {raw.sensor_fit!r} is unknown: use one of {', '.join(fits)}")
+        size, fitted_pixels = fits[raw.sensor_fit]
+        if not 0 < size < np.inf:
+            raise InputError(f"the sensor size of camera {raw.name!r} is {size} mm: it must be positive")
+        return cls(size, float(fitted_pixels))
+
+
+@dataclass(frozen=True)
+class Window:
+    """An affine map from pixels to the image plane: X = (x - center_x) pitch_x, Y = (y - center_y) pitch_y.
+
+    The difference is taken before it is scaled: it is exact for pixel centers near the center, and a frame far off
+    the axis (shift) keeps the digits of its pixels. X and Y are right to 2 EPS relative to the difference's parts.
+    """
+
+    center_x: float
+    center_y: float
+    pitch_x: float
+    pitch_y: float
+
+    @classmethod
+    def from_blender(cls, raw: BlenderCamera, raster: Raster, fitted_length: float) -> Window:
+        """Return the window in which the fitted side of the film has this length on the image plane."""
+        fitted_pixels = Film.from_blender(raw, raster).fitted_pixels
+        pitch = fitted_length / fitted_pixels
+        return cls(
+            raster.width / 2 - raw.shift_x * fitted_pixels,
+            raster.height / 2 - raw.shift_y * fitted_pixels / raster.pixel_aspect,
+            pitch,
+            pitch * raster.pixel_aspect,
+        )
+
+    @classmethod
+    def over_frame(cls, raw: BlenderCamera, raster: Raster, x_range, y_range) -> Window:
+        """Return the window in which the frame spans these (low, high) ranges, as panoramas have it.
+
+        Shift counts in fractions of the whole frame there, on each axis its own, whatever the aspect.
+        """
+        (left, right), (bottom, top) = x_range, y_range
+        return cls(
+            raster.width * (-left / (right - left) - raw.shift_x),
+            raster.height * (-bottom / (top - bottom) - raw.shift_y),
+            (right - left) / raster.width,
+            (top - bottom) / raster.height,
+        )
+
+    @classmethod
+    def round_pixels(cls, raw: BlenderCamera, raster: Raster, pitch: float) -> Window:
+        """Return the window in which circles stay round, a pixel is ``pitch`` wide, and shift is as in over_frame."""
+        half_width, half_height = raster.width * pitch / 2, raster.height * raster.pixel_aspect * pitch / 2
+        return cls.over_frame(raw, raster, (-half_width, half_width), (-half_height, half_height))
+
+    @classmethod
+    def inscribed_circle(cls, raw: BlenderCamera, raster: Raster, radius: float) -> Window:
+        """Return the window in which the circle of this radius touches the nearer sides of the frame."""
+        return cls.round_pixels(raw, raster, 2 * radius / min(raster.width, raster.height * raster.pixel_aspect))
+
+    def extent(self, raster: Raster) -> tuple[float, float, float, float]:
+        """Return the image-plane x_low, x_high, y_low, y_high of the whole frame; low <= high, mirrored or not."""
+        x, y = self.plane_from_pixels(np.array([0.0, raster.width]), np.array([0.0, raster.height]))
+        return float(x.min()), float(x.max()), float(y.min()), float(y.max())
+
+    def plane_from_pixels(self, x, y):
+        """Return image-plane (X, Y) of pixel coordinates; arrays of any shapes, kept apart."""
+        return (x - self.center_x) * self.pitch_x, (y - self.center_y) * self.pitch_y
+
+    def pixels_from_plane(self, plane_x, plane_y):
+        """Return the pixel coordinates of image-plane points: the inverse."""
+        return plane_x / self.pitch_x + self.center_x, plane_y / self.pitch_y + self.center_y

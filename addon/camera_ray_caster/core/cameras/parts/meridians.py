@@ -1,0 +1,79 @@
+"""What equirectangular and cylindrical panoramas share: longitude grows evenly along a row, a row has one latitude.
+
+The camera's +y is the axis, longitude 0 is the viewing direction, +x lies at longitude 90 degrees. The direction is
+(cos lat sin lon, sin lat, -cos lat cos lon): columns and rows stay apart until the last product. A model tells the
+latitude of a height on the image plane and the height of a latitude.
+Reference: J. P. Snyder, Map Projections: A Working Manual (1987), chapters 10 to 12, the cylindrical projections.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...maths.vector import components
+from ...records import BlenderCamera, Raster
+from .film import Window
+from .settings import FULL_TURN
+from .silhouette import longitude_latitude, pixel_bounds, turned
+
+
+@dataclass(frozen=True)
+class Meridians(ABC):
+    """A window of longitude (rad) across and height up; ``extent`` is the part of it that the frame shows."""
+
+    window: Window
+    extent: tuple[float, float, float, float]
+
+    planar = False
+    central = True
+
+    @classmethod
+    def over_frame(cls, raw: BlenderCamera, raster: Raster, longitudes, heights):
+        """Return the model in which the frame spans these (low, high) ranges, moved by Blender's shift."""
+        window = Window.over_frame(raw, raster, longitudes, heights)
+        return cls(window, window.extent(raster))
+
+    @abstractmethod
+    def latitude(self, height):
+        """Return cosine and sine of the latitude of heights."""
+
+    @abstractmethod
+    def height(self, cosine, sine):
+        """Return the height of the latitude whose cosine and sine stand in this ratio; the cosine is not negative."""
+
+    def rays(self, x, y):
+        """Return origin and direction, each a tuple of three broadcastable arrays, camera frame, of unit length.
+
+        x and y are pixel coordinates of broadcastable shapes; the y of the direction has the shape of y. Each
+        component is right to some EPS of 1 + longitude.
+        """
+        longitude, height = self.window.plane_from_pixels(x, y)
+        cosine, sine = self.latitude(height)
+        return (0.0, 0.0, 0.0), (cosine * np.sin(longitude), sine, -cosine * np.cos(longitude))
+
+    def project(self, points):
+        """Return the pixel coordinates (..., 2) of camera-frame points (..., 3); NaN at the eye.
+
+        Of the images that whole turns give, the nearest to the middle of the frame; a pole has one longitude of many.
+        """
+        x, y, z = components(np.asarray(points, np.float64))
+        across = np.hypot(x, z)
+        y = np.where((across > 0) | (y != 0), y, np.nan)
+        height = self.height(across, y)
+        longitude, middle = np.arctan2(x, -z) + 0 * height, (self.extent[0] + self.extent[1]) / 2
+        longitude -= FULL_TURN * np.rint((longitude - middle) / FULL_TURN)
+        return np.stack(self.window.pixels_from_plane(longitude, height), axis=-1)
+
+    def bounds(self, centers, radii):
+        """Return (n, 4) pixel bounds x0, x1, y0, y1 outside of which no point of the spheres (camera frame) is seen.
+
+        A sphere that holds a pole or crosses the seam covers all columns: one rectangle a sphere.
+        """
+        longitudes, latitudes = longitude_latitude(centers, radii)
+        columns = turned(longitudes, self.extent[:2], FULL_TURN)
+        low, high = (np.clip(latitude, -np.pi / 2, np.pi / 2) for latitude in latitudes)
+        heights = self.height(np.cos(low), np.sin(low)), self.height(np.cos(high), np.sin(high))
+        return pixel_bounds(self.window, columns, heights)

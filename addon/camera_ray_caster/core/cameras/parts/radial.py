@@ -1,0 +1,130 @@
+"""What all fisheyes share: the angle from the axis depends on the radius in the image alone, the azimuth is kept.
+
+With (a, b) the pixel on the image plane and r its length, the ray at the angle theta(r) from the viewing direction is
+F = (a/r sin theta, b/r sin theta, -cos theta): straight ahead at r = 0, where sin theta / r is a finite limit.
+A model gives that pair of factors and the inverse, r(theta).
+Reference: Blender manual, Cameras > Panoramic; Kannala and Brandt (2006), section 2, for the family.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from dataclasses import dataclass, replace
+from typing import Self
+
+import numpy as np
+
+from ...conventions import gamma
+from ...maths.chebyshev import Disc
+from ...maths.vector import components
+from .film import Window
+from .silhouette import pixel_bounds, radial_intervals
+
+TINY = 1e-300
+"""A radius whose square is lost and whose reciprocal is finite: what stands for r = 0."""
+
+AT_THE_RIM = 1 + gamma(16)
+"""A point at the very rim is seen, though rounding may put it this far beyond."""
+
+
+@dataclass(frozen=True)
+class Radial(ABC):
+    """A central model with rays (a k, b k, -c) where (k, c) = factors(a^2 + b^2)."""
+
+    window: Window
+    rim: float
+    """The r beyond which there is no ray; inf where the factors, or the frame alone, know an end."""
+
+    planar = False
+    central = True
+    smooth = True
+    """Whether polynomials give the rays of a picture (see panels): not where all that the factors take is a root, which
+    is singular at the rim or little beyond.
+    """
+
+    @abstractmethod
+    def factors(self, r_squared):
+        """Return sin(theta) / r and cos(theta) for squared radii; NaN in both where there is no ray.
+
+        Up to the rim; beyond it whatever the formula gives there.
+        """
+
+    @abstractmethod
+    def radius(self, theta):
+        """Return r of angles 0 .. pi from the axis, the least one that sees them; NaN where none does."""
+
+    @property
+    @abstractmethod
+    def widest(self) -> float:
+        """Return the angle at the rim: r grows with theta from 0 to there, beyond pi the picture repeats."""
+
+    @property
+    def disc(self) -> Disc | None:
+        """The part of the picture within the rim; None where it has none."""
+        middle = self.window.center_x, self.window.center_y
+        return Disc(middle, self._is_within) if self.rim < np.inf else None
+
+    @property
+    def endless(self) -> Self:
+        """The same lens without a rim: it goes on as far as its formula does."""
+        return replace(self, rim=np.inf)
+
+    def rays(self, x, y):
+        """Return origin and direction, each a tuple of three broadcastable arrays, camera frame, of unit length.
+
+        x and y are pixel coordinates of broadcastable shapes. NaN where there is no ray. Each component is right
+        to some EPS of 1 + theta.
+        """
+        a, b = self._plane(x, y)
+        scale, cosine = self._factors_at(x, y)
+        return (0.0, 0.0, 0.0), (a * scale, b * scale, -cosine)
+
+    def write_directions(self, matrix, x, y, out) -> None:
+        """Write matrix @ direction of ``rays`` into (..., 3): what a and b bring may stay a row and a column."""
+        a, b = self._plane(x, y)
+        scale, cosine = self._factors_at(x, y)
+        for axis, (across, up, back) in enumerate(matrix):
+            np.subtract((across * a + up * b) * scale, back * cosine, out=out[..., axis])
+
+    def _plane(self, x, y):
+        return self.window.plane_from_pixels(x, y)
+
+    def _r_squared(self, x, y):
+        a, b = self._plane(x, y)
+        return a * a + b * b
+
+    def _is_within(self, x, y):
+        return self._r_squared(x, y) <= self.rim * self.rim
+
+    def _factors_at(self, x, y):
+        r_squared = self._r_squared(x, y)
+        if self.rim < np.inf:
+            r_squared = np.where(r_squared > self.rim * self.rim, np.nan, r_squared)
+        return self.factors(r_squared)
+
+    def project(self, points):
+        """Return the pixel coordinates (..., 2) of camera-frame points (..., 3); NaN for those that no ray meets.
+
+        NaN also at the eye and straight behind it, where every azimuth would do. Of several images (fov beyond 360
+        degrees) the nearest to the axis.
+        """
+        x, y, z = components(np.asarray(points, np.float64))
+        across = np.hypot(x, y)
+        r = self.radius(np.arctan2(across, -z))
+        defined = (across > 0) | ((z < 0) & (r == 0))
+        scale = np.where(defined, r / np.where(across > 0, across, 1.0), np.nan)
+        return np.stack(self.window.pixels_from_plane(x * scale, y * scale), axis=-1)
+
+    def bounds(self, centers, radii):
+        """Return (n, 4) pixel bounds x0, x1, y0, y1 outside of which no point of the spheres (camera frame) is seen."""
+        return pixel_bounds(self.window, *radial_intervals(centers, radii, self.radius, self.widest))
+
+
+def radii_of(r_squared):
+    """Return the radii of their squares, at least TINY."""
+    return np.maximum(np.sqrt(r_squared), TINY)
+
+
+def up_to(rim: float, r):
+    """Return radii, NaN where they lie beyond the rim by more than rounding."""
+    return np.where(r <= rim * AT_THE_RIM, r, np.nan)

@@ -1,0 +1,216 @@
+"""OpenCV's distortion of a pinhole's picture: radial, rational, tangential and thin prism; and its inverse.
+
+With r^2 = x^2 + y^2 and g = (1 + k1 r^2 + k2 r^4 + k3 r^6) / (1 + k4 r^2 + k5 r^4 + k6 r^6):
+    x' = x g + 2 p1 x y + p2 (r^2 + 2 x^2) + s1 r^2 + s2 r^4
+    y' = y g + p1 (r^2 + 2 y^2) + 2 p2 x y + s3 r^2 + s4 r^4
+Where the symmetric part of the Jacobian is positive definite on a disc, the map is strictly monotone and therefore
+one-to-one there (G. Minty, 1962). Its least eigenvalue is at least
+    min(g, d(r g)/dr) - 6 |p| r - 2 r (|(s1, s3)| + 2 r^2 |(s2, s4)|),
+equal to it without prism where d(r g)/dr < g, so that its first zero is the radius up to which the model means
+something. Beyond, pictures fold, and there are neither rays nor projections here.
+Reference: OpenCV documentation, Camera Calibration and 3D Reconstruction; D. C. Brown (1966); C. Ricolfe-Viala and
+A. Sanchez-Salmeron (2010), thin prism.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+from functools import cached_property
+from math import atan, hypot, inf, radians, tan
+
+import numpy as np
+from numpy.polynomial.polynomial import polyval
+
+from ...conventions import EPS
+from ...maths.inversion import Inverse
+
+STEEPEST = tan(radians(89.9))
+"""The largest undistorted radius that an endless picture is given."""
+
+FAST_STEPS = 5
+"""From the radial guess, which errs by a hundredth or so, Newton's steps square the error."""
+
+NEAR = 1e-8
+"""Of the radius: where the last step is shorter, its own error is below rounding."""
+
+STEPS = 200
+
+
+@dataclass(frozen=True)
+class RadialTangential:
+    """The coefficients by their OpenCV names."""
+
+    k1: float = 0.0
+    k2: float = 0.0
+    p1: float = 0.0
+    p2: float = 0.0
+    k3: float = 0.0
+    k4: float = 0.0
+    k5: float = 0.0
+    k6: float = 0.0
+    s1: float = 0.0
+    s2: float = 0.0
+    s3: float = 0.0
+    s4: float = 0.0
+
+    @property
+    def bends(self) -> bool:
+        """Whether there is any distortion."""
+        return any(getattr(self, field.name) for field in fields(self))
+
+    def gain(self, r_squared):
+        """Return g and its derivative by r^2."""
+        s = r_squared
+        above = 1 + s * (self.k1 + s * (self.k2 + s * self.k3))
+        above_slope = self.k1 + s * (2 * self.k2 + s * (3 * self.k3))
+        if not (self.k4 or self.k5 or self.k6):
+            return above, above_slope
+        below = 1 + s * (self.k4 + s * (self.k5 + s * self.k6))
+        below_slope = self.k4 + s * (2 * self.k5 + s * (3 * self.k6))
+        gain = above / below
+        return gain, (above_slope - gain * below_slope) / below
+
+    def cancelled(self, r_squared):
+        """Return how much larger the terms of g are than their sums: what its rounding is multiplied with."""
+        s, k = np.asarray(r_squared), self
+        terms = ((k.k1, k.k2, k.k3), (k.k4, k.k5, k.k6))
+        parts = (((1.0, *own), (1.0, *map(abs, own))) for own in terms)
+        return sum(polyval(s, larger) / np.abs(polyval(s, own)) for own, larger in parts)
+
+    def distort(self, x, y):
+        """Return (x', y') of undistorted coordinates."""
+        s = x * x + y * y
+        return self._moved(x, y, s, self._turn(x, y, self.gain(s)[0]))
+
+    def _turn(self, x, y, gain):
+        return gain + 2 * (self.p1 * y + self.p2 * x)
+
+    def _moved(self, x, y, s, turn):
+        moved_x, moved_y = x * turn + self.p2 * s, y * turn + self.p1 * s
+        if self._has_prism:
+            moved_x, moved_y = moved_x + s * (self.s1 + s * self.s2), moved_y + s * (self.s3 + s * self.s4)
+        return moved_x, moved_y
+
+    @property
+    def _has_prism(self) -> bool:
+        return any((self.s1, self.s2, self.s3, self.s4))
+
+    def _derivatives(self, x, y, s, turn, slope):
+        """Return x' by x, x' by y, y' by x, y' by y."""
+        bend_x, bend_y = 2 * (slope * x + self.p2), 2 * (slope * y + self.p1)  # of turn, by x and by y
+        xx, yy = turn + x * (bend_x + 2 * self.p2), turn + y * (bend_y + 2 * self.p1)
+        xy = x * bend_y + 2 * self.p2 * y  # the same of y' by x
+        if self._has_prism:
+            prism_x, prism_y = 2 * self.s1 + 4 * s * self.s2, 2 * self.s3 + 4 * s * self.s4
+            return xx + x * prism_x, xy + y * prism_x, xy + x * prism_y, yy + y * prism_y
+        return xx, xy, xy, yy
+
+    def off_radius(self, r):
+        """Return a bound on how far a point at this radius is moved otherwise than along it."""
+        s = r * r
+        return s * (3 * hypot(self.p1, self.p2) + hypot(self.s1, self.s3) + s * hypot(self.s2, self.s4))
+
+    @cached_property
+    def limit(self) -> float:
+        """Return the undistorted radius up to which the map is one-to-one, inf without one.
+
+        It is the least root of the denominator and of the two conditions above, brought to polynomials in r; taken
+        1e-9 of itself short, more than the roots' rounding.
+        """
+        r = np.polynomial.Polynomial([0.0, 1.0])
+        above = np.polynomial.Polynomial([1, 0, self.k1, 0, self.k2, 0, self.k3])
+        below = np.polynomial.Polynomial([1, 0, self.k4, 0, self.k5, 0, self.k6])
+        slope = (above.deriv() * below - above * below.deriv()) * r
+        bend = r * (6 * hypot(self.p1, self.p2) + 2 * hypot(self.s1, self.s3)) + 4 * r**3 * hypot(self.s2, self.s4)
+        least = inf
+        for polynomial in (below, above * below - bend * below**2, above * below + slope - bend * below**2):
+            roots = polynomial.roots()
+            real = roots.real[(np.abs(roots.imag) <= 1e-9 * np.abs(roots)) & (roots.real > 0)]
+            least = min(least, *real.tolist(), inf)
+        return least * (1 - 1e-9)
+
+    @cached_property
+    def _radius(self):
+        """Return the inverse of r g(r^2), out to the limit, or to 89.9 degrees where the picture has no end."""
+        high = min(self.limit, STEEPEST)
+        return Inverse(lambda r: r * self.gain(r * r)[0], self._radial_slope, 0.0, high, _even_in_angle)
+
+    def _radial_slope(self, r):
+        s = r * r
+        g, slope = self.gain(s)
+        return g + 2 * s * slope
+
+    def undistort(self, u, v):
+        """Return (x, y) within the limit with distort(x, y) = (u, v); NaN where there is none.
+
+        Newton's method, from what the radius alone gives. Right to some EPS of the distorted radius, times the inverse
+        of the Jacobian.
+        """
+        if not self.bends:
+            return tuple(np.array(part) for part in np.broadcast_arrays(u, v))
+        u, v = np.broadcast_arrays(u, v)
+        radial = not any((self.p1, self.p2, self.s1, self.s2, self.s3, self.s4))
+        rho = np.hypot(u, v)
+        r = self._radius(rho) if radial else self._radius.guess(rho)
+        scale = np.where(rho > 0, r / np.where(rho > 0, rho, 1.0), 1.0)
+        x, y = u * scale, v * scale
+        if radial:
+            return x, y
+        with np.errstate(over="ignore", invalid="ignore"):  # what runs away is slow
+            for _ in range(FAST_STEPS):
+                step_x, step_y = self._step(x, y, u, v)
+                x, y = x - step_x, y - step_y
+                r = np.abs(x) + np.abs(y)
+                slow = ~(np.abs(step_x) + np.abs(step_y) <= NEAR * r)
+                if not slow.any():
+                    break
+        slow = (slow | (r > self.limit) | ~np.isfinite(r)) & ~np.isnan(u)
+        if slow.any():
+            x, y = np.asarray(x), np.asarray(y)
+            x[slow], y[slow] = self._careful(u[slow], v[slow])
+        return x, y
+
+    def _step(self, x, y, u, v):
+        """Return Newton's step."""
+        s = x * x + y * y
+        gain, slope = self.gain(s)
+        turn = self._turn(x, y, gain)
+        moved_x, moved_y = self._moved(x, y, s, turn)
+        off_x, off_y = moved_x - u, moved_y - v
+        xx, xy, yx, yy = self._derivatives(x, y, s, turn, slope)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            inverse = 1 / (xx * yy - xy * yx)
+            return (yy * off_x - xy * off_y) * inverse, (xx * off_y - yx * off_x) * inverse
+
+    def _careful(self, u, v):
+        """Newton's method from the axis, each step halved until it comes nearer, and kept within the limit."""
+        x, y, share = np.zeros_like(u), np.zeros_like(v), np.ones_like(u)
+        off = self._off(x, y, u, v)
+        for _ in range(STEPS):
+            radius = np.hypot(x, y)
+            goal = 8 * EPS * (np.hypot(u, v) * self.cancelled(radius * radius) + self.off_radius(radius))
+            error = np.hypot(*off)
+            if not (error > goal).any():
+                break
+            step_x, step_y = self._step(x, y, u, v)
+            next_x, next_y = x - share * step_x, y - share * step_y
+            inside = np.minimum(1.0, self.limit / np.maximum(np.hypot(next_x, next_y), 1e-300))
+            next_x, next_y = next_x * inside, next_y * inside
+            next_off = self._off(next_x, next_y, u, v)
+            better = np.hypot(*next_off) < error
+            share = np.where(better, 1.0, share / 2)
+            x, y = np.where(better, next_x, x), np.where(better, next_y, y)
+            off = tuple(np.where(better, new, old) for new, old in zip(next_off, off, strict=True))
+        found = np.hypot(*off) <= 4 * goal
+        return np.where(found, x, np.nan), np.where(found, y, np.nan)
+
+    def _off(self, x, y, u, v):
+        there = self.distort(x, y)
+        return there[0] - u, there[1] - v
+
+
+def _even_in_angle(low: float, high: float, count: int):
+    """Return radii (tangents) from low to high that stand evenly in angle, their ends exact."""
+    radii = np.tan(np.linspace(atan(low), atan(high), count))
+    radii[0], radii[-1] = low, high
+    return radii

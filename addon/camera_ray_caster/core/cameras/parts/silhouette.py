@@ -1,0 +1,124 @@
+"""Where in the picture a bounding sphere can be seen: conservative bounds, so that culling loses nothing.
+
+Bounds are intervals on the image plane, (-inf, inf) where a sphere may be everywhere, NaN where it is nowhere.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ...maths.vector import components
+
+MARGIN = 1 / 16
+"""Pixels added on each side: far more than the rounding of the bounds, far less than what culling saves."""
+
+EVERYWHERE = -np.inf, np.inf
+
+
+def angular_radius(distance, radius):
+    """Return the half angle of discs or spheres at these distances: asin(radius / distance), pi/2 from inside."""
+    return np.arcsin(np.minimum(radius / np.maximum(distance, np.finfo(float).tiny), 1.0))
+
+
+def pinhole_interval(x, depth, radius):
+    """Return the interval of tan(angle) that a disc covers as seen from the origin of its plane.
+
+    The disc has its center at (x, depth) and the given radius, in the plane of one image axis and the viewing
+    direction; arrays (n,). Unbounded where the disc reaches behind the eye's plane, (NaN, NaN) where all of it
+    is behind: the tangents from the origin touch the disc at tan = (x depth -+ r sqrt(x^2 + depth^2 - r^2)) /
+    (depth^2 - r^2), written as the angle of the center plus or minus asin(r / distance), which has no cancellation.
+    """
+    middle = np.arctan2(x, depth)
+    half = angular_radius(np.hypot(x, depth), radius)
+    bounded = depth > radius
+    behind = depth <= -radius
+    low = np.where(bounded, np.tan(np.where(bounded, middle - half, 0.0)), -np.inf)
+    high = np.where(bounded, np.tan(np.where(bounded, middle + half, 0.0)), np.inf)
+    return np.where(behind, np.nan, low), np.where(behind, np.nan, high)
+
+
+def radial_intervals(centers, radii, radius, widest):
+    """Return the intervals in x and y that spheres cover in an image whose radius tells the angle from the axis.
+
+    ``radius(theta)`` grows up to the angle ``widest`` where the image ends; azimuth is kept. A sphere seen at
+    theta within alpha lies in the sector between the radii of theta - alpha and theta + alpha, within
+    asin(sin alpha / sin theta) of its azimuth: all around where it holds the axis or the point opposite. An image
+    wider than a full turn repeats, and a sphere that holds the eye is all around: everywhere.
+    """
+    x, y, z = components(centers)
+    across = np.hypot(x, y)
+    distance = np.hypot(across, z)
+    theta, phi = np.arctan2(across, -z), np.arctan2(y, x)
+    alpha = angular_radius(distance, radii)
+    everywhere = (radii >= distance) | (widest > np.pi)
+    widest = min(widest, np.pi)
+    nowhere = ~everywhere & (theta - alpha > widest)
+    inner = radius(np.clip(theta - alpha, 0, widest))
+    outer = radius(np.minimum(theta + alpha, widest))
+    around = (theta <= alpha) | (theta + alpha >= np.pi)
+    half = np.where(around, np.pi, np.arcsin(np.minimum(np.sin(alpha) / np.maximum(np.sin(theta), 1e-300), 1)))
+    return tuple(
+        _mark(everywhere, nowhere, _product((inner, outer), cosine_range(phi - turn - half, phi - turn + half)))
+        for turn in (0, np.pi / 2)
+    )
+
+
+def cosine_range(low, high):
+    """Return the least and greatest cosine of the angles from low to high."""
+    ends = np.cos(low), np.cos(high)
+    holds_top = np.floor(high / (2 * np.pi)) >= np.ceil(low / (2 * np.pi))
+    holds_bottom = np.floor((high - np.pi) / (2 * np.pi)) >= np.ceil((low - np.pi) / (2 * np.pi))
+    return np.where(holds_bottom, -1.0, np.minimum(*ends)), np.where(holds_top, 1.0, np.maximum(*ends))
+
+
+def _product(lengths, factors):
+    """Return the interval of the product of intervals; the lengths are not negative."""
+    low, high = factors
+    return np.where(low < 0, lengths[1], lengths[0]) * low, np.where(high < 0, lengths[0], lengths[1]) * high
+
+
+def longitude_latitude(centers, radii):
+    """Return the intervals of longitude and latitude that spheres cover about the axis +y, longitude 0 ahead.
+
+    A sphere within alpha of latitude lat spans asin(sin alpha / cos lat) of longitude to each side: all of it
+    (from -inf to inf) where it holds a pole; both are unbounded where it holds the eye.
+    """
+    x, y, z = components(centers)
+    across = np.hypot(x, z)
+    distance = np.hypot(across, y)
+    alpha = angular_radius(distance, radii)
+    lon, lat = np.arctan2(x, -z), np.arctan2(y, across)
+    around = np.abs(lat) + alpha >= np.pi / 2
+    half = np.arcsin(np.minimum(np.sin(alpha) / np.maximum(np.cos(lat), 1e-300), 1))
+    half = np.where(around, np.inf, half)
+    inside = radii >= distance
+    return (lon - half, lon + half), _mark(inside, False, (lat - alpha, lat + alpha))
+
+
+def turned(interval, frame, period):
+    """Return the interval turned by whole periods into the frame (low, high): (n,) arrays.
+
+    NaN where no turn meets the frame; (-inf, inf) where more than one does, as at a seam or where the frame repeats.
+    """
+    low, high = interval
+    endless = np.isinf(low) | np.isinf(high)
+    low, high = np.where(endless, 0.0, low), np.where(endless, 0.0, high)
+    first, last = np.ceil((frame[0] - high) / period), np.floor((frame[1] - low) / period)
+    move = first * period
+    return _mark(endless | (last > first), ~endless & (last < first), (low + move, high + move))
+
+
+def _mark(everywhere, nowhere, interval):
+    """Return the interval with what is everywhere and nowhere written in."""
+    return tuple(
+        np.where(everywhere, end, np.where(nowhere, np.nan, bound))
+        for end, bound in zip(EVERYWHERE, interval, strict=True)
+    )
+
+
+def pixel_bounds(window, interval_x, interval_y):
+    """Return (n, 4) pixel bounds x0, x1, y0, y1 of intervals on a window, with the margin; NaN: nowhere."""
+    x0, y0 = window.pixels_from_plane(interval_x[0], interval_y[0])
+    x1, y1 = window.pixels_from_plane(interval_x[1], interval_y[1])
+    low, high = (np.minimum(x0, x1), np.minimum(y0, y1)), (np.maximum(x0, x1), np.maximum(y0, y1))
+    return np.stack((low[0] - MARGIN, high[0] + MARGIN, low[1] - MARGIN, high[1] + MARGIN), axis=-1)

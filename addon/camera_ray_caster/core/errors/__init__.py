@@ -1,0 +1,1 @@
+"""How far rounding may have moved rays and hits: forward error bounds."""

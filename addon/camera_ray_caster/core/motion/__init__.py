@@ -1,0 +1,1 @@
+"""Camera and shapes over time, from a few evaluations of the scene."""

@@ -1,0 +1,180 @@
+"""Motion between the times at which a scene was evaluated, and at which times it has to be.
+
+Each interval has four evaluations, its ends and two probes at the golden section; between them positions, rotation
+vectors, stretches (polar decomposition) and the numbers of a lens are the cubics through the four. Whether that is the
+motion of the scene is asked of each probe: it must lie, in pixels, on the parabola through the other three. Where it
+does not the interval is cut at its probes. The method is the embedded pair of adaptive integration (E. Hairer et al.,
+Solving Ordinary Differential Equations I, section II.4): smooth motion takes few evaluations, and the estimate is on
+the safe side.
+"""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from itertools import pairwise
+
+import numpy as np
+
+from ..camera.camera import Camera
+from ..maths.rotations import polar, sine_and_angle
+from ..records import Shapes
+from .interpolation import Interval, State, matched
+
+PROBES = (0.381966, 0.618034)
+"""Where an interval is probed: the golden section, so that no motion of a simple period hides from all probes."""
+
+WIDEST_TURN = 1.0
+"""Rotation from one evaluation to the next, radians: three of them in an interval stay below a half turn."""
+
+SHORTEST = 2.0**-10
+"""Frames within which the moment is found at which shapes come or go."""
+
+UNRESOLVED = "NOT RESOLVED"
+"""How the report's line begins that says so."""
+
+
+@dataclass(frozen=True)
+class Motion:
+    """A camera and shapes over a range of frames, and how well they are known."""
+
+    intervals: tuple[Interval, ...]
+    """In order; each begins where the one before ends."""
+    states: dict[float, State]
+    tolerance: float
+    """Pixels that were asked for."""
+    estimated: float
+    """Pixels: the largest difference to be expected in the intervals that were resolved."""
+    unresolved: tuple[tuple[float, float], ...]
+    """Intervals in which the tolerance is not kept."""
+    measured: float = np.nan
+    """Pixels: the largest difference from the scene at frames that were evaluated only to check; NaN unchecked."""
+
+    def camera_at(self, frame: float) -> Camera:
+        """Return the camera at a frame, without its pixel_time."""
+        return replace(self._interval(frame).camera_at(frame), pixel_time=None, motion=None)
+
+    def shapes_at(self, frame: float) -> Shapes:
+        """Return the shapes at a frame."""
+        return self._interval(frame).shapes_at(frame)
+
+    def at(self, frame: float) -> State:
+        """Return both at once."""
+        return self.camera_at(frame), self.shapes_at(frame)
+
+    def _interval(self, frame: float) -> Interval:
+        k = bisect_right(self.intervals, frame, key=lambda interval: interval.frames[0]) - 1
+        return self.intervals[max(k, 0)]
+
+    def in_words(self) -> list[str]:
+        """Return lines for the report."""
+        first, last = self.intervals[0].frames[0], self.intervals[-1].frames[-1]
+        lines = [
+            f"frames {first:g} to {last:g} from {len(self.states)} evaluations: off by {self.estimated:.2g} pixels as "
+            f"estimated, {self.measured:.2g} as measured; {self.tolerance:g} was asked for"
+        ]
+        if self.unresolved:
+            low, high = self.unresolved[0]
+            lines.append(
+                f"{UNRESOLVED}: {len(self.unresolved)} intervals, the first at frames {low:g} to {high:g}: "
+                "the motion is too fast for the evaluations allowed"
+            )
+        return lines
+
+
+def resolve(evaluate: Callable[[float], State], first: float, last: float, tolerance: float, most: int) -> Motion:
+    """Evaluate a scene at as few frames as keep what lies between within ``tolerance`` pixels.
+
+    ``evaluate(frame)`` returns camera and shapes; it is called at most ``most`` times. Whole frames are evaluated first
+    (keys and cuts lie there) as far as the budget allows; then the longest interval is looked at first. What the
+    budget leaves is reported as unresolved.
+    """
+    states: dict[float, State] = {}
+
+    def know(*frames: float) -> None:
+        for frame in frames:
+            if frame not in states:
+                states[frame] = evaluate(frame)
+
+    if first == last:
+        know(first)
+        return Motion((Interval.of(states, (first,)),), states, tolerance, 0.0, ())
+    whole = np.arange(np.floor(first) + 1, np.ceil(last)).tolist()
+    ends = [first, *(whole if len(whole) <= most // 4 else []), last]
+    know(*ends)
+    waiting = list(pairwise(ends))
+    done: list[tuple[float, ...]] = []
+    unresolved, estimated = [], 0.0
+    while waiting:
+        waiting.sort(key=lambda ends: ends[1] - ends[0])
+        a, b = waiting.pop()
+        p, q = (a + (b - a) * place for place in PROBES)
+        matched_ends = matched(states[a][1], states[b][1])
+        if not matched_ends and b - a <= SHORTEST:
+            done.append((a, b))
+            continue
+        if len(states) + (p not in states) + (q not in states) > most or not a < p < q < b:
+            unresolved.append((a, b))
+            done.append((a, b))
+            continue
+        know(p, q)
+        off = max(
+            _difference(Interval.of(states, others).at(probe), states[probe])
+            for probe, others in ((p, (a, q, b)), (q, (a, p, b)))
+        )
+        turn = max(_turn(states[early], states[late]) for early, late in pairwise((a, p, q, b)))
+        if matched_ends and off <= tolerance and turn <= WIDEST_TURN:
+            estimated = max(estimated, off)
+            done.append((a, p, q, b))
+        else:
+            waiting += pairwise((a, p, q, b))
+    intervals = tuple(Interval.of(states, frames) for frames in sorted(done))
+    return Motion(intervals, states, tolerance, estimated, tuple(sorted(unresolved)))
+
+
+def measure(motion: Motion, evaluate: Callable[[float], State], frames) -> float:
+    """Return the largest difference, in pixels, between the interpolation and the scene itself at some frames."""
+    return max(
+        (_difference(motion.at(frame), evaluate(frame)) for frame in frames),
+        default=0.0,
+    )
+
+
+def _difference(state: State, truth: State) -> float:
+    """Return the largest distance in pixels between the images of the shapes' centers and ends of axes.
+
+    Shapes that the true camera does not see near its picture do not count; where their number differs it is infinite.
+    """
+    (camera, shapes), (true_camera, true_shapes) = state, truth
+    if len(shapes) != len(true_shapes):
+        return np.inf
+    with np.errstate(all="ignore"):
+        there = replace(true_camera, pixel_time=None, motion=None).project(_landmarks(true_shapes, true_camera))
+        here = replace(camera, pixel_time=None, motion=None).project(_landmarks(shapes, true_camera))
+    raster = true_camera.raster
+    size = np.array([raster.width, raster.height])
+    counts = (there >= -size).all(axis=-1) & (there <= 2 * size).all(axis=-1)
+    apart = np.sqrt(((here - there) ** 2).sum(axis=-1))[counts]
+    return float(np.where(np.isnan(apart), np.inf, apart).max(initial=0.0))
+
+
+def _landmarks(shapes: Shapes, camera: Camera) -> np.ndarray:
+    """Return the center and both ends of each axis, (7 n, 3); without shapes places before the camera."""
+    if not len(shapes):
+        return camera.pose.eye + (camera.pose.basis @ [[0, 3, 0], [0, 0, 3], [-10.0, -10.0, -10.0]]).T
+    ends = np.swapaxes(shapes.axes, 1, 2)
+    offsets = np.concatenate((np.zeros_like(ends[:, :1]), ends, -ends), axis=1)
+    return (shapes.center[:, None, :] + offsets).reshape(-1, 3)
+
+
+def _turn(before: State, after: State) -> float:
+    """Return the largest rotation between two evaluations, radians; 0 for shapes that cannot be matched."""
+    turns = [_angle(before[0].pose.basis[None], after[0].pose.basis[None])]
+    if matched(before[1], after[1]):
+        turns.append(_angle(before[1].axes, after[1].axes))
+    return max(float(turn.max(initial=0.0)) for turn in turns)
+
+
+def _angle(before, after) -> np.ndarray:
+    return sine_and_angle(polar(after)[0] @ np.swapaxes(polar(before)[0], 1, 2))[2]

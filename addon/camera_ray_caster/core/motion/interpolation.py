@@ -1,0 +1,132 @@
+"""Camera and shapes between a few evaluations: the polynomial through them, rotations as rotations."""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from dataclasses import dataclass, fields, is_dataclass, replace
+from functools import cached_property
+from math import prod
+
+import numpy as np
+
+from ..camera.camera import Camera
+from ..maths.rotations import polar, rotation, rotation_vector
+from ..records import Pose, Shapes
+
+State = tuple[Camera, Shapes]
+"""A scene as it was evaluated at one frame."""
+
+
+@dataclass(frozen=True)
+class Interval:
+    """Evaluations that belong together, in order, and the polynomial through them."""
+
+    frames: tuple[float, ...]
+    states: tuple[State, ...]
+
+    @classmethod
+    def of(cls, states: dict[float, State], frames: tuple[float, ...]) -> Interval:
+        """Return the interval of some of the evaluations."""
+        return cls(frames, tuple(states[frame] for frame in frames))
+
+    def camera_at(self, frame: float) -> Camera:
+        """Return the camera at a frame."""
+        cameras = [camera for camera, _ in self.states]
+        if frame in self.frames:
+            return cameras[self.frames.index(frame)]
+        weights = self._weights(frame)
+        model, aperture = _mixed([(camera.model, camera.aperture) for camera in cameras], weights)
+        basis = self._camera_axes.at(weights)[0]
+        pose = Pose(_sum([camera.pose.eye for camera in cameras], weights), basis / np.linalg.norm(basis, axis=0))
+        return replace(cameras[0], pose=pose, model=model, aperture=aperture)
+
+    def shapes_at(self, frame: float) -> Shapes:
+        """Return the shapes at a frame. Where shapes come or go, those of the evaluation before it stand still."""
+        shapes = [shapes for _, shapes in self.states]
+        if frame in self.frames or self._shape_axes is None:
+            return shapes[max(bisect_right(self.frames, frame) - 1, 0)]
+        weights = self._weights(frame)
+        center = _sum([one.center for one in shapes], weights)
+        return replace(shapes[0], center=center, axes=self._shape_axes.at(weights))
+
+    def at(self, frame: float) -> State:
+        """Return both."""
+        return self.camera_at(frame), self.shapes_at(frame)
+
+    def _weights(self, frame: float) -> list[float]:
+        """Return what each evaluation counts in the polynomial at a frame (Lagrange)."""
+        return [
+            prod((frame - other) / (node - other) for other in self.frames if other != node)
+            for node in self.frames
+        ]  # fmt: skip
+
+    @cached_property
+    def _camera_axes(self) -> Turning:
+        return Turning.of([camera.pose.basis[None] for camera, _ in self.states])
+
+    @cached_property
+    def _shape_axes(self) -> Turning | None:
+        """None where the evaluations do not hold the same shapes."""
+        shapes = [shapes for _, shapes in self.states]
+        if not all(matched(shapes[0], other) for other in shapes[1:]):
+            return None
+        return Turning.of([one.axes for one in shapes])
+
+
+@dataclass(frozen=True)
+class Turning:
+    """Matrices (n, 3, 3) at some times, taken apart so that rotations are interpolated as rotations."""
+
+    first: np.ndarray
+    rotations: np.ndarray
+    """Of the first time."""
+    turns: list[np.ndarray]
+    """Rotation vectors (n, 3) from the first time to each."""
+    stretches: tuple[np.ndarray, ...]
+    still: np.ndarray
+    """(n, 1, 1) bool: those that never change stay exact."""
+
+    @classmethod
+    def of(cls, matrices) -> Turning:
+        """Return the matrices of some times taken apart."""
+        rotations, stretches = zip(*map(polar, matrices), strict=True)
+        back = np.swapaxes(rotations[0], 1, 2)
+        turns = [rotation_vector(other @ back) for other in rotations]
+        still = np.all([matrices[0] == other for other in matrices], axis=(0, 2, 3))
+        return cls(matrices[0], rotations[0], turns, stretches, still[:, None, None])
+
+    def at(self, weights) -> np.ndarray:
+        """Return the weighted mean of the matrices."""
+        moved = rotation(_sum(self.turns, weights)) @ self.rotations @ _sum(self.stretches, weights)
+        return np.where(self.still, self.first, moved)
+
+
+def matched(before: Shapes, after: Shapes) -> bool:
+    """Whether two evaluations hold the same shapes, row by row."""
+    return (
+        before.names == after.names
+        and np.array_equal(before.kind, after.kind)
+        and np.array_equal(before.name_index, after.name_index)
+    )
+
+
+def _mixed(values, weights):
+    """Return the weighted mean of all numbers in records of one kind; what is no number is the first one's."""
+    first = values[0]
+    if is_dataclass(first) and not isinstance(first, type) and all(type(value) is type(first) for value in values):
+        parts = {part.name: _mixed([getattr(value, part.name) for value in values], weights) for part in fields(first)}
+        changed = {name: part for name, part in parts.items() if part is not getattr(first, name)}
+        return replace(first, **changed) if changed else first
+    if isinstance(first, tuple):
+        return tuple(_mixed(entries, weights) for entries in zip(*values, strict=True))
+    if not isinstance(first, float | np.ndarray) or all(np.array_equal(first, value) for value in values[1:]):
+        return first
+    return _sum(values, weights)
+
+
+def _sum(values, weights) -> np.ndarray:
+    """Return the weighted mean, as what it adds to the first value: weights have the sum 1."""
+    total = values[0]
+    for value, weight in zip(values[1:], weights[1:], strict=True):
+        total = total + weight * (value - values[0])
+    return total

@@ -1,0 +1,135 @@
+"""How right the hits of a cast are: their error bounds over an even sample of its pixels, in milliseconds."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field, replace
+from math import isqrt
+
+import numpy as np
+
+from ..camera.camera import Camera
+from ..camera.pixel_time import groups
+from ..casting.plan import Group, Plan, make_plan
+from ..casting.search import nearest
+from ..conventions import EPS32
+from ..errors.hits import Bounds
+from ..maths.speed import Scratch
+from ..maths.vector import norm
+from ..records import Raster, Shapes
+
+PIXELS = 4096
+"""Pixels that are asked at most."""
+
+MOMENTS = 64
+"""Moments that are asked at most of a picture whose pixels have each their own: each one places the shapes anew."""
+
+QUANTITIES = {
+    "distance": "world units",
+    "relative_distance": "of the distance",
+    "position": "world units, as a vector's length",
+    "normal": "of the unit normal, as a vector's length",
+}
+"""What is bounded, and the unit of the bound."""
+
+
+@dataclass(frozen=True, eq=False)
+class Accuracy:
+    """The error bounds of the sampled pixels that hit something, of the numbers as calculated, before they are stored:
+    float32, which Blender stores, rounds each by up to EPS32 of itself more.
+    """
+
+    pixels: int = 0
+    """That were asked; 0 where nothing was cast."""
+    bounds: np.ndarray = field(default_factory=lambda: np.zeros((0, len(QUANTITIES))))
+    """(hits, 4): a column for each of QUANTITIES; inf where nothing is known."""
+
+    @property
+    def hits(self) -> int:
+        """How many of the pixels hit something."""
+        return len(self.bounds)
+
+    def median(self, quantity: str) -> float | None:
+        """Return the median bound of one of QUANTITIES; None where nothing is hit."""
+        return float(np.median(self._column(quantity))) if self.hits else None
+
+    def worst(self, quantity: str) -> float | None:
+        """Return the largest bound of one of QUANTITIES; None where nothing is hit."""
+        return float(self._column(quantity).max()) if self.hits else None
+
+    def as_data(self) -> dict[str, object]:
+        """Return what a report's file says of it; None where nothing is hit."""
+        bounds = {
+            name: {"unit": unit, "median_bound": self.median(name), "worst_bound": self.worst(name)}
+            for name, unit in QUANTITIES.items()
+        }
+        return {"sampled_pixels": self.pixels, "hits": self.hits, **bounds, "rounding_when_stored": EPS32}
+
+    def _column(self, quantity: str) -> np.ndarray:
+        return self.bounds[:, list(QUANTITIES).index(quantity)]
+
+    def __add__(self, other: Accuracy) -> Accuracy:
+        """Return the sample of both."""
+        return Accuracy(self.pixels + other.pixels, np.concatenate((self.bounds, other.bounds)))
+
+
+def accuracy(camera: Camera, shapes: Shapes, plan: Plan, precision: str = "AUTOMATIC") -> Accuracy:
+    """Return the error bounds of what a cast with this plan, or with plans like it, has found.
+
+    Asked are at most PIXELS pixels, evenly spread over the render window; all, where it has no more. The chief rays
+    are cast again at these, by the same kernels. With a clock each pixel is asked at its own moment; where the sample
+    has more than MOMENTS of them, the pixels of evenly chosen ones are. The worst bound is that of the sample.
+    """
+    x, y = sample(camera.raster)
+    if camera.pixel_time is None:
+        return Accuracy(x.size * y.size, _bounds(plan, x, y))
+    found = Accuracy()
+    moments = list(groups(camera.pixel_time, x, y))
+    for frame, rows, columns, where in moments[:: -(-len(moments) // MOMENTS)]:
+        there = shapes if shapes.motion is None else shapes.motion.shapes_at(frame)
+        own = make_plan(camera.at(frame), there, plan.passes, plan.passes, plan.shading, True, False, precision)
+        found += Accuracy(int(np.count_nonzero(where)), _bounds(own, x[:, columns], y[rows], where))
+    return found
+
+
+def sample(raster: Raster) -> tuple[np.ndarray, np.ndarray]:
+    """Return the x (1, columns) and y (rows, 1) of at most PIXELS pixel centers, evenly over the render window."""
+    height, width = raster.shape
+    rows = min(height, PIXELS, max(1, isqrt(PIXELS * height // width)))
+    columns = min(width, PIXELS // rows)
+    return raster.columns()[:, _even(columns, width)], raster.rows()[_even(rows, height)]
+
+
+def _even(count: int, total: int) -> np.ndarray:
+    return (2 * np.arange(count) + 1) * total // (2 * count)
+
+
+def _bounds(plan: Plan, x, y, where=True) -> np.ndarray:
+    """Return the bounds, (hits, 4), at the pixels of x (1, columns) and y (rows, 1) that are meant."""
+    raster = plan.camera.raster
+    columns, rows = x[0] - 0.5 - raster.x0, y[:, 0] - 0.5 - raster.y0
+    thinned = replace(plan, groups=tuple(_thinned(plan.groups, columns, rows)))
+    with np.errstate(all="ignore"):  # NaN and inf are answers here: no ray, no hit
+        origin, direction = plan.camera.camera_rays(x, y)
+        from_eye, scratch = plan.camera.model.central, Scratch(plan.real)
+        hits = nearest(thinned, origin, direction, from_eye, (0, 0), scratch)
+        if not hits.seen.any():
+            return np.zeros((0, len(QUANTITIES)))
+        bounds = Bounds(hits, (x, y))
+        relative = bounds.distance / (np.abs(bounds.t) * norm(bounds.rays.direction))
+        found = np.stack((bounds.distance, relative, bounds.position, bounds.normal), axis=1)
+    meant = np.broadcast_to(where, hits.t.shape)[hits.seen]
+    return np.where(np.isnan(found), np.inf, found)[meant]
+
+
+def _thinned(whole: Iterable[Group], columns, rows) -> Iterator[Group]:
+    """Yield the shapes that some of the window's columns and rows may see, to be cast many at once."""
+    for group in whole:
+        window = group.bounds
+        bounds = np.hstack((np.searchsorted(columns, window[:, :2]), np.searchsorted(rows, window[:, 2:])))
+        here = np.flatnonzero((bounds[:, 0] < bounds[:, 1]) & (bounds[:, 2] < bounds[:, 3]))
+        here = here[np.argsort(bounds[here, 2], kind="stable")]
+        if here.size:
+            yield Group(
+                group.kind, group.simple, True, group.at[here], bounds[here], group.near[here], group.constants(here)
+            )

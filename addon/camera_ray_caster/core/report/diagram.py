@@ -1,0 +1,180 @@
+"""What a camera does in space, as points and line segments: its image in front of it, and some of its rays."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ..camera.camera import Camera
+from ..cast import Images, cast
+from ..maths.vector import matvec
+from ..records import Raster, Shapes
+
+GRID_LINES = 9
+"""Lines across and up the image; the first and the last are its border."""
+
+LINE_POINTS = 65
+"""Points of a line, which most models bend."""
+
+MISS, NORMAL, LIFT = 1.25, 0.03, 0.002
+"""Lengths in units of the longest ray that hits: of a ray that hits nothing, of a normal, and of what hit points are
+lifted off their surface, which would hide half of them."""
+
+
+@dataclass(frozen=True)
+class Probe:
+    """What the ray of one pixel meets."""
+
+    pixel: tuple[int, int]
+    """Column and row in the full frame, from the bottom left."""
+    view: tuple[float, float]
+    """The center of the pixel in normalized view coordinates."""
+    origin: np.ndarray
+    direction: np.ndarray
+    """(3,) each, world; NaN where the pixel has no ray."""
+    distance: float
+    """inf where nothing is hit."""
+    name: str
+    """Of the object that is hit; empty where there is none."""
+    shape_index: int
+
+
+@dataclass(frozen=True)
+class Diagram:
+    """Segments are (n, 2, 3) float32, points (n, 3), both in the world."""
+
+    border: np.ndarray
+    """The image's border, and for a planar image lines from the rays' origins to its corners."""
+    grid: np.ndarray
+    """Lines of constant pixel coordinates across the image."""
+    basis: np.ndarray
+    """u, v and w."""
+    hit_rays: np.ndarray
+    missed_rays: np.ndarray
+    hits: np.ndarray
+    normals: np.ndarray
+
+
+@dataclass(frozen=True)
+class _Sparse(Raster):
+    """Some of the pixels of a raster."""
+
+    at_columns: tuple[int, ...]
+    at_rows: tuple[int, ...]
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        return len(self.at_rows), len(self.at_columns)
+
+    def columns(self) -> np.ndarray:
+        return np.array(self.at_columns, np.float64)[None, :] + 0.5
+
+    def rows(self) -> np.ndarray:
+        return np.array(self.at_rows, np.float64)[:, None] + 0.5
+
+
+def diagram(camera: Camera, shapes: Shapes, size: float, rays_across: int) -> Diagram:
+    """Return the picture of a camera in space at its current frame.
+
+    ``size`` is the distance (Blender units) of the image from the rays' origins: the depth where the image is planar,
+    the radius where it is not. ``rays_across`` rays are drawn across the render window and as many up as keeps them
+    square.
+    """
+    raster = camera.raster
+    height, width = raster.shape
+    rays_up = max(1, round(rays_across * height * raster.pixel_aspect / width))
+    columns, rows = raster.x0 + _spread(width, rays_across), raster.y0 + _spread(height, rays_up)
+    passes = ("ray_origin", "ray_direction", "distance", "position", "normal", "valid")
+    images = _cast_at(camera, shapes, columns, rows, passes)
+    flat = {name: image.reshape(-1, *image.shape[2:]) for name, image in images.items()}
+    hit = np.isfinite(flat["distance"])
+    missed = flat["valid"] & ~hit
+    longest = flat["distance"][hit].max(initial=0.0) or 10 * size
+    ends = flat["ray_origin"] + MISS * longest * flat["ray_direction"]
+    hits, normals = flat["position"][hit], flat["normal"][hit]
+    across, up = _image(camera, size)
+    border = np.concatenate((across[[0, -1]], up[[0, -1]]))
+    edges = [_segments(border), *([_corners(camera, size)] if camera.model.planar else [])]
+    return Diagram(
+        border=_drawn(np.concatenate(edges)),
+        grid=_drawn(_segments(np.concatenate((across[1:-1], up[1:-1])))),
+        basis=_drawn(np.stack([(camera.pose.eye, camera.pose.eye + size * axis) for axis in _uvw(camera)])),
+        hit_rays=_drawn(np.stack((flat["ray_origin"][hit], hits), axis=1)),
+        missed_rays=_drawn(np.stack((flat["ray_origin"], ends), axis=1)[missed]),
+        hits=(hits + LIFT * longest * normals).astype(np.float32),
+        normals=_drawn(np.stack((hits, hits + NORMAL * longest * normals), axis=1)),
+    )
+
+
+def probe(camera: Camera, shapes: Shapes, column: int, row: int) -> Probe:
+    """Return what the ray of one pixel of the full frame meets."""
+    passes = ("ray_origin", "ray_direction", "distance", "shape_index", "valid")
+    found = {name: image[0, 0] for name, image in _cast_at(camera, shapes, [column], [row], passes).items()}
+    index = int(found["shape_index"])
+    raster = camera.raster
+    blank = np.full(3, np.nan)
+    return Probe(
+        pixel=(column, row),
+        view=(2 * (column + 0.5) / raster.width - 1, 2 * (row + 0.5) / raster.height - 1),
+        origin=found["ray_origin"] if found["valid"] else blank,
+        direction=found["ray_direction"] if found["valid"] else blank,
+        distance=float(found["distance"]),
+        name=shapes.names[shapes.name_index[index]] if index >= 0 else "",
+        shape_index=index,
+    )
+
+
+def _cast_at(camera: Camera, shapes: Shapes, columns, rows, passes) -> Images:
+    """Cast the pixels at these columns and rows of the full frame, without culling, which counts in whole windows."""
+    r = camera.raster
+    at = tuple(int(i) for i in columns), tuple(int(j) for j in rows)
+    sparse = _Sparse(r.width, r.height, r.pixel_aspect, r.x0, r.y0, r.x1, r.y1, *at)
+    still = replace(camera, raster=sparse, pixel_time=None, motion=None)
+    return cast(still, shapes, passes, np.float64, threads=1, cull=False)
+
+
+def _spread(count: int, wanted: int) -> np.ndarray:
+    """Return the numbers of up to ``wanted`` of ``count`` pixels: those in the middle of as many equal parts."""
+    wanted = min(count, wanted)
+    return ((2 * np.arange(wanted) + 1) * count) // (2 * wanted)
+
+
+def _image(camera: Camera, size: float):
+    """Return the lines of constant x and of constant y across the frame, (GRID_LINES, LINE_POINTS, 3) each."""
+    raster = camera.raster
+    fixed, free = np.linspace(0, 1, GRID_LINES)[:, None], np.linspace(0, 1, LINE_POINTS)[None, :]
+    return (
+        _ahead(camera, size, raster.width * fixed, raster.height * free),
+        _ahead(camera, size, raster.width * free, raster.height * fixed),
+    )
+
+
+def _corners(camera: Camera, size: float) -> np.ndarray:
+    """Return segments from the rays' origins to the corners of the image, (4, 2, 3)."""
+    raster = camera.raster
+    x, y = np.array([0.0, 0.0, 1.0, 1.0]) * raster.width, np.array([0.0, 1.0, 0.0, 1.0]) * raster.height
+    return np.stack((_ahead(camera, 0.0, x, y), _ahead(camera, size, x, y)), axis=1)
+
+
+def _ahead(camera: Camera, t: float, x, y) -> np.ndarray:
+    """Return the points (..., 3) at t along the rays of pixel coordinates; NaN where there is none."""
+    origin, direction = camera.camera_rays(x, y)
+    points = matvec(camera.pose.basis, tuple(a + t * b for a, b in zip(origin, direction, strict=True)))
+    shape = np.broadcast_shapes(np.shape(x), np.shape(y))
+    return np.stack([np.broadcast_to(component, shape) for component in points], axis=-1) + camera.pose.eye
+
+
+def _uvw(camera: Camera):
+    u, v, z = camera.pose.basis.T
+    return u, v, -z
+
+
+def _segments(lines: np.ndarray) -> np.ndarray:
+    """Return the segments (n, 2, 3) of lines (k, points, 3)."""
+    return np.stack((lines[:, :-1], lines[:, 1:]), axis=2).reshape(-1, 2, 3)
+
+
+def _drawn(segments: np.ndarray) -> np.ndarray:
+    """Return those segments whose ends both exist, as the graphics card takes them."""
+    return segments[np.isfinite(segments).all(axis=(1, 2))].astype(np.float32)

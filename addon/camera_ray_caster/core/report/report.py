@@ -1,0 +1,226 @@
+"""The report of a run: errors with their bounds, seconds of each step, what was left out. One record, three forms."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Iterable, Mapping
+from dataclasses import asdict, dataclass, field, replace
+from textwrap import shorten, wrap
+
+import numpy as np
+
+from ..camera.camera import Camera
+from ..cast import STEPS, Images
+from ..conventions import EPS32
+from ..records import Finding, Shapes
+from .accuracy import QUANTITIES, Accuracy
+from .facts import camera_facts
+
+WIDTH = 100
+"""Columns that the table does not exceed."""
+
+CAST_STEPS = ("plan", *STEPS)
+"""The steps that count for rays per second: from camera and shapes to finished arrays."""
+
+
+@dataclass(frozen=True)
+class Report:
+    """What was done for one frame, all of its view layers and eyes together."""
+
+    camera: Mapping[str, object]
+    """See ``camera_facts``."""
+    frame: float
+    layers: tuple[str, ...] = ()
+    passes: tuple[str, ...] = ()
+    shapes: int = 0
+    pixels: int = 0
+    seconds: Mapping[str, float] = field(default_factory=dict)
+    """Of each step, in the order in which they were taken."""
+    findings: tuple[Finding, ...] = ()
+    not_done: tuple[str, ...] = ()
+    """What the cast had no need to do, and why."""
+    left_out: tuple[tuple[str, str], ...] = ()
+    """Objects that were not cast, each with the reason."""
+    motion: tuple[str, ...] = ()
+    """At how many times the scene was evaluated for pixels that have each their own, and how well that is enough."""
+    precision: str = ""
+    """The setting that hits were searched with; empty where nothing was cast."""
+    accuracy: Accuracy = field(default_factory=Accuracy)
+    """The error bounds of the hits."""
+
+    @property
+    def rays_per_second(self) -> float | None:
+        """Rays over the seconds of CAST_STEPS; None where nothing was cast."""
+        spent = sum(self.seconds.get(step, 0.0) for step in CAST_STEPS)
+        return self.pixels / spent if spent > 0 else None
+
+    @property
+    def passed(self) -> bool:
+        """Whether no witness disagrees."""
+        return all(finding.passed for finding in self.findings)
+
+    def with_seconds(self, **seconds: float) -> Report:
+        """Return the report with more steps, the seconds of a step that it has added up."""
+        return replace(self, seconds=_sum(self.seconds, seconds))
+
+    def __add__(self, other: Report) -> Report:
+        """Return the report of both: another view layer or eye of the same frame. The camera is the first one's."""
+        return replace(
+            self,
+            layers=_union(self.layers, other.layers),
+            passes=_union(self.passes, other.passes),
+            shapes=self.shapes + other.shapes,
+            pixels=self.pixels + other.pixels,
+            seconds=_sum(self.seconds, other.seconds),
+            findings=_union(self.findings, other.findings),
+            not_done=_union(self.not_done, other.not_done),
+            left_out=_union(self.left_out, other.left_out),
+            motion=_union(self.motion, other.motion),
+            accuracy=self.accuracy + other.accuracy,
+        )
+
+
+def report_cast(
+    camera: Camera,
+    shapes: Shapes,
+    images: Images,
+    seconds: Mapping[str, float],
+    findings: Iterable[Finding],
+    frame: float,
+    layer: str,
+    several: bool = False,
+    *,
+    precision: str,
+    accuracy: Accuracy,
+) -> Report:
+    """Return the report of one cast of a view layer; of ``several``, it is named beside what was not done."""
+    return Report(
+        camera=camera_facts(camera),
+        frame=frame,
+        layers=(layer,),
+        passes=images.plan.passes,
+        shapes=len(shapes),
+        pixels=camera.raster.shape[0] * camera.raster.shape[1],
+        seconds=seconds,
+        findings=tuple(findings),
+        not_done=tuple(f"{layer}: {line}" if several else line for line in images.plan.left_out()),
+        left_out=shapes.left_out,
+        motion=tuple(camera.motion.in_words()) if camera.motion is not None else (),
+        precision=precision,
+        accuracy=accuracy,
+    )
+
+
+def as_data(report: Report) -> dict:
+    """Return the report as plain lists, dicts, strings and numbers; a number that is not finite becomes None."""
+    data = asdict(report)
+    data["accuracy"] = report.accuracy.as_data()
+    data["rays_per_second"] = report.rays_per_second
+    data["passed"] = report.passed
+    data["findings"] = [{**asdict(finding), "passed": finding.passed} for finding in report.findings]
+    data["left_out"] = [{"name": name, "reason": reason} for name, reason in report.left_out]
+    return _plain(data)
+
+
+def as_json(report: Report) -> str:
+    """Return the report as strict JSON: it has no NaN and no Infinity."""
+    return json.dumps(as_data(report), indent=2, allow_nan=False, ensure_ascii=False) + "\n"
+
+
+def as_lines(report: Report) -> list[str]:
+    """Return the report as the lines of a table, at most WIDTH columns: for a terminal or a text datablock."""
+    return [
+        *_camera_lines(report),
+        *_finding_lines(report),
+        *_accuracy_lines(report),
+        *_second_lines(report),
+        *_listed("Motion", report.motion),
+        *_listed("Left out", [*report.not_done, *(f"{name!r}: {reason}" for name, reason in report.left_out)]),
+    ]
+
+
+def _camera_lines(report: Report) -> list[str]:
+    facts = dict(report.camera)
+    frame = f"{report.frame:g}"
+    title = f"Camera {facts.pop('name')!r}, {facts.pop('model')}, frame {frame}"
+    return [title, *(f"  {name.replace('_', ' '):20} {_numbers(value)}" for name, value in facts.items())]
+
+
+def _finding_lines(report: Report) -> list[str]:
+    if not report.findings:
+        return []
+    columns = [f"{name:>9}" for name in ("worst px", "median", "bound", "worst rad", "median", "bound")]
+    lines = ["", f"{'Witness':25} {'points':>7} " + " ".join(columns)]
+    for finding in report.findings:
+        errors = (
+            finding.worst_pixels, finding.median_pixels, finding.bound_pixels,
+            finding.worst_radians, finding.median_radians, finding.bound_radians,
+        )  # fmt: skip
+        name = shorten(finding.witness, 23, placeholder="…")
+        cells = " ".join(f"{error:9.1e}" for error in errors)
+        lines.append(f"  {name:23} {finding.points:7} {cells} {'ok' if finding.passed else 'FAILED'}")
+    return lines
+
+
+def _accuracy_lines(report: Report) -> list[str]:
+    found = report.accuracy
+    if not found.pixels:
+        return []
+    if not found.hits:
+        return ["", f"Hits: none at {found.pixels} pixels all over the picture; precision {report.precision}"]
+    lines = ["", f"{'Hits':19} {'median bound':>13} {'worst bound':>13}"]
+    for name, unit in QUANTITIES.items():
+        lines.append(f"  {name.replace('_', ' '):17} {found.median(name):13.1e} {found.worst(name):13.1e}  {unit}")
+    lines.append(f"  {found.hits} hits at {found.pixels} pixels all over the picture; precision {report.precision}")
+    return [*lines, f"  before they are stored: a float32 is rounded by up to {EPS32:.0e} of itself more"]
+
+
+def _second_lines(report: Report) -> list[str]:
+    if not report.seconds:
+        return []
+    lines = ["", f"{'Step':18} {'seconds':>9}"]
+    lines += [f"  {step:16} {seconds:9.4f}" for step, seconds in report.seconds.items()]
+    lines.append(f"  {'together':16} {sum(report.seconds.values()):9.4f}")
+    if report.rays_per_second is not None:
+        millions = report.rays_per_second / 1e6
+        lines.append(f"  {report.pixels} rays at {report.shapes} shapes: {millions:.3g} million rays per second")
+    return lines
+
+
+def _listed(title: str, texts) -> list[str]:
+    lines = ["", title] if texts else []
+    for text in texts:
+        lines += wrap(text, WIDTH, initial_indent="  ", subsequent_indent="    ")
+    return lines
+
+
+def _numbers(value) -> str:
+    """Return a fact in words: numbers aligned, matrices row by row on one line."""
+    if isinstance(value, float):
+        return f"{value:.7g}"
+    if not isinstance(value, list):
+        return str(value)
+    if value and isinstance(value[0], list):
+        return "  ".join("[" + " ".join(_numbers(entry) for entry in row) + "]" for row in value)
+    return " ".join(f"{_numbers(entry):>12}" for entry in value)
+
+
+def _plain(value):
+    """Return JSON's kind of value: strings, ints, bools and None stay."""
+    if isinstance(value, Mapping):
+        return {str(key): _plain(entry) for key, entry in value.items()}
+    if isinstance(value, np.ndarray | np.generic):
+        return _plain(value.tolist())
+    if isinstance(value, list | tuple):
+        return [_plain(entry) for entry in value]
+    return None if isinstance(value, float) and not math.isfinite(value) else value
+
+
+def _sum(left: Mapping[str, float], right: Mapping[str, float]) -> dict[str, float]:
+    return {step: left.get(step, 0.0) + right.get(step, 0.0) for step in _union(left, right)}
+
+
+def _union(left: Iterable, right: Iterable) -> tuple:
+    """Return what is in either, once, in order."""
+    return tuple(dict.fromkeys((*left, *right)))

@@ -1,0 +1,91 @@
+"""Shapes in object space, and their placing in the world: once per mesh or point cloud, however often it is used."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..conventions import EPS32
+from ..records import INFINITE_PLANE, SPHERE, Lights
+
+
+@dataclass(frozen=True)
+class Primitive:
+    """n shapes of one kind in their object's space: object = centers[k] + sizes[k] axes @ q (see the conventions)."""
+
+    kind: int
+    centers: np.ndarray
+    """(n, 3) float64."""
+    axes: np.ndarray
+    """(3, 3) float64: the columns are the images of the shape's axes."""
+    sizes: np.ndarray
+    """(n,) float64."""
+
+    def __len__(self) -> int:
+        return len(self.sizes)
+
+
+def points_primitive(positions: np.ndarray, radii: np.ndarray) -> Primitive:
+    """Return the spheres of a point cloud: (n, 3) positions and (n,) radii, those with a radius above zero."""
+    real = (radii > 0) & np.isfinite(radii) & np.isfinite(positions).all(axis=1)
+    return Primitive(SPHERE, positions[real].astype(np.float64), np.eye(3), radii[real].astype(np.float64))
+
+
+def bounds_primitive(kind: int, vertices: np.ndarray) -> Primitive:
+    """Return the sphere or plane that a user sees in a mesh which is neither: by its vertices, (n, 3).
+
+    A sphere stands in the middle of their bounding box and reaches the farthest of them. A plane is their bounding
+    rectangle in the object's XY, at their mean z.
+    """
+    low, high = vertices.min(axis=0), vertices.max(axis=0)
+    center = (low + high) / 2
+    if kind == SPHERE:
+        axes = np.eye(3) * np.linalg.norm(vertices - center, axis=1).max()
+    else:
+        center[2] = vertices[:, 2].mean()
+        sides = (high - low)[:2] / 2
+        axes = np.diag([*(np.ones(2) if kind == INFINITE_PLANE else sides), 1.0])
+    return Primitive(kind, center[None], axes, np.ones(1))
+
+
+def is_invertible(matrices: np.ndarray, primitive: Primitive) -> np.ndarray:
+    """Return under which of (k, 3, 4) object matrices a primitive is finite and spans space, however thin it is.
+
+    Axes that were scaled to zero under a turned parent are coplanar to a few roundings of float32: a determinant of
+    the axes, each over its largest component, below 8 EPS32 cannot be told from zero.
+    """
+    finite = np.isfinite(matrices).all(axis=(1, 2))
+    axes = np.where(finite[:, None, None], matrices[:, :, :3], 0.0) @ primitive.axes
+    lengths = np.abs(axes).max(axis=1, keepdims=True)
+    return np.abs(np.linalg.det(axes / np.where(lengths > 0, lengths, 1.0))) > 8 * EPS32
+
+
+def place(primitive: Primitive, matrices: np.ndarray, centers: np.ndarray, axes: np.ndarray) -> None:
+    """Write to centers (k n, 3) and axes (k n, 3, 3), in the world, n shapes under each of (k, 3, 4) object matrices.
+
+    Instance by instance, in float64: right to gamma(4) of the sum of the magnitudes.
+    """
+    linear, offset = matrices[:, :, :3], matrices[:, :, 3]
+    shape = len(matrices), len(primitive)
+    np.add(primitive.centers @ linear.transpose(0, 2, 1), offset[:, None], out=centers.reshape(*shape, 3))
+    sizes, columns = primitive.sizes[:, None, None], (linear @ primitive.axes)[:, None]
+    np.multiply(sizes, columns, out=axes.reshape(*shape, 3, 3))
+
+
+def place_lights(lights) -> Lights:
+    """Return the record of lights, each given as (is_sun, color (3,), matrices (k, 3, 4)).
+
+    A light stands at its matrix's offset; a sun shines along its -Z, so that +Z points towards it.
+    """
+    rows = [(is_sun, color, matrix) for is_sun, color, matrices in lights for matrix in matrices]
+    rows = [row for row in rows if np.isfinite(row[2]).all() and row[2][:, 2].any()]
+    return Lights(
+        position=np.array([_unit(m[:, 2]) if is_sun else m[:, 3] for is_sun, _, m in rows]).reshape(-1, 3),
+        is_sun=np.array([is_sun for is_sun, _, _ in rows], bool),
+        color=np.array([color for _, color, _ in rows]).reshape(-1, 3),
+    )
+
+
+def _unit(vector: np.ndarray) -> np.ndarray:
+    return vector / np.linalg.norm(vector)

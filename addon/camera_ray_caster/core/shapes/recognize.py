@@ -1,0 +1,187 @@
+"""Is a mesh a sphere or a flat parallelogram? Judged by its vertices and faces, which is all that a mesh keeps.
+
+A renderer draws the faces, the caster the shape that they stand for, so the faces have to leave no doubt about it: they
+must go once round the ball, or fill the parallelogram. Everything is computed in float64 from the stored float32.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..conventions import EPS32
+from ..maths.vector import cross
+from ..records import PLANE, SPHERE
+from .instances import Primitive
+
+SPHERE_TOLERANCE = 2e-5
+"""Largest spread of the vertices' distances from the center, over the radius.
+
+Blender tabulates the icosahedron with so few digits that ten of its twelve vertices lie 1.08e-5 short. Its UV spheres,
+made by adding up small turns, spread by up to 6.7e-6 (of 6 to 256 segments, one of 200), its finer ico spheres by 4e-7.
+What is only nearly a sphere, such as a cube under Subdivision Surface, spreads by 1e-3 and more."""
+
+ROUNDING = 8 * EPS32
+"""Allowance for float32, over the largest coordinate: a turn, a scale and an offset applied, in three dimensions."""
+
+MIN_INRADIUS = 0.74
+"""How near a face's plane may come to the center, over the radius.
+
+The vertices of any prism, cube or cylinder can lie on one sphere, but then some face comes to 1/√2 or nearer; an
+octahedron's are at 0.577, an icosahedron's at 0.795. UV spheres pass from 6 segments and 3 rings (0.750) on; coarser
+ones cannot be told from a cylinder."""
+
+
+@dataclass(frozen=True)
+class MeshArrays:
+    """What Blender's ``foreach_get`` gives of a mesh; a loop is a corner of a face and the edge that leaves it."""
+
+    vertices: np.ndarray
+    """(vertices, 3) float32."""
+    loop_vertices: np.ndarray
+    """(loops,) int32, face by face."""
+    loop_edges: np.ndarray
+    """(loops,) int32."""
+    loop_starts: np.ndarray
+    """(faces,) int32: the first loop of each face."""
+    edge_count: int
+
+
+def recognize(mesh: MeshArrays) -> Primitive | str:
+    """Return the sphere or plane that a mesh with faces is, in object space, or in words why it is neither.
+
+    A mesh whose faces all look one way is judged as a plane, any other as a sphere, or as an ellipsoid where an affine
+    matrix was applied to one. A sphere's axes are its radius times the object's axes; a plane's are half its sides, the
+    first along its first edge, and a normal as long as the root of their area. All are right to the tolerances above.
+    """
+    if not np.isfinite(mesh.vertices).all():
+        return "its vertices are not all finite"
+    middle = mesh.vertices.mean(axis=0, dtype=np.float64)
+    vertices = mesh.vertices - middle  # small numbers: an offset that was applied costs no digits
+    rounding = ROUNDING * float(np.abs(mesh.vertices).max())
+    _, areas = _faces(mesh, vertices)
+    total, area = areas.sum(axis=0), np.linalg.norm(areas, axis=1).sum()
+    if np.linalg.norm(total) > 0.99 * area:
+        found = _parallelogram(mesh, vertices, total, area, rounding)
+    else:
+        found = _ellipsoid(mesh, vertices, rounding)
+    if isinstance(found, str):
+        return found
+    kind, center, axes, uncertainty = found
+    center = center + middle
+    center[np.abs(center) <= uncertainty] = 0  # rounding, where the user has the object's origin
+    return Primitive(kind, center[None], axes, np.ones(1))
+
+
+def _following(mesh) -> np.ndarray:
+    """Return for each loop the next one of its face."""
+    following = np.arange(1, len(mesh.loop_vertices) + 1)
+    following[np.append(mesh.loop_starts[1:], len(following)) - 1] = mesh.loop_starts
+    return following
+
+
+def _faces(mesh, vertices):
+    """Return a corner and the area vector of every face, each (faces, 3)."""
+    corners = vertices.T[:, mesh.loop_vertices]
+    sums = np.add.reduceat(np.stack(cross(corners, corners[:, _following(mesh)])), mesh.loop_starts, axis=1)
+    return corners[:, mesh.loop_starts].T, sums.T / 2
+
+
+def _ellipsoid(mesh, vertices, rounding):
+    """Return the ellipsoid whose unit ball the mesh goes round once.
+
+    Among the distances of its vertices the one in Z counts if there are vertices above and below the center: Blender's
+    spheres have their poles there, exactly at the radius that the user chose. Otherwise it is their mean.
+    """
+    if not np.ptp(vertices, axis=0).all():
+        return "it is neither flat nor round"
+    for fit in (_fitted_sphere, _fitted_ellipsoid):
+        center, axes = fit(vertices)
+        if axes is None:
+            continue
+        ball = np.linalg.solve(axes, (vertices - center).T).T
+        distances = np.linalg.norm(ball, axis=1)
+        spread, noise = np.ptp(distances), rounding / np.linalg.norm(axes, -2)
+        if spread <= SPHERE_TOLERANCE + noise:
+            break
+    else:
+        return "its vertices are not on one sphere or ellipsoid"
+    if noise > 0.01:
+        return "it is too thin, or too small so far from the object's origin: float32 has rounded its shape away"
+    if (np.bincount(mesh.loop_edges, minlength=mesh.edge_count) != 2).any():
+        return "its vertices are on a sphere, but its surface is not closed"
+    corners, areas = _faces(mesh, ball)
+    heights = (corners * areas).sum(axis=1)
+    if (np.abs(heights) < MIN_INRADIUS * np.linalg.norm(areas, axis=1)).any():
+        return "its vertices are on a sphere, but its faces cut deep into it, as a box's or a cylinder's do"
+    if abs(heights.sum() / 3) < MIN_INRADIUS**3 * (4 / 3 * np.pi):
+        return "its vertices are on a sphere, but its faces do not go round it once, all facing outwards"
+    pole = np.ptp(ball[:, 2]) / 2
+    reach = pole if distances.min() <= pole <= distances.max() else distances.mean()
+    return SPHERE, center, axes * reach, spread * np.abs(axes).max()
+
+
+def _least_squares(terms, values):
+    """Return the solution of the normal equations: the terms are scaled and centered, which keeps them well posed."""
+    return np.linalg.lstsq(terms.T @ terms, terms.T @ values, rcond=None)[0]
+
+
+def _fitted_sphere(vertices):
+    """Return center and radius times the identity, by linear least squares on 2 c.v + k = v.v."""
+    squares = (vertices * vertices).sum(axis=1)
+    *center, k = _least_squares(np.c_[2 * vertices, np.ones(len(vertices))], squares)
+    return np.array(center), np.sqrt(np.dot(center, center) + k) * np.eye(3)
+
+
+def _fitted_ellipsoid(vertices):
+    """Return center and axes by linear least squares on v.Q v + 2 b.v = 1; the axes are None unless Q is positive."""
+    sides = np.ptp(vertices, axis=0) / 2
+    x, y, z = (vertices / sides).T
+    terms = np.column_stack([x * x, y * y, z * z, 2 * y * z, 2 * x * z, 2 * x * y, 2 * x, 2 * y, 2 * z])
+    xx, yy, zz, yz, xz, xy, *b = _least_squares(terms, np.ones(len(x)))
+    values, vectors = np.linalg.eigh([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+    if values[0] <= 1e-6 * values[2]:
+        return None, None
+    center = -vectors @ (vectors.T @ b / values)
+    root = vectors / np.sqrt(values) @ vectors.T
+    return sides * center, sides[:, None] * root * np.sqrt(1 - np.dot(center, b))
+
+
+def _parallelogram(mesh, vertices, total, area, rounding):
+    """Return the parallelogram that a flat mesh fills: its outline has four corners, and it neither folds nor laps."""
+    normal = total / np.linalg.norm(total)
+    if np.ptp(vertices @ normal) > rounding:
+        return "it is nearly a plane, but not flat"
+    loop_ends = mesh.loop_vertices[_following(mesh)]
+    # An edge between two faces is passed once in each direction; what is left over is the outline.
+    ahead = mesh.loop_vertices < loop_ends
+    net = np.bincount(mesh.loop_edges, np.where(ahead, 1, -1), mesh.edge_count)[mesh.loop_edges]
+    outline = dict(zip(mesh.loop_vertices[net != 0].tolist(), loop_ends[net != 0].tolist(), strict=True))
+    start = vertex = next(iter(outline))
+    walk = []
+    while vertex in outline:
+        walk.append(vertex)
+        vertex = outline.pop(vertex)
+    if outline or vertex != start:
+        return "it is flat, but has holes or parts"
+    points = vertices[walk]
+    sides = np.roll(points, -1, axis=0) - points
+    before = np.roll(sides, 1, axis=0)
+    bends = np.linalg.norm(np.cross(before, sides), axis=1)
+    reach = np.maximum(np.linalg.norm(before, axis=1), np.linalg.norm(sides, axis=1))
+    quad = points[bends > rounding * reach]
+    if len(quad) != 4:
+        return f"it is flat, but its outline has {len(quad)} corners"
+    center = quad.mean(axis=0)
+    x, y = (quad[1] - quad[0] + quad[2] - quad[3]) / 4, (quad[3] - quad[0] + quad[2] - quad[1]) / 4
+    gap = np.linalg.norm(quad[0] - quad[1] + quad[2] - quad[3])
+    if gap > 2 * rounding:
+        return f"it is flat, but no parallelogram: opposite sides differ by {gap:.2g}"
+    third = np.cross(x, y)
+    size = np.linalg.norm(third)
+    if size <= rounding * max(np.linalg.norm(x), np.linalg.norm(y)):
+        return "it has no area"
+    if abs(area - 4 * size) > rounding * (np.linalg.norm(x) + np.linalg.norm(y)) * 8:
+        return "it is flat, but its faces do not fill its outline once"
+    return PLANE, center, np.column_stack([x, y, third / np.sqrt(size)]), rounding

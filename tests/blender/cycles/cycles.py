@@ -1,0 +1,84 @@
+"""Cycles as a witness: what the primary ray of every pixel is and meets, read back from a shader that emits it.
+
+One sample is taken exactly at the pixel's center. Values are emitted in 0 .. 1 and stored as float32, so that one of
+``reach`` comes back to reach x 2^-24; black is what no ray or no surface gives.
+"""
+
+from pathlib import Path
+
+import addon_utils
+import bpy
+import numpy as np
+
+from ...exr import read_exr
+
+
+def cycles_directions(scene):
+    """Return the world directions of the primary rays of the render window, (h, w, 3); NaN where there is no ray."""
+    return _render(scene, "Incoming", 1.0, sky=True) * -1
+
+
+def cycles_surface(scene, output, reach):
+    """Return "Position" or "Normal", (h, w, 3), or "View Z Depth" three times, where a surface is met; else NaN.
+
+    ``reach`` is more than the largest magnitude of a component.
+    """
+    return _render(scene, output, reach, sky=False)
+
+
+def _render(scene, output, reach, sky):
+    _prepare(scene)
+    scene.world = bpy.data.worlds.new("Witness")
+    scene.world.cycles.sampling_method = "NONE"
+    if sky:
+        _emit(scene.world, "ShaderNodeBackground", "ShaderNodeOutputWorld", output, reach)
+    else:
+        _nodes(scene.world).clear()
+    material = bpy.data.materials.new("Witness")
+    _emit(material, "ShaderNodeEmission", "ShaderNodeOutputMaterial", output, reach)
+    for layer in scene.view_layers:
+        layer.material_override = material
+    bpy.ops.render.render(write_still=True, scene=scene.name)
+    channels = read_exr(Path(scene.render.filepath))  # Blender 4.5 cannot read what it writes of one eye alone
+    values = np.stack([channels[name] for name in "RGB"], axis=-1).astype(np.float64)
+    values[(values == 0).all(axis=-1)] = np.nan
+    return (values - 0.5) * (2 * reach)
+
+
+def _emit(block, shader, target, output, reach):
+    """Give a world or material the shader that emits what a node puts out, brought to 0 .. 1."""
+    source = "ShaderNodeCameraData" if output.startswith("View") else "ShaderNodeNewGeometry"
+    nodes, links = _nodes(block), block.node_tree.links
+    nodes.clear()
+    source, scaled, shader, target = (nodes.new(name) for name in (source, "ShaderNodeVectorMath", shader, target))
+    scaled.operation = "MULTIPLY_ADD"
+    scaled.inputs[1].default_value = [0.5 / reach] * 3
+    scaled.inputs[2].default_value = [0.5] * 3
+    links.new(source.outputs[output], scaled.inputs[0])
+    links.new(scaled.outputs[0], shader.inputs["Color"])
+    links.new(shader.outputs[0], target.inputs["Surface"])
+
+
+def _nodes(block):
+    """Return the nodes of a world or material, which every one has from Blender 5.0 on."""
+    if bpy.app.version < (5, 0):
+        block.use_nodes = True
+    return block.node_tree.nodes
+
+
+def _prepare(scene):
+    """Set Cycles to one sample at the center of each pixel of the render window, written as float32."""
+    addon_utils.enable("cycles", default_set=True)
+    render, cycles = scene.render, scene.cycles
+    render.engine = "CYCLES"
+    render.filepath = bpy.app.tempdir + "witness.exr"
+    render.use_crop_to_border = True
+    render.use_compositing = render.use_sequencer = False
+    render.image_settings.file_format = "OPEN_EXR"
+    render.image_settings.color_depth = "32"
+    render.image_settings.exr_codec = "ZIP"
+    render.image_settings.color_mode = "RGB"
+    cycles.device = "CPU"
+    cycles.samples, cycles.max_bounces = 1, 0
+    cycles.use_adaptive_sampling = cycles.use_denoising = False
+    cycles.filter_width = 0.01

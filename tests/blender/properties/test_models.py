@@ -1,0 +1,111 @@
+"""The models that Blender does not have: chosen in a box, stored in the .blend, read as they are set."""
+
+import numpy as np
+import pytest
+
+from camera_ray_caster.blender.properties.groups import CameraProperties
+from camera_ray_caster.blender.read.scene import read_camera
+from camera_ray_caster.blender.ui.model_panels import SETTINGS, ModelPanel
+from camera_ray_caster.core.cameras import MODELS
+from camera_ray_caster.core.records import InputError
+
+from ...core.cameras.central_examples import FACTS
+
+BLENDERS = {
+    "PERSP", "ORTHO", "EQUIRECTANGULAR", "EQUIANGULAR_CUBEMAP_FACE", "MIRRORBALL", "FISHEYE_EQUIDISTANT",
+    "FISHEYE_EQUISOLID", "FISHEYE_LENS_POLYNOMIAL", "CENTRAL_CYLINDRICAL",
+}  # fmt: skip
+CALIBRATION = """%YAML:1.0
+---
+image_width: 96
+image_height: 54
+camera_matrix: !!opencv-matrix
+   rows: 3
+   cols: 3
+   dt: d
+   data: [ 48., 0., 47.5, 0., 48., 26.5, 0., 0., 1. ]
+distortion_coefficients: !!opencv-matrix
+   rows: 1
+   cols: 4
+   dt: d
+   data: [ 0.5, 0., 0., 0. ]
+"""
+
+
+@pytest.fixture
+def scene(blender):
+    scene = blender.context.scene
+    camera = blender.data.objects.new("Camera", blender.data.cameras.new("Camera"))
+    scene.collection.objects.link(camera)
+    scene.camera = camera
+    scene.render.resolution_x, scene.render.resolution_y = 96, 54
+    return scene
+
+
+def choices():
+    return {item.identifier for item in CameraProperties.bl_rna.properties["model"].enum_items}
+
+
+def test_every_model_that_blender_does_not_have_can_be_chosen(blender):
+    assert choices() == {"BLENDER"} | {model.key for model in MODELS} - BLENDERS
+    assert set(SETTINGS) == choices()
+
+
+def test_the_panel_shows_the_settings_of_the_chosen_model_only(blender, scene):
+    shown = []
+
+    class Layout:
+        active = use_property_split = True
+
+        def prop(self, owner, name):
+            assert hasattr(owner, name)
+            shown.append(name)
+
+        def column(self, align):
+            return self
+
+    context = type("Context", (), {"camera": scene.camera.data})
+    for model in choices():
+        shown.clear()
+        scene.camera.data.camera_ray_caster.model = model
+        ModelPanel.draw(type("Panel", (), {"layout": Layout()}), context)
+        assert shown == ["model", *SETTINGS[model]]
+
+
+CENTRAL = [(key, *fact) for key, facts in FACTS.items() for fact in facts]
+
+
+@pytest.mark.parametrize(("key", "settings", "pixel", "origin", "direction"), CENTRAL)
+def test_settings_reach_the_camera(blender, scene, key, settings, pixel, origin, direction):
+    own = scene.camera.data.camera_ray_caster
+    own.model = key
+    given = {"cx": 47.5, "cy": 26.5, "calibration_width": 0, "calibration_height": 0, "fx": 60.0, "fy": 61.0}
+    for name, value in (given | settings).items():
+        setattr(scene.render if hasattr(scene.render, name) else own, name, value)
+    camera = read_camera(scene)
+    assert camera.model.key == key
+    found = camera.rays_at(*pixel).directions
+    # settings are stored as float32: angles of up to 2 pi and pixels of up to 96
+    np.testing.assert_allclose(found, np.array(direction) / np.linalg.norm(direction), rtol=0, atol=5e-7)
+
+
+def test_the_model_is_stored_in_the_file(blender, scene, tmp_path):
+    own = scene.camera.data.camera_ray_caster
+    own.model, own.tilt = "OMNIMAX", 0.25
+    blender.ops.wm.save_as_mainfile(filepath=str(tmp_path / "dome.blend"))
+    blender.ops.wm.open_mainfile(filepath=str(tmp_path / "dome.blend"))
+    camera = read_camera(blender.context.scene)
+    assert camera.model.key == "OMNIMAX"
+    assert camera.model.elevation == 0.25
+
+
+def test_a_calibration_file_beside_the_blend_is_found_and_a_missing_one_named(blender, scene, tmp_path):
+    (tmp_path / "lens.yml").write_text(CALIBRATION)
+    blender.ops.wm.save_as_mainfile(filepath=str(tmp_path / "scene.blend"))
+    own = blender.context.scene.camera.data.camera_ray_caster
+    own.model, own.calibration_file = "OPENCV_PINHOLE", "//lens.yml"
+    found = read_camera(blender.context.scene).rays_at(48 + 48 * 9 / 16, 27).directions
+    np.testing.assert_allclose(found, np.array([1, 0, -2]) / np.sqrt(5), rtol=0, atol=1e-15)
+    own.calibration_file = "//lost.yml"
+    with pytest.raises(InputError, match="lost"):
+        read_camera(blender.context.scene)

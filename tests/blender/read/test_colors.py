@@ -1,0 +1,89 @@
+"""Colors, indices, lights and the world, against scenes set up by hand."""
+
+import bpy
+import numpy as np
+import pytest
+
+from camera_ray_caster.blender.read.scene import read_shapes
+
+from .scene_parts import ball, new_object
+
+ULP = float(np.finfo(np.float32).eps)
+
+
+@pytest.fixture
+def scene():
+    return bpy.context.scene
+
+
+def test_color_and_indices_come_from_the_first_faces_material(scene):
+    plain, first, second, own = ball("Plain"), ball("First"), ball("Second"), ball("Own")
+    plain.color = 0.5, 0.25, 0, 1
+    red, green = bpy.data.materials.new("Red"), bpy.data.materials.new("Green")
+    red.diffuse_color, red.pass_index = (1, 0, 0, 1), 1
+    green.diffuse_color, green.pass_index = (0, 1, 0, 0.5), 2
+    for item in (first, second):
+        item.data.materials.append(red)
+        item.data.materials.append(green)
+    second.data.polygons[0].material_index = 1
+    own.data.materials.append(red)
+    own.material_slots[0].link = "OBJECT"
+    own.material_slots[0].material = green
+    shapes = read_shapes(scene)
+    looks = {
+        shapes.names[name]: (index, tuple(color))
+        for name, index, color in zip(shapes.name_index, shapes.material_index, shapes.color, strict=True)
+    }
+    red, green = (1, (1, 0, 0, 1)), (2, (0, 1, 0, 0.5))
+    assert looks == {"Plain": (0, (0.5, 0.25, 0, 1)), "First": red, "Second": green, "Own": green}
+
+
+def test_sun_and_point_lights_are_used_and_others_named(scene):
+    for kind in ("SUN", "POINT", "SPOT", "AREA"):
+        light = new_object(kind.title(), bpy.data.lights.new(kind, kind))
+        light.data.energy, light.data.color, light.location = 4, (1, 0.5, 0.25), (1, 2, 3)
+        light.rotation_euler, light.scale = (np.pi / 2, 0, 0), (3, 3, 3)
+    bpy.data.lights["POINT"].exposure = 1
+    new_object("Off", bpy.data.lights.new("Off", "SUN")).hide_render = True
+    shapes = read_shapes(scene)
+    rows = sorted(
+        zip(shapes.lights.is_sun, shapes.lights.position.tolist(), shapes.lights.color.tolist(), strict=True)
+    )
+    assert [(is_sun, color) for is_sun, _, color in rows] == [(False, [8, 4, 2]), (True, [4, 2, 1])]
+    np.testing.assert_allclose([place for _, place, _ in rows], [(1, 2, 3), (0, -1, 0)], atol=4 * ULP)
+    assert {name for name, _ in shapes.left_out} == {"Area", "Spot"}
+
+
+def test_the_worlds_color_is_what_its_background_emits(scene):
+    assert read_shapes(scene).world_color == (0, 0, 0, 1)
+    scene.world = bpy.data.worlds.new("World")
+    scene.world.color = 0.25, 0.5, 0.75
+    if bpy.app.version < (5, 0, 0):
+        assert read_shapes(scene).world_color == (0.25, 0.5, 0.75, 1)
+        scene.world.use_nodes = True
+    background = next(node for node in scene.world.node_tree.nodes if node.bl_idname == "ShaderNodeBackground")
+    background.inputs["Color"].default_value, background.inputs["Strength"].default_value = (0.5, 0.25, 1, 1), 2
+    assert read_shapes(scene).world_color == (1, 0.5, 2, 1)
+    sky = scene.world.node_tree.nodes.new("ShaderNodeTexCoord")
+    scene.world.node_tree.links.new(sky.outputs[0], background.inputs["Color"])
+    assert read_shapes(scene).world_color == (0.25, 0.5, 0.75, 1)
+    scene.render.film_transparent = True
+    assert read_shapes(scene).world_color == (0, 0, 0, 0)
+
+
+def test_an_empty_scene_is_an_empty_record(scene):
+    shapes = read_shapes(scene)
+    assert len(shapes) == 0
+    assert shapes.axes.shape == (0, 3, 3)
+    assert shapes.color.shape == (0, 4)
+
+
+def test_the_reader_needs_no_registration(scene):
+    import camera_ray_caster
+
+    ball()
+    camera_ray_caster.unregister()
+    try:
+        assert len(read_shapes(scene)) == 1
+    finally:
+        camera_ray_caster.register()

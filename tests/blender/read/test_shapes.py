@@ -1,0 +1,229 @@
+"""What is read of a mesh or point cloud, and where it is, against scenes set up by hand."""
+
+import bpy
+import numpy as np
+import pytest
+from mathutils import Matrix
+
+from camera_ray_caster.blender.read.scene import read_shapes
+from camera_ray_caster.core.records import INFINITE_PLANE, PLANE, SPHERE
+
+from .scene_parts import ADD, ball, counts, geometry_nodes, mesh_of, new_object
+
+ULP = float(np.finfo(np.float32).eps)
+
+
+@pytest.fixture
+def scene():
+    return bpy.context.scene
+
+
+@pytest.mark.parametrize("segments", [(6, 4), (7, 5), (8, 3), (32, 16), (48, 24), (200, 100)])
+def test_blenders_uv_spheres_are_spheres(scene, segments):
+    ADD.primitive_uv_sphere_add(segments=segments[0], ring_count=segments[1], radius=2.5, location=(1, 2, 3))
+    shapes = read_shapes(scene)
+    assert (list(shapes.kind), shapes.left_out) == ([SPHERE], ())
+    np.testing.assert_array_equal(shapes.center, [(1, 2, 3)])
+    np.testing.assert_allclose(shapes.axes[0], 2.5 * np.eye(3), atol=2.5 * ULP)
+
+
+@pytest.mark.parametrize("subdivisions", [1, 2, 3, 4, 5, 6])
+def test_blenders_ico_spheres_are_spheres(scene, subdivisions):
+    ADD.primitive_ico_sphere_add(subdivisions=subdivisions, radius=0.25)
+    shapes = read_shapes(scene)
+    assert (list(shapes.kind), shapes.left_out) == ([SPHERE], ())
+    np.testing.assert_array_equal(shapes.center, [(0, 0, 0)])
+    np.testing.assert_allclose(shapes.axes[0], 0.25 * np.eye(3), atol=0.25 * ULP)
+
+
+@pytest.mark.parametrize("name", ["plane", "grid"])
+def test_blenders_planes_are_planes(scene, name):
+    getattr(ADD, f"primitive_{name}_add")(size=6, location=(0, 0, -1))
+    shapes = read_shapes(scene)
+    assert (list(shapes.kind), shapes.left_out) == ([PLANE], ())
+    np.testing.assert_array_equal(shapes.center, [(0, 0, -1)])
+    np.testing.assert_array_equal(shapes.axes[0, :, :2], [(3, 0), (0, 3), (0, 0)])
+
+
+@pytest.mark.parametrize(
+    ("name", "reason"),
+    [
+        ("cube", "cut deep"),
+        ("cylinder", "cut deep"),
+        ("cone", "cut deep"),
+        ("torus", "not on one sphere"),
+        ("monkey", "not on one sphere"),
+    ],
+)
+def test_blenders_other_primitives_are_named_with_the_reason(scene, name, reason):
+    getattr(ADD, f"primitive_{name}_add")()
+    bpy.context.object.name = "Thing"
+    shapes = read_shapes(scene)
+    assert len(shapes) == 0
+    assert [item for item, _ in shapes.left_out] == ["Thing"]
+    assert reason in shapes.left_out[0][1]
+
+
+def test_a_disc_is_flat_with_the_wrong_outline(scene):
+    ADD.primitive_circle_add(fill_type="NGON")
+    assert "outline has 32 corners" in read_shapes(scene).left_out[0][1]
+
+
+def test_a_scale_that_an_operator_applies_makes_an_ellipsoid(scene):
+    ADD.primitive_uv_sphere_add(scale=(1, 2, 3))
+    shapes = read_shapes(scene)
+    np.testing.assert_allclose(shapes.axes[0], np.diag([1, 2, 3]), atol=3 * 10 * ULP)
+
+
+@pytest.mark.parametrize("add", ["curve.primitive_bezier_circle_add", "object.text_add", "object.metaball_add"])
+def test_surfaces_that_are_no_mesh_are_named_once(scene, add):
+    group, operator = add.split(".")
+    getattr(getattr(bpy.ops, group), operator)()
+    bpy.context.object.name = "Thing"
+    if "curve" in add:
+        bpy.context.object.data.bevel_depth = 0.1
+    shapes = read_shapes(scene)
+    assert len(shapes) == 0
+    assert [item for item, _ in shapes.left_out] == ["Thing"]
+
+
+def test_hair_and_hair_curves_are_named(scene):
+    emitter = ball("Emitter")
+    emitter.modifiers.new("Fur", "PARTICLE_SYSTEM").particle_system.settings.type = "HAIR"
+    new_object("Curves", bpy.data.hair_curves.new("Curves"))
+    shapes = read_shapes(scene)
+    assert counts(shapes) == {"Emitter": 1}
+    assert {name for name, _ in shapes.left_out} == {"Emitter", "Curves"}
+    assert "hair 'Fur'" in dict(shapes.left_out)["Emitter"]
+
+
+def test_what_has_no_surface_is_passed_without_a_word(scene):
+    for data in (None, bpy.data.cameras.new("x"), bpy.data.armatures.new("x"), bpy.data.speakers.new("x"),
+                 bpy.data.lightprobes.new("x", "SPHERE"), bpy.data.lattices.new("x"), bpy.data.meshes.new("x"),
+                 mesh_of((0, 0, 0), (1, 1, 1)), bpy.data.curves.new("x", "CURVE")):  # fmt: skip
+        new_object("Thing", data)
+    shapes = read_shapes(scene)
+    assert (len(shapes), shapes.left_out) == (0, ())
+
+
+def test_any_affine_matrix_holds(scene):
+    matrix = Matrix(((1, 0.5, 0, 3), (0, -2, 0.25, 0), (0.125, 0, 0.5, -1), (0, 0, 0, 1)))
+    parent = ball("Parent")
+    parent.scale = 1, 3, 1
+    child = ball("Child")
+    child.parent, child.rotation_euler = parent, (0, 0, np.pi / 6)
+    sheared = ball("Sheared")
+    sheared.parent = new_object("Empty")
+    sheared.matrix_parent_inverse = matrix
+    shapes = read_shapes(scene)
+    axes = dict(zip((shapes.names[index] for index in shapes.name_index), shapes.axes, strict=True))
+    c, s = np.cos(np.pi / 6), np.sin(np.pi / 6)
+    np.testing.assert_allclose(axes["Child"], [(c, -s, 0), (3 * s, 3 * c, 0), (0, 0, 1)], atol=8 * ULP)
+    np.testing.assert_allclose(axes["Sheared"], np.array(matrix)[:3, :3], atol=8 * ULP)
+    assert counts(shapes) == {"Parent": 1, "Child": 1, "Sheared": 1}
+
+
+def test_constraints_drivers_and_subframes_move_shapes_and_the_frame_is_put_back(scene):
+    item, follower = ball("Item"), ball("Follower")
+    item.driver_add("location", 0).driver.expression = "frame * 2"
+    follower.constraints.new("COPY_LOCATION").target = item
+    scene.frame_set(3, subframe=0.5)
+    for frame, x in ((None, 7), (1, 2), (4.25, 8.5)):
+        np.testing.assert_allclose(read_shapes(scene, frame).center[:, 0], [x, x], rtol=4 * ULP)
+        assert (scene.frame_current, scene.frame_subframe) == (3, 0.5)
+
+
+def test_modifiers_are_applied(scene):
+    item = ball()
+    modifier = item.modifiers.new("Array", "ARRAY")
+    modifier.count = 2
+    assert "not on one sphere" in read_shapes(scene).left_out[0][1]
+    modifier.count = 1
+    assert len(read_shapes(scene)) == 1
+
+
+@pytest.mark.parametrize("scale", [(0, 0, 0), (1, 0, 1), (float("inf"), 1, 1), (float("nan"), 1, 1)])
+def test_a_matrix_without_size_is_named(scene, scale):
+    ball("Good")
+    bad = ball("Bad")
+    bad.parent = new_object("Parent")
+    bad.scale = bad.parent.scale = scale  # Blender keeps the largest float32 for an infinity: twice that is infinite
+    shapes = read_shapes(scene)
+    assert counts(shapes) == {"Good": 1}
+    assert [name for name, _ in shapes.left_out] == ["Bad"]
+    assert "size is zero" in shapes.left_out[0][1]
+
+
+@pytest.mark.parametrize(
+    ("setting", "kind", "center", "axes"),
+    [
+        ("SPHERE", SPHERE, (0, 0, 0), np.sqrt(14) * np.eye(3)),
+        ("PLANE", PLANE, (0, 0, 0), np.diag([1, 2, 1])),
+        ("INFINITE_PLANE", INFINITE_PLANE, (0, 0, 0), np.eye(3)),
+    ],
+)
+def test_a_setting_makes_a_shape_of_any_mesh(scene, setting, kind, center, axes):
+    ADD.primitive_cube_add(size=2, scale=(1, 2, 3))
+    bpy.context.object.camera_ray_caster.primitive = setting
+    shapes = read_shapes(scene)
+    assert (list(shapes.kind), shapes.left_out) == ([kind], ())
+    np.testing.assert_array_equal(shapes.center, [center])
+    np.testing.assert_allclose(shapes.axes[0], axes, rtol=ULP)
+
+
+def test_a_setting_keeps_what_is_recognized(scene):
+    ADD.primitive_plane_add(size=4, rotation=(np.pi / 2, 0, 0))
+    bpy.ops.object.transform_apply(rotation=True)
+    bpy.context.object.camera_ray_caster.primitive = "INFINITE_PLANE"
+    ball().camera_ray_caster.primitive = "SPHERE"
+    shapes = read_shapes(scene)
+    assert sorted(shapes.kind) == [SPHERE, INFINITE_PLANE]
+    normal = shapes.axes[shapes.kind == INFINITE_PLANE][0, :, 2]
+    np.testing.assert_allclose(normal / np.linalg.norm(normal), (0, -1, 0), atol=2 * ULP)
+
+
+def test_what_is_set_to_be_ignored_is_named(scene):
+    ball("Thing").camera_ray_caster.primitive = "IGNORE"
+    assert read_shapes(scene).left_out == (("Thing", "it is ignored by its own setting"),)
+
+
+def test_a_setting_belongs_to_the_object_not_to_the_mesh(scene):
+    first = ball("First")
+    new_object("Second", first.data).camera_ray_caster.primitive = "PLANE"
+    assert sorted(read_shapes(scene).kind) == [SPHERE, PLANE]
+
+
+def points(item, radius=None, remove=False):
+    def build(new, link, mesh):
+        convert, strip = new("GeometryNodeMeshToPoints"), new("GeometryNodeRemoveAttribute")
+        strip.inputs["Name"].default_value = "radius" if remove else "nothing"
+        if radius is not None:
+            convert.inputs["Radius"].default_value = radius
+        link(mesh, convert.inputs[0])
+        link(convert.outputs[0], strip.inputs[0])
+        return strip.outputs[0]
+
+    geometry_nodes(item, build)
+
+
+def test_the_points_of_a_cloud_are_spheres_under_the_objects_matrix(scene):
+    item = new_object("Cloud", mesh_of((0, 0, 0), (1, 2, 3)))
+    item.location, item.scale, item.pass_index = (10, 0, 0), (1, -2, 4), 5
+    points(item, radius=0.25)
+    shapes = read_shapes(scene)
+    np.testing.assert_array_equal(shapes.center, [(10, 0, 0), (11, -4, 12)])
+    np.testing.assert_array_equal(shapes.axes, [np.diag([0.25, -0.5, 1])] * 2)
+    np.testing.assert_array_equal(shapes.object_index, [5, 5])
+    assert counts(shapes) == {"Cloud": 2}
+
+
+def test_points_without_a_radius_are_as_large_as_cycles_makes_them(scene):
+    points(new_object("Cloud", mesh_of((0, 0, 0))), radius=1, remove=True)
+    np.testing.assert_allclose(read_shapes(scene).axes, [0.01 * np.eye(3)], rtol=ULP)
+
+
+def test_points_that_are_too_small_to_be_are_counted(scene):
+    points(new_object("Cloud", mesh_of((0, 0, 0), (1, 0, 0))), radius=0)
+    shapes = read_shapes(scene)
+    assert len(shapes) == 0
+    assert shapes.left_out[0][1].startswith("2 of its points have no radius")

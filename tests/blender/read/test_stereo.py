@@ -1,0 +1,218 @@
+"""The eyes of stereo scenes: ours are those that Blender hands a render engine, and that Cycles renders."""
+
+import itertools
+
+import numpy as np
+import pytest
+
+from camera_ray_caster.blender.read.scene import read_camera, read_shapes
+from camera_ray_caster.blender.verification.check import verify_camera
+from camera_ray_caster.core.cast import cast
+from camera_ray_caster.core.conventions import EPS32
+from camera_ray_caster.core.records import InputError
+
+from ...exr import read_exr
+from ..cycles.cycles import cycles_surface
+
+VIEWS = ("left", "right")
+KINDS = {
+    "perspective": {"type": "PERSP", "lens": 35.0, "shift_x": 0.1},
+    "vertical fit": {"type": "PERSP", "lens": 35.0, "sensor_fit": "VERTICAL", "sensor_height": 20.0},
+    "orthographic": {"type": "ORTHO", "ortho_scale": 5.0},
+    "panorama": {"type": "PANO", "panorama_type": "EQUIRECTANGULAR", "shift_x": 0.1},
+}
+MODES = list(itertools.product(("OFFAXIS", "PARALLEL", "TOE"), ("CENTER", "LEFT", "RIGHT")))
+
+
+@pytest.fixture
+def scene(blender):
+    """A stereo scene: a turned and scaled camera above a floor that fills its view."""
+    bpy = blender
+    bpy.ops.mesh.primitive_plane_add(size=200)
+    bpy.ops.object.camera_add(location=(0.5, -1, 6), rotation=(0.4, 0.1, 0.3), scale=(2, 1, 0.5))
+    scene = bpy.context.scene
+    scene.camera = bpy.context.object
+    scene.render.resolution_x, scene.render.resolution_y = 24, 16
+    scene.render.use_multiview = True
+    return scene
+
+
+def set_up(scene, kind, mode, pivot):
+    data = scene.camera.data
+    for name, value in KINDS[kind].items():
+        owner = data if hasattr(data, name) else data.cycles
+        setattr(owner, name, value)
+    data.stereo.convergence_mode, data.stereo.pivot = mode, pivot
+    data.stereo.interocular_distance, data.stereo.convergence_distance = 0.6, 3.5
+
+
+@pytest.fixture
+def ask_blender(blender, scene):
+    """A function that renders with an engine which only notes the matrix and shift of each view."""
+    bpy = blender
+    seen = {}
+
+    class Asking(bpy.types.RenderEngine):
+        bl_idname = "ASKING"
+        bl_label = "Asking"
+
+        def render(self, depsgraph):
+            for view in self.get_result().views:
+                self.active_view_set(view.name)
+                camera = self.camera_override
+                matrix = np.array(self.camera_model_matrix(camera), np.float64)
+                seen[view.name] = camera.name, matrix, self.camera_shift_x(camera)
+
+    bpy.utils.register_class(Asking)
+
+    def ask():
+        engine, scene.render.engine = scene.render.engine, "ASKING"
+        bpy.ops.render.render()
+        scene.render.engine = engine
+        return dict(seen)
+
+    yield ask
+    bpy.utils.unregister_class(Asking)
+
+
+@pytest.mark.parametrize(("mode", "pivot"), MODES)
+@pytest.mark.parametrize("kind", KINDS)
+def test_an_eye_stands_and_looks_as_blender_says(scene, ask_blender, kind, mode, pivot):
+    set_up(scene, kind, mode, pivot)
+    found = ask_blender()
+    straight = read_camera(scene)
+    for view in VIEWS:
+        _, matrix, shift = found[view]
+        eye = read_camera(scene, view=view)
+        # some 16 roundings of Blender's float32, of numbers up to the eye's 6
+        assert eye.pose.eye == pytest.approx(matrix[:3, 3], abs=16 * 6 * EPS32)
+        assert eye.pose.basis == pytest.approx(matrix[:3, :3], abs=16 * EPS32)
+        if kind != "panorama":
+            moved = (straight.model.window.center_x - eye.model.window.center_x) / 24
+            vertical = 16 / 24 if kind == "vertical fit" else 1.0
+            assert moved == pytest.approx((shift - scene.camera.data.shift_x) * vertical, abs=16 * EPS32)
+
+
+@pytest.mark.parametrize(("mode", "pivot"), [("OFFAXIS", "CENTER"), ("TOE", "LEFT"), ("PARALLEL", "RIGHT")])
+@pytest.mark.parametrize("kind", KINDS)
+def test_both_eyes_are_rendered(blender, scene, tmp_path, kind, mode, pivot):
+    set_up(scene, kind, mode, pivot)
+    render_position(blender, scene, tmp_path)
+    for view in VIEWS:
+        expected = cast(read_camera(scene, view=view), read_shapes(scene), ["position"])["position"]
+        assert expected.any(axis=2).mean() > 0.4
+        assert_same_position(tmp_path, view, expected)
+
+
+@pytest.mark.parametrize("mode", ["OFFAXIS", "TOE"])
+def test_a_model_with_eyes_of_its_own_is_rendered_with_each(blender, scene, tmp_path, mode):
+    """What either eye shows is what a scene without stereo shows of the model's eye of that name."""
+    set_up(scene, "panorama", mode, "CENTER")
+    own = scene.camera.data.camera_ray_caster
+    own.model = "OMNIDIRECTIONAL_STEREO"
+    render_position(blender, scene, tmp_path)
+    scene.render.use_multiview = False
+    for view in VIEWS:
+        own.eye = view.upper()
+        assert_same_position(tmp_path, view, cast(read_camera(scene), read_shapes(scene), ["position"])["position"])
+    own.eye, scene.render.use_multiview = "TOP_BOTTOM", True
+    with pytest.raises(RuntimeError, match="both eyes in one picture"):
+        blender.ops.render.render()
+
+
+def render_position(blender, scene, folder):
+    """Render the position pass of both eyes into folder/picture_L.exr and _R."""
+    from camera_ray_caster.blender.engine import passes
+
+    scene.render.engine = "CAMERA_RAY_CASTER"
+    settings = scene.render.image_settings
+    if hasattr(settings, "media_type"):
+        settings.media_type = "MULTI_LAYER_IMAGE"
+    settings.file_format, settings.color_depth, settings.views_format = "OPEN_EXR_MULTILAYER", "32", "INDIVIDUAL"
+    if hasattr(settings, "use_exr_interleave"):
+        settings.use_exr_interleave = True
+    passes.tick(scene, blender.context.view_layer, ["combined", "position"])
+    scene.render.filepath = str(folder / "picture.exr")
+    blender.ops.render.render(write_still=True)
+
+
+def assert_same_position(folder, view, expected):
+    channels = read_exr(folder / f"picture_{view[0].upper()}.exr")
+    layers = [next(c for name, c in channels.items() if f"Position.{axis}" in name) for axis in "XYZ"]
+    hit = expected.any(axis=2)
+    difference = np.abs(np.stack(layers, axis=-1) - expected)
+    far = np.linalg.norm(expected - (0.5, -1, 6), axis=2, keepdims=True)
+    slope = far / 6  # of the floor, from 6 above
+    assert hit.any()
+    assert (difference <= 64 * EPS32 * far * slope)[hit].all()
+
+
+@pytest.mark.parametrize("view", VIEWS)
+@pytest.mark.parametrize(
+    ("kind", "mode", "pivot"),
+    [
+        ("perspective", "OFFAXIS", "CENTER"),
+        ("perspective", "TOE", "LEFT"),
+        ("vertical fit", "OFFAXIS", "RIGHT"),
+        ("orthographic", "OFFAXIS", "CENTER"),
+        ("panorama", "OFFAXIS", "CENTER"),
+    ],
+)
+def test_cycles_sees_the_same_with_each_eye(scene, kind, mode, pivot, view):
+    set_up(scene, kind, mode, pivot)
+    camera = read_camera(scene, view=view)
+    expected = cast(camera, read_shapes(scene), ["position"], np.float64)["position"]
+    for one in scene.render.views:
+        one.use, one.file_suffix = one.name == view, ""
+    found = cycles_surface(scene, "Position", 256.0)
+    far = np.linalg.norm(expected - camera.pose.eye, axis=2)
+    both = expected.any(axis=2) & ~np.isnan(found).any(axis=2) & (far < 30)
+    assert both.mean() > 0.25
+    error = np.linalg.norm(found - expected, axis=2)
+    # directions to 32 EPS32, seen on the floor at its slope; what the witness stores is good to its reach's EPS32
+    bound = (32 * far * far / 6 + 256 + 32 * 6) * EPS32 * np.sqrt(3)
+    assert (error <= bound)[both].all()
+
+
+def test_multi_view_takes_the_camera_that_the_suffix_names(blender, scene, ask_blender):
+    left = scene.camera
+    left.name = "Rig_L"
+    right = left.copy()
+    right.data = left.data.copy()
+    right.name, right.data.lens, right.location.x = "Rig_R", 20.0, 3.0
+    scene.collection.objects.link(right)
+    scene.render.views_format = "MULTIVIEW"
+    found = ask_blender()
+    for view, item in (("left", left), ("right", right)):
+        eye = read_camera(scene, view=view)
+        assert (eye.name, item.name) == (item.name, found[view][0])
+        assert eye.pose.eye == pytest.approx(found[view][1][:3, 3], abs=8 * EPS32)
+        assert verify_camera(scene, view=view)[0].witness == "view_frame"
+        assert all(finding.passed for finding in verify_camera(scene, view=view))
+    assert scene.camera == left
+    right.name = "Other"
+    assert read_camera(scene, view="right").name == "Rig_L"
+
+
+def test_an_eye_is_verified_by_its_round_trip(scene):
+    for view in VIEWS:
+        (finding,) = verify_camera(scene, view=view)
+        assert finding.witness == "round trip"
+        assert finding.passed
+
+
+def test_what_is_no_eye_is_refused(scene):
+    with pytest.raises(InputError, match="'middle' is no eye"):
+        read_camera(scene, view="middle")
+    scene.render.views_format = "MULTIVIEW"
+    with pytest.raises(InputError, match="no view 'middle': its views are left, right"):
+        read_camera(scene, view="middle")
+
+
+def test_spherical_stereo_is_refused_by_name(blender, scene):
+    scene.camera.data.stereo.use_spherical_stereo = True
+    with pytest.raises(InputError, match="Spherical Stereo"):
+        read_camera(scene, view="left")
+    scene.render.engine = "CAMERA_RAY_CASTER"
+    with pytest.raises(RuntimeError, match="Spherical Stereo"):
+        blender.ops.render.render()

@@ -1,0 +1,36 @@
+"""The script in this Blender, whichever it is: pip's bpy runs it as a program, Blender as a script behind --python."""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[3]
+SCENE = ROOT / "blend_scenes" / "orthographic.blend"
+
+
+@pytest.fixture
+def cast(blender):
+    """A function that runs scripts/cast.py with arguments on the scene to its end."""
+    script = str(ROOT / "scripts" / "cast.py")
+    words = [sys.executable, script, str(SCENE)]
+    if blender.app.binary_path:
+        words = [blender.app.binary_path, "--background", "--factory-startup", str(SCENE), "--python", script, "--"]
+    return lambda *arguments: subprocess.run([*words, *arguments], capture_output=True, text=True, timeout=120)
+
+
+def test_cast_leaves_its_three_files(cast, tmp_path):
+    done = cast("--passes", "depth", "--output", str(tmp_path))
+    assert done.returncode == 0, done.stderr
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["orthographic.exr", "orthographic.png", "report.json"]
+    assert json.loads((tmp_path / "report.json").read_text())["passed"] is True
+    assert "Witness" in done.stdout
+
+
+def test_bad_input_is_status_2(cast, tmp_path):
+    done = cast("--camera", "Nobody's", "--output", str(tmp_path))
+    assert done.returncode == 2
+    assert "has no camera \"Nobody's\"; its cameras are: 'Camera'" in done.stderr
+    assert "Traceback" not in done.stderr + done.stdout

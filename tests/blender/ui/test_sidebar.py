@@ -1,0 +1,288 @@
+"""The buttons of the sidebar and what its panels draw, without a window; tests/gui presses them with one."""
+
+import numpy as np
+import pytest
+
+from camera_ray_caster.blender.engine import passes
+from camera_ray_caster.blender.output import images, reports
+from camera_ray_caster.blender.read.scene import read_camera, read_shapes
+from camera_ray_caster.blender.ui import cast_operator
+from camera_ray_caster.core.cast import cast
+from camera_ray_caster.core.casting.passes import PASSES
+from camera_ray_caster.core.casting.plan import PRECISIONS
+
+WIDTH, HEIGHT = 24, 16
+
+
+@pytest.fixture
+def scene(blender):
+    """A sphere and a monkey before a camera."""
+    bpy = blender
+    bpy.ops.mesh.primitive_monkey_add(location=(3, 0, 0))
+    bpy.ops.mesh.primitive_uv_sphere_add(radius=1)
+    bpy.ops.object.camera_add(location=(0, 0, 6))
+    scene = bpy.context.scene
+    scene.camera = bpy.context.object
+    scene.render.resolution_x, scene.render.resolution_y = WIDTH, HEIGHT
+    return scene
+
+
+def pixels_of(image):
+    pixels = np.empty(len(image.pixels), np.float32)
+    image.pixels.foreach_get(pixels)
+    return pixels.reshape(image.size[1], image.size[0], 4)
+
+
+@pytest.mark.parametrize("key", PASSES)
+def test_cast_stores_every_pass_as_it_is(blender, scene, key):
+    passes.tick(scene, blender.context.view_layer, [key])
+    assert blender.ops.camera_ray_caster.cast() == {"FINISHED"}
+    found = pixels_of(blender.data.images[images.image_name(key)])
+    expected = cast(read_camera(scene), read_shapes(scene), [key])[key].reshape(HEIGHT, WIDTH, -1).astype(np.float32)
+    if key == "depth":
+        expected[np.isinf(expected)] = passes.FAR
+    channels = expected.shape[2]
+    assert np.array_equal(found[..., :channels], expected)
+    if channels == 1:
+        assert np.array_equal(found[..., 2], found[..., 0])
+    assert channels == 4 or (found[..., 3] == 1).all()
+
+
+@pytest.mark.parametrize("precision", PRECISIONS)
+def test_cast_searches_with_the_precision_that_is_set(blender, scene, precision):
+    passes.tick(scene, blender.context.view_layer, ["depth"])
+    scene.camera_ray_caster.precision = precision
+    blender.ops.camera_ray_caster.cast()
+    found = pixels_of(blender.data.images[images.image_name("depth")])[..., 0]
+    depths = {p: cast(read_camera(scene), read_shapes(scene), ["depth"], precision=p)["depth"] for p in PRECISIONS}
+    depths = {p: np.where(np.isinf(depth), np.float32(passes.FAR), depth) for p, depth in depths.items()}
+    assert np.array_equal(found, depths[precision])
+    assert np.array_equal(found, depths["ROBUST"]) == (precision != "FAST")
+    assert reports.latest().precision == precision
+    assert (reports.latest().accuracy.worst("relative_distance") > 1e-9) == (precision == "FAST")
+
+
+def test_the_precision_is_undone_as_other_settings_are(blender, scene):
+    assert scene.camera_ray_caster.precision == "AUTOMATIC"
+    blender.ops.ed.undo_push(message="before")
+    scene.camera_ray_caster.precision = "FAST"
+    blender.ops.ed.undo_push(message="after")
+    blender.ops.ed.undo()
+    assert blender.context.scene.camera_ray_caster.precision == "AUTOMATIC"
+
+
+def test_cast_again_writes_into_the_same_images(blender, scene):
+    passes.tick(scene, blender.context.view_layer, ["combined", "depth"])
+    blender.ops.camera_ray_caster.cast()
+    before = {image.name: image for image in blender.data.images}
+    scene.render.resolution_x, scene.render.resolution_y = 5, 40
+    blender.ops.camera_ray_caster.cast()
+    assert {image.name: image for image in blender.data.images} == before
+    depth = blender.data.images["Ray Caster depth"]
+    assert tuple(depth.size) == (5, 40)
+    assert depth.colorspace_settings.name == "Non-Color"
+    assert pixels_of(depth)[20, 2, 0] == pytest.approx(5, abs=0.05)
+
+
+def test_an_image_of_the_same_name_that_is_somebody_elses_is_left_alone(blender, scene):
+    own = blender.data.images.new("Ray Caster combined", 3, 2)
+    blender.ops.camera_ray_caster.cast()
+    assert tuple(own.size) == (3, 2)
+    assert tuple(blender.data.images["Ray Caster combined.001"].size) == (WIDTH, HEIGHT)
+
+
+def test_cast_and_verify_keep_what_the_panel_shows(blender, scene):
+    assert (reports.latest(), reports.verified()) == (None, None)
+    blender.ops.camera_ray_caster.verify()
+    assert reports.latest() is None
+    assert reports.verified().passed
+    assert len(reports.verified().findings) == 4
+    blender.ops.camera_ray_caster.cast()
+    assert reports.latest().pixels == WIDTH * HEIGHT
+    assert [name for name, _ in reports.latest().left_out] == ["Suzanne"]
+    blender.ops.wm.read_factory_settings(use_empty=True)
+    assert (reports.latest(), reports.verified()) == (None, None)
+
+
+def test_select_what_was_left_out(blender, scene):
+    assert blender.ops.camera_ray_caster.select(name="Suzanne") == {"FINISHED"}
+    assert [item.name for item in blender.context.selected_objects] == ["Suzanne"]
+    assert blender.context.view_layer.objects.active.name == "Suzanne"
+    with pytest.raises(RuntimeError, match="'Nobody' is not in this view layer"):
+        blender.ops.camera_ray_caster.select(name="Nobody")
+
+
+def test_the_cast_is_undone_with_its_images(blender, scene):
+    blender.ops.ed.undo_push(message="before")
+    blender.ops.camera_ray_caster.cast()
+    blender.ops.ed.undo_push(message="after")
+    assert len(blender.data.images) > 0
+    blender.ops.ed.undo()
+    assert "Ray Caster combined" not in blender.data.images
+
+
+def test_without_a_camera_the_buttons_are_gray(blender):
+    assert not blender.ops.camera_ray_caster.cast.poll()
+    assert not blender.ops.camera_ray_caster.verify.poll()
+    with pytest.raises(RuntimeError, match="no active camera"):
+        blender.ops.camera_ray_caster.cast()
+
+
+def test_what_is_no_camera_and_what_no_model_can_do_is_refused_in_one_line(blender, scene):
+    data = scene.camera.data
+    data.type = "PANO"
+    owner = data if hasattr(data, "panorama_type") else data.cycles
+    owner.panorama_type = "CUSTOM" if "CUSTOM" in owner.bl_rna.properties["panorama_type"].enum_items else "MIRRORBALL"
+    if owner.panorama_type == "CUSTOM":
+        for operator in (blender.ops.camera_ray_caster.cast, blender.ops.camera_ray_caster.verify):
+            with pytest.raises(RuntimeError, match="of type CUSTOM"):
+                operator()
+    scene.camera = blender.data.objects["Suzanne"]
+    with pytest.raises(RuntimeError, match="'Suzanne' is of type mesh, not a camera"):
+        blender.ops.camera_ray_caster.cast()
+    assert len(blender.data.images) == 0
+
+
+def test_without_a_shape_the_images_show_the_background(blender, scene, capfd):
+    for name in ("Sphere", "Suzanne"):
+        blender.data.objects.remove(blender.data.objects[name])
+    scene.world = blender.data.worlds.new("World")
+    blender.ops.camera_ray_caster.cast()
+    found = pixels_of(blender.data.images["Ray Caster combined"])
+    assert (found == found[0, 0]).all()
+    assert "the images show the background" in "".join(capfd.readouterr())
+
+
+def test_one_pixel(blender, scene):
+    scene.render.resolution_x = scene.render.resolution_y = 4
+    scene.render.resolution_percentage = 25
+    passes.tick(scene, blender.context.view_layer, ["depth"])
+    blender.ops.camera_ray_caster.cast()
+    image = blender.data.images["Ray Caster depth"]
+    assert tuple(image.size) == (1, 1)
+    assert image.pixels[0] == pytest.approx(5, abs=1e-6)
+
+
+def test_a_strip_of_16384_by_16_pixels(blender, scene):
+    scene.render.resolution_x, scene.render.resolution_y = 16384, 16
+    passes.tick(scene, blender.context.view_layer, ["depth"])
+    blender.ops.camera_ray_caster.cast()
+    image = blender.data.images["Ray Caster depth"]
+    assert tuple(image.size) == (16384, 16)
+    assert pixels_of(image)[8, 8192, 0] == pytest.approx(5, abs=1e-6)
+
+
+def test_a_corner_of_16384_pixels(blender, scene):
+    """All of them would fill the memory of a small machine; their rays are the same."""
+    render = scene.render
+    render.resolution_x = render.resolution_y = 16384
+    render.use_border = True
+    render.border_min_x, render.border_max_x, render.border_min_y, render.border_max_y = 0.495, 0.505, 0.495, 0.505
+    passes.tick(scene, blender.context.view_layer, ["depth"])
+    blender.ops.camera_ray_caster.cast()
+    image = blender.data.images["Ray Caster depth"]
+    assert image.size[0] in (163, 164)
+    assert pixels_of(image)[..., 0].min() == pytest.approx(5, abs=1e-6)
+
+
+def test_inside_a_sphere(blender, scene):
+    scene.camera.location = (0, 0, 0.5)
+    passes.tick(scene, blender.context.view_layer, ["distance"])
+    blender.ops.camera_ray_caster.cast()
+    distance = pixels_of(blender.data.images["Ray Caster distance"])[..., 0]
+    assert (distance > 0.5).all()  # its rays go down, past the middle
+    assert (distance <= 1.5).all()
+
+
+def test_a_file_goes_without_the_add_on_and_comes_back_with_it(blender, scene, tmp_path):
+    """Blender keeps the settings of an add-on that is not there."""
+    import camera_ray_caster
+
+    scene.camera_ray_caster.shading, scene.camera_ray_caster.precision = "GRID", "FAST"
+    scene.camera_ray_caster_overlay.show = True
+    scene.render.engine = "CAMERA_RAY_CASTER"
+    blender.data.objects["Suzanne"].camera_ray_caster.primitive = "SPHERE"
+    blender.ops.camera_ray_caster.cast()
+    path = str(tmp_path / "with.blend")
+    blender.ops.wm.save_as_mainfile(filepath=path)
+    camera_ray_caster.unregister()
+    try:
+        blender.ops.wm.open_mainfile(filepath=path)
+        assert not hasattr(blender.context.scene, "camera_ray_caster")
+        assert blender.context.scene.render.engine != "CAMERA_RAY_CASTER"
+        blender.ops.wm.save_as_mainfile(filepath=path)
+    finally:
+        camera_ray_caster.register()
+    blender.ops.wm.open_mainfile(filepath=path)
+    scene = blender.context.scene
+    assert (scene.camera_ray_caster.shading, scene.camera_ray_caster.precision) == ("GRID", "FAST")
+    assert scene.camera_ray_caster_overlay.show
+    assert blender.data.objects["Suzanne"].camera_ray_caster.primitive == "SPHERE"
+    assert blender.ops.camera_ray_caster.cast() == {"FINISHED"}
+    assert reports.latest().shapes == 2
+
+
+class Layout:
+    """Stands for Blender's layout: it takes everything and notes the text and the operators."""
+
+    def __init__(self):
+        self.said = []
+
+    def __getattr__(self, name):
+        def call(*arguments, **keywords):
+            self.said += [keywords["text"]] if keywords.get("text") else []
+            self.said += arguments if name == "operator" else ()
+            return self
+
+        return call
+
+
+def drawn(blender, panel):
+    """Draw a panel as Blender does, and return what it says."""
+    layout = Layout()
+    context = blender.context.copy() | {"region": type("Region", (), {"width": 300})}
+    context["evaluated_depsgraph_get"] = blender.context.evaluated_depsgraph_get
+    context = type("Context", (), {name: staticmethod(v) if callable(v) else v for name, v in context.items()})
+    panel.draw(type("Panel", (), {"layout": layout}), context)
+    return " ".join(layout.said)
+
+
+def test_the_panels_say_what_the_camera_is_and_why_it_is_none(blender, scene):
+    from camera_ray_caster.blender.ui import camera_panels, cast_panels, overlay_panels
+
+    sidebar = [*camera_panels.CLASSES[:2], *cast_panels.CLASSES[:2], overlay_panels.SidebarOverlay]
+    said = drawn(blender, camera_panels.SidebarCamera)
+    for text in ("Eye", "6 m", "24 × 16 px", "39.6°", "Plane Distance d", "2.77778", "K"):
+        assert text in said
+    blender.ops.camera_ray_caster.cast()
+    for panel in (*sidebar, *cast_panels.CLASSES[2:]):
+        drawn(blender, panel)
+    assert "Suzanne" in drawn(blender, cast_panels.SidebarLeftOut)
+    assert "All witnesses agree" in drawn(blender, camera_panels.SidebarVerify)
+    scene.camera.location.x = 1
+    assert "has changed since" in drawn(blender, camera_panels.SidebarVerify)
+    scene.camera = None
+    assert "no active camera" in drawn(blender, camera_panels.SidebarCamera)
+    for panel in sidebar:
+        drawn(blender, panel)
+
+
+def test_the_panels_say_how_right_the_hits_are(blender, scene):
+    from camera_ray_caster.blender.ui import cast_panels, render_panels
+
+    blender.ops.camera_ray_caster.cast()
+    found = reports.latest().accuracy
+    assert found.hits > 0
+    assert 0 < reports.latest().seconds["accuracy"] < sum(reports.latest().seconds.values())
+    median, worst = (f"≤ {getattr(found, name)('relative_distance'):.0e}" for name in ("median", "worst"))
+    said = drawn(blender, cast_panels.SidebarReport)
+    assert f"Distance Error, Median {median} Distance Error, Worst {worst}" in said
+    assert f"Worst distance error: {worst}" in drawn(blender, render_panels.RenderPanel)
+    scene.camera.location.z = -6  # it looks away from all there is
+    blender.ops.camera_ray_caster.cast()
+    assert "Distance Error, Worst nothing hit" in drawn(blender, cast_panels.SidebarReport)
+
+
+def test_nothing_runs_after_a_cast(blender, scene):
+    blender.ops.camera_ray_caster.cast()
+    assert cast_operator.fraction() is None

@@ -1,0 +1,144 @@
+"""The rays of whole pictures, large enough for polynomials: those of their pixels, and the exact ones."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from camera_ray_caster.core.cameras import MODELS
+from camera_ray_caster.core.conventions import EPS
+from camera_ray_caster.core.errors.rays import world_rays
+from camera_ray_caster.core.maths.chebyshev import FEWEST
+
+from ..cameras.model_examples import EXAMPLES, camera, raw_of
+from ..truth import truth
+
+LARGE = {"resolution_x": 1100, "resolution_y": 800, "calibration_width": 96, "calibration_height": 54}
+SAME = 16 * EPS
+"""Of a unit direction, or of the farthest origin: each of the two has some, of angles of up to two turns."""
+
+ROUNDED = 8 * EPS
+"""What polynomials and world coordinates add to a ray's own bound."""
+
+PLAIN = {"PERSP", "ORTHO", "CAMERA_OBSCURA", "STRIP", "MIRRORBALL", "FISHEYE_EQUISOLID", "FISHEYE_ORTHOGRAPHIC"}
+"""Models whose pixels are each worked out for themselves."""
+
+each_model = pytest.mark.parametrize("key", [model.key for model in MODELS])
+
+
+def by_pixel(cam, x, y):
+    """The rays through a row and a column of pixel coordinates, asked as a list of pixels."""
+    x, y = np.broadcast_arrays(x, y)
+    return cam.rays_at(x.ravel(), y.ravel())
+
+
+def assert_same(rays, alone):
+    """All pixels have rays in both or in neither, and these are the same to SAME."""
+    np.testing.assert_array_equal(rays.valid.ravel(), alone.valid)
+    np.testing.assert_allclose(rays.directions.reshape(-1, 3), alone.directions, rtol=0, atol=SAME)
+    farthest = np.abs(alone.origins[alone.valid]).max(initial=0)
+    seen = alone.valid[:, None]
+    difference = np.where(seen, rays.origins.reshape(-1, 3) - alone.origins, 0)
+    assert np.abs(difference).max() <= SAME * farthest
+
+
+@each_model
+def test_a_picture_has_the_rays_of_its_pixels(key):
+    """In every example that the cameras' contract is tested on."""
+    differ = False
+    for settings in EXAMPLES[key]:
+        cam = camera(key, settings | LARGE)
+        rays = cam.rays()
+        assert (rays.valid.shape[0] >= FEWEST[0]) & (rays.valid.shape[1] >= FEWEST[1])
+        alone = by_pixel(cam, cam.raster.columns(), cam.raster.rows())
+        assert_same(rays, alone)
+        differ |= bool((rays.directions.reshape(-1, 3)[alone.valid] != alone.directions[alone.valid]).any())
+    assert differ == (key not in PLAIN)
+
+
+@pytest.mark.parametrize("key", ["FISHEYE_EQUIDISTANT", "OPENCV_FISHEYE", "GENERAL_LINEAR"])
+def test_a_border_in_the_middle_of_panels_and_a_picture_of_several_blocks(key):
+    border = {
+        "use_border": True,
+        "border_min_x": 0.11,
+        "border_max_x": 0.93,
+        "border_min_y": 0.013,
+        "border_max_y": 0.97,
+    }
+    cam = camera(key, LARGE | {"resolution_x": 640, "resolution_y": 2600} | border)
+    assert_same(cam.rays(), by_pixel(cam, cam.raster.columns(), cam.raster.rows()))
+
+
+def test_a_panel_that_has_rays_beyond_its_nearest_point_is_no_empty_one():
+    """Beside its axis the dome's edge leaves out pixels that are nearer to the middle than others with rays."""
+    cam = camera("OMNIMAX", {"resolution_x": 3850, "resolution_y": 3000, "shift_x": 0.0020974, "shift_y": -0.0016})
+    x, y = np.arange(3200, 3968)[None] + 0.5, np.arange(1008, 1224)[:, None] + 0.5
+    assert_same(cam.rays_at(x, y), by_pixel(cam, x, y))
+
+
+def test_a_fisheye_that_goes_around_more_than_once_has_all_its_rays():
+    slope, half_fov = 0.3, 1.5 * np.pi
+    settings = {"resolution_x": 600, "resolution_y": 600, "fisheye_fov": 2 * half_fov, "fisheye_polynomial_k1": -slope}
+    rays = camera("FISHEYE_LENS_POLYNOMIAL", settings).rays()
+    a, b = np.meshgrid(*2 * [(np.arange(600) - 299.5) * 0.06], sparse=True)  # 36 mm wide
+    r = np.hypot(a, b)
+    theta = slope * r
+    np.testing.assert_array_equal(rays.valid, theta <= half_fov)
+    exact = np.stack((a / r * np.sin(theta), b / r * np.sin(theta), -np.cos(theta)), axis=-1)
+    np.testing.assert_allclose(rays.directions[rays.valid], exact[rays.valid], rtol=0, atol=SAME)
+
+
+@pytest.mark.parametrize("key", ["PERSP", "MIRRORBALL", "FISHEYE_EQUIDISTANT", "PUSHBROOM"])
+def test_windows_on_top_of_each_other_have_the_rays_of_each(key):
+    cam = camera(key, {})
+    x, y = np.arange(40.0).reshape(2, 1, 20), np.arange(300.0).reshape(2, 150, 1) / 6
+    rays = cam.rays_at(x, y)
+    for k in range(2):
+        one = cam.rays_at(x[k], y[k])
+        np.testing.assert_array_equal(rays.directions[k], one.directions)
+        np.testing.assert_array_equal(rays.origins[k], one.origins)
+
+
+def test_a_bend_between_columns_is_in_its_columns():
+    """A path makes a detour of six columns, and heads on as before."""
+    u = 4 / 1100
+    a = 593 * u - 2
+    bend = (
+        (-2, 0, 0),
+        (a - 0.4 * u, 0, 0),
+        (a, 0, 0),
+        (a + u, 0, -2 * u),
+        (a + 2 * u, 0, 0),
+        (a + 2.4 * u, 0, 0),
+        (2, 0, 0),
+    )
+    cam = camera("STRIP", {"resolution_x": 1100, "resolution_y": 200, "path": bend, "follow_path": True})
+    assert_same(cam.rays(), by_pixel(cam, cam.raster.columns(), cam.raster.rows()))
+
+
+@pytest.mark.filterwarnings("ignore:Descending")  # the order of coefficients that every mpmath knows
+@each_model
+def test_the_rays_of_a_picture_are_within_their_bounds(key):
+    """Against 60 digits."""
+    rng = np.random.default_rng(11)
+    for settings in EXAMPLES[key]:
+        raw, cam = raw_of(key, settings | LARGE), camera(key, settings | LARGE)
+        rays = cam.rays()
+        at = tuple(rng.integers(0, size, 12) for size in rays.valid.shape)
+        x, y = cam.raster.columns()[0, at[1]], cam.raster.rows()[at[0], 0]
+        bounds = world_rays(cam, x, y)
+        length = np.linalg.norm(np.broadcast_arrays(x, *bounds.direction)[1:], axis=0)
+        turned = bounds.direction_error / length + ROUNDED
+        moved = np.broadcast_to(bounds.origin_error + ROUNDED * np.abs(rays.origins).max(), x.shape)
+        for k in range(12):
+            exact = truth.ray(raw, x[k], y[k])
+            assert (exact is not None) == rays.valid[at][k]
+            if exact is not None:
+                size = truth.norm(exact.direction)
+                assert off(rays.directions[at][k], [part / size for part in exact.direction]) <= turned[k]
+                assert off(rays.origins[at][k], exact.origin) <= moved[k]
+
+
+def off(found, exact):
+    """The distance between a vector and the exact one."""
+    return truth.norm([truth.mpf(f) - e for f, e in zip(found, exact, strict=True)])

@@ -1,0 +1,117 @@
+"""Calibration files as OpenCV writes them, and what is wrong with those that cannot be used."""
+
+import cv2
+import numpy as np
+import pytest
+
+from camera_ray_caster.core.records import InputError
+
+from ..model_examples import camera
+
+K = np.array([[612.3456789012345, 0, 320.123456789], [0, 611.1, 239.25], [0, 0, 1]])
+D = np.array([[-0.28, 1.25e-5, 1.5e-3, -2e-4, 0.02]])
+FRAME = {"resolution_x": 640, "resolution_y": 480}
+VALUES = {"fx": K[0, 0], "fy": K[1, 1], "cx": K[0, 2], "cy": K[1, 2]}
+
+
+def written(path, names=("camera_matrix", "distortion_coefficients"), matrix=K, distortion=D, **more):
+    """Write a calibration with OpenCV itself, among other things that its samples write."""
+    file = cv2.FileStorage(str(path), cv2.FILE_STORAGE_WRITE)
+    file.write("calibration_time", "Thu 1 Jan 1970: noon")
+    for name, value in ({"image_width": 640, "image_height": 480} | more).items():
+        file.write(name, value)
+    file.writeComment("flags: +fix_aspect_ratio", 0)
+    file.write("extrinsic_parameters", np.arange(12.0).reshape(2, 6))
+    file.write(names[0], matrix)
+    file.startWriteStruct("grid", cv2.FileNode_MAP)
+    file.write("K", 3)
+    file.endWriteStruct()
+    file.write(names[1], distortion)
+    file.write("avg_reprojection_error", float("nan"))
+    file.write("image_points", np.zeros((2, 3, 2), np.float32))
+    file.release()
+    return {"calibration_file": str(path)}
+
+
+@pytest.mark.parametrize("kind", ["yml", "yaml", "json"])
+@pytest.mark.parametrize(
+    "names", [("camera_matrix", "distortion_coefficients"), ("cameraMatrix", "dist_coeffs"), ("K", "D"), ("M1", "D1")]
+)
+def test_a_file_of_opencv_gives_the_camera_of_its_numbers(tmp_path, kind, names):
+    found = camera("OPENCV_PINHOLE", FRAME | written(tmp_path / f"lens.{kind}", names)).model
+    coefficients = dict(zip(("k1", "k2", "p1", "p2", "k3"), D[0], strict=True))
+    assert found == camera("OPENCV_PINHOLE", FRAME | VALUES | coefficients).model
+
+
+@pytest.mark.parametrize("kind", ["yml", "json"])
+@pytest.mark.parametrize("flag", [{"fisheye_model": 1}, {"distortion_model": "equidistant"}, {}])
+def test_a_fisheye_s_file(tmp_path, kind, flag):
+    setting = written(tmp_path / f"lens.{kind}", ("K", "D"), distortion=np.array([0.1, -0.02, 3e-3, 0]), **flag)
+    expected = camera("OPENCV_FISHEYE", FRAME | VALUES | {"k1": 0.1, "k2": -0.02, "k3": 3e-3}).model
+    assert camera("OPENCV_FISHEYE", FRAME | setting).model == expected
+
+
+@pytest.mark.parametrize("text", ['{"K": [[9, 0, 4], [0, 8, 3], [0, 0, 1]], "D": [0.1, 0], "width": 96, "height": 54}'])
+def test_matrices_as_nested_lists_in_json(tmp_path, text):
+    (tmp_path / "lens.json").write_text(text)
+    found = camera("OPENCV_PINHOLE", {"calibration_file": str(tmp_path / "lens.json")}).model
+    assert found == camera("OPENCV_PINHOLE", {"fx": 9.0, "fy": 8.0, "cx": 4.0, "cy": 3.0, "k1": 0.1}).model
+
+
+GOOD = """%YAML:1.0
+---
+image_width: 640
+image_height: 480
+K: !!opencv-matrix
+   rows: 3
+   cols: 3
+   dt: d
+   data: [ 600., 0., 320., 0., 600., 240., 0.,
+       0., 1. ]
+D: !!opencv-matrix
+   rows: 1
+   cols: 5
+   dt: d
+   data: [ -0.1, 0., 0., 0., 0. ]
+"""
+
+
+def test_the_text_that_the_refusals_start_from_is_good(tmp_path):
+    (tmp_path / "lens.yml").write_text(GOOD)
+    assert camera("OPENCV_PINHOLE", {"calibration_file": str(tmp_path / "lens.yml")}).model.distortion.k1 == -0.1
+
+
+@pytest.mark.parametrize(
+    ("change", "says"),
+    [
+        (("K:", "Q:"), "has no cameramatrix .*k, m1"),
+        (("D:", "Q:"), "has no distortioncoefficients"),
+        (("image_width: 640", ""), "has no imagewidth"),
+        (("image_width: 640", "image_width: 0"), "imagewidth .* 0.0: it must be above 0"),
+        (("image_height: 480", "image_height: tall"), "image_height .* 'tall': it must be of numbers"),
+        (("-0.1, 0.", "-0.1, zero"), "D .* 'zero'.*must be of numbers"),
+        (("-0.1, 0.", "-0.1, .Nan"), "D .* '.Nan'.*must be of numbers"),
+        (("600., 0., 320.", "600., 0., inf"), "K .* 'inf'.*finite"),
+        (("600., 0., 320.", "-600., 0., 320."), "fx and fy above 0"),
+        (("600., 0., 320.", "600., 2., 320."), "fx 0 cx"),
+        (("600., 0., 320.", "600., 320."), "fx 0 cx"),
+        (("0., 0. ]", "0., 0., 0., 0., 0., 0., 0., 0., 0., 0.01 ]"), "13 distortion coefficients"),
+        (("K:", "fisheye_model: 1\nK:"), "for OpenCV Fisheye, not OpenCV Pinhole"),
+        ((GOOD, "just some words"), "neither YAML nor JSON"),
+        ((GOOD, '{"K": [1, '), "is not JSON"),
+        ((GOOD, '{"K": [[1, "wide"]]}'), "K .*'wide'.* numbers"),
+    ],
+)
+def test_a_file_without_meaning_is_refused_by_name(tmp_path, change, says):
+    (tmp_path / "lens.yml").write_text(GOOD.replace(*change))
+    with pytest.raises(InputError, match=says) as refusal:
+        camera("OPENCV_PINHOLE", {"calibration_file": str(tmp_path / "lens.yml")})
+    assert "\n" not in str(refusal.value)
+    assert "lens.yml" in str(refusal.value)
+
+
+def test_a_file_that_cannot_be_read_is_refused_by_its_path(tmp_path):
+    (tmp_path / "lens.png").write_bytes(b"\x89PNG\xff\xfe")
+    for name, says in (("lens.png", "not a text file"), ("none.yml", "No such file"), (".", "directory")):
+        with pytest.raises(InputError, match=says):
+            camera("OPENCV_FISHEYE", {"calibration_file": str(tmp_path / name)})

@@ -1,0 +1,194 @@
+"""The report: sums and facts by hand, a table that fits, and JSON that any reader takes."""
+
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from camera_ray_caster.core.camera.build import camera_from
+from camera_ray_caster.core.cast import cast
+from camera_ray_caster.core.records import SPHERE, BlenderCamera, Finding, Shapes
+from camera_ray_caster.core.report.accuracy import Accuracy, accuracy
+from camera_ray_caster.core.report.facts import camera_facts
+from camera_ray_caster.core.report.report import WIDTH, Report, as_data, as_json, as_lines, report_cast
+
+GOOD = Finding("good witness", 9, 1e-5, 1e-6, 1e-4, 1e-8, 1e-9, 1e-7)
+BAD = replace(GOOD, witness="bad witness", worst_pixels=0.5)
+
+
+def camera(**settings):
+    """A camera at (1, 2, 3) that looks down."""
+    matrix = np.eye(4)
+    matrix[:3, 3] = 1, 2, 3
+    raw = BlenderCamera("Camera", "PERSP", matrix, resolution_x=64, resolution_y=48, lens=50.0, sensor_width=36.0)
+    return camera_from(replace(raw, **settings))
+
+
+@pytest.fixture
+def report():
+    """The report of a sphere that is cast and an object that is not; its times are made up."""
+    shapes = Shapes(
+        kind=np.array([SPHERE], np.uint8),
+        center=np.array([[1.0, 2.0, 0.0]]),
+        axes=np.eye(3)[None],
+        object_index=np.zeros(1, np.int32),
+        material_index=np.zeros(1, np.int32),
+        color=np.ones((1, 4), np.float32),
+        name_index=np.zeros(1, np.int32),
+        names=("Sphere",),
+        left_out=(("Suzanne", "it is a monkey " + "of many words " * 20),),
+    )
+    images = cast(camera(), shapes, ("depth",), precision="ROBUST")
+    seconds = {"read": 0.5, "plan": 0.01, "cast": 0.02, "passes": 0.03, "write": 0.25}
+    bounds = accuracy(camera(), shapes, images.plan)
+    return report_cast(camera(), shapes, images, seconds, [GOOD], 1.5, "Layer", precision="ROBUST", accuracy=bounds)
+
+
+def strict(text):
+    """JSON as a reader takes it that knows no NaN."""
+
+    def refuse(word):
+        raise ValueError(word)
+
+    return json.loads(text, parse_constant=refuse)
+
+
+def test_rays_per_second_counts_the_steps_of_the_cast_and_no_others(report):
+    assert report.pixels == 64 * 48
+    assert report.rays_per_second == pytest.approx(64 * 48 / 0.06)
+    assert Report(camera={}, frame=1).rays_per_second is None
+
+
+def test_a_second_layer_adds_up(report):
+    other = replace(report, layers=("Other",), seconds={"read": 0.25, "files": 1.0}, findings=(GOOD, BAD))
+    both = report + other
+    assert both.layers == ("Layer", "Other")
+    assert both.pixels == 2 * 64 * 48
+    assert both.seconds == {"read": 0.75, "plan": 0.01, "cast": 0.02, "passes": 0.03, "write": 0.25, "files": 1.0}
+    assert both.findings == (GOOD, BAD)
+    assert both.left_out == report.left_out, "an object is named once"
+    assert report.passed
+    assert not both.passed
+
+
+def test_a_step_that_is_taken_again_adds_up(report):
+    assert report.with_seconds(write=0.5).seconds["write"] == 0.75
+    assert report.with_seconds(files=0.5).seconds == {**report.seconds, "files": 0.5}
+
+
+def test_of_several_layers_each_is_named_beside_what_it_did_not_do(report):
+    assert any(line.startswith("passes combined") for line in report.not_done)
+    images = cast(camera(), Shapes(*(np.zeros((0, *s)) for s in ((), (3,), (3, 3), (), (), (4,), ()))), ("depth",))
+    nothing = Shapes(*(np.zeros(0),) * 7)
+    several = report_cast(
+        camera(), nothing, images, {}, [], 1.0, "Layer", several=True, precision="FAST", accuracy=Accuracy()
+    )
+    assert several.not_done
+    assert all(line.startswith("Layer: ") for line in several.not_done)
+
+
+def test_json_is_strict_and_holds_the_record(report):
+    broken = replace(report, findings=(replace(GOOD, worst_pixels=np.nan, bound_pixels=np.inf),))
+    data = strict(as_json(broken))
+    assert data["findings"][0]["worst_pixels"] is None
+    assert data["findings"][0]["bound_pixels"] is None
+    assert data["findings"][0]["median_pixels"] == 1e-6
+    assert data["findings"][0]["passed"] is False
+    assert data["passed"] is False
+    data = strict(as_json(report))
+    assert data == as_data(report)
+    assert data["camera"]["eye"] == [1.0, 2.0, 3.0]
+    assert data["frame"] == 1.5
+    assert data["seconds"] == dict(report.seconds)
+    assert data["left_out"][0]["name"] == "Suzanne"
+    assert data["passed"] is True
+
+
+def test_the_table_says_all_and_fits(report):
+    lines = as_lines(replace(report, findings=(GOOD, BAD)))
+    assert max(map(len, lines)) <= WIDTH
+    table = "\n".join(lines)
+    for word in ("'Camera'", "frame 1.5", "Perspective", "good witness", "read", "0.5000", "Suzanne", "not asked for"):
+        assert word in table
+    verdicts = {line.split()[0]: line.split()[-1] for line in lines if "witness" in line}
+    assert verdicts == {"good": "ok", "bad": "FAILED"}
+
+
+def test_the_bounds_of_hits_are_in_table_and_json_with_their_units(report):
+    bounds = np.array([[1e-15, 2e-15, 3e-15, 4e-15], [5e-15, 6e-15, 7e-15, 8e-15], [9e-15, 1e-14, 2e-14, np.inf]])
+    report = replace(report, accuracy=Accuracy(10, bounds))
+    data = strict(as_json(report))
+    assert data["precision"] == "ROBUST"
+    found = data["accuracy"]
+    assert (found["sampled_pixels"], found["hits"]) == (10, 3)
+    assert found["distance"] == {"unit": "world units", "median_bound": 5e-15, "worst_bound": 9e-15}
+    assert found["relative_distance"] == {"unit": "of the distance", "median_bound": 6e-15, "worst_bound": 1e-14}
+    assert (found["normal"]["median_bound"], found["normal"]["worst_bound"]) == (8e-15, None)
+    assert found["rounding_when_stored"] == 2.0**-24
+    lines = as_lines(report)
+    rows = {line[2:19].strip(): line[19:].split()[:2] for line in lines if line[19:].strip()[:1].isdigit()}
+    assert rows["distance"] == ["5.0e-15", "9.0e-15"]
+    assert rows["normal"] == ["8.0e-15", "inf"]
+    assert "  3 hits at 10 pixels all over the picture; precision ROBUST" in lines
+    assert max(map(len, lines)) <= WIDTH
+
+
+def test_the_samples_of_two_layers_are_one(report):
+    rows = np.ones((3, 4)), np.full((2, 4), 5.0)
+    one, other = (replace(report, accuracy=Accuracy(10, bounds)) for bounds in rows)
+    found = strict(as_json(one + other))["accuracy"]
+    assert (found["sampled_pixels"], found["hits"]) == (20, 5)
+    assert (found["position"]["median_bound"], found["position"]["worst_bound"]) == (1.0, 5.0)
+
+
+def test_where_nothing_is_hit_the_report_says_so(report):
+    report = replace(report, accuracy=Accuracy(10))
+    assert "Hits: none at 10 pixels all over the picture; precision ROBUST" in as_lines(report)
+    found = strict(as_json(report))["accuracy"]
+    assert found["hits"] == 0
+    assert found["distance"]["worst_bound"] is None
+
+
+def test_the_table_leaves_out_what_was_not_done():
+    lines = as_lines(Report(camera=camera_facts(camera()), frame=1))
+    assert not any(line.startswith(("Witness", "Hits", "Step", "Left out")) for line in lines)
+
+
+def test_facts_of_a_pinhole_by_hand():
+    facts = camera_facts(camera())
+    assert facts["eye"] == [1, 2, 3]
+    assert [facts[axis] for axis in "uvw"] == [[1, 0, 0], [0, 1, 0], [0, 0, -1]]
+    assert facts["raster"] == [64, 48]
+    # 36 mm behind 50 mm: 2 atan(18 / 50) across, three quarters of the tangent up
+    assert facts["field_of_view"] == pytest.approx([39.5977527, 30.2191502])
+    assert facts["d"] == pytest.approx(50 / 18)
+    assert facts["aspect"] == pytest.approx(0.75)
+
+
+@pytest.mark.parametrize("settings", [{}, {"pixel_aspect_y": 2.0}, {"sensor_fit": "VERTICAL"}, {"resolution_y": 99}])
+def test_facts_are_the_lectures_ray(settings):
+    found = camera(**settings)
+    facts = camera_facts(found)
+    x, y = (2 * found.raster.columns() / 64 - 1), (2 * found.raster.rows() / found.raster.height - 1)
+    parts = zip((x, facts["aspect"] * y, facts["d"]), (facts[axis] for axis in "uvw"), strict=True)
+    ray = sum(np.multiply.outer(np.broadcast_to(factor, found.raster.shape), axis) for factor, axis in parts)
+    ray /= np.linalg.norm(ray, axis=-1, keepdims=True)
+    np.testing.assert_allclose(ray, found.rays().directions, atol=1e-15)
+
+
+@pytest.mark.parametrize("settings", [{}, {"shift_x": 0.3, "shift_y": -0.2}, {"pixel_aspect_x": 1.5}])
+def test_facts_hold_opencvs_matrix(settings):
+    found = camera(**settings)
+    point = np.array([1.7, 2.4, -2.0])  # camera frame (0.7, 0.4, -5): OpenCV's axes turn y and z round
+    across, down, one = np.array(camera_facts(found)["K"]) @ [0.7, -0.4, 5.0] / 5.0
+    assert one == 1
+    x, y = found.project(point)
+    # the center of the top left pixel is OpenCV's (0, 0) and our (1/2, height - 1/2)
+    assert (across, down) == pytest.approx((x - 0.5, found.raster.height - 0.5 - y))
+
+
+def test_facts_of_an_orthographic_camera_by_hand():
+    facts = camera_facts(camera(type="ORTHO", ortho_scale=8.0))
+    assert facts["frame"] == [8.0, 6.0]
+    assert "K" not in facts

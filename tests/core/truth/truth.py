@@ -1,0 +1,273 @@
+"""The exact picture: rays and hits with 60 digits, from the numbers as they are stored. Shares nothing with the core.
+
+Written from the formulas of the Blender manual and of the lecture, one pixel at a time, in the plainest way there is:
+with 60 digits no order of operations matters. A vector is a list of three mpf.
+"""
+
+from dataclasses import dataclass
+
+from mpmath import asin, cos, mp, mpf, pi, sin, sqrt, tan
+
+mp.dps = 60
+SPHERE, PLANE, INFINITE_PLANE = 0, 1, 2
+
+
+def exact(values):
+    """A vector or a matrix of numbers as mpf, digit by digit what they are in binary."""
+    return [exact(v) if hasattr(v, "__len__") else mpf(float(v)) for v in values]
+
+
+def dot(a, b):
+    return sum(x * y for x, y in zip(a, b, strict=True))
+
+
+def cross(a, b):
+    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+
+
+def norm(a):
+    return sqrt(dot(a, a))
+
+
+def times(rows, v):
+    return [dot(row, v) for row in rows]
+
+
+def columns(rows):
+    return [list(column) for column in zip(*rows, strict=True)]
+
+
+def minus(a, b):
+    return [x - y for x, y in zip(a, b, strict=True)]
+
+
+def along(o, d, t):
+    return [x + t * y for x, y in zip(o, d, strict=True)]
+
+
+def inverse(rows):
+    a, b, c = columns(rows)
+    volume = dot(a, cross(b, c))
+    return [[x / volume for x in row] for row in (cross(b, c), cross(c, a), cross(a, b))]
+
+
+@dataclass(frozen=True)
+class Frame:
+    """A picture's size in pixels and the sensor, mm, that is fitted to it."""
+
+    width: int
+    height: int
+    aspect: mpf
+    """Height of a pixel over its width."""
+    fitted: mpf
+    """The fitted side in pixel widths."""
+    sensor: mpf
+
+
+def frame_of(raw):
+    width, height = (side * raw.resolution_percentage // 100 for side in (raw.resolution_x, raw.resolution_y))
+    aspect = mpf(raw.pixel_aspect_y) / mpf(raw.pixel_aspect_x)
+    fit = raw.sensor_fit
+    if fit == "AUTO":
+        fit = "HORIZONTAL" if width >= aspect * height else "VERTICAL"
+    sensor = raw.sensor_height if raw.sensor_fit == "VERTICAL" else raw.sensor_width
+    return Frame(width, height, aspect, width if fit == "HORIZONTAL" else aspect * height, mpf(sensor))
+
+
+def planar(raw, x, y, length):
+    """The pixel on the plane on which the fitted side has this length."""
+    frame = frame_of(raw)
+    unit = length / frame.fitted
+    return (
+        (x - mpf(frame.width) / 2 + mpf(raw.shift_x) * frame.fitted) * unit,
+        ((y - mpf(frame.height) / 2) * frame.aspect + mpf(raw.shift_y) * frame.fitted) * unit,
+    )
+
+
+def shares(raw, x, y):
+    """The pixel as fractions of the whole frame, shifted as panoramas are."""
+    frame = frame_of(raw)
+    return x / frame.width + mpf(raw.shift_x), y / frame.height + mpf(raw.shift_y)
+
+
+def sensor_place(raw, x, y):
+    """The pixel on the sensor in mm from its middle, as fisheyes with a lens have it."""
+    frame, (u, v) = frame_of(raw), shares(raw, x, y)
+    pitch = frame.sensor / frame.fitted
+    return (u - mpf(1) / 2) * frame.width * pitch, (v - mpf(1) / 2) * frame.height * frame.aspect * pitch
+
+
+def disc_place(raw, x, y):
+    u, v = shares(raw, x, y)
+    return 2 * u - 1, 2 * v - 1
+
+
+def round_place(raw, x, y):
+    """The pixel on the unit disc that touches the nearer sides of the frame."""
+    frame = frame_of(raw)
+    across, up = frame.width, frame.height * frame.aspect
+    u, v = shares(raw, x, y)
+    return (2 * u - 1) * across / min(across, up), (2 * v - 1) * up / min(across, up)
+
+
+EYE = [mpf(0)] * 3
+AHEAD = [mpf(0), mpf(0), mpf(-1)]
+
+
+def fisheye(place, theta):
+    a, b = place
+    r = sqrt(a * a + b * b)
+    return EYE, AHEAD if r == 0 else [a / r * sin(theta), b / r * sin(theta), -cos(theta)]
+
+
+def perspective(raw, x, y):
+    return EYE, [*planar(raw, x, y, frame_of(raw).sensor / mpf(raw.lens)), mpf(-1)]
+
+
+def orthographic(raw, x, y):
+    return [*planar(raw, x, y, mpf(raw.ortho_scale)), mpf(0)], AHEAD
+
+
+def spanned(raw, share, low, high):
+    low, high = mpf(raw.settings[low]), mpf(raw.settings[high])
+    return low + share * (high - low)
+
+
+def equirectangular(raw, x, y):
+    u, v = shares(raw, x, y)
+    lon, lat = spanned(raw, u, "longitude_min", "longitude_max"), spanned(raw, v, "latitude_min", "latitude_max")
+    return EYE, [cos(lat) * sin(lon), sin(lat), -cos(lat) * cos(lon)]
+
+
+def cylinder(raw, x, y):
+    u, v = shares(raw, x, y)
+    prefix = "central_cylindrical_range_"
+    lon = spanned(raw, u, prefix + "u_min", prefix + "u_max")
+    height = spanned(raw, v, prefix + "v_min", prefix + "v_max") / mpf(raw.settings["central_cylindrical_radius"])
+    return EYE, [sin(lon), height, -cos(lon)]
+
+
+def cube_face(raw, x, y):
+    u, v = shares(raw, x, y)
+    return EYE, [tan((u - mpf(1) / 2) * pi / 2), tan((v - mpf(1) / 2) * pi / 2), mpf(-1)]
+
+
+def radius(place):
+    return sqrt(place[0] ** 2 + place[1] ** 2)
+
+
+def equidistant(raw, x, y):
+    place = disc_place(raw, x, y)
+    r = radius(place)
+    return None if r > 1 else fisheye(place, r * mpf(raw.settings["fisheye_fov"]) / 2)
+
+
+def equisolid(raw, x, y):
+    place = sensor_place(raw, x, y)
+    double, r = 2 * mpf(raw.settings["fisheye_lens"]), radius(place)
+    return None if r > double * sin(mpf(raw.settings["fisheye_fov"]) / 4) else fisheye(place, 2 * asin(r / double))
+
+
+def polynomial(raw, x, y):
+    place = sensor_place(raw, x, y)
+    r = radius(place)
+    theta = -sum(mpf(raw.settings[f"fisheye_polynomial_k{i}"]) * r**i for i in range(5))
+    return None if abs(theta) > mpf(raw.settings["fisheye_fov"]) / 2 else fisheye(place, theta)
+
+
+def mirror_ball(raw, x, y):
+    place = disc_place(raw, x, y)
+    return None if radius(place) > 1 else fisheye(place, 2 * asin(radius(place)))
+
+
+MODELS = {
+    "PERSP": perspective, "ORTHO": orthographic, "EQUIRECTANGULAR": equirectangular, "CENTRAL_CYLINDRICAL": cylinder,
+    "EQUIANGULAR_CUBEMAP_FACE": cube_face, "FISHEYE_EQUIDISTANT": equidistant, "FISHEYE_EQUISOLID": equisolid,
+    "FISHEYE_LENS_POLYNOMIAL": polynomial, "MIRRORBALL": mirror_ball,
+}  # fmt: skip
+PLANAR = {"PERSP", "ORTHO"}
+"""Models whose t is the depth."""
+
+
+def every_model():
+    """The exact rays of every model by its key, and the models whose t is the depth."""
+    from . import lenses, multiperspective  # which are written in the words of this module
+
+    return MODELS | lenses.MODELS | multiperspective.MODELS, PLANAR | lenses.PLANAR
+
+
+@dataclass(frozen=True)
+class Ray:
+    """A world ray; t counts depth for planar cameras, distance for the others."""
+
+    origin: list
+    direction: list
+
+    @property
+    def length(self):
+        return norm(self.direction)
+
+
+def ray(raw, x, y):
+    """The exact ray through pixel coordinates, None where there is none."""
+    key = raw.model or (raw.settings["panorama_type"] if raw.type == "PANO" else raw.type)
+    models, depths = every_model()
+    found = models[key](raw, mpf(x), mpf(y))
+    if found is None:
+        return None
+    rows = exact(raw.matrix_world)[:3]
+    axes = [[x / norm(axis) for x in axis] for axis in columns([row[:3] for row in rows])[:3]]
+    origin, direction = (times(columns(axes), vector) for vector in found)
+    if key not in depths:
+        length = norm(direction)
+        direction = [x / length for x in direction]
+    return Ray(along(origin, [row[3] for row in rows], 1), direction)
+
+
+@dataclass(frozen=True)
+class Hit:
+    shape: int
+    t: mpf
+    distance: mpf
+    position: list
+    normal: list
+    """Turned towards the ray's origin."""
+
+
+def crossings(shapes, k, ray):
+    """All t at which the line of a ray crosses shape k, ascending, and a sphere's discriminant (None for planes).
+
+    The discriminant is |D|^2 - |N x D|^2 in the shape's frame.
+    """
+    kind, to_shape = shapes.kind[k], inverse(exact(shapes.axes[k]))
+    d, n = times(to_shape, ray.direction), times(to_shape, minus(exact(shapes.center[k]), ray.origin))
+    if kind != SPHERE:
+        if d[2] == 0:
+            return [], None
+        t = n[2] / d[2]
+        q = minus([t * x for x in d], n)
+        return [t] if kind == INFINITE_PLANE or max(abs(q[0]), abs(q[1])) <= 1 else [], None
+    a, b = dot(d, d), dot(n, d)
+    discriminant = b * b - a * (dot(n, n) - 1)
+    if discriminant < 0:
+        return [], discriminant
+    return [(b - sqrt(discriminant)) / a, (b + sqrt(discriminant)) / a], discriminant
+
+
+def nearest(shapes, ray, start, end):
+    """The nearest hit within the clip range, None where there is none."""
+    found = [
+        (t, k)
+        for k in range(len(shapes.kind))
+        for t in crossings(shapes, k, ray)[0]
+        if start <= t <= end
+    ]
+    if not found:
+        return None
+    t, k = min(found)
+    place = along(ray.origin, ray.direction, t)
+    to_shape = inverse(exact(shapes.axes[k]))
+    q = times(to_shape, minus(place, exact(shapes.center[k])))
+    normal = times(columns(to_shape), q if shapes.kind[k] == SPHERE else [mpf(0), mpf(0), mpf(1)])
+    size = -norm(normal) if dot(normal, ray.direction) > 0 else norm(normal)
+    return Hit(k, t, t * ray.length, place, [x / size for x in normal])
