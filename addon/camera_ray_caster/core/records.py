@@ -66,6 +66,11 @@ class Raster:
     y1: int
 
     @property
+    def size(self) -> tuple[int, int]:
+        """Width and height of the full frame."""
+        return self.width, self.height
+
+    @property
     def shape(self) -> tuple[int, int]:
         """Rows and columns of the render window: the shape of every image."""
         return self.y1 - self.y0, self.x1 - self.x0

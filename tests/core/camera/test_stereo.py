@@ -17,6 +17,7 @@ SETTINGS = {
     "interocular_distance": DISTANCE,
     "convergence_distance": CONVERGENCE,
     "use_spherical_stereo": False,
+    "panorama_type": "EQUIRECTANGULAR",
 }
 
 

@@ -1,7 +1,7 @@
 """The examples that the contract of the cameras is tested on: a new model joins by an entry in each table.
 
-All tables have the model's key. Settings are fields of BlenderCamera over ``DEFAULTS``, and of its ``settings`` over
-``ONLY_SOME``.
+The tables have the model's key; a model without an entry has one plain example and no facts. Settings are fields of
+BlenderCamera over ``DEFAULTS``, and of its ``settings`` over ``ONLY_SOME`` and the defaults that models declare.
 """
 
 from dataclasses import fields
@@ -10,6 +10,7 @@ from math import pi, sqrt
 import numpy as np
 
 from camera_ray_caster.core.camera.build import camera_from
+from camera_ray_caster.core.cameras import MODELS
 from camera_ray_caster.core.records import BlenderCamera
 
 from . import central_examples, multiperspective_examples
@@ -151,10 +152,10 @@ REFUSED = {
     "PERSP": [
         ({"lens": 0.0}, "lens"),
         ({"lens": float("nan")}, "lens"),
-        ({"sensor_width": 0.0}, "sensor size"),
-        ({"sensor_fit": "DIAGONAL"}, "sensor fit"),
+        ({"sensor_width": 0.0}, "sensor_width"),
+        ({"sensor_fit": "DIAGONAL"}, "sensor_fit"),
     ],
-    "ORTHO": [({"ortho_scale": 0.0}, "orthographic scale"), ({"ortho_scale": float("inf")}, "orthographic scale")],
+    "ORTHO": [({"ortho_scale": 0.0}, "ortho_scale"), ({"ortho_scale": float("inf")}, "ortho_scale")],
     "EQUIRECTANGULAR": [({"longitude_min": pi}, "longitude_max"), ({"latitude_max": 2.0}, "latitude_max")],
     "EQUIANGULAR_CUBEMAP_FACE": [],
     "MIRRORBALL": [],
@@ -179,7 +180,8 @@ def raw_of(key: str, settings=()):
     """Return the record of a model with these settings over the defaults; slits and path are in the camera's frame."""
     given = {**DEFAULTS, **dict(settings)}
     known = {field.name for field in fields(BlenderCamera)}
-    only_some = ONLY_SOME | {name: given.pop(name) for name in sorted(set(given) - known)}
+    declared = {setting.name: setting.default for model in MODELS for setting in model.SETTINGS}
+    only_some = declared | ONLY_SOME | {name: given.pop(name) for name in sorted(set(given) - known)}
     only_some |= {name: attached(only_some[name], given["matrix_world"]) for name in ("slit_1", "slit_2", "path")}
     return BlenderCamera(name="Camera", type="PERSP", model=key, settings=only_some, **given)
 

@@ -103,8 +103,8 @@ REFUSED = {
     "PUSHBROOM": [
         ({"slit_1": None}, "slit_1.*not set"),
         ({"slit_1": ((0, 0, 1), (0, 0, 2))}, "slit_1.*viewing direction"),
-        ({"slit_1": ((0, 0, float("inf")), (0, 0, 2))}, "slit_1.*nowhere"),
-        ({"ortho_scale": 0.0}, "orthographic scale"),
+        ({"slit_1": ((0, 0, float("inf")), (0, 0, 2))}, "slit_1.*no finite place"),
+        ({"ortho_scale": 0.0}, "ortho_scale"),
     ],
     "PENCIL": [
         ({"slit_1": None}, "slit_1.*not set"),

@@ -3,20 +3,20 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Mapping
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import nullcontext
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from itertools import pairwise
-from math import floor
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 
+from ..cameras.model import Model
 from ..cameras.parts.aperture import Aperture
 from ..conventions import gamma
-from ..maths.chebyshev import ROWS, fill, is_raster
-from ..maths.speed import keep_memory, sharing, whole_rows
-from ..maths.vector import components, dot, inverse, is_grid, is_lattice, is_one, matvec, norm
+from ..maths.speed import BAND, sharing, whole_rows
+from ..maths.vector import components, dot, inverse, is_grid, matvec, norm
 from ..records import Pose, Raster, Rays
 from .pixel_time import PixelTime, groups, meeting
 from .sampling import in_opening, sub_pixel
@@ -24,21 +24,31 @@ from .sampling import in_opening, sub_pixel
 FARTHEST = 1e15
 """Pixels, or Blender units, within which no length or polynomial overflows."""
 
-BLOCK_PIXELS, SMOOTH_PIXELS = 1 << 17, 1 << 20
+BLOCK_PIXELS = 1 << 17
 """Pixels whose rays are made at once, where a thread's share has as many: fewer, and threads would wait at each of
 numpy's calls.
 """
 
-ALONE = 1 << 17
+SHARED_PIXELS = 1 << 17
 """Pixels whose rays take as long as what threads do one at a time for a share: see ``sharing``."""
+
+
+class CameraMotion(Protocol):
+    """What knows a camera at other frames."""
+
+    def camera_at(self, frame: float) -> Camera:
+        """Return the camera at a frame, without its pixel times."""
+
+    def in_words(self) -> list[str]:
+        """Return how well it is known, in lines for the report."""
 
 
 @dataclass(frozen=True)
 class Camera:
-    """What ``read_camera`` returns. ``model`` is one of MODELS; the public faces are rays, rays_at and project."""
+    """What ``read_camera`` returns. The public faces are rays, rays_at, project, K and world_to_opencv."""
 
     name: str
-    model: Any
+    model: Model
     pose: Pose
     raster: Raster
     clip_start: float
@@ -47,8 +57,30 @@ class Camera:
     """What lets rays beside the chief ray in; None for a pinhole."""
     pixel_time: PixelTime | None = None
     """The frame of each pixel; None where the picture has one time."""
-    motion: Any = None
-    """With a pixel_time, the ``Motion`` that knows the camera at other frames; None for a camera that stands still."""
+    motion: CameraMotion | None = None
+    """With pixel times, what knows the camera at other frames; None for a camera that stands still."""
+    settings: Mapping[str, Any] = field(default_factory=dict)
+    """The values of the model's SETTINGS, by name, as plain numbers, words and lists."""
+
+    @property
+    def K(self) -> np.ndarray | None:
+        """The camera matrix, (3, 3) float64, in OpenCV's convention: y down, the origin in the center of the top left
+        pixel. Where a lens distorts, it applies to the distorted coordinates. None for models without one.
+        """
+        return self.model.K
+
+    @property
+    def world_to_opencv(self) -> np.ndarray:
+        """(4, 4) float64: from the world to OpenCV's camera frame, x right, y down, z ahead.
+
+        It is a rigid transform to the rounding of the matrix that Blender stores (float32, 1e-7), unless the camera is
+        sheared. Each entry is right to gamma(8) of the sum of the magnitudes times the condition of the basis.
+        """
+        opencv_from_camera = np.diag([1.0, -1.0, -1.0])
+        result = np.eye(4)
+        result[:3, :3] = opencv_from_camera @ inverse(self.pose.basis)
+        result[:3, 3] = -result[:3, :3] @ self.pose.eye
+        return result
 
     def at(self, frame: float) -> Camera:
         """Return the camera at a frame, without its pixel_time."""
@@ -79,8 +111,7 @@ class Camera:
     @property
     def parallel(self):
         """The direction that all chief rays have, three numbers in the camera frame; None where they differ."""
-        direction = self.model.rays(np.zeros((1, 1)), np.zeros((1, 1)))[1]
-        return direction if is_one(direction) else None
+        return self.model.rays(0.0, 0.0)[1] if self.model.parallel else None
 
     @property
     def is_rigid(self) -> bool:
@@ -100,21 +131,17 @@ class Camera:
         directions = np.empty((*shape, 3))
         origins = np.broadcast_to(self.pose.eye, directions.shape) if self.model.central else np.empty((*shape, 3))
         valid = np.empty(shape, bool)
-        smooth = self._is_smooth(x, y)
-        write, pixels = (self._write_smooth, SMOOTH_PIXELS) if smooth else (self._write, BLOCK_PIXELS)
-        threads = sharing(os.cpu_count() or 1, valid.size / ALONE)
-        step = ROWS * max(1, round(min(pixels / max(x.size, 1), y.size / threads) / ROWS))
         near = _is_near(x) and _is_near(y)
 
         def put(part) -> None:
             with _quiet(near):
-                write(x, y[part], origins[part], directions[part], valid[part])
+                self._write(x, y[part], origins[part], directions[part], valid[part])
 
-        if is_grid(x, y) and y.ndim == 2 and y.size > step:
-            keep_memory()
-            begin = -floor(y[0, 0]) % ROWS if smooth else 0  # where the raster's first whole panels do
-            edges = sorted({0, *range(begin, y.size, step), y.size})
-            blocks = [slice(*ends) for ends in pairwise(edges)]
+        if is_grid(x, y) and y.ndim == 2:
+            threads = sharing(os.cpu_count() or 1, valid.size / SHARED_PIXELS)
+            rows = min(BLOCK_PIXELS / max(x.size, 1), y.size / threads)
+            step = BAND * max(1, round(rows / BAND))
+            blocks = [slice(*ends) for ends in pairwise([*range(0, y.size, step), y.size])]
             with ThreadPoolExecutor(threads) as pool:  # numpy releases the interpreter
                 list(pool.map(put, blocks))
         else:
@@ -125,20 +152,9 @@ class Camera:
             directions[lost], valid[...] = np.nan, ~lost
         return Rays(origins, directions, valid)
 
-    def _is_smooth(self, x, y) -> bool:
-        """Whether polynomials are to give the rays: a raster's, whose directions are more than a row and a column."""
-        if not (getattr(self.model, "smooth", True) and is_raster(x, y)):
-            return False
-        direction = self.model.rays(x[:, :2], y[:2])[1]
-        return not (is_one(direction) or is_lattice(direction))
-
     def _write(self, x, y, origins, directions, valid) -> None:
         """Write the world rays through pixel coordinates; the origins only where there is more than the eye."""
         with whole_rows(valid.shape[-1] if valid.ndim else 1):
-            if hasattr(self.model, "write_directions") and self.is_rigid:
-                self.model.write_directions(self.pose.basis, x, y, directions)
-                np.logical_not(np.isnan(directions[..., 0]), out=valid)
-                return
             origin, direction = self.camera_rays(x, y)
             scale = 1.0 / self._length(direction) if self.model.planar else 1.0
             for axis, row in enumerate(self.pose.basis):
@@ -147,27 +163,6 @@ class Camera:
                 if not self.model.central:
                     np.add(dot(row, origin), self.pose.eye[axis], out=origins[..., axis])
             np.logical_not(np.isnan(component), out=valid)
-
-    def _write_smooth(self, x, y, origins, directions, valid) -> None:
-        """Do what ``_write`` does where ``_is_smooth``."""
-        disc = getattr(self.model, "disc", None)
-        endless = self if disc is None else replace(self, model=self.model.endless)
-
-        def direction(x, y):
-            along = endless.camera_rays(x, y)[1]
-            length = self._length(along) if self.model.planar else None
-            for row in self.pose.basis:
-                component = dot(row, along)
-                yield component if length is None else component / length
-
-        def origin(x, y):
-            start = self.camera_rays(x, y)[0]
-            for row, eye in zip(self.pose.basis, self.pose.eye, strict=True):
-                yield dot(row, start) + eye
-
-        valid[...] = fill(direction, x, y, directions[None], disc)
-        if not self.model.central:
-            fill(origin, x, y, origins[None])
 
     def _length(self, direction):
         """Return the world's length of what ``camera_rays`` gives; of a row and a column it is one sum."""
@@ -195,8 +190,8 @@ class Camera:
 
         With a clock each ray is the camera's at the pixel's own time. Undefined (NaN, valid False) where the model has
         no ray. Each component of a direction is right to a few EPS relative to the unit length, amplified by the
-        frame's offset (shift) over the pixel's own. Where the rays of a picture are smooth functions of the pixel,
-        polynomials give them (see panels): one asked for alone may differ by as much.
+        frame's offset (shift) over the pixel's own. Where a model's formula takes polynomials for whole pictures
+        (see ``maths.chebyshev``), a ray that is asked for alone may differ by as much.
         """
         return self.rays_at(self.raster.columns(), self.raster.rows())
 

@@ -8,7 +8,7 @@ the camera's axes normalized each for itself:
     TOE       alpha = atan(iod / (2 cv)). CENTER: the eye moves as above and turns by alpha about its Y, inwards. LEFT
               and RIGHT: the other eye stands at (-s iod cos alpha, 0, -iod sin alpha) and turns by 2 alpha.
 Orthographic cameras take the off-axis shift with their lens, which they do not use otherwise; panoramas take none.
-A camera of the model OMNIDIRECTIONAL_STEREO has eyes of its own, iod apart: it stays, and the view tells which it is.
+A model that has eyes of its own (omnidirectional stereo) stays where it is, and the view tells which eye it is.
 Source: Blender manual, Stereoscopy; measured against RenderEngine.camera_model_matrix and camera_shift_x.
 """
 
@@ -19,6 +19,7 @@ from math import atan, cos, sin
 
 import numpy as np
 
+from ..cameras import find_model
 from ..records import BlenderCamera, InputError
 
 SIDES = {"left": 1.0, "right": -1.0}
@@ -36,11 +37,9 @@ def eye_record(raw: BlenderCamera, view: str) -> BlenderCamera:
         return raw
     if view not in SIDES:
         raise InputError(f"view {view!r} is no eye of Stereo 3D: choose one of {', '.join(SIDES)}")
-    if raw.model == "OMNIDIRECTIONAL_STEREO":
-        if settings["eye"].lower() not in SIDES:
-            both = f"camera {raw.name!r} has both eyes in one picture"
-            raise InputError(f"{both}: let it show one, or switch Stereoscopy off")
-        return replace(raw, settings={**settings, "eye": view.upper()})
+    own = find_model(raw).eye(raw, view)
+    if own is not None:
+        return own
     if settings["use_spherical_stereo"] and raw.type in ("PERSP", "PANO"):
         cure = "take the model Omnidirectional Stereo" if raw.type == "PANO" else "switch it off"
         raise InputError(f"camera {raw.name!r} has Spherical Stereo, whose eyes turn with every ray: {cure}")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from ..records import BlenderCamera, InputError
 from .camera_obscura import CameraObscura
 from .central_cylindrical import CentralCylindrical
 from .cross_slit import CrossSlit
@@ -16,6 +17,7 @@ from .fisheye_polynomial import FisheyePolynomial
 from .fisheye_stereographic import FisheyeStereographic
 from .general_linear import GeneralLinear
 from .mirrorball import Mirrorball
+from .model import Model
 from .omnidirectional_stereo import OmnidirectionalStereo
 from .omnimax import Omnimax
 from .opencv_fisheye import OpencvFisheye
@@ -28,7 +30,7 @@ from .stereographic_panorama import StereographicPanorama
 from .strip import Strip
 from .twisted_orthographic import TwistedOrthographic
 
-MODELS = (
+MODELS: tuple[type[Model], ...] = (
     Perspective, Orthographic,
     Equirectangular, CubemapFace, Mirrorball, FisheyeEquidistant, FisheyeEquisolid, FisheyePolynomial,
     CentralCylindrical, CameraObscura,
@@ -37,3 +39,19 @@ MODELS = (
     GeneralLinear, CrossSlit, Pushbroom, Pencil, TwistedOrthographic, Strip, OmnidirectionalStereo,
 )  # fmt: skip
 """Every model. ``key`` is Blender's camera or panorama type, or the name of a model that Blender does not have."""
+
+REFUSED = {"CUSTOM": "it is an OSL shader, which only Cycles can run and nobody can invert"}
+"""Blender's types that no model can stand for, and why."""
+
+
+def find_model(raw: BlenderCamera) -> type[Model]:
+    """Return the model of a record: the one that was chosen, or that of Blender's type.
+
+    Raises InputError for a type without a model; it names those that have one.
+    """
+    key = raw.model or str(raw.settings["panorama_type"] if raw.type == "PANO" else raw.type)
+    models = {model.key: model for model in MODELS}
+    if key not in models:
+        reason = REFUSED.get(key, "there is no model for it")
+        raise InputError(f"camera {raw.name!r} is of type {key}: {reason}: choose one of {', '.join(models)}")
+    return models[key]

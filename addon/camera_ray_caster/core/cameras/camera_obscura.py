@@ -13,45 +13,58 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ..records import BlenderCamera, Raster
+from ..records import BlenderCamera, Pose, Raster
+from .model import Step
 from .parts.aperture import Aperture
-from .parts.film import Window
-from .parts.settings import positive
+from .parts.film import FILM, Window
+from .parts.settings import Number
 from .perspective import Perspective
+
+DEPTH = Number("obscura_depth", "Box Depth", "From the hole to the back wall", 2.0, 1e-6, unit="length")
+WIDTH = Number(
+    "obscura_width", "Wall Size", "The fitted side of the picture on the back wall", 3.0, 1e-6, unit="length"
+)
+HOLE = Number(
+    "obscura_hole", "Hole Diameter", "A larger hole lets in more light and blurs the picture", 0.02, 1e-9,
+    unit="length", digits=4,
+)  # fmt: skip
 
 
 @dataclass(frozen=True)
-class CameraObscura:
-    """The box: its picture is the pinhole's, turned by half a turn; the hole is its aperture."""
+class CameraObscura(Perspective):
+    """The box: its picture is the pinhole's, turned by half a turn. The window is the wall, turned over and brought to
+    unit depth before the hole.
+    """
 
-    pinhole: Perspective
-    """Its window is the wall, turned over and brought to unit depth before the hole."""
     hole: Aperture
 
     key = "CAMERA_OBSCURA"
-    planar = True
-    central = True
+    label = "Camera Obscura"
+    description = "A dark box with a tiny hole: the world upside down on its back wall"
+    group = "Historical"
+    number = 1
+    SETTINGS = (DEPTH, WIDTH, HOLE, *FILM)
+    FORMULA = (
+        Step("Pixel on the wall, V pixels on its fitted side", "X = (x - W/2 + shift_x V) width / V, Y likewise"),
+        Step("Direction, through the hole", "r = -X u - Y v + depth w"),
+    )
+    K = None
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> CameraObscura:
-        """Build it from ``obscura_depth``, ``obscura_width`` (the wall's fitted side) and ``obscura_hole`` (diameter).
+        """Build it from depth, width (the wall's fitted side) and hole (its diameter), all in Blender units.
 
-        All in Blender units. Shift moves the film on the wall, in lengths of its fitted side. InputError where one of
-        the three is not positive.
+        Shift moves the film on the wall, in lengths of its fitted side.
         """
-        depth, width, hole = (positive(raw, f"obscura_{name}") for name in ("depth", "width", "hole"))
-        wall = Window.from_blender(raw, raster, width / depth)
+        depth = DEPTH.read(raw)
+        wall = Window.from_blender(raw, raster, WIDTH.read(raw) / depth)
         turned = Window(wall.center_x, wall.center_y, -wall.pitch_x, -wall.pitch_y)
-        return cls(Perspective(turned), Aperture(hole / 2, -depth))
+        return cls(raster.size, turned, Aperture(HOLE.read(raw) / 2, -depth))
 
-    def rays(self, x, y):
-        """Return the chief rays, through the middle of the hole; as ``Perspective.rays``."""
-        return self.pinhole.rays(x, y)
+    def aperture(self, raw: BlenderCamera, pose: Pose) -> Aperture:
+        """Return the hole."""
+        return self.hole
 
-    def project(self, points):
-        """Return where the chief ray of camera-frame points falls; as ``Perspective.project``."""
-        return self.pinhole.project(points)
-
-    def bounds(self, centers, radii):
-        """Return the pixel bounds of spheres; as ``Perspective.bounds``."""
-        return self.pinhole.bounds(centers, radii)
+    def facts(self) -> dict[str, object]:
+        """Return nothing: an inverted picture has no K in OpenCV's sense."""
+        return {}

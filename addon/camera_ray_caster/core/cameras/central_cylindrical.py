@@ -9,12 +9,28 @@ Reference: Blender manual, Cameras > Panoramic; Snyder (1987), page 105; rays re
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import pi
 
 import numpy as np
 
 from ..records import BlenderCamera, Raster
-from .parts.meridians import Meridians
-from .parts.settings import positive, span
+from .model import Step
+from .parts.film import SHIFT
+from .parts.meridians import LONGITUDE, RAY, Meridians
+from .parts.settings import ABOVE_ZERO, CAMERA, Number, span
+
+PREFIX = "central_cylindrical_"
+LONGITUDES = tuple(
+    Number(PREFIX + f"range_u_{end}", label, f"Of the frame's {side} edge, 0 is ahead", low, unit="angle", owner=CAMERA)
+    for end, label, side, low in (("min", "Min Longitude", "left", -pi), ("max", "Max Longitude", "right", pi))
+)
+HEIGHTS = tuple(
+    Number(
+        PREFIX + f"range_v_{end}", label, f"Of the frame's {side} edge on the tube", low, unit="length", owner=CAMERA
+    )
+    for end, label, side, low in (("min", "Min Height", "lower", -1.0), ("max", "Max Height", "upper", 1.0))
+)
+TUBE = Number(PREFIX + "radius", "Cylinder Radius", "Of the tube", 1.0, ABOVE_ZERO, unit="length", owner=CAMERA)
 
 
 @dataclass(frozen=True)
@@ -22,15 +38,22 @@ class CentralCylindrical(Meridians):
     """Height is the tangent of the latitude."""
 
     key = "CENTRAL_CYLINDRICAL"
+    label = "Central Cylindrical"
+    description = "The world from the middle of a tube: vertical lines stay straight"
+    group = "Blender's Own"
+    SETTINGS = (*LONGITUDES, *HEIGHTS, TUBE, *SHIFT)
+    FORMULA = (
+        LONGITUDE,
+        Step("Height on the tube over its radius", "h = (v_min + (y/H + shift_y) (v_max - v_min)) / radius"),
+        Step("Latitude", "lat = atan(h)"),
+        RAY,
+    )
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> CentralCylindrical:
         """Build it from the ranges, the radius and the shift; InputError for an empty range or a radius of 0."""
-        prefix = "central_cylindrical_"
-        radius = positive(raw, prefix + "radius")
-        low, high = span(raw, prefix + "range_v_min", prefix + "range_v_max")
-        longitudes = span(raw, prefix + "range_u_min", prefix + "range_u_max")
-        return cls.over_frame(raw, raster, longitudes, (low / radius, high / radius))
+        radius, (low, high) = TUBE.read(raw), span(raw, *HEIGHTS)
+        return cls.over_frame(raw, raster, span(raw, *LONGITUDES), (low / radius, high / radius))
 
     def latitude(self, height):
         """See Meridians."""

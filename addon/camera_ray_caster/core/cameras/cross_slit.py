@@ -20,8 +20,8 @@ import numpy as np
 from ..maths.intervals import Interval
 from ..maths.vector import components, cross, difference, dot, norm
 from ..records import BlenderCamera, InputError, Raster
-from .parts.film import Window
-from .parts.lines import ROUNDING, slit_from
+from .model import Step, WindowModel
+from .parts.lines import ROUNDING, SECOND_SLIT, SLIT, slit_from
 from .parts.silhouette import pinhole_interval, pixel_bounds
 from .perspective import Perspective
 
@@ -30,15 +30,24 @@ MIDDLE = np.array((0.0, 0.0, -1.0))
 
 
 @dataclass(frozen=True)
-class CrossSlit:
+class CrossSlit(WindowModel):
     """Two slits, each a point, the nearest to the window's middle, and a unit direction, camera frame."""
 
-    window: Window
     slits: tuple[tuple[np.ndarray, np.ndarray], tuple[np.ndarray, np.ndarray]]
 
     key = "CROSS_SLIT"
-    planar = False
+    label = "Cross-Slit"
+    description = "Every ray meets two slits: objects of the scene"
+    group = "Multiperspective"
+    number = 11
     central = False
+    SETTINGS = (SLIT, SECOND_SLIT, *Perspective.SETTINGS)
+    FORMULA = (
+        Step("Point on the perspective window", "P = (X, Y, -1)"),
+        Step("Normals of the planes through P and each slit (point s, direction l)", "n_i = l_i × (P - s_i)"),
+        Step("Direction, ahead", "d = n_1 × n_2"),
+        Step("Origin, on the camera's plane", "o = P + d / d_z"),
+    )
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> CrossSlit:
@@ -47,19 +56,19 @@ class CrossSlit:
         Raises InputError for slits that are parallel, or that lie in the window's plane, through which no ray leads.
         """
         slits = []
-        for name in ("slit_1", "slit_2"):
-            point, direction = slit_from(raw, name)
+        for slit in (SLIT, SECOND_SLIT):
+            point, direction = slit_from(raw, slit)
             point = point + direction * ((MIDDLE - point) @ direction)  # small numbers keep the digits
             if max(abs(direction[2]), abs(point[2] + 1)) <= ROUNDING:
                 raise InputError(
-                    f"{name} of camera {raw.name!r} lies in the picture's own plane, at depth {-point[2]:.6g}: it must "
-                    "be nearer or farther than 1, or not parallel to it"
+                    f"{slit.name} of camera {raw.name!r} lies in the picture's own plane, at depth {-point[2]:.6g}: it "
+                    "must be nearer or farther than 1, or not parallel to it"
                 )
             slits.append((point, direction))
         first, second = slits
         if np.linalg.norm(np.cross(first[1], second[1])) <= ROUNDING:
             raise InputError(f"slit_1 and slit_2 of camera {raw.name!r} are parallel: turn one of them")
-        return cls(Perspective.from_blender(raw, raster).window, (first, second))
+        return cls(raster.size, Perspective.from_blender(raw, raster).window, (first, second))
 
     def rays(self, x, y):
         """Return origin and direction, each a tuple of three broadcastable arrays, camera frame, unit length.

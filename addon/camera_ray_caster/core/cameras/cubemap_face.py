@@ -11,32 +11,41 @@ Reference: Blender manual, Cameras > Panoramic; rays read out of Cycles.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from math import pi
 
 import numpy as np
 
 from ..maths.vector import components
 from ..records import BlenderCamera, Raster
-from .parts.film import Window
+from .model import Step, WindowModel
+from .parts.film import SHIFT, Window
 from .parts.silhouette import pinhole_interval, pixel_bounds, turned
 
 
 @dataclass(frozen=True)
-class CubemapFace:
-    """A window of the two angles, rad; ``extent`` is the part of it that the frame shows."""
-
-    window: Window
-    extent: tuple[float, float, float, float]
+class CubemapFace(WindowModel):
+    """A window of the two angles, rad."""
 
     key = "EQUIANGULAR_CUBEMAP_FACE"
-    planar = False
-    central = True
+    label = "Equiangular Cubemap Face"
+    description = "90 degrees across and up, columns and rows even in the angle"
+    group = "Blender's Own"
+    SETTINGS = SHIFT
+    FORMULA = (
+        Step("Angles across and up", "alpha = (x/W - 1/2 + shift_x) pi/2, beta = (y/H - 1/2 + shift_y) pi/2"),
+        Step("Direction, of any length", "d = (tan(alpha), tan(beta), -1)"),
+    )
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> CubemapFace:
         """Build it from the shift alone."""
-        window = Window.over_frame(raw, raster, (-pi / 4, pi / 4), (-pi / 4, pi / 4))
-        return cls(window, window.extent(raster))
+        return cls(raster.size, Window.over_frame(raw, raster, (-pi / 4, pi / 4), (-pi / 4, pi / 4)))
+
+    @cached_property
+    def extent(self) -> tuple[float, float, float, float]:
+        """The angles that the frame shows: lowest and highest across, lowest and highest up."""
+        return self.window.extent(self.frame)
 
     def rays(self, x, y):
         """Return origin and direction, each a tuple of three broadcastable arrays, camera frame, of unit length.

@@ -15,9 +15,10 @@ from math import pi
 
 from ..records import BlenderCamera, Raster
 from .fisheye_equidistant import FisheyeEquidistant
-from .parts.film import Window
-from .parts.pitched import Pitched
-from .parts.settings import FULL_TURN, number, positive
+from .model import Step
+from .parts.film import SHIFT, Window
+from .parts.pitched import PITCH, TILT, Pitched
+from .parts.radial import FOV, RADIUS, RAY, ROUND_PLANE
 
 
 @dataclass(frozen=True)
@@ -25,10 +26,18 @@ class DomeMaster(Pitched, FisheyeEquidistant):
     """An equidistant fisheye that looks up."""
 
     key = "DOME_MASTER"
+    label = "Dome Master"
+    description = "A planetarium's picture: the zenith in the middle, the front at the bottom"
+    group = "Dome"
+    number = 7
+    SETTINGS = (FOV, TILT, *SHIFT)
+    FORMULA = (
+        ROUND_PLANE, RADIUS, Step("Angle from the zenith", "theta = r fov / 2"), RAY, PITCH,
+        Step("Elevation of the axis", "e = 90° - tilt"),
+    )  # fmt: skip
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> DomeMaster:
         """Build it from ``fov``, ``tilt`` and shift; InputError for an angle without meaning."""
-        half_fov = positive(raw, "fov", FULL_TURN, "deg") / 2
-        tilt = number(raw, "tilt", 0.0, pi / 2, "deg")
-        return cls(Window.inscribed_circle(raw, raster, 1.0), 1.0, half_fov=half_fov, elevation=pi / 2 - tilt)
+        window = Window.inscribed_circle(raw, raster, 1.0)
+        return cls(raster.size, window, 1.0, half_fov=FOV.read(raw) / 2, elevation=pi / 2 - TILT.read(raw))

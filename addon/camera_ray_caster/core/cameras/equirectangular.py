@@ -14,9 +14,23 @@ from math import pi
 import numpy as np
 
 from ..records import BlenderCamera, Raster
-from .parts.meridians import Meridians
-from .parts.settings import span
-from .parts.silhouette import EVERYWHERE
+from .model import Step
+from .parts.film import SHIFT
+from .parts.meridians import LONGITUDE, RAY, Meridians
+from .parts.settings import CAMERA, Number, span
+from .parts.silhouette import everywhere
+
+LONGITUDES = tuple(
+    Number(f"longitude_{end}", label, f"Of the frame's {side} edge, 0 is ahead", default, unit="angle", owner=CAMERA)
+    for end, label, side, default in (("min", "Min Longitude", "left", -pi), ("max", "Max Longitude", "right", pi))
+)
+LATITUDES = tuple(
+    Number(f"latitude_{end}", label, f"Of the frame's {side} edge", default, -pi / 2, pi / 2, "angle", owner=CAMERA)
+    for end, label, side, default in (
+        ("min", "Min Latitude", "lower", -pi / 2),
+        ("max", "Max Latitude", "upper", pi / 2),
+    )
+)
 
 
 @dataclass(frozen=True)
@@ -24,13 +38,16 @@ class Equirectangular(Meridians):
     """Height is latitude, rad."""
 
     key = "EQUIRECTANGULAR"
+    label = "Equirectangular"
+    description = "Longitude and latitude on a square grid"
+    group = "Blender's Own"
+    SETTINGS = (*LONGITUDES, *LATITUDES, *SHIFT)
+    FORMULA = (LONGITUDE, Step("Latitude", "lat = lat_min + (y/H + shift_y) (lat_max - lat_min)"), RAY)
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> Equirectangular:
         """Build it from the ranges and the shift; InputError for an empty range and a latitude beyond the poles."""
-        longitudes = span(raw, "longitude_min", "longitude_max")
-        latitudes = span(raw, "latitude_min", "latitude_max", -pi / 2, pi / 2, "deg")
-        return cls.over_frame(raw, raster, longitudes, latitudes)
+        return cls.over_frame(raw, raster, span(raw, *LONGITUDES), span(raw, *LATITUDES))
 
     def latitude(self, height):
         """See Meridians."""
@@ -44,4 +61,4 @@ class Equirectangular(Meridians):
         """See Meridians; everywhere in a frame that looks over a pole."""
         bounds = super().bounds(centers, radii)
         farthest_row = max(-self.extent[2], self.extent[3]) - abs(self.window.pitch_y) / 2
-        return np.tile((*EVERYWHERE, *EVERYWHERE), (len(bounds), 1)) if farthest_row > pi / 2 else bounds
+        return everywhere(len(bounds)) if farthest_row > pi / 2 else bounds

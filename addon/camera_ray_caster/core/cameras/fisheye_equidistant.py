@@ -10,13 +10,15 @@ Reference: Blender manual, Cameras > Panoramic; rays read out of Cycles.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 
 from ..records import BlenderCamera, Raster
-from .parts.film import Window
-from .parts.radial import Radial, radii_of, up_to
-from .parts.settings import WIDEST_FISHEYE, positive
+from .model import Step
+from .parts.film import SHIFT, Window
+from .parts.radial import FISHEYE_FOV, RADIUS, RAY, WHOLE_PLANE, Radial, radii_of, up_to
+from .parts.settings import Setting
 
 
 @dataclass(frozen=True)
@@ -27,12 +29,18 @@ class FisheyeEquidistant(Radial):
     """Radians."""
 
     key = "FISHEYE_EQUIDISTANT"
+    label = "Fisheye Equidistant"
+    description = "The angle from the axis grows evenly with the radius"
+    group = "Blender's Own"
+    by_polynomials = True
+    SETTINGS: ClassVar[tuple[Setting, ...]] = (FISHEYE_FOV, *SHIFT)
+    FORMULA: ClassVar[tuple[Step, ...]] = (WHOLE_PLANE, RADIUS, Step("Angle from the axis", "theta = r fov / 2"), RAY)
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> FisheyeEquidistant:
         """Build it from fisheye_fov and shift; InputError where the field of view has no meaning."""
-        fov = positive(raw, "fisheye_fov", WIDEST_FISHEYE, "deg")
-        return cls(Window.over_frame(raw, raster, (-1.0, 1.0), (-1.0, 1.0)), 1.0, fov / 2)
+        fov = FISHEYE_FOV.read(raw)
+        return cls(raster.size, Window.over_frame(raw, raster, (-1.0, 1.0), (-1.0, 1.0)), 1.0, fov / 2)
 
     def factors(self, r_squared):
         """See Radial."""

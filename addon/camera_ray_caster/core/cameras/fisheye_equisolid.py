@@ -12,13 +12,15 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import asin, sin
+from typing import ClassVar
 
 import numpy as np
 
 from ..records import BlenderCamera, Raster
-from .parts.film import Film, Window
-from .parts.radial import Radial, up_to
-from .parts.settings import WIDEST_FISHEYE, positive
+from .model import Step
+from .parts.film import FILM, Film, Window
+from .parts.radial import FISHEYE_FOV, FISHEYE_LENS, RADIUS, RAY, SENSOR_PLANE, Radial, up_to
+from .parts.settings import Setting
 
 
 @dataclass(frozen=True)
@@ -26,16 +28,25 @@ class FisheyeEquisolid(Radial):
     """s = r / 2f = sin(theta / 2); the window gives s."""
 
     key = "FISHEYE_EQUISOLID"
-    smooth = False
+    label = "Fisheye Equisolid"
+    description = "Equal areas of the sensor see equal solid angles: the usual photographic lens"
+    group = "Blender's Own"
+    SETTINGS: ClassVar[tuple[Setting, ...]] = (FISHEYE_LENS, FISHEYE_FOV, *FILM)
+    FORMULA: ClassVar[tuple[Step, ...]] = (
+        SENSOR_PLANE,
+        RADIUS,
+        Step("Angle from the axis", "theta = 2 asin(r / (2 f))"),
+        RAY,
+    )
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> FisheyeEquisolid:
         """Build it from fisheye_lens (mm), fisheye_fov, sensor and shift; InputError where one has no meaning."""
         film = Film.from_blender(raw, raster)
-        diameter = 2 * positive(raw, "fisheye_lens")
-        fov = positive(raw, "fisheye_fov", WIDEST_FISHEYE, "deg")
+        diameter = 2 * FISHEYE_LENS.read(raw)
+        fov = FISHEYE_FOV.read(raw)
         window = Window.round_pixels(raw, raster, film.size / film.fitted_pixels / diameter)
-        return cls(window, max(sin(fov / 4), 0.0))
+        return cls(raster.size, window, max(sin(fov / 4), 0.0))
 
     def factors(self, r_squared):
         """See Radial."""

@@ -14,9 +14,9 @@ from math import asin, pi, sin
 import numpy as np
 
 from ..records import BlenderCamera, Raster
-from .parts.film import Window
-from .parts.radial import Radial, up_to
-from .parts.settings import positive
+from .model import Step
+from .parts.film import SHIFT, Window
+from .parts.radial import FOV, RADIUS, RAY, ROUND_PLANE, Radial, up_to
 
 
 @dataclass(frozen=True)
@@ -24,13 +24,17 @@ class FisheyeOrthographic(Radial):
     """The window gives sin(theta); the rim is sin(fov / 2)."""
 
     key = "FISHEYE_ORTHOGRAPHIC"
-    smooth = False
+    label = "Fisheye Orthographic"
+    description = "The half sphere ahead, as seen from far away"
+    number = 2
+    SETTINGS = (FOV, *SHIFT)
+    FORMULA = (ROUND_PLANE, RADIUS, Step("Angle from the axis", "theta = asin(r sin(fov / 2))"), RAY)
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> FisheyeOrthographic:
         """Build it from ``fov`` and shift; InputError for a field of view without meaning."""
-        rim = sin(min(positive(raw, "fov", pi, "deg"), pi) / 2)
-        return cls(Window.inscribed_circle(raw, raster, rim), rim)
+        rim = sin(min(FOV.read(raw, high=pi), pi) / 2)
+        return cls(raster.size, Window.inscribed_circle(raw, raster, rim), rim)
 
     def factors(self, r_squared):
         """See Radial."""

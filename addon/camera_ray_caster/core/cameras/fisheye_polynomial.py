@@ -18,12 +18,12 @@ from math import hypot
 
 import numpy as np
 
-from ..maths.chebyshev import on_raster
 from ..maths.inversion import Inverse
 from ..records import BlenderCamera, InputError, Raster
-from .parts.film import Film, Window
-from .parts.radial import AT_THE_RIM, TINY, Radial, radii_of
-from .parts.settings import FULL_TURN, WIDEST_FISHEYE, number, positive
+from .model import Step
+from .parts.film import FILM, Film, Window
+from .parts.radial import AT_THE_RIM, FISHEYE_FOV, RADIUS, RAY, SENSOR_PLANE, TINY, Radial, radii_of
+from .parts.settings import CAMERA, FULL_TURN, Number
 from .parts.silhouette import pixel_bounds, radial_intervals
 
 BEYOND = 1 + 1e-6
@@ -31,7 +31,11 @@ BEYOND = 1 + 1e-6
 errs by the root of EPS.
 """
 
-NAMES = tuple(f"fisheye_polynomial_k{i}" for i in range(5))
+COEFFICIENTS = tuple(
+    Number(f"fisheye_polynomial_k{i}", f"K{i}", f"Coefficient of r^{i}, rad / mm^{i}, negated", default, owner=CAMERA)
+    for i, default in enumerate((-1.1735143712967577e-05, -0.019988736953434998, -3.3525322965709175e-06,
+                                 3.099275275886036e-06, -2.6064646454854524e-08))
+)  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -45,6 +49,14 @@ class FisheyePolynomial(Radial):
     """Radius in mm up to which theta is monotone and has a ray somewhere."""
 
     key = "FISHEYE_LENS_POLYNOMIAL"
+    label = "Fisheye Lens Polynomial"
+    description = "A measured lens: the angle is a polynomial of the radius on the sensor"
+    group = "Blender's Own"
+    by_polynomials = True
+    SETTINGS = (*COEFFICIENTS, FISHEYE_FOV, *FILM)
+    FORMULA = (
+        SENSOR_PLANE, RADIUS, Step("Angle from the axis", "theta = -(k0 + k1 r + k2 r² + k3 r³ + k4 r⁴)"), RAY,
+    )  # fmt: skip
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> FisheyePolynomial:
@@ -54,9 +66,9 @@ class FisheyePolynomial(Radial):
         """
         film = Film.from_blender(raw, raster)
         window = Window.round_pixels(raw, raster, film.size / film.fitted_pixels)
-        coefficients = tuple(-number(raw, name) for name in NAMES)
-        half_fov = positive(raw, "fisheye_fov", WIDEST_FISHEYE, "deg") / 2
-        x0, x1, y0, y1 = window.extent(raster)
+        coefficients = tuple(-coefficient.read(raw) for coefficient in COEFFICIENTS)
+        half_fov = FISHEYE_FOV.read(raw) / 2
+        x0, x1, y0, y1 = window.extent(raster.size)
         corner = hypot(max(-x0, x1), max(-y0, y1))
         turns = _turns(coefficients, corner)
         if turns.size and _is_seen_beyond(coefficients, turns, corner, half_fov):
@@ -65,7 +77,8 @@ class FisheyePolynomial(Radial):
                 f"the fisheye polynomial of camera {raw.name!r} ({names}) turns back {turns[0]:.6g} mm from the axis "
                 f"and folds the picture: it must grow or fall all the way to the corner at {corner:.6g} mm"
             )
-        lens = cls(window, np.inf, coefficients, half_fov, float(turns[0]) if turns.size else corner)
+        limit = float(turns[0]) if turns.size else corner
+        lens = cls(raster.size, window, np.inf, coefficients, half_fov, limit)
         if lens.widest < half_fov or lens.widest == np.inf:
             return lens
         return replace(lens, rim=float(np.fmax(lens._inverse(half_fov), 0.0)) * BEYOND)  # 0 where theta begins beyond
@@ -97,9 +110,6 @@ class FisheyePolynomial(Radial):
         k1, k2, k3, k4 = (sign * i * k for i, k in enumerate(self.coefficients[1:], 1))
         slope = lambda r: k1 + r * (k2 + r * (k3 + r * k4))  # noqa: E731
         return Inverse(lambda r: sign * self.angle(r), slope, 0.0, self.limit)
-
-    def _factors_at(self, x, y):
-        return on_raster(super()._factors_at, x, y, self.disc)
 
     def radius(self, theta):
         """See Radial: negative where theta is seen on the other side of the axis."""

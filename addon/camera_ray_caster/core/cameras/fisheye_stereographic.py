@@ -11,13 +11,15 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import atan, radians, tan
+from typing import ClassVar
 
 import numpy as np
 
 from ..records import BlenderCamera, Raster
-from .parts.film import Window
-from .parts.radial import Radial, up_to
-from .parts.settings import positive
+from .model import Step
+from .parts.film import SHIFT, Window
+from .parts.radial import FOV, RADIUS, RAY, ROUND_PLANE, Radial, up_to
+from .parts.settings import Setting
 
 WIDEST = radians(359)
 
@@ -27,12 +29,22 @@ class FisheyeStereographic(Radial):
     """The window gives tan(theta / 2); the rim is tan(fov / 4), or inf where the frame alone ends the picture."""
 
     key = "FISHEYE_STEREOGRAPHIC"
+    label = "Fisheye Stereographic"
+    description = "Keeps angles: circles stay circles"
+    number = 3
+    SETTINGS: ClassVar[tuple[Setting, ...]] = (FOV, *SHIFT)
+    FORMULA: ClassVar[tuple[Step, ...]] = (
+        ROUND_PLANE,
+        RADIUS,
+        Step("Angle from the axis", "theta = 2 atan(r tan(fov / 4))"),
+        RAY,
+    )
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> FisheyeStereographic:
         """Build it from ``fov`` and shift; InputError for a field of view without meaning."""
-        rim = tan(positive(raw, "fov", WIDEST, "deg") / 4)
-        return cls(Window.inscribed_circle(raw, raster, rim), rim)
+        rim = tan(FOV.read(raw, high=WIDEST) / 4)
+        return cls(raster.size, Window.inscribed_circle(raw, raster, rim), rim)
 
     def factors(self, r_squared):
         """See Radial."""

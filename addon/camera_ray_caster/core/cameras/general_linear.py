@@ -15,6 +15,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import ClassVar
 
 import numpy as np
 
@@ -22,37 +23,54 @@ from ..conventions import EPS32
 from ..maths.intervals import Interval
 from ..maths.vector import components
 from ..records import BlenderCamera, InputError, Raster
-from .parts.settings import numbers
+from .model import Model, Step
+from .parts.settings import Numbers, Setting
 from .parts.silhouette import MARGIN
 
 ROUNDING = 16 * EPS32
 """What is below this, relative to the rays' own numbers, counts as zero: Blender stores the rays as float32."""
 
-NAMES = "ray_1", "ray_2", "ray_3"
+RAYS = tuple(
+    Numbers(
+        f"ray_{k}", f"Ray {k}",
+        f"The ray at the {corner} of the frame: x and y on the camera's plane, x and y at depth 1", (0.0, 0.0, u, v),
+    )
+    for k, corner, u, v in (
+        (1, "bottom left", -0.36, -0.2), (2, "bottom right", 0.36, -0.2), (3, "top left", -0.36, 0.2),
+    )
+)  # fmt: skip
 
 
 @dataclass(frozen=True)
-class GeneralLinear:
-    """Three rays (s, t, u, v), (3, 4), over a frame of size (W, H) pixels."""
+class GeneralLinear(Model):
+    """Three rays (s, t, u, v), (3, 4), over the frame."""
 
     three: np.ndarray
-    size: tuple[int, int]
 
     key = "GENERAL_LINEAR"
-    planar = False
+    label = "General Linear"
+    description = "All affine combinations of three rays"
+    group = "Multiperspective"
+    number = 10
     central = False
+    SETTINGS: ClassVar[tuple[Setting, ...]] = RAYS
+    FORMULA: ClassVar[tuple[Step, ...]] = (
+        Step("Place in the frame", "alpha = x/W, beta = y/H"),
+        Step("Ray through (s, t, 0) and (u, v, -1)", "(1 - alpha - beta) ray_1 + alpha ray_2 + beta ray_3"),
+        Step("Origin and direction", "o = (s, t, 0), d = (u - s, v - t, -1)"),
+    )
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> GeneralLinear:
         """Build it from ray_1, ray_2 and ray_3; InputError where one ray is a combination of the others."""
-        three = np.array([numbers(raw, name, 4) for name in NAMES])
+        three = np.array([ray.read(raw) for ray in RAYS])
         if _are_dependent(three):
-            rays = ", ".join(str(tuple(ray)) for ray in three.tolist())
+            names, rays = ", ".join(ray.name for ray in RAYS), ", ".join(str(tuple(ray)) for ray in three.tolist())
             raise InputError(
-                f"{', '.join(NAMES)} of camera {raw.name!r} are dependent, {rays}: as points (s, t, u, v) they must "
+                f"{names} of camera {raw.name!r} are dependent, {rays}: as points (s, t, u, v) they must "
                 "not lie on one line"
             )
-        return cls(three, (raster.width, raster.height))
+        return cls(raster.size, three)
 
     @property
     def kind(self) -> str:
@@ -71,7 +89,7 @@ class GeneralLinear:
         x and y are pixel coordinates of broadcastable shapes. The origin and the slopes are right to gamma(5) of the
         sum of the magnitudes of the three rays' numbers.
         """
-        alpha, beta = x / self.size[0], y / self.size[1]
+        alpha, beta = x / self.frame[0], y / self.frame[1]
         s, t, slope_x, slope_y = (a + (alpha * b + beta * c) for a, b, c in self.affine.T.tolist())
         scale = 1 / np.sqrt(slope_x * slope_x + (slope_y * slope_y + 1))
         return (s, t, 0.0), (slope_x * scale, slope_y * scale, -scale)
@@ -85,15 +103,19 @@ class GeneralLinear:
         x, y, z = components(np.asarray(points, np.float64))
         across, up, determinant = self._solved(x, y, z)
         determinant = np.where((z <= 0) & (determinant != 0), determinant, np.nan)
-        return np.stack((across / determinant * self.size[0], up / determinant * self.size[1]), axis=-1)
+        return np.stack((across / determinant * self.frame[0], up / determinant * self.frame[1]), axis=-1)
 
     def bounds(self, centers, radii):
         """Return (n, 4) pixel bounds x0, x1, y0, y1 outside of which no point of the spheres (camera frame) is seen."""
         across, up, determinant = self._solved(*(Interval.around(c, radii) for c in components(centers)))
-        x, y = across / determinant * self.size[0], up / determinant * self.size[1]
+        x, y = across / determinant * self.frame[0], up / determinant * self.frame[1]
         bounds = np.stack((x.low - MARGIN, x.high + MARGIN, y.low - MARGIN, y.high + MARGIN), axis=-1)
         bounds[centers[:, 2] > radii] = np.nan
         return bounds
+
+    def facts(self) -> dict[str, object]:
+        """Return the kind of the camera among the general linear ones."""
+        return {"kind": self.kind}
 
     def _solved(self, x, y, z):
         """Return alpha det M, beta det M and det M of points, or of intervals, by Cramer's rule."""

@@ -12,7 +12,6 @@ References: N. Max, Computer Graphics Distortion for IMAX and OMNIMAX Projection
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import pi
 
 import numpy as np
 
@@ -20,10 +19,10 @@ from ..conventions import gamma
 from ..maths.inversion import Inverse
 from ..maths.vector import components
 from ..records import BlenderCamera, Raster
-from .parts.film import Window
-from .parts.pitched import Pitched
-from .parts.radial import Radial, radii_of
-from .parts.settings import number
+from .model import Step
+from .parts.film import SHIFT, Window
+from .parts.pitched import PITCH, TILT, Pitched
+from .parts.radial import RADIUS, RAY, Radial, radii_of
 
 ASPECT = 1.283458
 LINEAR, CUBIC, QUINTIC = 1.411269, -0.09439, 0.25674
@@ -39,8 +38,8 @@ def slope(r):
     return LINEAR + r * r * (3 * CUBIC + r * r * 5 * QUINTIC)
 
 
-RADIUS = Inverse(angle, slope, 0.0, 1.0)
-"""Of an angle."""
+RADIUS_OF = Inverse(angle, slope, 0.0, 1.0)
+"""The radius of an angle."""
 
 
 @dataclass(frozen=True)
@@ -66,7 +65,7 @@ class Lens(Radial):
 
     def radius(self, theta):
         """See Radial: by Newton's method."""
-        return RADIUS(theta)
+        return RADIUS_OF(theta)
 
     @property
     def widest(self) -> float:
@@ -79,6 +78,21 @@ class Omnimax(Pitched, Lens):
     """The lens, pitched up by the dome's tilt."""
 
     key = "OMNIMAX"
+    label = "Omnimax"
+    description = "The film of IMAX domes"
+    group = "Dome"
+    number = 6
+    by_polynomials = True
+    SETTINGS = (TILT, *SHIFT)
+    FORMULA = (
+        Step("Pixel on the film, its top at 1, at most 1.283458 as wide as high", "(a, b), see the references"),
+        RADIUS,
+        Step("Angle from the axis", "theta = 1.411269 r - 0.09439 r³ + 0.25674 r⁵"),
+        RAY,
+        Step("No ray more than 45° below the axis", "d_y < d_z"),
+        PITCH,
+        Step("Elevation of the axis", "e = tilt"),
+    )
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> Omnimax:
@@ -87,4 +101,4 @@ class Omnimax(Pitched, Lens):
         across = max(aspect / ASPECT, 1.0)
         bottom, top = (1 - 2 / min(aspect, ASPECT), 1.0) if aspect > 1 else (-1 / aspect, 1 / aspect)
         window = Window.over_frame(raw, raster, (-across, across), (bottom, top))
-        return cls(window, 1.0, elevation=number(raw, "tilt", 0.0, pi / 2, "deg"))
+        return cls(raster.size, window, 1.0, elevation=TILT.read(raw))

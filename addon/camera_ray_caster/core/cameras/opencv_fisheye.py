@@ -13,15 +13,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Self
 
 import numpy as np
 
-from ..maths.chebyshev import on_raster
 from ..maths.inversion import Inverse
 from ..records import BlenderCamera, Raster
-from .parts.calibration import FISHEYE, Calibration
-from .parts.radial import AT_THE_RIM, Radial, radii_of
+from .model import Step
+from .parts.calibration import CALIBRATION, FISHEYE, Calibration
+from .parts.radial import AT_THE_RIM, RADIUS, RAY, Radial, radii_of
 
 
 @dataclass(frozen=True)
@@ -34,22 +33,34 @@ class OpencvFisheye(Radial):
     """Radians."""
 
     key = "OPENCV_FISHEYE"
+    label = "OpenCV Fisheye"
+    description = "A calibrated fisheye, by Kannala and Brandt"
+    group = "Calibrated"
+    number = 5
+    by_polynomials = True
+    SETTINGS = (*CALIBRATION, *FISHEYE)
+    FORMULA = (
+        Step("Distorted coordinates, in focal lengths, y up", "a = (x - 1/2 - cx) / fx, b = (H - y - 1/2 - cy) / -fy"),
+        RADIUS,
+        Step("Angle, by Newton's method", "r = theta (1 + k1 theta² + k2 theta⁴ + k3 theta⁶ + k4 theta⁸)"),
+        RAY,
+    )
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> OpencvFisheye:
         """Build it from the settings of the same names or a calibration file; see Calibration for what is refused."""
         calibration = Calibration.from_blender(raw, raster, FISHEYE)
-        coefficients = tuple(calibration.coefficients[name] for name in FISHEYE)
+        coefficients = tuple(calibration.coefficients[setting.name] for setting in FISHEYE)
         squares = np.polynomial.Polynomial([1.0, *((2 * i + 3) * k for i, k in enumerate(coefficients))]).roots()
         turns = squares.real[(np.abs(squares.imag) <= 1e-9 * np.abs(squares)) & (squares.real > 0)]
         limit = min(np.pi, *np.sqrt(turns).tolist(), np.pi)
-        lens = cls(calibration.window(raster), np.inf, coefficients, limit)
+        lens = cls(raster.size, calibration.window(raster), np.inf, coefficients, limit)
         return replace(lens, rim=lens.distorted(limit) * AT_THE_RIM)
 
     @property
-    def endless(self) -> Self:
-        """See Radial: beyond the limit the inverse has nothing."""
-        return self
+    def K(self) -> np.ndarray:
+        """See Model."""
+        return self.window.matrix(self.frame[1])
 
     def distorted(self, theta):
         """Return r of angles."""
@@ -72,9 +83,6 @@ class OpencvFisheye(Radial):
         r = radii_of(r_squared)
         theta = self._angle(r)
         return np.sin(theta) / r, np.cos(theta)
-
-    def _factors_at(self, x, y):
-        return on_raster(super()._factors_at, x, y, self.disc)
 
     def radius(self, theta):
         """See Radial."""

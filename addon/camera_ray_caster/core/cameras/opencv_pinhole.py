@@ -14,37 +14,54 @@ from math import atan
 
 import numpy as np
 
+from ..conventions import gamma
 from ..maths.chebyshev import on_raster
 from ..maths.vector import components
 from ..records import BlenderCamera, Raster
-from .parts.calibration import RADIAL_TANGENTIAL, Calibration
-from .parts.film import Window
+from .model import Step, WindowModel
+from .parts.calibration import CALIBRATION, RADIAL_TANGENTIAL, Calibration
 from .parts.radial import AT_THE_RIM
 from .parts.radial_tangential import RadialTangential
 from .parts.silhouette import angular_radius, pixel_bounds, radial_intervals
 
 
 @dataclass(frozen=True)
-class OpencvPinhole:
+class OpencvPinhole(WindowModel):
     """A pinhole behind a window of distorted coordinates, y up."""
 
-    window: Window
     distortion: RadialTangential
 
     key = "OPENCV_PINHOLE"
+    label = "OpenCV Pinhole"
+    description = "A calibrated lens: radial, tangential and thin prism distortion"
+    group = "Calibrated"
+    number = 4
     planar = True
-    central = True
+    SETTINGS = (*CALIBRATION, *RADIAL_TANGENTIAL)
+    FORMULA = (
+        Step("Distorted coordinates, y down", "u = (x - 1/2 - cx) / fx, v = (H - y - 1/2 - cy) / fy"),
+        Step("Undistorted, by Newton's method", "distort(X, Y) = (u, v)"),
+        Step("Gain, r² = X² + Y²", "g = (1 + k1 r² + k2 r⁴ + k3 r⁶) / (1 + k4 r² + k5 r⁴ + k6 r⁶)"),
+        Step("Distortion across", "X g + 2 p1 X Y + p2 (r² + 2 X²) + s1 r² + s2 r⁴"),
+        Step("Distortion down", "Y g + p1 (r² + 2 Y²) + 2 p2 X Y + s3 r² + s4 r⁴"),
+        Step("Direction", "r = X u - Y v + w"),
+    )
 
     @property
-    def by_panels(self) -> bool:
-        """Whether polynomials give the rays of a picture; see panels."""
-        return self.distortion.bends
+    def ray_rounding(self) -> float:
+        """See Model; a window alone rounds twice."""
+        return gamma(16) if self.distortion.bends else gamma(2)
+
+    @property
+    def K(self) -> np.ndarray:
+        """See Model."""
+        return self.window.matrix(self.frame[1])
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> OpencvPinhole:
         """Build it from the settings of the same names or a calibration file; see Calibration for what is refused."""
         calibration = Calibration.from_blender(raw, raster, RADIAL_TANGENTIAL)
-        return cls(calibration.window(raster), RadialTangential(**calibration.coefficients))
+        return cls(raster.size, calibration.window(raster), RadialTangential(**calibration.coefficients))
 
     def rays(self, x, y):
         """Return origin and direction, each a tuple of three broadcastable arrays, camera frame, direction_z = -1.
@@ -52,7 +69,7 @@ class OpencvPinhole:
         x and y are pixel coordinates of broadcastable shapes. x and y are NaN where there is no ray.
         """
         straight = self.window.plane_from_pixels
-        across, up = on_raster(self._undistorted, x, y) if self.by_panels else straight(x, y)
+        across, up = on_raster(self._undistorted, x, y) if self.distortion.bends else straight(x, y)
         return (0.0, 0.0, 0.0), (across, up, -1.0)
 
     def _undistorted(self, x, y):

@@ -12,27 +12,38 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..records import BlenderCamera, InputError, Raster
-from .parts.film import Window
+from ..conventions import gamma
+from ..records import BlenderCamera, Raster
+from .model import Step, WindowModel
+from .parts.film import FILM, ORTHO_SCALE, Window
 from .parts.silhouette import pixel_bounds
 
 
 @dataclass(frozen=True)
-class Orthographic:
+class Orthographic(WindowModel):
     """Parallel rays along -Z; the window lies on z = 0, in Blender units."""
 
-    window: Window
-
     key = "ORTHO"
+    label = "Orthographic"
+    description = "Parallel rays: no foreshortening, no vanishing point"
+    group = "Blender's Own"
     planar = True
     central = False
+    parallel = True
+    ray_rounding = gamma(2)
+    SETTINGS = (ORTHO_SCALE, *FILM)
+    FORMULA = (
+        Step("Pixel on the camera's plane", "X = (x - W/2 + shift_x V) q, Y = ((y - H/2) a + shift_y V) q"),
+        Step("Size of a pixel there, V pixels on the fitted side", "q = ortho_scale / V"),
+        Step("Origin", "o = eye + X u + Y v"),
+        Step("Direction, the same for all", "r = w"),
+        Step("The lecture's form over [-1, 1]²", "o = e + x size u + y size v"),
+    )
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> Orthographic:
-        """Build it from the orthographic scale and shift; InputError where the scale is no positive number."""
-        if not 0 < raw.ortho_scale < np.inf:
-            raise InputError(f"the orthographic scale of camera {raw.name!r} is {raw.ortho_scale}: it must be positive")
-        return cls(Window.from_blender(raw, raster, raw.ortho_scale))
+        """Build it from the orthographic scale and shift."""
+        return cls(raster.size, Window.from_blender(raw, raster, ORTHO_SCALE.read(raw)))
 
     def rays(self, x, y):
         """Return origin and direction, each a tuple of three broadcastable arrays, camera frame, direction_z = -1.
@@ -52,3 +63,8 @@ class Orthographic:
         behind = centers[:, 2] - radii > 0
         radii = np.where(behind, np.nan, radii)
         return pixel_bounds(self.window, (x - radii, x + radii), (y - radii, y + radii))
+
+    def facts(self) -> dict[str, object]:
+        """Return the width and height of the frame in Blender units."""
+        width, height = self.frame
+        return {"frame": [width * self.window.pitch_x, height * self.window.pitch_y]}

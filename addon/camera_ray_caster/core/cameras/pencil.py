@@ -18,33 +18,46 @@ import numpy as np
 from ..maths.intervals import Interval
 from ..maths.vector import along, components, difference, dot, norm
 from ..records import BlenderCamera, Raster
-from .parts.film import Window
-from .parts.lines import image_axes, slit_from
-from .parts.settings import number
+from .model import Step, WindowModel
+from .parts.lines import SLIT, image_axes, slit_from
+from .parts.settings import Number
 from .parts.silhouette import pinhole_interval, pixel_bounds
 from .perspective import Perspective
 
+SLIDE = Number(
+    "pencil_slide", "Slide",
+    "How far the eye moves along the slit where rays rise by 45 degrees across it; 0 is a pinhole", 1.0, unit="length",
+)  # fmt: skip
+
 
 @dataclass(frozen=True)
-class Pencil:
+class Pencil(WindowModel):
     """A slit through ``point``; ``axes`` holds l, n and w in its rows, an orthonormal basis of the camera's frame."""
 
-    window: Window
     point: np.ndarray
     axes: np.ndarray
     slide: float
 
     key = "PENCIL"
-    planar = False
+    label = "Pencil"
+    description = "The eye lies elsewhere on a slit for each line of the picture"
+    group = "Multiperspective"
+    number = 13
     central = False
+    SETTINGS = (SLIT, SLIDE, *Perspective.SETTINGS)
+    FORMULA = (
+        Step("Direction, the pixel on the perspective window", "d = (X, Y, -1)"),
+        Step("Its tangent across the slit, l along it, n across, w ahead", "m = (n . d) / (w . d)"),
+        Step("Origin, on the slit", "o = point + slide m l"),
+    )
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> Pencil:
         """Build it from lens, sensor, shift, slit_1 and pencil_slide; InputError for what has no meaning."""
-        point, direction = slit_from(raw, "slit_1")
-        _, across = image_axes(raw, "slit_1", direction)
+        point, direction = slit_from(raw)
+        _, across = image_axes(raw, direction)
         axes = np.stack((direction, across, np.cross(across, direction)))
-        return cls(Perspective.from_blender(raw, raster).window, point, axes, number(raw, "pencil_slide"))
+        return cls(raster.size, Perspective.from_blender(raw, raster).window, point, axes, SLIDE.read(raw))
 
     def rays(self, x, y):
         """Return origin and direction, each a tuple of three broadcastable arrays, camera frame, unit length.

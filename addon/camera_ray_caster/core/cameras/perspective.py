@@ -10,30 +10,42 @@ Reference: Blender manual, Cameras; measured against Camera.calc_matrix_camera.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import atan, degrees
+from typing import ClassVar
 
 import numpy as np
 
-from ..records import BlenderCamera, InputError, Raster
-from .parts.film import Film, Window
+from ..conventions import gamma
+from ..records import BlenderCamera, Raster
+from .model import Step, WindowModel
+from .parts.film import FILM, LENS, Film, Window
+from .parts.settings import Setting
 from .parts.silhouette import pinhole_interval, pixel_bounds
 
 
 @dataclass(frozen=True)
-class Perspective:
+class Perspective(WindowModel):
     """A pinhole looking along -Z; its window lies at unit depth."""
 
-    window: Window
-
     key = "PERSP"
+    label = "Perspective"
+    description = "A pinhole before a film: straight lines stay straight"
+    group = "Blender's Own"
     planar = True
-    central = True
+    ray_rounding = gamma(2)
+    SETTINGS: ClassVar[tuple[Setting, ...]] = (LENS, *FILM)
+    FORMULA: ClassVar[tuple[Step, ...]] = (
+        Step("Pixel on the plane at unit depth", "X = (x - W/2 + shift_x V) q, Y = ((y - H/2) a + shift_y V) q"),
+        Step("Size of a pixel there, V pixels on the fitted side", "q = sensor / (lens V)"),
+        Step("Direction along the axes u, v, w", "r = X u + Y v + w"),
+        Step("The lecture's form over [-1, 1]²", "r = x u + aspect y v + d w, d = 1 / tan(fov / 2)"),
+    )
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> Perspective:
-        """Build it from lens (mm), sensor and shift; InputError where the lens is no positive number."""
-        if not 0 < raw.lens < np.inf:
-            raise InputError(f"the lens of camera {raw.name!r} is {raw.lens} mm: it must be positive")
-        return cls(Window.from_blender(raw, raster, Film.from_blender(raw, raster).size / raw.lens))
+        """Build it from lens, sensor and shift."""
+        size = Film.from_blender(raw, raster).size
+        return cls(raster.size, Window.from_blender(raw, raster, size / LENS.read(raw)))
 
     def rays(self, x, y):
         """Return origin and direction, each a tuple of three broadcastable arrays, camera frame, direction_z = -1.
@@ -53,3 +65,21 @@ class Perspective:
         """Return (n, 4) pixel bounds x0, x1, y0, y1 outside of which no point of the spheres (camera frame) is seen."""
         x, y, depth = centers[:, 0], centers[:, 1], -centers[:, 2]
         return pixel_bounds(self.window, pinhole_interval(x, depth, radii), pinhole_interval(y, depth, radii))
+
+    @property
+    def K(self) -> np.ndarray | None:
+        """See Model."""
+        return self.window.matrix(self.frame[1])
+
+    def facts(self) -> dict[str, object]:
+        """Return the field of view across and up (degrees, without shift, as Blender's panel has it), the distance d of
+        the image plane of the lecture's ray x u + aspect y v + d w over [-1, 1]², that aspect, and K.
+        """
+        width, height = self.frame
+        tan_x, tan_y = self.window.pitch_x * width / 2, self.window.pitch_y * height / 2
+        return {
+            "field_of_view": [degrees(2 * atan(tan_x)), degrees(2 * atan(tan_y))],
+            "d": 1 / tan_x,
+            "aspect": tan_y / tan_x,
+            "K": self.window.matrix(height).tolist(),
+        }

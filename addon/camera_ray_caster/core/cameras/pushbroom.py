@@ -19,18 +19,18 @@ from ..maths.intervals import Interval
 from ..maths.vector import along as point_along
 from ..maths.vector import components, difference, dot
 from ..records import BlenderCamera, Raster
+from .model import Step, WindowModel
 from .orthographic import Orthographic
-from .parts.film import Window
-from .parts.lines import image_axes, slit_from
+from .parts.film import ORTHO_SCALE
+from .parts.lines import SLIT, image_axes, slit_from
 from .parts.silhouette import pinhole_interval, pixel_bounds
 from .perspective import Perspective
 
 
 @dataclass(frozen=True)
-class Pushbroom:
+class Pushbroom(WindowModel):
     """A slit through ``start``, where a . start = 0, with the eye at start + (a . point) step."""
 
-    window: Window
     stretch: float
     """k: along the slit, Blender units over the window's."""
     along: np.ndarray
@@ -39,18 +39,27 @@ class Pushbroom:
     step: np.ndarray
 
     key = "PUSHBROOM"
-    planar = False
+    label = "Pushbroom"
+    description = "The eye flies along a slit: perspective across it, orthographic along it"
+    group = "Multiperspective"
+    number = 12
     central = False
+    SETTINGS = (SLIT, ORTHO_SCALE, *Perspective.SETTINGS)
+    FORMULA = (
+        Step("Point on the perspective window, a along the slit's picture, n across", "(X, Y)"),
+        Step("Origin, on the slit", "o: a . o = k a . (X, Y), k the orthographic frame over the perspective one"),
+        Step("Direction", "d = (n . (X, Y)) n + w"),
+    )
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> Pushbroom:
         """Build it from lens, sensor, shift, ortho_scale and slit_1; InputError for what has no meaning."""
         window = Perspective.from_blender(raw, raster).window
         stretch = Orthographic.from_blender(raw, raster).window.pitch_x / window.pitch_x
-        point, direction = slit_from(raw, "slit_1")
-        along, across = image_axes(raw, "slit_1", direction)
+        point, direction = slit_from(raw)
+        along, across = image_axes(raw, direction)
         step = direction / (along @ direction)
-        return cls(window, stretch, along, across, point - (along @ point) * step, step)
+        return cls(raster.size, window, stretch, along, across, point - (along @ point) * step, step)
 
     def rays(self, x, y):
         """Return origin and direction, each a tuple of three broadcastable arrays, camera frame, unit length.

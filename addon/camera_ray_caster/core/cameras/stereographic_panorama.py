@@ -14,9 +14,16 @@ from math import inf, pi, tan
 
 from ..records import BlenderCamera, Raster
 from .fisheye_stereographic import WIDEST, FisheyeStereographic
-from .parts.film import Window
-from .parts.pitched import Pitched
-from .parts.settings import number, positive
+from .model import Step
+from .parts.film import SHIFT, Window
+from .parts.pitched import PITCH, Pitched
+from .parts.radial import FOV, RAY, ROUND_PLANE
+from .parts.settings import Number
+
+ELEVATION = Number(
+    "elevation", "Elevation", "Of the picture's center: -90 degrees is the ground, a little planet",
+    -pi / 2, -pi / 2, pi / 2, "angle", 4,
+)  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -24,9 +31,20 @@ class StereographicPanorama(Pitched, FisheyeStereographic):
     """A stereographic fisheye without a rim, pitched."""
 
     key = "STEREOGRAPHIC_PANORAMA"
+    label = "Panorama Stereographic"
+    description = "All around; looking down, a little planet"
+    group = "Panorama"
+    number = 9
+    SETTINGS = (FOV, ELEVATION, *SHIFT)
+    FORMULA = (
+        ROUND_PLANE,
+        Step("Angle from the axis", "theta = 2 atan(r tan(fov / 4)), r = sqrt(a² + b²)"),
+        RAY,
+        PITCH,
+    )
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> StereographicPanorama:
         """Build it from ``fov``, ``elevation`` and shift; InputError for an angle without meaning."""
-        window = Window.inscribed_circle(raw, raster, tan(positive(raw, "fov", WIDEST, "deg") / 4))
-        return cls(window, rim=inf, elevation=number(raw, "elevation", -pi / 2, pi / 2, "deg"))
+        window = Window.inscribed_circle(raw, raster, tan(FOV.read(raw, high=WIDEST) / 4))
+        return cls(raster.size, window, rim=inf, elevation=ELEVATION.read(raw))

@@ -18,10 +18,27 @@ import numpy as np
 from ..maths.intervals import Interval
 from ..maths.vector import components
 from ..records import BlenderCamera, InputError, Raster
+from .model import Model, Step
 from .parts.film import Window
 from .parts.lines import path_from
+from .parts.settings import Flag, Line
 from .parts.silhouette import MARGIN
 from .perspective import Perspective
+
+PATH = Line(
+    "path",
+    "Path",
+    "The curve along which the eye moves, from the left edge of the picture to the right one",
+    None,
+    ("CURVE",),
+    sampled=True,
+)
+FOLLOW = Flag(
+    "follow_path",
+    "Follow Path",
+    "Turn about the camera's up axis, to look to the left of where the path leads",
+    False,
+)
 
 BESIDE = 1e-9
 """Fraction of a stretch of the path by which a column may lie beyond its end: rounding must not lose one at a joint."""
@@ -31,7 +48,7 @@ PIECES = 64
 
 
 @dataclass(frozen=True)
-class Strip:
+class Strip(Model):
     """Knots: columns x (k,), the eye's places there (k, 3), and the column's normals (k, 2), in x and z."""
 
     rows: Window
@@ -41,19 +58,28 @@ class Strip:
     normals: np.ndarray
 
     key = "STRIP"
-    planar = False
+    label = "Strip"
+    description = "Each column is seen from another place on a path"
+    group = "Multiperspective"
+    number = 15
     central = False
-    smooth = False
-    """A path may bend between neighboring columns."""
+    smooth = False  # a path may bend between neighboring columns
+    SETTINGS = (PATH, FOLLOW, *Perspective.SETTINGS)
+    FORMULA = (
+        Step("Origin, at the pixel's share of the path's length", "o = path(x/W)"),
+        Step("Where the column looks, level: ahead, or to the left of the path", "f"),
+        Step("Row of the perspective window", "Y = ((y - H/2) a + shift_y V) q"),
+        Step("Direction", "d = f + Y v"),
+    )
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> Strip:
         """Build it from lens, sensor, shift_y, the curve ``path`` and follow_path; InputError for what is no path."""
-        eyes, closed = path_from(raw, "path")
+        eyes, closed = path_from(raw, PATH)
         lengths = np.linalg.norm(np.diff(eyes, axis=0), axis=1)
         walked = np.concatenate(([0.0], np.cumsum(lengths)))
         normals = np.tile((1.0, 0.0), (len(eyes), 1))
-        if raw.settings.get("follow_path"):
+        if FOLLOW.read(raw):
             normals = _headings(np.diff(eyes, axis=0) / lengths[:, None], closed)[:, [0, 2]]
             size = np.linalg.norm(normals, axis=1, keepdims=True)
             if size.min() < 1e-6:
@@ -62,7 +88,8 @@ class Strip:
                     f"{int(size.argmin())}: bend it, or clear follow_path"
                 )
             normals = normals / size
-        return cls(Perspective.from_blender(raw, raster).window, walked * (raster.width / walked[-1]), eyes, normals)
+        rows, columns = Perspective.from_blender(raw, raster).window, walked * (raster.width / walked[-1])
+        return cls(raster.size, rows, columns, eyes, normals)
 
     def rays(self, x, y):
         """Return origin and direction, each a tuple of three broadcastable arrays, camera frame, unit length.

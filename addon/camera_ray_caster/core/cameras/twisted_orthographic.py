@@ -16,9 +16,14 @@ import numpy as np
 
 from ..records import BlenderCamera, Raster
 from .general_linear import GeneralLinear
+from .model import Step
 from .orthographic import Orthographic
-from .parts.lines import image_axes, slit_from
-from .parts.settings import number
+from .parts.lines import SLIT, image_axes, slit_from
+from .parts.settings import Number
+
+TWIST = Number(
+    "twist", "Twist", "How much steeper rays become across the axis over one unit along it; 0 is orthographic", 0.1
+)
 
 
 @dataclass(frozen=True)
@@ -26,15 +31,24 @@ class TwistedOrthographic(GeneralLinear):
     """The general linear camera of the rays at three corners of the orthographic frame."""
 
     key = "TWISTED_ORTHOGRAPHIC"
+    label = "Twisted Orthographic"
+    description = "Parallel rays whose direction turns along an axis"
+    number = 14
+    SETTINGS = (SLIT, TWIST, *Orthographic.SETTINGS)
+    FORMULA = (
+        Step("Origin, the pixel on the orthographic frame", "o = X u + Y v"),
+        Step("Slope across the axis, l along it and n across", "m = twist (o - point) . l"),
+        Step("Direction", "d = m n + w"),
+    )
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> TwistedOrthographic:
         """Build it from ortho_scale, shift, the axis slit_1 and twist; InputError for what has no meaning."""
         window = Orthographic.from_blender(raw, raster).window
-        point, direction = slit_from(raw, "slit_1")
-        along, across = image_axes(raw, "slit_1", direction)
+        point, direction = slit_from(raw)
+        along, across = image_axes(raw, direction)
         corners = np.array(((0, 0), (raster.width, 0), (0, raster.height)), np.float64)
         places = np.stack(window.plane_from_pixels(*corners.T), axis=-1)
-        slopes = number(raw, "twist") * ((places - point[:2]) @ along[:2])
+        slopes = TWIST.read(raw) * ((places - point[:2]) @ along[:2])
         ends = places + slopes[:, None] * across[:2]
-        return cls(np.concatenate((places, ends), axis=1), (raster.width, raster.height))
+        return cls(raster.size, np.concatenate((places, ends), axis=1))

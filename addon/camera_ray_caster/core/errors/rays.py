@@ -10,15 +10,12 @@ from typing import Any
 
 import numpy as np
 
+from ..camera.camera import Camera
 from ..conventions import EPS, gamma
 from ..maths.vector import cross, dot, matvec, norm, rows
 
 STEP = 2.0**-20
 """Pixels by which a ray is moved to see how fast the picture's rays turn: beside singular rims still on the picture."""
-
-IN_RAYS = gamma(16)
-"""Of a ray's own length: a model's last operations; numpy's sine and cosine take up to 8 of them, polynomials more."""
-
 
 @dataclass(frozen=True)
 class WorldRays:
@@ -31,7 +28,7 @@ class WorldRays:
     direction_error: Any
 
 
-def world_rays(camera, x, y) -> WorldRays:
+def world_rays(camera: Camera, x, y) -> WorldRays:
     """Return the rays at pixel coordinates with their errors: a model's rounding is that of a slightly moved pixel.
 
     How far a moved pixel moves the ray is measured, whatever the model: near a singular place, as the rim of a mirror
@@ -41,29 +38,15 @@ def world_rays(camera, x, y) -> WorldRays:
     moves = ((STEP, 0.0), (-STEP, 0.0)), ((0.0, STEP), (0.0, -STEP))
     basis = camera.pose.basis.tolist()
     stretch = np.linalg.norm(camera.pose.basis, 2)
-    in_pixels = _in_pixels(camera, x, y)
-    by_panels = getattr(camera.model, "by_panels", False)
+    in_pixels = camera.model.pixel_rounding(x, y)
     parts = []
     for part in range(2):
-        error = (gamma(2) if camera.model.planar and not by_panels else IN_RAYS) * norm(here[part])
+        error = camera.model.ray_rounding * norm(here[part])
         for axis in range(2):
             turned = [_moved(camera.camera_rays(x + dx, y + dy)[part], here[part]) for dx, dy in moves[axis]]
             error = error + in_pixels[axis] / STEP * np.fmax(*turned)
         parts.append((matvec(basis, here[part]), stretch * error + gamma(8) * norm(here[part])))
     return WorldRays(parts[0][0], parts[1][0], parts[0][1], parts[1][1])
-
-
-def _in_pixels(camera, x, y):
-    """Return what the few operations of a window amount to, as moves of the pixel in x and in y."""
-    window = getattr(camera.model, "window", None)
-    if window is None:
-        return gamma(8) * camera.raster.width, gamma(8) * camera.raster.height
-    middle = camera.raster.width / 2, camera.raster.height / 2
-    center = window.center_x, window.center_y
-    return tuple(
-        gamma(6) * np.abs(place - c) + gamma(3) * (np.abs(c) if c != m else 0.0)
-        for place, c, m in zip((x, y), center, middle, strict=True)
-    )
 
 
 def _moved(there, here):

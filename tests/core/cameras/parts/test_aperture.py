@@ -158,7 +158,7 @@ def test_culling_loses_nothing_that_a_blurred_camera_sees(kind):
     ("name", "value"), [("obscura_hole", 0.0), ("obscura_depth", -1.0), ("obscura_width", float("nan"))]
 )
 def test_a_box_without_meaning_is_refused_by_name(name, value):
-    with pytest.raises(InputError, match=f"{name}.*{value}.*above 0"):
+    with pytest.raises(InputError, match=f"{name}.*{value:g}.*or more"):
         camera(BOX | {name: value}, model="CAMERA_OBSCURA")
 
 

@@ -97,7 +97,7 @@ SMALLEST = 1e-5
 """Blender's floor under f-stop and focus distance."""
 
 
-def lens_from(raw: BlenderCamera, pose: Pose, parallel: bool) -> Aperture | None:
+def thin_lens(raw: BlenderCamera, pose: Pose, parallel: bool) -> Aperture | None:
     """Return the thin lens of a camera's depth of field; None where that is off.
 
     The radius is the lens in meters over twice the f-stop; 1 / (2 f-stop) where rays are ``parallel``. A focus object
@@ -114,7 +114,5 @@ def lens_from(raw: BlenderCamera, pose: Pose, parallel: bool) -> Aperture | None
         focus = abs(float((np.asarray(settings["focus_position"]) - pose.eye) @ pose.basis[:, 2]))
     size = 1.0 if parallel else raw.lens * 1e-3
     radius = size / (2 * max(float(settings["aperture_fstop"]), SMALLEST))
-    rotation, axis = float(settings["aperture_rotation"]), FORWARD
-    if not raw.model and raw.type == "PANO" and settings["panorama_type"] == "MIRRORBALL":
-        rotation, axis = -rotation, SIDEWAYS  # Cycles has this one panorama in a mirrored space of its own
-    return Aperture(radius, max(focus, SMALLEST), blades, rotation, ratio, axis)
+    rotation = float(settings["aperture_rotation"])
+    return Aperture(radius, max(focus, SMALLEST), blades, rotation, ratio)

@@ -15,19 +15,42 @@ from math import isfinite
 from ...records import BlenderCamera, InputError, Raster
 from .filestorage import read_entries
 from .film import Window
-from .settings import number, positive
+from .settings import FilePath, Number, Setting, Whole
 
-FOCAL = ("fx", "fy")
-CENTER = ("cx", "cy")
-SIZE = ("calibration_width", "calibration_height")
-"""Settings of the calibrated picture, in pixels. A size of 0 stands for the frame's own."""
+FOCAL = (
+    Number("fx", "Focal Length X", "In pixels of the calibrated picture", 1500.0, 1e-3, unit="pixels"),
+    Number("fy", "Y", "In pixels of the calibrated picture", 1500.0, 1e-3, unit="pixels"),
+)
+CENTER = (
+    Number("cx", "Center X", "From the center of the top left pixel, to the right", 959.5, -1e6, unit="pixels"),
+    Number("cy", "Y", "From the center of the top left pixel, down", 539.5, -1e6, unit="pixels"),
+)
+SIZE = (
+    Whole("calibration_width", "Width", "Of the calibrated picture; 0 is the frame's", 1920, 0, unit="pixels"),
+    Whole("calibration_height", "Height", "Of the calibrated picture; 0 is the frame's", 1080, 0, unit="pixels"),
+)
+FILE = FilePath(
+    "calibration_file",
+    "Calibration",
+    "YAML or JSON as OpenCV writes it, with all its digits; empty: the numbers below",
+    "",
+)
+CALIBRATION = (FILE, *SIZE, *FOCAL, *CENTER)
+"""The settings of the calibrated picture. Where there is a file, its numbers count."""
 
-RADIAL_TANGENTIAL = ("k1", "k2", "p1", "p2", "k3", "k4", "k5", "k6", "s1", "s2", "s3", "s4")
-FISHEYE = ("k1", "k2", "k3", "k4")
-"""Settings of the distortion, in the order of OpenCV's vector of coefficients; all without unit."""
 
-FILE = "calibration_file"
-"""The setting that holds the path of a file; where it is not empty the file's numbers count."""
+def _coefficient(name: str, text: str) -> Number:
+    return Number(name, name.upper(), text, 0.0, digits=6)
+
+
+K1, K2, K3 = (_coefficient(name, "Radial") for name in ("k1", "k2", "k3"))
+K4 = _coefficient("k4", "Radial: of the denominator, or the fisheye's last")
+K5, K6 = (_coefficient(name, "Radial, of the denominator") for name in ("k5", "k6"))
+P1, P2 = (_coefficient(name, "Tangential") for name in ("p1", "p2"))
+S1, S2, S3, S4 = (_coefficient(name, "Thin prism") for name in ("s1", "s2", "s3", "s4"))
+RADIAL_TANGENTIAL = K1, K2, P1, P2, K3, K4, K5, K6, S1, S2, S3, S4
+FISHEYE = K1, K2, K3, K4
+"""The distortion, in the order of OpenCV's vector of coefficients; all without unit."""
 
 MATRIX_NAMES = ("cameramatrix", "k", "m1", "intrinsicmatrix")
 DISTORTION_NAMES = ("distortioncoefficients", "distcoeffs", "distortion", "d", "d1")
@@ -51,23 +74,21 @@ class Calibration:
     coefficients: dict[str, float]
 
     @classmethod
-    def from_blender(cls, raw: BlenderCamera, raster: Raster, names: tuple[str, ...]) -> Calibration:
-        """Build it from the settings, or from the file that they name; ``names`` are the model's coefficients.
+    def from_blender(cls, raw: BlenderCamera, raster: Raster, distortion: tuple[Number, ...]) -> Calibration:
+        """Build it from the settings, or from the file that they name; ``distortion``: the model's coefficients.
 
         Raises InputError for a setting, a file or an entry of it that is missing or without meaning, by its name.
         """
-        path = raw.settings.get(FILE)
-        if path:
-            values = _file_values(str(path), names)
-        else:
-            values = {name: number(raw, name) for name in (*CENTER, *names)}
-            values |= {name: positive(raw, name) for name in FOCAL}
-            values |= {name: number(raw, name, low=0.0) for name in SIZE}
+        path = FILE.read(raw)
+        values = (
+            _file_values(path, distortion) if path
+            else {setting.name: setting.read(raw) for setting in (*SIZE, *FOCAL, *CENTER, *distortion)}
+        )  # fmt: skip
         return cls(
-            **{name: values[name] for name in (*FOCAL, *CENTER)},
-            width=values[SIZE[0]] or raster.width,
-            height=values[SIZE[1]] or raster.height,
-            coefficients={name: values[name] for name in names},
+            **{setting.name: values[setting.name] for setting in (*FOCAL, *CENTER)},
+            width=values["calibration_width"] or raster.width,
+            height=values["calibration_height"] or raster.height,
+            coefficients={setting.name: values[setting.name] for setting in distortion},
         )
 
     def window(self, raster: Raster) -> Window:
@@ -81,10 +102,11 @@ class Calibration:
         )
 
 
-def _file_values(path: str, names: tuple[str, ...]) -> dict[str, float]:
+def _file_values(path: str, distortion: tuple[Setting, ...]) -> dict[str, float]:
     """Return the settings that a file stands for."""
+    names = [setting.name for setting in distortion]
     entries = {re.sub("[_-]", "", name).lower(): (name, value) for name, value in read_entries(path).items()}
-    _check_model(entries, path, fisheye=names == FISHEYE)
+    _check_model(entries, path, fisheye=distortion == FISHEYE)
     matrix = _numbers(entries, MATRIX_NAMES, path)
     if len(matrix) != 9 or matrix[1] or matrix[3:4] != [0] or matrix[6:] != [0, 0, 1] or min(matrix[0], matrix[4]) <= 0:
         raise InputError(
@@ -95,12 +117,12 @@ def _file_values(path: str, names: tuple[str, ...]) -> dict[str, float]:
         raise InputError(
             f"{path!r} has {len(found)} distortion coefficients, {found}: only {', '.join(names)} may be other than 0"
         )
-    values = dict(zip((*FOCAL, *CENTER), (matrix[0], matrix[4], matrix[2], matrix[5]), strict=True))
+    values = {"fx": matrix[0], "fy": matrix[4], "cx": matrix[2], "cy": matrix[5]}
     values |= dict.fromkeys(names, 0.0) | dict(zip(names, found, strict=False))
-    for name, spellings in zip(SIZE, (WIDTH_NAMES, HEIGHT_NAMES), strict=True):
-        values[name] = _numbers(entries, spellings, path)[0]
-        if values[name] <= 0:
-            raise InputError(f"{spellings[0]} in {path!r} is {values[name]}: it must be above 0")
+    for setting, spellings in zip(SIZE, (WIDTH_NAMES, HEIGHT_NAMES), strict=True):
+        size = values[setting.name] = _numbers(entries, spellings, path)[0]
+        if size <= 0:
+            raise InputError(f"{spellings[0]} in {path!r} is {size}: it must be above 0")
     return values
 
 

@@ -7,9 +7,46 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...records import BlenderCamera, InputError, Raster
+from .settings import ABOVE_ZERO, CAMERA, Choice, Item, Number
 
 FINITE = "shift_x", "shift_y", "border_min_x", "border_max_x", "border_min_y", "border_max_y"
 """What Blender does not clamp where a driver or a script sets it to nan or inf."""
+
+
+LENS = Number("lens", "Focal Length", "From the eye to the film", 50.0, ABOVE_ZERO, unit="mm", owner=CAMERA)
+ORTHO_SCALE = Number(
+    "ortho_scale", "Orthographic Scale", "The fitted side of the frame", 6.0, ABOVE_ZERO, unit="length", owner=CAMERA
+)
+SENSOR_FIT = Choice(
+    "sensor_fit", "Sensor Fit", "Which side of the frame the sensor is fitted to",
+    "AUTO",
+    (
+        Item("AUTO", "Auto", "The longer side, with the sensor's width", 0),
+        Item("HORIZONTAL", "Horizontal", "The width", 1),
+        Item("VERTICAL", "Vertical", "The height", 2),
+    ),
+    owner=CAMERA,
+)  # fmt: skip
+SENSOR_WIDTH = Number(
+    "sensor_width", "Sensor Width", "Of the film, unless the fit is vertical", 36.0, ABOVE_ZERO, unit="mm", owner=CAMERA
+)
+SENSOR_HEIGHT = Number(
+    "sensor_height",
+    "Sensor Height",
+    "Of the film, where the fit is vertical",
+    24.0,
+    ABOVE_ZERO,
+    unit="mm",
+    owner=CAMERA,
+)
+SHIFT_X = Number("shift_x", "Shift X", "Moves the frame to the right on the image plane", 0.0, owner=CAMERA)
+SHIFT_Y = Number("shift_y", "Shift Y", "Moves the frame up on the image plane", 0.0, owner=CAMERA)
+
+SHIFT = SHIFT_X, SHIFT_Y
+FILM = SENSOR_FIT, SENSOR_WIDTH, SENSOR_HEIGHT, *SHIFT
+"""Blender's own settings that ``Film`` and the windows read. Shift counts in units of the fitted side on both axes; in
+panoramas, fisheyes and domes in fractions of the frame's width and height.
+"""
 
 
 def raster_from(raw: BlenderCamera) -> Raster:
@@ -67,17 +104,12 @@ class Film:
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> Film:
         """Fit the sensor; InputError names a sensor fit or size without meaning."""
         height = raster.height * raster.pixel_aspect
-        fits = {
-            "HORIZONTAL": (raw.sensor_width, raster.width),
-            "VERTICAL": (raw.sensor_height, height),
-            "AUTO": (raw.sensor_width, max(raster.width, height)),
-        }
-        if raw.sensor_fit not in fits:
-            raise InputError(f"sensor fit {raw.sensor_fit!r} is unknown: use one of {', '.join(fits)}")
-        size, fitted_pixels = fits[raw.sensor_fit]
-        if not 0 < size < np.inf:
-            raise InputError(f"the sensor size of camera {raw.name!r} is {size} mm: it must be positive")
-        return cls(size, float(fitted_pixels))
+        size, fitted_pixels = {
+            "HORIZONTAL": (SENSOR_WIDTH, raster.width),
+            "VERTICAL": (SENSOR_HEIGHT, height),
+            "AUTO": (SENSOR_WIDTH, max(raster.width, height)),
+        }[SENSOR_FIT.read(raw)]
+        return cls(size.read(raw), float(fitted_pixels))
 
 
 @dataclass(frozen=True)
@@ -130,10 +162,22 @@ class Window:
         """Return the window in which the circle of this radius touches the nearer sides of the frame."""
         return cls.round_pixels(raw, raster, 2 * radius / min(raster.width, raster.height * raster.pixel_aspect))
 
-    def extent(self, raster: Raster) -> tuple[float, float, float, float]:
-        """Return the image-plane x_low, x_high, y_low, y_high of the whole frame; low <= high, mirrored or not."""
-        x, y = self.plane_from_pixels(np.array([0.0, raster.width]), np.array([0.0, raster.height]))
+    def extent(self, frame: tuple[int, int]) -> tuple[float, float, float, float]:
+        """Return the image-plane x_low, x_high, y_low, y_high of a frame of this width and height in pixels; low <=
+        high, mirrored or not.
+        """
+        x, y = self.plane_from_pixels(*(np.array([0.0, side]) for side in frame))
         return float(x.min()), float(x.max()), float(y.min()), float(y.max())
+
+    def matrix(self, height: int) -> np.ndarray:
+        """Return K, (3, 3): image-plane coordinates, y down, to pixels of a frame of this height in OpenCV's convention
+        (y down, the origin in the center of the top left pixel).
+        """
+        return np.array([
+            [1 / self.pitch_x, 0.0, self.center_x - 0.5],
+            [0.0, 1 / self.pitch_y, height - self.center_y - 0.5],
+            [0.0, 0.0, 1.0],
+        ])  # fmt: skip
 
     def plane_from_pixels(self, x, y):
         """Return image-plane (X, Y) of pixel coordinates; arrays of any shapes, kept apart."""

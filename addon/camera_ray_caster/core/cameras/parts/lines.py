@@ -15,58 +15,78 @@ import numpy as np
 from ...conventions import EPS32
 from ...records import BlenderCamera, InputError
 from .pose import pose_from
+from .settings import Line
+
+SLIT = Line(
+    "slit_1",
+    "Slit",
+    "A line that the rays obey: the X axis of an empty, or a curve from end to end",
+    None,
+    ("EMPTY", "CURVE"),
+)
+SECOND_SLIT = Line(
+    "slit_2",
+    "Second Slit",
+    "The other line that all rays meet: the X axis of an empty, or a curve from end to end",
+    None,
+    ("EMPTY", "CURVE"),
+)
 
 ROUNDING = 16 * EPS32
 """Sine of an angle that objects turned in float32 cannot be told apart by."""
 
 
-def points_in_camera(raw: BlenderCamera, name: str, choose: str) -> np.ndarray:
+def points_in_camera(raw: BlenderCamera, line: Line, choose: str) -> np.ndarray:
     """Return the points of the object of a setting in the camera's frame, (n, 3), right to some EPS of their place.
 
     Raises InputError, which ends in what to choose, where there is no object, or one of no finite place.
     """
-    given: Any = raw.settings.get(name)
+    given: Any = line.given(raw)
     if given is None:
         raise InputError(
-            f"{name} of camera {raw.name!r} is not set, or its object is deleted or disabled: choose {choose} that is "
-            "in the view layer (a line that shall not be seen may be hidden with H)"
+            f"{line.name} of camera {raw.name!r} is not set, or its object is deleted or disabled: choose {choose} "
+            "that is in the view layer (a line that shall not be seen may be hidden with H)"
         )
     pose = pose_from(raw)
     points, matrix = (np.asarray(part, np.float64) for part in given[:2])
     if not (np.isfinite(points).all() and np.isfinite(matrix).all()):
-        raise InputError(f"{name} of camera {raw.name!r} is nowhere (not a finite place): clear its object's transform")
+        raise InputError(f"{line.name} of camera {raw.name!r} has no finite place: clear its object's transform")
     return (points @ matrix[:3, :3].T + (matrix[:3, 3] - pose.eye)) @ np.linalg.inv(pose.basis).T
 
 
-def slit_from(raw: BlenderCamera, name: str) -> tuple[np.ndarray, np.ndarray]:
+def slit_from(raw: BlenderCamera, slit: Line = SLIT) -> tuple[np.ndarray, np.ndarray]:
     """Return a point and the unit direction of a slit, an endless line, camera frame; InputError names the fault."""
-    points = points_in_camera(raw, name, "an empty or a curve")
+    points = points_in_camera(raw, slit, "an empty or a curve")
     if len(points) < 2 or not np.any(points[-1] - points[0]):
-        raise InputError(f"{name} of camera {raw.name!r} has no direction: its two ends must lie apart (scale above 0)")
+        raise InputError(
+            f"{slit.name} of camera {raw.name!r} has no direction: its two ends must lie apart (scale above 0)"
+        )
     along = points[-1] - points[0]
     along = along / np.abs(along).max()
     return points[0], along / np.linalg.norm(along)
 
 
-def image_axes(raw: BlenderCamera, name: str, direction) -> tuple[np.ndarray, np.ndarray]:
+def image_axes(raw: BlenderCamera, direction) -> tuple[np.ndarray, np.ndarray]:
     """Return the unit vectors (3,) along a slit's picture in the image plane and across it, a quarter turn to the left.
 
     Raises InputError where the slit is seen end on.
     """
     length = np.hypot(direction[0], direction[1])
     if length <= ROUNDING:
-        raise InputError(f"{name} of camera {raw.name!r} runs along the viewing direction: turn it across the view")
+        raise InputError(
+            f"{SLIT.name} of camera {raw.name!r} runs along the viewing direction: turn it across the view"
+        )
     along = np.array((direction[0], direction[1], 0.0)) / length
     return along, np.array((-along[1], along[0], 0.0))
 
 
-def path_from(raw: BlenderCamera, name: str) -> tuple[np.ndarray, bool]:
+def path_from(raw: BlenderCamera, path: Line) -> tuple[np.ndarray, bool]:
     """Return the corners (n, 3) of a path, no two in a row alike, camera frame, and whether its end is its beginning.
 
     The path is the chain of edges from the first point on. Raises InputError where it has no length.
     """
-    points = points_in_camera(raw, name, "a curve")
-    given: Any = raw.settings[name]
+    points = points_in_camera(raw, path, "a curve")
+    given: Any = path.given(raw)
     edges = {tuple(edge) for edge in np.asarray(given[2]).reshape(-1, 2).tolist()}
     last = 0
     while (last, last + 1) in edges:
@@ -75,5 +95,7 @@ def path_from(raw: BlenderCamera, name: str) -> tuple[np.ndarray, bool]:
     points = points[[*range(last + 1), *([0] if closed else [])]] if len(points) else points
     apart = np.any(points[1:] != points[:-1], axis=1) if len(points) else np.zeros(0, bool)
     if not apart.any():
-        raise InputError(f"{name} of camera {raw.name!r} has no length: it must be a curve with a spline to move along")
+        raise InputError(
+            f"{path.name} of camera {raw.name!r} has no length: it must be a curve with a spline to move along"
+        )
     return points[np.concatenate(([True], apart))], closed

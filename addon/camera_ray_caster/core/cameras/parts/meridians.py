@@ -8,33 +8,36 @@ Reference: J. P. Snyder, Map Projections: A Working Manual (1987), chapters 10 t
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
+from abc import abstractmethod
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
 from ...maths.vector import components
 from ...records import BlenderCamera, Raster
+from ..model import Step, WindowModel
 from .film import Window
 from .settings import FULL_TURN
 from .silhouette import longitude_latitude, pixel_bounds, turned
 
+LONGITUDE = Step("Longitude", "lon = lon_min + (x/W + shift_x) (lon_max - lon_min)")
+RAY = Step("Direction", "d = (cos(lat) sin(lon), sin(lat), -cos(lat) cos(lon))")
+
 
 @dataclass(frozen=True)
-class Meridians(ABC):
-    """A window of longitude (rad) across and height up; ``extent`` is the part of it that the frame shows."""
+class Meridians(WindowModel):
+    """A window of longitude (rad) across and height up."""
 
-    window: Window
-    extent: tuple[float, float, float, float]
-
-    planar = False
-    central = True
+    @cached_property
+    def extent(self) -> tuple[float, float, float, float]:
+        """The part of the window that the frame shows: lowest and highest longitude, lowest and highest height."""
+        return self.window.extent(self.frame)
 
     @classmethod
     def over_frame(cls, raw: BlenderCamera, raster: Raster, longitudes, heights):
         """Return the model in which the frame spans these (low, high) ranges, moved by Blender's shift."""
-        window = Window.over_frame(raw, raster, longitudes, heights)
-        return cls(window, window.extent(raster))
+        return cls(raster.size, Window.over_frame(raw, raster, longitudes, heights))
 
     @abstractmethod
     def latitude(self, height):

@@ -3,12 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import cos, sin
+from math import cos, pi, sin
 
 import numpy as np
 
 from ...maths.vector import components
+from ..model import Step
 from .radial import Radial
+from .settings import Number
+
+TILT = Number("tilt", "Dome Tilt", "How far the dome is tipped towards the front", 0.0, 0.0, pi / 2, "angle", 4)
+
+PITCH = Step("Turned up by the elevation e about the camera's X", "(d_x, d_y cos e - d_z sin e, d_y sin e + d_z cos e)")
 
 
 @dataclass(frozen=True)
@@ -22,10 +28,6 @@ class Pitched(Radial):
         """See Radial."""
         origin, direction = super().rays(x, y)
         return origin, self._pitched(direction, self.elevation)
-
-    def write_directions(self, matrix, x, y, out) -> None:
-        """See Radial."""
-        super().write_directions(matrix @ np.array(self._pitched(np.eye(3), self.elevation)), x, y, out)
 
     def project(self, points):
         """See Radial."""

@@ -8,17 +8,40 @@ Reference: Blender manual, Cameras > Panoramic; Kannala and Brandt (2006), secti
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
-from dataclasses import dataclass, replace
-from typing import Self
+from abc import abstractmethod
+from dataclasses import dataclass
+from math import inf, pi, radians
+from typing import ClassVar
 
 import numpy as np
 
 from ...conventions import gamma
-from ...maths.chebyshev import Disc
+from ...maths.chebyshev import Disc, is_raster, on_raster
 from ...maths.vector import components
-from .film import Window
+from ..model import Step, WindowModel
+from .settings import ABOVE_ZERO, CAMERA, Number
 from .silhouette import pixel_bounds, radial_intervals
+
+FOV = Number("fov", "Field of View", "From rim to rim of the picture", pi, radians(1), 2 * pi, "angle", 4)
+FISHEYE_FOV = Number(
+    "fisheye_fov",
+    "Field of View",
+    "From rim to rim of the picture",
+    pi,
+    ABOVE_ZERO,
+    radians(1800),
+    "angle",
+    owner=CAMERA,
+)
+FISHEYE_LENS = Number(
+    "fisheye_lens", "Focal Length", "Of the fisheye lens", 10.5, ABOVE_ZERO, inf, "mm", owner=CAMERA
+)  # fmt: skip
+
+ROUND_PLANE = Step("Pixel on the plane, the nearer sides at 1", "a = (2 x/W - 1 + 2 shift_x) W / w, b likewise")
+WHOLE_PLANE = Step("Pixel on the plane, the frame's sides at 1", "a = 2 x/W - 1 + 2 shift_x, b = 2 y/H - 1 + 2 shift_y")
+SENSOR_PLANE = Step("Pixel on the sensor", "a = (x - W/2 + shift_x W) sensor / V, b likewise, in mm")
+RADIUS = Step("Radius", "r = sqrt(a² + b²); no ray beyond the rim")
+RAY = Step("Direction, azimuth kept", "d = (a/r sin(theta), b/r sin(theta), -cos(theta))")
 
 TINY = 1e-300
 """A radius whose square is lost and whose reciprocal is finite: what stands for r = 0."""
@@ -28,18 +51,16 @@ AT_THE_RIM = 1 + gamma(16)
 
 
 @dataclass(frozen=True)
-class Radial(ABC):
+class Radial(WindowModel):
     """A central model with rays (a k, b k, -c) where (k, c) = factors(a^2 + b^2)."""
 
-    window: Window
     rim: float
     """The r beyond which there is no ray; inf where the factors, or the frame alone, know an end."""
 
-    planar = False
-    central = True
-    smooth = True
-    """Whether polynomials give the rays of a picture (see panels): not where all that the factors take is a root, which
-    is singular at the rim or little beyond.
+    group = "Fisheye"
+    by_polynomials: ClassVar[bool] = False
+    """Whether polynomials give the factors of a whole picture (see ``maths.chebyshev``): where they take sines, or
+    iterate, which costs more, and are smooth a little beyond the rim.
     """
 
     @abstractmethod
@@ -64,11 +85,6 @@ class Radial(ABC):
         middle = self.window.center_x, self.window.center_y
         return Disc(middle, self._is_within) if self.rim < np.inf else None
 
-    @property
-    def endless(self) -> Self:
-        """The same lens without a rim: it goes on as far as its formula does."""
-        return replace(self, rim=np.inf)
-
     def rays(self, x, y):
         """Return origin and direction, each a tuple of three broadcastable arrays, camera frame, of unit length.
 
@@ -78,13 +94,6 @@ class Radial(ABC):
         a, b = self._plane(x, y)
         scale, cosine = self._factors_at(x, y)
         return (0.0, 0.0, 0.0), (a * scale, b * scale, -cosine)
-
-    def write_directions(self, matrix, x, y, out) -> None:
-        """Write matrix @ direction of ``rays`` into (..., 3): what a and b bring may stay a row and a column."""
-        a, b = self._plane(x, y)
-        scale, cosine = self._factors_at(x, y)
-        for axis, (across, up, back) in enumerate(matrix):
-            np.subtract((across * a + up * b) * scale, back * cosine, out=out[..., axis])
 
     def _plane(self, x, y):
         return self.window.plane_from_pixels(x, y)
@@ -97,6 +106,8 @@ class Radial(ABC):
         return self._r_squared(x, y) <= self.rim * self.rim
 
     def _factors_at(self, x, y):
+        if self.by_polynomials and is_raster(x, y):
+            return on_raster(lambda x, y: self.factors(self._r_squared(x, y)), x, y, self.disc)
         r_squared = self._r_squared(x, y)
         if self.rim < np.inf:
             r_squared = np.where(r_squared > self.rim * self.rim, np.nan, r_squared)

@@ -1,77 +1,210 @@
-"""The settings that only some models have: read by name, with the range in which they mean something."""
+"""The settings of cameras, each declared once: name, kind, unit, range, default and text, and how it is read.
+
+Blender's properties, the panel, the copying into a record, the report and the table of models are made from them. A
+setting that several models share is one object, declared in ``parts``.
+"""
 
 from __future__ import annotations
 
 import math
-from typing import Any
+from abc import ABC
+from collections.abc import Iterable
+from dataclasses import dataclass, field, fields
+from typing import Any, ClassVar, NamedTuple
+
+import numpy as np
 
 from ...records import BlenderCamera, InputError
 
 FULL_TURN = 2 * math.pi
-WIDEST_FISHEYE = math.radians(1800)
-"""Where Blender ends a fisheye's field of view."""
+
+ABOVE_ZERO = math.ulp(0.0)
+"""The least of numbers that have to be positive."""
 
 ROUNDING = 1e-6
 """Of itself: a limit stored as float32 may lie this much beyond."""
 
+OWN, CAMERA, STEREO, RENDER, CYCLES = "own", "camera", "stereo", "render", "cycles"
+"""Where Blender keeps a setting: in the add-on's properties, which are made from it, or where it has it itself: in the
+camera, its stereoscopy settings, the scene's render settings or Cycles' settings of the scene.
+"""
 
-def number(raw: BlenderCamera, name: str, low: float = -math.inf, high: float = math.inf, unit: str = "") -> float:
-    """Return a setting as a float, which must lie between low and high, both included where they are finite.
+RECORD_FIELDS = frozenset(entry.name for entry in fields(BlenderCamera))
 
-    unit "deg" writes the range in degrees; the setting itself is in radians. Raises InputError that names the
-    setting, its value and the range.
+
+@dataclass(frozen=True)
+class Setting(ABC):
+    """A setting of a camera; ``kind`` says what kind of property it is."""
+
+    name: str
+    """Of the property, and in a record, a report and a message."""
+    label: str
+    text: str
+    """What it means, for the tooltip and the table of models."""
+
+    default: Any
+    """The value of a new camera."""
+    owner: str = field(default=OWN, kw_only=True)
+    """Where Blender keeps it: one of OWN, CAMERA, STEREO, RENDER, CYCLES."""
+
+    kind: ClassVar[str]
+
+    def given(self, raw: BlenderCamera) -> Any:
+        """Return the value in a record as it stands there. Raises InputError where it has none."""
+        if self.name in RECORD_FIELDS:
+            return getattr(raw, self.name)
+        if self.name not in raw.settings:
+            raise InputError(f"camera {raw.name!r} has no setting {self.name}, which its model needs")
+        return raw.settings[self.name]
+
+    def refusal(self, raw: BlenderCamera, value: str, allowed: str) -> InputError:
+        """Return the error that says what is wrong with the setting of a camera, and what it may be."""
+        return InputError(f"{self.name} of camera {raw.name!r} is {value}: it must be {allowed}")
+
+
+@dataclass(frozen=True)
+class Number(Setting):
+    """A finite number. Angles are in radians, lengths in Blender units unless the unit says otherwise."""
+
+    low: float = -math.inf
+    high: float = math.inf
+    unit: str = ""
+    """"angle", "length", "mm", "pixels" or none."""
+    digits: int = 3
+    """Decimals that are shown."""
+
+    kind = "FLOAT"
+
+    def read(self, raw: BlenderCamera, low: float | None = None, high: float | None = None) -> float:
+        """Return the value, from ``low`` to ``high``, by default the setting's own range.
+
+        Raises InputError that names the setting, its value and the range.
+        """
+        low, high = self.low if low is None else low, self.high if high is None else high
+        value = self.given(raw)
+        if (
+            not isinstance(value, int | float)
+            or not math.isfinite(value)
+            or not low - ROUNDING * abs(low) <= value <= high + ROUNDING * abs(high)
+        ):
+            raise self.refusal(raw, self.in_words(value), self.range_in_words(low, high))
+        return float(value)
+
+    def in_words(self, value) -> str:
+        """Return a value with its unit."""
+        if self.unit == "angle" and isinstance(value, int | float):
+            return f"{math.degrees(value):.6g} degrees"
+        return f"{value:.6g}" if isinstance(value, float) else f"{value!r}"
+
+    def range_in_words(self, low: float, high: float) -> str:
+        """Return what a value may be."""
+        if (low, high) == (-math.inf, math.inf):
+            return "a finite number"
+        if low == ABOVE_ZERO:
+            return "above 0" if high == math.inf else f"above 0, up to {self.in_words(high)}"
+        if high == math.inf:
+            return f"{self.in_words(low)} or more"
+        return f"from {self.in_words(low)} to {self.in_words(high)}"
+
+
+@dataclass(frozen=True)
+class Whole(Number):
+    """A whole number."""
+
+    kind = "INT"
+
+
+@dataclass(frozen=True)
+class Flag(Setting):
+    """A tick box."""
+
+    kind = "BOOLEAN"
+
+    def read(self, raw: BlenderCamera) -> bool:
+        """Return whether it is ticked."""
+        return bool(self.given(raw))
+
+
+class Item(NamedTuple):
+    """One of the words that a choice may be."""
+
+    key: str
+    label: str
+    text: str
+    number: int
+    """What a .blend stores: never changed, never used again."""
+
+
+@dataclass(frozen=True)
+class Choice(Setting):
+    """One of some words."""
+
+    items: tuple[Item, ...]
+
+    kind = "ENUM"
+
+    def read(self, raw: BlenderCamera) -> str:
+        """Return the word. Raises InputError that names those that there are."""
+        value, known = self.given(raw), [item.key for item in self.items]
+        if value not in known:
+            raise self.refusal(raw, repr(value), f"one of {', '.join(known)}")
+        return str(value)
+
+
+@dataclass(frozen=True)
+class Numbers(Setting):
+    """As many finite numbers as the default has."""
+
+    kind = "VECTOR"
+
+    def read(self, raw: BlenderCamera) -> tuple[float, ...]:
+        """Return the numbers. Raises InputError that names the setting and its value."""
+        values, count = tuple(self.given(raw)), len(self.default)
+        if len(values) != count or not all(isinstance(value, int | float) and math.isfinite(value) for value in values):
+            raise self.refusal(raw, f"{values}", f"{count} finite numbers")
+        return values
+
+
+@dataclass(frozen=True)
+class FilePath(Setting):
+    """The path of a file; empty for none. A record has the absolute path."""
+
+    kind = "FILE"
+
+    def read(self, raw: BlenderCamera) -> str:
+        """Return the path."""
+        return str(self.given(raw) or "")
+
+
+@dataclass(frozen=True)
+class Line(Setting):
+    """An object of the scene that stands for a line; see ``parts.lines`` for what a record has of it.
+
+    ``types``: Blender's object types that can be chosen. ``sampled``: whether a curve counts with all its points, not
+    by its two ends.
     """
-    if name not in raw.settings:
-        raise InputError(f"camera {raw.name!r} has no setting {name}, which its model needs")
-    value = raw.settings[name]
-    if (
-        not isinstance(value, int | float)
-        or not math.isfinite(value)
-        or not low - ROUNDING * abs(low) <= value <= high + ROUNDING * abs(high)
-    ):
-        raise InputError(f"{name} of camera {raw.name!r} is {_text(value, unit)}: it must be {_range(low, high, unit)}")
-    return float(value)
+
+    types: tuple[str, ...]
+    sampled: bool = False
+
+    kind = "OBJECT"
 
 
-def numbers(raw: BlenderCamera, name: str, count: int) -> tuple[float, ...]:
-    """Return a setting of ``count`` finite numbers. Raises InputError that names it and its value."""
-    given: Any = raw.settings.get(name, ())
-    values = tuple(given)
-    if len(values) != count or not all(isinstance(value, int | float) and math.isfinite(value) for value in values):
-        raise InputError(f"{name} of camera {raw.name!r} is {values}: it must be {count} finite numbers")
-    return values
-
-
-def choice(raw: BlenderCamera, name: str, known) -> str:
-    """Return a setting that is one of the known words. Raises InputError that names them."""
-    value = raw.settings.get(name)
-    if value not in known:
-        raise InputError(f"{name} of camera {raw.name!r} is {value!r}: it must be one of {', '.join(known)}")
-    return str(value)
-
-
-def span(raw: BlenderCamera, start: str, end: str, low: float = -math.inf, high: float = math.inf, unit: str = ""):
+def span(raw: BlenderCamera, start: Number, end: Number) -> tuple[float, float]:
     """Return a pair of settings. Swapped ends mirror the picture; InputError where they are equal."""
-    pair = number(raw, start, low, high, unit), number(raw, end, low, high, unit)
-    if pair[0] == pair[1]:
-        raise InputError(f"{start} and {end} of camera {raw.name!r} are both {_text(pair[0], unit)}: set them apart")
-    return pair
+    low, high = start.read(raw), end.read(raw)
+    if low == high:
+        same = start.in_words(low)
+        raise InputError(f"{start.name} and {end.name} of camera {raw.name!r} are both {same}: set them apart")
+    return low, high
 
 
-def positive(raw: BlenderCamera, name: str, high: float = math.inf, unit: str = "") -> float:
-    """Return a setting above zero, up to ``high``."""
-    return number(raw, name, math.ulp(0.0), high, unit)
+def values_of(settings: Iterable[Setting], raw: BlenderCamera) -> dict[str, Any]:
+    """Return the values that a record has of some settings, by name, as plain numbers, words, lists and None."""
+    return {setting.name: _plain(setting.given(raw)) for setting in settings}
 
 
-def _text(value, unit: str) -> str:
-    if unit == "deg" and isinstance(value, int | float):
-        return f"{math.degrees(value):.6g} degrees"
-    return f"{value!r}"
-
-
-def _range(low: float, high: float, unit: str) -> str:
-    if low == math.ulp(0.0):
-        return "above 0" if high == math.inf else f"above 0, up to {_text(high, unit)}"
-    if (low, high) == (-math.inf, math.inf):
-        return "a finite number"
-    return f"from {_text(low, unit)} to {_text(high, unit)}"
+def _plain(value):
+    if isinstance(value, np.ndarray | np.generic):
+        return value.tolist()
+    return [_plain(part) for part in value] if isinstance(value, list | tuple) else value

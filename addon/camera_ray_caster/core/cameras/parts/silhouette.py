@@ -15,6 +15,11 @@ MARGIN = 1 / 16
 EVERYWHERE = -np.inf, np.inf
 
 
+def everywhere(count: int) -> np.ndarray:
+    """Return the bounds (count, 4) of balls that may be seen everywhere."""
+    return np.tile((*EVERYWHERE, *EVERYWHERE), (count, 1))
+
+
 def angular_radius(distance, radius):
     """Return the half angle of discs or spheres at these distances: asin(radius / distance), pi/2 from inside."""
     return np.arcsin(np.minimum(radius / np.maximum(distance, np.finfo(float).tiny), 1.0))

@@ -1,0 +1,125 @@
+"""The numerical inverse of any model's rays: from a point to the pixel whose ray passes through it.
+
+The rays of a lattice of pixels tell where to begin; the Gauss-Newton method brings the angle between a ray and the
+direction from its origin to the point down to rounding. Its derivatives are differences of rays, so that a model has to
+give its rays alone.
+Reference: J. Nocedal and S. Wright, Numerical Optimization, 2nd ed. (2006), section 10.3.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from ...conventions import EPS
+
+LATTICE = 33
+"""Pixels a side at which the search begins: a model that turns by less than a half turn between them loses none."""
+
+STARTS = 3
+"""Places from which each point is sought: those where the angle is less than at all neighbors of the lattice."""
+
+STEP = 2.0**-12
+"""Pixels between rays whose difference stands for a derivative: right to about EPS / STEP and STEP squared."""
+
+STEPS = 40
+"""At most. A smooth model takes about six."""
+
+HALVINGS = 12
+"""Of a step that does not bring the ray nearer, or leads to a pixel without one."""
+
+SLACK = 64
+"""EPS of angle, of the point's and the origin's distance over their difference, within which a ray meets a point."""
+
+AT_ONCE = 4096
+"""Points sought together: their working arrays take some 100 MB."""
+
+
+def pixels_of(rays: Callable, frame: tuple[int, int], points) -> np.ndarray:
+    """Return the pixel coordinates (..., 2) at which ``rays(x, y)`` pass through points (..., 3); NaN where none does.
+
+    rays: as a model's, in the points' frame. frame: width and height in pixels; a pixel beyond it may be found. Of
+    several the one nearest to the frame's middle. Right to some EPS of angle over the angle from pixel to pixel.
+    """
+    points = np.asarray(points, np.float64)
+    flat = points.reshape(-1, 3)
+    found = [_sought(rays, frame, flat[first : first + AT_ONCE]) for first in range(0, len(flat), AT_ONCE)]
+    return np.concatenate([np.zeros((0, 2)), *found]).reshape(*points.shape[:-1], 2)
+
+
+def _sought(rays, frame, points) -> np.ndarray:
+    """Return what ``pixels_of`` does, for points (n, 3)."""
+    with np.errstate(all="ignore"):  # NaN and inf are answers: no ray
+        start = _starts(rays, frame, points)
+        place = np.repeat(points[:, None], start.shape[1], axis=1)
+        off, limit = _off(rays, start, place)
+        for _ in range(STEPS):
+            step = _step(rays, start, place, off)
+            share = np.where(np.isfinite(step).all(axis=-1), 1.0, 0.0)[..., None]
+            for _ in range(HALVINGS):
+                near, _ = _off(rays, start - share * step, place)
+                worse = ~(_length(near) < _length(off))
+                if not worse.any():
+                    break
+                share = np.where(worse[..., None], share / 2, share)
+            better = ~worse[..., None]
+            moved = np.where(better, share * step, 0.0)
+            start, off = start - moved, np.where(better, near, off)
+            if not (_length(moved) > 2 * EPS * _length(start)).any():
+                break
+        limit = _off(rays, start, place)[1]
+        middle = np.array(frame) / 2
+        away = np.where(_length(off) <= limit, _length(start - middle), np.inf)
+        best = np.argmin(away, axis=1)[:, None]
+        pixel = np.take_along_axis(start, best[..., None], axis=1)[:, 0]
+        return np.where(np.isfinite(np.take_along_axis(away, best, axis=1)), pixel, np.nan)
+
+
+def _starts(rays, frame, points) -> np.ndarray:
+    """Return pixels (n, STARTS, 2) of the lattice from which the points are sought."""
+    x, y = np.meshgrid(*(np.linspace(0.5, side - 0.5, LATTICE) for side in frame))
+    pixels = np.stack((x, y), axis=-1)
+    off = _length(_off(rays, pixels[None], points[:, None, None])[0])
+    off = np.where(np.isnan(off), np.inf, off)
+    padded = np.pad(off, ((0, 0), (1, 1), (1, 1)), constant_values=np.inf)
+    around = [padded[:, 1 + j : 1 + j + LATTICE, 1 + i : 1 + i + LATTICE] for j in (-1, 0, 1) for i in (-1, 0, 1)]
+    least = np.where(off <= np.minimum.reduce(around), off, np.inf).reshape(len(points), -1)
+    order = np.argpartition(least, STARTS, axis=1)[:, :STARTS]
+    return pixels.reshape(-1, 2)[order]
+
+
+def _off(rays, pixels, points):
+    """Return how far the rays' directions are from those to the points, (..., 3), and what of it is rounding."""
+    origin, direction = rays(pixels[..., 0], pixels[..., 1])
+    shape = pixels.shape[:-1]
+    origin, direction = (
+        np.stack([np.broadcast_to(part, shape) for part in vector], axis=-1) for vector in (origin, direction)
+    )
+    towards = points - origin
+    distance = _length(towards)[..., None]
+    off = direction / _length(direction)[..., None] - towards / distance
+    size = (_length(points) + _length(origin)) / distance[..., 0]
+    return off, SLACK * EPS * (1 + size)
+
+
+def _step(rays, pixels, points, off):
+    """Return the Gauss-Newton step (..., 2)."""
+    slopes = []
+    for axis in np.eye(2):
+        ahead, behind = (_off(rays, pixels + side * STEP * axis, points)[0] for side in (1, -1))
+        both = (ahead - behind) / (2 * STEP)
+        one = np.where(np.isnan(ahead), off - behind, ahead - off) / STEP  # at the rim there is one side only
+        slopes.append(np.where(np.isnan(both), one, both))
+    (a, b), d = ([_dot(slope, slopes[0]) for slope in slopes]), _dot(slopes[1], slopes[1])
+    right = [_dot(slope, off) for slope in slopes]
+    volume = a * d - b * b
+    return np.stack(((d * right[0] - b * right[1]) / volume, (a * right[1] - b * right[0]) / volume), axis=-1)
+
+
+def _dot(left, right):
+    return (left * right).sum(axis=-1)
+
+
+def _length(vectors):
+    return np.sqrt(_dot(vectors, vectors))
