@@ -46,15 +46,25 @@ MPMATH = {
 """The arithmetic of records, with the digits that mpmath is set to."""
 
 
+_LAST: dict = {}
+"""The last record that was asked for, and its lens: many pixels of one camera are asked for in a row."""
+
+
 def lens_of(raw):
     """The function of pixel coordinates that gives origin and direction in the camera's frame, None where there is no
-    ray; and whether its t is the depth.
+    ray; and whether the model is planar, so that t counts depth.
     """
-    model = camera_from(raw).model
+    if _LAST.get("raw") is not raw:
+        model = camera_from(raw).model
+        _LAST.update(raw=raw, lens=(_lens(model), model.planar))
+    return _LAST["lens"]
+
+
+def _lens(model):
     rays = record(lambda x, y: sum(map(tuple, model.rays(x, y)), ()), 2)
 
     def lens(x, y):
         found = rays.evaluate(MPMATH, (mpf(x), mpf(y)))
         return None if any(map(mp.isnan, found)) else (list(found[:3]), list(found[3:]))
 
-    return lens, model.planar
+    return lens
