@@ -194,7 +194,9 @@ class RadialTangential:
         def step(x, y, share, off_x, off_y, u, v):
             step_x, step_y = self._step(x, y, u, v)
             next_x, next_y = x - share * step_x, y - share * step_y
-            inside = np.minimum(1.0, self.limit / np.maximum(np.hypot(next_x, next_y), 1e-300))
+            radius = np.hypot(next_x, next_y)
+            beyond = radius > self.limit
+            inside = np.where(beyond, self.limit / np.where(beyond, radius, 1.0), 1.0)
             next_x, next_y = next_x * inside, next_y * inside
             next_off_x, next_off_y = self._off(next_x, next_y, u, v)
             better = np.hypot(next_off_x, next_off_y) < np.hypot(off_x, off_y)

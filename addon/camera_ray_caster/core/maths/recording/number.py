@@ -168,7 +168,8 @@ class Recorded:
     __mul__, __rmul__ = _operator(np.multiply), _swapped(np.multiply)
     __truediv__, __rtruediv__ = _operator(np.divide), _swapped(np.divide)
     __mod__, __rmod__ = _operator(np.remainder), _swapped(np.remainder)
-    __rpow__ = _swapped(np.power)
+    __floordiv__, __rfloordiv__ = _operator(np.floor_divide), _swapped(np.floor_divide)
+    __rpow__, __matmul__ = _swapped(np.power), _operator(np.matmul)
     __and__, __rand__ = _operator(np.logical_and), _swapped(np.logical_and)
     __or__, __ror__ = _operator(np.logical_or), _swapped(np.logical_or)
     __lt__, __le__, __gt__ = _operator(np.less), _operator(np.less_equal), _operator(np.greater)
@@ -180,10 +181,16 @@ class Recorded:
     __bool__ = _refused("truth (if, and, or, not, min, max)", "write np.where, &, |, ~, np.minimum, np.maximum")
     __float__ = __int__ = __index__ = _refused("float or int", "use numpy's functions; read a table with look_up")
     __array__ = _refused("asarray", "it is one number; read a table with look_up")
+    __iter__ = __len__ = __getitem__ = _refused("a part", "it is one number")
 
     def __pow__(self, exponent):
         """As numpy has it of an array: a square is a product."""
         return self * self if not is_recorded(exponent) and exponent == 2 else np.power(self, exponent)
+
+    def __getattr__(self, name: str):
+        if name.startswith("_"):  # what numpy looks for
+            raise AttributeError(name)
+        raise NotRecordable(f".{name} of a recorded number cannot be recorded: use numpy's functions")
 
 
 SAME = {"bitwise_and": "logical_and", "bitwise_or": "logical_or", "invert": "logical_not", "true_divide": "divide"}
