@@ -59,7 +59,7 @@ class Inverse:
     def __call__(self, target):
         """Return the inverse of an array of targets, or of a recorded number."""
         knots, values = self._table
-        if is_recorded(target):  # from an end: it may have more digits than the table, or less room
+        if is_recorded(target):  # without the table, which has no more digits than float64
             x = self._bracketed(np.clip(target, values[0], values[-1]), self.low, self.low, self.high)
             return np.where(self._is_within(target), x, np.nan)
         target = np.asarray(target, np.float64)
