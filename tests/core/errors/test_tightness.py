@@ -36,7 +36,6 @@ def factors(key):
     return np.array(found)
 
 
-@pytest.mark.filterwarnings("ignore:Descending")  # the order of coefficients that every mpmath knows
 @pytest.mark.parametrize("key", [model.key for model in MODELS])
 def test_bounds_are_small_multiples_of_roundoff_times_condition(key):
     found = factors(key)

@@ -124,7 +124,6 @@ def test_outside_a_disc_there_is_nothing_and_only_points_of_panels_are_asked(mid
     assert function.asked < most * x.size * y.size
 
 
-@pytest.mark.filterwarnings("ignore:Descending")  # the order of coefficients that every mpmath knows
 @pytest.mark.parametrize("name", LENSES)
 def test_the_rays_of_a_picture_are_within_their_bounds(name):
     """Against 60 digits, all over a picture; those of the tests of all models are too small for polynomials."""
