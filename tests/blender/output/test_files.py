@@ -15,6 +15,6 @@ def test_a_view_whose_suffix_leads_to_another_folder_is_refused(blender, tmp_pat
     scene.render.engine = "CAMERA_RAY_CASTER"
     scene.render.use_multiview = True
     scene.render.views["left"].file_suffix = suffix
-    with pytest.raises(InputError, match="file suffix .* of view 'left' leads to another folder"):
+    with pytest.raises(InputError, match=r"file suffix .* of view 'left' leads to another folder"):
         render(scene, tmp_path / "deep" / "out", "picture")
     assert list(tmp_path.iterdir()) == []
