@@ -1,15 +1,11 @@
 """What makes the loops fast changes nothing that is seen from outside, and does make them fast."""
 
-import sys
-from concurrent.futures import ThreadPoolExecutor
-from ctypes import CDLL
-from threading import Barrier
 from timeit import repeat
 
 import numpy as np
 import pytest
 
-from camera_ray_caster.core.maths.speed import NARROW, Scratch, keep_memory, lazy, whole_rows
+from camera_ray_caster.core.maths.speed import NARROW, Scratch, whole_rows
 from camera_ray_caster.core.maths.vector import inverse, linear, matvec
 
 RNG = np.random.default_rng(5)
@@ -64,37 +60,3 @@ def test_the_inverse_is_right_to_its_condition():
         matrix = RNG.normal(size=(3, 3)) + skew * RNG.normal(size=(3, 1))
         bound = 16 * np.finfo(float).eps * np.linalg.cond(matrix)
         assert np.abs(inverse(matrix) @ matrix - np.eye(3)).max() <= bound
-
-
-def test_threads_work_out_a_property_of_different_objects_at_once():
-    both = Barrier(2, timeout=20)
-
-    class Room:
-        @lazy
-        def warmth(self):
-            """How warm it is."""
-            return both.wait() * 0 + 21.0  # the one waits for the other, who could not come through a lock
-
-    rooms = Room(), Room()
-    with ThreadPoolExecutor(2) as pool:
-        assert list(pool.map(lambda room: room.warmth, rooms)) == [21.0, 21.0]
-    assert rooms[0].warmth == 21.0  # at the barrier it would wait in vain
-    assert Room.warmth.__doc__ == "How warm it is."
-
-
-def test_memory_is_kept_for_the_arrays_that_come():
-    """The system gives new pages one by one: their number tells what was handed back and asked for again."""
-    resource = pytest.importorskip("resource")
-    if not sys.platform.startswith("linux") or not hasattr(CDLL(None), "mallopt"):
-        pytest.skip("only glibc's memory is kept")
-    keep_memory()
-
-    def faults():
-        before = resource.getrusage(resource.RUSAGE_SELF).ru_minflt
-        for _ in range(2):
-            arrays = [np.ones(3 << 20) for _ in range(4)]  # 24 MB each: more than glibc would keep of itself
-            del arrays
-        return resource.getrusage(resource.RUSAGE_SELF).ru_minflt - before
-
-    faults()
-    assert faults() < 500  # over 4,000 without, though the system gives some of the memory in large pages

@@ -15,7 +15,7 @@ import numpy as np
 from ..cameras.parts.aperture import Aperture
 from ..conventions import gamma
 from ..maths.chebyshev import ROWS, fill, is_raster
-from ..maths.speed import keep_memory, sharing, whole_rows
+from ..maths.speed import sharing, whole_rows
 from ..maths.vector import components, dot, inverse, is_grid, is_lattice, is_one, matvec, norm
 from ..records import Pose, Raster, Rays
 from .pixel_time import PixelTime, groups, meeting
@@ -111,7 +111,6 @@ class Camera:
                 write(x, y[part], origins[part], directions[part], valid[part])
 
         if is_grid(x, y) and y.ndim == 2 and y.size > step:
-            keep_memory()
             begin = -floor(y[0, 0]) % ROWS if smooth else 0  # where the raster's first whole panels do
             edges = sorted({0, *range(begin, y.size, step), y.size})
             blocks = [slice(*ends) for ends in pairwise(edges)]

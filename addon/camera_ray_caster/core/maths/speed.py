@@ -1,4 +1,4 @@
-"""What makes numpy's loops fast: rows taken whole, memory that is kept, threads that do not wait for each other.
+"""What makes numpy's loops fast: rows taken whole, working arrays kept, threads that do not wait for each other.
 
 A ufunc with an operand that is broadcast, or a window of a larger array, copies it to a buffer first, unless a row of
 it fills the buffer: a row plus a column then costs as little as two whole arrays, three to five times less than
@@ -8,17 +8,11 @@ Source: numpy's manual, setbufsize.
 
 from __future__ import annotations
 
-import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
-from ctypes import CDLL
-from functools import cache
 from math import prod, sqrt
-from typing import Any, Generic, TypeVar, overload
 
 import numpy as np
-
-T = TypeVar("T")
 
 MULTIPLE = 16
 """What widths of windows are multiples of."""
@@ -28,12 +22,6 @@ NARROW = 128
 
 BAND, STRIP = 144, 36
 """Rows that are best worked on together, and the fewest that are, where nothing else tells."""
-
-LARGEST_KEPT, MOST_KEPT = 32 << 20, 128 << 20
-"""Bytes."""
-
-M_TRIM_THRESHOLD, M_MMAP_THRESHOLD = -1, -3
-"""glibc's names of its parameters, from malloc.h."""
 
 
 def sharing(threads: int, work: float) -> int:
@@ -64,20 +52,6 @@ def widened(bounds, width: int) -> tuple[slice, slice]:
     return slice(y0, y1), slice(x0, x0 + wide)
 
 
-@cache
-def keep_memory() -> None:
-    """Let the C library keep the memory of arrays that go, for those that come.
-
-    glibc hands back what is larger than a threshold, and the system clears it page by page when it is asked for again,
-    which costs two to three times what the arithmetic does. Arrays beyond LARGEST_KEPT are handed back still, and what
-    is beyond MOST_KEPT altogether. Source: mallopt(3). Where the C library has no such thing this does nothing.
-    """
-    mallopt = getattr(CDLL(None), "mallopt", None) if sys.platform == "linux" else None
-    if mallopt is not None:
-        mallopt(M_MMAP_THRESHOLD, LARGEST_KEPT)
-        mallopt(M_TRIM_THRESHOLD, MOST_KEPT)
-
-
 class Scratch:
     """Working arrays of one thread, lent again and again: asking the system for memory costs more than arithmetic."""
 
@@ -92,25 +66,3 @@ class Scratch:
         if found is None or found.size < size:
             found = self._arrays[name, dtype] = np.empty(size, dtype)
         return found[:size].reshape(shape)
-
-
-class lazy(Generic[T]):
-    """A property that is worked out when it is first asked for: functools.cached_property without its lock, which up to
-    Python 3.11 lets one thread at a time work out a property, of whatever object (CPython's issue 87634).
-    """
-
-    def __init__(self, func: Callable[[Any], T]):
-        self.func, self.__doc__ = func, func.__doc__
-
-    def __set_name__(self, owner, name: str) -> None:
-        self._name = name
-
-    @overload
-    def __get__(self, instance: None, owner) -> lazy[T]: ...
-    @overload
-    def __get__(self, instance: object, owner) -> T: ...
-    def __get__(self, instance, owner):
-        if instance is None:
-            return self
-        value = instance.__dict__[self._name] = self.func(instance)
-        return value
