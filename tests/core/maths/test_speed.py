@@ -1,11 +1,13 @@
 """What makes the loops fast changes nothing that is seen from outside, and does make them fast."""
 
+from concurrent.futures import ThreadPoolExecutor
+from threading import Barrier
 from timeit import repeat
 
 import numpy as np
 import pytest
 
-from camera_ray_caster.core.maths.speed import NARROW, Scratch, whole_rows
+from camera_ray_caster.core.maths.speed import NARROW, Scratch, lazy, whole_rows
 from camera_ray_caster.core.maths.vector import inverse, linear, matvec
 
 RNG = np.random.default_rng(5)
@@ -60,3 +62,19 @@ def test_the_inverse_is_right_to_its_condition():
         matrix = RNG.normal(size=(3, 3)) + skew * RNG.normal(size=(3, 1))
         bound = 16 * np.finfo(float).eps * np.linalg.cond(matrix)
         assert np.abs(inverse(matrix) @ matrix - np.eye(3)).max() <= bound
+
+
+def test_threads_work_out_a_property_of_different_objects_at_once():
+    both = Barrier(2, timeout=20)
+
+    class Room:
+        @lazy
+        def warmth(self):
+            """How warm it is."""
+            return both.wait() * 0 + 21.0  # the one waits for the other, who could not come through a lock
+
+    rooms = Room(), Room()
+    with ThreadPoolExecutor(2) as pool:
+        assert list(pool.map(lambda room: room.warmth, rooms)) == [21.0, 21.0]
+    assert rooms[0].warmth == 21.0  # at the barrier it would wait in vain
+    assert Room.warmth.__doc__ == "How warm it is."

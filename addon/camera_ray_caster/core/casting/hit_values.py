@@ -6,13 +6,12 @@ Each is worked out when a pass first asks for it, once for all passes of a block
 from __future__ import annotations
 
 from collections.abc import Iterator
-from functools import cached_property
 from typing import Any
 
 import numpy as np
 
 from ..errors.hits import HitErrors
-from ..maths.speed import Scratch
+from ..maths.speed import Scratch, lazy
 from ..maths.vector import dot, inner, is_lattice, is_one, linear, matvec, norm
 from ..shapes.kind import HitPixels
 from ..shapes.kinds import by_kind
@@ -43,7 +42,7 @@ class HitValues:
         """Return the working array of this name, (*channels, rows, columns) float64; what it held is lost."""
         return self.scratch(name, (*channels, *self.hits.t.shape), np.float64)
 
-    @cached_property
+    @lazy
     def index(self) -> np.ndarray:
         """The index of the hits as numpy looks things up."""
         index = self.scratch("index as intp", self.hits.index.shape, np.intp)
@@ -58,14 +57,14 @@ class HitValues:
             out = self.scratch(out, table.shape[:-1] + self.hits.t.shape, table.dtype.type)
         return np.take(table, self.index, axis=-1, mode="wrap", out=out)
 
-    @cached_property
+    @lazy
     def direction(self) -> Any:
         """The directions of the rays, not of unit length."""
         if self._lattice is None:
             return matvec(self.plan.camera.pose.basis, self.hits.rays.direction)
         return np.add(*self._lattice, out=self.array("direction", 3))
 
-    @cached_property
+    @lazy
     def length(self) -> np.ndarray:
         """Of ``direction``: distance over t; one for all parallel rays."""
         if is_one(self.direction):
@@ -73,7 +72,7 @@ class HitValues:
         length, spare = self.array("length"), self.array("spare")
         return np.sqrt(inner(self.direction, self.direction, length, spare), out=length)
 
-    @cached_property
+    @lazy
     def _lattice(self) -> tuple[np.ndarray, np.ndarray] | None:
         """The two terms of a pinhole's directions, (3, 1, columns) and (3, rows, 1); None for others."""
         if not is_lattice(self.hits.rays.direction):
@@ -82,7 +81,7 @@ class HitValues:
         to_x, to_y, to_z = self.plan.camera.pose.basis.T[..., None, None]
         return to_x * x, to_y * y + to_z * z
 
-    @cached_property
+    @lazy
     def point(self) -> np.ndarray:
         """The hit points relative to the eye, (3, rows, columns); no numbers of meaning where nothing is hit."""
         point = self.array("point", 3)
@@ -100,7 +99,7 @@ class HitValues:
         axes = self.plan.camera.pose.basis.T[..., None, None]
         return linear(axes, vector, out, self.array("spare", 3))
 
-    @cached_property
+    @lazy
     def normal_terms(self) -> tuple[np.ndarray, np.ndarray]:
         """Two terms whose sum is ``normal`` where something is hit: storing it can add them."""
         table = self.plan.normals
@@ -121,7 +120,7 @@ class HitValues:
             np.multiply(-np.sign(dot(normal, self.direction)), normal, out=normal)
         return normal, ZERO
 
-    @cached_property
+    @lazy
     def normal(self) -> np.ndarray:
         """Unit normals turned towards the rays' origins, (3, rows, columns); 0 where nothing is hit."""
         normal = np.add(*self.normal_terms, out=self.array("normal", 3))
@@ -129,7 +128,7 @@ class HitValues:
             np.copyto(normal, 0.0, where=self.hits.missed)
         return normal
 
-    @cached_property
+    @lazy
     def uv(self) -> list[tuple[np.ndarray, tuple[np.ndarray, np.ndarray]]]:
         """The surfaces' own coordinates, kind by kind: where one is hit, (rows, columns) bool, and u and v there."""
         seen = self.pixels(self.hits.seen)
@@ -141,7 +140,7 @@ class HitValues:
             found.append((pixels.where, kind.uv(self.plan.in_camera, pixels, self._at(pixels, self.point))))
         return found
 
-    @cached_property
+    @lazy
     def errors(self) -> HitErrors:
         """How far from the exact picture the hits are at most."""
         plan, hits = self.plan, self.hits

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from functools import cached_property
 
 import numpy as np
 
 from .. import tuning
+from ..maths.speed import lazy
 from ..maths.vector import ALL, cut
 from .plan import Plan
 from .rays import TileRays
@@ -44,17 +44,17 @@ class Hits:
             rays = replace(self.rays, y=self.rays.y[rows], origin=origin, direction=direction)
             yield rows, Hits(self.plan, rays, self.t[rows], self.index[rows], first)
 
-    @cached_property
+    @lazy
     def seen(self) -> np.ndarray:
         """Where a shape is hit, bool."""
         return self.index != NOTHING
 
-    @cached_property
+    @lazy
     def missed(self) -> np.ndarray | None:
         """Where none is, bool; None where that is nowhere."""
         return ~self.seen if self.index.min(initial=0) == NOTHING else None
 
-    @cached_property
+    @lazy
     def has_ray(self) -> np.ndarray:
         """Where the pixel has a ray, bool."""
         ray = np.ones(self.t.shape, bool)
@@ -62,7 +62,7 @@ class Hits:
             ray &= ~np.isnan(component)
         return ray
 
-    @cached_property
+    @lazy
     def lost(self) -> np.ndarray | None:
         """Where the pixel has no ray, bool; None where that is nowhere."""
         return ~self.has_ray if any(np.isnan(component).any() for component in self.rays.direction) else None

