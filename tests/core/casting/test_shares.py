@@ -47,9 +47,9 @@ def test_the_work_of_a_row_is_the_pixels_that_are_tested_in_it_and_all_its_pixel
 @pytest.mark.parametrize(("shapes", "size"), [(0, 1), (1, 1), (128, 1), (129, 2), (1 << 15, 2), ((1 << 15) + 1, 4)])
 def test_rows_take_as_few_bytes_as_hold_them(shapes, size):
     plan = replace(plan_of(camera_at()), shapes=range(shapes))
-    assert plan.row_type.itemsize == size
-    assert np.iinfo(plan.row_type).min < 0
-    assert np.iinfo(plan.row_type).max >= shapes - 1
+    assert plan.index_type.itemsize == size
+    assert np.iinfo(plan.index_type).min < 0
+    assert np.iinfo(plan.index_type).max >= shapes - 1
 
 
 @pytest.mark.parametrize("threads", [1, 2, 3, 8])

@@ -12,7 +12,7 @@ import numpy as np
 from camera_ray_caster.core.conventions import gamma
 from camera_ray_caster.core.maths.vector import difference, dot, matrix_rows, matvec, norm, unit
 from camera_ray_caster.core.shapes.frames import InCamera, LocalRays, local_rays
-from camera_ray_caster.core.shapes.kind import Candidates, HitPixels, InView, Kind, Seen, ShapeErrors
+from camera_ray_caster.core.shapes.kind import Candidates, HitPixels, Kind, ShapeErrors, ShapeSet, Visible
 
 FACES = np.array([[1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 1, 1]], float)
 """The planes face . q = OFFSETS of the corner between the origin and the ends of the axes."""
@@ -33,16 +33,17 @@ class Tetrahedron(Kind):
         """No digit is computed twice."""
         return np.zeros(len(offset), bool)
 
-    def seen(self, shapes, view):
+    def shape_set(self, shapes, visible):
         """All in view."""
-        return SeenTetrahedra(shapes, view)
+        return TetrahedronSet(shapes, visible)
 
     def normals(self, shapes, at):
         """None is a constant: each is its triangle's."""
 
-        def normals(pixels, point):
+        def normals(pixels, point, direction):
             matrix = matrix_rows(np.swapaxes(shapes.shape_from_world[pixels.at], 1, 2))
-            return unit(matvec(matrix, FACES[pixels.kept("face", np.int8)].T))
+            normal = np.array(unit(matvec(matrix, FACES[pixels.kept("face", np.int8)].T)))
+            return -np.sign(dot(normal, direction)) * normal
 
         return np.full((len(at), 4), np.nan), normals
 
@@ -62,11 +63,11 @@ class Tetrahedron(Kind):
 
 
 @dataclass(frozen=True, eq=False)
-class SeenTetrahedra(Seen):
+class TetrahedronSet(ShapeSet):
     """Those in view."""
 
     shapes: InCamera
-    view: InView
+    visible: Visible
     faces_eye = False
 
     def rest(self, rays, nearest):
@@ -74,7 +75,7 @@ class SeenTetrahedra(Seen):
         best = np.full((1, *rays.shape), np.inf)
         at = np.zeros((1, *rays.shape), np.intp)
         face = rays.scratch("face", rays.shape, np.int8)
-        for shape in self.view.at:
+        for shape in self.visible.at:
             matrix = self.shapes.shape_from_camera[shape]
             d = matvec(matrix, rays.direction)
             n = self.shapes.offset[shape]
@@ -83,7 +84,7 @@ class SeenTetrahedra(Seen):
             for i, (normal, offset) in enumerate(zip(FACES, OFFSETS, strict=True)):
                 t = np.broadcast_to((dot(normal, n) + offset) / dot(normal, d), rays.shape)
                 q = tuple(t * along - away for along, away in zip(d, n, strict=True))
-                inside = t >= self.view.clip_start
+                inside = t >= self.visible.clip_start
                 for j, other in enumerate(FACES):
                     if j != i:
                         inside = inside & (dot(other, q) <= 1 if j == 3 else q[j] >= 0)

@@ -110,14 +110,16 @@ class HitValues:
         if faces_eye and table.is_sum:
             return normal, offset
         np.add(normal, offset, out=normal)
-        for which, normals in table.others:
-            pixels = self.pixels(self.look_up(which, "which"))
-            for component, own in zip(normal, normals(pixels, self._at(pixels, self.point)), strict=True):
-                component[pixels.where] = own
         if not table.unit:
             np.divide(normal, np.maximum(norm(normal), np.finfo(float).tiny), out=normal)
         if not faces_eye:
             np.multiply(-np.sign(dot(normal, self.direction)), normal, out=normal)
+        for which, normals in table.others:
+            pixels = self.pixels(self.look_up(which, "which"))
+            direction = None if faces_eye else self._at(pixels, self.direction)
+            own = normals(pixels, self._at(pixels, self.point), direction)
+            for component, values in zip(normal, own, strict=True):
+                component[pixels.where] = values
         return normal, ZERO
 
     @lazy
@@ -155,7 +157,8 @@ class HitValues:
     @staticmethod
     def _at(pixels: HitPixels, vector: Any) -> tuple[np.ndarray, ...]:
         """Return the components of the block at some of its pixels, (m,) each."""
-        return tuple(component[pixels.where] for component in vector)
+        shape = pixels.where.shape
+        return tuple(np.broadcast_to(component, shape)[pixels.where] for component in vector)
 
 
 def blocks(hits: Hits) -> Iterator[tuple[slice, HitValues]]:

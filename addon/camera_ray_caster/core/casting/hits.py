@@ -26,7 +26,7 @@ class Hits:
     t: np.ndarray
     """inf where nothing is hit."""
     index: np.ndarray
-    """Row in ``Shapes`` of the nearest shape, NOTHING where there is none."""
+    """Index into ``Shapes`` of the nearest shape, NOTHING where there is none."""
     first_row: int = 0
     """Of these, in the tile."""
 

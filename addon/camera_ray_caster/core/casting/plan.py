@@ -12,7 +12,7 @@ from ..records import Shapes
 from ..shapes import kinds
 from ..shapes.frames import InCamera
 from ..shapes.in_camera import in_camera
-from ..shapes.kind import InView, Seen
+from ..shapes.kind import ShapeSet, Visible
 from ..shapes.normals import NormalTable, normal_table
 from .request import Request
 
@@ -32,7 +32,7 @@ class Plan:
     request: Request
     in_camera: InCamera
     seen: np.ndarray
-    """(m,) rows in ``Shapes``, ascending: those that some pixel may see."""
+    """(m,) indices into ``Shapes``, ascending: those that some pixel may see."""
     bounds: np.ndarray
     """(m, 4) int: x0, x1, y0, y1 in the pixels of the plan, x1 and y1 not included."""
     near: np.ndarray
@@ -41,15 +41,15 @@ class Plan:
     """Whether anything that may be seen reaches beyond the clip end."""
 
     @cached_property
-    def sets(self) -> tuple[Seen, ...]:
+    def sets(self) -> tuple[ShapeSet, ...]:
         """The shapes that may be seen, kind by kind, ready to be searched."""
         sets = []
         for kind, some in kinds.by_kind(self.shapes.kind[self.seen]):
-            view = InView(
+            visible = Visible(
                 self.seen[some], self.bounds[some], self.near[some],
                 self.camera.clip_start, self.camera.parallel, self.request.real,
             )  # fmt: skip
-            sets.append(kind.seen(self.in_camera, view))
+            sets.append(kind.shape_set(self.in_camera, visible))
         return tuple(sets)
 
     def at_pixels(self, columns: np.ndarray, rows: np.ndarray) -> Plan:
@@ -71,8 +71,8 @@ class Plan:
         return np.cumsum(change)[:height] + width
 
     @property
-    def row_type(self) -> np.dtype:
-        """The smallest integers that hold every row in ``Shapes``, and -1: each pixel has one."""
+    def index_type(self) -> np.dtype:
+        """The smallest integers that hold every index into ``Shapes``, and -1: each pixel has one."""
         return np.min_scalar_type(-max(len(self.shapes), 1))
 
     @cached_property
@@ -138,7 +138,7 @@ def make_plan(camera: Camera, shapes: Shapes, request: Request) -> Plan:
         near=near[seen],
         clips=bool((far[seen] > camera.clip_end).any()),
     )
-    plan.sets  # noqa: B018  # before threads share the plan
+    _ = plan.sets  # made now, before threads share the plan
     return plan
 
 

@@ -20,7 +20,7 @@ from .rays import TileRays
 def nearest_hits(plan: Plan, rays: TileRays) -> Hits:
     """Return the nearest hits within the clip range, in the scratch of the rays.
 
-    Of shapes hit at exactly the same t the one with the lowest row in ``Shapes`` counts, whatever order they are tested
+    Of shapes hit at exactly the same t the one with the lowest index counts, whatever order they are tested
     in.
     """
     shape, scratch, real = rays.shape, rays.scratch, plan.request.real
@@ -29,7 +29,7 @@ def nearest_hits(plan: Plan, rays: TileRays) -> Hits:
         _rounded(rays.direction, real),
         rays.corner, shape, scratch,
     )  # fmt: skip
-    nearest = Nearest(own, scratch("t", shape), scratch("index", shape, plan.row_type))
+    nearest = Nearest(own, scratch("t", shape), scratch("index", shape, plan.index_type))
     for large in merge(*(one.large(own) for one in plan.sets), key=attrgetter("at"), reverse=True):
         nearest.cast(large)
     nearest.clear()

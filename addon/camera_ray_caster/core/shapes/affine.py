@@ -13,9 +13,9 @@ import numpy as np
 
 from ..maths.speed import Scratch
 from ..maths.vector import components, difference, matrix_rows, matvec
-from .affine_search import AffineSeen, Group, divide
+from .affine_search import AffineSet, Group, divide
 from .frames import InCamera, LocalRays, WorldRays, local_rays
-from .kind import HitPixels, InView, Kind, ShapeErrors
+from .kind import HitPixels, Kind, ShapeErrors, Visible
 
 
 class Lattice(Protocol):
@@ -33,8 +33,8 @@ class AffineKind(Kind):
 
     @abstractmethod
     def constants(self, shapes: InCamera, at: np.ndarray, parallel: Any) -> Any:
-        """Return a dataclass of arrays, whose last axis counts the shapes in these rows of ``Shapes``; for
-        ``parallel`` see ``InView``.
+        """Return a dataclass of arrays, whose last axis counts the shapes at these indices; for
+        ``parallel`` see ``Visible``.
         """
 
     @abstractmethod
@@ -70,13 +70,13 @@ class AffineKind(Kind):
     def decide(self, shapes: InCamera, at: np.ndarray, local: LocalRays) -> tuple[Any, Any]:
         """Return what ``decision`` does."""
 
-    def seen(self, shapes: InCamera, view: InView) -> AffineSeen:
+    def shape_set(self, shapes: InCamera, visible: Visible) -> AffineSet:
         """See ``Kind``."""
         groups = []
-        for part, is_simple, is_small in divide(view):
+        for part, is_simple, is_small in divide(visible):
             constants = _rounded(self.constants(shapes, part.at, part.parallel), part.real)
             groups.append(Group(self.intersect, self.lattice, part, is_simple, is_small, constants))
-        return AffineSeen(tuple(groups), self.faces_eye or all(group.is_simple for group in groups))
+        return AffineSet(tuple(groups), self.faces_eye or all(group.is_simple for group in groups))
 
     def uv(self, shapes: InCamera, pixels: HitPixels, point: Any) -> tuple[np.ndarray, np.ndarray]:
         """See ``Kind``; the points in the frame of q are right to EPS (distance / size)."""

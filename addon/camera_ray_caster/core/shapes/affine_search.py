@@ -13,7 +13,7 @@ import numpy as np
 
 from .. import tuning
 from ..maths.vector import cut, is_lattice
-from .kind import Candidates, InView, Large, SearchRays, Seen
+from .kind import Candidates, Large, SearchRays, ShapeSet, Visible
 
 
 @dataclass(frozen=True, eq=False)
@@ -23,7 +23,7 @@ class Group:
     intersect: Callable
     """As ``AffineKind`` has them."""
     lattice: Callable
-    view: InView
+    visible: Visible
     is_simple: bool
     """Whether the eye is outside and nothing lies before the clip start: the near root alone decides."""
     is_small: bool
@@ -34,29 +34,29 @@ class Group:
     @cached_property
     def tallest(self) -> int:
         """The most rows that one of them may be seen in."""
-        return int((self.view.bounds[:, 3] - self.view.bounds[:, 2]).max())
+        return int((self.visible.bounds[:, 3] - self.visible.bounds[:, 2]).max())
 
     def within(self, corner: tuple[int, int], shape: tuple[int, int]) -> tuple[np.ndarray, np.ndarray]:
         """Return which of them may be seen in a tile, (k,), and their bounds in it, (k, 4)."""
         some = slice(None)
         if self.is_small:
             ends = corner[1] - self.tallest, corner[1] + shape[0]
-            some = slice(*np.searchsorted(self.view.bounds[:, 2], ends))
+            some = slice(*np.searchsorted(self.visible.bounds[:, 2], ends))
         (left, low), (high, wide) = corner, shape
-        edges = np.maximum(self.view.bounds[some] - np.array((left, left, low, low)), 0)
+        edges = np.maximum(self.visible.bounds[some] - np.array((left, left, low, low)), 0)
         np.minimum(edges, np.array((wide, wide, high, high)), out=edges)
         here = np.flatnonzero((edges[:, 0] < edges[:, 1]) & (edges[:, 2] < edges[:, 3]))
         return here + (some.start or 0), edges[here]
 
     def large(self, rays: SearchRays) -> Iterator[Large]:
-        """See ``Seen``."""
+        """See ``ShapeSet``."""
         here, bounds = self.within(rays.corner, rays.shape)
         count = max(1, tuning.PREPARED_PIXELS // sum(rays.shape))
         for end in range(len(here), 0, -count):
             some = slice(max(0, end - count), end)
             meet = self._meet(rays, here[some])
             for k in reversed(range(some.stop - some.start)):
-                yield Large(int(self.view.at[here[some][k]]), bounds[some][k].tolist(), partial(meet, k))
+                yield Large(int(self.visible.at[here[some][k]]), bounds[some][k].tolist(), partial(meet, k))
 
     def _meet(self, rays: SearchRays, here: np.ndarray) -> Callable:
         """Return what gives t, and where there is one, of the k-th of some shapes in a window."""
@@ -78,7 +78,7 @@ class Group:
 
     def _cast_batch(self, rays: SearchRays, here: np.ndarray, bounds: np.ndarray) -> Candidates:
         """Test many shapes at once; the windows are moved until they lie in the tile."""
-        order = np.lexsort((-self.view.at[here], -self.view.near[here]))  # what hides others is written last
+        order = np.lexsort((-self.visible.at[here], -self.visible.near[here]))  # what hides others is written last
         here, (x0, x1, y0, y1) = here[order], bounds[order].T
         wide, high = int((x1 - x0).max()), int((y1 - y0).max())
         x0, y0 = np.minimum(x0, rays.shape[1] - wide), np.minimum(y0, rays.shape[0] - high)
@@ -87,7 +87,7 @@ class Group:
         constants = self._constants(here, axes=2)
         t, where = self._intersect(rays, constants, lambda component: _gather(component, y, x))
         t = np.broadcast_to(t, (len(here), high, wide))
-        return Candidates(self.view.at[here][:, None, None], (y0, x0), t, where)
+        return Candidates(self.visible.at[here][:, None, None], (y0, x0), t, where)
 
     def _constants(self, here, axes: int = 0):
         """Return the constants of one row, or of many with so many more axes behind them."""
@@ -97,40 +97,44 @@ class Group:
 
     def _intersect(self, rays: SearchRays, constants: Any, part: Callable) -> tuple[Any, Any]:
         origin = None if rays.origin is None else tuple(map(part, rays.origin))
-        start = None if self.is_simple else self.view.clip_start
+        start = None if self.is_simple else self.visible.clip_start
         return self.intersect(constants, origin, tuple(map(part, rays.direction)), start, rays.scratch)
 
 
 @dataclass(frozen=True, eq=False)
-class AffineSeen(Seen):
+class AffineSet(ShapeSet):
     """The shapes of one affine kind that a camera may see."""
 
     groups: tuple[Group, ...]
     faces_eye: bool
 
     def large(self, rays: SearchRays) -> Iterator[Large]:
-        """See ``Seen``."""
+        """See ``ShapeSet``."""
         large = (group.large(rays) for group in self.groups if not group.is_small)
         return merge(*large, key=attrgetter("at"), reverse=True)
 
     def rest(self, rays: SearchRays, nearest: np.ndarray) -> Iterator[Candidates]:
-        """See ``Seen``."""
+        """See ``ShapeSet``."""
         for group in self.groups:
             if group.is_small:
                 yield from group.batches(rays)
 
 
-def divide(view: InView) -> Iterator[tuple[InView, bool, bool]]:
-    """Yield the shapes of a view that are tested alike, and whether they are simple and small: see ``Group``."""
-    is_simple = view.near >= view.clip_start
-    is_small = pixels_in(view.bounds) < tuning.SMALL_PIXELS
+def divide(visible: Visible) -> Iterator[tuple[Visible, bool, bool]]:
+    """Yield the shapes that are tested alike, and whether they are simple and small: see ``Group``."""
+    is_simple = visible.near >= visible.clip_start
+    is_small = pixels_in(visible.bounds) < tuning.SMALL_PIXELS
     alike = 2 * is_simple + is_small
     for code in np.unique(alike).tolist():
         some = np.flatnonzero(alike == code)
         if code & 1:
-            some = some[np.argsort(view.bounds[some, 2], kind="stable")]
-        bounds = np.asfortranarray(view.bounds[some])
-        yield replace(view, at=view.at[some], bounds=bounds, near=view.near[some]), bool(code & 2), bool(code & 1)
+            some = some[np.argsort(visible.bounds[some, 2], kind="stable")]
+        bounds = np.asfortranarray(visible.bounds[some])
+        yield (
+            replace(visible, at=visible.at[some], bounds=bounds, near=visible.near[some]),
+            bool(code & 2),
+            bool(code & 1),
+        )
 
 
 def pixels_in(bounds: np.ndarray) -> np.ndarray:

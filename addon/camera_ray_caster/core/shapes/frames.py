@@ -110,7 +110,7 @@ class LocalRays:
 
 
 def local_rays(shapes: InCamera, at: np.ndarray, rays: WorldRays, from_eye: bool) -> LocalRays:
-    """Return the rays in the frames of the shapes ``at``, rows in ``Shapes`` that broadcast with them."""
+    """Return the rays in the frames of the shapes ``at``, indices that broadcast with them."""
     matrix = shapes.shape_from_world[at]
     power = -np.frexp(np.abs(matrix).max(axis=(-2, -1)))[1]
     unscaled = tuple(norm(row) for row in matrix_rows(matrix))

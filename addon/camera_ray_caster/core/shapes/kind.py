@@ -1,11 +1,13 @@
 """The contract of a kind of shape, and the records that its users hand over.
 
-A kind is one object of a class under ``Kind`` and stands in ``KINDS``. Its users are the placing in the camera's frame
-(``extent``, ``is_close``), the plan and the search (``seen``), the passes (``normals``, ``uv``) and the error bounds
-(``errors``, ``decision``). Shapes that are affine images of one surface, each a row of constants, take most of it from
-``affine``. What is no such row, as the triangles of a mesh, is a kind of its own: it implements ``Seen.rest`` alone,
-and keeps what else it has to know of a hit (which triangle) in an array of ``SearchRays.scratch``, from which
-``HitPixels.kept`` takes it again when normals, uv and errors are asked for.
+A kind is one object of a class under ``Kind`` and stands in ``KINDS``. These use it: ``in_camera`` (``extent``,
+``is_close``), the plan and the search (``shape_set``), the passes (``normals``, ``uv``), the error bounds (``errors``,
+``decision``). Nothing else in core knows what kinds there are.
+
+Shapes that are affine images of one surface, each a row of constants, are kinds under ``AffineKind``, which does most
+of it. What is no such row, as the triangles of a mesh, is a kind of its own: it implements ``ShapeSet.rest`` and not
+``ShapeSet.large``, and keeps what else it has to know of a hit (which triangle) in an array of ``SearchRays.scratch``,
+from which ``HitPixels.kept`` takes it again when normals, uv and errors are asked for.
 """
 
 from __future__ import annotations
@@ -23,11 +25,11 @@ from .frames import InCamera, WorldRays
 
 
 @dataclass(frozen=True, eq=False)
-class InView:
+class Visible:
     """The shapes of one kind that some pixel may see, and how they are searched; one row a shape."""
 
     at: np.ndarray
-    """(k,) rows in ``Shapes``, ascending."""
+    """(k,) indices into ``Shapes``, ascending."""
     bounds: np.ndarray
     """(k, 4) int: x0, x1, y0, y1 in the pixels of the plan, x1 and y1 not included."""
     near: np.ndarray
@@ -57,7 +59,7 @@ class Large(NamedTuple):
     """A shape that is tested by itself."""
 
     at: int
-    """Its row in ``Shapes``."""
+    """Its index in ``Shapes``."""
     bounds: list[int]
     """x0, x1, y0, y1 in the tile."""
     solve: Callable[[tuple[slice, slice], Scratch], tuple[Any, Any]]
@@ -70,7 +72,7 @@ class Candidates(NamedTuple):
     """Crossings of rays with shapes, in k windows of a tile that are of one size and may overlap."""
 
     at: np.ndarray
-    """Rows in ``Shapes``: (k, 1, 1), or as ``t``."""
+    """Indices into ``Shapes``: (k, 1, 1), or as ``t``."""
     corner: tuple[np.ndarray, np.ndarray]
     """(k,) each: the first row and the first column of each window in the tile."""
     t: np.ndarray
@@ -86,7 +88,7 @@ class HitPixels:
     where: np.ndarray
     """(rows, columns) of the block, bool: the pixels that are meant."""
     at: np.ndarray
-    """(m,) rows in ``Shapes``."""
+    """(m,) indices into ``Shapes``."""
     t: np.ndarray
     """(m,)."""
     first_row: int
@@ -120,14 +122,14 @@ class ShapeErrors(ABC):
         """
 
 
-class Seen(ABC):
+class ShapeSet(ABC):
     """The shapes of one kind that a camera may see, ready to be searched by several threads."""
 
     faces_eye: bool
     """Whether the normals face rays from the eye as they come."""
 
     def large(self, rays: SearchRays) -> Iterator[Large]:
-        """Yield shapes that are tested one by one, the highest row in ``Shapes`` first; by default there are none."""
+        """Yield shapes that are tested one by one, the highest index first; by default there are none."""
         return iter(())
 
     @abstractmethod
@@ -135,8 +137,10 @@ class Seen(ABC):
         """Yield the crossings with all other shapes, in any order; ``nearest`` is the t found so far, inf for none."""
 
 
-Normals = tuple[np.ndarray, Callable[[HitPixels, Any], Any] | None]
-"""What ``Kind.normals`` returns: constants (k, 4), and what gives the normals of shapes that have none."""
+PixelNormals = Callable[[HitPixels, Any, Any], Any]
+"""Given hit pixels, their points and directions, (m,) components in the world relative to the eye, returns the unit
+normals turned towards the rays. The directions are None where normals are to be as they come: all face the rays.
+"""
 
 
 class Kind(ABC):
@@ -160,14 +164,14 @@ class Kind(ABC):
         """
 
     @abstractmethod
-    def seen(self, shapes: InCamera, view: InView) -> Seen:
+    def shape_set(self, shapes: InCamera, visible: Visible) -> ShapeSet:
         """Return the shapes that some pixel may see, ready to be searched."""
 
     @abstractmethod
-    def normals(self, shapes: InCamera, at: np.ndarray) -> Normals:
+    def normals(self, shapes: InCamera, at: np.ndarray) -> tuple[np.ndarray, PixelNormals | None]:
         """Return the constants of the unit normals of shapes in the world, (k, 4): gain and offset, where a normal is
-        gain times the hit point, relative to the eye, plus the offset; and NaN for shapes of which it is not. For
-        these a function gives the unit normals of hit pixels from their points, both as components; else None.
+        gain times the hit point, relative to the eye, plus the offset; and NaN for shapes of which it is not, whose
+        normals a function gives. It is None where there are none.
         """
 
     @abstractmethod

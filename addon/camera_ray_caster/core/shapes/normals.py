@@ -5,15 +5,13 @@ A last column of zeros serves the pixels that hit nothing (index -1).
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
 from .. import tuning
 from .frames import InCamera
-from .kind import HitPixels
+from .kind import PixelNormals
 from .kinds import by_kind
 
 
@@ -25,7 +23,7 @@ class NormalTable:
     """(4, n + 1): gain and offset; 0 where there are none."""
     unit: bool
     """Whether gain times point plus offset has unit length as it comes."""
-    others: tuple[tuple[np.ndarray, Callable[[HitPixels, Any], Any]], ...]
+    others: tuple[tuple[np.ndarray, PixelNormals], ...]
     """For each kind with shapes that have no constants: which they are, (n + 1,) bool, and what gives their normals."""
 
     @property
@@ -35,7 +33,7 @@ class NormalTable:
 
 
 def normal_table(shapes: InCamera, seen: np.ndarray) -> NormalTable:
-    """Return the table of those shapes that can be seen, rows in ``Shapes``."""
+    """Return the table of those shapes that can be seen, indices into ``Shapes``."""
     table = np.zeros((4, len(shapes.shapes) + 1))
     others = []
     for kind, some in by_kind(shapes.shapes.kind[seen]):

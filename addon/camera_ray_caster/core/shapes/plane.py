@@ -19,7 +19,7 @@ from ..maths.vector import cross, difference, linear, matvec, norm
 from ..records import INFINITE_PLANE, PLANE, Shapes
 from .affine import AffineErrors, AffineKind
 from .frames import InCamera, LocalRays
-from .kind import Normals
+from .kind import PixelNormals
 
 GRAZING = 1 / 16
 """A plane whose distance from the eye is this fraction of what it is the sum of has it with twice the digits."""
@@ -92,7 +92,7 @@ class Plane(AffineKind):
         """See ``AffineKind``."""
         return Lattice(constants, self.has_edges, direction)
 
-    def normals(self, shapes: InCamera, at: np.ndarray) -> Normals:
+    def normals(self, shapes: InCamera, at: np.ndarray) -> tuple[np.ndarray, PixelNormals | None]:
         """See ``Kind``; towards the eye."""
         normal = shapes.shape_from_world[at, 2] * np.where(shapes.offset[at, 2] > 0, -1.0, 1.0)[:, None]
         normal = normal / np.abs(normal).max(axis=1, initial=0.0, keepdims=True)

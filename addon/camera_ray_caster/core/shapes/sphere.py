@@ -18,7 +18,7 @@ from ..records import SPHERE, Shapes
 from . import sphere_rays
 from .affine import AffineErrors, AffineKind
 from .frames import InCamera, LocalRays, least
-from .kind import HitPixels, Normals
+from .kind import HitPixels, PixelNormals
 
 
 class Sphere(AffineKind):
@@ -51,7 +51,7 @@ class Sphere(AffineKind):
         """See ``AffineKind``."""
         return sphere_rays.Lattice(constants, direction)
 
-    def normals(self, shapes: InCamera, at: np.ndarray) -> Normals:
+    def normals(self, shapes: InCamera, at: np.ndarray) -> tuple[np.ndarray, PixelNormals | None]:
         """See ``Kind``; outward. Round spheres have constants: 1 / radius, and from the center to the eye in radii."""
         is_round = _is_round(shapes.shapes, at)
         gain = 1 / np.abs(np.where(is_round, shapes.shapes.axes[at, 0, 0], np.nan))[:, None]
@@ -133,8 +133,8 @@ def _is_round(shapes: Shapes, at: np.ndarray) -> np.ndarray:
     return (axes == axes[:, :1, :1] * np.eye(3)).all(axis=(1, 2))
 
 
-def _curved(shapes: InCamera, at: np.ndarray):
-    """Return what gives the unit normals of hit pixels of the ellipsoids in these rows."""
+def _curved(shapes: InCamera, at: np.ndarray) -> PixelNormals:
+    """Return what gives the unit normals of hit pixels of the ellipsoids at these indices."""
     matrix = shapes.shape_from_world[at]
     power = -np.frexp(np.abs(matrix).max(axis=(1, 2), initial=0.0))[1]
     matrix = np.ldexp(matrix, power[:, None, None])  # about 1
@@ -142,11 +142,15 @@ def _curved(shapes: InCamera, at: np.ndarray):
     place = np.zeros(len(shapes.shapes), np.intp)
     place[at] = np.arange(len(at))
 
-    def normals(pixels: HitPixels, point):
+    def normals(pixels: HitPixels, point, direction):
         here = place[pixels.at]
         own = matrix[here]
         q = difference(matvec(matrix_rows(own), point), components(center[here]))
-        return unit(matvec(matrix_rows(np.swapaxes(own, 1, 2)), q))
+        normal = unit(matvec(matrix_rows(np.swapaxes(own, 1, 2)), q))
+        if direction is None:
+            return normal
+        towards = -np.sign(dot(normal, direction))
+        return tuple(towards * component for component in normal)
 
     return normals
 

@@ -50,7 +50,7 @@ class Constants:
 
 
 def constants(shapes: InCamera, at, parallel=None) -> Constants:
-    """Return the constants of the spheres in these rows; for parallel rays with the direction that they all have."""
+    """Return the constants of the spheres at these indices; for parallel rays with the direction that they all have."""
     c = outside(shapes, at)
     offset = np.ascontiguousarray(shapes.offset[at].T)
     distance = norm(offset)
