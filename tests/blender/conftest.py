@@ -12,6 +12,6 @@ def empty_file(blender):
 @pytest.fixture
 def slow(monkeypatch):
     """A picture counts as one that takes long, and so is cast in many tiles."""
-    from camera_ray_caster.core import cast
+    from camera_ray_caster.core import tuning
 
-    monkeypatch.setattr(cast, "TILE_WORK", 1 << 16)
+    monkeypatch.setattr(tuning, "TILE_WORK", 1 << 16)

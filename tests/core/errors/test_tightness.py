@@ -46,9 +46,9 @@ def test_bounds_are_small_multiples_of_roundoff_times_condition(key):
 
 @pytest.mark.parametrize("key", ["PERSP", "MIRRORBALL", "STRIP"])
 def test_a_bound_that_is_four_times_as_large_is_found(key, monkeypatch):
-    from camera_ray_caster.core.errors.hits import Bounds
+    from camera_ray_caster.core.errors.hits import HitErrors
 
-    tight = Bounds.distance.func
-    monkeypatch.setattr(Bounds, "distance", property(lambda self: 4 * tight(self)))
+    tight = HitErrors.distance.func
+    monkeypatch.setattr(HitErrors, "distance", property(lambda self: 4 * tight(self)))
     with pytest.raises(AssertionError):
         test_bounds_are_small_multiples_of_roundoff_times_condition(key)

@@ -1,15 +1,13 @@
 """What makes the loops fast changes nothing that is seen from outside, and does make them fast."""
 
-import sys
 from concurrent.futures import ThreadPoolExecutor
-from ctypes import CDLL
 from threading import Barrier
 from timeit import repeat
 
 import numpy as np
 import pytest
 
-from camera_ray_caster.core.maths.speed import NARROW, Scratch, keep_memory, lazy, whole_rows
+from camera_ray_caster.core.maths.speed import NARROW, Scratch, lazy, whole_rows
 from camera_ray_caster.core.maths.vector import inverse, linear, matvec
 
 RNG = np.random.default_rng(5)
@@ -80,21 +78,3 @@ def test_threads_work_out_a_property_of_different_objects_at_once():
         assert list(pool.map(lambda room: room.warmth, rooms)) == [21.0, 21.0]
     assert rooms[0].warmth == 21.0  # at the barrier it would wait in vain
     assert Room.warmth.__doc__ == "How warm it is."
-
-
-def test_memory_is_kept_for_the_arrays_that_come():
-    """The system gives new pages one by one: their number tells what was handed back and asked for again."""
-    resource = pytest.importorskip("resource")
-    if not sys.platform.startswith("linux") or not hasattr(CDLL(None), "mallopt"):
-        pytest.skip("only glibc's memory is kept")
-    keep_memory()
-
-    def faults():
-        before = resource.getrusage(resource.RUSAGE_SELF).ru_minflt
-        for _ in range(2):
-            arrays = [np.ones(3 << 20) for _ in range(4)]  # 24 MB each: more than glibc would keep of itself
-            del arrays
-        return resource.getrusage(resource.RUSAGE_SELF).ru_minflt - before
-
-    faults()
-    assert faults() < 500  # over 4,000 without, though the system gives some of the memory in large pages
