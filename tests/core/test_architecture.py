@@ -37,6 +37,8 @@ MAY_IMPORT = {
     "": {"blender"},
 }
 BLENDER = {"bpy", "bpy_extras", "mathutils", "bl_math", "gpu", "gpu_extras", "blf", "bmesh", "imbuf", "addon_utils"}
+TESTS_OF_THEIR_OWN = {"core/truth", "blender/cycles"}
+"""Rooms of tests that no room of the package has: the exact rays of 60 digits, and Cycles as a witness."""
 OUTSIDE = {"core": {"numpy"}, "blender": {"numpy"} | BLENDER, "": set()}
 
 
@@ -104,6 +106,13 @@ def test_no_arrow_comes_back():
 @pytest.mark.parametrize("part", [part for part in MAY_IMPORT if "." in part])
 def test_the_table_names_what_exists(part):
     assert part in NAMES
+
+
+def test_a_room_of_tests_is_named_as_the_room_that_it_tests():
+    tests = ROOT / "tests"
+    folders = {path.parent.relative_to(tests) for room in ("core", "blender") for path in (tests / room).rglob("*.py")}
+    others = {folder.as_posix() for folder in folders if not (PACKAGE / folder).is_dir()}
+    assert others == TESTS_OF_THEIR_OWN
 
 
 @each_source

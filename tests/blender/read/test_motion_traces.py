@@ -1,7 +1,5 @@
 """What a picture of many times leaves behind: the frame, the report, a warning, one line where a setting is wrong."""
 
-# ruff: noqa: F811 (fixtures are imported)
-
 import numpy as np
 import pytest
 
@@ -9,8 +7,8 @@ from camera_ray_caster.blender.output import reports
 from camera_ray_caster.blender.read.scene import read_camera, read_shapes
 from camera_ray_caster.core.records import InputError
 
-from ..read.scene_parts import new_object
-from ..read.time_scene import coordinates, disc, fan, key, same, scene, sphere, walked  # noqa: F401 (two are fixtures)
+from .scene_parts import new_object
+from .time_scene import coordinates, disc, fan, key, same, walked
 
 
 def test_what_is_not_resolved_is_warned_of_and_in_the_report(blender, scene, capfd):
@@ -133,27 +131,3 @@ def test_the_round_trip_holds_for_a_camera_that_moves(blender, scene, sphere):
     assert all(finding.passed for finding in findings)
     assert findings[-1].points == 4
     assert findings[-1].worst_pixels < 1e-9
-
-
-def test_the_panel_shows_what_the_chosen_way_needs(blender, scene):
-    from camera_ray_caster.blender.ui.model_panels import TIME, TimePanel
-
-    own, shown = scene.camera.data.camera_ray_caster, []
-
-    class Layout:
-        """Takes down what is drawn, which has to exist."""
-
-        def prop(self, owner, name):
-            assert hasattr(owner, name)
-            shown.append(name)
-
-        def template_ID(self, owner, name, open):
-            self.prop(owner, name)
-
-    context = type("Context", (), {"camera": scene.camera.data, "scene": scene})
-    assert set(TIME) == {item.identifier for item in own.bl_rna.properties["time_mode"].enum_items}
-    for mode, names in TIME.items():
-        shown.clear()
-        own.time_mode = mode
-        TimePanel.draw(type("Panel", (), {"layout": Layout()}), context)
-        assert shown == ["time_mode", *(name for name in names if "rolling" not in name or hasattr(scene, "cycles"))]
