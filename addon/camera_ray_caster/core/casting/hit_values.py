@@ -5,7 +5,6 @@ Each is worked out when a pass first asks for it, once for all passes of a block
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -136,9 +135,7 @@ class HitValues:
         seen = self.pixels(self.hits.seen)
         found = []
         for kind, some in by_kind(self.plan.shapes.kind[seen.at]):
-            is_kind = np.zeros(len(seen.at), bool)
-            is_kind[some] = True
-            pixels = seen.only(is_kind)
+            pixels = seen.only(some)
             found.append((pixels.where, kind.uv(self.plan.in_camera, pixels, self._at(pixels, self.point))))
         return found
 
@@ -159,9 +156,3 @@ class HitValues:
         """Return the components of the block at some of its pixels, (m,) each."""
         shape = pixels.where.shape
         return tuple(np.broadcast_to(component, shape)[pixels.where] for component in vector)
-
-
-def blocks(hits: Hits) -> Iterator[tuple[slice, HitValues]]:
-    """Yield the values of some rows of a tile at a time, which ``Hits.blocks`` gives."""
-    for rows, block in hits.blocks():
-        yield rows, HitValues(block)

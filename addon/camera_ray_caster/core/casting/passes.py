@@ -13,7 +13,7 @@ import numpy as np
 
 from ..maths.speed import whole_rows
 from ..maths.vector import matvec, norm, unit
-from .hit_values import ZERO, HitValues, blocks
+from .hit_values import ZERO, HitValues
 from .hits import Hits
 from .shading import shade
 
@@ -166,7 +166,8 @@ def store(hits: Hits, outs: dict[str, np.ndarray], where=None) -> None:
             put(meant[name], out, where)
         return
     with whole_rows(hits.t.shape[1]):
-        for rows, values in blocks(hits):
+        for rows, block in hits.blocks():
+            values = HitValues(block)
             for name, out in outs.items():
                 PASSES[name].write(values, out[rows])
 
@@ -174,9 +175,9 @@ def store(hits: Hits, outs: dict[str, np.ndarray], where=None) -> None:
 def add_combined(hits: Hits, total: np.ndarray) -> None:
     """Add the combined pass to a sum, (rows, columns, 4)."""
     with whole_rows(hits.t.shape[1]):
-        for rows, values in blocks(hits):
-            once = values.scratch("once", total[rows].shape, np.float64)
-            combined(values, once)
+        for rows, block in hits.blocks():
+            once = hits.rays.scratch("once", total[rows].shape, np.float64)
+            combined(HitValues(block), once)
             total[rows] += once
 
 

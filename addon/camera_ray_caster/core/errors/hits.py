@@ -39,10 +39,8 @@ class HitErrors:
         with np.errstate(all="ignore"):
             self.rays = world_rays(camera, x, y)
             for kind, some in by_kind(shapes.shapes.kind[pixels.at]):
-                is_kind = np.zeros(len(pixels.at), bool)
-                is_kind[some] = True
-                own = pixels.only(is_kind), self.rays.only(is_kind)
-                self._kinds.append((is_kind, kind.errors(shapes, *own, camera.model.central, unit)))
+                own = pixels.only(some), self.rays.only(some)
+                self._kinds.append((some, kind.errors(shapes, *own, camera.model.central, unit)))
 
     def _gather(self, of: Callable[[np.ndarray, ShapeErrors], np.ndarray]) -> np.ndarray:
         """Return what a function gives for the pixels of each kind."""

@@ -15,7 +15,7 @@ KINDS: tuple[Kind, ...] = (SPHERES, PLANES, INFINITE_PLANES)
 
 
 def by_kind(numbers: np.ndarray) -> Iterator[tuple[Kind, np.ndarray]]:
-    """Yield each kind whose number is among some, (n,), and where it is, (k,) ascending."""
+    """Yield each kind whose number is among some, (n,), and where it is, (n,) bool."""
     kinds = {kind.number: kind for kind in KINDS}
     for number in np.unique(numbers).tolist():
-        yield kinds[number], np.flatnonzero(numbers == number)
+        yield kinds[number], numbers == number
