@@ -41,7 +41,7 @@ def test_evaluations_that_are_counted_are_those_that_were_made(blender, scene, s
 
 @pytest.mark.parametrize("subframe", [0.0, 0.25])
 def test_the_frame_is_put_back(blender, scene, sphere, subframe, monkeypatch):
-    from camera_ray_caster.blender.read import motion
+    from camera_ray_caster.blender.read import evaluated
 
     key(sphere, "location", (1, -3.0), (25, 3.0), index=0)
     scene.frame_set(7, subframe=subframe)
@@ -55,7 +55,7 @@ def test_the_frame_is_put_back(blender, scene, sphere, subframe, monkeypatch):
     def fail(*_):
         raise InputError("this frame cannot be read")
 
-    monkeypatch.setattr(motion, "shapes_record", fail)
+    monkeypatch.setattr(evaluated, "shapes_record", fail)
     with pytest.raises(InputError):
         read_camera(scene)
     assert (scene.frame_current, scene.frame_subframe) == (7, subframe)
@@ -133,27 +133,3 @@ def test_the_round_trip_holds_for_a_camera_that_moves(blender, scene, sphere):
     assert all(finding.passed for finding in findings)
     assert findings[-1].points == 4
     assert findings[-1].worst_pixels < 1e-9
-
-
-def test_the_panel_shows_what_the_chosen_way_needs(blender, scene):
-    from camera_ray_caster.blender.ui.model_panels import TIME, TimePanel
-
-    own, shown = scene.camera.data.camera_ray_caster, []
-
-    class Layout:
-        """Takes down what is drawn, which has to exist."""
-
-        def prop(self, owner, name):
-            assert hasattr(owner, name)
-            shown.append(name)
-
-        def template_ID(self, owner, name, open):
-            self.prop(owner, name)
-
-    context = type("Context", (), {"camera": scene.camera.data, "scene": scene})
-    assert set(TIME) == {item.identifier for item in own.bl_rna.properties["time_mode"].enum_items}
-    for mode, names in TIME.items():
-        shown.clear()
-        own.time_mode = mode
-        TimePanel.draw(type("Panel", (), {"layout": Layout()}), context)
-        assert shown == ["time_mode", *(name for name in names if "rolling" not in name or hasattr(scene, "cycles"))]
