@@ -29,7 +29,7 @@ def own_value(owner, setting: Setting):
     if f"{GROUP}.{setting.name}" in _animated(owner):
         raise InputError(
             f"{setting.name} of {owner.name!r} is animated, which Blender evaluates only where the add-on is "
-            "registered: call camera_ray_caster.register() first"
+            "registered: call camera_ray_caster.register() before the file is opened"
         )
     return _stored(owner, setting)
 
