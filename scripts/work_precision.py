@@ -74,7 +74,9 @@ def _read(path):
     from precision.arithmetic import small
 
     import camera_ray_caster
-    from camera_ray_caster.blender.read.scene import camera_record, evaluated, shapes_record
+    from camera_ray_caster.blender.read.camera import camera_record
+    from camera_ray_caster.blender.read.scene import evaluated
+    from camera_ray_caster.blender.read.shapes import shapes_record
 
     camera_ray_caster.register()
     try:
@@ -82,7 +84,7 @@ def _read(path):
             bpy.ops.wm.open_mainfile(filepath=os.path.abspath(path))
         with evaluated(bpy.context.scene) as depsgraph:
             scene = bpy.context.scene
-            return small(camera_record(scene, scene.camera, depsgraph)), shapes_record(depsgraph)
+            return small(camera_record(scene.camera, depsgraph)), shapes_record(depsgraph)
     except RuntimeError as error:
         raise InputError(f"{path!r} is no .blend that this Blender can open") from error
     finally:

@@ -28,7 +28,10 @@ def registered():
 @pytest.fixture
 def blender(registered):
     """The bpy module on an empty file, with the extension registered."""
+    import camera_ray_caster
+
     registered.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
+    camera_ray_caster.register()  # again, after a test that has taken it away
     return registered
 
 

@@ -1,11 +1,36 @@
 """Camera Ray Caster: the rays of Blender's cameras, cast at spheres and planes.
 
-Blender is imported inside the two functions, so that ``core`` runs where no Blender is installed.
+    import camera_ray_caster as crc
+
+    camera = crc.read_camera(bpy.context.scene)
+    images = crc.cast(camera, crc.read_shapes(bpy.context.scene), passes=("depth", "normal"))
+
+``register`` is for Blender's interface and engine; reading and casting do not need it. Each name is imported when it is
+asked for, so that ``core`` runs where no Blender is installed.
 """
+
+from importlib import import_module
+
+__all__ = ["InputError", "cast", "read_camera", "read_scene", "read_shapes", "register", "unregister"]
+
+_MODULES = {
+    "InputError": ".core.records",
+    "cast": ".core.cast",
+    "read_camera": ".blender.read",
+    "read_scene": ".blender.read",
+    "read_shapes": ".blender.read",
+}
+"""Where each name is."""
+
+
+def __getattr__(name: str):
+    if name not in _MODULES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return getattr(import_module(_MODULES[name], __name__), name)
 
 
 def register() -> None:
-    """Add the engine, operators, panels and properties to Blender."""
+    """Add the engine, operators, panels and properties to Blender; nothing where they are there."""
     from .blender import registration
 
     registration.register()

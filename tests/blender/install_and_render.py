@@ -26,10 +26,17 @@ def watched(owner, name, count, key):
     function = getattr(owner, name)
 
     def counted(*arguments, **keywords):
-        LEDGER[key] += count if MODULE in sys._getframe(1).f_globals["__name__"] else 0
+        LEDGER[key] += count if any(MODULE in name for name in callers(sys._getframe(1))) else 0
         return function(*arguments, **keywords)
 
     return patch.object(owner, name, staticmethod(counted) if inspect.isclass(owner) else counted)
+
+
+def callers(frame):
+    """The names of the modules of a frame and of those that called it."""
+    while frame is not None:
+        yield frame.f_globals["__name__"]
+        frame = frame.f_back
 
 
 def what_is_not_listed():

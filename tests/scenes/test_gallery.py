@@ -6,7 +6,7 @@ from math import pi
 import numpy as np
 import pytest
 
-from camera_ray_caster.core.camera.pixel_time import TIME_MODES
+from camera_ray_caster.core.camera.pixel_time import SETTINGS
 from camera_ray_caster.core.cameras import MODELS
 
 from .opening import FOLDER, README, look, opened, rendered
@@ -57,7 +57,7 @@ def test_every_model_and_every_time_has_a_scene(blender):
         times.add(scene.camera.data.camera_ray_caster.time_mode)
         lenses += scene.camera.data.dof.use_dof
     assert models == {model.key for model in MODELS}
-    assert times == set(TIME_MODES)
+    assert times == set(SETTINGS)
     assert lenses > 0
 
 

@@ -1,4 +1,8 @@
-"""What Blender is told of: the modules in the order in which they are registered."""
+"""What Blender is told of: classes, properties, handlers and commands, and how all of it is taken back."""
+
+from contextlib import ExitStack
+
+import bpy
 
 from .engine import engine, viewport
 from .output import reports
@@ -15,19 +19,34 @@ from .ui import (
 )
 from .view3d import mouse_gizmo, overlay, scene_cache
 
-MODULES = (
-    groups, reports, scene_cache, viewport, engine, operators, cast_operator, overlay, mouse_gizmo,
-    render_panels, model_panels, camera_panels, cast_panels, overlay_panels, commands,
+CLASSES = (
+    *groups.CLASSES, *overlay.CLASSES, *engine.CLASSES, *operators.CLASSES, *cast_operator.CLASSES,
+    *mouse_gizmo.CLASSES, *render_panels.CLASSES, *model_panels.CLASSES, *camera_panels.CLASSES, *cast_panels.CLASSES,
+    *overlay_panels.CLASSES,
 )  # fmt: skip
+"""Blender's types, in the order in which they are registered: a panel comes after the panel that it is in."""
+
+MODULES = (groups, reports, scene_cache, viewport, cast_operator, overlay, render_panels, commands)
+"""What has more to add than its classes: ``register(undo)`` adds it, and has each step taken back by ``undo``."""
+
+_registered: list[ExitStack] = []
+"""What takes back all that is registered; empty where nothing is."""
 
 
 def register() -> None:
-    """Register every module."""
-    for module in MODULES:
-        module.register()
+    """Register everything, if nothing is. Where that fails nothing stays registered, and the error is raised."""
+    if _registered:
+        return
+    with ExitStack() as undo:
+        for cls in CLASSES:
+            bpy.utils.register_class(cls)
+            undo.callback(bpy.utils.unregister_class, cls)
+        for module in MODULES:
+            module.register(undo)
+        _registered.append(undo.pop_all())
 
 
 def unregister() -> None:
-    """Take all of it back, the last first."""
-    for module in reversed(MODULES):
-        module.unregister()
+    """Take back all that is registered, the last first."""
+    if _registered:
+        _registered.pop().close()

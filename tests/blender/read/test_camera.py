@@ -5,7 +5,8 @@ import numpy as np
 import pytest
 from mathutils import Matrix
 
-from camera_ray_caster.blender.read.scene import camera_record, evaluated, find_camera, read_camera
+from camera_ray_caster.blender.read.camera import camera_record, find_camera
+from camera_ray_caster.blender.read.scene import evaluated, read_camera
 from camera_ray_caster.core.records import InputError
 
 ULP = float(np.finfo(np.float32).eps)
@@ -30,7 +31,7 @@ def new_camera(name):
 
 def raw(scene, frame=None, camera=None):
     with evaluated(scene, frame, camera) as depsgraph:
-        return camera_record(scene, scene.camera, depsgraph)
+        return camera_record(scene.camera, depsgraph)
 
 
 def key(item, path, *values):
@@ -133,18 +134,37 @@ def test_every_setting_is_copied_by_its_name(scene):
     frame = dict(resolution_x=640, resolution_y=333, resolution_percentage=37, pixel_aspect_x=1.5,
                  pixel_aspect_y=2.0, use_border=True, border_min_x=0.125,
                  border_max_x=0.75, border_min_y=0.25, border_max_y=0.5)  # fmt: skip
-    models = dict(panorama_type="FISHEYE_LENS_POLYNOMIAL", fisheye_fov=2.0, fisheye_polynomial_k1=-0.25,
-                  central_cylindrical_radius=3.0)  # fmt: skip
+    lens = dict(type="PANO", panorama_type="FISHEYE_LENS_POLYNOMIAL", fisheye_fov=2.0, fisheye_polynomial_k1=-0.25)
     focus = dict(use_dof=True, focus_distance=2.5, aperture_fstop=1.5, aperture_blades=5)
     stereo = dict(interocular_distance=0.125, convergence_mode="TOE", pivot="LEFT", use_spherical_stereo=True)
-    for owner, values in ((data, wanted | models), (render, frame), (data.dof, focus), (data.stereo, stereo)):
+    for owner, values in ((data, wanted | lens), (render, frame), (data.dof, focus), (data.stereo, stereo)):
         for name, value in values.items():
             setattr(owner, name, value)
     record = raw(scene)
     assert {name: getattr(record, name) for name in wanted | frame} == wanted | frame
-    assert {name: record.settings[name] for name in models | focus | stereo} == models | focus | stereo
+    assert record.type == lens.pop("type")
+    assert {name: record.settings[name] for name in lens | focus | stereo} == lens | focus | stereo
     assert record.settings["focus_position"] is None
-    assert record.type == "PERSP"
+
+
+def test_a_record_has_what_its_model_and_its_time_read_and_no_more(scene):
+    """Its own settings beside those that every record has."""
+    data = scene.camera.data
+    own = data.camera_ray_caster
+    every = set(raw(scene).settings)
+    for model, settings in (
+        ("OMNIMAX", {"tilt"}),
+        ("STRIP", {"path", "follow_path"}),
+        ("OMNIDIRECTIONAL_STEREO", {"eye"}),
+        ("BLENDER", set()),
+    ):
+        own.model = model
+        assert set(raw(scene).settings) - every == settings
+    own.time_mode = "ROLLING_SHUTTER"
+    shutter = {"motion_blur_shutter", "motion_blur_position", "rolling_shutter_duration"}
+    assert set(raw(scene).settings) - every == shutter | {"time_tolerance", "time_evaluations"}
+    data.type, data.panorama_type, own.time_mode = "PANO", "FISHEYE_EQUIDISTANT", "NONE"
+    assert set(raw(scene).settings) - every == {"fisheye_fov"}
 
 
 def test_the_focus_object_is_read_where_it_is_in_the_world(scene):

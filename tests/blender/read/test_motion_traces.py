@@ -39,7 +39,7 @@ def test_evaluations_that_are_counted_are_those_that_were_made(blender, scene, s
 
 @pytest.mark.parametrize("subframe", [0.0, 0.25])
 def test_the_frame_is_put_back(blender, scene, sphere, subframe, monkeypatch):
-    from camera_ray_caster.blender.read import motion
+    from camera_ray_caster.blender.read import evaluated
 
     key(sphere, "location", (1, -3.0), (25, 3.0), index=0)
     scene.frame_set(7, subframe=subframe)
@@ -53,7 +53,7 @@ def test_the_frame_is_put_back(blender, scene, sphere, subframe, monkeypatch):
     def fail(*_):
         raise InputError("this frame cannot be read")
 
-    monkeypatch.setattr(motion, "shapes_record", fail)
+    monkeypatch.setattr(evaluated, "shapes_record", fail)
     with pytest.raises(InputError):
         read_camera(scene)
     assert (scene.frame_current, scene.frame_subframe) == (7, subframe)

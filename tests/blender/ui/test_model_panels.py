@@ -1,26 +1,105 @@
-"""What the panels of a camera's model and of its times draw."""
+"""The panel of the camera's model and its times: the settings that are read, in order, and no others."""
+
+import pytest
+
+from camera_ray_caster.blender.ui.model_panels import ModelPanel, TimePanel
+
+CALIBRATION = ("calibration_file", "calibration_width", "calibration_height", "fx", "fy", "cx", "cy")
+SHOWN = {
+    "BLENDER": (),
+    "CAMERA_OBSCURA": ("obscura_depth", "obscura_width", "obscura_hole"),
+    "FISHEYE_ORTHOGRAPHIC": ("fov",),
+    "FISHEYE_STEREOGRAPHIC": ("fov",),
+    "OPENCV_PINHOLE": (*CALIBRATION, "k1", "k2", "p1", "p2", "k3", "k4", "k5", "k6", "s1", "s2", "s3", "s4"),
+    "OPENCV_FISHEYE": (*CALIBRATION, "k1", "k2", "k3", "k4"),
+    "OMNIMAX": ("tilt",),
+    "DOME_MASTER": ("fov", "tilt"),
+    "CYLINDRICAL": ("pan_min", "pan_max", "latitude_bottom", "latitude_top"),
+    "STEREOGRAPHIC_PANORAMA": ("fov", "elevation"),
+    "GENERAL_LINEAR": ("ray_1", "ray_2", "ray_3"),
+    "CROSS_SLIT": ("slit_1", "slit_2"),
+    "PUSHBROOM": ("slit_1", "ortho_scale"),
+    "PENCIL": ("slit_1", "pencil_slide"),
+    "TWISTED_ORTHOGRAPHIC": ("slit_1", "twist", "ortho_scale"),
+    "STRIP": ("path", "follow_path"),
+    "OMNIDIRECTIONAL_STEREO": ("eye", "interocular_distance"),
+}
+"""What the panel shows below the model of a perspective camera, of which Blender itself shows the focal length."""
+
+EFFORT = ("time_tolerance", "time_evaluations")
+TIMES = {
+    "NONE": (),
+    "ROWS": ("time_start", "time_end", *EFFORT),
+    "COLUMNS": ("time_start", "time_end", *EFFORT),
+    "IMAGE": ("time_image", "time_start", "time_end", *EFFORT),
+    "ROLLING_SHUTTER": ("motion_blur_position", "motion_blur_shutter", "rolling_shutter_duration", *EFFORT),
+}
 
 
-def test_the_panel_shows_what_the_chosen_way_needs(blender):
-    from camera_ray_caster.blender.ui.model_panels import TIME, TimePanel
+class Layout:
+    """Takes down what is drawn, which has to exist, and what of it is active."""
 
-    scene, camera = blender.context.scene, blender.data.cameras.new("Camera")
-    own, shown = camera.camera_ray_caster, []
+    use_property_split = True
 
-    class Layout:
-        """Takes down what is drawn, which has to exist."""
+    def __init__(self, names=None, grayed=None):
+        self.names, self.grayed, self.active = [] if names is None else names, [] if grayed is None else grayed, True
 
-        def prop(self, owner, name):
-            assert hasattr(owner, name)
-            shown.append(name)
+    def prop(self, owner, name):
+        assert name in owner.bl_rna.properties
+        (self.names if self.active else self.grayed).append(name)
 
-        def template_ID(self, owner, name, open):
-            self.prop(owner, name)
+    def template_ID(self, owner, name, open):
+        assert owner.bl_rna.properties[name].fixed_type.identifier == "Image"
+        self.prop(owner, name)
 
-    context = type("Context", (), {"camera": camera, "scene": scene})
-    assert set(TIME) == {item.identifier for item in own.bl_rna.properties["time_mode"].enum_items}
-    for mode, names in TIME.items():
-        shown.clear()
-        own.time_mode = mode
-        TimePanel.draw(type("Panel", (), {"layout": Layout()}), context)
-        assert shown == ["time_mode", *(name for name in names if "rolling" not in name or hasattr(scene, "cycles"))]
+    def column(self, align):
+        return Layout(self.names, self.grayed)
+
+
+@pytest.fixture
+def data(blender):
+    return blender.data.cameras.new("Camera")
+
+
+def drawn(bpy, panel, data):
+    layout = Layout()
+    context = type("Context", (), {"camera": data, "scene": bpy.context.scene})
+    panel.draw(type("Panel", (), {"layout": layout}), context)
+    return tuple(layout.names), tuple(layout.grayed)
+
+
+def test_the_settings_of_the_chosen_model_are_shown_in_order(blender, data):
+    own = data.camera_ray_caster
+    assert set(SHOWN) == {item.identifier for item in own.bl_rna.properties["model"].enum_items}
+    for own.model, names in SHOWN.items():
+        assert drawn(blender, ModelPanel, data) == (("model", *names), ())
+
+
+def test_what_blender_shows_for_another_type_of_camera_is_shown(blender, data):
+    own = data.camera_ray_caster
+    data.type, own.model = "ORTHO", "PUSHBROOM"
+    assert drawn(blender, ModelPanel, data)[0] == ("model", "slit_1", "lens")
+    data.type = "PANO"
+    assert drawn(blender, ModelPanel, data)[0] == ("model", "slit_1", "ortho_scale", "lens")
+
+
+def test_a_calibration_file_grays_out_the_numbers_that_it_replaces(blender, data):
+    own = data.camera_ray_caster
+    own.model, own.calibration_file = "OPENCV_FISHEYE", "//lens.yml"
+    first, *rest = SHOWN["OPENCV_FISHEYE"]
+    assert drawn(blender, ModelPanel, data) == (("model", first), tuple(rest))
+
+
+def test_the_settings_of_the_chosen_time_are_shown_in_order(blender, data):
+    own = data.camera_ray_caster
+    assert set(TIMES) == {item.identifier for item in own.bl_rna.properties["time_mode"].enum_items}
+    for own.time_mode, names in TIMES.items():
+        assert drawn(blender, TimePanel, data) == (("time_mode", *names), ())
+
+
+def test_without_cycles_its_setting_is_not_shown(blender, data, monkeypatch):
+    from camera_ray_caster.blender.properties import owners
+
+    data.camera_ray_caster.time_mode = "ROLLING_SHUTTER"
+    monkeypatch.setitem(owners.OWNERS, owners.CYCLES, lambda camera, scene: None)
+    assert "rolling_shutter_duration" not in drawn(blender, TimePanel, data)[0]

@@ -5,7 +5,8 @@ import itertools
 import numpy as np
 import pytest
 
-from camera_ray_caster.blender.read.scene import camera_record, evaluated, read_camera
+from camera_ray_caster.blender.read.camera import camera_record
+from camera_ray_caster.blender.read.scene import evaluated, read_camera
 from camera_ray_caster.blender.verification.check import verify_camera
 from camera_ray_caster.blender.verification.witness import ask
 from camera_ray_caster.core.report.verification import verify
@@ -86,7 +87,7 @@ def test_every_fault_is_found(blender, kind, fault):
     camera.location, camera.rotation_euler = (2, -3, 1), (1.1, 0.2, 0.4)
     parents[0].scale = 1, 0.6, 1.5
     with evaluated(scene) as depsgraph:
-        raw = camera_record(scene, camera, depsgraph)
+        raw = camera_record(camera, depsgraph)
         findings = verify(fault(raw), ask(camera, depsgraph))
     assert all(finding.passed for finding in verify_camera(scene))
     failed = {finding.witness for finding in findings if not finding.passed}

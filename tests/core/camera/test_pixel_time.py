@@ -204,15 +204,15 @@ def test_shapes_that_come_and_go_are_never_mixed():
 @pytest.mark.parametrize(
     ("settings", "said"),
     [
-        (ROWS | {"time_end": 10.0}, "time_start and time_end.*10 and 10"),
-        (ROWS | {"time_end": 3.4e38}, "time_start and time_end.*3.4e.38"),
-        (ROWS | {"time_start": float("nan")}, "time_start and time_end.*nan"),
+        (ROWS | {"time_end": 10.0}, "time_start and time_end.*both 10: set them apart"),
+        (ROWS | {"time_end": 3.4e38}, "time_end .*3.4e.38: it must be from -1048574 to 1048574"),
+        (ROWS | {"time_start": float("nan")}, "time_start .*nan"),
         (ROWS | {"time_mode": "DIAGONAL"}, "DIAGONAL.*ROWS"),
         (ROWS | {"time_mode": "IMAGE"}, "image"),
         (ROWS | {"time_tolerance": 0.0}, "time_tolerance"),
         (ROWS | {"time_evaluations": 1}, "time_evaluations"),
-        (SHUTTER | {"motion_blur_shutter": 0.0}, "shutter.*0.0"),
-        (SHUTTER | {"rolling_shutter_duration": 2.0}, "duration of 2.0"),
+        (SHUTTER | {"motion_blur_shutter": 0.0}, "motion_blur_shutter .* is 0: it must be above 0"),
+        (SHUTTER | {"rolling_shutter_duration": 2.0}, "rolling_shutter_duration .* is 2: it must be from 0 to 1"),
     ],
 )
 def test_times_without_meaning_are_refused(settings, said):

@@ -113,11 +113,4 @@ class CameraRayCaster(Viewport, bpy.types.RenderEngine):
         return not (signals.noted() or self.test_break())
 
 
-def register() -> None:
-    """See ``registration``."""
-    bpy.utils.register_class(CameraRayCaster)
-
-
-def unregister() -> None:
-    """See ``registration``."""
-    bpy.utils.unregister_class(CameraRayCaster)
+CLASSES = (CameraRayCaster,)

@@ -7,15 +7,15 @@ from dataclasses import dataclass
 from functools import partial
 from time import perf_counter
 
-from ...core.camera.build import camera_from
 from ...core.camera.camera import Camera
 from ...core.camera.stereo import eye_record
 from ...core.cast import Images, cast
-from ...core.records import BlenderCamera, Finding, Shapes
+from ...core.records import Finding, Shapes
 from ...core.report.accuracy import accuracy
 from ...core.report.report import Report, report_cast
-from ..read.motion import with_motion
-from ..read.scene import camera_record, go_to, shapes_record
+from ..read.evaluated import Eye, scene_at
+from ..read.motion import motion_of
+from ..read.scene import go_to
 from ..verification.check import verify_evaluated
 
 
@@ -44,9 +44,9 @@ class Job:
         passes: Sequence[str],
         visit: Callable | None = None,
         view: str = "",
-        eye: Callable[[BlenderCamera], BlenderCamera] | None = None,
+        eye: Eye | None = None,
     ) -> Job:
-        """Read an evaluated scene with one camera, and hold the camera against its witnesses.
+        """Read an evaluated scene with one camera, and verify the camera.
 
         Reads the depsgraph only, so that a render's thread may call it. ``visit(frame)`` evaluates the scene at another
         frame and returns its depsgraph: for a camera whose pixels have each their own time; the default sets the
@@ -56,25 +56,24 @@ class Job:
         scene = depsgraph.scene_eval
         started = perf_counter()
         eye = eye or partial(eye_record, view=view)
-        camera = camera_from(eye(camera_record(scene, camera_object, depsgraph)))
-        shapes = shapes_record(depsgraph)
+        found = scene_at(camera_object, depsgraph, eye)
         read = perf_counter()
-        findings = verify_evaluated(camera, camera_object, depsgraph, view)
+        findings = verify_evaluated(found.camera, camera_object, depsgraph, view)
         verified = perf_counter()
         frame, layer = scene.frame_current_final, depsgraph.view_layer_eval.name
         several = sum(layer.use for layer in scene.view_layers) > 1
         settings = scene.camera_ray_caster
         shading, samples, precision = settings.shading, settings.samples, settings.precision
-        if camera.pixel_time is not None:
+        if found.camera.pixel_time is not None:
             visit = visit or partial(go_to, depsgraph.scene)
             try:
-                camera, shapes = with_motion(camera, shapes, camera_object, visit, eye)
+                found = found.with_motion(motion_of(found.camera, camera_object, visit, eye))
             finally:
                 visit(frame)
         moved = perf_counter()
         return cls(
-            camera=camera,
-            shapes=shapes,
+            camera=found.camera,
+            shapes=found.shapes,
             passes=passes,
             shading=shading,
             samples=samples,

@@ -18,7 +18,7 @@ from ...core.cast import cast
 from ...core.casting.worker import BESIDE, Worker
 from ...core.records import BlenderCamera, InputError
 from ..view3d.camera_frame import camera_frame
-from ..view3d.scene_cache import observe
+from ..view3d.scene_cache import CachedScene, cached_scene
 
 STEPS = (8, 2, 1)
 """Pixels of the window to a side of the picture's, from coarse to fine. The first is cast at once."""
@@ -65,36 +65,36 @@ class Viewport:
     """(texture, its rectangle)."""
 
     def view_update(self, context, depsgraph):
-        """Something has changed: ``observe`` knows what."""
+        """Something has changed: ``cached_scene`` knows what."""
 
     def view_draw(self, context, depsgraph):
         """Draw the latest picture of this view, and have a finer one cast."""
-        observed = observe(context)
+        scene = cached_scene(context)
         view = context.region_data
         settings = context.scene.camera_ray_caster
         shown = {"shading": settings.shading, "precision": settings.precision}
         matrices = [tuple(row) for row in (*view.view_matrix, *view.window_matrix)]
-        key = observed, matrices, context.region.width, context.region.height, shown
+        key = scene, matrices, context.region.width, context.region.height, shown
         if self._key != key:
             self._key, self._step, self._picture = key, 0, None
             self._abandon()
-            self._begin(context, observed, shown)
+            self._begin(context, scene, shown)
         elif self._worker is not None and self._worker.done:
             self._take()
             self._refine()
         if self._picture is not None:
             self._draw(depsgraph.scene)
 
-    def _begin(self, context, observed, shown) -> None:
+    def _begin(self, context, scene: CachedScene, shown) -> None:
         """Cast the coarsest picture at once, and start on the next."""
         try:
-            self._target = _target(context, observed.raw)
+            self._target = _target(context, scene.raw)
             if self._target is None:
                 return
             self._target.camera(1)
         except InputError:
             return  # the sidebar says why
-        self._cast = partial(_cast, self._target, observed.shapes, shown)
+        self._cast = partial(_cast, self._target, scene.shapes, shown)
         self._show(self._cast(STEPS[0]))
         self._refine()
 
@@ -164,13 +164,14 @@ def look() -> float | None:
     return INTERVAL if _workers else None
 
 
-def register() -> None:
-    """See ``registration``."""
-
-
-def unregister() -> None:
+def stop() -> None:
     """Stop what is under way."""
     while _workers:
         _workers.pop().stop()
     if bpy.app.timers.is_registered(look):
         bpy.app.timers.unregister(look)
+
+
+def register(undo) -> None:
+    """See ``registration``."""
+    undo.callback(stop)

@@ -52,12 +52,8 @@ def forget(*_):
     _verified.clear()
 
 
-def register() -> None:
+def register(undo) -> None:
     """See ``registration``."""
+    undo.callback(forget)
     bpy.app.handlers.load_pre.append(forget)
-
-
-def unregister() -> None:
-    """See ``registration``."""
-    bpy.app.handlers.load_pre.remove(forget)
-    forget()
+    undo.callback(bpy.app.handlers.load_pre.remove, forget)

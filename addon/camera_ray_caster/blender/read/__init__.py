@@ -1,5 +1,5 @@
 """Blender in, plain records out. The scene is as it was afterwards."""
 
-from .scene import read_camera, read_shapes
+from .scene import read_camera, read_scene, read_shapes
 
-__all__ = ["read_camera", "read_shapes"]
+__all__ = ["read_camera", "read_scene", "read_shapes"]

@@ -1,15 +1,20 @@
-"""A camera and its render settings as Blender has them: tables of names, copied, nothing computed."""
+"""A camera and its render settings as Blender has them: copied by their names, nothing computed."""
 
+from dataclasses import replace
 from types import MappingProxyType
 
 import bpy
 import numpy as np
 
+from ...core.camera import pixel_time
 from ...core.camera.stereo import camera_name
+from ...core.cameras import find_model
+from ...core.cameras.parts.settings import OWN, RECORD_FIELDS, Setting
 from ...core.records import BlenderCamera, InputError
-from ..properties.central import COPIED as CENTRAL
-from ..properties.multiperspective import COPIED, RAYS
-from .lines import lines_record
+from ..properties.declared import BLENDERS_OWN, MODEL
+from ..properties.owners import owner_of
+from .lines import line_record
+from .stored import own_value
 
 CAMERA = (
     "type", "lens", "sensor_fit", "sensor_width", "sensor_height", "shift_x", "shift_y", "ortho_scale",
@@ -19,12 +24,6 @@ RENDER = (
     "resolution_x", "resolution_y", "resolution_percentage", "pixel_aspect_x", "pixel_aspect_y",
     "use_border", "border_min_x", "border_max_x", "border_min_y", "border_max_y",
 )  # fmt: skip
-PANORAMA = (
-    "panorama_type", "fisheye_fov", "fisheye_lens", "latitude_min", "latitude_max", "longitude_min", "longitude_max",
-    "fisheye_polynomial_k0", "fisheye_polynomial_k1", "fisheye_polynomial_k2", "fisheye_polynomial_k3",
-    "fisheye_polynomial_k4", "central_cylindrical_range_u_min", "central_cylindrical_range_u_max",
-    "central_cylindrical_range_v_min", "central_cylindrical_range_v_max", "central_cylindrical_radius",
-)  # fmt: skip
 DEPTH_OF_FIELD = (
     "use_dof", "focus_distance", "aperture_fstop", "aperture_blades", "aperture_rotation", "aperture_ratio",
 )  # fmt: skip
@@ -32,50 +31,68 @@ STEREO = (
     "convergence_mode", "pivot", "interocular_distance", "convergence_distance", "use_spherical_stereo",
     "use_pole_merge", "pole_merge_angle_from", "pole_merge_angle_to",
 )  # fmt: skip
-OWN = (
-    "obscura_depth", "obscura_width", "obscura_hole",
-    "time_mode", "time_start", "time_end", "time_tolerance", "time_evaluations",
-)  # fmt: skip
-SHUTTER = ("motion_blur_shutter", "motion_blur_position")
 MULTIVIEW = ("use_multiview", "views_format")
 
 
-def camera_record(scene, camera_object, depsgraph) -> BlenderCamera:
-    """Return the record of a camera object as the depsgraph evaluated it, with the scene's render settings.
+def camera_record(camera_object, depsgraph) -> BlenderCamera:
+    """Return the record of a camera object as the depsgraph evaluated it, with its scene's render settings.
 
-    ``settings`` holds the values of PANORAMA, DEPTH_OF_FIELD, STEREO and MULTIVIEW by Blender's names, those of the
-    camera's own properties, ``focus_position``, the focus object's place in the world (3,) or None, and what
-    ``lines_record`` returns. Raises InputError where there is no camera or the object is none.
+    ``settings`` holds, by name, what the camera's model and the mode of its pixel times declare, and of every camera
+    ``time_mode``, ``panorama_type``, DEPTH_OF_FIELD, STEREO, MULTIVIEW, ``frame`` and ``focus_position``, the
+    focus object's place in the world (3,) or None. Raises InputError where there is no camera, the object is none, or
+    there is no model for it.
     """
+    scene = depsgraph.scene_eval
     check_camera(scene, camera_object)
     evaluated = camera_object.evaluated_get(depsgraph)
     data = evaluated.data
-    own = data.camera_ray_caster
-    settings = {
-        **copied(data, PANORAMA),
-        **copied(data.dof, DEPTH_OF_FIELD),
-        **copied(data.stereo, STEREO),
-        **copied(scene.render, MULTIVIEW),
-        **copied(scene.render, SHUTTER),
-        **copied(own, OWN),
-        **copied(own, CENTRAL),
-        **copied(own, COPIED),
-        "calibration_file": bpy.path.abspath(own.calibration_file, library=data.library),
-        **{name: tuple(getattr(own, name)) for name in RAYS},
-        **lines_record(own, depsgraph),
-        "frame": scene.frame_current_final,
-        "rolling_shutter_duration": scene.cycles.rolling_shutter_duration if hasattr(scene, "cycles") else 0.0,
-        "time_image": _gray(own.time_image),
-        "focus_position": _focus_position(data.dof, depsgraph),
-    }
-    return BlenderCamera(
+    raw = BlenderCamera(
         name=camera_object.name,
-        model="" if own.model == "BLENDER" else own.model,
+        model=own_value(data, MODEL),
         matrix_world=np.array(evaluated.matrix_world, dtype=np.float64),
-        settings=MappingProxyType(settings),
+        settings={
+            pixel_time.MODE.name: own_value(data, pixel_time.MODE),
+            **copied(data, ["panorama_type"]),
+            **copied(data.dof, DEPTH_OF_FIELD),
+            **copied(data.stereo, STEREO),
+            **copied(scene.render, MULTIVIEW),
+            "frame": scene.frame_current_final,
+            "focus_position": _focus_position(data.dof, depsgraph),
+        },
         **copied(data, CAMERA),
         **copied(scene.render, RENDER),
     )
+    chosen, mode = MODEL.read(raw), pixel_time.MODE.read(raw)
+    raw = replace(raw, model="" if chosen == BLENDERS_OWN else chosen)
+    read = (*find_model(raw).SETTINGS, *pixel_time.SETTINGS[mode])
+    values = {one.name: _value(one, data, depsgraph) for one in read if one.name not in RECORD_FIELDS}
+    return replace(raw, settings=MappingProxyType({**raw.settings, **values}))
+
+
+def has_pixel_times(camera_object, depsgraph) -> bool:
+    """Return whether an object is a camera whose pixels have each their own time."""
+    if camera_object is None or camera_object.type != "CAMERA":
+        return False
+    return own_value(camera_object.evaluated_get(depsgraph).data, pixel_time.MODE) != pixel_time.NONE
+
+
+def _value(setting: Setting, data, depsgraph):
+    """Return what a record has of a setting of a camera's evaluated data."""
+    if setting.owner == OWN:
+        value = own_value(data, setting)
+    else:
+        owner = owner_of(setting, data, depsgraph.scene_eval)
+        value = setting.default if owner is None else getattr(owner, setting.name)
+    return KINDS[setting.kind](setting, value, data, depsgraph) if setting.kind in KINDS else value
+
+
+KINDS = {
+    "VECTOR": lambda setting, value, data, depsgraph: tuple(value),
+    "FILE": lambda setting, value, data, depsgraph: bpy.path.abspath(value, library=data.library),
+    "OBJECT": lambda setting, value, data, depsgraph: line_record(setting, value, depsgraph),
+    "IMAGE": lambda setting, value, data, depsgraph: _gray(value),
+}
+"""From what Blender has of a kind of setting to what a record has, where that is something else."""
 
 
 def copied(source, names) -> dict[str, object]:

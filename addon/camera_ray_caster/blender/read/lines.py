@@ -2,24 +2,24 @@
 
 import numpy as np
 
+from ...core.cameras.parts.settings import Line
+
 X_AXIS = ((0.0, 0.0, 0.0), (1.0, 0.0, 0.0))
 
 
-def lines_record(own, depsgraph) -> dict[str, object]:
-    """Return slit_1, slit_2 and path of a camera's own properties, as the depsgraph evaluated them.
+def line_record(setting: Line, item, depsgraph):
+    """Return the line that an object stands for, as the depsgraph evaluated it; see ``core.cameras.parts.lines``.
 
-    A slit is (points, matrix_world), with the first and the last control point of a curve's first spline, or the ends
-    of any other object's X axis. A path is (points, matrix_world, edges) as Blender samples the curve. None for a path
-    that is no curve, and where there is no object that Blender evaluates: one that was deleted from the scene is still
-    referred to here, and one that is disabled, for renders or in viewports, is not where its matrix says.
+    It is (points, matrix_world), with the first and the last control point of a curve's first spline, or the ends of
+    any other object's X axis; of a ``sampled`` setting (points, matrix_world, edges) as Blender samples the curve. None
+    for a sampled object that is no curve, and where there is no object that Blender evaluates: one that was deleted
+    from the scene is still referred to here, and one that is disabled, for renders or in viewports, is not where its
+    matrix says.
     """
-    found: dict[str, object] = {}
-    for name, points in (("slit_1", _ends), ("slit_2", _ends), ("path", _sampled)):
-        item = getattr(own, name)
-        evaluated = depsgraph.view_layer_eval.objects.get(item.name) if item else None
-        there = evaluated is not None and evaluated.original == item.original
-        found[name] = points(evaluated) if there else None
-    return found
+    evaluated = depsgraph.view_layer_eval.objects.get(item.name) if item else None
+    if evaluated is None or evaluated.original != item.original:
+        return None
+    return _sampled(evaluated) if setting.sampled else _ends(evaluated)
 
 
 def _ends(item):

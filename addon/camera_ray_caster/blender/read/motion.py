@@ -1,41 +1,35 @@
-"""A scene at the times of a picture whose pixels have each their own: evaluated as often as its motion asks for."""
+"""The motion of a scene whose pixels have each their own time: it is evaluated as often as the motion asks for."""
 
 from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
 
-from ...core.camera.build import camera_from
 from ...core.camera.camera import Camera
-from ...core.motion.evaluations import measure, resolve
+from ...core.motion.evaluations import Motion, measure, resolve
 from ...core.records import Shapes
 from ..terminal.signals import heed
-from .camera import camera_record
-from .shapes import shapes_record
+from .evaluated import Eye, scene_at
 
 CHECKS = 4
-"""Frames at which the interpolation is held against the scene itself, beside those that resolved it."""
+"""Frames at which the interpolation is compared with the scene itself, beside those that resolved it."""
 
 
-def with_motion(
-    camera: Camera, shapes: Shapes, camera_object, go_to: Callable, eye: Callable
-) -> tuple[Camera, Shapes]:
-    """Return camera and shapes that know their motion over the camera's clock; without a clock as they are.
+def motion_of(camera: Camera, camera_object, visit: Callable, eye: Eye | None = None) -> Motion | None:
+    """Return the motion of a camera and its scene over the times of its pixels; None where they share one time.
 
-    ``go_to(frame)`` evaluates the scene at a frame and returns its depsgraph; the frame is not put back. ``eye(raw)``
-    is the record of the eye that the camera is, of the record of its object.
+    ``visit(frame)`` evaluates the scene at a frame and returns its depsgraph; the frame is not put back.
     """
     pixel_time = camera.pixel_time
     if pixel_time is None:
-        return camera, shapes
+        return None
 
     def evaluate(frame: float) -> tuple[Camera, Shapes]:
-        depsgraph = go_to(frame)
+        depsgraph = visit(frame)
         heed()
-        raw = eye(camera_record(depsgraph.scene_eval, camera_object, depsgraph))
-        return replace(camera_from(raw), pixel_time=pixel_time), shapes_record(depsgraph)
+        found = scene_at(camera_object, depsgraph, eye)
+        return replace(found.camera, pixel_time=pixel_time), found.shapes
 
     motion = resolve(evaluate, pixel_time.first, pixel_time.last, pixel_time.tolerance, pixel_time.most)
-    places = np.random.default_rng(0).uniform(pixel_time.first, pixel_time.last, CHECKS)
-    motion = replace(motion, measured=measure(motion, evaluate, places))
-    return replace(camera, motion=motion), replace(shapes, motion=motion)
+    frames = np.random.default_rng(0).uniform(pixel_time.first, pixel_time.last, CHECKS)
+    return replace(motion, measured=measure(motion, evaluate, frames))

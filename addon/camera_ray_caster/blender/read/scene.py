@@ -2,19 +2,26 @@
 
 import math
 from contextlib import contextmanager
+from dataclasses import replace
 from functools import partial
 
 import bpy
 
-from ...core.camera.build import camera_from
 from ...core.camera.camera import Camera
 from ...core.camera.stereo import eye_record
 from ...core.records import InputError, Shapes
-from .camera import camera_record, check_camera, eye_object, find_camera
-from .motion import with_motion
+from .camera import check_camera, eye_object, has_pixel_times
+from .evaluated import SceneRecord, camera_at, scene_at
+from .motion import motion_of
 from .shapes import shapes_record
 
-__all__ = ["camera_record", "evaluated", "find_camera", "read_camera", "read_shapes", "shapes_record"]
+
+def read_scene(scene, frame=None, camera_object=None, view="") -> SceneRecord:
+    """Return camera and shapes, and the record that the camera was made of: what ``read_camera`` and ``read_shapes``
+    return for the same arguments, read once. Raises what they raise.
+    """
+    with evaluated_camera(scene, camera_object, frame, view) as (active, depsgraph):
+        return _with_motion(scene, active, depsgraph, view)
 
 
 def read_camera(scene, camera_object=None, frame=None, view="") -> Camera:
@@ -25,49 +32,39 @@ def read_camera(scene, camera_object=None, frame=None, view="") -> Camera:
     A camera whose pixels have each their own time comes with its motion: the scene is evaluated for it.
     Raises InputError where there is no camera, for what no model here can do, and for parameters without meaning.
     """
-    if camera_object is not None:
-        check_camera(scene, camera_object)
-    with observing(scene, camera_object, frame, view) as (active, depsgraph):
+    with evaluated_camera(scene, camera_object, frame, view) as (active, depsgraph):
         eye = partial(eye_record, view=view)
-        camera = camera_from(eye(camera_record(scene, active, depsgraph)))
-        if camera.pixel_time is None:
-            return camera
-        shapes = shapes_record(depsgraph)
-        return with_motion(camera, shapes, active, partial(go_to, scene), eye)[0]
+        _, camera = camera_at(active, depsgraph, eye)
+        return replace(camera, motion=motion_of(camera, active, partial(go_to, scene), eye))
+
+
+def read_shapes(scene, frame=None, camera_object=None, view="") -> Shapes:
+    """Return the scene's spheres and planes as they are evaluated, in the world, and the names of what is neither.
+
+    The arguments are as in ``read_camera``. The camera counts only where its pixels have each their own time: the
+    shapes then come with their motion, and InputError is raised for a camera that cannot be cast.
+    Outside a render Blender has evaluated what the viewport shows, with the viewport's modifier and particle settings;
+    what only a render shows is named among ``left_out``.
+    """
+    with evaluated_camera(scene, camera_object, frame, view) as (active, depsgraph):
+        if has_pixel_times(active, depsgraph):
+            return _with_motion(scene, active, depsgraph, view).shapes
+        return shapes_record(depsgraph)
+
+
+def _with_motion(scene, camera_object, depsgraph, view: str) -> SceneRecord:
+    eye = partial(eye_record, view=view)
+    found = scene_at(camera_object, depsgraph, eye)
+    return found.with_motion(motion_of(found.camera, camera_object, partial(go_to, scene), eye))
 
 
 @contextmanager
-def observing(scene, camera_object=None, frame=None, view=""):
+def evaluated_camera(scene, camera_object=None, frame=None, view=""):
     """Yield the camera object that ``read_camera`` reads for these arguments, and the depsgraph that evaluates it."""
+    if camera_object is not None:
+        check_camera(scene, camera_object)
     with evaluated(scene, frame, camera_object), evaluated(scene, None, eye_object(scene, view)) as depsgraph:
         yield scene.camera, depsgraph
-
-
-def read_shapes(scene, frame=None) -> Shapes:
-    """Return the scene's spheres and planes as they are evaluated, in the world, and the names of what is neither.
-
-    ``frame`` is as in ``read_camera``. Outside a render Blender has evaluated what the viewport shows, with the
-    viewport's modifier and particle settings; what only a render shows is named among ``left_out``.
-    """
-    with evaluated(scene, frame) as depsgraph:
-        shapes = shapes_record(depsgraph)
-        active = scene.camera
-        if active is None or active.type != "CAMERA":
-            return shapes
-        raw = camera_record(scene, active, depsgraph)
-        if raw.settings["time_mode"] == "NONE":
-            return shapes
-        return with_motion(camera_from(raw), shapes, active, partial(go_to, scene), partial(eye_record, view=""))[1]
-
-
-def go_to(scene, frame: float):
-    """Set a scene to a frame, its fraction the subframe, and return the depsgraph evaluated there."""
-    scene.frame_set(math.floor(frame), subframe=frame - math.floor(frame))
-    return _layer(scene).depsgraph
-
-
-def _layer(scene):
-    return bpy.context.view_layer if scene == bpy.context.scene else scene.view_layers[0]
 
 
 @contextmanager
@@ -91,3 +88,13 @@ def evaluated(scene, frame=None, camera_object=None):
         if scene.camera != before[2]:
             scene.camera = before[2]  # also where a timeline marker has bound another one
             layer.update()
+
+
+def go_to(scene, frame: float):
+    """Set a scene to a frame, its fraction the subframe, and return the depsgraph evaluated there."""
+    scene.frame_set(math.floor(frame), subframe=frame - math.floor(frame))
+    return _layer(scene).depsgraph
+
+
+def _layer(scene):
+    return bpy.context.view_layer if scene == bpy.context.scene else scene.view_layers[0]

@@ -7,8 +7,10 @@ import numpy as np
 
 from ...core.records import Shapes
 from ...core.shapes.instances import Primitive, is_invertible, lights_in_world, put_in_world
+from ..properties.declared import PRIMITIVE
 from .geometry import shapes_of
 from .lights import USED, light_color, world_color
+from .stored import own_value
 from .visibility import Visibility, original_source
 
 NO_SURFACE = frozenset(
@@ -90,10 +92,8 @@ def _group(instance, visibility, found) -> _Group:
 def _fill(group, instance, visibility, found) -> None:
     """Set what the geometry of an instance stands for, or why it cannot be cast."""
     item = instance.object
-    # The file's own: setting it evaluates nothing anew. None where nothing is registered.
-    properties = getattr(original_source(instance), "camera_ray_caster", None)
-    setting = properties.primitive if properties else "AUTOMATIC"
-    group.reason = "it is ignored by its own setting" if setting == "IGNORE" else visibility.objection(instance)
+    setting = own_value(original_source(instance), PRIMITIVE)  # the file's own: setting it evaluates nothing anew
+    group.reason = _refusal(setting) or visibility.objection(instance)
     if group.reason:
         return
     key = item.data.as_pointer(), setting
@@ -106,6 +106,14 @@ def _fill(group, instance, visibility, found) -> None:
     group.color = tuple(material.diffuse_color if material else item.color)
     if visibility.is_holdout(instance):
         group.color = 0.0, 0.0, 0.0, 0.0
+
+
+def _refusal(setting: str) -> str:
+    """Return why an object is not cast by its own setting; "" if it is."""
+    if setting == "IGNORE":
+        return "it is ignored by its own setting"
+    known = setting in {item.key for item in PRIMITIVE.items}
+    return "" if known else f"its Cast As is {setting}, which this version does not know: choose another one"
 
 
 def _material(item):

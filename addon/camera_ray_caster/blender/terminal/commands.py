@@ -23,7 +23,8 @@ from ...core.report.report import WIDTH, Report, as_json, as_lines
 from ..engine.engine import CameraRayCaster
 from ..engine.passes import tick, ticked
 from ..output import files
-from ..read.scene import find_camera, read_camera
+from ..read.camera import find_camera
+from ..read.scene import read_camera
 from ..verification.check import verified
 from . import signals
 from .standard_output import keep_output
@@ -94,10 +95,10 @@ def cast(arguments: Sequence[str], prog: str) -> int:
 
 
 def verify(arguments: Sequence[str], prog: str) -> int:
-    """Hold a file's camera against Blender's own answers."""
+    """Compare a file's camera with Blender's own answers."""
     parser = _parser(
         prog,
-        "Hold the rays of a Blender file's camera against Blender's own frame.",
+        "Compare the rays of a Blender file's camera with Blender's own frame.",
         f"{prog} blend_scenes/spheres_and_planes.blend --frame 12.5",
         "prints the largest and the median error of the rays beside the bound that each witness can reach.",
     )
@@ -114,17 +115,10 @@ def verify(arguments: Sequence[str], prog: str) -> int:
 COMMANDS = {"cast": cast, "verify": verify}
 
 
-_handles = []
-
-
-def register() -> None:
+def register(undo) -> None:
     """Add ``blender --command camera_ray_caster cast FILE.blend``; see ``registration``."""
-    _handles.append(bpy.utils.register_cli_command("camera_ray_caster", _from_blender))
-
-
-def unregister() -> None:
-    """See ``registration``."""
-    bpy.utils.unregister_cli_command(_handles.pop())
+    command = bpy.utils.register_cli_command("camera_ray_caster", _from_blender)
+    undo.callback(bpy.utils.unregister_cli_command, command)
 
 
 def _from_blender(arguments: Sequence[str]) -> int:

@@ -7,11 +7,10 @@ from textwrap import wrap
 
 import bpy
 
-from ...core.camera.build import camera_from
 from ...core.records import InputError
 from ...core.report.facts import camera_facts
 from ..output import reports
-from ..read.scene import camera_record
+from ..read.evaluated import camera_at
 
 LETTER = 6.0
 """About the width of a letter in a panel, in units of the interface's scale."""
@@ -40,8 +39,8 @@ def facts_of(context, camera_object) -> tuple[dict[str, object] | None, str]:
     A tenth of a millisecond: cheap enough to be read at every redraw, so that nothing has to be kept up to date.
     """
     try:
-        raw = camera_record(context.scene, camera_object, context.evaluated_depsgraph_get())
-        return camera_facts(camera_from(raw)), ""
+        _, camera = camera_at(camera_object, context.evaluated_depsgraph_get())
+        return camera_facts(camera), ""
     except InputError as error:
         return None, str(error)
 
@@ -133,7 +132,7 @@ class SidebarCamera(Sidebar, bpy.types.Panel):
 
 
 class SidebarVerify(Sidebar, bpy.types.Panel):
-    """The camera held against Blender's own answers."""
+    """The camera compared with Blender's own answers."""
 
     bl_idname = "CAMERA_RAY_CASTER_PT_verify"
     bl_label = "Verification"
@@ -185,15 +184,3 @@ class CameraData(bpy.types.Panel):
 
 
 CLASSES = (SidebarCamera, SidebarVerify, CameraData)
-
-
-def register() -> None:
-    """See ``registration``."""
-    for cls in CLASSES:
-        bpy.utils.register_class(cls)
-
-
-def unregister() -> None:
-    """See ``registration``."""
-    for cls in reversed(CLASSES):
-        bpy.utils.unregister_class(cls)

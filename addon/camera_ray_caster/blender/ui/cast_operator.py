@@ -132,12 +132,9 @@ def stop() -> None:
         show_progress()
 
 
-def register() -> None:
-    """See ``registration``."""
-    bpy.utils.register_class(Cast)
+CLASSES = (Cast,)
 
 
-def unregister() -> None:
+def register(undo) -> None:
     """See ``registration``."""
-    stop()
-    bpy.utils.unregister_class(Cast)
+    undo.callback(stop)

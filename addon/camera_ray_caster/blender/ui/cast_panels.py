@@ -123,15 +123,3 @@ class SidebarNotDone(Sidebar, bpy.types.Panel):
 
 
 CLASSES = (SidebarCast, SidebarPasses, SidebarReport, SidebarLeftOut, SidebarNotDone)
-
-
-def register() -> None:
-    """See ``registration``."""
-    for cls in CLASSES:
-        bpy.utils.register_class(cls)
-
-
-def unregister() -> None:
-    """See ``registration``."""
-    for cls in reversed(CLASSES):
-        bpy.utils.unregister_class(cls)

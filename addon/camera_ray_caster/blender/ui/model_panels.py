@@ -1,40 +1,24 @@
-"""The box in the camera's tab where a model is chosen, with the settings of the chosen one only."""
+"""The panel in the camera's tab where a model is chosen, with the settings of the chosen one only."""
 
 import bpy
 
-CALIBRATION = ("calibration_file", "calibration_width", "calibration_height", "fx", "fy", "cx", "cy")
-SETTINGS = {
-    "BLENDER": (),
-    "CAMERA_OBSCURA": ("obscura_depth", "obscura_width", "obscura_hole"),
-    "FISHEYE_ORTHOGRAPHIC": ("fov",),
-    "FISHEYE_STEREOGRAPHIC": ("fov",),
-    "OPENCV_PINHOLE": (*CALIBRATION, "k1", "k2", "p1", "p2", "k3", "k4", "k5", "k6", "s1", "s2", "s3", "s4"),
-    "OPENCV_FISHEYE": (*CALIBRATION, "k1", "k2", "k3", "k4"),
-    "OMNIMAX": ("tilt",),
-    "DOME_MASTER": ("fov", "tilt"),
-    "CYLINDRICAL": ("pan_min", "pan_max", "latitude_bottom", "latitude_top"),
-    "STEREOGRAPHIC_PANORAMA": ("fov", "elevation"),
-    "GENERAL_LINEAR": ("ray_1", "ray_2", "ray_3"),
-    "CROSS_SLIT": ("slit_1", "slit_2"),
-    "PUSHBROOM": ("slit_1", "ortho_scale"),
-    "PENCIL": ("slit_1", "pencil_slide"),
-    "TWISTED_ORTHOGRAPHIC": ("slit_1", "twist", "ortho_scale"),
-    "STRIP": ("path", "follow_path"),
-    "OMNIDIRECTIONAL_STEREO": ("eye", "interocular_distance"),
-}
-"""The settings of each model in the order of the panel: our own, and Blender's that it shows for its own types only."""
+from ...core.camera import pixel_time
+from ...core.cameras import MODELS
+from ...core.cameras.parts.settings import CAMERA, OWN, STEREO, Setting
+from ..properties.declared import GROUP, MODEL
+from ..properties.owners import owner_of
+
+SETTINGS = {model.key: model.SETTINGS for model in MODELS}
+
+SHOWN_FOR = {"lens": "PERSP", "ortho_scale": "ORTHO"}
+"""Blender's own settings that its panel shows for one type of camera only. Those of the film it always shows."""
 
 
-ENDS, EFFORT = ("time_start", "time_end"), ("time_tolerance", "time_evaluations")
-SHUTTER = ("motion_blur_position", "motion_blur_shutter", "rolling_shutter_duration")
-TIME = {
-    "NONE": (),
-    "ROWS": (*ENDS, *EFFORT),
-    "COLUMNS": (*ENDS, *EFFORT),
-    "IMAGE": ("time_image", *ENDS, *EFFORT),
-    "ROLLING_SHUTTER": (*SHUTTER, *EFFORT),
-}
-"""The same of each way to give the pixels their times; the shutter is the render's and Cycles' own."""
+def shown(setting: Setting, camera) -> bool:
+    """Return whether the panel shows a setting: the add-on's own, and Blender's that Blender's panel does not show."""
+    if setting.owner == CAMERA:
+        return SHOWN_FOR.get(setting.name, camera.type) != camera.type
+    return setting.owner in (OWN, STEREO)
 
 
 class ModelPanel(bpy.types.Panel):
@@ -53,17 +37,17 @@ class ModelPanel(bpy.types.Panel):
 
     def draw(self, context):
         """The list; below it what the chosen model needs. A calibration file stands for the numbers under it."""
-        layout = self.layout
+        layout, camera = self.layout, context.camera
         layout.use_property_split = True
-        camera = context.camera
-        own = camera.camera_ray_caster
-        layout.prop(own, "model")
+        own = getattr(camera, GROUP)
+        layout.prop(own, MODEL.name)
         column = layout.column(align=True)
-        for name in SETTINGS[own.model]:
-            column.prop(next(owner for owner in (own, camera, camera.stereo) if hasattr(owner, name)), name)
-            if name == "calibration_file":
+        for setting in SETTINGS.get(own.model, ()):
+            if shown(setting, camera):
+                draw_setting(column, setting, camera, context.scene)
+            if setting.replaces_the_rest:
                 column = layout.column(align=True)
-                column.active = not own.calibration_file
+                column.active = not getattr(own, setting.name)
 
 
 class TimePanel(bpy.types.Panel):
@@ -78,30 +62,31 @@ class TimePanel(bpy.types.Panel):
     bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context):
-        """The list; below it what the chosen way needs. Without Cycles its shutter has no duration."""
-        layout = self.layout
+        """The list; below it what the chosen mode needs."""
+        layout, camera = self.layout, context.camera
         layout.use_property_split = True
-        own, scene = context.camera.camera_ray_caster, context.scene
-        layout.prop(own, "time_mode")
-        owners = own, scene.render, getattr(scene, "cycles", None)
-        for name in TIME[own.time_mode]:
-            owner = next((owner for owner in owners if hasattr(owner, name)), None)
-            if name == "time_image":
-                layout.template_ID(own, name, open="image.open")
-            elif owner is not None:
-                layout.prop(owner, name)
+        own = getattr(camera, GROUP)
+        layout.prop(own, pixel_time.MODE.name)
+        for setting in pixel_time.SETTINGS.get(own.time_mode, ()):
+            draw_setting(layout, setting, camera, context.scene)
 
+
+def draw_setting(layout, setting: Setting, camera, scene) -> None:
+    """Draw a setting where it is; nothing for one of Cycles while that is disabled."""
+    owner = owner_of(setting, camera, scene)
+    if owner is not None:
+        KINDS.get(setting.kind, _draw_property)(layout, owner, setting.name)
+
+
+def _draw_property(layout, owner, name: str) -> None:
+    layout.prop(owner, name)
+
+
+def _draw_image(layout, owner, name: str) -> None:
+    layout.template_ID(owner, name, open="image.open")
+
+
+KINDS = {"IMAGE": _draw_image}
+"""What is drawn as something else than a plain property."""
 
 CLASSES = (ModelPanel, TimePanel)
-
-
-def register() -> None:
-    """See ``registration``."""
-    for cls in CLASSES:
-        bpy.utils.register_class(cls)
-
-
-def unregister() -> None:
-    """See ``registration``."""
-    for cls in reversed(CLASSES):
-        bpy.utils.unregister_class(cls)

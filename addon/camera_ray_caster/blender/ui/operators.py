@@ -1,4 +1,4 @@
-"""The operators: each a line or three around the walk."""
+"""The operators: verify, copy, select, write."""
 
 import bpy
 from bpy.props import StringProperty
@@ -14,7 +14,7 @@ NO_CAMERA = "The scene has no active camera: add one, or set one in the Scene pr
 
 
 class Verify(bpy.types.Operator):
-    """Hold the rays of the active camera against Blender's own view frame, camera matrix and projection"""
+    """Compare the rays of the active camera with Blender's own view frame, camera matrix and projection"""
 
     bl_idname = "camera_ray_caster.verify"
     bl_label = "Verify"
@@ -108,15 +108,3 @@ class WriteReport(bpy.types.Operator):
 
 
 CLASSES = (Verify, CopyFacts, SelectLeftOut, WriteReport)
-
-
-def register() -> None:
-    """See ``registration``."""
-    for cls in CLASSES:
-        bpy.utils.register_class(cls)
-
-
-def unregister() -> None:
-    """See ``registration``."""
-    for cls in reversed(CLASSES):
-        bpy.utils.unregister_class(cls)

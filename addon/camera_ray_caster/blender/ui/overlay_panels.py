@@ -26,11 +26,4 @@ class SidebarOverlay(Sidebar, bpy.types.Panel):
         layout.prop(settings, "rays")
 
 
-def register() -> None:
-    """See ``registration``."""
-    bpy.utils.register_class(SidebarOverlay)
-
-
-def unregister() -> None:
-    """See ``registration``."""
-    bpy.utils.unregister_class(SidebarOverlay)
+CLASSES = (SidebarOverlay,)

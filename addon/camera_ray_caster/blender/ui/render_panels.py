@@ -77,17 +77,8 @@ def compatible() -> Iterator[set[str]]:
             yield engines
 
 
-def register() -> None:
+def register(undo) -> None:
     """See ``registration``."""
-    for cls in CLASSES:
-        bpy.utils.register_class(cls)
     for engines in compatible():
         engines.add(ENGINE)
-
-
-def unregister() -> None:
-    """See ``registration``."""
-    for engines in compatible():
-        engines.discard(ENGINE)
-    for cls in reversed(CLASSES):
-        bpy.utils.unregister_class(cls)
+        undo.callback(engines.discard, ENGINE)

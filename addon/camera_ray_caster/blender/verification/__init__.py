@@ -1,1 +1,1 @@
-"""A camera held against Blender's own answers."""
+"""Verification: a camera's rays compared with Blender's own answers."""

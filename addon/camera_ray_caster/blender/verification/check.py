@@ -1,13 +1,17 @@
-"""A camera of a scene held against Blender's own answers."""
+"""Verification: a camera's rays compared with Blender's own answers."""
 
 from dataclasses import replace
+from functools import partial
 
 from ...core.camera.camera import Camera
+from ...core.camera.stereo import eye_record
 from ...core.records import Finding
 from ...core.report.facts import camera_facts
 from ...core.report.report import Report
 from ...core.report.verification import verify
-from ..read.scene import observing, read_camera
+from ..read.evaluated import camera_at
+from ..read.motion import motion_of
+from ..read.scene import evaluated_camera, go_to
 from . import witness
 
 MOVING_GRID = 2
@@ -16,25 +20,32 @@ MOVING_GRID = 2
 
 def verify_camera(scene, camera_object=None, frame=None, view="") -> list[Finding]:
     """Return the findings on the camera that ``read_camera`` returns for these arguments, or raise what that raises."""
-    camera = read_camera(scene, camera_object, frame, view)
-    with observing(scene, camera_object, frame, view) as (active, depsgraph):
-        return verify_evaluated(camera, active, depsgraph, view)
+    return _read_and_verified(scene, camera_object, frame, view)[1]
 
 
 def verified(scene) -> Report:
     """Return the report on the scene's camera: what it is, and the findings. Raises what ``read_camera`` raises."""
-    facts = camera_facts(read_camera(scene))
-    return Report(camera=facts, frame=scene.frame_current_final, findings=tuple(verify_camera(scene)))
+    camera, findings = _read_and_verified(scene)
+    return Report(camera=camera_facts(camera), frame=scene.frame_current_final, findings=tuple(findings))
+
+
+def _read_and_verified(scene, camera_object=None, frame=None, view="") -> tuple[Camera, list[Finding]]:
+    """Return a camera and the findings on it: on one with a motion at its frame, the round trip over all its times."""
+    eye = partial(eye_record, view=view)
+    with evaluated_camera(scene, camera_object, frame, view) as (active, depsgraph):
+        _, camera = camera_at(active, depsgraph, eye)
+        findings = verify_evaluated(camera, active, depsgraph, view)
+        camera = replace(camera, motion=motion_of(camera, active, partial(go_to, scene), eye))
+    if camera.motion is not None:
+        findings[-1:] = verify(camera, grid=MOVING_GRID)
+    return camera, findings
 
 
 def verify_evaluated(camera: Camera, camera_object, depsgraph, view="") -> list[Finding]:
-    """Return the findings on a camera that was read of this object, as the depsgraph evaluated it.
+    """Return the findings on a camera that was read of this object, at the depsgraph's frame.
 
-    Blender answers for its own models alone, for an eye only where that is a camera object of its own, and for the
-    depsgraph's frame: a camera with a motion is held against it there, and makes the round trip over all its times.
+    Blender answers for its own models alone, and for an eye only where that is a camera object of its own.
     """
     apart = not view or depsgraph.scene_eval.render.views_format == "MULTIVIEW"
     by_blender = camera.model.key == camera_object.data.type and apart
-    still = replace(camera, pixel_time=None, motion=None)
-    findings = verify(still, witness.ask(camera_object, depsgraph) if by_blender else None)
-    return findings if camera.motion is None else [*findings[:-1], *verify(camera, grid=MOVING_GRID)]
+    return verify(replace(camera, pixel_time=None), witness.ask(camera_object, depsgraph) if by_blender else None)

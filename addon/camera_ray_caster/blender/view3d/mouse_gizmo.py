@@ -12,7 +12,7 @@ from gpu_extras.batch import batch_for_shader
 from ...core.report.diagram import Probe, probe
 from ..ui.camera_panels import length
 from .camera_frame import camera_frame
-from .scene_cache import observe
+from .scene_cache import cached_scene
 
 MARGIN = 14
 """Pixels between mouse and text, at the interface's scale 1."""
@@ -33,15 +33,15 @@ class RayUnderMouse(bpy.types.Gizmo):
     def draw(self, context):
         """Write what the ray meets beside the mouse, where that is inside the camera's frame."""
         frame = camera_frame(context)
-        camera = observe(context).camera
-        if self.mouse is None or frame is None or camera is None:
+        scene = cached_scene(context)
+        if self.mouse is None or frame is None or scene.camera is None:
             return
         left, bottom, right, top = frame
         x, y = (self.mouse[0] - left) / (right - left), (self.mouse[1] - bottom) / (top - bottom)
         if not (0 <= x < 1 and 0 <= y < 1):
             return
-        raster = camera.raster
-        found = probe(camera, observe(context).shapes, int(x * raster.width), int(y * raster.height))
+        raster = scene.camera.raster
+        found = probe(scene.camera, scene.shapes, int(x * raster.width), int(y * raster.height))
         _write(context, self.mouse, _lines(context, found))
 
 
@@ -110,15 +110,3 @@ def _ground(left, right, bottom, top) -> None:
 
 
 CLASSES = (RayUnderMouse, RayUnderMouseGroup)
-
-
-def register() -> None:
-    """See ``registration``."""
-    for cls in CLASSES:
-        bpy.utils.register_class(cls)
-
-
-def unregister() -> None:
-    """See ``registration``."""
-    for cls in reversed(CLASSES):
-        bpy.utils.unregister_class(cls)

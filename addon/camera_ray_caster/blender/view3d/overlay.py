@@ -8,7 +8,7 @@ from bpy.props import BoolProperty, IntProperty, PointerProperty
 from gpu_extras.batch import batch_for_shader
 
 from ...core.report.diagram import Diagram, diagram
-from .scene_cache import Observed, observe
+from .scene_cache import CachedScene, cached_scene
 
 
 class OverlayProperties(bpy.types.PropertyGroup):
@@ -38,7 +38,6 @@ STYLES = {
 
 _drawn: list[tuple] = []
 """The latest (what it was made of, batches)."""
-_handles: list = []
 
 
 def draw() -> None:
@@ -47,11 +46,11 @@ def draw() -> None:
     settings = context.scene.camera_ray_caster_overlay
     if not settings.show or not context.space_data.overlay.show_overlays:
         return
-    observed = observe(context)
-    if observed.camera is None:
+    scene = cached_scene(context)
+    if scene.camera is None:
         return
     in_camera = context.region_data.view_perspective == "CAMERA"
-    batches = _batches(observed, context.scene.camera.data.display_size, settings.rays)
+    batches = _batches(scene, context.scene.camera.data.display_size, settings.rays)
     scale = context.preferences.system.ui_scale
     gpu.state.blend_set("ALPHA")
     gpu.state.depth_test_set("LESS_EQUAL")
@@ -79,11 +78,11 @@ def _wanted(settings, in_camera: bool) -> list[str]:
     return [name for name in STYLES if shown[name]]
 
 
-def _batches(observed: Observed, size: float, rays: int) -> dict:
+def _batches(scene: CachedScene, size: float, rays: int) -> dict:
     """Return the batches of the diagram, made anew after a change."""
-    made_of = observed, size, rays
+    made_of = scene, size, rays
     if not _drawn or _drawn[0][0] != made_of:
-        _drawn[:] = [(made_of, _made(diagram(observed.camera, observed.shapes, size, rays)))]
+        _drawn[:] = [(made_of, _made(diagram(scene.camera, scene.shapes, size, rays)))]
     return _drawn[0][1]
 
 
@@ -117,17 +116,13 @@ def _draw(batch, kind: str, color, width: float) -> None:
     batch.draw(shader)
 
 
-def register() -> None:
+CLASSES = (OverlayProperties,)
+
+
+def register(undo) -> None:
     """See ``registration``."""
-    bpy.utils.register_class(OverlayProperties)
+    undo.callback(_drawn.clear)
     bpy.types.Scene.camera_ray_caster_overlay = PointerProperty(type=OverlayProperties)
-    _handles.append(bpy.types.SpaceView3D.draw_handler_add(draw, (), "WINDOW", "POST_VIEW"))
-
-
-def unregister() -> None:
-    """See ``registration``."""
-    while _handles:
-        bpy.types.SpaceView3D.draw_handler_remove(_handles.pop(), "WINDOW")
-    _drawn.clear()
-    del bpy.types.Scene.camera_ray_caster_overlay
-    bpy.utils.unregister_class(OverlayProperties)
+    undo.callback(delattr, bpy.types.Scene, "camera_ray_caster_overlay")
+    handle = bpy.types.SpaceView3D.draw_handler_add(draw, (), "WINDOW", "POST_VIEW")
+    undo.callback(bpy.types.SpaceView3D.draw_handler_remove, handle, "WINDOW")

@@ -7,30 +7,30 @@ from dataclasses import dataclass, replace
 import bpy
 from bpy.app.handlers import persistent
 
-from ...core.camera.build import camera_from
 from ...core.camera.camera import Camera
 from ...core.records import BlenderCamera, InputError, Shapes
-from ..read.scene import camera_record, shapes_record
+from ..read.evaluated import camera_at
+from ..read.shapes import shapes_record
 
 
 @dataclass(frozen=True, eq=False)
-class Observed:
-    """What ``observe`` has read: another one after every change, and equal to itself alone."""
+class CachedScene:
+    """What ``cached_scene`` has read: a new one after every change, and equal to itself alone."""
 
     key: tuple
     """The scene, the view layer and the camera that it was read of."""
     raw: BlenderCamera | None
-    """None where there is no camera."""
+    """What the camera was made of; None where there is no camera that can be cast."""
     camera: Camera | None
-    """At the current frame, without a clock; None where there is no camera that can be cast."""
+    """At the current frame, without pixel times; None where there is no camera that can be cast."""
     shapes: Shapes
 
 
-_read: list[Observed] = []
+_read: list[CachedScene] = []
 _stale = {"camera", "shapes"}
 
 
-def observe(context) -> Observed:
+def cached_scene(context) -> CachedScene:
     """Return the active camera and the shapes of the window's scene, evaluated."""
     scene, layer = context.scene, context.view_layer
     key = scene.as_pointer(), layer.as_pointer(), scene.camera and scene.camera.as_pointer()
@@ -39,18 +39,17 @@ def observe(context) -> Observed:
     depsgraph = context.evaluated_depsgraph_get()
     known = _read[0].shapes if _read and _read[0].key[:2] == key[:2] and "shapes" not in _stale else None
     shapes = shapes_record(depsgraph) if known is None else known
-    _read[:] = [Observed(key, *_camera(scene, depsgraph), shapes)]
+    _read[:] = [CachedScene(key, *_camera(scene.camera, depsgraph), shapes)]
     _stale.clear()
     return _read[0]
 
 
-def _camera(scene, depsgraph) -> tuple[BlenderCamera | None, Camera | None]:
-    raw = None
+def _camera(camera_object, depsgraph) -> tuple[BlenderCamera | None, Camera | None]:
     try:
-        raw = camera_record(scene, scene.camera, depsgraph)
-        return raw, replace(camera_from(raw), pixel_time=None)
+        raw, camera = camera_at(camera_object, depsgraph)
     except InputError:
-        return raw, None  # the sidebar says why
+        return None, None  # the sidebar says why
+    return raw, replace(camera, pixel_time=None)
 
 
 @persistent
@@ -85,14 +84,10 @@ HANDLERS = (
 )
 
 
-def register() -> None:
+def register(undo) -> None:
     """See ``registration``."""
+    undo.callback(forget)
     for name, function in HANDLERS:
-        getattr(bpy.app.handlers, name).append(function)
-
-
-def unregister() -> None:
-    """See ``registration``."""
-    for name, function in reversed(HANDLERS):
-        getattr(bpy.app.handlers, name).remove(function)
-    forget()
+        handlers = getattr(bpy.app.handlers, name)
+        handlers.append(function)
+        undo.callback(handlers.remove, function)

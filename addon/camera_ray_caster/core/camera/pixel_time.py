@@ -10,15 +10,64 @@ ray is in the middle of its row's.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
 
+from ..cameras.parts.settings import ABOVE_ZERO, CYCLES, RENDER, Choice, Image, Item, Number, Setting, Whole, span
 from ..records import BlenderCamera, InputError, Raster
 
-ROWS, COLUMNS, IMAGE, ROLLING_SHUTTER = "ROWS", "COLUMNS", "IMAGE", "ROLLING_SHUTTER"
-TIME_MODES = ("NONE", ROWS, COLUMNS, IMAGE, ROLLING_SHUTTER)
+NONE, ROWS, COLUMNS, IMAGE, ROLLING_SHUTTER = "NONE", "ROWS", "COLUMNS", "IMAGE", "ROLLING_SHUTTER"
+MODE = Choice(
+    "time_mode", "Time", "The frame at which each pixel's ray is cast",
+    NONE,
+    (
+        Item(NONE, "One Time", "All pixels show the current frame", 0),
+        Item(ROWS, "Rows", "Slit scan: from the first row, at the bottom, to the last one", 1),
+        Item(COLUMNS, "Columns", "Slit scan: from the left column to the right one", 2),
+        Item(IMAGE, "Image", "Time displacement: black pixels of an image show the start, white ones the end", 3),
+        Item(
+            ROLLING_SHUTTER, "Rolling Shutter", "Rows from top to bottom, in the shutter of Cycles' motion blur", 4
+        ),
+    ),
+)  # fmt: skip
+START = Number("time_start", "Start", "Frame of the first row, column or of black", 1.0)
+END = Number("time_end", "End", "Frame of the last row, column or of white", 25.0)
+GRAY = Image("time_image", "Image", "Gray image, stretched over the frame", None)
+TOLERANCE = Number(
+    "time_tolerance", "Tolerance", "Pixels by which motion between evaluations of the scene may be off",
+    0.1, 1e-4, soft_high=10.0,
+)  # fmt: skip
+EVALUATIONS = Whole(
+    "time_evaluations", "Most Evaluations",
+    "Times at which the scene may be evaluated; what that leaves is reported", 256, 2, soft_high=4096,
+)  # fmt: skip
+POSITION = Choice(
+    "motion_blur_position", "Position", "Which part of the shutter interval the frame is",
+    "CENTER",
+    (
+        Item("START", "Start on Frame", "The shutter opens at the frame", 0),
+        Item("CENTER", "Center on Frame", "The frame is in the middle", 1),
+        Item("END", "End on Frame", "The shutter closes at the frame", 2),
+    ),
+    owner=RENDER,
+)  # fmt: skip
+SHUTTER = Number("motion_blur_shutter", "Shutter", "Frames for which it is open", 0.5, ABOVE_ZERO, owner=RENDER)
+DURATION = Number(
+    "rolling_shutter_duration", "Rolling Shutter Duration",
+    "Of a row's exposure, in parts of the shutter interval; 0 without Cycles", 0.0, 0.0, 1.0, owner=CYCLES,
+)  # fmt: skip
+
+SETTINGS: dict[str, tuple[Setting, ...]] = {
+    NONE: (),
+    ROWS: (START, END, TOLERANCE, EVALUATIONS),
+    COLUMNS: (START, END, TOLERANCE, EVALUATIONS),
+    IMAGE: (GRAY, START, END, TOLERANCE, EVALUATIONS),
+    ROLLING_SHUTTER: (POSITION, SHUTTER, DURATION, TOLERANCE, EVALUATIONS),
+}
+"""The settings that each item of MODE reads, in the order of the panel."""
 
 SHUTTER_STARTS = {"START": 0.0, "CENTER": -0.5, "END": -1.0}
 """Where the shutter interval begins, in lengths of itself."""
@@ -139,34 +188,49 @@ def pixel_time_from(raw: BlenderCamera, raster: Raster) -> PixelTime | None:
     start, white the end; the image is stretched over the frame, nearest pixel. Raises InputError for an unknown
     mode, equal or non-finite ends and a missing image.
     """
-    mode = raw.settings.get("time_mode", "NONE")
-    if mode not in TIME_MODES:
-        raise InputError(f"time mode {mode!r} of camera {raw.name!r} is unknown: use one of {', '.join(TIME_MODES)}")
-    if mode == "NONE":
+    if MODE.name not in raw.settings or MODE.read(raw) == NONE:
         return None
-    if mode == ROLLING_SHUTTER:
-        return _rolling_shutter(raw, raster)
-    start, end = float(raw.settings["time_start"]), float(raw.settings["time_end"])
-    if not (abs(start) <= LAST_FRAME and abs(end) <= LAST_FRAME and start != end):
-        raise InputError(
-            f"time_start and time_end of camera {raw.name!r} are {start:g} and {end:g}: "
-            f"set two different frames from -{LAST_FRAME} to {LAST_FRAME}"
-        )
-    if mode == IMAGE:
-        return ImageTime(start + _image_share(raw, raster) * (end - start), *_effort(raw))
-    if mode == ROWS:
-        return _linear(raw, start, 0.0, (end - start) / raster.height, raster)
+    return MAKERS[MODE.read(raw)](raw, raster)
+
+
+def _rows(raw: BlenderCamera, raster: Raster) -> LinearTime:
+    start, end = _ends(raw)
+    return _linear(raw, start, 0.0, (end - start) / raster.height, raster)
+
+
+def _columns(raw: BlenderCamera, raster: Raster) -> LinearTime:
+    start, end = _ends(raw)
     return _linear(raw, start, (end - start) / raster.width, 0.0, raster)
 
 
+def _image(raw: BlenderCamera, raster: Raster) -> ImageTime:
+    start, end = _ends(raw)
+    return ImageTime(start + _image_share(raw, raster) * (end - start), *_effort(raw))
+
+
+def _rolling_shutter(raw: BlenderCamera, raster: Raster) -> LinearTime:
+    shutter, duration = SHUTTER.read(raw), DURATION.read(raw)
+    begin = SHUTTER_STARTS[POSITION.read(raw)]
+    per_row = -shutter * (1 - duration) / raster.height
+    # row j has its center at y = j + 1/2 and its time at H - j: half a row on
+    top = raw.settings["frame"] + (begin + duration / 2) * shutter - per_row * (raster.height + 0.5)
+    return _linear(raw, top, 0.0, per_row, raster)
+
+
+MAKERS: dict[str, Callable[[BlenderCamera, Raster], PixelTime]] = {
+    ROWS: _rows,
+    COLUMNS: _columns,
+    IMAGE: _image,
+    ROLLING_SHUTTER: _rolling_shutter,
+}
+
+
+def _ends(raw: BlenderCamera) -> tuple[float, float]:
+    return span(raw, START, END, low=-LAST_FRAME, high=LAST_FRAME)
+
+
 def _effort(raw: BlenderCamera) -> tuple[float, int]:
-    tolerance, most = float(raw.settings["time_tolerance"]), int(raw.settings["time_evaluations"])
-    if not tolerance > 0 or most < 2:
-        raise InputError(
-            f"camera {raw.name!r} asks for motion within {tolerance} pixels from {most} evaluations: "
-            "set time_tolerance above 0 and time_evaluations to 2 or more"
-        )
-    return tolerance, most
+    return TOLERANCE.read(raw), int(EVALUATIONS.read(raw))
 
 
 def _linear(raw: BlenderCamera, origin: float, per_column: float, per_row: float, raster: Raster) -> LinearTime:
@@ -178,23 +242,8 @@ def _linear(raw: BlenderCamera, origin: float, per_column: float, per_row: float
     return LinearTime(origin, per_column, per_row, min(corners), max(corners), *_effort(raw))
 
 
-def _rolling_shutter(raw: BlenderCamera, raster: Raster) -> LinearTime:
-    shutter = float(raw.settings["motion_blur_shutter"])
-    duration = float(raw.settings["rolling_shutter_duration"])
-    if not shutter > 0 or not 0 <= duration <= 1:
-        raise InputError(
-            f"the shutter of camera {raw.name!r} is {shutter} frames with a rolling duration of {duration}: "
-            "set a shutter above 0 and a duration from 0 to 1"
-        )
-    begin = SHUTTER_STARTS[raw.settings["motion_blur_position"]]
-    per_row = -shutter * (1 - duration) / raster.height
-    # row j has its center at y = j + 1/2 and its time at H - j: half a row on
-    top = raw.settings["frame"] + (begin + duration / 2) * shutter - per_row * (raster.height + 0.5)
-    return _linear(raw, top, 0.0, per_row, raster)
-
-
 def _image_share(raw: BlenderCamera, raster: Raster) -> np.ndarray:
-    gray = raw.settings.get("time_image")
+    gray = GRAY.given(raw)
     if gray is None:
         raise InputError(f"camera {raw.name!r} reads its time from an image, but has none: choose a gray image")
     gray = np.asarray(gray, np.float64)

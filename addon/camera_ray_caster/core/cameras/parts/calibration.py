@@ -19,16 +19,20 @@ from .film import Window
 from .settings import FilePath, Number, Setting, Whole
 
 FOCAL = (
-    Number("fx", "Focal Length X", "In pixels of the calibrated picture", 1500.0, 1e-3, unit="pixels"),
-    Number("fy", "Y", "In pixels of the calibrated picture", 1500.0, 1e-3, unit="pixels"),
+    Number("fx", "Focal Length X", "In pixels of the calibrated picture", 1500.0, 1e-3, unit="pixels", digits=3),
+    Number("fy", "Y", "In pixels of the calibrated picture", 1500.0, 1e-3, unit="pixels", digits=3),
 )
 CENTER = (
-    Number("cx", "Center X", "From the center of the top left pixel, to the right", 959.5, -1e6, unit="pixels"),
-    Number("cy", "Y", "From the center of the top left pixel, down", 539.5, -1e6, unit="pixels"),
+    Number(
+        "cx", "Center X", "From the center of the top left pixel, to the right", 959.5, -1e6, unit="pixels", digits=3
+    ),
+    Number("cy", "Y", "From the center of the top left pixel, down", 539.5, -1e6, unit="pixels", digits=3),
 )
 SIZE = (
-    Whole("calibration_width", "Width", "Of the calibrated picture; 0 is the frame's", 1920, 0, unit="pixels"),
-    Whole("calibration_height", "Height", "Of the calibrated picture; 0 is the frame's", 1080, 0, unit="pixels"),
+    Whole("calibration_width", "Width", "Of the calibrated picture, pixels; 0 is the frame's", 1920, 0, unit="pixels"),
+    Whole(
+        "calibration_height", "Height", "Of the calibrated picture, pixels; 0 is the frame's", 1080, 0, unit="pixels"
+    ),
 )
 FILE = FilePath(
     "calibration_file",
@@ -41,7 +45,7 @@ CALIBRATION = (FILE, *SIZE, *FOCAL, *CENTER)
 
 
 def _coefficient(name: str, text: str) -> Number:
-    return Number(name, name.upper(), text, 0.0, digits=6)
+    return Number(name, name.upper(), text, 0.0, digits=6, step=0.1)
 
 
 K1, K2, K3 = (_coefficient(name, "Radial") for name in ("k1", "k2", "k3"))

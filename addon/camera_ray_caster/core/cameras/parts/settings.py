@@ -53,6 +53,8 @@ class Setting(ABC):
     """Where Blender keeps it: one of OWN, CAMERA, STEREO, RENDER, CYCLES."""
 
     kind: ClassVar[str]
+    replaces_the_rest: ClassVar[bool] = False
+    """Whether a value stands for the settings that follow it in a model's SETTINGS."""
 
     def given(self, raw: BlenderCamera) -> Any:
         """Return the value in a record as it stands there. Raises InputError where it has none."""
@@ -61,6 +63,10 @@ class Setting(ABC):
         if self.name not in raw.settings:
             raise InputError(f"camera {raw.name!r} has no setting {self.name}, which its model needs")
         return raw.settings[self.name]
+
+    def reported(self, raw: BlenderCamera) -> Any:
+        """Return the value as a report has it: plain numbers, words, lists and None."""
+        return _plain(self.given(raw))
 
     def refusal(self, raw: BlenderCamera, value: str, allowed: str) -> InputError:
         """Return the error that says what is wrong with the setting of a camera, and what it may be."""
@@ -75,8 +81,12 @@ class Number(Setting):
     high: float = math.inf
     unit: str = ""
     """"angle", "length", "mm", "pixels" or none."""
-    digits: int = 3
+    digits: int = 2
     """Decimals that are shown."""
+    step: float = 3.0
+    """What a click on the arrow of the field adds, in hundredths, as Blender has it; an angle's is 1 degree."""
+    soft_high: float = math.inf
+    """Where the field's slider ends; more can be typed in."""
 
     kind = "FLOAT"
 
@@ -173,9 +183,10 @@ class Numbers(Setting):
 
 @dataclass(frozen=True)
 class FilePath(Setting):
-    """The path of a file; empty for none. A record has the absolute path."""
+    """The path of a file, which stands for the settings that follow; empty for none. A record has the absolute path."""
 
     kind = "FILE"
+    replaces_the_rest = True
 
     def read(self, raw: BlenderCamera) -> str:
         """Return the path."""
@@ -195,19 +206,39 @@ class Line(Setting):
 
     kind = "OBJECT"
 
+    def reported(self, raw: BlenderCamera) -> Any:
+        """Return the first and the last point in the world, (2, 3) as lists; None without a line."""
+        given: Any = self.given(raw)
+        if given is None or not len(given[0]):
+            return None
+        points, matrix = (np.asarray(part, np.float64) for part in given[:2])
+        return (points[[0, -1]] @ matrix[:3, :3].T + matrix[:3, 3]).tolist()
 
-def span(raw: BlenderCamera, start: Number, end: Number) -> tuple[float, float]:
-    """Return a pair of settings. Swapped ends mirror the picture; InputError where they are equal."""
-    low, high = start.read(raw), end.read(raw)
-    if low == high:
-        same = start.in_words(low)
+
+@dataclass(frozen=True)
+class Image(Setting):
+    """An image; a record has the mean of its channels, (rows, columns) from the bottom, or None."""
+
+    kind = "IMAGE"
+
+
+def span(
+    raw: BlenderCamera, start: Number, end: Number, *, low: float | None = None, high: float | None = None
+) -> tuple[float, float]:
+    """Return a pair of settings, each from ``low`` to ``high``; by default in its own range.
+
+    Swapped ends mirror the picture. Raises InputError where they are equal.
+    """
+    first, last = start.read(raw, low, high), end.read(raw, low, high)
+    if first == last:
+        same = start.in_words(first)
         raise InputError(f"{start.name} and {end.name} of camera {raw.name!r} are both {same}: set them apart")
-    return low, high
+    return first, last
 
 
 def values_of(settings: Iterable[Setting], raw: BlenderCamera) -> dict[str, Any]:
-    """Return the values that a record has of some settings, by name, as plain numbers, words, lists and None."""
-    return {setting.name: _plain(setting.given(raw)) for setting in settings}
+    """Return the values that a record has of some settings, by name; see ``Setting.reported``."""
+    return {setting.name: setting.reported(raw) for setting in settings}
 
 
 def _plain(value):

@@ -1,0 +1,71 @@
+"""The add-on's own settings of a camera or an object: from its property group, or as the file stores them without one.
+
+Where the add-on is not registered, as in a script that only imports it, Blender still has what a file has stored: a
+group of ID properties that holds what was ever set, enums by their numbers. What is not in it has its default.
+"""
+
+from collections.abc import Iterator
+
+import bpy
+import numpy as np
+
+from ...core.cameras.parts.settings import Setting
+from ...core.records import InputError
+from ..properties.declared import GROUP
+
+HAS_SYSTEM_PROPERTIES = bpy.app.version >= (5, 0, 0)
+"""Whether the properties of add-ons are stored apart from those that a user adds."""
+
+
+def own_value(owner, setting: Setting):
+    """Return the value of a setting of a camera's data or of an object, as Blender has evaluated it.
+
+    A number of an enum that has no item here, as one of a newer version, is returned as a word. Raises InputError where
+    the setting is animated and the add-on is not registered: Blender cannot evaluate it then.
+    """
+    if GROUP in owner.bl_rna.properties:
+        value = getattr(getattr(owner, GROUP), setting.name)
+        return _stored(owner, setting) if setting.kind == "ENUM" and not value else value
+    if f"{GROUP}.{setting.name}" in _animated(owner):
+        raise InputError(
+            f"{setting.name} of {owner.name!r} is animated, which Blender evaluates only where the add-on is "
+            "registered: call camera_ray_caster.register() before the file is opened"
+        )
+    return _stored(owner, setting)
+
+
+def _stored(owner, setting: Setting):
+    properties = owner.bl_system_properties_get() if HAS_SYSTEM_PROPERTIES else owner
+    group = properties.get(GROUP) if properties is not None else None
+    value = group.get(setting.name) if group is not None else None
+    return KINDS.get(setting.kind, _same)(setting, setting.default if value is None else value)
+
+
+def _same(setting, value):
+    return value
+
+
+def _word(setting, value) -> str:
+    return {item.number: item.key for item in setting.items}.get(value, str(value))
+
+
+KINDS = {
+    "FLOAT": lambda setting, value: float(np.float32(value)),
+    "VECTOR": lambda setting, value: tuple(np.array(value, np.float32).tolist()),
+    "BOOLEAN": lambda setting, value: bool(value),
+    "ENUM": _word,
+}
+"""From what is stored, or from the default, to what the property would say: its numbers are float32."""
+
+
+def _animated(owner) -> Iterator[str]:
+    """Yield the data paths that drivers, the action and NLA strips of an ID animate."""
+    animation = owner.animation_data
+    if animation is None:
+        return
+    yield from (driver.data_path for driver in animation.drivers)
+    strips = [strip for track in animation.nla_tracks for strip in track.strips]
+    for user in (animation, *strips):
+        if user.action is not None and user.action_slot is not None:
+            bags = (part.channelbag(user.action_slot) for layer in user.action.layers for part in layer.strips)
+            yield from (curve.data_path for bag in bags if bag is not None for curve in bag.fcurves)

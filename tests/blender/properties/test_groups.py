@@ -1,0 +1,72 @@
+"""The properties that are made from declarations: those of version 0.1 are what they were, down to the tooltips."""
+
+import json
+from pathlib import Path
+
+import pytest
+
+from camera_ray_caster.blender.properties.groups import CameraProperties, ObjectProperties, SceneProperties
+
+BEFORE = json.loads(Path(__file__).with_name("properties_of_0_1.json").read_text(encoding="utf-8"))
+"""What Blender said of each property of 0.1, by group and name."""
+GROUPS = {group.__name__: group for group in (CameraProperties, ObjectProperties, SceneProperties)}
+
+
+def said(found):
+    """What Blender says of a property, as lists, words and numbers."""
+    facts = {"type": found.type, "name": found.name, "description": found.description}
+    if found.type in ("FLOAT", "INT"):
+        facts["default"] = list(found.default_array) if found.is_array else found.default
+        facts["hard"], facts["soft"] = [found.hard_min, found.hard_max], [found.soft_min, found.soft_max]
+        facts["step"] = found.step
+    if found.type == "FLOAT":
+        facts["precision"] = found.precision
+        facts |= {"unit": "LENGTH"} if found.unit == "LENGTH" else {}
+        facts |= {"subtype": "ANGLE"} if found.unit == "ROTATION" else {}
+    if found.type == "ENUM":
+        facts["items"] = [[item.identifier, item.name, item.description, item.value] for item in found.enum_items]
+    if found.type in ("ENUM", "STRING", "BOOLEAN"):
+        facts["default"] = found.default
+    if found.type == "STRING":
+        facts["subtype"] = found.subtype
+    if found.type == "POINTER":
+        facts["fixed"] = found.fixed_type.identifier
+    return facts
+
+
+@pytest.mark.parametrize("name", BEFORE)
+def test_a_property_of_0_1_is_what_it_was(name):
+    """A choice may have more items."""
+    group, _, name = name.partition(".")
+    before, found = BEFORE[f"{group}.{name}"], said(GROUPS[group].bl_rna.properties[name])
+    if "items" in before:
+        found["items"] = [item for item in found["items"] if item[0] in {key for key, *_ in before["items"]}]
+    assert found == before
+
+
+def test_every_item_of_a_choice_has_a_number_of_its_own():
+    for group in GROUPS.values():
+        for found in group.bl_rna.properties:
+            if found.type == "ENUM" and found.is_runtime:
+                numbers = [item.value for item in found.enum_items]
+                assert len(set(numbers)) == len(numbers), found.identifier
+
+
+def test_only_objects_of_the_declared_types_can_be_a_slit_or_a_path(blender):
+    curve, mesh = blender.data.curves.new("Curve", "CURVE"), blender.data.meshes.new("Mesh")
+    items = [blender.data.objects.new("Item", data) for data in (None, curve, mesh)]
+    own = blender.data.cameras.new("Camera").camera_ray_caster
+    for name, types in (("slit_1", {"EMPTY", "CURVE"}), ("slit_2", {"EMPTY", "CURVE"}), ("path", {"CURVE"})):
+        poll = CameraProperties.__annotations__[name].keywords["poll"]
+        assert {item.type for item in items if poll(own, item)} == types
+
+
+def test_what_a_script_changes_is_evaluated(blender):
+    """Blender evaluates anew what its windows change; a script's change has to be told."""
+    scene, camera = blender.context.scene, blender.data.objects.new("Camera", blender.data.cameras.new("Camera"))
+    scene.collection.objects.link(camera)
+    depsgraph = blender.context.evaluated_depsgraph_get()
+    for tilt in (0.25, 0.5):
+        camera.data.camera_ray_caster.tilt = tilt
+        depsgraph.update()
+        assert camera.evaluated_get(depsgraph).data.camera_ray_caster.tilt == tilt

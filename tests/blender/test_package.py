@@ -1,0 +1,94 @@
+"""The package itself: what it gives without registration, and that registering is all or nothing, however often."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import camera_ray_caster as crc
+from camera_ray_caster.blender import registration
+
+from .install_and_render import traces
+
+ADDON = Path(__file__).resolve().parents[2] / "addon"
+
+
+def python(*lines):
+    """What another Python prints that runs these lines with the package beside it."""
+    done = subprocess.run(
+        [sys.executable, "-c", "\n".join(lines)],
+        env=os.environ | {"PYTHONPATH": os.pathsep.join((str(ADDON), os.environ.get("PYTHONPATH", "")))},
+        capture_output=True,
+        text=True,
+        timeout=120,
+    )
+    assert done.returncode == 0, done.stderr
+    return done.stdout.split()
+
+
+@pytest.fixture
+def plain(blender):
+    """What Blender lists while nothing of the add-on is registered."""
+    crc.unregister()
+    return traces()
+
+
+def test_every_name_of_the_package_is_there():
+    assert {name for name in crc.__all__ if not callable(getattr(crc, name))} == set()
+    from camera_ray_caster.blender.read import read_camera, read_scene, read_shapes
+    from camera_ray_caster.core.cast import cast
+    from camera_ray_caster.core.records import InputError
+
+    assert (crc.read_camera, crc.read_scene, crc.read_shapes) == (read_camera, read_scene, read_shapes)
+    assert (crc.cast, crc.InputError) == (cast, InputError)
+    with pytest.raises(AttributeError, match="'camera_ray_caster' has no attribute 'project'"):
+        crc.project  # noqa: B018
+
+
+def test_nothing_is_imported_before_it_is_asked_for():
+    own = "print(*(name for name in sys.modules if name.startswith('camera_ray_caster.') or name in ('bpy', 'numpy')))"
+    start = "import sys, camera_ray_caster as crc"
+    assert python(start, own) == []
+    loaded = set(python(start, "crc.cast", own))
+    assert {"camera_ray_caster.core.cast", "numpy"} <= loaded
+    assert not any(name == "bpy" or ".blender" in name for name in loaded)
+
+
+def test_registering_twice_is_registering_once(plain):
+    crc.register()
+    once = traces()
+    assert once != plain
+    crc.register()
+    assert traces() == once
+    crc.unregister()
+    assert traces() == plain
+    crc.unregister()
+    assert traces() == plain
+
+
+@pytest.mark.parametrize("count", [0, 5, len(registration.CLASSES)])
+def test_where_blender_refuses_a_class_nothing_stays(plain, monkeypatch, count):
+    refused = type("Refused", (), {})
+    monkeypatch.setattr(registration, "CLASSES", (*registration.CLASSES[:count], refused))
+    with pytest.raises(RuntimeError, match="register_class"):
+        crc.register()
+    assert traces() == plain
+    monkeypatch.undo()
+    crc.register()
+    assert traces() != plain
+
+
+@pytest.mark.parametrize("module", registration.MODULES, ids=lambda module: module.__name__.rpartition(".")[2])
+def test_where_a_later_step_fails_nothing_stays(plain, monkeypatch, module):
+    register = module.register
+
+    def fail(undo):
+        register(undo)
+        raise ValueError("this step has failed")
+
+    monkeypatch.setattr(module, "register", fail)
+    with pytest.raises(ValueError, match="this step has failed"):
+        crc.register()
+    assert traces() == plain
