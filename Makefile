@@ -21,8 +21,9 @@ EXTENSION_TOOL = $(VENV)/lib/python3*/site-packages/bpy/*/scripts/addons_core/bl
 cast: $(VENV)/ready  ## render the example scene into out/ and print the report
 	$(VENV)/bin/python scripts/cast.py $(SCENE) --output out
 
-test: $(VENV)/ready  ## run every test with this Python
-	$(VENV)/bin/python -m pytest
+# The tests of a file stay together, since they share fixtures, and one window.
+test: $(VENV)/ready  ## run every test with this Python, on all cores
+	$(VENV)/bin/python -m pytest --numprocesses auto --dist loadfile
 
 test-all:  ## run the tests on each supported bpy for which a Python is found, but those in a window
 	@$(PYTHON) scripts/environment.py test-all

@@ -33,8 +33,8 @@ EMBREE_MOST = 10_000
 def main() -> int:
     """Run what the arguments ask for and print tables; with --json also write them."""
     parser = arguments.Parser(prog="benchmark.py", description=__doc__.splitlines()[0])
-    parser.add_argument("--quick", action="store_true", help="the smaller half of the scenes, three rounds")
-    parser.add_argument("--rounds", type=arguments.count, default=9, help="default: %(default)s")
+    parser.add_argument("--quick", action="store_true", help="the smaller half of the scenes, fewer rounds")
+    parser.add_argument("--rounds", type=arguments.count, help="default: 9, with --quick 3")
     parser.add_argument("--threads", type=arguments.count, default=2, help="default: %(default)s")
     parser.add_argument("--size", type=arguments.size, default=(1920, 1080), help="default: 1920x1080")
     parser.add_argument("--models", action="store_true", help="ray generation and casting of every camera model")
@@ -46,7 +46,7 @@ def main() -> int:
         if not path.absolute().parent.is_dir():
             parser.error(f"there is no folder for {str(path)!r}: make it or choose another")
     width, height = options.size
-    rounds = 3 if options.quick else options.rounds
+    rounds = options.rounds or (3 if options.quick else 9)
     if options.models:
         import by_model
 
@@ -60,7 +60,7 @@ def main() -> int:
     else:
         counts = COUNTS[:2] if options.quick else COUNTS
         figures = [row for count in counts for row in compare(count, width, height, rounds, options.threads)]
-        figures += blender(width, height, options.threads)
+        figures += blender(width, height, options.threads, min(rounds, 3))
     if options.json:
         options.json.write_text(json.dumps(figures, indent=1) + "\n")
     return 0
@@ -117,14 +117,14 @@ def take_turns(runs: dict, rounds: int) -> dict[str, list[float]]:
     return times
 
 
-def blender(width: int, height: int, threads: int) -> list[dict]:
+def blender(width: int, height: int, threads: int, rounds: int) -> list[dict]:
     """Time ``scene.ray_cast`` in a loop, and Cycles at one sample with the same passes, where bpy is installed."""
     if not c.has("bpy"):
         print("\nBlender: not installed here")
         return []
     import in_blender
 
-    return in_blender.run(*c.scene(10, width, height), c.PASSES, threads)
+    return in_blender.run(*c.scene(10, width, height), c.PASSES, threads, rounds)
 
 
 if __name__ == "__main__":

@@ -12,10 +12,6 @@ import os
 import shutil
 import subprocess
 import sys
-from concurrent.futures import ThreadPoolExecutor
-
-# Two runs that together are all the tests: the last bpy's would otherwise leave a core idle.
-HALVES = "--ignore=tests/core", "tests/core"
 
 # A bpy wheel is built for one Python.
 PYTHON_OF_BPY = {"4.5": (3, 11), "5.0": (3, 11), "5.2": (3, 13)}
@@ -47,36 +43,28 @@ def find_python(version):
 
 
 def test_all():
-    """Run `make test` in HALVES for each supported bpy, as many at a time as there are cores; the exit status is 0 when
-    at least one bpy ran and none failed.
+    """Run `make test` for one supported bpy after the other, since each takes all cores; the exit status is 0 when at
+    least one bpy ran and none failed.
     """
-    pythons = {bpy: find_python(version) for bpy, version in PYTHON_OF_BPY.items()}
-    found = {bpy: python for bpy, python in pythons.items() if python}
-    # the environments one after another, since each installs from this folder
-    passed = {bpy: make(f".venv/bpy-{bpy}/ready", bpy, python).returncode == 0 for bpy, python in found.items()}
-    with ThreadPoolExecutor(os.cpu_count()) as pool:
-        ready = [bpy for bpy in found if passed[bpy]]
-        running = [
-            (bpy, pool.submit(make, "test", bpy, found[bpy], half, subprocess.PIPE)) for half in HALVES for bpy in ready
-        ]
-        for bpy, run in running:
-            print(f"== bpy {bpy} on {found[bpy]}")
-            print(run.result().stdout, flush=True)
-            passed[bpy] = passed[bpy] and run.result().returncode == 0
+    results = {}
     for bpy, version in PYTHON_OF_BPY.items():
-        missing = f"not run, no Python {dotted(version)} with pip found"
-        print(f"bpy {bpy}: " + {True: "passed", False: "FAILED"}.get(passed.get(bpy), missing))
-    return int(not passed or not all(passed.values()))
+        python = find_python(version)
+        if python is None:
+            results[bpy] = f"not run, no Python {dotted(version)} with pip found"
+            continue
+        print(f"== bpy {bpy} on {python}", flush=True)
+        results[bpy] = "FAILED" if make_test(bpy, python) else "passed"
+    for bpy, result in results.items():
+        print(f"bpy {bpy}: {result}")
+    return int("FAILED" in results.values() or "passed" not in results.values())
 
 
-def make(target, bpy, python, options="", output=None):
-    """Run make for a bpy on a Python, with options of pytest; ``output`` takes what it says on both channels."""
+def make_test(bpy, python):
+    """Run `make test` for a bpy on a Python, but the tests in a window, and return its exit status."""
     # it gets its own settings, not those of the make that called; the window's Blender is the same with every bpy
     environment = {name: value for name, value in os.environ.items() if not name.startswith(("MAKE", "MFLAGS"))}
-    environment["PYTEST_ADDOPTS"] = " ".join((os.environ.get("PYTEST_ADDOPTS", ""), "--ignore=tests/gui", options))
-    command = ["make", target, f"PYTHON={python}", f"BPY={bpy}"]
-    errors = output and subprocess.STDOUT
-    return subprocess.run(command, env=environment, stdout=output, stderr=errors, encoding="utf-8", errors="replace")
+    environment["PYTEST_ADDOPTS"] = environment.get("PYTEST_ADDOPTS", "") + " --ignore=tests/gui"
+    return subprocess.run(["make", "test", f"PYTHON={python}", f"BPY={bpy}"], env=environment).returncode
 
 
 if __name__ == "__main__":

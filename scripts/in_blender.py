@@ -16,7 +16,7 @@ LOOP_RAYS = 20_000
 """Rays that the loops cast; their time is scaled to the picture. Rays are given: making them is not timed."""
 
 
-def run(camera, shapes, passes, threads: int, rounds: int = 3) -> list[dict]:
+def run(camera, shapes, passes, threads: int, rounds: int) -> list[dict]:
     """Print and return milliseconds a picture, each of the others in turns with both of ours.
 
     Ours are timed more often than the others: compare medians.
@@ -73,7 +73,8 @@ def run(camera, shapes, passes, threads: int, rounds: int = 3) -> list[dict]:
     for turn in range(rounds + 1):
         for other, one in others.items():
             for name, entry in (*both_of_ours.items(), (other, one)):
-                sleep(c.PAUSE)
+                if turn:
+                    sleep(c.PAUSE)
                 seconds = entry()
                 if turn:
                     times[name].append(1e3 * seconds)

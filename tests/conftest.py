@@ -6,14 +6,15 @@ import tempfile
 
 import pytest
 
-# Read once, at the first import of bpy: the tests neither see nor touch the user's settings.
+# Read once, at the first import of bpy: the tests neither see nor touch the user's settings. With pytest-xdist every
+# worker imports this file, and so has a folder of its own.
 _PROFILE = tempfile.TemporaryDirectory(prefix="camera_ray_caster_")
 os.environ["BLENDER_USER_RESOURCES"] = _PROFILE.name
 
 
-@pytest.fixture
-def blender():
-    """The bpy module on an empty file, with the extension registered as the plain package ``camera_ray_caster``."""
+@pytest.fixture(scope="session")
+def registered():
+    """The bpy module with the extension registered as the plain package ``camera_ray_caster``."""
     import bpy
 
     import camera_ray_caster
@@ -22,6 +23,22 @@ def blender():
     camera_ray_caster.register()
     yield bpy
     camera_ray_caster.unregister()
+
+
+@pytest.fixture
+def blender(registered):
+    """The bpy module on an empty file, with the extension registered."""
+    registered.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
+    return registered
+
+
+@pytest.fixture
+def unregister(blender):
+    """A function that takes the extension away for the rest of the test."""
+    import camera_ray_caster
+
+    yield camera_ray_caster.unregister
+    camera_ray_caster.register()
 
 
 _STATUS = pytest.StashKey[int]()

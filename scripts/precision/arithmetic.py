@@ -10,6 +10,7 @@ from camera_ray_caster.core.camera.build import camera_from
 from camera_ray_caster.core.cast import cast
 from camera_ray_caster.core.errors.hits import decision
 from camera_ray_caster.core.records import INFINITE_PLANE, SPHERE
+from camera_ray_caster.core.shapes.in_camera import in_camera
 
 from .points import Point, timed
 
@@ -104,11 +105,11 @@ def measured(name, raw, shapes) -> list[Point]:
 def _exact(raw, camera, shapes):
     """Yield pixels spread over the picture with their exact hits, those left out that no rounding decides."""
     height, width = camera.raster.shape
-    plan = cast(camera, shapes, ("depth",)).plan
+    placed = in_camera(shapes, camera.pose)
     flat = np.unique(np.linspace(0, height * width - 1, COMPARED).round().astype(int))
     for j, i in zip(*np.unravel_index(flat, (height, width)), strict=True):
         x, y = camera.raster.columns()[0, i], camera.raster.rows()[j, 0]
         ray = truth.ray(raw, x, y)
-        sure = (decision(plan, k, np.array([[x]]), np.array([[y]])) for k in range(len(shapes)))
+        sure = (decision(camera, placed, k, np.array([[x]]), np.array([[y]])) for k in range(len(shapes)))
         if ray is not None and all(abs(value[0, 0]) > bound[0, 0] for value, bound in sure):
             yield (j, i), truth.nearest(shapes, ray, camera.clip_start, camera.clip_end)

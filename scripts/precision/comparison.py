@@ -5,8 +5,8 @@ import sys
 import numpy as np
 from tests.core.truth import truth
 
-from camera_ray_caster.core.cast import cast
 from camera_ray_caster.core.errors.hits import decision
+from camera_ray_caster.core.shapes.in_camera import in_camera
 
 from .tracers import TRACERS, Given
 
@@ -18,13 +18,13 @@ def rays_of(case):
     """Return the exact rays of a case's pixels that no rounding of float64 decides, and their exact distances."""
     camera, shapes = case.camera, case.shapes
     height, width = camera.raster.shape
-    plan = cast(camera, shapes, ("depth",)).plan
+    placed = in_camera(shapes, camera.pose)
     flat = np.unique(np.linspace(0, height * width - 1, PIXELS).round().astype(int))
     pixels, rays, starts, distances = [], [], [], []
     for j, i in zip(*np.unravel_index(flat, (height, width)), strict=True):
         x, y = camera.raster.columns()[0, i], camera.raster.rows()[j, 0]
         ray = truth.ray(case.raw, x, y)
-        sure = (decision(plan, k, np.array([[x]]), np.array([[y]])) for k in range(len(shapes)))
+        sure = (decision(camera, placed, k, np.array([[x]]), np.array([[y]])) for k in range(len(shapes)))
         if ray is None or any(abs(value[0, 0]) <= bound[0, 0] for value, bound in sure):
             continue
         hit = truth.nearest(shapes, ray, camera.clip_start, camera.clip_end)

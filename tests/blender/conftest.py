@@ -2,6 +2,8 @@
 
 import pytest
 
+from ..exr import read_exr
+
 
 @pytest.fixture(autouse=True)
 def empty_file(blender):
@@ -12,6 +14,29 @@ def empty_file(blender):
 @pytest.fixture
 def slow(monkeypatch):
     """A picture counts as one that takes long, and so is cast in many tiles."""
-    from camera_ray_caster.core import cast
+    from camera_ray_caster.core import tuning
 
-    monkeypatch.setattr(cast, "TILE_WORK", 1 << 16)
+    monkeypatch.setattr(tuning, "TILE_WORK", 1 << 16)
+
+
+@pytest.fixture
+def render(blender, tmp_path):
+    """A function that renders the current frame by Blender's own operator to an EXR and reads it back."""
+
+    def render(**options):
+        path = tmp_path / "picture.exr"
+        settings = blender.context.scene.render.image_settings
+        if hasattr(settings, "media_type"):
+            settings.media_type = "MULTI_LAYER_IMAGE"
+        settings.file_format, settings.color_depth, settings.exr_codec = "OPEN_EXR_MULTILAYER", "32", "ZIP"
+        if hasattr(settings, "use_exr_interleave"):
+            settings.use_exr_interleave = True
+        blender.context.scene.render.filepath = str(path)
+        if options.get("animation"):
+            blender.context.scene.render.filepath = str(tmp_path / "frame_")
+            blender.ops.render.render(animation=True)
+            return {int(path.stem[-4:]): read_exr(path) for path in sorted(tmp_path.glob("frame_*.exr"))}
+        blender.ops.render.render(write_still=True)
+        return read_exr(path)
+
+    return render

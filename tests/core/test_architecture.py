@@ -14,11 +14,12 @@ MODULES = sorted(PACKAGE.rglob("*.py"))
 SOURCES = [*MODULES, *sorted((ROOT / "scripts").glob("*.py")), *sorted((ROOT / "tests").rglob("*.py"))]
 
 # What a part of the package may import of the package: the longest name that fits counts. The lowest layer comes first.
-LOW = {"core.conventions", "core.records", "core.maths"}
+LOW = {"core.conventions", "core.tuning", "core.records", "core.maths"}
 RAYS = LOW | {"core.cameras", "core.camera"}
 HITS = RAYS | {"core.shapes", "core.errors", "core.casting"}
 MAY_IMPORT = {
     "core.conventions": set(),
+    "core.tuning": set(),
     "core.records": {"core.conventions"},
     "core.maths": {"core.conventions", "core.maths"},
     "core.cameras": LOW | {"core.cameras"},
@@ -36,6 +37,8 @@ MAY_IMPORT = {
     "": {"blender"},
 }
 BLENDER = {"bpy", "bpy_extras", "mathutils", "bl_math", "gpu", "gpu_extras", "blf", "bmesh", "imbuf", "addon_utils"}
+TESTS_OF_THEIR_OWN = {"core/truth", "blender/cycles"}
+"""Rooms of tests that no room of the package has: the exact rays of 60 digits, and Cycles as a witness."""
 OUTSIDE = {"core": {"numpy"}, "blender": {"numpy"} | BLENDER, "": set()}
 
 
@@ -103,6 +106,13 @@ def test_no_arrow_comes_back():
 @pytest.mark.parametrize("part", [part for part in MAY_IMPORT if "." in part])
 def test_the_table_names_what_exists(part):
     assert part in NAMES
+
+
+def test_a_room_of_tests_is_named_as_the_room_that_it_tests():
+    tests = ROOT / "tests"
+    folders = {path.parent.relative_to(tests) for room in ("core", "blender") for path in (tests / room).rglob("*.py")}
+    others = {folder.as_posix() for folder in folders if not (PACKAGE / folder).is_dir()}
+    assert others == TESTS_OF_THEIR_OWN
 
 
 @each_source

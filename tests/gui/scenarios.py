@@ -18,7 +18,7 @@ PAUSE = 2.0
 
 
 def addon(name):
-    """A module of the installed add-on."""
+    """A module of the installed add-on's ``blender`` package, by its dotted name."""
     return sys.modules[f"{MODULE}.blender.{name}"]
 
 
@@ -50,27 +50,27 @@ def panel(user, scenes):
     area = user.area("DOPESHEET_EDITOR")
     area.ui_type = "IMAGE_EDITOR"
     timings = {}
-    for name in ("panels_camera", "panels_cast", "panels_overlay"):
+    for name in ("ui.camera_panels", "ui.cast_panels", "ui.overlay_panels"):
         for kind in vars(addon(name)).values():
             if isinstance(kind, type) and issubclass(kind, bpy.types.Panel) and "draw" in vars(kind):
                 timed(kind, timings.setdefault(kind.__name__, []))
     yield from user.wait(0.5)
     user.picture("panel_before")
     yield from user.press(f"{BUTTON}verify(")
-    yield from user.until(addon("reports").verified, "the camera is verified")
-    assert addon("reports").verified().passed
-    assert addon("reports").latest() is None
+    yield from user.until(addon("output.reports").verified, "the camera is verified")
+    assert addon("output.reports").verified().passed
+    assert addon("output.reports").latest() is None
     yield from user.press(f"{BUTTON}cast(")
-    yield from user.until(addon("reports").latest, "the cast has ended")
+    yield from user.until(addon("output.reports").latest, "the cast has ended")
     yield from user.wait(0.5)
     user.picture("panel_after")
-    report, scene = addon("reports").latest(), bpy.context.scene
+    report, scene = addon("output.reports").latest(), bpy.context.scene
     assert report.passed
     assert report.pixels == scene.render.resolution_x * scene.render.resolution_y
     assert area.spaces.active.image == bpy.data.images["Ray Caster combined"]
     depth = pixels_of(bpy.data.images["Ray Caster depth"])[..., 0]
     assert depth.min() > scene.camera.data.clip_start
-    assert depth.max() == addon("passes").FAR
+    assert depth.max() == addon("engine.passes").FAR
     print({name: f"{1e3 * np.median(seconds or [0]):.2f} ms" for name, seconds in timings.items()})
     assert all(timings[name] for name in ("SidebarCamera", "SidebarVerify", "SidebarCast", "SidebarReport"))
     slow = {name: np.median(seconds) for name, seconds in timings.items() if np.median(seconds or [0]) > DRAWN}
@@ -88,27 +88,27 @@ def no_camera(user, scenes):
     yield from user.wait(0.5)
     user.picture("no_camera")
     yield from user.press(f"{BUTTON}cast(")
-    assert addon("reports").latest() is None
+    assert addon("output.reports").latest() is None
     assert not bpy.data.images
     bpy.context.scene.camera = next(item for item in bpy.data.objects if item.type == "CAMERA")
     yield from user.press(f"{BUTTON}cast(")
-    yield from user.until(addon("reports").latest, "the cast has ended")
-    assert addon("reports").latest().shapes == 0
+    yield from user.until(addon("output.reports").latest, "the cast has ended")
+    assert addon("output.reports").latest().shapes == 0
 
 
 def left_out(user, scenes):
     """What is left out is named in the sidebar, with a button that selects it."""
     yield from load(user, scenes, "left_out")
     yield from user.press(f"{BUTTON}cast(")
-    yield from user.until(addon("reports").latest, "the cast has ended")
-    name = addon("reports").latest().left_out[0][0]
+    yield from user.until(addon("output.reports").latest, "the cast has ended")
+    name = addon("output.reports").latest().left_out[0][0]
     yield from user.wait(0.5)
     yield from user.scroll(30)
     yield from user.wait(0.5)
     user.picture("left_out")
     yield from user.press(f"{BUTTON}select(")
     chosen = bpy.context.view_layer.objects.active.name
-    assert chosen in [name for name, _ in addon("reports").latest().left_out], (name, chosen)
+    assert chosen in [name for name, _ in addon("output.reports").latest().left_out], (name, chosen)
     assert [item.name for item in bpy.context.view_layer.objects if item.select_get()] == [chosen]
     yield from user.scroll(60, down=False)
 
@@ -118,9 +118,9 @@ def begin(user, scenes, size):
     yield from load(user, scenes, "spheres_and_planes")
     scene = bpy.context.scene
     scene.render.resolution_x = scene.render.resolution_y = size
-    addon("passes").tick(scene, bpy.context.view_layer, ["depth"])
+    addon("engine.passes").tick(scene, bpy.context.view_layer, ["depth"])
     yield from user.press(f"{BUTTON}cast(")
-    yield from user.until(lambda: (addon("cast_operator").fraction() or 0) > 0, "it has begun")
+    yield from user.until(lambda: (addon("ui.cast_operator").fraction() or 0) > 0, "it has begun")
 
 
 def stop(user, scenes):
@@ -132,10 +132,10 @@ def stop(user, scenes):
         times.append(time.monotonic())
     user.picture("casting")
     assert np.diff(times).max() < PAUSE, np.diff(times)
-    assert 0 < addon("cast_operator").fraction() < 1
+    assert 0 < addon("ui.cast_operator").fraction() < 1
     yield from user.key("Escape")
-    yield from user.until(lambda: addon("cast_operator").fraction() is None, "it has stopped", 5)
-    assert addon("reports").latest() is None
+    yield from user.until(lambda: addon("ui.cast_operator").fraction() is None, "it has stopped", 5)
+    assert addon("output.reports").latest() is None
     assert "Ray Caster depth" not in bpy.data.images
 
 
@@ -144,8 +144,8 @@ def load_while_casting(user, scenes):
     yield from begin(user, scenes, 8192)
     bpy.ops.wm.open_mainfile(filepath=str(scenes / "orthographic.blend"), load_ui=False)
     yield from user.wait(1)
-    assert addon("cast_operator").fraction() is None
-    assert addon("reports").latest() is None
+    assert addon("ui.cast_operator").fraction() is None
+    assert addon("output.reports").latest() is None
     assert "Ray Caster depth" not in bpy.data.images
 
 
@@ -185,8 +185,9 @@ def ray_under_mouse(user, scenes):
     user.area().spaces.active.region_3d.view_perspective = "CAMERA"
     scene.camera_ray_caster_overlay.show = True
     told = []
-    write = addon("mouse_gizmo")._write
-    addon("mouse_gizmo")._write = lambda context, mouse, lines: (told.append(dict(lines)), write(context, mouse, lines))
+    gizmo = addon("view3d.mouse_gizmo")
+    write = gizmo._write
+    gizmo._write = lambda context, mouse, lines: (told.append(dict(lines)), write(context, mouse, lines))
     yield from user.point(view.x + view.width // 2, view.y + view.height // 2)
     yield from user.until(lambda: told, "the mouse is told", 5)
     yield from user.wait(0.5)
@@ -195,7 +196,7 @@ def ray_under_mouse(user, scenes):
     assert abs(column - scene.render.resolution_x / 2) < 10
     assert abs(row - scene.render.resolution_y / 2) < 10
     assert told[-1]["Hit"] in bpy.data.objects
-    addon("mouse_gizmo")._write = write
+    gizmo._write = write
 
 
 def viewport(user, scenes):
@@ -216,7 +217,7 @@ def viewport(user, scenes):
         shown = user.cut(user.picture(kind.replace(" ", "_")), view)
         area, region = user.area(), view
         with bpy.context.temp_override(window=user.window, area=area, region=region):
-            left, bottom, right, top = addon("view").camera_frame(bpy.context)
+            left, bottom, right, top = addon("view3d.camera_frame").camera_frame(bpy.context)
         differences = []
         for u in np.linspace(0.02, 0.98, 25):
             for v in np.linspace(0.02, 0.98, 15):
@@ -245,7 +246,7 @@ def disable(user, scenes):
     space.shading.type = "RENDERED"
     yield from user.wait(1)
     for _ in range(10):
-        look = addon("viewport").look
+        look = addon("engine.viewport").look
         bpy.ops.preferences.addon_disable(module=MODULE)
         space.shading.type = "SOLID"  # before the view is drawn by another engine, which takes its time
         assert not bpy.app.timers.is_registered(look)

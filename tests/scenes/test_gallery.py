@@ -9,7 +9,7 @@ import pytest
 from camera_ray_caster.core.camera.pixel_time import SETTINGS
 from camera_ray_caster.core.cameras import MODELS
 
-from .test_scenes import FOLDER, README, look, opened, rendered
+from .opening import FOLDER, README, look, opened, rendered
 
 NAMES = re.findall(r'^\| <img src="pictures/(\w+)\.png" .*> \| `\1\.blend`: \S', README, re.MULTILINE)
 OUTDOORS = {"little_planet", "cylindrical", "omnimax", "dome_master"}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 
@@ -125,6 +125,13 @@ class Lights:
     color: np.ndarray = field(default_factory=lambda: np.zeros((0, 3)))
 
 
+class MovingShapes(Protocol):
+    """What knows shapes at any frame, as ``Motion`` does."""
+
+    def shapes_at(self, frame: float) -> Shapes:
+        """Return the shapes at a frame."""
+
+
 @dataclass(frozen=True)
 class Shapes:
     """The spheres and planes of a scene, one row a shape; ``shape_index`` of a pixel is the row.
@@ -151,8 +158,8 @@ class Shapes:
     names: tuple[str, ...] = ()
     lights: Lights = field(default_factory=Lights)
     world_color: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 1.0)
-    motion: Any = None
-    """The ``Motion`` that knows the shapes at other frames, for cameras whose pixels have each their own; else None."""
+    motion: MovingShapes | None = None
+    """What knows the shapes at other frames, for cameras whose pixels have each their own; else None."""
     left_out: tuple[tuple[str, str], ...] = ()
     """Objects that are not cast, each with the reason, in one line."""
 

@@ -6,7 +6,7 @@ import pytest
 from camera_ray_caster.blender.read.scene import read_camera, read_shapes
 from camera_ray_caster.core.cast import cast
 
-from ..engine.test_engine import curves
+from ..read.scene_parts import curves
 from .cycles import cycles_surface
 from .test_hits import add_points
 

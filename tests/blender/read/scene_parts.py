@@ -41,6 +41,14 @@ def geometry_nodes(item, build):
     item.modifiers.new("Geometry", "NODES").node_group = tree
 
 
+def curves(item):
+    """The animation curves of an object, wherever this Blender keeps them."""
+    action = item.animation_data.action
+    if hasattr(action, "fcurves"):
+        return action.fcurves
+    return action.layers[0].strips[0].channelbag(item.animation_data.action_slot).fcurves
+
+
 def mesh_of(*vertices):
     mesh = bpy.data.meshes.new("Vertices")
     mesh.from_pydata(vertices, [], [])

@@ -1,30 +1,14 @@
 """Slit scans and time displacement of scenes that move in every way: against motion worked out by hand."""
 
-# ruff: noqa: F811 (fixtures are imported)
-
 import numpy as np
 import pytest
 
 from camera_ray_caster.blender.output import reports
 from camera_ray_caster.blender.read.scene import read_camera
 
-from ..engine.test_engine import picture, render  # noqa: F401 (render is a fixture)
+from ..pictures import picture
 from .scene_parts import geometry_nodes, new_object
-from .time_scene import (  # noqa: F401 (scene and sphere are fixtures)
-    PASSES,
-    SIZE,
-    coordinates,
-    disc,
-    drive,
-    fan,
-    gray,
-    key,
-    same,
-    scene,
-    sphere,
-    still,
-    walked,
-)
+from .time_scene import PASSES, SIZE, coordinates, disc, drive, fan, gray, key, same, still, walked
 
 
 @pytest.mark.parametrize("mode", ["ROWS", "COLUMNS", "ROLLING_SHUTTER", "IMAGE"])

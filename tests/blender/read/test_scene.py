@@ -1,7 +1,5 @@
 """Reading a scene: camera and shapes from one evaluation, and what each door leaves unread."""
 
-# ruff: noqa: F811 (fixtures are imported)
-
 import numpy as np
 import pytest
 
@@ -10,7 +8,7 @@ from camera_ray_caster.core.cast import cast
 from camera_ray_caster.core.records import InputError
 
 from .scene_parts import new_object
-from .time_scene import PASSES, coordinates, disc, key, same, scene, sphere  # noqa: F401 (two are fixtures)
+from .time_scene import PASSES, coordinates, disc, key, same
 
 
 @pytest.fixture

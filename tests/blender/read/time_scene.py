@@ -1,37 +1,14 @@
-"""A scene whose pixels have each their own time, and what tests ask of it."""
+"""What tests ask of a scene whose pixels have each their own time: conftest.py builds it."""
 
 import numpy as np
-import pytest
 
 from camera_ray_caster.blender.read.scene import read_camera, read_shapes
 from camera_ray_caster.core.cast import cast
 
-from ..engine.test_engine import curves, tick
-from .scene_parts import ball, new_object
+from .scene_parts import curves
 
 SIZE = 48
 PASSES = ("shape_index", "depth", "position", "valid")
-
-
-@pytest.fixture
-def scene(blender):
-    """A slit scan over frames 1 to 25 of a sphere of radius 1, 4 pixels a unit, seen by parallel rays from above."""
-    scene = blender.context.scene
-    camera = new_object("Camera", blender.data.cameras.new("Camera"))
-    camera.data.type, camera.data.ortho_scale, camera.location.z = "ORTHO", 12.0, 10.0
-    camera.data.camera_ray_caster.time_mode = "ROWS"
-    scene.camera = camera
-    scene.render.engine = "CAMERA_RAY_CASTER"
-    scene.render.resolution_x = scene.render.resolution_y = SIZE
-    scene.frame_set(7)
-    tick(scene, PASSES)
-    return scene
-
-
-@pytest.fixture
-def sphere(scene):
-    """The sphere that moves."""
-    return ball("Ball", subdivisions=3)
 
 
 def still(scene):

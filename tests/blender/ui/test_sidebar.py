@@ -9,7 +9,7 @@ from camera_ray_caster.blender.read.scene import read_camera, read_shapes
 from camera_ray_caster.blender.ui import cast_operator
 from camera_ray_caster.core.cast import cast
 from camera_ray_caster.core.casting.passes import PASSES
-from camera_ray_caster.core.casting.plan import PRECISIONS
+from camera_ray_caster.core.casting.request import PRECISIONS
 
 WIDTH, HEIGHT = 24, 16
 

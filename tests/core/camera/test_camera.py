@@ -120,7 +120,6 @@ def test_a_bend_between_columns_is_in_its_columns():
     assert_same(cam.rays(), by_pixel(cam, cam.raster.columns(), cam.raster.rows()))
 
 
-@pytest.mark.filterwarnings("ignore:Descending")  # the order of coefficients that every mpmath knows
 @each_model
 def test_the_rays_of_a_picture_are_within_their_bounds(key):
     """Against 60 digits."""

@@ -5,9 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from camera_ray_caster.core import tuning
 from camera_ray_caster.core.camera.build import camera_from
 from camera_ray_caster.core.cast import cast
-from camera_ray_caster.core.casting import hits
 from camera_ray_caster.core.motion.evaluations import measure, resolve
 from camera_ray_caster.core.records import PLANE, SPHERE, BlenderCamera, InputError, Shapes
 
@@ -93,7 +93,7 @@ def moving(evaluate, first, last, tolerance=0.05, most=400):
 
 def test_each_pixel_shows_the_time_that_an_image_gives_it(monkeypatch):
     """And nothing of the other times, though the passes of each are made of whole parts of the picture."""
-    monkeypatch.setattr(hits, "BLOCK_PIXELS", 500)
+    monkeypatch.setattr(tuning, "BLOCK_PIXELS", 500)
     image = ROWS | {"time_mode": "IMAGE", "time_image": np.eye(8)}
     cam, scene, motion = moving(lambda f: (camera(image), shapes(((0.1 * (f - 15), 0, -5), 1.2))), 10, 20)
     passes = ("depth", "normal", "object_index", "position", "combined")

@@ -4,6 +4,7 @@ The tables have the model's key; a model without an entry has one plain example 
 BlenderCamera over ``DEFAULTS``, and of its ``settings`` over ``ONLY_SOME`` and the defaults that models declare.
 """
 
+from collections import defaultdict
 from dataclasses import fields
 from math import pi, sqrt
 
@@ -31,7 +32,7 @@ ONLY_SOME = {
     "obscura_depth": 2.0, "obscura_width": 3.0, "obscura_hole": 0.01,
 }  # fmt: skip
 
-EXAMPLES = {
+EXAMPLES = defaultdict(lambda: [{}], {
     **central_examples.EXAMPLES,
     **multiperspective_examples.EXAMPLES,
     "PERSP": [{}, PORTRAIT, WIDE_PIXELS, BORDER | {"lens": 4.0}, {"lens": 400.0, "matrix_world": TURNED}],
@@ -54,7 +55,7 @@ EXAMPLES = {
     ],
     "CENTRAL_CYLINDRICAL": [{}, SHIFTED, BORDER, {"central_cylindrical_radius": 0.2, "shift_y": 0.4}],
     "CAMERA_OBSCURA": [{}, PORTRAIT, WIDE_PIXELS, BORDER | {"obscura_depth": 0.1}],
-}
+})  # fmt: skip
 """Cameras for the contract; where a model is singular is its docstring's to say, and not in these pictures."""
 
 FACTS = {

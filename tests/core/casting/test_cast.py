@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from camera_ray_caster.core import cast as module
+from camera_ray_caster.core import tuning
 from camera_ray_caster.core.camera.build import camera_from
 from camera_ray_caster.core.cast import cast
 from camera_ray_caster.core.casting.passes import PASSES
@@ -253,7 +253,7 @@ def test_one_pass_may_be_named_alone_and_no_threads_are_refused():
 
 
 def test_progress_rises_to_one_and_can_stop_the_cast(monkeypatch):
-    monkeypatch.setattr(module, "TILE_WORK", 1 << 16)
+    monkeypatch.setattr(tuning, "TILE_WORK", 1 << 16)
     camera = camera_at(resolution_x=1024, resolution_y=1024)
     told = []
     cast(camera, shapes_of(), ("depth",), threads=8, progress=lambda fraction: told.append(fraction) or True)

@@ -7,15 +7,17 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from camera_ray_caster.core import tuning
 from camera_ray_caster.core.camera.camera import Camera
 from camera_ray_caster.core.cameras import MODELS
 from camera_ray_caster.core.cast import cast
-from camera_ray_caster.core.casting import hits, plan
+from camera_ray_caster.core.casting import hit_values, plan
 from camera_ray_caster.core.casting.passes import PASSES
-from camera_ray_caster.core.casting.shading import SHADINGS
+from camera_ray_caster.core.casting.request import SHADINGS
 from camera_ray_caster.core.motion.evaluations import Motion
 from camera_ray_caster.core.records import INFINITE_PLANE, PLANE, SPHERE
-from camera_ray_caster.core.shapes import plane, sphere
+from camera_ray_caster.core.shapes.plane import Plane
+from camera_ray_caster.core.shapes.sphere import Sphere
 
 from ..cameras.model_examples import camera as camera_of
 from .test_cast import camera_at, random_shapes, shapes_of
@@ -29,30 +31,29 @@ def forbidden(*_, **__):
     raise AssertionError("this was not needed")
 
 
-@pytest.mark.parametrize(("shapes", "other"), [(BALLS, plane), (WALLS, sphere)])
+@pytest.mark.parametrize(("shapes", "other"), [(BALLS, Plane), (WALLS, Sphere)])
 @pytest.mark.parametrize("precision", ["ROBUST", "FAST"])
 def test_kinds_that_are_not_there_are_not_tested(monkeypatch, shapes, other, precision):
-    for name in ("view", "intersect"):
+    for name in ("constants", "intersect", "normals", "errors"):
         monkeypatch.setattr(other, name, forbidden)
     images = cast(camera_at(), shapes, EVERY, precision=precision)
     assert (images["shape_index"] >= 0).any()
 
 
 def test_a_kind_out_of_view_is_not_tested(monkeypatch):
-    monkeypatch.setattr(plane, "intersect", forbidden)
+    monkeypatch.setattr(Plane, "intersect", forbidden)
     behind = shapes_of((SPHERE, (0, 0, -6), 1.0), (PLANE, (0, 0, 5), 2.0), (PLANE, (90, 0, -5), 2.0))
     images = cast(camera_at(), behind, EVERY)
     assert images.plan.unseen == 2
     assert set(np.unique(images["shape_index"])) == {-1, 0}
 
 
-@pytest.mark.parametrize("passes", [("depth",), ("depth", "shape_index", "object_index")])
-def test_depth_needs_no_points_normals_bounds_colors(monkeypatch, passes):
-    for name in ("point", "normal_terms", "normal", "bounds", "world_direction", "surfaces"):
-        monkeypatch.setattr(hits.Hits, name, property(forbidden))
-    for name in ("normals", "colors", "material_index"):
-        monkeypatch.setattr(plan.Plan, name, property(forbidden))
-    assert list(cast(camera_at(), BALLS, passes)) == list(passes)
+@pytest.mark.parametrize("passes", [("depth",), ("depth", "shape_index")])
+def test_depth_needs_no_normals_error_bounds_indices_and_colors(monkeypatch, passes):
+    monkeypatch.setattr(plan, "normal_table", forbidden)
+    monkeypatch.setattr(hit_values, "HitErrors", forbidden)
+    bare = replace(BALLS, object_index=None, material_index=None, color=None)
+    assert list(cast(camera_at(), bare, passes)) == list(passes)
 
 
 def test_the_clip_end_is_asked_only_where_something_reaches_beyond_it():
@@ -119,7 +120,7 @@ def test_passes_made_in_many_blocks_are_those_made_at_once(monkeypatch, key):
     camera = camera_of(key, {"resolution_x": 64, "resolution_y": 80})
     shapes = random_shapes(np.random.default_rng(3), 40)
     once = cast(camera, shapes, tuple(PASSES), np.float64)
-    monkeypatch.setattr(hits, "BLOCK_PIXELS", 300)
+    monkeypatch.setattr(tuning, "BLOCK_PIXELS", 300)
     for order in (tuple(PASSES), tuple(reversed(PASSES))):
         for name, image in cast(camera, shapes, order, np.float64).items():
             assert np.array_equal(image, once[name], equal_nan=True), name

@@ -1,19 +1,17 @@
-"""How a picture is divided among threads: every pixel once, about the same work for each."""
+"""How a picture is divided among threads: it is the same however many share it, and none wait in vain."""
 
 from __future__ import annotations
 
+import os
+import tracemalloc
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from camera_ray_caster.core import cast as module
-from camera_ray_caster.core.camera import camera as camera_module
-from camera_ray_caster.core.cast import ALONE, PLACED, TILE_PIXELS, cast
-from camera_ray_caster.core.casting.passes import PASSES
-from camera_ray_caster.core.casting.plan import MANY_ORIGINS, STORED, make_plan
-from camera_ray_caster.core.maths.speed import STRIP, sharing
+from camera_ray_caster.core import tuning
+from camera_ray_caster.core.cast import cast
 from camera_ray_caster.core.records import SPHERE
 
 from ..camera.test_pixel_time import ROWS
@@ -29,118 +27,71 @@ HIGH_UP = shapes_of(*[(SPHERE, (x / 4, 2.6, -8), 0.9) for x in range(-12, 13)])
 """25 overlapping balls in the upper quarter of the picture."""
 
 
-def plan_of(camera, passes=("depth",)):
-    return make_plan(camera, HIGH_UP, passes, tuple(PASSES), "MATERIAL", True, False)
+class Asked(Exception):
+    """How many threads were asked for."""
 
 
-def test_the_work_of_a_row_is_the_pixels_that_are_tested_in_it_and_written():
-    plan = plan_of(camera_at(resolution_x=640, resolution_y=480), ("depth", "normal"))
-    counted = np.full(480, STORED * 2 * 640)
-    for group in plan.groups:
-        for x0, x1, y0, y1 in group.bounds:
-            counted[y0:y1] += x1 - x0
-    np.testing.assert_array_equal(plan.work, counted)
-    assert counted.max() > 4 * counted.min()
+def threads_of(monkeypatch, function):
+    """Return how many threads a function asks for before it begins, on a machine of 16; 1 where it asks for none."""
 
+    def asked(pool, threads, **_):
+        raise Asked(threads)
 
-@pytest.mark.parametrize(
-    ("key", "cost"), [("PERSP", 1), ("ORTHO", 1), ("EQUIRECTANGULAR", 1), ("PUSHBROOM", MANY_ORIGINS)]
-)
-def test_rays_with_neither_a_point_nor_a_direction_in_common_count_as_what_they_cost(key, cost):
-    camera = model_camera(key, {"resolution_x": 64, "resolution_y": 80})
-    plan = make_plan(camera, HIGH_UP, ("depth",), tuple(PASSES), "MATERIAL", False, False)
-    assert (plan.work == cost * len(HIGH_UP) * 64 + STORED * 64).all()
-
-
-@pytest.mark.parametrize(("shapes", "size"), [(0, 1), (1, 1), (128, 1), (129, 2), (1 << 15, 2), ((1 << 15) + 1, 4)])
-def test_rows_take_as_few_bytes_as_hold_them(shapes, size):
-    plan = replace(plan_of(camera_at()), shapes=range(shapes))
-    assert plan.row_type.itemsize == size
-    assert np.iinfo(plan.row_type).min < 0
-    assert np.iinfo(plan.row_type).max >= shapes - 1
-
-
-@pytest.mark.parametrize("threads", [1, 2, 3, 8])
-@pytest.mark.parametrize(("size", "work"), [((640, 480), 1 << 23), ((1000, 999), 1 << 23), ((1000, 999), 1 << 18)])
-def test_shares_hold_each_row_once_and_about_the_same_work(monkeypatch, threads, size, work):
-    monkeypatch.setattr(module, "TILE_WORK", work)
-    plan = plan_of(camera_at(resolution_x=size[0], resolution_y=size[1]))
-    rows = [(tile.rows.start, tile.rows.stop) for tile in module._shares(plan, threads)]
-    assert [first for first, _ in rows] == [0, *(last for _, last in rows[:-1])]
-    assert rows[-1][1] == size[1]
-    most = -(-size[0] * size[1] // TILE_PIXELS[0])
-    threads = sharing(threads, plan.work.sum() / ALONE)
-    assert len(rows) <= min(most, threads * -(-int(plan.work.sum()) // (threads * work)))
-    assert len(rows) >= min(most, threads) / 2
-    assert min(last - first for first, last in rows) >= STRIP
-    assert all(first % STRIP == 0 for first, _ in rows)
-    if len(rows) == threads == 2:
-        shares = [plan.work[first:last].sum() for first, last in rows]
-        assert np.ptp(shares) <= STRIP * plan.work.max()  # half a strip more here, half a strip less there
-        assert rows[0][1] > 0.6 * size[1]  # the upper share is thinner, since all the balls are there
-
-
-@pytest.mark.parametrize(("work", "least"), [(0.0, 1), (0.5, 1), (1.0, 1), (2.9, 2), (20.0, 4), (1000.0, 31)])
-def test_so_many_threads_share_work_that_none_waits(work, least):
-    """Each share takes its part of the work, and 1 more that no two of them do at a time."""
-    time = {n: max(work / n + 1, n) for n in range(1, 65)}
-    assert time[sharing(64, work)] <= min(time.values()) + 1
-    assert sharing(64, work) >= least
-    assert sharing(2, work) == min(2, sharing(64, work))
-
-
-class Pools(list):
-    """Stands in for the pool of threads, and notes how many threads were asked for."""
-
-    def __call__(self, threads):
-        self.append(threads)
-        return ThreadPoolExecutor(threads)
+    monkeypatch.setattr(os, "cpu_count", lambda: 16)
+    monkeypatch.setattr(ThreadPoolExecutor, "__init__", asked)
+    try:
+        function()
+    except Asked as stopped:
+        return stopped.args[0]
+    return 1
 
 
 @pytest.mark.parametrize("samples", [1, 4])
-def test_threads_that_would_wait_are_not_asked(monkeypatch, samples):
-    pools = Pools()
-    monkeypatch.setattr(module, "ThreadPoolExecutor", pools)
+def test_threads_share_large_pictures_and_do_not_wait_for_each_other_in_small_ones(monkeypatch, samples):
     large, timed = {"resolution_x": 1280, "resolution_y": 960}, {"resolution_y": 960, "settings": ROWS}
-    for raw in (large, {}, timed):  # of the last each row has its own time and plan, and is done soon
-        cast(camera_at(**raw), HIGH_UP, ("combined",), threads=16, samples=samples)
-    assert 2 <= pools[0] <= 4  # work of 0.9 million: 3.3 times ALONE
-    assert pools[1:] == [1, 1]
+    asked = [
+        threads_of(monkeypatch, lambda raw=raw: cast(camera_at(**raw), HIGH_UP, ("combined",), samples=samples))
+        for raw in (large, {}, timed)  # of the last each row has its own time and plan, and is done soon
+    ]
+    assert 1 < asked[0] < 16
+    assert asked[1:] == [1, 1]
 
 
-def test_plans_of_many_shapes_are_shared_by_threads(monkeypatch):
-    pools = Pools()
-    monkeypatch.setattr(module, "ThreadPoolExecutor", pools)
-    crowd = shapes_of(*[(SPHERE, (0, 0, -8), 0.9)] * (2 * ALONE // PLACED))
-    cast(camera_at(resolution_y=9, settings=ROWS), crowd, ("depth",), threads=16)
-    assert pools == [3]
+@pytest.mark.parametrize("key", ["PERSP", "OMNIMAX", "PUSHBROOM"])
+def test_rays_of_large_pictures_are_shared_by_threads_and_those_of_small_ones_are_not(monkeypatch, key):
+    small, large = (model_camera(key, {"resolution_x": 320 * k, "resolution_y": 240 * k}) for k in (1, 5))
+    assert threads_of(monkeypatch, small.rays) == 1
+    assert threads_of(monkeypatch, large.rays) > 1
 
 
-@pytest.mark.parametrize(("size", "used"), [((320, 240), 1), ((800, 660), 2), ((1600, 1320), 4)])
-def test_rays_of_small_pictures_are_not_shared_by_many_threads(monkeypatch, size, used):
-    pools = Pools()
-    monkeypatch.setattr(camera_module, "ThreadPoolExecutor", pools)
-    monkeypatch.setattr(camera_module.os, "cpu_count", lambda: 16)
-    for key in ("PERSP", "OMNIMAX", "PUSHBROOM"):
-        pools.clear()
-        model_camera(key, {"resolution_x": size[0], "resolution_y": size[1]}).rays()
-        assert set(pools) <= {used}, key
-        assert pools or used == 1, key
+def test_the_memory_beside_a_picture_does_not_grow_with_it():
+    """It is that of the tile under way, once the picture has more than one of the largest."""
+    beside = []
+    for side in (2500, 3500):
+        tracemalloc.start()
+        images = cast(camera_at(resolution_x=side, resolution_y=side), HIGH_UP, ("depth",), threads=1)
+        beside.append(tracemalloc.get_traced_memory()[1] - images["depth"].nbytes)
+        tracemalloc.stop()
+    assert beside[1] < 1.2 * beside[0]
 
 
-def test_no_tile_is_larger_than_the_memory_that_is_stated():
-    plan = plan_of(camera_at(resolution_x=4000, resolution_y=3000))
-    tiles = list(module._shares(plan, 1))
-    assert max((tile.rows.stop - tile.rows.start) * 4000 for tile in tiles) <= TILE_PIXELS[1]
-    assert sum(tile.rows.stop - tile.rows.start for tile in tiles) == 3000
+@pytest.mark.parametrize("count", [1, 128, 129, 1 << 15, (1 << 15) + 1])
+def test_of_many_shapes_the_last_is_told_from_the_others(count):
+    """A pixel keeps which shape it sees in as few bytes as hold it."""
+    behind = shapes_of((SPHERE, (0, 0, 5), 1.0))
+    fields = ("kind", "center", "axes", "object_index", "material_index", "color", "name_index")
+    shapes = replace(behind, **{name: np.repeat(getattr(behind, name), count, axis=0) for name in fields})
+    shapes.center[-1, 2] = -5
+    seen = cast(camera_at(), shapes, ("shape_index",))["shape_index"]
+    assert set(np.unique(seen)) == {-1, count - 1}
 
 
 @pytest.mark.parametrize("passes", [(), ("depth",), ("shape_index", "normal")])
 def test_the_picture_is_the_same_in_one_share_and_in_many(monkeypatch, passes):
     camera = camera_at(resolution_x=320, resolution_y=240)
     whole = cast(camera, HIGH_UP, passes, np.float64, threads=1)
-    monkeypatch.setattr(module, "TILE_PIXELS", (1 << 10, 1 << 14))
-    monkeypatch.setattr(module, "TILE_WORK", 1 << 12)
+    monkeypatch.setattr(tuning, "TILE_PIXELS", (1 << 10, 1 << 14))
+    monkeypatch.setattr(tuning, "TILE_WORK", 1 << 12)
     fractions = []
     parts = cast(camera, HIGH_UP, passes, np.float64, threads=2, progress=lambda done: not fractions.append(done))
     assert len(fractions) >= (4 if passes else 1)
@@ -155,8 +106,8 @@ def test_a_ray_does_not_depend_on_how_threads_share_the_picture(monkeypatch, key
     camera = model_camera(key, {"resolution_x": 320, "resolution_y": 288, **LENSES.get(key, {})})
     passes = ("ray_direction", "depth", "valid")
     whole = cast(camera, HIGH_UP, passes, np.float64, threads=1)
-    monkeypatch.setattr(module, "TILE_PIXELS", (1 << 14, 1 << 14))
-    monkeypatch.setattr(module, "TILE_WORK", 1 << 12)
+    monkeypatch.setattr(tuning, "TILE_PIXELS", (1 << 14, 1 << 14))
+    monkeypatch.setattr(tuning, "TILE_WORK", 1 << 12)
     parts = cast(camera, HIGH_UP, passes, np.float64, threads=3)
     for name in passes:
         np.testing.assert_array_equal(parts[name], whole[name])

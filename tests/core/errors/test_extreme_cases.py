@@ -46,7 +46,7 @@ def sample(images):
 def is_open(images, camera, pixel, x, y, ray):
     """Whether rounding may decide between hit and miss at a pixel: at an edge of some shape, or of the clip range."""
     for k in range(len(images.plan.shapes)):
-        value, bound = decision(images.plan, k, np.array([[x]]), np.array([[y]]))
+        value, bound = decision(camera, images.plan.in_camera, k, np.array([[x]]), np.array([[y]]))
         if abs(value[0, 0]) <= bound[0, 0]:
             return True
     ends = [t for k in range(len(images.plan.shapes)) for t in truth.crossings(images.plan.shapes, k, ray)[0]]

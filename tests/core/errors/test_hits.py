@@ -108,7 +108,7 @@ def test_a_search_in_float32_is_told_from_one_in_float64():
     bounds = {}
     for precision in ("FAST", "ROBUST", "AUTOMATIC"):
         plan = cast(case.camera, case.shapes, ("depth",), precision=precision).plan
-        bounds[precision] = accuracy(case.camera, case.shapes, plan, precision).median("relative_distance")
+        bounds[precision] = accuracy(case.camera, case.shapes, plan).median("relative_distance")
     assert 2.0**-28 < bounds["FAST"] < 2.0**-17, "float32 has 24 digits"
     assert 2.0**-57 < bounds["ROBUST"] < 2.0**-44, "float64 has 53"
     assert bounds["AUTOMATIC"] == bounds["ROBUST"]

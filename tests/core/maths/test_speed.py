@@ -1,21 +1,18 @@
-"""What makes the loops fast changes nothing that is seen from outside, and does make them fast."""
+"""What makes the loops fast changes nothing that is seen from outside."""
 
-import sys
 from concurrent.futures import ThreadPoolExecutor
-from ctypes import CDLL
 from threading import Barrier
-from timeit import repeat
 
 import numpy as np
 import pytest
 
-from camera_ray_caster.core.maths.speed import NARROW, Scratch, keep_memory, lazy, whole_rows
+from camera_ray_caster.core.maths.speed import Scratch, lazy, sharing, whole_rows
 from camera_ray_caster.core.maths.vector import inverse, linear, matvec
 
 RNG = np.random.default_rng(5)
 
 
-@pytest.mark.parametrize("width", [1, 16, NARROW, 400, 401, 1920])
+@pytest.mark.parametrize("width", [1, 16, 128, 400, 401, 1920])
 def test_the_buffers_of_numpy_are_given_back(width):
     before = np.getbufsize()
     with pytest.raises(KeyError), whole_rows(width):
@@ -32,12 +29,13 @@ def test_rows_are_taken_whole_where_they_are_wide_and_of_a_multiple_of_sixteen()
     assert seen == {64: usual, 400: 400, 401: usual, 1920: 1920}
 
 
-def test_a_row_plus_a_column_is_faster_with_whole_rows():
-    row, column, out = np.ones((1, 1920)), np.ones((400, 1)), np.empty((400, 1920))
-    usual = min(repeat(lambda: np.add(row, column, out=out), number=5, repeat=9))
-    with whole_rows(1920):
-        whole = min(repeat(lambda: np.add(row, column, out=out), number=5, repeat=9))
-    assert whole < usual  # three to five times, measured: if it is not, whole_rows is in vain
+@pytest.mark.parametrize(("work", "least"), [(0.0, 1), (0.5, 1), (1.0, 1), (2.9, 2), (20.0, 4), (1000.0, 31)])
+def test_so_many_threads_share_work_that_none_waits(work, least):
+    """Each share takes its part of the work, and 1 more that no two of them do at a time."""
+    time = {n: max(work / n + 1, n) for n in range(1, 65)}
+    assert time[sharing(64, work)] <= min(time.values()) + 1
+    assert sharing(64, work) >= least
+    assert sharing(2, work) == min(2, sharing(64, work))
 
 
 def test_scratch_lends_the_same_memory_by_name_and_type():
@@ -80,21 +78,3 @@ def test_threads_work_out_a_property_of_different_objects_at_once():
         assert list(pool.map(lambda room: room.warmth, rooms)) == [21.0, 21.0]
     assert rooms[0].warmth == 21.0  # at the barrier it would wait in vain
     assert Room.warmth.__doc__ == "How warm it is."
-
-
-def test_memory_is_kept_for_the_arrays_that_come():
-    """The system gives new pages one by one: their number tells what was handed back and asked for again."""
-    resource = pytest.importorskip("resource")
-    if not sys.platform.startswith("linux") or not hasattr(CDLL(None), "mallopt"):
-        pytest.skip("only glibc's memory is kept")
-    keep_memory()
-
-    def faults():
-        before = resource.getrusage(resource.RUSAGE_SELF).ru_minflt
-        for _ in range(2):
-            arrays = [np.ones(3 << 20) for _ in range(4)]  # 24 MB each: more than glibc would keep of itself
-            del arrays
-        return resource.getrusage(resource.RUSAGE_SELF).ru_minflt - before
-
-    faults()
-    assert faults() < 500  # over 4,000 without, though the system gives some of the memory in large pages

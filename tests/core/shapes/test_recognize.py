@@ -4,7 +4,13 @@ import numpy as np
 import pytest
 
 from camera_ray_caster.core.records import INFINITE_PLANE, PLANE, SPHERE
-from camera_ray_caster.core.shapes.instances import Primitive, bounds_primitive, is_invertible, place, points_primitive
+from camera_ray_caster.core.shapes.instances import (
+    Primitive,
+    enclosing_primitive,
+    is_invertible,
+    points_primitive,
+    put_in_world,
+)
 from camera_ray_caster.core.shapes.recognize import MeshArrays, recognize
 
 ULP = float(np.finfo(np.float32).eps)
@@ -228,13 +234,13 @@ def test_a_trapezoid_beyond_rounding_is_told_from_a_parallelogram():
 
 def test_the_bounds_of_any_vertices():
     vertices = np.array([(0, 0, 0), (4, 0, 0), (0, 2, 0), (0, 0, 6)], np.float32)
-    ball = bounds_primitive(SPHERE, vertices)
+    ball = enclosing_primitive(SPHERE, vertices)
     np.testing.assert_array_equal(ball.centers, [(2, 1, 3)])
     np.testing.assert_allclose(ball.axes, np.sqrt(14) * np.eye(3), rtol=ULP)
-    plane = bounds_primitive(PLANE, vertices)
+    plane = enclosing_primitive(PLANE, vertices)
     np.testing.assert_array_equal(plane.centers, [(2, 1, 1.5)])
     np.testing.assert_array_equal(plane.axes, np.diag([2, 1, 1]))
-    np.testing.assert_array_equal(bounds_primitive(INFINITE_PLANE, vertices).axes, np.eye(3))
+    np.testing.assert_array_equal(enclosing_primitive(INFINITE_PLANE, vertices).axes, np.eye(3))
 
 
 def test_points_without_a_radius_are_no_spheres():
@@ -248,7 +254,7 @@ def test_placing_is_the_matrix_instance_by_instance():
     primitive = Primitive(SPHERE, random.normal(size=(3, 3)), np.diag([1.0, 2.0, 3.0]), np.array([1.0, 2.0, 0.5]))
     matrices = random.normal(size=(2, 3, 4))
     centers, axes = np.empty((6, 3)), np.empty((6, 3, 3))
-    place(primitive, matrices, centers, axes)
+    put_in_world(primitive, matrices, centers, axes)
     for row, (matrix, k) in enumerate((m, k) for m in matrices for k in range(3)):
         at = np.eye(4)
         at[:3] = matrix

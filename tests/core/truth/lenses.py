@@ -1,6 +1,6 @@
 """The exact rays of lenses that Blender does not have, with 60 digits: see truth, whose frame and vectors they use."""
 
-from mpmath import asin, atan, cos, findroot, mpf, pi, polyroots, sin, sqrt, tan
+from mpmath import asin, atan, cos, mpf, pi, sin, tan
 
 from .truth import EYE, disc_place, fisheye, frame_of, planar, radius, round_place, shares
 
@@ -71,62 +71,9 @@ def cylindrical(raw, x, y):
     return EYE, [sin(lon), low + v * (high - low), -cos(lon)]
 
 
-def distorted(raw, x, y):
-    """The pixel in OpenCV's normalized, distorted coordinates, y down."""
-    frame = frame_of(raw)
-    width = raw.settings["calibration_width"] or frame.width
-    height = raw.settings["calibration_height"] or frame.height
-    half = mpf(1) / 2
-    return (
-        (x * width / frame.width - half - setting(raw, "cx")) / setting(raw, "fx"),
-        ((frame.height - y) * height / frame.height - half - setting(raw, "cy")) / setting(raw, "fy"),
-    )
-
-
-def opencv_pinhole(raw, x, y):
-    goal = distorted(raw, x, y)
-    k1, k2, p1, p2, k3, k4, k5, k6, s1, s2, s3, s4 = (
-        setting(raw, name) for name in ("k1", "k2", "p1", "p2", "k3", "k4", "k5", "k6", "s1", "s2", "s3", "s4")
-    )
-
-    def miss(a, b):
-        r = a * a + b * b
-        gain = (1 + k1 * r + k2 * r**2 + k3 * r**3) / (1 + k4 * r + k5 * r**2 + k6 * r**3)
-        return (
-            a * gain + 2 * p1 * a * b + p2 * (r + 2 * a * a) + s1 * r + s2 * r * r - goal[0],
-            b * gain + p1 * (r + 2 * b * b) + 2 * p2 * a * b + s3 * r + s4 * r * r - goal[1],
-        )
-
-    try:
-        a, b = findroot(miss, goal, tol=mpf(10) ** -80)
-    except ValueError:  # the lens brings no direction here
-        return None
-    return EYE, [a, -b, mpf(-1)]
-
-
-def opencv_fisheye(raw, x, y):
-    place = distorted(raw, x, y)
-    r = sqrt(place[0] ** 2 + place[1] ** 2)
-    k = [mpf(1), *(setting(raw, f"k{i}") for i in range(1, 5))]
-    slope = [c * (2 * i + 1) for i, c in enumerate(k)]
-    while slope and slope[-1] == 0:
-        slope.pop()
-    turns = polyroots(slope[::-1], maxsteps=200, extraprec=400) if len(slope) > 1 else []
-    last = min([sqrt(t.real) for t in turns if abs(t.imag) < mpf(10) ** -40 and t.real > 0] + [pi])
-
-    def reach(theta):
-        return sum(c * theta ** (2 * i + 1) for i, c in enumerate(k))
-
-    if r > reach(last):
-        return None
-    theta = findroot(lambda t: reach(t) - r, (mpf(0), last), solver="anderson", tol=mpf(10) ** -100, maxsteps=1000)
-    return fisheye((place[0], -place[1]), theta)
-
-
 MODELS = {
     "CAMERA_OBSCURA": camera_obscura, "FISHEYE_ORTHOGRAPHIC": orthographic_fisheye,
     "FISHEYE_STEREOGRAPHIC": stereographic_fisheye, "STEREOGRAPHIC_PANORAMA": stereographic_panorama,
     "DOME_MASTER": dome_master, "OMNIMAX": omnimax, "CYLINDRICAL": cylindrical,
-    "OPENCV_PINHOLE": opencv_pinhole, "OPENCV_FISHEYE": opencv_fisheye,
 }  # fmt: skip
-PLANAR = {"CAMERA_OBSCURA", "OPENCV_PINHOLE"}
+PLANAR = {"CAMERA_OBSCURA"}

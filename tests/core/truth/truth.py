@@ -1,12 +1,16 @@
-"""The exact picture: rays and hits with 60 digits, from the numbers as they are stored. Shares nothing with the core.
+"""The exact picture: rays and hits with 60 digits, from the numbers as they are stored.
 
 Written from the formulas of the Blender manual and of the lecture, one pixel at a time, in the plainest way there is:
-with 60 digits no order of operations matters. A vector is a list of three mpf.
+with 60 digits no order of operations matters. A vector is a list of three mpf. Nothing here is shared with the core but
+the rays of models without a formula of their own in MODELS: those are the core's, evaluated with 60 digits; see
+recorded.
 """
 
 from dataclasses import dataclass
 
-from mpmath import asin, cos, mp, mpf, pi, sin, sqrt, tan
+from mpmath import asin, cos, mp, mpf, sin, sqrt
+
+from .recorded import lens_of
 
 mp.dps = 60
 SPHERE, PLANE, INFINITE_PLANE = 0, 1, 2
@@ -90,13 +94,6 @@ def shares(raw, x, y):
     return x / frame.width + mpf(raw.shift_x), y / frame.height + mpf(raw.shift_y)
 
 
-def sensor_place(raw, x, y):
-    """The pixel on the sensor in mm from its middle, as fisheyes with a lens have it."""
-    frame, (u, v) = frame_of(raw), shares(raw, x, y)
-    pitch = frame.sensor / frame.fitted
-    return (u - mpf(1) / 2) * frame.width * pitch, (v - mpf(1) / 2) * frame.height * frame.aspect * pitch
-
-
 def disc_place(raw, x, y):
     u, v = shares(raw, x, y)
     return 2 * u - 1, 2 * v - 1
@@ -128,51 +125,8 @@ def orthographic(raw, x, y):
     return [*planar(raw, x, y, mpf(raw.ortho_scale)), mpf(0)], AHEAD
 
 
-def spanned(raw, share, low, high):
-    low, high = mpf(raw.settings[low]), mpf(raw.settings[high])
-    return low + share * (high - low)
-
-
-def equirectangular(raw, x, y):
-    u, v = shares(raw, x, y)
-    lon, lat = spanned(raw, u, "longitude_min", "longitude_max"), spanned(raw, v, "latitude_min", "latitude_max")
-    return EYE, [cos(lat) * sin(lon), sin(lat), -cos(lat) * cos(lon)]
-
-
-def cylinder(raw, x, y):
-    u, v = shares(raw, x, y)
-    prefix = "central_cylindrical_range_"
-    lon = spanned(raw, u, prefix + "u_min", prefix + "u_max")
-    height = spanned(raw, v, prefix + "v_min", prefix + "v_max") / mpf(raw.settings["central_cylindrical_radius"])
-    return EYE, [sin(lon), height, -cos(lon)]
-
-
-def cube_face(raw, x, y):
-    u, v = shares(raw, x, y)
-    return EYE, [tan((u - mpf(1) / 2) * pi / 2), tan((v - mpf(1) / 2) * pi / 2), mpf(-1)]
-
-
 def radius(place):
     return sqrt(place[0] ** 2 + place[1] ** 2)
-
-
-def equidistant(raw, x, y):
-    place = disc_place(raw, x, y)
-    r = radius(place)
-    return None if r > 1 else fisheye(place, r * mpf(raw.settings["fisheye_fov"]) / 2)
-
-
-def equisolid(raw, x, y):
-    place = sensor_place(raw, x, y)
-    double, r = 2 * mpf(raw.settings["fisheye_lens"]), radius(place)
-    return None if r > double * sin(mpf(raw.settings["fisheye_fov"]) / 4) else fisheye(place, 2 * asin(r / double))
-
-
-def polynomial(raw, x, y):
-    place = sensor_place(raw, x, y)
-    r = radius(place)
-    theta = -sum(mpf(raw.settings[f"fisheye_polynomial_k{i}"]) * r**i for i in range(5))
-    return None if abs(theta) > mpf(raw.settings["fisheye_fov"]) / 2 else fisheye(place, theta)
 
 
 def mirror_ball(raw, x, y):
@@ -181,16 +135,14 @@ def mirror_ball(raw, x, y):
 
 
 MODELS = {
-    "PERSP": perspective, "ORTHO": orthographic, "EQUIRECTANGULAR": equirectangular, "CENTRAL_CYLINDRICAL": cylinder,
-    "EQUIANGULAR_CUBEMAP_FACE": cube_face, "FISHEYE_EQUIDISTANT": equidistant, "FISHEYE_EQUISOLID": equisolid,
-    "FISHEYE_LENS_POLYNOMIAL": polynomial, "MIRRORBALL": mirror_ball,
+    "PERSP": perspective, "ORTHO": orthographic, "MIRRORBALL": mirror_ball,
 }  # fmt: skip
 PLANAR = {"PERSP", "ORTHO"}
 """Models whose t is the depth."""
 
 
-def every_model():
-    """The exact rays of every model by its key, and the models whose t is the depth."""
+def formulas():
+    """The formulas that are written anew here, by the keys of their models, and the models whose t is the depth."""
     from . import lenses, multiperspective  # which are written in the words of this module
 
     return MODELS | lenses.MODELS | multiperspective.MODELS, PLANAR | lenses.PLANAR
@@ -209,16 +161,30 @@ class Ray:
 
 
 def ray(raw, x, y):
-    """The exact ray through pixel coordinates, None where there is none."""
+    """The exact ray through pixel coordinates, None where there is none: by the model's formula that is written anew,
+    where there is one, else by its recorded one.
+    """
     key = raw.model or (raw.settings["panorama_type"] if raw.type == "PANO" else raw.type)
-    models, depths = every_model()
-    found = models[key](raw, mpf(x), mpf(y))
+    models, depths = formulas()
+    if key in models:
+        return in_world(raw, models[key](raw, mpf(x), mpf(y)), key in depths)
+    return recorded_ray(raw, x, y)
+
+
+def recorded_ray(raw, x, y):
+    """The ray that the core's own formula gives of any model, evaluated with 60 digits."""
+    lens, is_planar = lens_of(raw)
+    return in_world(raw, lens(x, y), is_planar)
+
+
+def in_world(raw, found, is_planar):
+    """The world ray of origin and direction in the camera's frame, None for None; t counts depth where it is planar."""
     if found is None:
         return None
     rows = exact(raw.matrix_world)[:3]
     axes = [[x / norm(axis) for x in axis] for axis in columns([row[:3] for row in rows])[:3]]
     origin, direction = (times(columns(axes), vector) for vector in found)
-    if key not in depths:
+    if not is_planar:
         length = norm(direction)
         direction = [x / length for x in direction]
     return Ray(along(origin, [row[3] for row in rows], 1), direction)

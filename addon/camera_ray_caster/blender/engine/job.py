@@ -90,7 +90,7 @@ class Job:
         settings = {"shading": self.shading, "samples": self.samples, "precision": self.precision}
         images = cast(self.camera, self.shapes, self.passes, **settings, threads=threads, progress=progress)
         began = perf_counter()
-        bounds = accuracy(self.camera, self.shapes, images.plan, self.precision)
+        bounds = accuracy(self.camera, self.shapes, images.plan)
         seconds = {**self.seconds, **images.seconds, "accuracy": perf_counter() - began}
         report = report_cast(
             self.camera, self.shapes, images, seconds, self.findings, self.frame, self.layer, self.several,

@@ -1,11 +1,8 @@
 """A rendered frame as files: a picture, an EXR with all passes, and the report. They appear whole or not at all."""
 
 import os
-from collections.abc import Iterator
-from contextlib import contextmanager, redirect_stdout
-from errno import EISDIR
+from contextlib import redirect_stdout
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from time import perf_counter
 
 import bpy
@@ -15,6 +12,7 @@ from ...core.report.report import Report, as_json
 from ..engine.engine import CameraRayCaster
 from ..terminal import signals
 from . import reports
+from .file_set import appearing
 
 PICTURE = {
     "media_type": "IMAGE",
@@ -41,6 +39,7 @@ def render(scene, folder: Path, name: str, number: str = "") -> tuple[Report, li
     so on, by the views' suffixes. Leaves all as it was and raises InputError where Blender cannot render or the folder
     cannot be written, Cancelled where it is stopped.
     """
+    _check_suffixes(scene.render)
     with appearing(folder) as temporary:
         report = _rendered(scene)
         started = perf_counter()
@@ -51,30 +50,6 @@ def render(scene, folder: Path, name: str, number: str = "") -> tuple[Report, li
         names = sorted(os.listdir(temporary))
         signals.heed()
     return report, [folder / name for name in names]
-
-
-@contextmanager
-def appearing(folder: Path) -> Iterator[Path]:
-    """Yield an empty folder whose files move into ``folder`` in the end; if anything fails nothing is left of them."""
-    made: list[Path] = []
-    try:
-        made += [path for path in (folder, *folder.parents) if not path.exists()]
-        folder.mkdir(parents=True, exist_ok=True)
-        with TemporaryDirectory(prefix=".writing_", dir=folder) as temporary:
-            yield Path(temporary)
-            targets = {path: folder / path.name for path in Path(temporary).iterdir()}
-            for target in targets.values():
-                if target.is_dir():  # found before the first file has moved
-                    raise IsADirectoryError(EISDIR, f"{target.name!r} is a folder there")
-            for path, target in targets.items():
-                os.replace(path, target)
-    except BaseException as error:
-        for path in made:
-            if path.is_dir():
-                path.rmdir()
-        if isinstance(error, OSError):
-            raise InputError(f"cannot write into {str(folder)!r}: {error.strerror}; choose another folder") from error
-        raise
 
 
 def _rendered(scene) -> Report:
@@ -110,6 +85,16 @@ def _save(scene, path: Path, settings) -> None:
     except RuntimeError as error:
         if not _views_written(scene.render, path):
             raise OSError(0, str(error).strip()) from error
+
+
+def _check_suffixes(render) -> None:
+    """Raise InputError where the suffix of a view would put its files elsewhere."""
+    for view in render.views if render.use_multiview else ():
+        if view.use and any(sign in view.file_suffix for sign in "/\\\0"):
+            raise InputError(
+                f"the file suffix {view.file_suffix!r} of view {view.name!r} leads to another folder: "
+                "take its slashes out (Output properties, Stereoscopy)"
+            )
 
 
 def _views_written(render, path: Path) -> bool:

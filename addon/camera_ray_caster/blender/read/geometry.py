@@ -7,7 +7,7 @@ import bpy
 import numpy as np
 
 from ...core.records import INFINITE_PLANE, PLANE, SPHERE
-from ...core.shapes.instances import Primitive, bounds_primitive, points_primitive
+from ...core.shapes.instances import Primitive, enclosing_primitive, points_primitive
 from ...core.shapes.recognize import MeshArrays, recognize
 
 FORCED = {"SPHERE": SPHERE, "PLANE": PLANE, "INFINITE_PLANE": INFINITE_PLANE}
@@ -43,7 +43,7 @@ def _of_mesh(mesh, kind) -> tuple[Primitive | None, str]:
     if isinstance(found, Primitive) and (found.kind == SPHERE) == (kind == SPHERE):
         return replace(found, kind=kind), ""
     vertices = fetched(mesh.vertices, "co", np.float32, 3).reshape(-1, 3)
-    return (bounds_primitive(kind, vertices), "") if len(vertices) else NOTHING
+    return (enclosing_primitive(kind, vertices), "") if len(vertices) else NOTHING
 
 
 _known: dict[bytes, Primitive | str] = {}
@@ -67,7 +67,7 @@ def _of_points(cloud, kind) -> tuple[Primitive | None, str]:
         return NOTHING
     positions = fetched(cloud.attributes["position"].data, "vector", np.float32, 3).reshape(-1, 3)
     if kind in (PLANE, INFINITE_PLANE):
-        return bounds_primitive(kind, positions), ""
+        return enclosing_primitive(kind, positions), ""
     radius = cloud.attributes.get("radius")
     radii = fetched(radius.data, "value", np.float32) if radius else np.full(len(positions), DEFAULT_RADIUS, np.float32)
     primitive = points_primitive(positions, radii)

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ...core.records import Shapes
-from ...core.shapes.instances import Primitive, is_invertible, place, place_lights
+from ...core.shapes.instances import Primitive, is_invertible, lights_in_world, put_in_world
 from ..properties.declared import PRIMITIVE
 from .geometry import shapes_of
 from .lights import USED, light_color, world_color
@@ -141,7 +141,7 @@ def _gathered(groups: list[_Group], left_out: Counter, scene) -> Shapes:
     center, axes = np.empty((sum(counts), 3)), np.empty((sum(counts), 3, 3))
     for group, matrices, count, end in zip(cast, placings, counts, ends, strict=True):
         rows = slice(end - count, end)
-        place(group.primitive, matrices, center[rows], axes[rows])
+        put_in_world(group.primitive, matrices, center[rows], axes[rows])
 
     def column(values, dtype, width=()):
         return np.repeat(np.array(values, dtype).reshape(len(cast), *width), counts, axis=0)
@@ -155,7 +155,7 @@ def _gathered(groups: list[_Group], left_out: Counter, scene) -> Shapes:
         color=column([group.color for group in cast], np.float32, (4,)),
         name_index=column(range(len(cast)), np.int32),
         names=tuple(group.name for group in cast),
-        lights=place_lights([(group.is_sun, group.color, group.placings()) for group in lights]),
+        lights=lights_in_world([(group.is_sun, group.color, group.placings()) for group in lights]),
         world_color=world_color(scene),
         left_out=tuple((name, _counted(reason, count)) for (name, reason), count in left_out.items()),
     )

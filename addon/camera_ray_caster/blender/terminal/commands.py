@@ -17,8 +17,7 @@ import bpy
 
 from ...core.camera.pixel_time import LAST_FRAME
 from ...core.casting.passes import PASSES
-from ...core.casting.plan import PRECISIONS
-from ...core.casting.shading import SHADINGS
+from ...core.casting.request import PRECISIONS, SHADINGS
 from ...core.records import Cancelled, InputError
 from ...core.report.report import WIDTH, Report, as_json, as_lines
 from ..engine.engine import CameraRayCaster

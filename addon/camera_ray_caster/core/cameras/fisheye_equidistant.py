@@ -17,7 +17,7 @@ import numpy as np
 from ..records import BlenderCamera, Raster
 from .model import Step
 from .parts.film import SHIFT, Window
-from .parts.radial import FISHEYE_FOV, RADIUS, RAY, WHOLE_PLANE, Radial, radii_of, up_to
+from .parts.radial import FISHEYE_FOV, RADIUS, RAY, WHOLE_PLANE, Radial, radii_of
 from .parts.settings import Setting
 
 
@@ -50,7 +50,7 @@ class FisheyeEquidistant(Radial):
 
     def radius(self, theta):
         """See Radial."""
-        return up_to(self.rim, theta / self.half_fov)
+        return theta / self.half_fov
 
     @property
     def widest(self) -> float:

@@ -19,7 +19,7 @@ import numpy as np
 from ..records import BlenderCamera, Raster
 from .model import Step
 from .parts.film import FILM, Film, Window
-from .parts.radial import FISHEYE_FOV, FISHEYE_LENS, RADIUS, RAY, SENSOR_PLANE, Radial, up_to
+from .parts.radial import FISHEYE_FOV, FISHEYE_LENS, RADIUS, RAY, SENSOR_PLANE, Radial
 from .parts.settings import Setting
 
 
@@ -54,7 +54,7 @@ class FisheyeEquisolid(Radial):
 
     def radius(self, theta):
         """See Radial."""
-        return up_to(self.rim, np.sin(theta / 2))
+        return np.sin(theta / 2)
 
     @property
     def widest(self) -> float:

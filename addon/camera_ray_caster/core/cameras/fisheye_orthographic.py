@@ -16,7 +16,7 @@ import numpy as np
 from ..records import BlenderCamera, Raster
 from .model import Step
 from .parts.film import SHIFT, Window
-from .parts.radial import FOV, RADIUS, RAY, ROUND_PLANE, Radial, up_to
+from .parts.radial import FOV, RADIUS, RAY, ROUND_PLANE, Radial
 
 
 @dataclass(frozen=True)
@@ -42,7 +42,7 @@ class FisheyeOrthographic(Radial):
 
     def radius(self, theta):
         """See Radial."""
-        return np.where(theta <= np.pi / 2, up_to(self.rim, np.sin(theta)), np.nan)
+        return np.sin(theta)
 
     @property
     def widest(self) -> float:

@@ -22,7 +22,7 @@ from ..maths.inversion import Inverse
 from ..records import BlenderCamera, InputError, Raster
 from .model import Step
 from .parts.film import FILM, Film, Window
-from .parts.radial import AT_THE_RIM, FISHEYE_FOV, RADIUS, RAY, SENSOR_PLANE, TINY, Radial, radii_of
+from .parts.radial import FISHEYE_FOV, RADIUS, RAY, SENSOR_PLANE, TINY, Radial, radii_of, up_to
 from .parts.settings import CAMERA, FULL_TURN, Number
 from .parts.silhouette import pixel_bounds, radial_intervals
 
@@ -117,7 +117,7 @@ class FisheyePolynomial(Radial):
         same = sign * start + np.mod(sign * (theta - start), FULL_TURN)
         across = sign * start + np.mod(sign * (-theta - start), FULL_TURN)
         target = np.minimum(same, across)
-        r = self._inverse(np.where(np.abs(target) <= self.half_fov * AT_THE_RIM, target, np.nan))
+        r = self._inverse(np.sign(target) * up_to(self.half_fov, np.abs(target)))
         return np.where(same <= across, r, -r)
 
     def bounds(self, centers, radii):

@@ -18,7 +18,7 @@ import numpy as np
 from ..records import BlenderCamera, Raster
 from .model import Step
 from .parts.film import SHIFT, Window
-from .parts.radial import FOV, RADIUS, RAY, ROUND_PLANE, Radial, up_to
+from .parts.radial import FOV, RADIUS, RAY, ROUND_PLANE, Radial
 from .parts.settings import Setting
 
 WIDEST = radians(359)
@@ -53,7 +53,7 @@ class FisheyeStereographic(Radial):
 
     def radius(self, theta):
         """See Radial."""
-        return up_to(self.rim, np.tan(theta / 2))
+        return np.tan(theta / 2)
 
     @property
     def widest(self) -> float:

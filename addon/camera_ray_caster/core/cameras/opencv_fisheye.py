@@ -20,7 +20,7 @@ from ..maths.inversion import Inverse
 from ..records import BlenderCamera, Raster
 from .model import Step
 from .parts.calibration import CALIBRATION, FISHEYE, Calibration
-from .parts.radial import AT_THE_RIM, RADIUS, RAY, Radial, radii_of
+from .parts.radial import RADIUS, RAY, Radial, radii_of
 
 
 @dataclass(frozen=True)
@@ -55,7 +55,7 @@ class OpencvFisheye(Radial):
         turns = squares.real[(np.abs(squares.imag) <= 1e-9 * np.abs(squares)) & (squares.real > 0)]
         limit = min(np.pi, *np.sqrt(turns).tolist(), np.pi)
         lens = cls(raster.size, calibration.window(raster), np.inf, coefficients, limit)
-        return replace(lens, rim=lens.distorted(limit) * AT_THE_RIM)
+        return replace(lens, rim=lens.distorted(limit))
 
     @property
     def K(self) -> np.ndarray:
@@ -86,7 +86,7 @@ class OpencvFisheye(Radial):
 
     def radius(self, theta):
         """See Radial."""
-        return np.where(theta <= self.limit * AT_THE_RIM, self.distorted(theta), np.nan)
+        return self.distorted(theta)
 
     @property
     def widest(self) -> float:

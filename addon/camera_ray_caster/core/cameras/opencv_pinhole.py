@@ -20,7 +20,7 @@ from ..maths.vector import components
 from ..records import BlenderCamera, Raster
 from .model import Step, WindowModel
 from .parts.calibration import CALIBRATION, RADIAL_TANGENTIAL, Calibration
-from .parts.radial import AT_THE_RIM
+from .parts.radial import up_to
 from .parts.radial_tangential import RadialTangential
 from .parts.silhouette import angular_radius, pixel_bounds, radial_intervals
 
@@ -85,8 +85,10 @@ class OpencvPinhole(WindowModel):
         x, y, z = components(np.asarray(points, np.float64))
         depth = np.where(z < 0, -z, np.nan)
         across, down = x / depth, -y / depth
-        seen = np.hypot(across, down) <= self.distortion.limit * AT_THE_RIM
-        across, down = np.where(seen, across, np.nan), np.where(seen, down, np.nan)
+        r = np.hypot(across, down)
+        kept = up_to(self.distortion.limit, r) / np.where(r > 0, r, 1.0)  # of radius 1, or less at the rim
+        kept = np.where(r > 0, kept, 1.0)
+        across, down = across * kept, down * kept
         u, v = self.distortion.distort(across, down)
         return np.stack(self.window.pixels_from_plane(u, -v), axis=-1)
 

@@ -16,6 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..maths.intervals import Interval
+from ..maths.recording import look_up
 from ..maths.vector import components
 from ..records import BlenderCamera, InputError, Raster
 from .model import Model, Step
@@ -147,10 +148,12 @@ class Strip(Model):
     def _at(self, x):
         """Return the eye and the horizontal unit direction (x, z) of columns; NaN beyond the path."""
         k = np.clip(np.searchsorted(self.columns, x, side="right") - 1, 0, len(self.columns) - 2)
-        part = (x - self.columns[k]) / (self.columns[k + 1] - self.columns[k])
+        start = look_up(self.columns, k)
+        part = (x - start) / (look_up(self.columns, k + 1) - start)
         part = np.where((x >= 0) & (x <= self.columns[-1]), part, np.nan)
-        eye = tuple(c[k] + part * (c[k + 1] - c[k]) for c in self.eyes.T)
-        normal_x, normal_z = (c[k] + part * (c[k + 1] - c[k]) for c in self.normals.T)
+        between = lambda c: look_up(c, k) + part * (look_up(c, k + 1) - look_up(c, k))  # noqa: E731
+        eye = tuple(between(c) for c in self.eyes.T)
+        normal_x, normal_z = (between(c) for c in self.normals.T)
         size = np.hypot(normal_x, normal_z)
         size = np.where(size > 0, size, np.nan)
         return eye, normal_z / size, -normal_x / size

@@ -13,8 +13,7 @@ import numpy as np
 
 from ..maths.speed import whole_rows
 from ..maths.vector import matvec, norm, unit
-from ..shapes.normals import ZERO
-from . import painting
+from .hit_values import ZERO, HitValues
 from .hits import Hits
 from .shading import shade
 
@@ -22,112 +21,108 @@ ROUNDED_UP = 1 + 2.0**-9
 """Makes up for rounding the bounds themselves, to what they are stored as."""
 
 
-def unpainted(hits: Hits) -> None:
-    """A pass that no brush paints."""
-
-
 @dataclass(frozen=True)
 class Pass:
-    """How a pass is stored and made. ``write(hits, out)`` fills a part of ``out``, (rows, columns[, channels])."""
+    """How a pass is stored and made. ``write(values, out)`` fills a part of ``out``, (rows, columns[, channels])."""
 
-    write: Callable[[Hits, np.ndarray], None]
+    write: Callable[[HitValues, np.ndarray], None]
     channels: int = 0
     dtype: type | None = None
     """What it is stored as; None takes the cast's dtype."""
-    whole: bool = False
-    """Whether ``write`` is called for a whole tile, not for blocks whose working arrays stay in a core's cache."""
-    brush: Callable[[Hits], painting.Brush | None] = unpainted
-    """Given the hits of a tile, returns what paints it; None where ``write`` takes less."""
+
+    def empty(self, shape: tuple[int, int], dtype) -> np.ndarray:
+        """Return an array for the pass of a picture, (rows, columns[, channels]), yet to be written."""
+        return np.empty((*shape, self.channels) if self.channels else shape, self.dtype or dtype)
 
 
-def combined(hits: Hits, out):
+def combined(values: HitValues, out):
     """Linear RGBA: the shading's color, the world's where nothing is hit, transparent black where there is no ray."""
-    shade(hits, out)
-    if hits.lost is not None:
-        out[hits.lost] = 0
+    shade(values, out)
+    if values.hits.lost is not None:
+        out[values.hits.lost] = 0
 
 
-def depth(hits: Hits, out):
+def depth(values: HitValues, out):
     """Blender's Z: along the viewing direction for perspective and orthographic, the distance for panoramas."""
-    out[...] = hits.t
+    out[...] = values.hits.t
 
 
-def distance(hits: Hits, out):
+def distance(values: HitValues, out):
     """The length of the ray from its origin to the hit."""
-    np.multiply(hits.t, hits.length, out=out, casting="same_kind")
-    if hits.missed is not None:
-        out[hits.missed] = np.inf
+    np.multiply(values.hits.t, values.length, out=out, casting="same_kind")
+    if values.hits.missed is not None:
+        out[values.hits.missed] = np.inf
 
 
-def position(hits: Hits, out):
+def position(values: HitValues, out):
     """The hit point in the world."""
-    _write(out, hits.point, hits.plan.camera.pose.eye[:, None, None], hits.missed)
+    _write(out, values.point, values.plan.camera.pose.eye[:, None, None], values.hits.missed)
 
 
-def normal(hits: Hits, out):
+def normal(values: HitValues, out):
     """The surface's unit normal in the world, turned towards the ray's origin."""
-    _write(out, *hits.normal_terms, hits.missed)
+    _write(out, *values.normal_terms, values.hits.missed)
 
 
-def uv(hits: Hits, out):
+def uv(values: HitValues, out):
     """The surface's own coordinates, (u, v, 0); see the shapes."""
     out[...] = 0
-    for surface in hits.surfaces:
-        u, v = surface.kind.uv(surface.q)
-        out[surface.where] = np.stack((u, v, np.zeros_like(u)), axis=-1)
+    for where, (u, v) in values.uv:
+        out[where] = np.stack((u, v, np.zeros_like(u)), axis=-1)
 
 
-def object_index(hits: Hits, out):
+def object_index(values: HitValues, out):
     """Blender's pass index of the object."""
-    hits.look_up(hits.plan.object_index, out)
+    values.look_up(values.plan.object_index, out)
 
 
-def material_index(hits: Hits, out):
+def material_index(values: HitValues, out):
     """Blender's pass index of the material."""
-    hits.look_up(hits.plan.material_index, out)
+    values.look_up(values.plan.material_index, out)
 
 
-def shape_index(hits: Hits, out):
+def shape_index(values: HitValues, out):
     """The row of the shape in ``Shapes``, instances apart."""
-    out[...] = hits.index
+    out[...] = values.hits.index
 
 
-def valid(hits: Hits, out):
+def valid(values: HitValues, out):
     """Whether the pixel has a ray."""
-    out[...] = hits.has_ray
+    out[...] = values.hits.has_ray
 
 
-def ray_origin(hits: Hits, out):
+def ray_origin(values: HitValues, out):
     """The origin of the chief ray in the world."""
-    pose = hits.plan.camera.pose
-    _write(out, matvec(pose.basis, hits.origin), pose.eye[:, None, None], hits.lost)
+    pose = values.plan.camera.pose
+    _write(out, matvec(pose.basis, values.hits.rays.origin), pose.eye[:, None, None], values.hits.lost)
 
 
-def ray_direction(hits: Hits, out):
+def ray_direction(values: HitValues, out):
     """The unit direction of the chief ray in the world."""
-    _write(out, unit(hits.world_direction), ZERO, hits.lost)
+    _write(out, unit(values.direction), ZERO, values.hits.lost)
 
 
-def distance_bound(hits: Hits, out):
+def distance_bound(values: HitValues, out):
     """How far the stored distance, and the depth, are from the exact ones at most; world units."""
-    _bound(hits, out, hits.bounds.distance, hits.t[hits.seen] * norm(hits.bounds.rays.direction))
+    errors = values.errors
+    _bound(values, out, errors.distance, errors.t * norm(errors.rays.direction))
 
 
-def position_bound(hits: Hits, out):
+def position_bound(values: HitValues, out):
     """How far the stored position is from the exact one at most; world units."""
-    places = (p + e for p, e in zip(hits.point, hits.plan.camera.pose.eye, strict=True))
-    _bound(hits, out, hits.bounds.position, norm(tuple(place[hits.seen] for place in places)))
+    places = (p + e for p, e in zip(values.point, values.plan.camera.pose.eye, strict=True))
+    _bound(values, out, values.errors.position, norm(tuple(place[values.hits.seen] for place in places)))
 
 
-def normal_bound(hits: Hits, out):
+def normal_bound(values: HitValues, out):
     """How far the stored unit normal is from the exact one at most."""
-    _bound(hits, out, hits.bounds.normal, 1.0)
+    _bound(values, out, values.errors.normal, 1.0)
 
 
-def _bound(hits: Hits, out, bound, size):
+def _bound(values: HitValues, out, bound, size):
     """Write bounds rounded up, with what storing a number of this size loses."""
     out[...] = 0
-    out[hits.seen] = (bound + np.finfo(out.dtype).eps * size) * ROUNDED_UP
+    out[values.hits.seen] = (bound + np.finfo(out.dtype).eps * size) * ROUNDED_UP
 
 
 def _write(out, vector, offset, blank):
@@ -144,16 +139,14 @@ def _write(out, vector, offset, blank):
 
 PASSES = {
     "combined": Pass(combined, 4),
-    "depth": Pass(depth, whole=True),
+    "depth": Pass(depth),
     "distance": Pass(distance),
     "position": Pass(position, 3),
-    "normal": Pass(normal, 3, brush=painting.normal),
+    "normal": Pass(normal, 3),
     "uv": Pass(uv, 3),
-    "object_index": Pass(object_index, 0, np.int32, brush=lambda hits: painting.constant(hits, hits.plan.object_index)),
-    "material_index": Pass(
-        material_index, 0, np.int32, brush=lambda hits: painting.constant(hits, hits.plan.material_index)
-    ),
-    "shape_index": Pass(shape_index, 0, np.int32, whole=True),
+    "object_index": Pass(object_index, 0, np.int32),
+    "material_index": Pass(material_index, 0, np.int32),
+    "shape_index": Pass(shape_index, 0, np.int32),
     "valid": Pass(valid, 0, np.bool_),
     "ray_origin": Pass(ray_origin, 3),
     "ray_direction": Pass(ray_direction, 3),
@@ -173,24 +166,18 @@ def store(hits: Hits, outs: dict[str, np.ndarray], where=None) -> None:
             put(meant[name], out, where)
         return
     with whole_rows(hits.t.shape[1]):
-        painted = {name: brush for name in outs if (brush := PASSES[name].brush(hits)) is not None}
-        if painted:
-            painting.paint(hits, [(brush, outs[name]) for name, brush in painted.items()])
-        for name in outs:
-            if PASSES[name].whole:
-                PASSES[name].write(hits, outs[name])
-        in_blocks = [name for name in outs if name not in painted and not PASSES[name].whole]
-        for rows, block in hits.blocks() if in_blocks else ():
-            for name in in_blocks:
-                PASSES[name].write(block, outs[name][rows])
+        for rows, block in hits.blocks():
+            values = HitValues(block)
+            for name, out in outs.items():
+                PASSES[name].write(values, out[rows])
 
 
 def add_combined(hits: Hits, total: np.ndarray) -> None:
     """Add the combined pass to a sum, (rows, columns, 4)."""
     with whole_rows(hits.t.shape[1]):
         for rows, block in hits.blocks():
-            once = hits.scratch("once", total[rows].shape, total.dtype)
-            combined(block, once)
+            once = hits.rays.scratch("once", total[rows].shape, np.float64)
+            combined(HitValues(block), once)
             total[rows] += once
 
 

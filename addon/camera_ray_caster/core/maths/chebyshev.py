@@ -1,8 +1,8 @@
-"""A smooth function of the pixel for many of them: Chebyshev polynomials in x and y, panel by panel of the raster.
+"""A smooth function of the pixel for whole pictures: Chebyshev polynomials in x and y, panel by panel of the raster.
 
-The function is asked at few points of each panel, and the polynomials through them give the pixels: some twenty
-products each, whatever the function takes. Where the coefficients have not sunk to rounding, each pixel is asked for
-itself.
+The function is evaluated at a few points of each panel, and the polynomials through them give the pixels: some twenty
+products each, whatever the function takes. Where the coefficients have not sunk to rounding, the function is evaluated
+at each pixel. For fisheyes that take sines, or iterate, rays take 0.4 to 0.8 of the time, whole casts 0.6 to 0.9.
 References: J. Boyd, Chebyshev and Fourier Spectral Methods, 2nd ed. (2001), chapters 2, 4 and 5; L. Trefethen,
 Approximation Theory and Approximation Practice (2013), chapters 3 and 8.
 """
@@ -30,8 +30,8 @@ CENTERS_X, CENTERS_Y = np.arange(COLUMNS)[None] + 0.5, np.arange(ROWS)[:, None] 
 """Of a panel's pixels, from its corner."""
 
 POINTS = 14
-"""Of a panel's side, its ends among them. The products of three values side by side stay below 2^18, beyond which
-OpenBLAS wakes threads of its own.
+"""Of a panel's side, its ends among them. The products stay below 2^18, beyond which OpenBLAS wakes threads of
+its own.
 """
 
 TAIL = 2
@@ -80,54 +80,37 @@ def _are_centers(places, fewest: int) -> bool:
     return places.size >= fewest and places[0] % 1 == 0.5 and bool((np.diff(places) == 1).all())
 
 
-def on_raster(function: Callable, x, y, disc: Disc | None = None):
-    """Return a function's two values at pixel coordinates: as ``fill`` does where they are a raster."""
-    if not is_raster(x, y):
-        return function(x, y)
-    values = np.empty((2, y.size, x.size, 1))
-    fill(function, x, y, values, disc)
-    return values[..., 0]
+def on_raster(function: Callable, x, y, disc: Disc | None = None) -> np.ndarray:
+    """Return a function's two values at pixel coordinates, (2, rows, columns) on a raster.
 
-
-def fill(function: Callable, x, y, out, disc: Disc | None = None) -> np.ndarray:
-    """Write a function's values on a raster into ``out``, (m, rows, columns, n): m times n values, n side by side.
-    Return where it has values, (rows, columns) bool.
-
-    function: of x (..., 1, columns) and y (..., rows, 1), gives as many arrays that broadcast; where one has no value,
-    NaN, so have the others. With a ``disc`` they count within it alone; smooth ones beyond it spare the panels at its
-    rim from being asked pixel by pixel.
+    function: of x (..., 1, columns) and y (..., rows, 1), gives two arrays of their common shape; where one has no
+    value, NaN, so has the other. Anywhere but on a raster it is asked itself. With a ``disc`` its values count within
+    that alone, and are NaN beyond; a function that is smooth beyond the disc, too, spares the panels at its rim from
+    being asked pixel by pixel.
     Right to 8 times the function's own error, the norm of the interpolation, and to ROUNDING of the largest value in
     the panel.
     """
-    m, n = out.shape[0], out.shape[-1]
+    if not is_raster(x, y):
+        return function(x, y)
     (low, bands), (left, panels) = _panels(y[:, 0], ROWS), _panels(x[0], COLUMNS)
-    size = ROWS * len(bands), COLUMNS * len(panels)
-    whole = out.shape[1:3] == size and out.flags.c_contiguous
-    found = out if whole else np.empty((m, *size, n))
-    shaped = found.reshape(m, len(bands), ROWS, len(panels), COLUMNS * n).swapaxes(2, 3)
-    there = np.ones(size, bool)
-    shaped_there = there.reshape(len(bands), ROWS, len(panels), COLUMNS).swapaxes(1, 2)
+    found = np.empty((2, ROWS * len(bands), COLUMNS * len(panels)))
+    shaped = found.reshape(2, len(bands), ROWS, len(panels), COLUMNS).swapaxes(2, 3)
     wanted = np.ones((len(bands), len(panels)), bool) if disc is None else disc.meets(panels, bands)
-    right, empty = _interpolate(function, bands, panels, wanted, shaped, n)
+    right, empty = _interpolate(function, bands, panels, wanted, shaped)
     if disc is not None:
         if empty.any():  # no value at the points, and none nearest to the middle: none at all
-            wanted &= ~(empty & np.isnan(next(iter(function(*disc.nearest(panels, bands))))))
-        shaped[:, ~wanted], shaped_there[~wanted] = np.nan, False
-    for band, panel, span in _parts(~right & wanted, low, out.shape[1]):
-        x = panels[panel, None, None] * COLUMNS + CENTERS_X
-        y = bands[band, None, None] * ROWS + CENTERS_Y[slice(*span)]
-        for i, value in enumerate(function(x, y)):
-            shaped[i // n, band, panel, slice(*span), i % n :: n] = value
-        shaped_there[band, panel, slice(*span)] = ~np.isnan(value)
+            wanted &= ~(empty & np.isnan(function(*disc.nearest(panels, bands))[0]))
+        shaped[:, ~wanted] = np.nan
+    for band, panel, span in _parts(~right & wanted, low, y.size):
+        at_x = panels[panel, None, None] * COLUMNS + CENTERS_X
+        at_y = bands[band, None, None] * ROWS + CENTERS_Y[slice(*span)]
+        for values, value in zip(shaped, function(at_x, at_y), strict=True):
+            values[band, panel, slice(*span)] = value
     if disc is not None:
         for band, panel in np.argwhere(wanted & ~disc.covers(panels, bands)):
             inside = disc.holds(panels[panel] * COLUMNS + CENTERS_X, bands[band] * ROWS + CENTERS_Y)
-            shaped_there[band, panel] &= inside
-            for i in range(n):
-                np.copyto(shaped[:, band, panel, :, i::n], np.nan, where=~inside)
-    if not whole:
-        out[...] = found[:, low:, left:][:, : out.shape[1], : out.shape[2]]
-    return there[low:, left:][: out.shape[1], : out.shape[2]]
+            np.copyto(shaped[:, band, panel], np.nan, where=~inside)
+    return found[:, low : low + y.size, left : left + x.size]
 
 
 def _parts(panels, low: int, count: int):
@@ -139,13 +122,13 @@ def _parts(panels, low: int, count: int):
             yield *at[first : first + AT_ONCE].T, span
 
 
-def _interpolate(function, bands, panels, wanted, shaped, n: int) -> tuple[np.ndarray, np.ndarray]:
-    """Write what polynomials give into (m, bands, panels, ROWS, COLUMNS n); return for which wanted panels they are
-    right, and which have no value at any point.
+def _interpolate(function, bands, panels, wanted, shaped) -> tuple[np.ndarray, np.ndarray]:
+    """Write what polynomials give into (2, bands, panels, ROWS, COLUMNS).
+
+    Return for which wanted panels they are right, and which have no value at any point.
     """
     x, y = (panels[:, None] + _places()) * COLUMNS, (bands[:, None] + _places()) * ROWS
-    m = len(shaped)
-    asked = np.empty((m * n, len(bands), POINTS, len(panels), POINTS))
+    asked = np.empty((2, len(bands), POINTS, len(panels), POINTS))
     for own, value in zip(asked, function(x.reshape(1, -1), y.reshape(-1, 1)), strict=True):
         own.reshape(y.size, x.size)[...] = value
     asked = asked.swapaxes(2, 3)
@@ -158,11 +141,10 @@ def _interpolate(function, bands, panels, wanted, shaped, n: int) -> tuple[np.nd
     if right.any():
         columns = np.flatnonzero(right.any(axis=0))
         used = slice(columns[0], columns[-1] + 1)
-        rows = np.empty((m, *right[:, used].shape, POINTS + 1, COLUMNS, n))
-        for i, part in enumerate(asked[:, :, used] @ _between(COLUMNS).T):
-            rows[i // n, ..., :-1, :, i % n] = part
-            rows[i // n, ..., -1:, :, i % n] = start[i, :, used]
-        np.matmul(_between_and_start(ROWS), rows.reshape(*rows.shape[:4], -1), out=shaped[:, :, used])
+        rows = np.empty((2, *right[:, used].shape, POINTS + 1, COLUMNS))
+        np.matmul(asked[:, :, used], _between(COLUMNS).T, out=rows[..., :-1, :])
+        rows[..., -1:, :] = start[:, :, used]
+        np.matmul(_between_and_start(ROWS), rows, out=shaped[:, :, used])
     return right, empty
 
 

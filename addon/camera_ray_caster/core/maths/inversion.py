@@ -12,6 +12,7 @@ from functools import cached_property
 import numpy as np
 
 from ..conventions import EPS
+from .recording import is_recorded, loop, roundoff
 
 KNOTS = 16385
 """Points of the table: a guess from it is right to about 1e-9, and one Newton step to its square."""
@@ -24,8 +25,8 @@ its end.
 NEAR = 1e-8
 """Of x: the square root of rounding. Where the step is shorter, what it leaves is less than the function's rounding."""
 
-STEPS = 80
-"""Enough for bisection alone to reach the last digit."""
+STEPS = 400
+"""Enough for bisection alone to reach the last of a hundred digits."""
 
 
 @dataclass(frozen=True)
@@ -56,11 +57,13 @@ class Inverse:
         return np.interp(target, values, knots, np.nan, np.nan)
 
     def __call__(self, target):
-        """Return the inverse of an array of targets."""
-        target = np.asarray(target, np.float64)
+        """Return the inverse of an array of targets, or of a recorded number."""
         knots, values = self._table
-        slack = 8 * EPS * np.abs(values).max()
-        within = (target >= values[0] - slack) & (target <= values[-1] + slack)
+        if is_recorded(target):  # without the table, which has no more digits than float64
+            x = self._bracketed(np.clip(target, values[0], values[-1]), self.low, self.low, self.high)
+            return np.where(self._is_within(target), x, np.nan)
+        target = np.asarray(target, np.float64)
+        within = self._is_within(target)
         x = np.interp(target, values, knots)
         with np.errstate(divide="ignore", invalid="ignore"):
             step = (self.function(x) - target) / self.derivative(x)
@@ -68,24 +71,28 @@ class Inverse:
         slow = within & ~(np.abs(step) <= NEAR * x)
         x = np.where(within, np.clip(x, self.low, self.high), np.nan)
         if slow.any():
-            x[slow] = self._bracketed(np.clip(target[slow], values[0], values[-1]))
+            goal = np.clip(target[slow], values[0], values[-1])
+            cell = np.clip(np.searchsorted(values, goal, side="right") - 1, 0, KNOTS - 2)
+            x[slow] = self._bracketed(goal, np.interp(goal, values, knots), knots[cell], knots[cell + 1])
         return x
 
-    def _bracketed(self, target):
+    def _is_within(self, target):
+        _, values = self._table
+        slack = 8 * EPS * np.abs(values).max()
+        return (target >= values[0] - slack) & (target <= values[-1] + slack)
+
+    def _bracketed(self, target, x, left, right):
         """Take Newton's step unless it leaves the bracket, then halve the bracket."""
-        knots, values = self._table
-        cell = np.clip(np.searchsorted(values, target, side="right") - 1, 0, KNOTS - 2)
-        left, right = knots[cell], knots[cell + 1]
-        x = np.interp(target, values, knots)
-        for _ in range(STEPS):
+
+        def step(target, x, left, right):
             error = self.function(x) - target
             left, right = np.where(error < 0, x, left), np.where(error > 0, x, right)
             slope = self.derivative(x)
-            step = np.divide(error, slope, out=np.where(error == 0, 0.0, np.inf), where=slope > 0)
-            guess = x - step
-            guess = np.where((guess >= left) & (guess <= right), guess, (left + right) / 2)
-            settled = (np.abs(guess - x) <= 2 * EPS * np.abs(guess)) | (right - left <= 2 * EPS * right)
-            x = guess
-            if settled.all():
-                break
-        return x
+            guess = x - error / np.where(slope > 0, slope, 1.0)
+            is_good = ((slope > 0) | (error == 0)) & (guess >= left) & (guess <= right)
+            guess = np.where(is_good, guess, (left + right) / 2)
+            close = 2 * roundoff(x)
+            goes_on = (np.abs(guess - x) > close * np.abs(guess)) & (right - left > close * right)
+            return (target, guess, left, right), ~goes_on
+
+        return loop(step, (target, x, left, right), STEPS)[1]

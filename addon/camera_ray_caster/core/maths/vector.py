@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+ALL = slice(None)
+"""Every row, or every column."""
+
 
 def matvec(matrix, components):
     """Return matrix @ vector as components; matrix is indexed [row][column], its entries numbers or arrays.
@@ -100,6 +103,14 @@ def components(array):
     return array[..., 0], array[..., 1], array[..., 2]
 
 
-def rows(array):
+def matrix_rows(array):
     """Return a (..., m, 3) array of matrices as m rows of three entries, as views: what ``matvec`` takes."""
     return tuple(components(array[..., i, :]) for i in range(array.shape[-2]))
+
+
+def cut(component, window):
+    """Return the part of a broadcastable component that covers a window, two slices, of its rows and columns."""
+    if not (isinstance(component, np.ndarray) and component.ndim):
+        return component
+    (rows, columns), (height, width) = window, component.shape
+    return component[rows if height > 1 else ALL, columns if width > 1 else ALL]

@@ -20,7 +20,7 @@ import numpy as np
 from ..camera.camera import Camera
 from ..maths.rotations import polar, sine_and_angle
 from ..records import Shapes
-from .interpolation import Interval, State, matched
+from .interpolation import State, TimeInterval, matched
 
 PROBES = (0.381966, 0.618034)
 """Where an interval is probed: the golden section, so that no motion of a simple period hides from all probes."""
@@ -39,7 +39,7 @@ UNRESOLVED = "NOT RESOLVED"
 class Motion:
     """A camera and shapes over a range of frames, and how well they are known."""
 
-    intervals: tuple[Interval, ...]
+    intervals: tuple[TimeInterval, ...]
     """In order; each begins where the one before ends."""
     states: dict[float, State]
     tolerance: float
@@ -63,7 +63,7 @@ class Motion:
         """Return both at once."""
         return self.camera_at(frame), self.shapes_at(frame)
 
-    def _interval(self, frame: float) -> Interval:
+    def _interval(self, frame: float) -> TimeInterval:
         k = bisect_right(self.intervals, frame, key=lambda interval: interval.frames[0]) - 1
         return self.intervals[max(k, 0)]
 
@@ -99,7 +99,7 @@ def resolve(evaluate: Callable[[float], State], first: float, last: float, toler
 
     if first == last:
         know(first)
-        return Motion((Interval.of(states, (first,)),), states, tolerance, 0.0, ())
+        return Motion((TimeInterval.of(states, (first,)),), states, tolerance, 0.0, ())
     whole = np.arange(np.floor(first) + 1, np.ceil(last)).tolist()
     ends = [first, *(whole if len(whole) <= most // 4 else []), last]
     know(*ends)
@@ -120,7 +120,7 @@ def resolve(evaluate: Callable[[float], State], first: float, last: float, toler
             continue
         know(p, q)
         off = max(
-            _difference(Interval.of(states, others).at(probe), states[probe])
+            _difference(TimeInterval.of(states, others).at(probe), states[probe])
             for probe, others in ((p, (a, q, b)), (q, (a, p, b)))
         )
         turn = max(_turn(states[early], states[late]) for early, late in pairwise((a, p, q, b)))
@@ -129,7 +129,7 @@ def resolve(evaluate: Callable[[float], State], first: float, last: float, toler
             done.append((a, p, q, b))
         else:
             waiting += pairwise((a, p, q, b))
-    intervals = tuple(Interval.of(states, frames) for frames in sorted(done))
+    intervals = tuple(TimeInterval.of(states, frames) for frames in sorted(done))
     return Motion(intervals, states, tolerance, estimated, tuple(sorted(unresolved)))
 
 

@@ -18,14 +18,14 @@ State = tuple[Camera, Shapes]
 
 
 @dataclass(frozen=True)
-class Interval:
+class TimeInterval:
     """Evaluations that belong together, in order, and the polynomial through them."""
 
     frames: tuple[float, ...]
     states: tuple[State, ...]
 
     @classmethod
-    def of(cls, states: dict[float, State], frames: tuple[float, ...]) -> Interval:
+    def of(cls, states: dict[float, State], frames: tuple[float, ...]) -> TimeInterval:
         """Return the interval of some of the evaluations."""
         return cls(frames, tuple(states[frame] for frame in frames))
 

@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from math import isqrt
 
 import numpy as np
 
 from ..camera.camera import Camera
 from ..camera.pixel_time import groups
-from ..casting.plan import Group, Plan, make_plan
-from ..casting.search import nearest
+from ..casting.hit_values import HitValues
+from ..casting.pixels import hits_at
+from ..casting.plan import Plan, make_plan
 from ..conventions import EPS32
-from ..errors.hits import Bounds
-from ..maths.speed import Scratch
 from ..maths.vector import norm
 from ..records import Raster, Shapes
 
@@ -73,7 +71,7 @@ class Accuracy:
         return Accuracy(self.pixels + other.pixels, np.concatenate((self.bounds, other.bounds)))
 
 
-def accuracy(camera: Camera, shapes: Shapes, plan: Plan, precision: str = "AUTOMATIC") -> Accuracy:
+def accuracy(camera: Camera, shapes: Shapes, plan: Plan) -> Accuracy:
     """Return the error bounds of what a cast with this plan, or with plans like it, has found.
 
     Asked are at most PIXELS pixels, evenly spread over the render window; all, where it has no more. The chief rays
@@ -87,7 +85,7 @@ def accuracy(camera: Camera, shapes: Shapes, plan: Plan, precision: str = "AUTOM
     moments = list(groups(camera.pixel_time, x, y))
     for frame, rows, columns, where in moments[:: -(-len(moments) // MOMENTS)]:
         there = shapes if shapes.motion is None else shapes.motion.shapes_at(frame)
-        own = make_plan(camera.at(frame), there, plan.passes, plan.passes, plan.shading, True, False, precision)
+        own = make_plan(camera.at(frame), there, plan.request)
         found += Accuracy(int(np.count_nonzero(where)), _bounds(own, x[:, columns], y[rows], where))
     return found
 
@@ -104,32 +102,14 @@ def _even(count: int, total: int) -> np.ndarray:
     return (2 * np.arange(count) + 1) * total // (2 * count)
 
 
-def _bounds(plan: Plan, x, y, where=True) -> np.ndarray:
+def _bounds(plan: Plan, x: np.ndarray, y: np.ndarray, where: np.ndarray | bool = True) -> np.ndarray:
     """Return the bounds, (hits, 4), at the pixels of x (1, columns) and y (rows, 1) that are meant."""
-    raster = plan.camera.raster
-    columns, rows = x[0] - 0.5 - raster.x0, y[:, 0] - 0.5 - raster.y0
-    thinned = replace(plan, groups=tuple(_thinned(plan.groups, columns, rows)))
-    with np.errstate(all="ignore"):  # NaN and inf are answers here: no ray, no hit
-        origin, direction = plan.camera.camera_rays(x, y)
-        from_eye, scratch = plan.camera.model.central, Scratch(plan.real)
-        hits = nearest(thinned, origin, direction, from_eye, (0, 0), scratch)
-        if not hits.seen.any():
-            return np.zeros((0, len(QUANTITIES)))
-        bounds = Bounds(hits, (x, y))
-        relative = bounds.distance / (np.abs(bounds.t) * norm(bounds.rays.direction))
-        found = np.stack((bounds.distance, relative, bounds.position, bounds.normal), axis=1)
+    hits = hits_at(plan, np.floor(x[0]).astype(int), np.floor(y[:, 0]).astype(int))
+    if not hits.seen.any():
+        return np.zeros((0, len(QUANTITIES)))
+    with np.errstate(all="ignore"):
+        errors = HitValues(hits).errors
+        relative = errors.distance / (np.abs(errors.t) * norm(errors.rays.direction))
+        found = np.stack((errors.distance, relative, errors.position, errors.normal), axis=1)
     meant = np.broadcast_to(where, hits.t.shape)[hits.seen]
     return np.where(np.isnan(found), np.inf, found)[meant]
-
-
-def _thinned(whole: Iterable[Group], columns, rows) -> Iterator[Group]:
-    """Yield the shapes that some of the window's columns and rows may see, to be cast many at once."""
-    for group in whole:
-        window = group.bounds
-        bounds = np.hstack((np.searchsorted(columns, window[:, :2]), np.searchsorted(rows, window[:, 2:])))
-        here = np.flatnonzero((bounds[:, 0] < bounds[:, 1]) & (bounds[:, 2] < bounds[:, 3]))
-        here = here[np.argsort(bounds[here, 2], kind="stable")]
-        if here.size:
-            yield Group(
-                group.kind, group.simple, True, group.at[here], bounds[here], group.near[here], group.constants(here)
-            )

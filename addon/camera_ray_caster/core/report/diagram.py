@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
 from ..camera.camera import Camera
-from ..cast import Images, cast
+from ..casting.pixels import passes_at
 from ..maths.vector import matvec
-from ..records import Raster, Shapes
+from ..records import Shapes
 
 GRID_LINES = 9
 """Lines across and up the image; the first and the last are its border."""
@@ -56,24 +56,6 @@ class Diagram:
     normals: np.ndarray
 
 
-@dataclass(frozen=True)
-class _Sparse(Raster):
-    """Some of the pixels of a raster."""
-
-    at_columns: tuple[int, ...]
-    at_rows: tuple[int, ...]
-
-    @property
-    def shape(self) -> tuple[int, int]:
-        return len(self.at_rows), len(self.at_columns)
-
-    def columns(self) -> np.ndarray:
-        return np.array(self.at_columns, np.float64)[None, :] + 0.5
-
-    def rows(self) -> np.ndarray:
-        return np.array(self.at_rows, np.float64)[:, None] + 0.5
-
-
 def diagram(camera: Camera, shapes: Shapes, size: float, rays_across: int) -> Diagram:
     """Return the picture of a camera in space at its current frame.
 
@@ -86,7 +68,7 @@ def diagram(camera: Camera, shapes: Shapes, size: float, rays_across: int) -> Di
     rays_up = max(1, round(rays_across * height * raster.pixel_aspect / width))
     columns, rows = raster.x0 + _spread(width, rays_across), raster.y0 + _spread(height, rays_up)
     passes = ("ray_origin", "ray_direction", "distance", "position", "normal", "valid")
-    images = _cast_at(camera, shapes, columns, rows, passes)
+    images = passes_at(camera, shapes, columns, rows, passes)
     flat = {name: image.reshape(-1, *image.shape[2:]) for name, image in images.items()}
     hit = np.isfinite(flat["distance"])
     missed = flat["valid"] & ~hit
@@ -110,7 +92,8 @@ def diagram(camera: Camera, shapes: Shapes, size: float, rays_across: int) -> Di
 def probe(camera: Camera, shapes: Shapes, column: int, row: int) -> Probe:
     """Return what the ray of one pixel of the full frame meets."""
     passes = ("ray_origin", "ray_direction", "distance", "shape_index", "valid")
-    found = {name: image[0, 0] for name, image in _cast_at(camera, shapes, [column], [row], passes).items()}
+    images = passes_at(camera, shapes, np.array([column]), np.array([row]), passes)
+    found = {name: image[0, 0] for name, image in images.items()}
     index = int(found["shape_index"])
     raster = camera.raster
     blank = np.full(3, np.nan)
@@ -123,15 +106,6 @@ def probe(camera: Camera, shapes: Shapes, column: int, row: int) -> Probe:
         name=shapes.names[shapes.name_index[index]] if index >= 0 else "",
         shape_index=index,
     )
-
-
-def _cast_at(camera: Camera, shapes: Shapes, columns, rows, passes) -> Images:
-    """Cast the pixels at these columns and rows of the full frame, without culling, which counts in whole windows."""
-    r = camera.raster
-    at = tuple(int(i) for i in columns), tuple(int(j) for j in rows)
-    sparse = _Sparse(r.width, r.height, r.pixel_aspect, r.x0, r.y0, r.x1, r.y1, *at)
-    still = replace(camera, raster=sparse, pixel_time=None, motion=None)
-    return cast(still, shapes, passes, np.float64, threads=1, cull=False)
 
 
 def _spread(count: int, wanted: int) -> np.ndarray:

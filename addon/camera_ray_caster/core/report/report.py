@@ -102,7 +102,7 @@ def report_cast(
         camera=camera_facts(camera),
         frame=frame,
         layers=(layer,),
-        passes=images.plan.passes,
+        passes=images.plan.request.passes,
         shapes=len(shapes),
         pixels=camera.raster.shape[0] * camera.raster.shape[1],
         seconds=seconds,

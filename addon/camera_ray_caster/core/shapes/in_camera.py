@@ -1,15 +1,15 @@
-"""Shapes as one camera sees them: center and axes in the camera's frame."""
+"""Shapes in the frame of a camera: centers, inverse axes and bounding spheres."""
 
 from __future__ import annotations
-
-from dataclasses import dataclass
 
 import numpy as np
 
 from ..conventions import EPS, gamma
-from ..maths.exact import solve, square_less_one, two_sum
+from ..maths.exact import solve, two_sum
 from ..maths.vector import cross, dot, inverse, norm
-from ..records import INFINITE_PLANE, PLANE, SPHERE, InputError, Pose, Shapes
+from ..records import InputError, Pose, Shapes
+from .frames import InCamera
+from .kinds import by_kind
 
 SIZES = 1e-152, 1e152
 """What sizes, distances and their ratios may be: their squares are numbers, too."""
@@ -23,82 +23,46 @@ FLAT = 1e13
 MARGIN = 1 + 1e-9
 """Widens what holds a shape: rounding moves its edge by 1e-12 of its size at most."""
 
-CLOSE = 2.0
-"""Nearer than this many radii, c = n^2 - 1 is computed with twice the digits."""
 
-GRAZING = 1 / 16
-"""A plane whose distance from the eye is this fraction of what it is the sum of is placed with twice the digits."""
-
-
-@dataclass(frozen=True)
-class Placed:
-    """Shapes in the camera's frame: a ray o + t d there is q(t) = t D - N in a shape's own frame, with
-    D = shape_from_camera d and N = shape_from_camera (center - o). The eye's relative position is taken first, in
-    world coordinates, where float32 input makes the difference exact or nearly so; it is scaled afterwards.
-    """
-
-    center: np.ndarray
-    """(n, 3) camera frame."""
-    shape_from_world: np.ndarray
-    """(n, 3, 3)."""
-    rounding: np.ndarray
-    """(n,): by how much of its length each row of ``shape_from_world`` is wrong at most."""
-    shape_from_camera: np.ndarray
-    """(n, 3, 3)."""
-    offset: np.ndarray
-    """(n, 3): N of rays from the eye."""
-    outside: np.ndarray
-    """(n,): |N|^2 - 1, positive where the eye is outside of the unit sphere."""
-    radius: np.ndarray
-    """(n,): of a sphere about the center that holds the shape, camera frame; inf for infinite planes. A parallelogram's
-    reaches its farther corners; an ellipsoid's is the root of the largest row sum of its Gram matrix (Gershgorin):
-    the longest axis, where they are at right angles. Widened by MARGIN and by what the center's rounding moves it."""
-    reach: np.ndarray
-    """(n,): how far the shape reaches from its center along the camera's Z; inf for infinite planes."""
-
-
-def place(shapes: Shapes, pose: Pose) -> Placed:
+def in_camera(shapes: Shapes, pose: Pose) -> InCamera:
     """Return the shapes as a camera at this pose sees them.
 
     Rounding: a component of ``center`` is right to gamma(4) of |center - eye| times the condition number of the
     basis (1 without shear); a row of ``shape_from_world`` to ``rounding`` of its length, of
-    ``shape_from_camera`` to gamma(4) more; ``offset`` likewise times |center - eye|. What cancels in ``outside`` near
-    the surface, and in the z of ``offset`` near a plane, is a constant of the shape, and computed from its exact inputs
-    with twice the digits: right to gamma(4) of itself there, so that a planet's ground is right from 2 m above it.
+    ``shape_from_camera`` to gamma(4) more; ``offset`` likewise times |center - eye|. Where a kind finds the eye close
+    to a shape, as near a sphere's surface or a plane's plane, ``offset`` has twice the digits: it is computed from the
+    exact inputs, right to gamma(4) of itself there, so that a planet's ground is right from 2 m above it.
     Raises InputError that names a shape whose axes lie in one plane, or which is beyond SIZES.
     """
     away, lost = two_sum(shapes.center, -pose.eye)
     camera_from_world = inverse(pose.basis)
+    radius, reach = np.zeros((2, len(shapes)))
+    is_close = np.zeros(len(shapes), bool)
     with np.errstate(all="ignore"):  # what is flat or too far is refused by name
         shape_from_world, rounding, skewness = invert(shapes.axes)
         offset = np.einsum("nij,nj->ni", shape_from_world, away)
         _refuse(shapes, skewness, away, offset)
         axes = np.einsum("ij,njk->nki", camera_from_world, shapes.axes)  # an axis a row
-        gram = np.abs(np.einsum("nij,nkj->nik", axes, axes))
-        corner = gram[:, 0, 0] + gram[:, 1, 1] + 2 * gram[:, 0, 1]
-        radius = np.sqrt(np.where(shapes.kind == PLANE, corner, gram.sum(axis=2).max(axis=1)))
+        for kind, at in by_kind(shapes.kind):
+            radius[at], reach[at] = kind.extent(shapes, at, axes[at])
+            is_close[at] = kind.is_close(offset[at], shape_from_world[at], away[at])
         radius = radius * MARGIN + 16 * EPS * np.sqrt(np.einsum("ni,ni->n", away, away))
-        ahead = axes[..., 2]
-        flat = np.abs(ahead[:, 0]) + np.abs(ahead[:, 1])
-        reach = np.where(shapes.kind == PLANE, flat, np.sqrt(np.einsum("ni,ni->n", ahead, ahead)))
-        distance = np.sqrt((offset * offset).sum(axis=-1))
-        outside = (distance - 1) * (distance + 1)
-        parts = np.abs(shape_from_world[:, 2] * away).sum(axis=-1)
-        grazing = np.abs(offset[:, 2]) < GRAZING * parts
-        fine = np.flatnonzero(np.where(shapes.kind == SPHERE, distance < CLOSE, grazing))
-    if fine.size:
-        pair = solve(shapes.axes[fine], shape_from_world[fine], away[fine], lost[fine])
-        offset[fine] = pair[0]
-        outside[fine] = square_less_one(*pair)
-    return Placed(
+        close = np.flatnonzero(is_close)
+    offset_rest = np.full_like(offset, np.nan)
+    if close.size:
+        found = solve(shapes.axes[close], shape_from_world[close], away[close], lost[close])
+        offset[close], offset_rest[close] = found
+    return InCamera(
+        shapes=shapes,
+        pose=pose,
         center=np.einsum("ij,nj->ni", camera_from_world, away),
         shape_from_world=shape_from_world,
         rounding=rounding,
         shape_from_camera=np.einsum("nij,kj->nik", shape_from_world, np.ascontiguousarray(pose.basis.T)),
         offset=offset,
-        outside=outside,
-        radius=np.where(shapes.kind == INFINITE_PLANE, np.inf, radius),
-        reach=np.where(shapes.kind == INFINITE_PLANE, np.inf, reach),
+        offset_rest=offset_rest,
+        radius=radius,
+        reach=reach,
     )
 
 

@@ -1,4 +1,4 @@
-"""Shapes in object space, and their placing in the world: once per mesh or point cloud, however often it is used."""
+"""Shapes in object space, once per mesh or point cloud, and their instances in the world."""
 
 from __future__ import annotations
 
@@ -32,8 +32,8 @@ def points_primitive(positions: np.ndarray, radii: np.ndarray) -> Primitive:
     return Primitive(SPHERE, positions[real].astype(np.float64), np.eye(3), radii[real].astype(np.float64))
 
 
-def bounds_primitive(kind: int, vertices: np.ndarray) -> Primitive:
-    """Return the sphere or plane that a user sees in a mesh which is neither: by its vertices, (n, 3).
+def enclosing_primitive(kind: int, vertices: np.ndarray) -> Primitive:
+    """Return the sphere or plane that encloses a mesh which is neither, from its vertices, (n, 3).
 
     A sphere stands in the middle of their bounding box and reaches the farthest of them. A plane is their bounding
     rectangle in the object's XY, at their mean z.
@@ -61,7 +61,7 @@ def is_invertible(matrices: np.ndarray, primitive: Primitive) -> np.ndarray:
     return np.abs(np.linalg.det(axes / np.where(lengths > 0, lengths, 1.0))) > 8 * EPS32
 
 
-def place(primitive: Primitive, matrices: np.ndarray, centers: np.ndarray, axes: np.ndarray) -> None:
+def put_in_world(primitive: Primitive, matrices: np.ndarray, centers: np.ndarray, axes: np.ndarray) -> None:
     """Write to centers (k n, 3) and axes (k n, 3, 3), in the world, n shapes under each of (k, 3, 4) object matrices.
 
     Instance by instance, in float64: right to gamma(4) of the sum of the magnitudes.
@@ -73,7 +73,7 @@ def place(primitive: Primitive, matrices: np.ndarray, centers: np.ndarray, axes:
     np.multiply(sizes, columns, out=axes.reshape(*shape, 3, 3))
 
 
-def place_lights(lights) -> Lights:
+def lights_in_world(lights) -> Lights:
     """Return the record of lights, each given as (is_sun, color (3,), matrices (k, 3, 4)).
 
     A light stands at its matrix's offset; a sun shines along its -Z, so that +Z points towards it.

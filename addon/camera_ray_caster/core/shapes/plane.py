@@ -3,7 +3,8 @@
 With q(t) = t D - N: t = N_z / D_z, and inside is decided without that division: q_x = (N x D)_y / -D_z and
 q_y = (N x D)_x / D_z, so |(N x D)_y| <= |D_z| and |(N x D)_x| <= |D_z|. The cross product comes from constants of the
 shape for rays from the eye, so that edges are right to EPS (distance / size), however grazing the plane is; and so does
-N_z, which is right to EPS of itself however near the plane's own plane the eye is (see placed).
+N_z, which is right to EPS of itself however near the plane's own plane the eye is (see ``in_camera``). The normal is
+the third row of the inverse axes.
 Reference: the ray-plane intersection of every textbook (Glassner, An Introduction to Ray Tracing, 1989, chapter 2).
 """
 
@@ -13,17 +14,20 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..conventions import gamma
-from ..maths.vector import cross, difference, linear, matvec
-from ..records import INFINITE_PLANE, PLANE
-from .in_camera import Placed
+from ..conventions import EPS, gamma
+from ..maths.vector import cross, difference, linear, matvec, norm
+from ..records import INFINITE_PLANE, PLANE, Shapes
+from .affine import AffineErrors, AffineKind
+from .frames import InCamera, LocalRays
+from .kind import PixelNormals
 
-KINDS = (PLANE, INFINITE_PLANE)
+GRAZING = 1 / 16
+"""A plane whose distance from the eye is this fraction of what it is the sum of has it with twice the digits."""
 
 
 @dataclass(frozen=True)
-class View:
-    """The constants of planes as the eye sees them; the last axis counts the planes."""
+class Constants:
+    """Planes as the eye sees them; the last axis counts the planes."""
 
     matrix: np.ndarray
     """(3, 3, n): shape_from_camera, its sign such that the eye's ``offset`` is not negative."""
@@ -35,41 +39,106 @@ class View:
     """(2, 3, n): camera direction to the x and y components of N x D, for rays from the eye."""
 
 
-def view(placed: Placed, at, direction=None) -> View:
-    """Return the constants of the planes in these rows; arguments as the sphere's."""
-    center, offset = placed.center[at].T, placed.offset[at].T
-    matrix = placed.shape_from_camera[at].transpose(1, 2, 0)
-    sign = np.where(offset[2] < 0, -1.0, 1.0)  # q and -q are the same plane
-    matrix, offset = matrix * sign, offset * sign
-    (x, y, z), (to_x, to_y, to_z) = offset, matrix
-    return View(matrix, center, z, np.stack((y * to_z - z * to_y, z * to_x - x * to_z)))
+class Plane(AffineKind):
+    """Parallelograms."""
+
+    number = PLANE
+    name = "plane"
+    faces_eye = True
+    has_edges = True
+
+    def extent(self, shapes: Shapes, at: np.ndarray, axes: np.ndarray):
+        """See ``Kind``. The radius reaches the farther corners."""
+        gram = np.abs(np.einsum("nij,nkj->nik", axes, axes))
+        ahead = np.abs(axes[..., 2])
+        return np.sqrt(gram[:, 0, 0] + gram[:, 1, 1] + 2 * gram[:, 0, 1]), ahead[:, 0] + ahead[:, 1]
+
+    def is_close(self, offset: np.ndarray, shape_from_world: np.ndarray, away: np.ndarray) -> np.ndarray:
+        """See ``Kind``: near the plane's own plane N_z cancels."""
+        return np.abs(offset[:, 2]) < GRAZING * np.abs(shape_from_world[:, 2] * away).sum(axis=-1)
+
+    def constants(self, shapes: InCamera, at: np.ndarray, parallel=None) -> Constants:
+        """See ``AffineKind``."""
+        center, offset = shapes.center[at].T, shapes.offset[at].T
+        matrix = shapes.shape_from_camera[at].transpose(1, 2, 0)
+        sign = np.where(offset[2] < 0, -1.0, 1.0)  # q and -q are the same plane
+        matrix, offset = matrix * sign, offset * sign
+        (x, y, z), (to_x, to_y, to_z) = offset, matrix
+        return Constants(matrix, center, z, np.stack((y * to_z - z * to_y, z * to_x - x * to_z)))
+
+    def intersect(self, constants: Constants, origin, direction, start: float | None, scratch):
+        """See ``AffineKind``. Both sides are seen. A ray in the plane does not hit it."""
+        matrix = constants.matrix
+        shape = np.broadcast_shapes(np.shape(constants.offset), *map(np.shape, direction), *map(np.shape, origin or ()))
+        d_z, t, across = (scratch(name, shape) for name in ("ahead", "found", "across"))
+        linear(matrix[2], direction, d_z, across)
+        if origin is None:
+            np.divide(constants.offset, d_z, out=t)
+        else:
+            n = matvec(matrix, difference(constants.center, origin))
+            np.divide(n[2], d_z, out=t)
+        found = (t >= (0.0 if start is None else start)) & (t < np.inf)
+        if self.has_edges:
+            np.abs(d_z, out=d_z)
+            for row in range(2):
+                if origin is None:
+                    linear(constants.cross[row], direction, across, scratch("spare", shape))
+                else:
+                    np.copyto(across, cross(n, matvec(matrix, direction))[row])
+                found &= np.abs(across, out=across) <= d_z
+        return t, found
+
+    def lattice(self, constants: Constants, direction) -> Lattice:
+        """See ``AffineKind``."""
+        return Lattice(constants, self.has_edges, direction)
+
+    def normals(self, shapes: InCamera, at: np.ndarray) -> tuple[np.ndarray, PixelNormals | None]:
+        """See ``Kind``; towards the eye."""
+        normal = shapes.shape_from_world[at, 2] * np.where(shapes.offset[at, 2] > 0, -1.0, 1.0)[:, None]
+        normal = normal / np.abs(normal).max(axis=1, initial=0.0, keepdims=True)
+        normal = normal / np.sqrt((normal * normal).sum(axis=1, keepdims=True)) + 0.0  # never -0
+        return np.hstack((np.zeros((len(at), 1)), normal)), None
+
+    def surface_uv(self, q):
+        """Return (q + 1) / 2: 0 .. 1 across a finite plane, unbounded on an infinite one."""
+        return (q[0] + 1) / 2, (q[1] + 1) / 2
+
+    def root_error(self, hits: AffineErrors) -> np.ndarray:
+        """Return how far tau may be from the root of tau D_z = N_z."""
+        local, tau = hits.local, hits.tau
+        d, n, d_error = local.d[2], local.n[2], local.row_d[2]
+        parts = norm(tuple(local.matrix[..., 2, i] for i in range(3))) / local.scale * local.away
+        exact = (np.abs(n) < GRAZING / 4 * parts) & local.from_eye
+        n_error = np.where(exact, gamma(4) * np.abs(n) + 64 * EPS * EPS * parts, local.row_n[2])
+        residual = np.abs(tau * d - n) + np.abs(tau) * d_error + n_error + gamma(2) * (np.abs(tau * d) + np.abs(n))
+        steep = np.abs(d) - d_error
+        return np.where(steep > 0, residual / steep, np.inf)
+
+    def normal_error(self, hits: AffineErrors, point: np.ndarray) -> np.ndarray:
+        """See ``AffineKind``."""
+        return hits.local.rounding
+
+    def decide(self, shapes: InCamera, at: np.ndarray, local: LocalRays):
+        """Return by how much the crossing is inside of the edges."""
+        steep, across = np.abs(local.d[2]), local.cross
+        inside = np.minimum(steep - np.abs(across[0]), steep - np.abs(across[1]))
+        return inside, local.row_d[2] + local.product_error()
 
 
-def intersect(plane: View, kind: int, origin, direction, start: float | None, scratch):
-    """Return t of the crossing with the plane, and where it is one: inside and at or beyond ``start``.
+class InfinitePlane(Plane):
+    """Planes without edges."""
 
-    Arguments as the sphere's. Both sides are seen. A ray in the plane does not hit it. None for t: no ray hits it;
-    True for where: all do. Either may have one column that stands for all.
-    """
-    matrix = plane.matrix
-    shape = np.broadcast_shapes(np.shape(plane.offset), *map(np.shape, direction), *map(np.shape, origin or ()))
-    d_z, t, across = (scratch(name, shape) for name in ("ahead", "found", "across"))
-    linear(matrix[2], direction, d_z, across)
-    if origin is None:
-        np.divide(plane.offset, d_z, out=t)
-    else:
-        n = matvec(matrix, difference(plane.center, origin))
-        np.divide(n[2], d_z, out=t)
-    found = (t >= (0.0 if start is None else start)) & (t < np.inf)
-    if kind == PLANE:
-        np.abs(d_z, out=d_z)
-        for row in range(2):
-            if origin is None:
-                linear(plane.cross[row], direction, across, scratch("spare", shape))
-            else:
-                np.copyto(across, cross(n, matvec(matrix, direction))[row])
-            found &= np.abs(across, out=across) <= d_z
-    return t, found
+    number = INFINITE_PLANE
+    name = "infinite plane"
+    has_edges = False
+
+    def extent(self, shapes: Shapes, at: np.ndarray, axes: np.ndarray):
+        """See ``Kind``."""
+        return np.inf, np.inf
+
+    def decide(self, shapes: InCamera, at: np.ndarray, local: LocalRays):
+        """Return how steep the ray is."""
+        return np.abs(local.d[2]), local.row_d[2]
 
 
 class Lattice:
@@ -77,10 +146,10 @@ class Lattice:
     where the corners of a window tell that a plane covers it all or misses it all, no other is asked.
     """
 
-    def __init__(self, planes: View, kind: int, direction):
+    def __init__(self, planes: Constants, has_edges: bool, direction):
         """Take constants with two axes behind the one that counts the planes."""
         x, y, z = direction
-        edges = planes.cross if kind == PLANE else planes.cross[:0]
+        edges = planes.cross if has_edges else planes.cross[:0]
         terms = np.concatenate((planes.matrix[2:], edges))
         self._row, self._column = terms[:, 0] * x, terms[:, 1] * y + terms[:, 2] * z
         reach = np.array([np.abs(x).max(), np.abs(y).max(), abs(z)])
@@ -89,20 +158,20 @@ class Lattice:
         self._offset = planes.offset
         self._is_level = terms[0, 0, :, 0, 0] == 0
 
-    def meet(self, at: int, window, scratch):
+    def meet(self, k: int, window, scratch):
         """Return t in a window of the rays, and where it is a hit, of one plane, as ``intersect`` does."""
         rows, columns = window
-        row, column = self._row[:, at, :, columns], self._column[:, at, rows]
+        row, column = self._row[:, k, :, columns], self._column[:, k, rows]
         corners = row[..., [0, -1]] + column[:, [0, -1]]
         slack = np.concatenate((corners[:1], corners[0] - corners[1:], corners[0] + corners[1:]))
-        if (slack.max(axis=(1, 2)) < -self._doubt[at]).any():
+        if (slack.max(axis=(1, 2)) < -self._doubt[k]).any():
             return None, None
         shape = column.shape[1], row.shape[2]
         d_z = column[0]
-        if not self._is_level[at]:  # else all pixels of a row are alike: a floor's, seen by a camera that is not rolled
+        if not self._is_level[k]:  # else all pixels of a row are alike: a floor's, seen by a camera that is not rolled
             d_z = np.add(row[0], column[0], out=scratch("ahead", shape))
-        t = np.divide(self._offset[at], d_z, out=scratch("found", d_z.shape))
-        if (slack > self._doubt[at]).all():
+        t = np.divide(self._offset[k], d_z, out=scratch("found", d_z.shape))
+        if (slack > self._doubt[k]).all():
             return t, True
         found, d_z = (t >= 0.0) & (t < np.inf), np.abs(d_z)
         for part in zip(row[1:], column[1:], strict=True):
@@ -111,6 +180,5 @@ class Lattice:
         return t, found
 
 
-def uv(q):
-    """Return (q + 1) / 2: 0 .. 1 across a finite plane, unbounded on an infinite one."""
-    return (q[0] + 1) / 2, (q[1] + 1) / 2
+PLANES = Plane()
+INFINITE_PLANES = InfinitePlane()

@@ -1,232 +1,166 @@
-"""The sphere and, by an affine matrix, the ellipsoid: |q| = 1 in the shape's frame.
+"""The sphere and the ellipsoid, |q| = 1: its size, normals, uv and error bounds; ``sphere_rays`` has its crossings.
 
-The unit sphere may be turned at will, so each one is turned until its center lies on its own z axis, N = (0, 0, n).
-With D the ray's direction there, |t D - N|^2 = 1 has a = |D|^2, b = n D_z, c = n^2 - 1 and the discriminant
-
-    b^2 - a c = |D|^2 - |N x D|^2 = D_z^2 - c (D_x^2 + D_y^2):
-
-the perpendicular form, whose error is EPS (distance / radius) where the textbook's is EPS (distance / radius)^2,
-so that a sphere is not lost far away, at the price of three products. The root nearest to an origin outside is
-c / (b + sqrt), the stable one; c is a constant of the sphere for rays from the eye, and right however near the surface
-is (see placed). D is scaled by a power of two to about 1, which rounds nothing, and t by the same afterwards: no size
-or distance from 1e-150 to 1e150 overflows.
-References: E. Haines et al., Precision Improvements for Ray/Sphere Intersection, Ray Tracing Gems (2019), chapter 7;
-D. Goldberg, What Every Computer Scientist Should Know About Floating-Point Arithmetic (1991), section 1.4.
+As far as its direction goes, the normal at P of a round sphere is P - center, and of an ellipsoid A^-T q with q =
+A^-1 (P - center) in two steps: the product A^-T A^-1 would square the ratio of its axes, whereas an error of q along a
+short axis is an error along the normal, which does not count.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
-from ..maths.vector import difference, dot, inner, is_lattice, is_one, linear, matvec, norm
-from ..records import SPHERE
-from .in_camera import Placed
-
-KINDS = (SPHERE,)
-
-
-@dataclass(frozen=True)
-class View:
-    """The constants of spheres as the eye sees them; the last axis counts the spheres."""
-
-    matrix: np.ndarray
-    """(3, 3, n): camera direction to D, scaled, turned so that the eye sees the center along its z axis, or so that
-    parallel rays run along it, and about that until D_y does not depend on the direction's x."""
-    scale: np.ndarray
-    """(n,): the power of two that D is scaled by."""
-    center: np.ndarray
-    """(3, n) camera frame."""
-    distance: np.ndarray
-    """(n,): n, from the eye to the center in radii."""
-    outside: np.ndarray
-    """(n,): c = n^2 - 1, positive where the eye is outside."""
-    near: np.ndarray
-    """(n,): scale c."""
-    wide: np.ndarray
-    """(2, 3, n): the first two rows of ``matrix`` times the root of c; NaN where the eye is inside."""
+from ..conventions import EPS, gamma
+from ..maths.speed import Scratch
+from ..maths.vector import components, difference, dot, matrix_rows, matvec, norm, unit
+from ..records import SPHERE, Shapes
+from . import sphere_rays
+from .affine import AffineErrors, AffineKind
+from .frames import InCamera, LocalRays, least
+from .kind import HitPixels, PixelNormals
 
 
-def view(placed: Placed, at, direction=None) -> View:
-    """Return the constants of the spheres in these rows; for parallel rays with the direction that they all have."""
-    outside = placed.outside[at]
-    offset = np.ascontiguousarray(placed.offset[at].T)
-    distance = norm(offset)
-    matrix = np.ascontiguousarray(placed.shape_from_camera[at].transpose(1, 2, 0))  # long arrays, so fast ones
-    scale = np.ldexp(1.0, -np.frexp(np.abs(matrix).max(axis=(0, 1)))[1])
-    matrix *= scale
-    axes = _towards(offset if direction is None else matvec(matrix, direction))
-    matrix = np.stack(_levelled([dot(axis, matrix) for axis in axes]))
-    with np.errstate(invalid="ignore"):
-        wide = np.sqrt(outside) * matrix[:2]
-    return View(matrix, scale, placed.center[at].T, distance, outside, scale * outside, wide)
+class Sphere(AffineKind):
+    """Spheres and ellipsoids."""
+
+    number = SPHERE
+    name = "sphere"
+
+    def extent(self, shapes: Shapes, at: np.ndarray, axes: np.ndarray):
+        """See ``Kind``. The radius is the root of the largest row sum of the axes' Gram matrix (Gershgorin): the
+        longest axis, where they are at right angles.
+        """
+        gram = np.abs(np.einsum("nij,nkj->nik", axes, axes))
+        ahead = axes[..., 2]
+        return np.sqrt(gram.sum(axis=2).max(axis=1)), np.sqrt(np.einsum("ni,ni->n", ahead, ahead))
+
+    def is_close(self, offset: np.ndarray, shape_from_world: np.ndarray, away: np.ndarray) -> np.ndarray:
+        """See ``Kind``: near the surface |N|^2 - 1 cancels."""
+        return np.sqrt((offset * offset).sum(axis=-1)) < sphere_rays.CLOSE
+
+    def constants(self, shapes: InCamera, at: np.ndarray, parallel: Any) -> sphere_rays.Constants:
+        """See ``AffineKind``."""
+        return sphere_rays.constants(shapes, at, parallel)
+
+    def intersect(self, constants: sphere_rays.Constants, origin, direction, start: float | None, scratch: Scratch):
+        """See ``AffineKind``. From inside, the far wall is hit."""
+        return sphere_rays.intersect(constants, origin, direction, start, scratch)
+
+    def lattice(self, constants: sphere_rays.Constants, direction) -> sphere_rays.Lattice:
+        """See ``AffineKind``."""
+        return sphere_rays.Lattice(constants, direction)
+
+    def normals(self, shapes: InCamera, at: np.ndarray) -> tuple[np.ndarray, PixelNormals | None]:
+        """See ``Kind``; outward. Round spheres have constants: 1 / radius, and from the center to the eye in radii."""
+        is_round = _is_round(shapes.shapes, at)
+        gain = 1 / np.abs(np.where(is_round, shapes.shapes.axes[at, 0, 0], np.nan))[:, None]
+        offset = (shapes.pose.eye - shapes.shapes.center[at]) * gain + 0.0  # never -0
+        curved = at[~is_round]
+        return np.hstack((gain, offset)), _curved(shapes, curved) if curved.size else None
+
+    def surface_uv(self, q):
+        """Return u = longitude / 2 pi + 1/2 and v = latitude / pi + 1/2, both 0 .. 1; u is undefined at the poles."""
+        x, y, z = q
+        return np.arctan2(y, x) / (2 * np.pi) + 0.5, np.arctan2(z, np.hypot(x, y)) / np.pi + 0.5
+
+    def root_error(self, hits: AffineErrors) -> np.ndarray:
+        """Return how far tau may be from a root of |tau D - N|^2 = 1."""
+        local, tau = hits.local, hits.tau
+        d, a = norm(local.d), dot(local.d, local.d)
+        a_error = 2 * d * local.d_error + local.d_error**2 + gamma(4) * a
+        q = local.q(tau)
+        length = norm(q)
+        q_error = np.abs(tau) * local.d_error + local.n_error + gamma(2) * (np.abs(tau) * d + norm(local.n))
+        far = np.abs((length - 1) * (length + 1)) + 2 * length * q_error + q_error**2 + gamma(6) * (length * length + 1)
+        b, b_error = local.inner, local.product_error()
+        c, c_rest = _outside(hits.shapes, hits.pixels.at, local)
+        terms = a * tau * tau + 2 * np.abs(b * tau) + np.abs(c)
+        near = np.abs((a * tau - 2 * b) * tau + c) + gamma(8) * terms + c_rest
+        near = near + tau * tau * a_error + 2 * np.abs(tau) * b_error
+        residual = least(far, near)
+        slope = np.abs(dot(q, local.d))
+        slope_error = length * local.d_error + d * q_error + gamma(4) * length * d
+        low, high = slope - slope_error, slope + slope_error
+        room = low * low - (a + a_error) * residual
+        apart = np.sqrt(high * high + (a + a_error) * residual)
+        return np.where((low > 0) & (room > 0), residual / (low + np.sqrt(room)), (high + apart) / (a - a_error))
+
+    def normal_error(self, hits: AffineErrors, point: np.ndarray) -> np.ndarray:
+        """See ``AffineKind``: what moves the gradient aside turns it, what moves it along itself does not."""
+        local, t = hits.local, hits.pixels.t
+        q = local.q(hits.tau)
+        gradient = matvec(matrix_rows(np.swapaxes(local.matrix, -1, -2)), q)
+        length = norm(gradient)
+        span = t * norm(hits.rays.direction) + local.away
+        reach = point + (local.rounding + gamma(8)) * (point + span)
+        aside, along = 0.0, 0.0
+        for i, row in enumerate(matrix_rows(local.matrix)):
+            row = tuple(row)
+            size, share = norm(row), dot(row, gradient) / length
+            tilt = norm(tuple(r - share * g / length for r, g in zip(row, gradient, strict=True))) + gamma(8) * size
+            q_error = size / local.scale * reach
+            aside = aside + tilt * q_error + size * (local.rounding + gamma(8)) * (np.abs(q[i]) + q_error)
+            along = along + size * q_error
+        error = np.where(along < length / 2, aside / (length - along), 2.0)
+        if hits.unit:
+            error = error + np.where(_is_round(hits.shapes.shapes, hits.pixels.at), along / length, 0.0)
+        return error
+
+    def decide(self, shapes: InCamera, at: np.ndarray, local: LocalRays):
+        """Return the discriminant |D|^2 - |N x D|^2, in scaled units, and the bound below which hit or miss is open.
+
+        The bound is the lesser of two: of this form, EPS (distance / radius), and of b^2 - |D|^2 c where c is exact,
+        which is better near the surface.
+        """
+        d, across = norm(local.d), norm(local.cross)
+        moved = local.product_error()
+        value = (d - across) * (d + across)
+        error = 2 * d * local.d_error + 2 * across * moved + local.d_error**2 + moved**2
+        error = error + gamma(8) * (d * d + across * across)
+        b, b_error = local.inner, moved
+        c, c_rest = _outside(shapes, at, local)
+        c_error = gamma(4) * np.abs(c) + c_rest
+        d_squared = 2 * d * local.d_error + local.d_error**2
+        near = 2 * np.abs(b) * b_error + b_error**2 + (np.abs(c) + c_error) * d_squared + d * d * c_error
+        near = near + gamma(8) * (b * b + d * d * np.abs(c))
+        return np.where(near < error, b * b - d * d * c, value), least(error, near)
 
 
-def _towards(vector):
-    """Return the axes, each three components, of a frame whose z axis is along a vector; any frame where that is 0.
-
-    The normals follow Duff et al., Building an Orthonormal Basis, Revisited (2017), which has no singular direction.
-    """
-    length = norm(vector)
-    somewhere = length > 0
-    x, y, z = np.where(somewhere, vector, [[0.0], [0.0], [1.0]]) / np.where(somewhere, length, 1.0)
-    sign = np.copysign(1.0, z)
-    a = -1 / (sign + z)
-    b = x * y * a
-    return (1 + sign * x * x * a, sign * b, -sign * x), (b, sign + y * y * a, -y), (x, y, z)
+def _is_round(shapes: Shapes, at: np.ndarray) -> np.ndarray:
+    """Return which shapes are spheres whose axes are the world's, so that one number scales all."""
+    axes = shapes.axes[at]
+    return (axes == axes[:, :1, :1] * np.eye(3)).all(axis=(1, 2))
 
 
-def _levelled(matrix):
-    """Return the rows of matrices turned about their z axis until the second begins with 0 (a Givens rotation)."""
-    first, second, third = matrix
-    size = np.hypot(first[0], second[0])
-    somewhere = size > 0
-    size = np.where(somewhere, size, 1.0)
-    cosine, sine = np.where(somewhere, first[0] / size, 1.0), second[0] / size
-    level = cosine * second - sine * first
-    level[0] = 0.0
-    return cosine * first + sine * second, level, third
+def _curved(shapes: InCamera, at: np.ndarray) -> PixelNormals:
+    """Return what gives the unit normals of hit pixels of the ellipsoids at these indices."""
+    matrix = shapes.shape_from_world[at]
+    power = -np.frexp(np.abs(matrix).max(axis=(1, 2), initial=0.0))[1]
+    matrix = np.ldexp(matrix, power[:, None, None])  # about 1
+    center = np.ldexp(shapes.offset[at], power[:, None])
+    place = np.zeros(len(shapes.shapes), np.intp)
+    place[at] = np.arange(len(at))
+
+    def normals(pixels: HitPixels, point, direction):
+        here = place[pixels.at]
+        own = matrix[here]
+        q = difference(matvec(matrix_rows(own), point), components(center[here]))
+        normal = unit(matvec(matrix_rows(np.swapaxes(own, 1, 2)), q))
+        if direction is None:
+            return normal
+        towards = -np.sign(dot(normal, direction))
+        return tuple(towards * component for component in normal)
+
+    return normals
 
 
-def intersect(sphere: View, kind: int, origin, direction, start: float | None, scratch):
-    """Return t of the first crossing at or beyond ``start``, NaN where there is none, and None (no further mask).
-
-    ``sphere`` holds one row, or rows shaped to broadcast with the rays. origin is None for rays from the eye, else
-    three broadcastable components in the camera frame, as direction is. start is None where the eye is outside and
-    nothing of the sphere lies before the clip start: then the near root alone decides. From inside, the far wall is
-    hit. A ray that is NaN hits nothing. t may lie in an array of ``scratch``.
-    """
-    if origin is None and start is None:
-        if is_lattice(direction):
-            return Lattice(sphere, kind, direction).meet_all(scratch)
-        return _near_from_eye(sphere, direction, scratch), None
-    if origin is not None and start is None and is_one(direction) and is_lattice(origin):
-        return _near_parallel(sphere, origin, direction, scratch), None
-    shape = np.broadcast_shapes(np.shape(sphere.outside), *map(np.shape, direction), *map(np.shape, origin or ()))
-    d = _turned(sphere.matrix, direction, "d", shape, scratch)
-    if origin is None:
-        b = sphere.distance * d[2]
-        c = sphere.outside
-        discriminant = d[2] * d[2] - c * (d[0] * d[0] + d[1] * d[1])
-    else:
-        to_shape = sphere.matrix / sphere.scale
-        n = _turned(to_shape, difference(sphere.center, origin), "n", shape, scratch)
-        b, c, a, spare = (scratch(name, shape) for name in ("found", "ahead", "across", "spare"))
-        inner(n, d, b, spare)
-        distance = np.sqrt(inner(n, n, c, spare), out=a)
-        np.multiply(np.subtract(distance, 1, out=c), np.add(distance, 1, out=spare), out=c)
-        discriminant = np.subtract(inner(d, d, a, spare), _cross_square(n, d, shape, scratch), out=a)
-    root = np.sqrt(discriminant)
-    if start is None:
-        return np.divide(sphere.scale * c, np.add(b, root, out=root), out=root), None
-    stable = b + np.copysign(root, b)
-    first, second = sphere.scale * c / stable, sphere.scale * stable / dot(d, d)
-    near, far = np.minimum(first, second), np.maximum(first, second)
-    t = np.where(near >= start, near, far)
-    return np.where(t >= start, t, np.nan), None
+def _outside(shapes: InCamera, at: np.ndarray, local: LocalRays) -> tuple[Any, Any]:
+    """Return |N|^2 - 1 where it is a constant of the shape, NaN elsewhere, and what to add to gamma(4) of it."""
+    c = np.full(np.shape(local.away), np.nan)
+    if local.from_eye:
+        c = np.where(norm(local.n) < 1.9, sphere_rays.outside(shapes, at), c)
+    return c, 64 * EPS * EPS * (1 + local.size * local.size)
 
 
-def _turned(matrix, vector, name: str, shape, scratch):
-    """Return matrix @ vector as components: in working arrays, where they are as large as those."""
-    if np.broadcast_shapes(*map(np.shape, vector)) != shape:
-        return matvec(matrix, vector)
-    spare = scratch("spare", shape)
-    return tuple(linear(row, vector, scratch(f"{name} {i}", shape), spare) for i, row in enumerate(matrix))
-
-
-def _cross_square(n, d, shape, scratch):
-    """Return |N x D|^2 in a working array."""
-    total, product, other = (scratch(name, shape) for name in ("square", "product", "spare"))
-    total.fill(0)
-    for i, j in ((1, 2), (2, 0), (0, 1)):
-        np.subtract(np.multiply(n[i], d[j], out=product), np.multiply(n[j], d[i], out=other), out=product)
-        np.add(total, np.multiply(product, product, out=product), out=total)
-    return total
-
-
-def _near_from_eye(sphere: View, direction, scratch):
-    """Return near / (b + sqrt(D_z |D_z| - c (D_x^2 + D_y^2))): NaN also where the ray looks away (D_z < 0)."""
-    z, t, across = _working(sphere, direction, scratch)
-    linear(sphere.matrix[2], direction, z, across)
-    np.multiply(z, np.abs(z, out=t), out=t)
-    spare = scratch("spare", t.shape)
-    for row in sphere.wide:
-        linear(row, direction, across, spare)
-        np.subtract(t, np.multiply(across, across, out=across), out=t)
-    return _roots(sphere, z, t)
-
-
-class Lattice:
-    """Spheres and the rays of a pinhole: x is a row, y a column, z a number. The near roots follow from
-
-        D_z^2 - c (D_x^2 + D_y^2) = (D_z - wide D_x) (D_z + wide D_x) - (wide D_y)^2,  wide = root of c,
-
-    in which either factor is a row plus a column, and the last term a column.
-    """
-
-    def __init__(self, spheres: View, kind: int, direction):
-        """Take constants with two axes behind the one that counts the spheres."""
-        x, y, z = direction
-        (across, up), ahead = spheres.wide, spheres.matrix[2]
-        to_x, to_y, to_z = np.stack((ahead - across, ahead + across, spheres.distance * ahead, up), axis=1)
-        self._row, self._column = to_x[:3] * x, to_y * y + to_z * z
-        self._column[3] *= self._column[3]
-        self._near = spheres.near
-        self._away = self._row[2].min(axis=(1, 2)) + self._column[2].min(axis=(1, 2)) < 0
-
-    def meet(self, at: int, window, scratch):
-        """Return t in a window of the rays for one sphere, and None, as ``intersect`` does."""
-        rows, columns = window
-        terms = self._row[:, at, :, columns], self._column[:, at, rows]
-        return _near(*terms, self._near[at], self._away[at], scratch), None
-
-    def meet_all(self, scratch):
-        """Return the same for all spheres, each with the rays of a window of its own."""
-        return _near(self._row, self._column, self._near, self._away.any(), scratch), None
-
-
-def _near(row, column, near, away: bool, scratch):
-    """Return the near roots from their terms; ``away``: some of the rays may look away."""
-    shape = *column.shape[1:-1], row.shape[-1]
-    t, ahead = scratch("found", shape), scratch("ahead", shape)
-    np.add(row[0], column[0], out=t)
-    np.multiply(t, np.add(row[1], column[1], out=ahead), out=t)
-    np.subtract(t, column[3], out=t)
-    np.sqrt(t, out=t)
-    np.add(row[2], column[2], out=ahead)
-    np.divide(near, np.add(t, ahead, out=t), out=t)
-    if away:
-        np.copyto(t, np.nan, where=ahead < 0)
-    return t
-
-
-def _near_parallel(sphere: View, origin, direction, scratch):
-    """Return (N_z - sqrt(1 - N_x^2 - N_y^2)) / D_z, for rays along z whose origins are a row and a column."""
-    x, y, z = difference(sphere.center, origin)
-    to_x, to_y, to_z = sphere.matrix
-    ahead, t, across = _working(sphere, (x, y, z), scratch)
-    level = to_y[1] * y + to_y[2] * z
-    np.add(to_x[0] * x, to_x[1] * y + to_x[2] * z, out=across)
-    np.subtract(sphere.scale * sphere.scale - level * level, np.multiply(across, across, out=across), out=t)
-    np.add(to_z[0] * x, to_z[1] * y + to_z[2] * z, out=ahead)
-    np.subtract(ahead, np.sqrt(t, out=t), out=t)
-    return np.divide(t, dot(to_z, direction), out=t)
-
-
-def _working(sphere: View, vector, scratch):
-    shape = np.broadcast_shapes(np.shape(sphere.outside), *map(np.shape, vector))
-    return (scratch(name, shape) for name in ("ahead", "found", "across"))
-
-
-def _roots(sphere: View, ahead, t):
-    """Turn discriminants into t, in place."""
-    np.sqrt(t, out=t)
-    np.add(t, np.multiply(ahead, sphere.distance, out=ahead), out=t)
-    return np.divide(sphere.near, t, out=t)
-
-
-def uv(q):
-    """Return u = longitude / 2 pi + 1/2 and v = latitude / pi + 1/2, both 0 .. 1; u is undefined at the poles."""
-    x, y, z = q
-    return np.arctan2(y, x) / (2 * np.pi) + 0.5, np.arctan2(z, np.hypot(x, y)) / np.pi + 0.5
+SPHERES = Sphere()

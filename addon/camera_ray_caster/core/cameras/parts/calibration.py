@@ -11,6 +11,7 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 from math import isfinite
+from reprlib import repr as shortened
 
 from ...records import BlenderCamera, InputError, Raster
 from .filestorage import read_entries
@@ -114,12 +115,13 @@ def _file_values(path: str, distortion: tuple[Setting, ...]) -> dict[str, float]
     matrix = _numbers(entries, MATRIX_NAMES, path)
     if len(matrix) != 9 or matrix[1] or matrix[3:4] != [0] or matrix[6:] != [0, 0, 1] or min(matrix[0], matrix[4]) <= 0:
         raise InputError(
-            f"the camera matrix in {path!r} is {matrix}: it must be fx 0 cx, 0 fy cy, 0 0 1, with fx and fy above 0"
+            f"the camera matrix in {path!r} is {shortened(matrix)}: "
+            "it must be fx 0 cx, 0 fy cy, 0 0 1, with fx and fy above 0"
         )
     found = _numbers(entries, DISTORTION_NAMES, path)
     if any(found[len(names) :]):
         raise InputError(
-            f"{path!r} has {len(found)} distortion coefficients, {found}: only {', '.join(names)} may be other than 0"
+            f"{path!r} has {len(found)} distortion coefficients: only {', '.join(names)} may be other than 0"
         )
     values = {"fx": matrix[0], "fy": matrix[4], "cx": matrix[2], "cy": matrix[5]}
     values |= dict.fromkeys(names, 0.0) | dict(zip(names, found, strict=False))
@@ -137,9 +139,9 @@ def _numbers(entries, spellings, path: str) -> list[float]:
         try:
             numbers = [float(item) for item in items]
         except (TypeError, ValueError) as error:
-            raise InputError(f"{name} in {path!r} is {value!r}: it must be of numbers") from error
+            raise InputError(f"{name} in {path!r} is {shortened(value)}: it must be of numbers") from error
         if not numbers or not all(map(isfinite, numbers)):
-            raise InputError(f"{name} in {path!r} is {value!r}: it must be of finite numbers")
+            raise InputError(f"{name} in {path!r} is {shortened(value)}: it must be of finite numbers")
         return numbers
     raise InputError(f"{path!r} has no {spellings[0]} (known names, in any case: {', '.join(spellings)})")
 

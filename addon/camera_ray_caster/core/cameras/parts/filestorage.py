@@ -1,8 +1,6 @@
-"""Reads calibration files as OpenCV's cv::FileStorage writes them, YAML and JSON, without a library for YAML.
+"""Reads the files of calibrations: YAML and JSON as OpenCV's cv::FileStorage and its relatives write them.
 
-Of YAML only what FileStorage writes for numbers and matrices: "name: value" at the margin; indented below a name
-"rows", "cols", "dt" and "data: [ ... ]", which may run over lines; comments. Anything else is passed over. JSON is JSON
-but for comments and the words .Nan and .Inf.
+JSON is read by the standard library; beyond the standard, OpenCV writes the words .Nan and .Inf, and comments.
 Reference: OpenCV documentation, File Input and Output using XML / YAML / JSON files.
 """
 
@@ -10,61 +8,71 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Mapping
 from pathlib import Path
 
 from ...records import InputError
+from .yaml_subset import YamlError, parse
 
-COMMENT = re.compile(r"(^|[ \t])#[^\"\n]*$", re.MULTILINE)
-ENTRY = re.compile(r"^([A-Za-z_][\w-]*)[ \t]*:(.*(?:\n(?:[ \t-].*|$))*)", re.MULTILINE)
-DATA = re.compile(r"^\s*data:\s*\[(.*?)\]", re.MULTILINE | re.DOTALL)
-JSON_TOKEN = re.compile(r'"(?:\\.|[^"\\])*"|//[^\n]*|-?\.(?:Nan|Inf)')
+LARGEST = 1 << 20
+"""Bytes of a file that is read: a calibration has a few thousand, with all images' points some hundred thousand."""
+
+JSON_TOKEN = re.compile(r'"(?:\\.|[^"\\])*"?|//[^\n]*|-?\.(?:Nan|Inf)')
+JSON_WORDS = {"//": "", ".N": "NaN", ".I": "Infinity", "-.": "-Infinity"}
 
 
 def read_entries(path: str) -> dict[str, object]:
-    """Return the entries of a file by name: texts and numbers as they stand, matrices as flat lists.
+    """Return the entries of a file by name: texts and numbers as they stand, matrices as flat lists, mappings as such.
 
-    Raises InputError where the file cannot be read or is neither YAML nor JSON.
+    Raises InputError, in one line, where the file cannot be read, is larger than LARGEST or neither YAML nor JSON.
     """
-    try:
-        text = Path(path).read_text(encoding="utf-8-sig")
-    except (OSError, UnicodeDecodeError) as error:
-        reason = getattr(error, "strerror", None) or "it is not a text file"
-        raise InputError(f"calibration file {path!r} cannot be read: {reason}") from error
+    text = _text(Path(path), path)
     if text.lstrip().startswith("{"):
-        return _json_entries(text, path)
-    entries = {name: _yaml_value(body) for name, body in ENTRY.findall(COMMENT.sub("", text))}
+        plain = JSON_TOKEN.sub(lambda token: JSON_WORDS.get(token[0][:2], token[0]), text)
+        try:
+            entries = json.loads(plain, parse_int=float)  # of any number of digits
+        except (json.JSONDecodeError, RecursionError) as error:
+            reason = error if isinstance(error, json.JSONDecodeError) else "it is nested too deeply"
+            raise InputError(f"calibration file {path!r} is not JSON: {reason}") from error
+    else:
+        try:
+            entries = parse(text)
+        except YamlError as error:
+            reason = f"neither YAML nor JSON as OpenCV writes it: {error}"
+            raise InputError(f"calibration file {path!r} is {reason}") from error
     if not entries:
-        raise InputError(f"calibration file {path!r} is neither YAML nor JSON as OpenCV writes it")
-    return entries
-
-
-def _yaml_value(body: str):
-    data = DATA.search(body)
-    if data:
-        return _items(data[1])
-    value = body.strip()
-    return _items(value[1:-1]) if value[:1] == "[" and value[-1:] == "]" else value.strip("\"'")
-
-
-def _items(text: str) -> list[str]:
-    return [item.strip() for item in text.replace("[", " ").replace("]", " ").split(",") if item.strip()]
-
-
-def _json_entries(text: str, path: str) -> dict[str, object]:
-    words = {"//": "", ".N": "NaN", ".I": "Infinity", "-.": "-Infinity"}
-    plain = JSON_TOKEN.sub(lambda token: words.get(token[0][:2], token[0]), text)
-    try:
-        entries = json.loads(plain)
-    except json.JSONDecodeError as error:
-        raise InputError(f"calibration file {path!r} is not JSON: {error}") from error
+        raise InputError(f"calibration file {path!r} is empty: choose one that OpenCV has written")
     return {name: _flat(value) for name, value in entries.items()}
+
+
+def _text(file: Path, path: str) -> str:
+    """Return the text of a file."""
+    refusal = f"calibration file {path!r} cannot be read"
+    try:
+        if file.exists() and not file.is_file():
+            raise InputError(f"{refusal}: it is a {'directory' if file.is_dir() else 'device'}, not a file")
+        if file.stat().st_size > LARGEST:
+            raise InputError(f"{refusal}: it is larger than {LARGEST >> 20} MB, as no calibration is")
+        return file.read_text(encoding="utf-8-sig")
+    except (OSError, ValueError) as error:
+        if isinstance(error, InputError):
+            raise
+        reason = error.strerror if isinstance(error, OSError) else "it is not a text file"
+        raise InputError(f"{refusal}: {reason}") from error
 
 
 def _flat(value):
     """Return a matrix, as OpenCV or as nested lists, as a flat list; anything else as it is."""
-    if isinstance(value, Mapping):
-        return _flat(value.get("data", ""))
-    if isinstance(value, list):
-        return [number for row in value for number in (_flat(row) if isinstance(row, list) else [row])]
-    return value
+    if isinstance(value, dict) and "data" in value:
+        value = value["data"]
+    if not isinstance(value, list):
+        return value
+    flat, waiting = [], [iter(value)]
+    while waiting:
+        for entry in waiting[-1]:
+            if isinstance(entry, list):
+                waiting.append(iter(entry))
+                break
+            flat.append(entry)
+        else:
+            waiting.pop()
+    return flat

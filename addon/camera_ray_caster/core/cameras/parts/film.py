@@ -7,10 +7,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...records import BlenderCamera, InputError, Raster
-from .settings import ABOVE_ZERO, CAMERA, Choice, Item, Number
+from .settings import ABOVE_ZERO, CAMERA, RENDER, Choice, Item, Number
 
-FINITE = "shift_x", "shift_y", "border_min_x", "border_max_x", "border_min_y", "border_max_y"
-"""What Blender does not clamp where a driver or a script sets it to nan or inf."""
+BORDER = "border_min_x", "border_max_x", "border_min_y", "border_max_y"
+FARTHEST_SHIFT = 1e6
+"""Frames: beyond that a pixel of the frame is no longer told from its neighbor in float32."""
 
 
 LENS = Number("lens", "Focal Length", "From the eye to the film", 50.0, ABOVE_ZERO, unit="mm", owner=CAMERA)
@@ -39,8 +40,14 @@ SENSOR_HEIGHT = Number(
     unit="mm",
     owner=CAMERA,
 )
-SHIFT_X = Number("shift_x", "Shift X", "Moves the frame to the right on the image plane", 0.0, owner=CAMERA)
-SHIFT_Y = Number("shift_y", "Shift Y", "Moves the frame up on the image plane", 0.0, owner=CAMERA)
+SHIFT_X, SHIFT_Y = (
+    Number(name, label, f"Moves the frame {way} on the image plane", 0.0, -FARTHEST_SHIFT, FARTHEST_SHIFT, owner=CAMERA)
+    for name, label, way in (("shift_x", "Shift X", "to the right"), ("shift_y", "Shift Y", "up"))
+)
+PIXEL_ASPECT_X, PIXEL_ASPECT_Y = (
+    Number(f"pixel_aspect_{axis}", f"Pixel Aspect {axis.upper()}", f"{side} of a pixel", 1.0, 1e-6, 1e6, owner=RENDER)
+    for axis, side in (("x", "Width"), ("y", "Height"))
+)
 
 SHIFT = SHIFT_X, SHIFT_Y
 FILM = SENSOR_FIT, SENSOR_WIDTH, SENSOR_HEIGHT, *SHIFT
@@ -56,15 +63,16 @@ def raster_from(raw: BlenderCamera) -> Raster:
     including, int(max * width), rows likewise from the bottom, the product rounded to float32 first, as in Blender's
     C code (0.7 of 10 is column 7 there, 6 in float64). Cropping changes where the window is stored, not its rays.
 
-    Raises InputError for a frame or a border without pixels, for a pixel aspect that is not a positive number and for
-    a shift or a border that is not finite.
+    Raises InputError for a frame or a border without pixels, for a border that is not finite, and for a pixel aspect or
+    a shift without meaning.
     """
-    for name in FINITE:
+    for shift in SHIFT:
+        shift.read(raw)  # by models that do not use it, too: a driver or a script may have set it to nan
+    for name in BORDER:
         if not np.isfinite(getattr(raw, name)):
             raise InputError(f"{name} of camera {raw.name!r} is {getattr(raw, name)}: it must be a finite number")
-    for name in ("pixel_aspect_x", "pixel_aspect_y"):
-        if not 0 < getattr(raw, name) < np.inf:
-            raise InputError(f"{name} is {getattr(raw, name)}: it must be a positive number")
+    for aspect in (PIXEL_ASPECT_X, PIXEL_ASPECT_Y):
+        aspect.read(raw)
     width = raw.resolution_x * raw.resolution_percentage // 100
     height = raw.resolution_y * raw.resolution_percentage // 100
     if width < 1 or height < 1:

@@ -15,7 +15,6 @@ from typing import ClassVar
 
 import numpy as np
 
-from ...conventions import gamma
 from ...maths.chebyshev import Disc, is_raster, on_raster
 from ...maths.vector import components
 from ..model import Step, WindowModel
@@ -46,8 +45,10 @@ RAY = Step("Direction, azimuth kept", "d = (a/r sin(theta), b/r sin(theta), -cos
 TINY = 1e-300
 """A radius whose square is lost and whose reciprocal is finite: what stands for r = 0."""
 
-AT_THE_RIM = 1 + gamma(16)
-"""A point at the very rim is seen, though rounding may put it this far beyond."""
+RIM_SLACK = 2.0**-30
+"""Radians beyond the rim within which a point counts as being on it: rounding moves that far a point that is a million
+times nearer to the eye than to the world's origin. So a point on any ray of a picture has a pixel.
+"""
 
 
 @dataclass(frozen=True)
@@ -72,7 +73,7 @@ class Radial(WindowModel):
 
     @abstractmethod
     def radius(self, theta):
-        """Return r of angles 0 .. pi from the axis, the least one that sees them; NaN where none does."""
+        """Return r of angles 0 .. pi from the axis, up to ``widest``, the least one that sees them; NaN stays NaN."""
 
     @property
     @abstractmethod
@@ -121,7 +122,7 @@ class Radial(WindowModel):
         """
         x, y, z = components(np.asarray(points, np.float64))
         across = np.hypot(x, y)
-        r = self.radius(np.arctan2(across, -z))
+        r = np.minimum(self.radius(up_to(self.widest, np.arctan2(across, -z))), self.rim)
         defined = (across > 0) | ((z < 0) & (r == 0))
         scale = np.where(defined, r / np.where(across > 0, across, 1.0), np.nan)
         return np.stack(self.window.pixels_from_plane(x * scale, y * scale), axis=-1)
@@ -136,6 +137,6 @@ def radii_of(r_squared):
     return np.maximum(np.sqrt(r_squared), TINY)
 
 
-def up_to(rim: float, r):
-    """Return radii, NaN where they lie beyond the rim by more than rounding."""
-    return np.where(r <= rim * AT_THE_RIM, r, np.nan)
+def up_to(widest: float, theta):
+    """Return angles up to the widest one; NaN where they lie beyond by more than RIM_SLACK."""
+    return np.where(theta <= widest + RIM_SLACK, np.minimum(theta, widest), np.nan)

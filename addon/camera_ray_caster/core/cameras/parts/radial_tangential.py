@@ -21,8 +21,8 @@ from math import atan, hypot, inf, radians, tan
 import numpy as np
 from numpy.polynomial.polynomial import polyval
 
-from ...conventions import EPS
 from ...maths.inversion import Inverse
+from ...maths.recording import is_recorded, loop, roundoff
 
 STEEPEST = tan(radians(89.9))
 """The largest undistorted radius that an endless picture is given."""
@@ -72,7 +72,7 @@ class RadialTangential:
 
     def cancelled(self, r_squared):
         """Return how much larger the terms of g are than their sums: what its rounding is multiplied with."""
-        s, k = np.asarray(r_squared), self
+        s, k = r_squared, self
         terms = ((k.k1, k.k2, k.k3), (k.k4, k.k5, k.k6))
         parts = (((1.0, *own), (1.0, *map(abs, own))) for own in terms)
         return sum(polyval(s, larger) / np.abs(polyval(s, own)) for own, larger in parts)
@@ -150,6 +150,8 @@ class RadialTangential:
             return tuple(np.array(part) for part in np.broadcast_arrays(u, v))
         u, v = np.broadcast_arrays(u, v)
         radial = not any((self.p1, self.p2, self.s1, self.s2, self.s3, self.s4))
+        if is_recorded(u, v) and not radial:
+            return self._careful(u, v)
         rho = np.hypot(u, v)
         r = self._radius(rho) if radial else self._radius.guess(rho)
         scale = np.where(rho > 0, r / np.where(rho > 0, rho, 1.0), 1.0)
@@ -184,24 +186,28 @@ class RadialTangential:
 
     def _careful(self, u, v):
         """Newton's method from the axis, each step halved until it comes nearer, and kept within the limit."""
-        x, y, share = np.zeros_like(u), np.zeros_like(v), np.ones_like(u)
-        off = self._off(x, y, u, v)
-        for _ in range(STEPS):
+
+        def goal(x, y, u, v):
             radius = np.hypot(x, y)
-            goal = 8 * EPS * (np.hypot(u, v) * self.cancelled(radius * radius) + self.off_radius(radius))
-            error = np.hypot(*off)
-            if not (error > goal).any():
-                break
+            return 8 * roundoff(u) * (np.hypot(u, v) * self.cancelled(radius * radius) + self.off_radius(radius))
+
+        def step(x, y, share, off_x, off_y, u, v):
             step_x, step_y = self._step(x, y, u, v)
             next_x, next_y = x - share * step_x, y - share * step_y
-            inside = np.minimum(1.0, self.limit / np.maximum(np.hypot(next_x, next_y), 1e-300))
+            radius = np.hypot(next_x, next_y)
+            beyond = radius > self.limit
+            inside = np.where(beyond, self.limit / np.where(beyond, radius, 1.0), 1.0)
             next_x, next_y = next_x * inside, next_y * inside
-            next_off = self._off(next_x, next_y, u, v)
-            better = np.hypot(*next_off) < error
+            next_off_x, next_off_y = self._off(next_x, next_y, u, v)
+            better = np.hypot(next_off_x, next_off_y) < np.hypot(off_x, off_y)
             share = np.where(better, 1.0, share / 2)
             x, y = np.where(better, next_x, x), np.where(better, next_y, y)
-            off = tuple(np.where(better, new, old) for new, old in zip(next_off, off, strict=True))
-        found = np.hypot(*off) <= 4 * goal
+            off_x, off_y = np.where(better, next_off_x, off_x), np.where(better, next_off_y, off_y)
+            return (x, y, share, off_x, off_y, u, v), ~(np.hypot(off_x, off_y) > goal(x, y, u, v))
+
+        x, y = np.zeros_like(u), np.zeros_like(v)
+        x, y, _, *off, _, _ = loop(step, (x, y, np.ones_like(u), *self._off(x, y, u, v), u, v), STEPS)
+        found = np.hypot(*off) <= 4 * goal(x, y, u, v)
         return np.where(found, x, np.nan), np.where(found, y, np.nan)
 
     def _off(self, x, y, u, v):

@@ -21,6 +21,11 @@ FULL_TURN = 2 * math.pi
 ABOVE_ZERO = math.ulp(0.0)
 """The least of numbers that have to be positive."""
 
+LARGEST, LARGEST_ANGLE = 1e152, 1e4
+"""Magnitudes beyond which a number has no meaning, whatever its range: the square of a larger one is none, and float32
+keeps no hundredth of a degree of a larger angle.
+"""
+
 ROUNDING = 1e-6
 """Of itself: a limit stored as float32 may lie this much beyond."""
 
@@ -90,12 +95,13 @@ class Number(Setting):
 
         Raises InputError that names the setting, its value and the range.
         """
-        low, high = self.low if low is None else low, self.high if high is None else high
+        largest = LARGEST_ANGLE if self.unit == "angle" else LARGEST
+        low = max(self.low if low is None else low, -largest)
+        high = min(self.high if high is None else high, largest)
         value = self.given(raw)
         if (
             not isinstance(value, int | float)
-            or not math.isfinite(value)
-            or not low - ROUNDING * abs(low) <= value <= high + ROUNDING * abs(high)
+            or not low - ROUNDING * abs(low) <= value <= high + ROUNDING * abs(high)  # NaN is not
         ):
             raise self.refusal(raw, self.in_words(value), self.range_in_words(low, high))
         return float(value)
@@ -108,11 +114,11 @@ class Number(Setting):
 
     def range_in_words(self, low: float, high: float) -> str:
         """Return what a value may be."""
-        if (low, high) == (-math.inf, math.inf):
+        if (low, high) == (-LARGEST, LARGEST):
             return "a finite number"
         if low == ABOVE_ZERO:
-            return "above 0" if high == math.inf else f"above 0, up to {self.in_words(high)}"
-        if high == math.inf:
+            return "above 0" if high == LARGEST else f"above 0, up to {self.in_words(high)}"
+        if high == LARGEST:
             return f"{self.in_words(low)} or more"
         return f"from {self.in_words(low)} to {self.in_words(high)}"
 
@@ -170,7 +176,7 @@ class Numbers(Setting):
     def read(self, raw: BlenderCamera) -> tuple[float, ...]:
         """Return the numbers. Raises InputError that names the setting and its value."""
         values, count = tuple(self.given(raw)), len(self.default)
-        if len(values) != count or not all(isinstance(value, int | float) and math.isfinite(value) for value in values):
+        if len(values) != count or not all(isinstance(part, int | float) and abs(part) <= LARGEST for part in values):
             raise self.refusal(raw, f"{values}", f"{count} finite numbers")
         return values
 

@@ -7,7 +7,7 @@ import pytest
 
 from camera_ray_caster.core.cameras import MODELS
 
-from .test_scripts import refused, script
+from .running import refused, script
 
 
 def figures(tmp_path, *words):
@@ -17,8 +17,8 @@ def figures(tmp_path, *words):
     return done.stdout, json.loads((tmp_path / "figures.json").read_text())
 
 
-def test_the_contest_times_all_that_is_installed(blender, tmp_path):
-    text, rows = figures(tmp_path, "--quick", "--size", "64x36")
+def test_the_contest_times_all_that_is_installed(tmp_path):
+    text, rows = figures(tmp_path, "--quick", "--rounds", "1", "--size", "64x36")
     ours = {"ours, 4 passes", "ours, depth + index"}
     others = {"Cycles, 1 sample, 4 passes", "scene.ray_cast loop", "the same, its 4 passes kept"}
     for module, names in {

@@ -1,7 +1,5 @@
 """What a picture of many times leaves behind: the frame, the report, a warning, one line where a setting is wrong."""
 
-# ruff: noqa: F811 (fixtures are imported)
-
 import numpy as np
 import pytest
 
@@ -9,8 +7,8 @@ from camera_ray_caster.blender.output import reports
 from camera_ray_caster.blender.read.scene import read_camera, read_shapes
 from camera_ray_caster.core.records import InputError
 
-from ..read.scene_parts import new_object
-from ..read.time_scene import coordinates, disc, fan, key, same, scene, sphere, walked  # noqa: F401 (two are fixtures)
+from .scene_parts import new_object
+from .time_scene import coordinates, disc, fan, key, same, walked
 
 
 def test_what_is_not_resolved_is_warned_of_and_in_the_report(blender, scene, capfd):

@@ -1,0 +1,158 @@
+"""What follows from hits: directions, points, normals, uv, errors.
+
+Each is worked out when a pass first asks for it, once for all passes of a block, in working arrays of the thread.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ..errors.hits import HitErrors
+from ..maths.speed import Scratch, lazy
+from ..maths.vector import dot, inner, is_lattice, is_one, linear, matvec, norm
+from ..shapes.kind import HitPixels
+from ..shapes.kinds import by_kind
+from .hits import Hits
+from .plan import Plan
+
+ZERO = np.zeros((3, 1, 1))
+"""The term that adds nothing."""
+
+
+class HitValues:
+    """The values of a block of hits; vectors are three (rows, columns) components in the world."""
+
+    def __init__(self, hits: Hits):
+        self.hits = hits
+
+    @property
+    def plan(self) -> Plan:
+        """The plan of the cast."""
+        return self.hits.plan
+
+    @property
+    def scratch(self) -> Scratch:
+        """The working arrays of the thread."""
+        return self.hits.rays.scratch
+
+    def array(self, name: str, *channels: int) -> np.ndarray:
+        """Return the working array of this name, (*channels, rows, columns) float64; what it held is lost."""
+        return self.scratch(name, (*channels, *self.hits.t.shape), np.float64)
+
+    @lazy
+    def index(self) -> np.ndarray:
+        """The index of the hits as numpy looks things up."""
+        index = self.scratch("index as intp", self.hits.index.shape, np.intp)
+        np.copyto(index, self.hits.index)
+        return index
+
+    def look_up(self, table: np.ndarray, out: np.ndarray | str) -> np.ndarray:
+        """Return what a table (..., n + 1) has for each pixel's shape, its last entry where nothing is hit: in ``out``,
+        an array, or the name of one that the next call with this name overwrites.
+        """
+        if isinstance(out, str):
+            out = self.scratch(out, table.shape[:-1] + self.hits.t.shape, table.dtype.type)
+        return np.take(table, self.index, axis=-1, mode="wrap", out=out)
+
+    @lazy
+    def direction(self) -> Any:
+        """The directions of the rays, not of unit length."""
+        if self._lattice is None:
+            return matvec(self.plan.camera.pose.basis, self.hits.rays.direction)
+        return np.add(*self._lattice, out=self.array("direction", 3))
+
+    @lazy
+    def length(self) -> np.ndarray:
+        """Of ``direction``: distance over t; one for all parallel rays."""
+        if is_one(self.direction):
+            return np.full((1, 1), norm(self.direction))
+        length, spare = self.array("length"), self.array("spare")
+        return np.sqrt(inner(self.direction, self.direction, length, spare), out=length)
+
+    @lazy
+    def _lattice(self) -> tuple[np.ndarray, np.ndarray] | None:
+        """The two terms of a pinhole's directions, (3, 1, columns) and (3, rows, 1); None for others."""
+        if not is_lattice(self.hits.rays.direction):
+            return None
+        x, y, z = self.hits.rays.direction
+        to_x, to_y, to_z = self.plan.camera.pose.basis.T[..., None, None]
+        return to_x * x, to_y * y + to_z * z
+
+    @lazy
+    def point(self) -> np.ndarray:
+        """The hit points relative to the eye, (3, rows, columns); no numbers of meaning where nothing is hit."""
+        point = self.array("point", 3)
+        if self._lattice is not None:
+            np.add(*self._lattice, out=point)
+        else:
+            self._to_world(self.hits.rays.direction, point)
+        np.multiply(point, self.hits.t, out=point)
+        if not self.hits.rays.from_eye:
+            np.add(self._to_world(self.hits.rays.origin, self.array("offset", 3)), point, out=point)
+        return point
+
+    def _to_world(self, vector: Any, out: np.ndarray) -> np.ndarray:
+        """Return camera-frame components as world components, in ``out``."""
+        axes = self.plan.camera.pose.basis.T[..., None, None]
+        return linear(axes, vector, out, self.array("spare", 3))
+
+    @lazy
+    def normal_terms(self) -> tuple[np.ndarray, np.ndarray]:
+        """Two terms whose sum is ``normal`` where something is hit: storing it can add them."""
+        table = self.plan.normals
+        constants = self.look_up(table.constants, "constants")
+        gain, offset = constants[0], constants[1:]
+        normal = np.multiply(gain, self.point, out=self.array("turned", 3))
+        faces_eye = self.hits.rays.from_eye and all(one.faces_eye for one in self.plan.sets)
+        if faces_eye and table.is_sum:
+            return normal, offset
+        np.add(normal, offset, out=normal)
+        if not table.unit:
+            np.divide(normal, np.maximum(norm(normal), np.finfo(float).tiny), out=normal)
+        if not faces_eye:
+            np.multiply(-np.sign(dot(normal, self.direction)), normal, out=normal)
+        for which, normals in table.others:
+            pixels = self.pixels(self.look_up(which, "which"))
+            direction = None if faces_eye else self._at(pixels, self.direction)
+            own = normals(pixels, self._at(pixels, self.point), direction)
+            for component, values in zip(normal, own, strict=True):
+                component[pixels.where] = values
+        return normal, ZERO
+
+    @lazy
+    def normal(self) -> np.ndarray:
+        """Unit normals turned towards the rays' origins, (3, rows, columns); 0 where nothing is hit."""
+        normal = np.add(*self.normal_terms, out=self.array("normal", 3))
+        if self.hits.missed is not None:
+            np.copyto(normal, 0.0, where=self.hits.missed)
+        return normal
+
+    @lazy
+    def uv(self) -> list[tuple[np.ndarray, tuple[np.ndarray, np.ndarray]]]:
+        """The surfaces' own coordinates, kind by kind: where one is hit, (rows, columns) bool, and u and v there."""
+        seen = self.pixels(self.hits.seen)
+        found = []
+        for kind, some in by_kind(self.plan.shapes.kind[seen.at]):
+            pixels = seen.only(some)
+            found.append((pixels.where, kind.uv(self.plan.in_camera, pixels, self._at(pixels, self.point))))
+        return found
+
+    @lazy
+    def errors(self) -> HitErrors:
+        """How far from the exact picture the hits are at most."""
+        plan, hits = self.plan, self.hits
+        x, y = (np.broadcast_to(places, hits.t.shape)[hits.seen] for places in (hits.rays.x, hits.rays.y))
+        return HitErrors(plan.camera, plan.in_camera, self.pixels(hits.seen), x, y, plan.normals.unit)
+
+    def pixels(self, where: np.ndarray) -> HitPixels:
+        """Return pixels that hit something."""
+        hits = self.hits
+        return HitPixels(where, hits.index[where], hits.t[where], hits.first_row, self.scratch)
+
+    @staticmethod
+    def _at(pixels: HitPixels, vector: Any) -> tuple[np.ndarray, ...]:
+        """Return the components of the block at some of its pixels, (m,) each."""
+        shape = pixels.where.shape
+        return tuple(np.broadcast_to(component, shape)[pixels.where] for component in vector)

@@ -1,0 +1,44 @@
+"""Casting at given pixels: a lattice of some columns and some rows, at one moment."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from ..camera.camera import Camera
+from ..maths.speed import Scratch
+from ..records import Shapes
+from .hits import Hits
+from .passes import PASSES, store
+from .plan import Plan, make_plan
+from .rays import chief_rays
+from .request import Request
+from .search import nearest_hits
+
+
+def hits_at(plan: Plan, columns: np.ndarray, rows: np.ndarray) -> Hits:
+    """Return the hits of the chief rays of pixels: those of columns (k,) and rows (l,) of the full frame, ascending, in
+    the render window of the plan. The same plan serves any number of lattices, and the whole picture.
+    """
+    raster, camera = plan.camera.raster, plan.camera
+    own = plan.at_pixels(columns - raster.x0, rows - raster.y0)
+    with np.errstate(all="ignore"):  # NaN and inf are answers: no ray, no hit
+        rays = chief_rays(camera, columns[None, :] + 0.5, rows[:, None] + 0.5, (0, 0), Scratch(plan.request.real))
+        return nearest_hits(own, rays)
+
+
+def passes_at(
+    camera: Camera, shapes: Shapes, columns: np.ndarray, rows: np.ndarray, passes: Sequence[str]
+) -> dict[str, np.ndarray]:
+    """Return passes, (l, k[, channels]) float64 or what they are stored as, at columns (k,) and rows (l,) of the full
+    frame, ascending, whether or not they are rendered; of the camera as it is now, whatever the pixels' times.
+    """
+    ends = {"x0": columns[0], "x1": columns[-1] + 1, "y0": rows[0], "y1": rows[-1] + 1}
+    still = replace(camera, raster=replace(camera.raster, **ends), pixel_time=None, motion=None)
+    plan = make_plan(still, shapes, Request(tuple(passes), tuple(PASSES)))
+    images = {name: PASSES[name].empty((len(rows), len(columns)), np.float64) for name in passes}
+    with np.errstate(all="ignore"):  # NaN and inf are answers: no ray, no hit
+        store(hits_at(plan, columns, rows), images)
+    return images

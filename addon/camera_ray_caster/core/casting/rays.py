@@ -1,0 +1,51 @@
+"""The rays of a tile, as a camera casts them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ..camera.camera import Camera
+from ..maths.speed import Scratch
+
+
+@dataclass(frozen=True, eq=False)
+class TileRays:
+    """The rays through a lattice of pixel centers; components broadcast to (rows, columns)."""
+
+    x: np.ndarray
+    """(1, columns) pixel coordinates."""
+    y: np.ndarray
+    """(rows, 1)."""
+    corner: tuple[int, int]
+    """Column and row at which they begin, in the pixels of the plan."""
+    from_eye: bool
+    """Whether all leave the eye."""
+    origin: Any
+    """Components in the camera frame."""
+    direction: Any
+    """Components in the camera frame, scaled so that t is Blender's depth."""
+    scratch: Scratch
+    """The working arrays of the thread: hits, too, lie there."""
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Rows and columns."""
+        return self.y.shape[0], self.x.shape[1]
+
+
+def chief_rays(camera: Camera, x: np.ndarray, y: np.ndarray, corner: tuple[int, int], scratch: Scratch) -> TileRays:
+    """Return the rays through the pixels' centers and the center of the lens or hole."""
+    origin, direction = camera.camera_rays(x, y)
+    return TileRays(x, y, corner, camera.model.central, origin, direction, scratch)
+
+
+def sampled_rays(
+    camera: Camera, x: np.ndarray, y: np.ndarray, sample: int, corner: tuple[int, int], scratch: Scratch
+) -> TileRays:
+    """Return one of the rays that lie all over the pixels and the aperture."""
+    from_eye = camera.model.central and camera.aperture is None
+    origin, direction = camera.sample_rays(x, y, sample)
+    return TileRays(x, y, corner, from_eye, origin, direction, scratch)

@@ -1,0 +1,56 @@
+"""What is asked of a cast, apart from camera and shapes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..records import InputError
+
+MATERIAL, GRID = "MATERIAL", "GRID"
+SHADINGS = (MATERIAL, GRID)
+"""Of the combined pass: see ``shading``."""
+
+AUTOMATIC = "AUTOMATIC"
+PRECISIONS = {AUTOMATIC: np.float64, "ROBUST": np.float64, "FAST": np.float32}
+"""What hits are searched with. float32 is for previews: it may miss what is smaller than 1e-7 of its distance, and its
+bound is never within the rounding of a stored float32, so that AUTOMATIC has no picture for which it suffices. It gains
+1.05 to 1.15 times the speed of a whole cast of four passes, 1.1 to 1.45 of depth and index alone.
+"""
+
+
+@dataclass(frozen=True)
+class Request:
+    """What is asked of a cast. Raises InputError for an unknown pass, shading or precision, and names those that there
+    are.
+    """
+
+    passes: tuple[str, ...]
+    known: tuple[str, ...]
+    """The names of all passes that there are."""
+    shading: str = MATERIAL
+    cull: bool = True
+    """Whether shapes are tested only at pixels that may see them."""
+    sampled: bool = False
+    """Whether rays lie all over the pixels and the aperture, not in their centers."""
+    precision: str = AUTOMATIC
+
+    def __post_init__(self):
+        unknown = [name for name in self.passes if name not in self.known]
+        if unknown:
+            raise InputError(f"no pass is called {', '.join(map(repr, unknown))}: choose from {', '.join(self.known)}")
+        if self.shading not in SHADINGS:
+            raise InputError(f"no shading is called {self.shading!r}: choose from {', '.join(SHADINGS)}")
+        if self.precision not in PRECISIONS:
+            raise InputError(f"no precision is called {self.precision!r}: choose from {', '.join(PRECISIONS)}")
+
+    @property
+    def real(self) -> type:
+        """What hits are searched with: float64 or float32."""
+        return PRECISIONS[self.precision]
+
+    @property
+    def spare(self) -> tuple[str, ...]:
+        """The passes that are not asked for."""
+        return tuple(name for name in self.known if name not in self.passes)

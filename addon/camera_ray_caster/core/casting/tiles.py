@@ -1,0 +1,131 @@
+"""How a picture is divided into tiles, and how threads cast these."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor, as_completed
+from dataclasses import dataclass, replace
+from itertools import pairwise
+from threading import local
+from time import perf_counter
+
+import numpy as np
+
+from .. import tuning
+from ..camera.camera import Camera
+from ..camera.pixel_time import PixelTime, groups
+from ..maths.speed import STRIP, Scratch, sharing
+from ..records import Cancelled
+from .passes import add_combined, put, store
+from .plan import Plan
+from .rays import chief_rays, sampled_rays
+from .search import nearest_hits
+
+STEPS = "rays", "cast", "passes"
+"""What the seconds of a tile are spent on: rays, their nearest hits, the passes of these."""
+
+
+@dataclass(frozen=True)
+class Tile:
+    """A part of the picture that is cast at once."""
+
+    rows: slice
+    columns: slice
+    frame: float | None = None
+    """The moment it is of; None where the picture has one time."""
+    where: np.ndarray | None = None
+    """The pixels of the part that are meant; None for all."""
+
+
+def shares(plan: Plan, threads: int, samples: int = 1) -> Iterator[Tile]:
+    """Yield the picture in whole strips, for each thread that gains by it a share of about the same work.
+
+    samples: how many rays each pixel has.
+    """
+    height, width = plan.camera.raster.shape
+    least, most = tuning.TILE_PIXELS
+    if samples > 1:
+        most //= 2  # their sum takes as much memory as all else
+    done = np.cumsum(plan.work)
+    threads = sharing(threads, done[-1] / tuning.SERIAL_WORK)
+    count = min(threads * -(-int(done[-1] * samples) // (threads * tuning.TILE_WORK)), -(-height * width // least))
+    cuts = np.searchsorted(done, done[-1] * np.arange(1, count) / count)
+    cuts = np.unique(np.clip(np.rint(cuts / STRIP), 1, height // STRIP - 1).astype(int)) * STRIP
+    for first, last in pairwise((0, *cuts[(cuts > 0) & (cuts < height)].tolist(), height)):
+        yield from _bands(slice(first, last), slice(0, width), most)
+
+
+def moments(camera: Camera, pixel_time: PixelTime) -> Iterator[Tile]:
+    """Yield the picture time by time."""
+    for frame, rows, columns, where in groups(pixel_time, camera.raster.columns(), camera.raster.rows()):
+        rows, columns = (slice(*s.indices(n)) for s, n in zip((rows, columns), camera.raster.shape, strict=True))
+        for tile in _bands(rows, columns, tuning.TILE_PIXELS[0]):
+            meant = where[tile.rows.start - rows.start : tile.rows.stop - rows.start]
+            yield replace(tile, frame=frame, where=None if meant.all() else meant)
+
+
+def _bands(rows: slice, columns: slice, pixels: int) -> Iterator[Tile]:
+    """Yield a part of the picture in whole rows, so many pixels at a time at most, all alike."""
+    step = max(1, pixels // (columns.stop - columns.start))
+    count = -(-(rows.stop - rows.start) // step)
+    for first, last in pairwise(np.linspace(rows.start, rows.stop, count + 1).astype(int).tolist()):
+        yield Tile(slice(first, last), columns)
+
+
+def cast_tile(plan: Plan, tile: Tile, samples: int, images: dict[str, np.ndarray], scratch: Scratch) -> np.ndarray:
+    """Cast one tile and store the passes of these images; return the seconds of STEPS.
+
+    With samples above 1 the only pass is combined, the mean of as many rays a pixel.
+    """
+    raster = plan.camera.raster
+    place = raster.columns()[:, tile.columns], raster.rows()[tile.rows], (tile.columns.start, tile.rows.start)
+    parts = {name: image[tile.rows, tile.columns] for name, image in images.items()}
+    seconds = np.zeros(len(STEPS))
+    total = np.zeros_like(parts["combined"], np.float64) if samples > 1 else None
+    for sample in range(samples):
+        began = perf_counter()
+        if total is None:
+            rays = chief_rays(plan.camera, *place, scratch)
+        else:
+            rays = sampled_rays(plan.camera, *place[:2], sample, place[2], scratch)
+        generated = perf_counter()
+        hits = nearest_hits(plan, rays)
+        found = perf_counter()
+        if total is None:
+            store(hits, parts, tile.where)
+        else:
+            add_combined(hits, total)
+        seconds += generated - began, found - generated, perf_counter() - found
+    if total is not None:
+        total /= samples
+        put(total, parts["combined"], tile.where)
+    return seconds
+
+
+def in_threads(
+    run: Callable[[Tile, Scratch], np.ndarray],
+    tiles: Sequence[Tile],
+    workers: int,
+    real: type,
+    progress: Callable[[float], bool] | None,
+) -> np.ndarray:
+    """Run tiles on threads (numpy releases the interpreter), each with working arrays of its own, and return the sum of
+    what they return. ``progress`` and Cancelled: as in ``cast``.
+    """
+    own = local()
+
+    def begin() -> None:
+        own.scratch = Scratch(real)
+
+    total = np.zeros(len(STEPS))
+    with ThreadPoolExecutor(workers, initializer=begin) as pool:
+        waiting = [pool.submit(lambda tile: run(tile, own.scratch), tile) for tile in tiles]
+        try:
+            for done, future in enumerate(as_completed(waiting), 1):
+                total += future.result()
+                if progress is not None and not progress(done / len(tiles)):
+                    raise Cancelled
+        finally:
+            for future in waiting:
+                future.cancel()
+    return total

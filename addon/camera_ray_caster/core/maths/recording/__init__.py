@@ -1,0 +1,14 @@
+"""Numbers that record what is done to them: a formula in numpy becomes a list of operations.
+
+The formula is called once with such numbers, and what it did to them is its ``Record``, which can be evaluated with any
+number of digits, written in another language, or differentiated. ``record`` makes one. ``loop`` and ``look_up`` are how
+a formula iterates and reads tables, with arrays as with recorded numbers.
+"""
+
+from .number import NotRecordable, Recorded, is_recorded, look_up, loop, record, roundoff
+from .record import DOMAIN, NUMPY, Record, Step
+
+__all__ = [
+    "DOMAIN", "NUMPY", "NotRecordable", "Record", "Recorded", "Step", "is_recorded", "look_up", "loop", "record",
+    "roundoff",
+]  # fmt: skip

@@ -1,0 +1,245 @@
+"""The numbers that record: they answer to Python's operators and to numpy's functions."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from inspect import signature
+from numbers import Real
+from typing import Any, NoReturn
+
+import numpy as np
+
+from ...conventions import EPS
+from .record import COMPARISONS, LOGICAL, NUMERIC, Record, Step, repeat
+
+
+class NotRecordable(TypeError):
+    """What was done to a recorded number is none of the operations of a record; the message names it."""
+
+
+def record(function: Callable, count: int) -> Record:
+    """Return the record of a function of ``count`` numbers, which gives a flat sequence of numbers.
+
+    Numbers that do not depend on the input are constants, exact. Raises NotRecordable.
+    """
+    tape = _Tape()
+    return tape.record(function(*(tape.add("input", fixed=(place,)) for place in range(count))))
+
+
+def is_recorded(*values) -> bool:
+    """Whether one of these is a recorded number."""
+    return any(isinstance(value, Recorded) for value in values)
+
+
+def loop(body: Callable, state: Sequence, most: int) -> Sequence:
+    """Repeat ``state, settled = body(*state)`` until all is settled, or as often as ``most``; return the last state.
+
+    state: numbers, arrays or recorded numbers; of arrays, all go on until the last is settled. For recorded numbers the
+    body is called once, and must take all that it needs from its state, constants apart.
+    """
+    if not is_recorded(*state):
+        return repeat(body, state, most, np.all)
+    tape = next(value for value in state if is_recorded(value)).tape
+    start = [tape.own(value, "a loop") for value in state]
+    inner = _Tape()
+    after, settled = body(*(inner.add("input", fixed=(i,), truth=value.truth) for i, value in enumerate(start)))
+    after = [inner.own(value, "a loop") for value in after]
+    if [value.truth for value in after] != [value.truth for value in start]:
+        raise NotRecordable("a loop whose state is a number once, and true or false once, cannot be recorded")
+    made = tape.add("loop", start, (inner.record([*after, inner.truth(settled, "a loop")]), most))
+    return tuple(tape.add("part", [made], (i,), value.truth) for i, value in enumerate(start))
+
+
+def look_up(table, place):
+    """Return the entry of a table, (n,) float64, at a whole number, or at an array of integers: ``table[place]``."""
+    return place.tape.add("take", [place], (_entries(table),)) if is_recorded(place) else table[place]
+
+
+def roundoff(number):
+    """Return the unit roundoff of the arithmetic in which a number is computed: EPS, unless it is recorded."""
+    return number.tape.add("roundoff") if is_recorded(number) else EPS
+
+
+class _Tape:
+    """The steps of a record in the making."""
+
+    def __init__(self):
+        self.steps: list[Step] = []
+        self._known: dict[tuple, int] = {}
+
+    def add(self, operation: str, operands: Sequence[Recorded] = (), fixed: tuple = (), truth: bool = False):
+        """Return the value of an operation, of the same step if there was one already."""
+        places = tuple(operand.place for operand in operands)
+        place = self._known.setdefault((operation, places, repr(fixed)), len(self.steps))  # 0.0 and -0.0 are two
+        if place == len(self.steps):
+            self.steps.append(Step(operation, places, fixed, truth))
+        return Recorded(self, place)
+
+    def own(self, value, operation: str) -> Recorded:
+        """Return an operand: recorded here, or a constant."""
+        if is_recorded(value):
+            if value.tape is not self:
+                raise NotRecordable(f"{operation} of a number that is not in the loop's state cannot be recorded")
+            return value
+        if isinstance(value, bool | np.bool_):
+            return self.add("constant", fixed=(bool(value),), truth=True)
+        if np.ndim(value) or not isinstance(np.asarray(value).item(), Real):
+            raise NotRecordable(f"{operation} of a recorded number and {type(value).__name__} cannot be recorded")
+        return self.add("constant", fixed=(float(value),))
+
+    def number(self, value, operation: str) -> Recorded:
+        """Return an operand as a number: 1 for what is true, 0 for what is false."""
+        value = self.own(value, operation)
+        return _where(value, 1.0, 0.0) if value.truth else value
+
+    def truth(self, value, operation: str) -> Recorded:
+        """Return an operand as true or false: a number is true unless it is 0."""
+        value = self.own(value, operation)
+        return value if value.truth else value != 0
+
+    def record(self, values) -> Record:
+        """Return the record of values, without the steps that none of them needs."""
+        outputs = [self.own(value, "an output") for value in values]
+        needed = {output.place for output in outputs}
+        for place in reversed(range(len(self.steps))):
+            if place in needed:
+                needed.update(self.steps[place].operands)
+        new = {old: place for place, old in enumerate(sorted(needed))}
+        steps = (self.steps[old] for old in new)
+        moved = (Step(s.operation, tuple(new[k] for k in s.operands), s.fixed, s.truth) for s in steps)
+        return Record(tuple(moved), tuple(new[output.place] for output in outputs))
+
+
+def _operator(ufunc) -> Any:
+    return lambda self, *other: ufunc(self, *other)
+
+
+def _swapped(ufunc) -> Any:
+    return lambda self, other: ufunc(other, self)
+
+
+def _refused(operation: str, instead: str) -> Any:
+    def refuse(self, *_) -> NoReturn:
+        raise NotRecordable(f"{operation} of a recorded number cannot be recorded: {instead}")
+
+    return refuse
+
+
+class Recorded:
+    """A number whose value is known when its record is evaluated: a scalar in the eyes of numpy."""
+
+    ndim, shape, size = 0, (), 1
+
+    def __init__(self, tape: _Tape, place: int):
+        self.tape, self.place = tape, place
+
+    @property
+    def truth(self) -> bool:
+        """Whether it is true or false, and not a number."""
+        return self.tape.steps[self.place].truth
+
+    def __array_ufunc__(self, ufunc, method, *operands, **options):
+        name = ufunc.__name__
+        if method != "__call__" or options:
+            raise NotRecordable(f"{name}{_more(method, options)} of a recorded number cannot be recorded")
+        name = SAME.get(name, name)
+        operands = tuple(self.tape.own(operand, name) for operand in operands)
+        if name in DERIVED:
+            return DERIVED[name](*operands)
+        if name in LOGICAL:
+            return self.tape.add(name, [self.tape.truth(operand, name) for operand in operands], truth=True)
+        if name in NUMERIC or name in COMPARISONS:
+            numbers = [self.tape.number(operand, name) for operand in operands]
+            return self.tape.add(name, numbers, truth=name in COMPARISONS)
+        raise NotRecordable(f"{name} of a recorded number cannot be recorded")
+
+    def __array_function__(self, function, types, operands, options):
+        handler = FUNCTIONS.get(function)
+        if handler is None:
+            raise NotRecordable(f"{function.__name__} of a recorded number cannot be recorded")
+        try:
+            signature(handler).bind(*operands, **options)
+        except TypeError as error:
+            raise NotRecordable(f"{function.__name__} with such arguments cannot be recorded: {error}") from error
+        return handler(*operands, **options)
+
+    __add__, __radd__ = _operator(np.add), _swapped(np.add)
+    __sub__, __rsub__ = _operator(np.subtract), _swapped(np.subtract)
+    __mul__, __rmul__ = _operator(np.multiply), _swapped(np.multiply)
+    __truediv__, __rtruediv__ = _operator(np.divide), _swapped(np.divide)
+    __mod__, __rmod__ = _operator(np.remainder), _swapped(np.remainder)
+    __floordiv__, __rfloordiv__ = _operator(np.floor_divide), _swapped(np.floor_divide)
+    __rpow__, __matmul__ = _swapped(np.power), _operator(np.matmul)
+    __and__, __rand__ = _operator(np.logical_and), _swapped(np.logical_and)
+    __or__, __ror__ = _operator(np.logical_or), _swapped(np.logical_or)
+    __lt__, __le__, __gt__ = _operator(np.less), _operator(np.less_equal), _operator(np.greater)
+    __ge__, __eq__, __ne__ = _operator(np.greater_equal), _operator(np.equal), _operator(np.not_equal)
+    __neg__, __pos__, __abs__ = _operator(np.negative), _operator(np.positive), _operator(np.absolute)
+    __invert__ = _operator(np.logical_not)
+    __hash__ = None  # type: ignore[assignment]
+
+    __bool__ = _refused("truth (if, and, or, not, min, max)", "write np.where, &, |, ~, np.minimum, np.maximum")
+    __float__ = __int__ = __index__ = _refused("float or int", "use numpy's functions; read a table with look_up")
+    __array__ = _refused("asarray", "it is one number; read a table with look_up")
+    __iter__ = __len__ = __getitem__ = _refused("a part", "it is one number")
+
+    def __pow__(self, exponent):
+        """As numpy has it of an array: a square is a product."""
+        return self * self if not is_recorded(exponent) and exponent == 2 else np.power(self, exponent)
+
+    def __getattr__(self, name: str):
+        if name.startswith("_"):  # what numpy looks for
+            raise AttributeError(name)
+        raise NotRecordable(f".{name} of a recorded number cannot be recorded: use numpy's functions")
+
+
+SAME = {"bitwise_and": "logical_and", "bitwise_or": "logical_or", "invert": "logical_not", "true_divide": "divide"}
+"""Other names of operations."""
+
+DERIVED: dict[str, Callable] = {
+    "greater": lambda a, b: np.less(b, a),
+    "greater_equal": lambda a, b: np.less_equal(b, a),
+    "not_equal": lambda a, b: ~np.equal(a, b),
+    "isnan": lambda a: ~np.equal(a, a),
+    "isfinite": lambda a: np.absolute(a) < np.inf,
+    "square": lambda a: a * a,
+    "reciprocal": lambda a: 1.0 / a,
+    "positive": lambda a: a,
+}
+"""Operations by others."""
+
+
+def _where(condition, yes, no):
+    tape = next(value for value in (condition, yes, no) if is_recorded(value)).tape
+    condition, yes, no = tape.truth(condition, "where"), tape.own(yes, "where"), tape.own(no, "where")
+    truth = yes.truth and no.truth
+    if not truth:
+        yes, no = tape.number(yes, "where"), tape.number(no, "where")
+    return tape.add("where", [condition, yes, no], truth=truth)
+
+
+def _searchsorted(table, number, side="left"):
+    if not is_recorded(number):
+        raise NotRecordable("searchsorted in a table of recorded numbers cannot be recorded")
+    return number.tape.add("searchsorted", [number], (_entries(table), side))
+
+
+def _entries(table) -> tuple[float, ...]:
+    return tuple(np.asarray(table, np.float64).tolist())
+
+
+def _more(method: str, options) -> str:
+    return f".{method}" if method != "__call__" else f" with {', '.join(options)}"
+
+
+FUNCTIONS: dict[Any, Callable] = {
+    np.where: _where,
+    np.clip: lambda number, low, high: np.minimum(np.maximum(number, low), high),
+    np.searchsorted: _searchsorted,
+    np.broadcast_arrays: lambda *numbers: list(numbers),
+    np.ndim: lambda number: 0,
+    np.shape: lambda number: (),
+    np.zeros_like: lambda number: 0.0,
+    np.ones_like: lambda number: 1.0,
+}
+"""numpy's functions that are no ufuncs."""

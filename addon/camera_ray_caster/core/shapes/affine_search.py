@@ -1,0 +1,164 @@
+"""The search among shapes that are rows of constants: large ones by themselves, small ones in batches."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from functools import cached_property, partial
+from heapq import merge
+from operator import attrgetter
+from typing import Any
+
+import numpy as np
+
+from .. import tuning
+from ..maths.vector import cut, is_lattice
+from .kind import Candidates, Large, SearchRays, ShapeSet, Visible
+
+
+@dataclass(frozen=True, eq=False)
+class Group:
+    """Shapes of one kind that are tested alike."""
+
+    intersect: Callable
+    """As ``AffineKind`` has them."""
+    lattice: Callable
+    visible: Visible
+    is_simple: bool
+    """Whether the eye is outside and nothing lies before the clip start: the near root alone decides."""
+    is_small: bool
+    """Whether they are tested many at once: sorted by the lowest row that they may be seen in."""
+    constants: Any
+    """A dataclass of arrays whose last axis counts the shapes."""
+
+    @cached_property
+    def tallest(self) -> int:
+        """The most rows that one of them may be seen in."""
+        return int((self.visible.bounds[:, 3] - self.visible.bounds[:, 2]).max())
+
+    def within(self, corner: tuple[int, int], shape: tuple[int, int]) -> tuple[np.ndarray, np.ndarray]:
+        """Return which of them may be seen in a tile, (k,), and their bounds in it, (k, 4)."""
+        some = slice(None)
+        if self.is_small:
+            ends = corner[1] - self.tallest, corner[1] + shape[0]
+            some = slice(*np.searchsorted(self.visible.bounds[:, 2], ends))
+        (left, low), (high, wide) = corner, shape
+        edges = np.maximum(self.visible.bounds[some] - np.array((left, left, low, low)), 0)
+        np.minimum(edges, np.array((wide, wide, high, high)), out=edges)
+        here = np.flatnonzero((edges[:, 0] < edges[:, 1]) & (edges[:, 2] < edges[:, 3]))
+        return here + (some.start or 0), edges[here]
+
+    def large(self, rays: SearchRays) -> Iterator[Large]:
+        """See ``ShapeSet``."""
+        here, bounds = self.within(rays.corner, rays.shape)
+        count = max(1, tuning.PREPARED_PIXELS // sum(rays.shape))
+        for end in range(len(here), 0, -count):
+            some = slice(max(0, end - count), end)
+            meet = self._meet(rays, here[some])
+            for k in reversed(range(some.stop - some.start)):
+                yield Large(int(self.visible.at[here[some][k]]), bounds[some][k].tolist(), partial(meet, k))
+
+    def _meet(self, rays: SearchRays, here: np.ndarray) -> Callable:
+        """Return what gives t, and where there is one, of the k-th of some shapes in a window."""
+        if rays.origin is None and self.is_simple and is_lattice(rays.direction):
+            lattice = self.lattice(self._constants(here, axes=2), rays.direction)
+            if lattice is not None:
+                return lattice.meet
+
+        def meet(k, window, scratch):
+            return self._intersect(rays, self._constants(here[k]), lambda component: cut(component, window))
+
+        return meet
+
+    def batches(self, rays: SearchRays) -> Iterator[Candidates]:
+        """Yield the crossings with small shapes: in windows as large as the largest bounds of a batch."""
+        here, bounds = self.within(rays.corner, rays.shape)
+        for batch in _batches(bounds):
+            yield self._cast_batch(rays, here[batch], bounds[batch])
+
+    def _cast_batch(self, rays: SearchRays, here: np.ndarray, bounds: np.ndarray) -> Candidates:
+        """Test many shapes at once; the windows are moved until they lie in the tile."""
+        order = np.lexsort((-self.visible.at[here], -self.visible.near[here]))  # what hides others is written last
+        here, (x0, x1, y0, y1) = here[order], bounds[order].T
+        wide, high = int((x1 - x0).max()), int((y1 - y0).max())
+        x0, y0 = np.minimum(x0, rays.shape[1] - wide), np.minimum(y0, rays.shape[0] - high)
+        x = x0[:, None, None] + np.arange(wide)
+        y = y0[:, None, None] + np.arange(high)[:, None]
+        constants = self._constants(here, axes=2)
+        t, where = self._intersect(rays, constants, lambda component: _gather(component, y, x))
+        t = np.broadcast_to(t, (len(here), high, wide))
+        return Candidates(self.visible.at[here][:, None, None], (y0, x0), t, where)
+
+    def _constants(self, here, axes: int = 0):
+        """Return the constants of one row, or of many with so many more axes behind them."""
+        values = (getattr(self.constants, name)[..., here] for name in self.constants.__dataclass_fields__)
+        extra = (1,) * axes
+        return type(self.constants)(*(value.reshape(*value.shape, *extra) if axes else value for value in values))
+
+    def _intersect(self, rays: SearchRays, constants: Any, part: Callable) -> tuple[Any, Any]:
+        origin = None if rays.origin is None else tuple(map(part, rays.origin))
+        start = None if self.is_simple else self.visible.clip_start
+        return self.intersect(constants, origin, tuple(map(part, rays.direction)), start, rays.scratch)
+
+
+@dataclass(frozen=True, eq=False)
+class AffineSet(ShapeSet):
+    """The shapes of one affine kind that a camera may see."""
+
+    groups: tuple[Group, ...]
+    faces_eye: bool
+
+    def large(self, rays: SearchRays) -> Iterator[Large]:
+        """See ``ShapeSet``."""
+        large = (group.large(rays) for group in self.groups if not group.is_small)
+        return merge(*large, key=attrgetter("at"), reverse=True)
+
+    def rest(self, rays: SearchRays, nearest: np.ndarray) -> Iterator[Candidates]:
+        """See ``ShapeSet``."""
+        for group in self.groups:
+            if group.is_small:
+                yield from group.batches(rays)
+
+
+def divide(visible: Visible) -> Iterator[tuple[Visible, bool, bool]]:
+    """Yield the shapes that are tested alike, and whether they are simple and small: see ``Group``."""
+    is_simple = visible.near >= visible.clip_start
+    is_small = pixels_in(visible.bounds) < tuning.SMALL_PIXELS
+    alike = 2 * is_simple + is_small
+    for code in np.unique(alike).tolist():
+        some = np.flatnonzero(alike == code)
+        if code & 1:
+            some = some[np.argsort(visible.bounds[some, 2], kind="stable")]
+        bounds = np.asfortranarray(visible.bounds[some])
+        yield (
+            replace(visible, at=visible.at[some], bounds=bounds, near=visible.near[some]),
+            bool(code & 2),
+            bool(code & 1),
+        )
+
+
+def pixels_in(bounds: np.ndarray) -> np.ndarray:
+    """Return how many pixels lie in bounds (n, 4), each x0, x1, y0, y1."""
+    return (bounds[:, 1] - bounds[:, 0]) * (bounds[:, 3] - bounds[:, 2])
+
+
+def _batches(bounds: np.ndarray) -> Iterator[np.ndarray]:
+    """Yield rows of shapes with bounds of about the same size, as many as fill a batch."""
+    size = np.maximum(bounds[:, 1] - bounds[:, 0], bounds[:, 3] - bounds[:, 2])
+    step = np.ceil(4 * np.log2(np.maximum(size, 1)))
+    for value in np.unique(step):
+        alike = np.flatnonzero(step == value)
+        pixels = (bounds[alike, 1] - bounds[alike, 0]).max() * (bounds[alike, 3] - bounds[alike, 2]).max()
+        count = max(1, tuning.BATCH_PIXELS // pixels)
+        for first in range(0, len(alike), count):
+            yield alike[first : first + count]
+
+
+def _gather(component, y, x):
+    """Return a broadcastable component at pixels given by a column of rows and a row of columns a shape."""
+    if np.ndim(component) == 0:
+        return component
+    rows, columns = component.shape
+    if rows == columns == 1:
+        return component[None]
+    return component[y if rows > 1 else 0, x if columns > 1 else 0]

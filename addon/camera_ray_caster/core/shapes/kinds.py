@@ -1,0 +1,21 @@
+"""The kinds of shapes. A new kind is its file and one word in KINDS; ``kind`` says what it has to do."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from .kind import Kind
+from .plane import INFINITE_PLANES, PLANES
+from .sphere import SPHERES
+
+KINDS: tuple[Kind, ...] = (SPHERES, PLANES, INFINITE_PLANES)
+"""Every kind, in the order of the report."""
+
+
+def by_kind(numbers: np.ndarray) -> Iterator[tuple[Kind, np.ndarray]]:
+    """Yield each kind whose number is among some, (n,), and where it is, (n,) bool."""
+    kinds = {kind.number: kind for kind in KINDS}
+    for number in np.unique(numbers).tolist():
+        yield kinds[number], numbers == number

@@ -1,0 +1,149 @@
+"""Sets of files that appear together or not at all: failures, kills at every step, several writers. Without Blender."""
+
+import os
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from camera_ray_caster.blender.output import file_set
+from camera_ray_caster.blender.output.file_set import appearing
+from camera_ray_caster.core.records import InputError
+
+ADDON = Path(file_set.__file__).parents[3]
+NAMES = ("a.exr", "a.png", "report.json")
+
+
+def write(folder, text, names=NAMES):
+    with appearing(folder) as new:
+        for name in names:
+            (new / name).write_text(text)
+
+
+def content(folder):
+    """What is in a folder, all of it, hidden files too."""
+    return {path.name: path.read_text() if path.is_file() else "folder" for path in folder.iterdir()}
+
+
+def test_files_appear_and_replace_those_that_were_there(tmp_path):
+    out = tmp_path / "deep" / "out"
+    for text in ("old", "new"):
+        write(out, text)
+        assert content(out) == dict.fromkeys(NAMES, text)
+
+
+def test_a_failure_leaves_what_was_there_and_no_new_folder(tmp_path):
+    def fail(folder):
+        with appearing(folder) as new:
+            (new / "a.exr").write_text("half")
+            raise KeyError("it went wrong")
+
+    with pytest.raises(KeyError):
+        fail(tmp_path / "deep" / "out")
+    assert content(tmp_path) == {}
+    write(tmp_path, "old")
+    with pytest.raises(KeyError):
+        fail(tmp_path)
+    assert content(tmp_path) == dict.fromkeys(NAMES, "old")
+
+
+def test_a_folder_that_another_run_has_begun_to_use_stays(tmp_path):
+    out = tmp_path / "out"
+
+    def fail():
+        with appearing(out):
+            (out / "theirs.png").write_text("theirs")
+            raise KeyError
+
+    with pytest.raises(KeyError):
+        fail()
+    assert content(out) == {"theirs.png": "theirs"}
+
+
+@pytest.mark.parametrize("place", ["a.exr", "report.json"])
+def test_one_file_that_cannot_be_replaced_keeps_all(tmp_path, place):
+    write(tmp_path, "old", [name for name in NAMES if name != place])
+    (tmp_path / place).mkdir()
+    before = content(tmp_path)
+    with pytest.raises(InputError, match="cannot write into"):
+        write(tmp_path, "new")
+    assert content(tmp_path) == before
+
+
+@pytest.mark.parametrize("there", [NAMES, NAMES[:1], ()])
+@pytest.mark.parametrize("step", range(4))
+def test_a_move_that_fails_is_taken_back(tmp_path, monkeypatch, there, step):
+    write(tmp_path, "old", there)
+    before = content(tmp_path)
+    replace, count = os.replace, iter(range(100))
+
+    def failing(source, target):
+        if next(count) == step:
+            raise OSError(28, "No space left on device")
+        replace(source, target)
+
+    monkeypatch.setattr(os, "replace", failing)
+    with pytest.raises(InputError, match=r"cannot write into .*: No space left on device; choose another folder"):
+        write(tmp_path, "new")
+    assert content(tmp_path) == before
+
+
+KILLED = """
+import os, signal, sys
+sys.path[:0] = [{addon!r}]
+from pathlib import Path
+from camera_ray_caster.blender.output.file_set import appearing
+count = iter(range(100))
+def dying(function):
+    def one(*arguments, **options):
+        if next(count) == {step}:
+            os.kill(os.getpid(), signal.SIGKILL)
+        return function(*arguments, **options)
+    return one
+os.replace, os.link, os.mkdir, os.unlink, os.rmdir = map(dying, (os.replace, os.link, os.mkdir, os.unlink, os.rmdir))
+with appearing(Path({out!r})) as new:
+    for name in {names!r}:
+        (new / name).write_text("new")
+print("done")
+"""
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows has no SIGKILL")
+@pytest.mark.parametrize("there", [NAMES, NAMES[:1]])
+def test_what_a_killed_run_left_is_completed_or_undone_by_the_next(tmp_path, there):
+    """Killed before each of its steps on the file system, one after the other."""
+    ends = set()
+    for step in range(40):
+        out = tmp_path / str(step)
+        write(out, "old", there)
+        code = KILLED.format(addon=str(ADDON), step=step, out=str(out), names=NAMES)
+        status = subprocess.run([sys.executable, "-c", code], stdout=subprocess.DEVNULL, timeout=60).returncode
+        write(out, "other", ["b.png"])
+        after = content(out)
+        assert after.pop("b.png") == "other"
+        assert after in (dict.fromkeys(there, "old"), dict.fromkeys(NAMES, "new")), step
+        ends.add((status, len(set(after.values())) and after["a.exr"]))
+        if status == 0:
+            break
+    assert ends == {(-signal.SIGKILL, "old"), (-signal.SIGKILL, "new"), (0, "new")}
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows has no locks of this kind")
+def test_writers_into_one_folder_leave_the_set_of_one_of_them(tmp_path):
+    code = (
+        "import sys\n"
+        f"sys.path[:0] = [{str(ADDON)!r}]\n"
+        "from pathlib import Path\n"
+        "from camera_ray_caster.blender.output.file_set import appearing\n"
+        "for k in range(30):\n"
+        f"    with appearing(Path({str(tmp_path)!r})) as new:\n"
+        f"        for name in {NAMES!r}:\n"
+        "            (new / name).write_text(f'{sys.argv[1]} {k}')\n"
+    )
+    runs = [subprocess.Popen([sys.executable, "-c", code, str(writer)]) for writer in range(3)]
+    assert [run.wait(60) for run in runs] == [0, 0, 0]
+    after = content(tmp_path)
+    assert sorted(after) == sorted(NAMES)
+    assert len(set(after.values())) == 1

@@ -1,0 +1,131 @@
+"""YAML as calibration tools write it: OpenCV's, Kalibr's, ROS's; and texts that would take a careless reader hours."""
+
+import pytest
+
+from camera_ray_caster.core.cameras.parts.filestorage import LARGEST, read_entries
+from camera_ray_caster.core.cameras.parts.yaml_subset import DEEPEST, YamlError, parse
+from camera_ray_caster.core.records import InputError
+
+KALIBR = """cam0:
+  cam_overlaps: [1]
+  camera_model: pinhole
+  distortion_coeffs: [-0.28, 0.07,
+    1.9e-04, 1.7e-05]   # k1 k2 p1 p2
+  distortion_model: radtan
+  T_cn_cnm1:
+  - [1.0, 0.0]
+  - [0.0, 1.0]
+  rostopic: "/cam0/image_raw # not a comment"
+cam1:
+  resolution: [752, 480]
+"""
+
+ROS = """image_width: 640
+camera_name: 'narrow: stereo'
+camera_matrix:
+  rows: 3
+  cols: 3
+  data: [ 438.783367, 0.000000, 305.593336,
+          0.000000, 437.302876, 243.738352,
+          0.000000, 0.000000, 1.000000]
+tags: {pose: here, list: [a, b]}
+points:
+- x: 1
+  y: 2
+- x: 3
+"""
+
+
+def test_kalibrs_camera_chains():
+    assert parse(KALIBR) == {
+        "cam0": {
+            "cam_overlaps": ["1"],
+            "camera_model": "pinhole",
+            "distortion_coeffs": ["-0.28", "0.07", "1.9e-04", "1.7e-05"],
+            "distortion_model": "radtan",
+            "T_cn_cnm1": [["1.0", "0.0"], ["0.0", "1.0"]],
+            "rostopic": "/cam0/image_raw # not a comment",
+        },
+        "cam1": {"resolution": ["752", "480"]},
+    }
+
+
+def test_roses_camera_info():
+    found = parse(ROS)
+    assert found["camera_name"] == "narrow: stereo"
+    assert found["camera_matrix"]["data"][5] == "243.738352"
+    assert found["tags"] == {"pose": "here", "list": ["a", "b"]}
+    assert found["points"] == [{"x": "1", "y": "2"}, {"x": "3"}]
+
+
+def test_tags_directives_and_values_that_are_missing():
+    text = "%YAML:1.0\n---\nK: !!opencv-matrix\n   rows: 3\nname:\nnone: \"\"\n..."
+    assert parse(text) == {"K": {"rows": "3"}, "name": "", "none": ""}
+
+
+@pytest.mark.parametrize(
+    ("text", "says"),
+    [
+        ("just words", "line 1 is no entry"),
+        ("a: 1\n   b: 2", "line 2 has an indentation"),
+        ("a: [1, 2", "line 1 opens a bracket that none closes"),
+        ("a: [1, 2}", "line 1 has a bracket that none opens"),
+        ("a: {1}", "line 1 has a value without a name"),
+        ("a: |\n  text", "line 1 has a value that is not read"),
+        ("a: " + "[" * (DEEPEST + 1), "nested deeper"),
+        ("".join(f"{' ' * k}a:\n" for k in range(DEEPEST + 1)), "nested deeper"),
+        ("- 1", "line 1 has an indentation"),
+    ],
+)
+def test_what_is_not_read_is_refused_with_its_line(text, says):
+    with pytest.raises(YamlError, match=says):
+        parse(text)
+
+
+@pytest.mark.parametrize(
+    "piece",
+    [
+        "a:\n ", "#", " #\n", "\n", '"', '\\"', "[", "a: [", "-\n", "data: [1,\n", "// ", "{", '{"a":', "'", "x: 1\n",
+        "a.b-c",
+    ],
+)  # fmt: skip
+@pytest.mark.parametrize("begin", ["", '{"a": ', "K: [", '{"'])
+def test_no_text_takes_more_than_linear_time(tmp_path, piece, begin):
+    """A megabyte of each: what takes the square of it would not end today."""
+    path = tmp_path / "lens.yml"
+    path.write_text((begin + piece * LARGEST)[:LARGEST])
+    said = ""
+    try:
+        read_entries(str(path))
+    except InputError as error:
+        said = str(error)
+    assert "\n" not in said
+    assert len(said) < 500
+
+
+@pytest.mark.parametrize(
+    ("text", "says"),
+    [
+        (b'{"K": ' + b"9" * 5000 + b"}", None),
+        (b'{"K": ' + b"[" * 100_000 + b"}", "nested too deeply"),
+        (b"a: 1\n" * LARGEST, "larger than 1 MB"),
+        (b"\xff\xfe\x00", "not a text file"),
+        (b"", "is empty"),
+        (b"{}", "is empty"),
+    ],
+)
+def test_files_that_break_careless_readers(tmp_path, text, says):
+    path = tmp_path / "lens.json"
+    path.write_bytes(text)
+    if says is None:
+        assert read_entries(str(path)) == {"K": float("inf")}
+    else:
+        with pytest.raises(InputError, match=says):
+            read_entries(str(path))
+
+
+def test_what_is_no_file_is_not_waited_for():
+    with pytest.raises(InputError, match="it is a device, not a file"):
+        read_entries("/dev/zero")
+    with pytest.raises(InputError, match="cannot be read"):
+        read_entries("a\0b")

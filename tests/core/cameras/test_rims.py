@@ -1,0 +1,35 @@
+"""Where a round picture ends: a pixel has a ray there exactly where points on that ray have a pixel."""
+
+import numpy as np
+import pytest
+
+from camera_ray_caster.core.cameras import MODELS
+
+from .model_examples import EXAMPLES, IDENTITY, camera
+
+TURNED = [[0.36, 0.48, -0.8, 1], [-0.8, 0.6, 0, 2], [0.48, 0.64, 0.6, -3], [0, 0, 0, 1]]
+
+
+@pytest.mark.parametrize("size", [(1, 3000), (3000, 1), (7, 900), (101, 53)])
+@pytest.mark.parametrize("key", [model.key for model in MODELS])
+def test_a_point_on_any_ray_of_a_picture_has_a_pixel(key, size):
+    """Pictures of one column or row put pixels on the very rim."""
+    frame = {"resolution_x": size[0], "resolution_y": size[1], "resolution_percentage": 100, "use_border": False}
+    for settings in EXAMPLES.get(key, [{}]):
+        for pose in (IDENTITY, TURNED):
+            cam = camera(key, settings | frame | {"matrix_world": pose})
+            rays = cam.rays()
+            for distance in (0.1, 1.0, 50.0):
+                points = (rays.origins + distance * rays.directions)[rays.valid]
+                assert not np.isnan(cam.project(points)).any()
+
+
+@pytest.mark.parametrize("fov", [0.5, 2.0, np.pi])
+@pytest.mark.parametrize("key", ["FISHEYE_ORTHOGRAPHIC", "FISHEYE_STEREOGRAPHIC", "DOME_MASTER"])
+def test_beyond_the_rim_there_is_neither_ray_nor_pixel(key, fov):
+    cam = camera(key, {"fov": fov, "resolution_x": 300, "resolution_y": 300, "matrix_world": IDENTITY})
+    angle = np.linspace(0, 2 * np.pi, 40)
+    for theta, seen in ((fov / 2 * (1 - 1e-6), True), (fov / 2 + 1e-6, False)):
+        flat = np.stack((np.sin(theta) * np.cos(angle), np.sin(theta) * np.sin(angle), np.full(40, -np.cos(theta))))
+        points = flat[[0, 2, 1]] * ((1,), (-1,), (1,)) if key == "DOME_MASTER" else flat
+        assert (np.isnan(cam.project(points.T)).any(axis=1) != seen).all()

@@ -1,0 +1,62 @@
+"""Casting at given pixels gives what the whole picture has there, for every model and wherever they lie."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from camera_ray_caster.core.cameras import MODELS
+from camera_ray_caster.core.cast import cast
+from camera_ray_caster.core.casting.passes import PASSES
+from camera_ray_caster.core.casting.pixels import hits_at, passes_at
+
+from ..cameras.model_examples import camera as camera_of
+from .test_cast import camera_at, random_shapes
+
+SIZE = {"resolution_x": 64, "resolution_y": 48}
+LATTICES = [([31], [7]), ([0, 63], [0, 47]), ([5, 6, 7, 40], [3, 11, 30, 31, 46]), (range(64), [20])]
+
+
+@pytest.mark.parametrize("model", MODELS, ids=lambda model: model.key)
+def test_passes_at_pixels_are_those_of_the_picture(model):
+    camera = camera_of(model.key, SIZE)
+    shapes = random_shapes(np.random.default_rng(0), 40)
+    whole = cast(camera, shapes, tuple(PASSES), np.float64)
+    assert (whole["shape_index"] >= 0).any()
+    for columns, rows in LATTICES:
+        some = passes_at(camera, shapes, np.array(columns), np.array(rows), tuple(PASSES))
+        for name in PASSES:
+            assert some[name].dtype == whole[name].dtype
+            assert np.array_equal(some[name], whole[name][np.ix_(rows, columns)], equal_nan=True), name
+
+
+def test_pixels_beside_the_render_window_are_cast_too():
+    shapes = random_shapes(np.random.default_rng(0), 40)
+    whole = cast(camera_at(**SIZE), shapes, ("distance",), np.float64)["distance"]
+    border = camera_at(**SIZE, use_border=True, border_min_x=0.5, border_max_y=0.5)
+    some = passes_at(border, shapes, np.array([3, 50]), np.array([10, 40]), ("distance",))["distance"]
+    assert np.array_equal(some, whole[np.ix_([10, 40], [3, 50])])
+
+
+@pytest.mark.parametrize("precision", ["ROBUST", "FAST"])
+def test_the_plan_of_a_picture_serves_pixels_of_its_window_and_tests_only_what_they_may_see(precision):
+    shapes = random_shapes(np.random.default_rng(0), 40)
+    camera = camera_at(**SIZE, use_border=True, border_min_x=0.25, border_min_y=0.25)
+    images = cast(camera, shapes, ("depth", "shape_index"), np.float64, precision=precision)
+    raster = camera.raster
+    columns, rows = np.array([raster.x0, 40, 41]), np.array([raster.y0 + 1, raster.y1 - 1])
+    hits = hits_at(images.plan, columns, rows)
+    at = np.ix_(rows - raster.y0, columns - raster.x0)
+    assert np.array_equal(hits.t, images["depth"][at])
+    assert np.array_equal(hits.index, images["shape_index"][at])
+    assert 0 < len(hits.plan.seen) < len(images.plan.seen)
+
+
+def test_the_time_of_a_pixel_is_left_out():
+    camera = camera_at(**SIZE)
+    shapes = random_shapes(np.random.default_rng(11), 5)
+    pixel = np.array([30]), np.array([20])
+    timed = passes_at(replace(camera, pixel_time=object()), shapes, *pixel, ("depth",))
+    assert np.array_equal(timed["depth"], passes_at(camera, shapes, *pixel, ("depth",))["depth"])

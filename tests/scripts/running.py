@@ -1,0 +1,49 @@
+"""How the tests run a script, and what they run it on."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+def script(name, *arguments, folder=None):
+    """Run a script to its end."""
+    words = [sys.executable, str(ROOT / "scripts" / f"{name}.py"), *map(str, arguments)]
+    return subprocess.run(words, cwd=folder, capture_output=True, text=True, timeout=120)
+
+
+def small(bpy, path, **settings):
+    """Save a small scene, opened in place of the one before: a sphere 5 below the camera "Top", which moves from x = 0
+    at frame 1 to x = 1 at frame 2.
+    """
+    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
+    bpy.ops.mesh.primitive_uv_sphere_add(radius=1)
+    bpy.context.object.pass_index = 7
+    for name in ("Side", "Top"):
+        bpy.ops.object.camera_add(location=(0, 0, 5))
+        bpy.context.object.name = name
+    scene = bpy.context.scene
+    scene.camera = bpy.context.object
+    for frame in (1, 2):
+        scene.camera.location.x = frame - 1
+        scene.camera.keyframe_insert("location", frame=frame)
+    bpy.data.objects["Side"].location.y = 0.5
+    scene.render.resolution_x, scene.render.resolution_y = 32, 24
+    for name, value in settings.items():
+        setattr(scene.render, name, value)
+    bpy.ops.wm.save_as_mainfile(filepath=str(path))
+    return path
+
+
+def left(folder):
+    """What is in a folder, hidden or not."""
+    return sorted(path.name for path in folder.iterdir())
+
+
+def refused(done):
+    """The one line that a refusal is."""
+    assert done.returncode == 2, done.stderr
+    assert done.stdout == ""
+    (line,) = done.stderr.splitlines()
+    return line

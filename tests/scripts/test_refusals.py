@@ -1,0 +1,98 @@
+"""What the scripts refuse: bad input is one line on standard error, status 2, and leaves nothing."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from .running import ROOT, left, refused, script
+
+WRONG_WORDS = {
+    "no file": ([], "give the path of a .blend"),
+    "missing": (["missing.blend"], "there is no file 'missing.blend'"),
+    "a folder": (["."], "there is no file '.'"),
+    "no .blend": (["text.blend"], "'text.blend' is no .blend that this Blender can open"),
+    "a name that is too long for a file": (["a" * 300], "there is no file 'aaa"),
+    "no such camera": (["small.blend", "--camera", "Front"], "no camera 'Front'; its cameras are: 'Side', 'Top'"),
+    "no such option": (["small.blend", "--depth"], "unrecognized arguments: --depth"),
+    "no number": (["small.blend", "--frame", "half"], "'half'"),
+    "not finite": (["small.blend", "--frame", "nan"], "nan"),
+    "beyond Blender's frames": (["small.blend", "--frame", "1e300"], "last frame"),
+}
+WRONG_FOR_CAST = {
+    "no such pass": (["small.blend", "--passes", "depth,z"], "no pass is called 'z': choose from combined, depth"),
+    "no such shading": (["small.blend", "--shading", "toon"], "MATERIAL"),
+    "no such precision": (["small.blend", "--precision", "double"], "AUTOMATIC"),
+    "frames backwards": (["small.blend", "--frames", "2:1"], "2:1 holds no frame"),
+    "one frame for frames": (["small.blend", "--frames", "2"], "'2'"),
+    "frame and frames": (["small.blend", "--frame", "1", "--frames", "1:2"], "not allowed with"),
+    "a file for a folder": (["small.blend", "--output", "text.blend"], "cannot write into 'text.blend'"),
+    "below a file": (["small.blend", "--output", "text.blend/out"], "cannot write into 'text.blend/out'"),
+    "a name that is too long": (["small.blend", "--output", "a" * 300], "cannot write into"),
+    "no place for a folder": (["small.blend", "--output", "/proc/out"], "cannot write into '/proc/out'"),
+}
+
+
+@pytest.mark.parametrize("command", ["cast", "verify"])
+@pytest.mark.parametrize("case", WRONG_WORDS | WRONG_FOR_CAST)
+def test_wrong_words_are_refused(scene, monkeypatch, command, case):
+    from camera_ray_caster.blender.terminal import commands
+    from camera_ray_caster.core.records import InputError
+
+    if command == "verify" and case in WRONG_FOR_CAST:
+        words, said = WRONG_FOR_CAST[case][0], "unrecognized arguments"
+    else:
+        words, said = (WRONG_WORDS | WRONG_FOR_CAST)[case]
+    monkeypatch.chdir(scene.parent)
+    Path("text.blend").write_text("no .blend")
+    before = left(scene.parent)
+    with pytest.raises(InputError) as error:
+        commands.COMMANDS[command](words, command)
+    assert said in str(error.value)
+    assert "\n" not in str(error.value)
+    assert left(scene.parent) == before
+
+
+@pytest.mark.parametrize("command", ["cast", "verify"])
+@pytest.mark.parametrize("case", ["missing", "no .blend", "no such camera", "no such option"])
+def test_a_refusal_is_one_line_and_status_2(scene, command, case):
+    (scene.parent / "text.blend").write_text("no .blend")
+    words, said = WRONG_WORDS[case]
+    line = refused(script(command, *words, folder=scene.parent))
+    assert line.startswith(f"{command}.py: ")
+    assert said in line
+
+
+@pytest.mark.parametrize("command", ["cast", "verify"])
+def test_a_python_without_bpy_is_told_what_it_needs(command):
+    words = [sys.executable, "-S", ROOT / "scripts" / f"{command}.py"]  # -S: no packages
+    done = subprocess.run(words, capture_output=True, text=True, timeout=60, env={})
+    assert "needs Blender or pip's bpy: `make cast`" in refused(done)
+
+
+UNCASTABLE = {
+    "has a scale of zero": lambda scene: setattr(scene.camera, "scale", (1, 0, 1)),
+    "has no active camera": lambda scene: setattr(scene, "camera", None),
+    "is of type mesh, not a camera": lambda scene: setattr(scene, "camera", scene.objects["Sphere"]),
+    "no view layer of scene 'Scene' is used": lambda scene: setattr(scene.view_layers[0], "use", False),
+}
+
+
+@pytest.mark.parametrize("said", UNCASTABLE)
+def test_a_scene_that_cannot_be_cast_is_refused_in_one_line(command, blender, scene, tmp_path, said):
+    UNCASTABLE[said](blender.context.scene)
+    blender.ops.wm.save_as_mainfile(filepath=str(scene))
+    assert said in refused(command("cast", scene, "--output", tmp_path / "out"))
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_failed_run_leaves_good_files_as_they_were(command, scene, tmp_path):
+    out = tmp_path / "out"
+    out.mkdir()
+    (out / "small.exr").write_text("good")
+    (out / "report.json").write_text("good")
+    (out / "small.png").mkdir()
+    assert "'small.png' is a folder" in refused(command("cast", scene, "--output", out))
+    assert left(out) == ["report.json", "small.exr", "small.png"]
+    assert [(out / name).read_text() for name in ("report.json", "small.exr")] == ["good", "good"]
