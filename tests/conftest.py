@@ -35,6 +35,15 @@ def blender(registered):
     return registered
 
 
+@pytest.fixture
+def unregister(blender):
+    """A function that takes the extension away for the rest of the test."""
+    import camera_ray_caster
+
+    yield camera_ray_caster.unregister
+    camera_ray_caster.register()
+
+
 _STATUS = pytest.StashKey[int]()
 
 

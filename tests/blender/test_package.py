@@ -29,9 +29,9 @@ def python(*lines):
 
 
 @pytest.fixture
-def plain(blender):
+def plain(unregister):
     """What Blender lists while nothing of the add-on is registered."""
-    crc.unregister()
+    unregister()
     return traces()
 
 

@@ -5,9 +5,7 @@ from math import pi, radians
 import numpy as np
 import pytest
 
-import camera_ray_caster as crc
-
-from .test_scenes import FOLDER, opened
+from .opening import FOLDER, opened
 
 TIMES = {"time_tolerance": 0.1, "time_evaluations": 256}
 CALIBRATED = {"calibration_file": "", "calibration_width": 448, "calibration_height": 280, "cx": 223.5, "cy": 139.5}
@@ -77,10 +75,10 @@ PRIMITIVES = {"Floor": "INFINITE_PLANE", "Cube": "SPHERE", "Monkey": "PLANE", "N
 
 
 @pytest.fixture(params=["registered", "not registered"], autouse=True)
-def registered(request, blender):
+def is_registered(request, unregister):
     """With the add-on registered, and without, as in a script that only imports the package."""
     if request.param == "not registered":
-        crc.unregister()
+        unregister()
     return request.param == "registered"
 
 
@@ -106,19 +104,19 @@ def record(bpy, name):
     return scene_at(scene.camera, bpy.context.evaluated_depsgraph_get())
 
 
-def test_objects_are_cast_as_they_were_told(blender, registered):
+def test_objects_are_cast_as_they_were_told(blender, is_registered):
     found = record(blender, "cast_as")
     shapes = found.shapes
     kinds = {shapes.names[k]: int(kind) for k, kind in zip(shapes.name_index, shapes.kind, strict=True)}
     assert kinds == {"Floor": 2, "Cube": 0, "Monkey": 1}
     assert dict(shapes.left_out) == {"Nothing": "it is ignored by its own setting"}
-    if registered:
+    if is_registered:
         objects = blender.context.scene.objects
         assert {name: objects[name].camera_ray_caster.primitive for name in PRIMITIVES} == PRIMITIVES
 
 
-def test_the_settings_of_the_scene_are_as_they_were_saved(blender, registered):
-    if registered:
+def test_the_settings_of_the_scene_are_as_they_were_saved(blender, is_registered):
+    if is_registered:
         own = opened(blender, "thin_lens").camera_ray_caster
         assert (own.shading, own.samples, own.precision) == ("GRID", 64, "AUTOMATIC")
         own = opened(blender, "spheres_and_planes").camera_ray_caster

@@ -19,13 +19,13 @@ def scene(blender):
 
 
 @pytest.fixture
-def reopened(blender, tmp_path):
+def reopened(blender, unregister, tmp_path):
     """A function that saves the file, takes the add-on away, opens the file again and returns its scene."""
 
     def reopen():
         path = str(tmp_path / "stored.blend")
         blender.ops.wm.save_as_mainfile(filepath=path)
-        crc.unregister()
+        unregister()
         blender.ops.wm.open_mainfile(filepath=path)
         assert not hasattr(blender.context.scene.camera.data, "camera_ray_caster")
         return blender.context.scene
@@ -135,8 +135,8 @@ def test_what_is_animated_but_not_read_is_no_matter(scene, reopened):
     assert camera.settings["lens"] == pytest.approx(25)
 
 
-def test_a_file_that_never_had_the_add_on_has_blenders_cameras(blender):
-    crc.unregister()
+def test_a_file_that_never_had_the_add_on_has_blenders_cameras(blender, unregister):
+    unregister()
     blender.ops.wm.read_factory_settings(use_empty=True)
     scene = blender.context.scene
     scene.camera = new_object("Camera", blender.data.cameras.new("Camera"))

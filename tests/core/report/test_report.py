@@ -115,6 +115,24 @@ def test_the_table_says_all_and_fits(report):
     assert verdicts == {"good": "ok", "bad": "FAILED"}
 
 
+def test_settings_and_formula_of_the_model_are_in_the_report(report):
+    data = strict(as_json(report))["camera"]
+    assert data["key"] == "PERSP"
+    film = {"sensor_fit": "AUTO", "sensor_width": 36.0, "sensor_height": 24.0, "shift_x": 0.0, "shift_y": 0.0}
+    assert data["settings"] == {"lens": 50.0, **film}
+    assert data["formula"][2] == {"words": "Direction along the axes u, v, w", "symbols": "r = X u + Y v + w"}
+    lines = as_lines(report)
+    assert "  Direction along the axes u, v, w: r = X u + Y v + w" in lines[lines.index("Formula") :]
+
+
+def test_settings_are_in_the_table_where_they_are_few(report):
+    fisheye = {"fov": 1.5, "shift_x": 0.0, "shift_y": 0.0}
+    few = camera(model="FISHEYE_ORTHOGRAPHIC", settings={"fov": 1.5})
+    assert camera_facts(few)["settings"] == fisheye
+    assert "  settings             fov 1.5, shift_x 0, shift_y 0" in as_lines(Report(camera_facts(few), frame=1))
+    assert not any(line.startswith("  settings") for line in as_lines(report))
+
+
 def test_the_bounds_of_hits_are_in_table_and_json_with_their_units(report):
     bounds = np.array([[1e-15, 2e-15, 3e-15, 4e-15], [5e-15, 6e-15, 7e-15, 8e-15], [9e-15, 1e-14, 2e-14, np.inf]])
     report = replace(report, accuracy=Accuracy(10, bounds))

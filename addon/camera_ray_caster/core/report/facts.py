@@ -8,15 +8,16 @@ from ..camera.camera import Camera
 def camera_facts(camera: Camera) -> dict[str, object]:
     """Return names, numbers and lists of numbers, in the order in which they are shown.
 
-    Every camera: its model, eye (world), orthobasis u, v and w = -Z (world, unit), raster (pixels), window (the columns
-    x0 .. x1 and rows y0 .. y1 that are rendered), pixel aspect, clip range. Then what the model says of itself
-    (``Model.facts``): a pinhole its field of view, d, aspect and K, an orthographic camera its frame, a general linear
-    one its kind.
+    Every camera: its model and the model's key, eye (world), orthobasis u, v and w = -Z (world, unit), raster (pixels),
+    window (the columns x0 .. x1 and rows y0 .. y1 that are rendered), pixel aspect, clip range. Then what the model
+    says of itself (``Model.facts``): a pinhole its field of view, d, aspect and K, an orthographic camera its frame, a
+    general linear one its kind. Last the model's settings by name (``Camera.settings``) and its formula, step by step.
     """
     raster, basis = camera.raster, camera.pose.basis
     return {
         "name": camera.name,
         "model": camera.model.label,
+        "key": camera.model.key,
         "eye": camera.pose.eye.tolist(),
         "u": basis[:, 0].tolist(),
         "v": basis[:, 1].tolist(),
@@ -26,4 +27,6 @@ def camera_facts(camera: Camera) -> dict[str, object]:
         "pixel_aspect": raster.pixel_aspect,
         "clip": [camera.clip_start, camera.clip_end],
         **camera.model.facts(),
+        "settings": dict(camera.settings),
+        "formula": [step._asdict() for step in camera.model.FORMULA],
     }

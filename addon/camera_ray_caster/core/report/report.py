@@ -7,6 +7,7 @@ import math
 from collections.abc import Iterable, Mapping
 from dataclasses import asdict, dataclass, field, replace
 from textwrap import shorten, wrap
+from typing import Any
 
 import numpy as np
 
@@ -19,6 +20,8 @@ from .facts import camera_facts
 
 WIDTH = 100
 """Columns that the table does not exceed."""
+MARGIN = 23
+"""The column in which what is said of a camera begins."""
 
 CAST_STEPS = ("plan", *STEPS)
 """The steps that count for rays per second: from camera and shapes to finished arrays."""
@@ -28,7 +31,7 @@ CAST_STEPS = ("plan", *STEPS)
 class Report:
     """What was done for one frame, all of its view layers and eyes together."""
 
-    camera: Mapping[str, object]
+    camera: Mapping[str, Any]
     """See ``camera_facts``."""
     frame: float
     layers: tuple[str, ...] = ()
@@ -142,9 +145,14 @@ def as_lines(report: Report) -> list[str]:
 
 def _camera_lines(report: Report) -> list[str]:
     facts = dict(report.camera)
-    frame = f"{report.frame:g}"
-    title = f"Camera {facts.pop('name')!r}, {facts.pop('model')}, frame {frame}"
-    return [title, *(f"  {name.replace('_', ' '):20} {_numbers(value)}" for name, value in facts.items())]
+    title = f"Camera {facts.pop('name')!r}, {facts.pop('model')}, frame {report.frame:g}"
+    formula = [f"{step['words']}: {step['symbols']}" for step in facts.pop("formula")]
+    settings = ", ".join(f"{name} {_numbers(value)}" for name, value in facts.pop("settings").items())
+    del facts["key"]
+    if settings and len(settings) <= WIDTH - MARGIN:  # where they are few
+        facts["settings"] = settings
+    lines = [f"  {name.replace('_', ' '):{MARGIN - 3}} {_numbers(value)}" for name, value in facts.items()]
+    return [title, *lines, *_listed("Formula", formula)]
 
 
 def _finding_lines(report: Report) -> list[str]:

@@ -1,0 +1,114 @@
+"""Write the table of camera models from what they declare: addon/camera_ray_caster/core/cameras/README.md.
+
+    python scripts/make_docs.py
+
+Needs numpy only.
+"""
+
+from __future__ import annotations
+
+import inspect
+import math
+import re
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[1]
+sys.path.insert(0, str(ROOT / "addon"))
+
+from camera_ray_caster.core.camera import pixel_time  # noqa: E402  (found by the line above)
+from camera_ray_caster.core.cameras import MODELS  # noqa: E402
+from camera_ray_caster.core.cameras.model import GROUPS, Model  # noqa: E402
+from camera_ray_caster.core.cameras.parts.settings import OWN, Setting  # noqa: E402
+
+PAGE = ROOT / "addon" / "camera_ray_caster" / "core" / "cameras" / "README.md"
+
+HEAD = """\
+# Camera models
+
+Made by `python scripts/make_docs.py` from what each model declares in its file. The camera's axes u, v and w are right,
+up and ahead; W and H are the frame's width and height in pixels, (x, y) the pixel coordinates, y up. A star marks
+Blender's own settings. Angles are stored in radians and given in degrees here.
+"""
+
+TIMES = """
+## The time of each pixel
+
+With any model each pixel may have its own time: `time_mode` is one of these.
+"""
+
+COLUMNS = "| setting | unit | range | default | |\n|---|---|---|---|---|\n"
+
+
+def page() -> str:
+    """Return the page: a section for each group of models, and one for the times of pixels."""
+    groups = {group: [model for model in MODELS if model.group == group] for group in GROUPS}
+    sections = [f"\n## {group}\n" + "".join(map(section, models)) for group, models in groups.items() if models]
+    items = {item.key: item for item in pixel_time.MODE.items}
+    modes = [
+        f"\n### {items[key].label}\n\n`{key}`: {items[key].text}.\n" + table(settings)
+        for key, settings in pixel_time.SETTINGS.items()
+    ]
+    return "".join((HEAD, *sections, TIMES, *modes))
+
+
+def section(model: type[Model]) -> str:
+    """Return what a model says of itself: its description, assumption, settings and formula."""
+    steps = "\n".join(f"* {step.words}: `{step.symbols}`" for step in model.FORMULA)
+    file = Path(inspect.getfile(model)).name
+    return f"""
+### {model.label}
+
+`{model.key}` in [{file}]({file}): {model.description}.{assumption(model)}
+{table(model.SETTINGS)}
+{steps}
+"""
+
+
+def assumption(model: type[Model]) -> str:
+    """Return the assumption that the docstring of the model's file states, in one line; "" where it states none."""
+    text = inspect.getdoc(inspect.getmodule(model)) or ""
+    found = re.search(r"^Assumption: (.+?)(?=^\w+: |^\s*$|\Z)", text, re.MULTILINE | re.DOTALL)
+    return f" Assumption: {' '.join(found[1].split())}".replace("``", "`") if found else ""
+
+
+def table(settings: tuple[Setting, ...]) -> str:
+    """Return the rows of some settings; "" without any."""
+    return "\n" + COLUMNS + "".join(map(row, settings)) if settings else ""
+
+
+def row(setting: Setting) -> str:
+    """Return a setting as a row of the table."""
+    name = f"`{setting.name}`" + ("" if setting.owner == OWN else " *")
+    unit, span, default = KINDS[setting.kind](setting)
+    return f"| {name} | {unit} | {span} | {default} | {setting.label}: {setting.text} |\n"
+
+
+def number(setting) -> tuple[str, str, str]:
+    """Return the unit, the range and the default of a number; a unit is not repeated in what follows it."""
+    ends = setting.low, setting.high
+    span = "" if ends == (-math.inf, math.inf) else setting.range_in_words(*ends)
+    words = span, setting.in_words(float(setting.default))
+    return "degrees" if setting.unit == "angle" else setting.unit, *(word.replace(" degrees", "") for word in words)
+
+
+def choice(setting) -> tuple[str, str, str]:
+    """Return the same of a choice."""
+    return "", ", ".join(f"`{item.key}`" for item in setting.items), f"`{setting.default}`"
+
+
+KINDS = {
+    "FLOAT": number,
+    "INT": number,
+    "ENUM": choice,
+    "BOOLEAN": lambda setting: ("", "on or off", "on" if setting.default else "off"),
+    "VECTOR": lambda setting: ("", f"{len(setting.default)} numbers", str(setting.default)),
+    "FILE": lambda setting: ("", "a file or none", "none"),
+    "OBJECT": lambda setting: ("", " or ".join(setting.types).lower(), "none"),
+    "IMAGE": lambda setting: ("", "an image", "none"),
+}
+"""Unit, range and default of each kind of setting, in words."""
+
+
+if __name__ == "__main__":
+    PAGE.write_text(page(), encoding="utf-8")

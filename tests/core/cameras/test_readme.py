@@ -1,0 +1,26 @@
+"""The page of camera models, which is made from what they declare."""
+
+import runpy
+from pathlib import Path
+
+from camera_ray_caster.core.camera import pixel_time
+from camera_ray_caster.core.cameras import MODELS
+
+MAKE_DOCS = runpy.run_path(str(Path(__file__).parents[3] / "scripts" / "make_docs.py"))
+
+
+def test_the_page_is_up_to_date():
+    assert MAKE_DOCS["PAGE"].read_text(encoding="utf-8") == MAKE_DOCS["page"](), "run scripts/make_docs.py"
+
+
+def test_every_model_and_every_setting_is_on_the_page():
+    page = MAKE_DOCS["page"]()
+    for model in MODELS:
+        start = page.index(f"### {model.label}\n")
+        section = page[start : page.index("\n##", start)]
+        assert f"`{model.key}`" in section
+        for setting in model.SETTINGS:
+            assert f"| `{setting.name}`" in section
+        for step in model.FORMULA:
+            assert f"{step.words}: `{step.symbols}`" in section
+    assert all(f"`{mode}`" in page for mode in pixel_time.SETTINGS)
