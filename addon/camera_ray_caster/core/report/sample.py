@@ -54,7 +54,7 @@ class Sample:
 
 
 def finding(name: str, errors, angles, bound_pixels, bound_radians, own) -> Finding:
-    """Return what a witness says: the largest and the median errors (n, 2) and (n,), beside their bounds and our own."""
+    """Return what a witness says: the largest and median errors, (n, 2) and (n,), beside their bounds and our own."""
     pixels = length_of(errors)
     return Finding(
         witness=name,
