@@ -3,12 +3,21 @@
 import pytest
 
 from ..exr import read_exr
+from .processes import SOURCE, extension_tool
 
 
 @pytest.fixture(autouse=True)
 def empty_file(blender):
     """See ``blender``, which does the work and takes it back."""
     return blender
+
+
+@pytest.fixture(scope="session")
+def archive(tmp_path_factory):
+    """The extension as a zip."""
+    path = tmp_path_factory.mktemp("dist") / "camera_ray_caster.zip"
+    extension_tool("build", "--source-dir", SOURCE, "--output-filepath", path)
+    return path
 
 
 @pytest.fixture

@@ -1,9 +1,6 @@
 """The zip as a user meets it: built, validated, installed in a fresh profile, rendered with, and taken away again."""
 
 import json
-import os
-import subprocess
-import sys
 import zipfile
 from pathlib import Path
 
@@ -11,44 +8,9 @@ import bpy
 import numpy as np
 import pytest
 
-SOURCE = Path(__file__).parents[2] / "addon" / "camera_ray_caster"
+from .processes import SOURCE, blender_command, extension_tool, run
+
 INSTALL_AND_RENDER = Path(__file__).parent / "install_and_render.py"
-
-
-def run(*command, **environment):
-    """Run a program to its end and return what it printed; a failure shows everything that it said."""
-    done = subprocess.run(
-        command,
-        env=os.environ | environment,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        text=True,
-        timeout=120,
-    )
-    assert done.returncode == 0, done.stdout
-    return done.stdout
-
-
-def extension_tool(*arguments):
-    """Blender's own program for extensions: it lies beside the add-on that manages them, in bpy and in Blender."""
-    (folder,) = bpy.utils.script_paths(subdir="addons_core/bl_pkg/cli")
-    return run(sys.executable, os.path.join(folder, "blender_ext.py"), *map(str, arguments))
-
-
-def blender_command(script):
-    """The words that run a script in another Blender of this kind: pip's bpy has no program of its own."""
-    if not bpy.app.binary_path:
-        return [sys.executable, "-P", script, "--"]  # -P: modules beside the script are not to stand before Blender's
-    options = ["--background", "--factory-startup", "--python-exit-code", "1"]
-    return [bpy.app.binary_path, *options, "--python", script, "--"]
-
-
-@pytest.fixture(scope="module")
-def archive(tmp_path_factory):
-    """The extension as a zip."""
-    path = tmp_path_factory.mktemp("dist") / "camera_ray_caster.zip"
-    extension_tool("build", "--source-dir", SOURCE, "--output-filepath", path)
-    return path
 
 
 @pytest.fixture(scope="module")

@@ -40,8 +40,10 @@ MAY_IMPORT = {
     "": {"blender"},
 }
 BLENDER = {"bpy", "bpy_extras", "mathutils", "bl_math", "gpu", "gpu_extras", "blf", "bmesh", "imbuf", "addon_utils"}
-TESTS_OF_THEIR_OWN = {"core/truth", "blender/cycles"}
-"""Rooms of tests that no room of the package has: the exact rays of 60 digits, and Cycles as a witness."""
+TESTS_OF_THEIR_OWN = {"core/truth", "blender/add_a_camera", "blender/cycles"}
+"""Rooms of tests that no room of the package has: the exact rays of 60 digits, a model that is added and taken away
+again, and Cycles as a witness.
+"""
 OUTSIDE = {"core": {"numpy"}, "blender": {"numpy"} | BLENDER, "": set()}
 
 

@@ -4,9 +4,10 @@ A model is a lens and its film alone: pixels in, rays in the camera's frame out.
 the picture is rendered and at what time is the business of ``core.camera``.
 
 A new model is one file, with a frozen dataclass that inherits ``Model``, and one word in MODELS. It has to give
-``key``, ``label``, ``description``, ``group``, ``number``, ``FORMULA``, ``from_blender`` and ``rays``. All else has a
-default: ``project`` is a numerical inverse of ``rays``, ``bounds`` are everywhere. A closed form is an improvement, not
-a duty. One contract test runs over MODELS (tests/core/cameras/test_model.py).
+``key``, ``label``, ``description``, ``group``, ``number``, ``FORMULA`` and ``rays``. All else has a default:
+``from_blender`` reads SETTINGS into the model's fields, ``project`` is a numerical inverse of ``rays``, ``bounds`` are
+everywhere. A closed form is an improvement, not a duty. One contract test runs over MODELS
+(tests/core/cameras/test_model.py), and a test adds a model of 25 lines (tests/blender/add_a_camera).
 
 ``rays`` is arithmetic on two numbers or arrays. It does not branch on their values, other than by numpy's ``where``,
 so that the formula can be recorded (``core.maths.recording``) and evaluated with any number of digits.
@@ -72,9 +73,12 @@ class Model(ABC):
     """From the pixel (x, y) to the ray, step by step."""
 
     @classmethod
-    @abstractmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> Self:
-        """Return the model that a record describes. Raises InputError, in one line, for settings without meaning."""
+        """Return the model that a record describes. Raises InputError, in one line, for settings without meaning.
+
+        By default the model's own fields are the values of SETTINGS, in their order.
+        """
+        return cls(raster.size, *(setting.read(raw) for setting in cls.SETTINGS))
 
     @abstractmethod
     def rays(self, x, y) -> tuple[Any, Any]:

@@ -64,6 +64,10 @@ class Setting(ABC):
             raise InputError(f"camera {raw.name!r} has no setting {self.name}, which its model needs")
         return raw.settings[self.name]
 
+    def read(self, raw: BlenderCamera) -> Any:
+        """Return the value that a model uses. Raises InputError for one without meaning."""
+        return self.given(raw)
+
     def reported(self, raw: BlenderCamera) -> Any:
         """Return the value as a report has it: plain numbers, words, lists and None."""
         return _plain(self.given(raw))
