@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import math
 import os
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from operator import index
 from time import perf_counter
 
 import numpy as np
@@ -14,9 +16,12 @@ from .camera.camera import Camera
 from .casting.passes import PASSES
 from .casting.plan import Plan, make_plan
 from .casting.request import AUTOMATIC, MATERIAL, Request
-from .casting.tiles import STEPS, Tile, cast_tile, in_threads, moments, shares
+from .casting.tiles import STEPS, Effort, Tile, cast_tile, in_threads, moments, shares
 from .maths.speed import Scratch
 from .records import InputError, Shapes
+
+MOST_SAMPLES = 1 << 24
+"""Rays a pixel, as many as Cycles allows: more are no closer to the mean than a stored float32."""
 
 
 class Images(dict[str, np.ndarray]):
@@ -45,16 +50,17 @@ def cast(
     hits with float32. object_index, material_index and shape_index are int32, valid is bool. With ``samples`` above 1
     the combined pass is the mean of as many rays a pixel, all over the pixel and the camera's aperture; all other
     passes are of the chief rays. ``threads``: so many at most, one a processor if None; fewer where they
-    would wait for each other. ``progress(fraction)`` is called in the calling thread after each tile; where it returns
-    False the cast stops within the tiles under way and raises Cancelled. ``cull=False`` tests every shape at every
-    pixel: the same picture, slower.
-    Raises InputError for an unknown pass, shading or precision and for less than one sample or thread.
+    would wait for each other. ``progress(fraction)`` is called in the calling thread after each tile, and ten times a
+    second; where it returns False the cast stops within the samples under way and raises Cancelled. ``cull=False``
+    tests every shape at every pixel: the same picture, slower.
+    Raises InputError for an unknown pass, shading or precision, for a dtype that is no floating-point number, and for a
+    number of samples or threads that is not whole, below 1, or above MOST_SAMPLES.
     """
     started = perf_counter()
-    threads = (os.cpu_count() or 1) if threads is None else threads
-    for count, unit in ((samples, "samples"), (threads, "threads")):
-        if count < 1:
-            raise InputError(f"{count} {unit} make no picture: ask for 1 or more")
+    threads = (os.cpu_count() or 1) if threads is None else _count(threads, "threads")
+    samples = _count(samples, "samples", MOST_SAMPLES)
+    if np.dtype(dtype).kind != "f":
+        raise InputError(f"passes are not stored as {np.dtype(dtype)}: choose float16, float32 or float64")
     passes = (passes,) if isinstance(passes, str) else tuple(passes)
     request = Request(passes, tuple(PASSES), shading, cull, precision=precision)
     time = camera.pixel_time
@@ -71,6 +77,7 @@ def cast(
     else:
         tiles = list(moments(camera, time))
     images.seconds = {"plan": perf_counter() - started}
+    effort = Effort(max(1, len(tiles) * sum(count for part, count in parts if part.passes)))
 
     def run(tile: Tile, scratch: Scratch) -> np.ndarray:
         seconds = np.zeros(len(STEPS))
@@ -79,15 +86,28 @@ def cast(
             for part, count in parts:
                 if part.passes:
                     plan = plans.get(part) or make_plan(*then, part)
-                    seconds += cast_tile(plan, tile, count, {name: images[name] for name in part.passes}, scratch)
+                    into = {name: images[name] for name in part.passes}
+                    seconds += cast_tile(plan, tile, count, into, scratch, effort)
         return seconds
 
     began = perf_counter()
     others = round(whole.work.sum() / len(tiles) / tuning.SERIAL_WORK)  # may hold the interpreter meanwhile
-    busy = in_threads(run, tiles, min(threads, 1 + others), request.real, progress)
+    busy = in_threads(run, tiles, min(threads, 1 + others), request.real, effort, progress)
     share = (perf_counter() - began) / max(busy.sum(), np.finfo(float).tiny)
     images.seconds |= dict(zip(STEPS, busy * share, strict=True))
     return images
+
+
+def _count(given, unit: str, most: float = math.inf) -> int:
+    """Return a number of things. Raises InputError where it is none, or out of range."""
+    try:
+        count = index(given)
+    except TypeError as error:
+        raise InputError(f"{given!r} is no number of {unit}: ask for a whole number") from error
+    if not 1 <= count <= most:
+        limit = f", up to {most}" if count > 1 else ""
+        raise InputError(f"{count} {unit} make no picture: ask for 1 or more{limit}")
+    return count
 
 
 def _moment(camera: Camera, shapes: Shapes, frame: float | None) -> tuple[Camera, Shapes]:

@@ -17,7 +17,7 @@ from ..cameras.parts.aperture import Aperture
 from ..conventions import gamma
 from ..maths.speed import BAND, sharing, whole_rows
 from ..maths.vector import components, dot, inverse, is_grid, matvec, norm
-from ..records import Pose, Raster, Rays
+from ..records import InputError, Pose, Raster, Rays
 from .pixel_time import PixelTime, groups, meeting
 from .sampling import in_opening, sub_pixel
 
@@ -197,11 +197,13 @@ class Camera:
 
     def project(self, points) -> np.ndarray:
         """Return the pixel coordinates (..., 2) in the full frame of world points (..., 3); NaN where none sees it, and
-        for points that are not finite.
+        for points that are not finite. Raises InputError for an array of another shape.
 
         With a clock and a moving camera each point, taken to stand still, is sought by itself: see ``meeting``.
         """
         points = np.asarray(points, dtype=np.float64)
+        if points.shape[-1:] != (3,):
+            raise InputError(f"points of shape {points.shape} cannot be projected: give x, y, z, shape (..., 3)")
         if self.pixel_time is not None and self.motion is not None:
             time, each = self.pixel_time, points.reshape(-1, 3)
             found = [meeting(time, lambda t, p=point: self.at(t).project(p)) for point in each]

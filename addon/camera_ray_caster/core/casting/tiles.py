@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import ThreadPoolExecutor, as_completed
+from concurrent.futures import FIRST_COMPLETED, ThreadPoolExecutor, wait
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from threading import local
+from threading import Lock, local
 from time import perf_counter
 
 import numpy as np
@@ -23,6 +23,33 @@ from .search import nearest_hits
 
 STEPS = "rays", "cast", "passes"
 """What the seconds of a tile are spent on: rays, their nearest hits, the passes of these."""
+
+
+LISTEN = 0.1
+"""Seconds after which the calling thread asks whether to go on, at the latest."""
+
+
+class Effort:
+    """How far a cast is, and whether it goes on: its threads tell of each sample of a tile that is done."""
+
+    def __init__(self, steps: int):
+        self._steps, self._done, self._lock, self._stopped = steps, 0, Lock(), False
+
+    @property
+    def fraction(self) -> float:
+        """How much is done, 0 to 1."""
+        return self._done / self._steps
+
+    def step(self) -> None:
+        """Note that a step is done. Raises Cancelled where the cast is to stop."""
+        with self._lock:
+            self._done += 1
+        if self._stopped:
+            raise Cancelled
+
+    def stop(self) -> None:
+        """Let every thread end at its next step."""
+        self._stopped = True
 
 
 @dataclass(frozen=True)
@@ -72,10 +99,12 @@ def _bands(rows: slice, columns: slice, pixels: int) -> Iterator[Tile]:
         yield Tile(slice(first, last), columns)
 
 
-def cast_tile(plan: Plan, tile: Tile, samples: int, images: dict[str, np.ndarray], scratch: Scratch) -> np.ndarray:
+def cast_tile(
+    plan: Plan, tile: Tile, samples: int, images: dict[str, np.ndarray], scratch: Scratch, effort: Effort
+) -> np.ndarray:
     """Cast one tile and store the passes of these images; return the seconds of STEPS.
 
-    With samples above 1 the only pass is combined, the mean of as many rays a pixel.
+    With samples above 1 the only pass is combined, the mean of as many rays a pixel. Raises Cancelled between samples.
     """
     raster = plan.camera.raster
     place = raster.columns()[:, tile.columns], raster.rows()[tile.rows], (tile.columns.start, tile.rows.start)
@@ -96,6 +125,7 @@ def cast_tile(plan: Plan, tile: Tile, samples: int, images: dict[str, np.ndarray
         else:
             add_combined(hits, total)
         seconds += generated - began, found - generated, perf_counter() - found
+        effort.step()
     if total is not None:
         total /= samples
         put(total, parts["combined"], tile.where)
@@ -107,6 +137,7 @@ def in_threads(
     tiles: Sequence[Tile],
     workers: int,
     real: type,
+    effort: Effort,
     progress: Callable[[float], bool] | None,
 ) -> np.ndarray:
     """Run tiles on threads (numpy releases the interpreter), each with working arrays of its own, and return the sum of
@@ -119,13 +150,15 @@ def in_threads(
 
     total = np.zeros(len(STEPS))
     with ThreadPoolExecutor(workers, initializer=begin) as pool:
-        waiting = [pool.submit(lambda tile: run(tile, own.scratch), tile) for tile in tiles]
+        waiting = {pool.submit(lambda tile: run(tile, own.scratch), tile) for tile in tiles}
         try:
-            for done, future in enumerate(as_completed(waiting), 1):
-                total += future.result()
-                if progress is not None and not progress(done / len(tiles)):
+            while waiting:
+                done, waiting = wait(waiting, LISTEN, FIRST_COMPLETED)
+                total += sum(future.result() for future in done)
+                if progress is not None and not progress(effort.fraction):
                     raise Cancelled
         finally:
+            effort.stop()
             for future in waiting:
                 future.cancel()
     return total

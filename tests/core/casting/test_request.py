@@ -1,0 +1,52 @@
+"""What may be asked of a cast, and how it is stopped."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from camera_ray_caster.core.cast import cast
+from camera_ray_caster.core.records import SPHERE, Cancelled, InputError
+
+from .test_cast import camera_at, shapes_of
+
+
+@pytest.mark.parametrize(
+    ("given", "says"),
+    [
+        ({"threads": float("nan")}, "nan is no number of threads"),
+        ({"threads": 0}, "0 threads"),
+        ({"threads": 1.5}, "1.5 is no number of threads"),
+        ({"samples": float("nan")}, "nan is no number of samples"),
+        ({"samples": 2**31 - 1}, "2147483647 samples make no picture: ask for 1 or more, up to 16777216"),
+        ({"samples": "many"}, "'many' is no number of samples"),
+        *(({"dtype": dtype}, "not stored as") for dtype in (str, bool, np.int8, complex, object)),
+    ],
+)
+def test_what_cannot_be_meant_is_refused_in_one_line(given, says):
+    with pytest.raises(InputError, match=says) as caught:
+        cast(camera_at(), shapes_of((SPHERE, (0, 0, -5), 1.0)), ("depth",), **given)
+    assert "\n" not in str(caught.value)
+
+
+def test_passes_may_come_from_a_generator():
+    images = cast(camera_at(), shapes_of((SPHERE, (0, 0, -5), 1.0)), (name for name in ("depth", "valid")))
+    assert list(images) == ["depth", "valid"]
+    assert images["valid"].all()
+
+
+def test_many_samples_stop_soon_and_tell_how_far_they_are():
+    """The one tile of this picture would take minutes."""
+    heard = []
+
+    def progress(fraction):
+        heard.append(fraction)
+        return len(heard) < 4
+
+    with pytest.raises(Cancelled):
+        cast(
+            camera_at(resolution_x=256, resolution_y=256), shapes_of((SPHERE, (0, 0, -5), 1.0)), ("combined",),
+            samples=1 << 20, progress=progress,
+        )  # fmt: skip
+    assert 0 < heard[-1] < 0.01
+    assert heard == sorted(heard)
