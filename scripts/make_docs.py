@@ -87,7 +87,7 @@ def row(setting: Setting) -> str:
 def number(setting) -> tuple[str, str, str]:
     """Return the unit, the range and the default of a number; a unit is not repeated in what follows it."""
     ends = setting.low, setting.high
-    span = "" if ends == (-math.inf, math.inf) else setting.range_in_words(*ends)
+    span = "" if ends == (-math.inf, math.inf) else setting.range_in_words(*setting.limits(*ends))
     words = span, setting.in_words(float(setting.default))
     return "degrees" if setting.unit == "angle" else setting.unit, *(word.replace(" degrees", "") for word in words)
 

@@ -29,7 +29,10 @@ MAY_IMPORT = {
     "core.casting": HITS,
     "core.cast": HITS,
     "core.motion": RAYS | {"core.motion"},
-    "core.report.verification": LOW,  # a witness that knew a camera model's formula would be no witness
+    # a witness that knew a camera model's formula would be no witness
+    "core.report.sample": LOW,
+    "core.report.witness": LOW | {"core.report.sample"},
+    "core.report.verification": LOW | {"core.report.sample", "core.report.witness"},
     "core.report": HITS | {"core.cast", "core.report"},
     "core": {"core"},
     "blender.verification.witness": LOW,

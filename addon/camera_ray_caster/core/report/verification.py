@@ -1,31 +1,22 @@
-"""A camera's rays held against witnesses: errors in pixels and radians, beside the bound that each witness can reach.
+"""A camera's rays compared with witnesses: errors in pixels and radians, beside the bound that each witness can reach.
 
-It knows a camera by its public ``rays_at``, ``project`` and ``raster`` alone and no model's formula. A witness computes
-in float32, so each bound is (rounded operations in the witness's own code) x 2^-24 x (magnitude they act on). M is
-the largest offset of the frame's edges from the optical axis, in pixels (half the frame, and more with shift).
+It knows a camera by its public ``rays_at``, ``project`` and ``raster`` alone and no model's formula. Blender's own
+answers are the witnesses of ``report.witness``; the round trip needs none:
 
-view_frame             aspect 3, half side 1, shift 1, sum or depth 1: 6 M.
-calc_matrix_camera     pixel size 5 (sensor, near plane, lens, aspect); left and right edge each 4 (shift 1, its unit 2,
-                       sum 1), times pixel size 2; their sum, their difference, both divisions and the aspect once
-                       more 7: 18 M. An error common to all is counted once: it stretches the frame.
-world_to_camera_view   the local point: axes normalized 5, cofactors 2, determinant 8, division and products 2, sum,
-                       the point given as float32 1, and axes tilted by their rounding 2: 21 (|eye| + |point|) / det^2,
-                       det the volume of the unit axes (1 unless sheared), sums of magnitudes; seen at its depth.
-                       Its frame: 6 as above and 2 for scaling it to the depth: 8 M; 1 for the result.
 round trip             float64: what moving the point by 32 EPS (|origin| + |point|) does to its pixel. It is our own
                        rounding, so it is added to every other bound.
-Reference for the operations: Blender's camera.cc, mathutils and bpy_extras; see Higham (conventions.gamma) for sums.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from ..conventions import EPS32, gamma
+from ..conventions import gamma
 from ..records import Finding
+from .sample import CameraRays, Sample, angles_between, finding, largest, length_of
+from .witness import Witness, findings_of
 
 GRID = 9
 """Pixels a side at which rays are compared: the window's edges, its middle and between."""
@@ -37,188 +28,22 @@ ENLARGED = 2.0**15
 """How many times its rounding a point is moved to see what the rounding does to its pixel."""
 
 
-def verify(camera, witness=None, grid: int = GRID) -> list[Finding]:
+def verify(camera: CameraRays, witness: Witness | None = None, grid: int = GRID) -> list[Finding]:
     """Return what each witness says of the camera's rays, at ``grid`` x ``grid`` pixels of the render window.
 
     ``witness`` is Blender's, or None where Blender has none: an object with ``size``, ``matrix_world``, ``frame``,
-    ``matrix`` and ``view_coordinates(points)`` as blender.witness describes them. The round trip needs none.
+    ``matrix`` and ``view_coordinates(points)``. The round trip needs none.
     Errors in radians are angles between directions in the world; errors in pixels say where in the frame the witness
     sees the ray. A pixel without a ray fails (NaN) where there is a witness, and is left out of the round trip.
     """
-    sample = _Sample.of(camera, grid)
+    sample = Sample.of(camera, grid)
     own, round_trip = _round_trip(camera, sample)
     if witness is None:
         return [round_trip]
-    local = _Local.of(witness)
-    with np.errstate(all="ignore"):  # a wrong ray may pass beside the frame's plane, or a bound exceed float64
-        return [
-            _view_frame(camera, local, own),
-            _matrix(sample, local, own),
-            _view_coordinates(sample, local, own),
-            round_trip,
-        ]
+    return [*findings_of(camera, sample, witness, own), round_trip]
 
 
-@dataclass(frozen=True)
-class _Sample:
-    """Rays of some pixels of the window; n of them."""
-
-    pixels: np.ndarray
-    """(n, 2): where the pixels' centers are, known from their numbers and not from the camera."""
-    origins: np.ndarray
-    directions: np.ndarray
-    valid: np.ndarray
-    distance: float
-    """How far along the rays points are taken: as far as the origins lie from the world's, where float32 is best."""
-
-    @classmethod
-    def of(cls, camera, grid: int) -> _Sample:
-        raster = camera.raster
-        height, width = raster.shape
-        i, j = _spread(width, grid), _spread(height, grid)
-        rays = camera.rays_at(raster.columns()[:, i], raster.rows()[j])
-        x, y = np.meshgrid(raster.x0 + i + 0.5, raster.y0 + j + 0.5)
-        origins = rays.origins.reshape(-1, 3)
-        far = float(np.nan_to_num(np.abs(origins)).max())
-        pixels = np.stack((x.ravel(), y.ravel()), axis=1)
-        return cls(pixels, origins, rays.directions.reshape(-1, 3), rays.valid.ravel(), far if far > 1e-20 else 1.0)
-
-    @property
-    def points(self) -> np.ndarray:
-        return self.origins + self.distance * self.directions
-
-
-@dataclass(frozen=True)
-class _Local:
-    """A witness with what follows from it: the camera's axes, and pixels on the frame."""
-
-    witness: Any
-    size: np.ndarray
-    eye: np.ndarray
-    axes: np.ndarray
-    """(3, 3): columns of the world matrix, each of unit length."""
-    parallel: bool
-    """Whether the witness sees parallel rays: its matrix divides by a constant."""
-    depth: float
-    """Of the frame; 1 for parallel rays, whose frame is as wide at every depth."""
-    pitch: np.ndarray
-    """(2,) size of a pixel on the frame."""
-    reach: np.ndarray
-    """(2,) largest offset of the frame's edges from the axis."""
-
-    @classmethod
-    def of(cls, witness) -> _Local:
-        linear = witness.matrix_world[:3, :3]
-        linear = linear / np.abs(linear).max(axis=0)
-        size = np.array(witness.size, np.float64)
-        parallel = bool(witness.matrix[3, 3] != 0)
-        return cls(
-            witness,
-            size,
-            witness.matrix_world[:3, 3],
-            linear / np.linalg.norm(linear, axis=0),
-            parallel,
-            1.0 if parallel else -witness.frame[0, 2],
-            (witness.frame[0] - witness.frame[2])[:2] / size,
-            np.abs(witness.frame[:, :2]).max(axis=0),
-        )
-
-    @property
-    def condition(self) -> float:
-        return float(np.linalg.cond(self.axes))
-
-    def rays(self, origins, directions):
-        """Return world rays in the camera's frame."""
-        inverse = np.linalg.inv(self.axes).T
-        return (origins - self.eye) @ inverse, directions @ inverse
-
-    def angles(self, directions, camera_directions):
-        """Return the angles between world directions and the witness's, of any length, in the camera's frame."""
-        expected = camera_directions @ self.axes.T
-        return _angles(directions, expected / _length(expected)[:, None])
-
-    def direction_bound(self, camera_directions, rounding):
-        """Return how far (radians) directions may turn when their x and y (2,) are ``rounding`` off at the frame."""
-        if self.parallel:
-            return 0.0
-        x, y, z = (camera_directions / -camera_directions[:, 2:]).T
-        turn = np.hypot(*rounding) + np.abs(x) * rounding[1] + np.abs(y) * rounding[0]
-        return self.condition * turn / self.depth / (x * x + y * y + z * z)
-
-
-def _view_frame(camera, local: _Local, own) -> Finding:
-    """Hold the rays through corners, middles of edges and center of the full frame against the frame's corners."""
-    u, v = (a.ravel() for a in np.meshgrid((0.0, 0.5, 1.0), (0.0, 0.5, 1.0)))
-    rays = camera.rays_at(*(np.stack((u, v)) * local.size[:, None]))
-    weights = np.stack((u * v, u * (1 - v), (1 - u) * (1 - v), (1 - u) * v), axis=1)
-    expected = weights @ local.witness.frame
-    origin, direction = local.rays(rays.origins, rays.directions)
-    found = origin + direction * ((expected[:, 2:] - origin[:, 2:]) / direction[:, 2:])
-    errors = (found - expected)[:, :2] / local.pitch
-    rounding = gamma(6, EPS32) * local.reach
-    aim = np.broadcast_to((0.0, 0.0, -1.0), expected.shape) if local.parallel else expected
-    turned = local.direction_bound(aim, rounding)
-    return _finding(
-        "view_frame", errors, local.angles(rays.directions, aim), np.hypot(*(rounding / local.pitch)), turned, own
-    )
-
-
-def _matrix(sample: _Sample, local: _Local, own) -> Finding:
-    """Hold the rays against the projection matrix: where it sees their points, and the ray that it has for a pixel."""
-    matrix = local.witness.matrix
-    origin, direction = local.rays(sample.origins, sample.directions)
-    clip = (origin + direction * sample.distance) @ matrix[:, :3].T + matrix[:, 3]
-    errors = (clip[:, :2] / clip[:, 3:] + 1) * local.size / 2 - sample.pixels
-    view = 2 * sample.pixels / local.size - 1
-    planes = matrix[:2, :3] - view[:, :, None] * matrix[3, :3]  # those that see the pixel's column and its row edge on
-    expected = np.cross(planes[:, 1], planes[:, 0])
-    rounding = gamma(18, EPS32) * local.reach
-    turned = local.direction_bound(expected, rounding)
-    angles = local.angles(sample.directions, expected)
-    return _finding("calc_matrix_camera", errors, angles, np.hypot(*(rounding / local.pitch)), turned, own)
-
-
-def _view_coordinates(sample: _Sample, local: _Local, own) -> Finding:
-    """Hold points along the rays, and for parallel rays their origins, against world_to_camera_view."""
-    pixels, path, lost, lost_pixels = _view(local, sample.points)
-    errors = pixels - sample.pixels
-    if local.parallel:
-        pixels, start, lost_at_start, _ = _view(local, sample.origins)
-        errors = np.concatenate((errors, pixels - sample.pixels))
-        path, lost = path - start, lost + lost_at_start
-    turned = local.condition * _length(lost) / _length(path)
-    return _finding(
-        "world_to_camera_view", errors, local.angles(sample.directions, path), _length(lost_pixels), turned, own
-    )
-
-
-def _view(local: _Local, points):
-    """Return where world_to_camera_view sees world points (n, 3), and how much of it float32 can lose.
-
-    That is pixels (n, 2), the points in the camera's frame as the answer implies them (n, 3), and for each component
-    of both what can be lost.
-    """
-    view = local.witness.view_coordinates(points.astype(np.float32))
-    exact = (points - local.eye) @ np.linalg.inv(local.axes).T
-    if local.parallel:
-        seen_scale, scale, slope = np.ones((len(points), 1)), np.ones((len(points), 1)), 0.0
-    else:
-        seen_scale, scale = view[:, 2:] / local.depth, -exact[:, 2:] / local.depth
-        slope = np.abs(exact[:, :2] / exact[:, 2:])
-    plane = local.witness.frame[2, :2] + view[:, :2] * local.pitch * local.size
-    magnitude = np.abs(local.eye).sum() + np.abs(points).sum(axis=1, keepdims=True)
-    moved = gamma(21, EPS32) * magnitude / np.linalg.det(local.axes) ** 2
-    frame = gamma(8, EPS32) * local.reach + EPS32 * local.pitch * local.size
-    lost = moved * (1 + slope) + frame * np.abs(scale)
-    return (
-        view[:, :2] * local.size,
-        np.concatenate((plane * seen_scale, -view[:, 2:]), axis=1),
-        np.concatenate((lost, moved + EPS32 * np.abs(exact[:, 2:])), axis=1),
-        lost / np.abs(scale) / local.pitch,
-    )
-
-
-def _round_trip(camera, sample: _Sample) -> tuple[tuple[Any, Any], Finding]:
+def _round_trip(camera: CameraRays, sample: Sample) -> tuple[tuple[Any, Any], Finding]:
     """Go from pixels along their rays to points and back; return the float64 bounds too, in pixels and radians.
 
     A point that several pixels see may come back to another one: where the ray of that one meets it, it is left out.
@@ -231,55 +56,23 @@ def _round_trip(camera, sample: _Sample) -> tuple[tuple[Any, Any], Finding]:
     bound = np.zeros(len(points))
     for side in np.eye(3):
         step = (ENLARGED * moved)[:, None] * side
-        slips = [_length(camera.project(points + near) - back) for near in (step, -step)]
+        slips = [length_of(camera.project(points + near) - back) for near in (step, -step)]
         bound += np.fmax(*slips) / ENLARGED  # at the picture's rim one of the two has no pixel
     steps = STEP * np.concatenate((np.eye(2), -np.eye(2)))
-    turns = [_angles(camera.rays_at(*(pixels + step).T).directions, directions) for step in steps]
+    turns = [angles_between(camera.rays_at(*(pixels + step).T).directions, directions) for step in steps]
     turned = np.fmax.reduce(turns) / STEP * bound + gamma(32)
-    own = _largest(bound), _largest(turned)
-    return own, _finding("round trip", back - pixels, _angles(again, directions), bound, turned, (0.0, 0.0))
+    own = largest(bound), largest(turned)
+    return own, finding("round trip", back - pixels, angles_between(again, directions), bound, turned, (0.0, 0.0))
 
 
-def _seen_elsewhere(camera, sample: _Sample):
+def _seen_elsewhere(camera: CameraRays, sample: Sample):
     """Return which points come back to another pixel whose ray meets them too."""
     back = camera.project(sample.points)
     rays = camera.rays_at(back[:, 0], back[:, 1])
-    beside = _length(np.cross(sample.points - rays.origins, rays.directions))
-    return (_length(back - sample.pixels) > 1) & (beside <= ENLARGED * _moved(sample))
+    beside = length_of(np.cross(sample.points - rays.origins, rays.directions))
+    return (length_of(back - sample.pixels) > 1) & (beside <= ENLARGED * _moved(sample))
 
 
-def _moved(sample: _Sample):
+def _moved(sample: Sample):
     """Return how far rounding may move each point, (n,)."""
     return gamma(32) * (np.abs(sample.origins).sum(axis=1) + np.abs(sample.points).sum(axis=1))
-
-
-def _finding(name: str, errors, angles, bound_pixels, bound_radians, own) -> Finding:
-    pixels = _length(errors)
-    return Finding(
-        witness=name,
-        points=len(pixels),
-        worst_pixels=_largest(pixels),
-        median_pixels=float(np.median(pixels)) if len(pixels) else 0.0,
-        bound_pixels=_largest(bound_pixels) + own[0],
-        worst_radians=_largest(angles),
-        median_radians=float(np.median(angles)) if len(angles) else 0.0,
-        bound_radians=_largest(bound_radians) + own[1],
-    )
-
-
-def _largest(errors) -> float:
-    return float(np.max(errors, initial=0.0))
-
-
-def _spread(count: int, grid: int) -> np.ndarray:
-    """Return up to ``grid`` of the numbers 0 .. count - 1, evenly, the first and the last among them."""
-    return np.unique(np.linspace(0, count - 1, grid).round().astype(int))
-
-
-def _length(vectors):
-    return np.linalg.norm(vectors, axis=1)
-
-
-def _angles(left, right):
-    """Return the angles between unit vectors (n, 3), from their difference, which keeps the small ones."""
-    return 2 * np.arcsin(np.minimum(_length(left - right) / 2, 1.0))

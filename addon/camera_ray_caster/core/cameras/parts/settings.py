@@ -95,9 +95,7 @@ class Number(Setting):
 
         Raises InputError that names the setting, its value and the range.
         """
-        largest = LARGEST_ANGLE if self.unit == "angle" else LARGEST
-        low = max(self.low if low is None else low, -largest)
-        high = min(self.high if high is None else high, largest)
+        low, high = self.limits(self.low if low is None else low, self.high if high is None else high)
         value = self.given(raw)
         if (
             not isinstance(value, int | float)
@@ -111,6 +109,11 @@ class Number(Setting):
         if self.unit == "angle" and isinstance(value, int | float):
             return f"{math.degrees(value):.6g} degrees"
         return f"{value:.6g}" if isinstance(value, float) else f"{value!r}"
+
+    def limits(self, low: float, high: float) -> tuple[float, float]:
+        """Return a range without numbers that have no meaning, whatever the range."""
+        largest = LARGEST_ANGLE if self.unit == "angle" else LARGEST
+        return max(low, -largest), min(high, largest)
 
     def range_in_words(self, low: float, high: float) -> str:
         """Return what a value may be."""

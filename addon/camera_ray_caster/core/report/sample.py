@@ -1,0 +1,88 @@
+"""What a camera is verified by: a sample of its rays, and the words in which a witness's answer is told."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+
+from ..records import Finding, Raster, Rays
+
+
+class CameraRays(Protocol):
+    """All that is asked of a camera."""
+
+    @property
+    def raster(self) -> Raster:
+        """The frame and its render window."""
+
+    def rays_at(self, x, y) -> Rays:
+        """Return the world rays through pixel coordinates."""
+
+    def project(self, points) -> np.ndarray:
+        """Return the pixel coordinates of world points."""
+
+
+@dataclass(frozen=True)
+class Sample:
+    """Rays of some pixels of the window; n of them."""
+
+    pixels: np.ndarray
+    """(n, 2): where the pixels' centers are, known from their numbers and not from the camera."""
+    origins: np.ndarray
+    directions: np.ndarray
+    valid: np.ndarray
+    distance: float
+    """How far along the rays points are taken: as far as the origins lie from the world's, where float32 is best."""
+
+    @classmethod
+    def of(cls, camera: CameraRays, grid: int) -> Sample:
+        raster = camera.raster
+        height, width = raster.shape
+        i, j = _spread(width, grid), _spread(height, grid)
+        rays = camera.rays_at(raster.columns()[:, i], raster.rows()[j])
+        x, y = np.meshgrid(raster.x0 + i + 0.5, raster.y0 + j + 0.5)
+        origins = rays.origins.reshape(-1, 3)
+        far = float(np.nan_to_num(np.abs(origins)).max())
+        pixels = np.stack((x.ravel(), y.ravel()), axis=1)
+        return cls(pixels, origins, rays.directions.reshape(-1, 3), rays.valid.ravel(), far if far > 1e-20 else 1.0)
+
+    @property
+    def points(self) -> np.ndarray:
+        return self.origins + self.distance * self.directions
+
+
+def finding(name: str, errors, angles, bound_pixels, bound_radians, own) -> Finding:
+    """Return what a witness says: the largest and median errors, (n, 2) and (n,), beside their bounds and our own."""
+    pixels = length_of(errors)
+    return Finding(
+        witness=name,
+        points=len(pixels),
+        worst_pixels=largest(pixels),
+        median_pixels=float(np.median(pixels)) if len(pixels) else 0.0,
+        bound_pixels=largest(bound_pixels) + own[0],
+        worst_radians=largest(angles),
+        median_radians=float(np.median(angles)) if len(angles) else 0.0,
+        bound_radians=largest(bound_radians) + own[1],
+    )
+
+
+def largest(errors) -> float:
+    """Return the largest of some errors, 0 of none; NaN where one is."""
+    return float(np.max(errors, initial=0.0))
+
+
+def _spread(count: int, grid: int) -> np.ndarray:
+    """Return up to ``grid`` of the numbers 0 .. count - 1, evenly, the first and the last among them."""
+    return np.unique(np.linspace(0, count - 1, grid).round().astype(int))
+
+
+def length_of(vectors):
+    """Return the lengths of vectors (n, m)."""
+    return np.linalg.norm(vectors, axis=1)
+
+
+def angles_between(left, right):
+    """Return the angles between unit vectors (n, 3), from their difference, which keeps the small ones."""
+    return 2 * np.arcsin(np.minimum(length_of(left - right) / 2, 1.0))

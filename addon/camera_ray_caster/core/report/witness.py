@@ -1,0 +1,179 @@
+"""Blender's own answers on where a camera's pixels look, compared with its rays: errors beside the bound of each.
+
+A witness computes in float32, so each bound is (rounded operations in the witness's own code) x 2^-24 x (magnitude they
+act on). M is the largest offset of the frame's edges from the optical axis, in pixels (half the frame, and more with
+shift).
+
+view_frame             aspect 3, half side 1, shift 1, sum or depth 1: 6 M.
+calc_matrix_camera     pixel size 5 (sensor, near plane, lens, aspect); left and right edge each 4 (shift 1, its unit 2,
+                       sum 1), times pixel size 2; their sum, their difference, both divisions and the aspect once
+                       more 7: 18 M. An error common to all is counted once: it stretches the frame.
+world_to_camera_view   the local point: axes normalized 5, cofactors 2, determinant 8, division and products 2, sum,
+                       the point given as float32 1, and axes tilted by their rounding 2: 21 (|eye| + |point|) / det^2,
+                       det the volume of the unit axes (1 unless sheared), sums of magnitudes; seen at its depth.
+                       Its frame: 6 as above and 2 for scaling it to the depth: 8 M; 1 for the result.
+Reference for the operations: Blender's camera.cc, mathutils and bpy_extras; see Higham (conventions.gamma) for sums.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+
+from ..conventions import EPS32, gamma
+from ..records import Finding
+from .sample import CameraRays, Sample, angles_between, finding, length_of
+
+
+class Witness(Protocol):
+    """Blender's answers on a camera, as ``blender.verification.witness`` describes them."""
+
+    size: tuple[int, int]
+    matrix_world: np.ndarray
+    frame: np.ndarray
+    matrix: np.ndarray
+
+    def view_coordinates(self, points: np.ndarray) -> np.ndarray:
+        """Return where in the view the camera sees world points, (n, 3)."""
+
+
+def findings_of(camera: CameraRays, sample: Sample, witness: Witness, own) -> list[Finding]:
+    """Return what each of Blender's functions says of the rays.
+
+    own: what our own rounding does to a round trip, in pixels and radians.
+    """
+    local = _Local.of(witness)
+    with np.errstate(all="ignore"):  # a wrong ray may pass beside the frame's plane, or a bound exceed float64
+        return [_view_frame(camera, local, own), _matrix(sample, local, own), _view_coordinates(sample, local, own)]
+
+
+@dataclass(frozen=True)
+class _Local:
+    """A witness with what follows from it: the camera's axes, and pixels on the frame."""
+
+    witness: Witness
+    size: np.ndarray
+    eye: np.ndarray
+    axes: np.ndarray
+    """(3, 3): columns of the world matrix, each of unit length."""
+    parallel: bool
+    """Whether the witness sees parallel rays: its matrix divides by a constant."""
+    depth: float
+    """Of the frame; 1 for parallel rays, whose frame is as wide at every depth."""
+    pitch: np.ndarray
+    """(2,) size of a pixel on the frame."""
+    reach: np.ndarray
+    """(2,) largest offset of the frame's edges from the axis."""
+
+    @classmethod
+    def of(cls, witness) -> _Local:
+        linear = witness.matrix_world[:3, :3]
+        linear = linear / np.abs(linear).max(axis=0)
+        size = np.array(witness.size, np.float64)
+        parallel = bool(witness.matrix[3, 3] != 0)
+        return cls(
+            witness,
+            size,
+            witness.matrix_world[:3, 3],
+            linear / np.linalg.norm(linear, axis=0),
+            parallel,
+            1.0 if parallel else -witness.frame[0, 2],
+            (witness.frame[0] - witness.frame[2])[:2] / size,
+            np.abs(witness.frame[:, :2]).max(axis=0),
+        )
+
+    @property
+    def condition(self) -> float:
+        return float(np.linalg.cond(self.axes))
+
+    def rays(self, origins, directions):
+        """Return world rays in the camera's frame."""
+        inverse = np.linalg.inv(self.axes).T
+        return (origins - self.eye) @ inverse, directions @ inverse
+
+    def angles(self, directions, camera_directions):
+        """Return the angles between world directions and the witness's, of any length, in the camera's frame."""
+        expected = camera_directions @ self.axes.T
+        return angles_between(directions, expected / length_of(expected)[:, None])
+
+    def direction_bound(self, camera_directions, rounding):
+        """Return how far (radians) directions may turn when their x and y (2,) are ``rounding`` off at the frame."""
+        if self.parallel:
+            return 0.0
+        x, y, z = (camera_directions / -camera_directions[:, 2:]).T
+        turn = np.hypot(*rounding) + np.abs(x) * rounding[1] + np.abs(y) * rounding[0]
+        return self.condition * turn / self.depth / (x * x + y * y + z * z)
+
+
+def _view_frame(camera: CameraRays, local: _Local, own) -> Finding:
+    """Hold the rays through corners, middles of edges and center of the full frame against the frame's corners."""
+    u, v = (a.ravel() for a in np.meshgrid((0.0, 0.5, 1.0), (0.0, 0.5, 1.0)))
+    rays = camera.rays_at(*(np.stack((u, v)) * local.size[:, None]))
+    weights = np.stack((u * v, u * (1 - v), (1 - u) * (1 - v), (1 - u) * v), axis=1)
+    expected = weights @ local.witness.frame
+    origin, direction = local.rays(rays.origins, rays.directions)
+    found = origin + direction * ((expected[:, 2:] - origin[:, 2:]) / direction[:, 2:])
+    errors = (found - expected)[:, :2] / local.pitch
+    rounding = gamma(6, EPS32) * local.reach
+    aim = np.broadcast_to((0.0, 0.0, -1.0), expected.shape) if local.parallel else expected
+    turned = local.direction_bound(aim, rounding)
+    return finding(
+        "view_frame", errors, local.angles(rays.directions, aim), np.hypot(*(rounding / local.pitch)), turned, own
+    )
+
+
+def _matrix(sample: Sample, local: _Local, own) -> Finding:
+    """Hold the rays against the projection matrix: where it sees their points, and the ray that it has for a pixel."""
+    matrix = local.witness.matrix
+    origin, direction = local.rays(sample.origins, sample.directions)
+    clip = (origin + direction * sample.distance) @ matrix[:, :3].T + matrix[:, 3]
+    errors = (clip[:, :2] / clip[:, 3:] + 1) * local.size / 2 - sample.pixels
+    view = 2 * sample.pixels / local.size - 1
+    planes = matrix[:2, :3] - view[:, :, None] * matrix[3, :3]  # those that see the pixel's column and its row edge on
+    expected = np.cross(planes[:, 1], planes[:, 0])
+    rounding = gamma(18, EPS32) * local.reach
+    turned = local.direction_bound(expected, rounding)
+    angles = local.angles(sample.directions, expected)
+    return finding("calc_matrix_camera", errors, angles, np.hypot(*(rounding / local.pitch)), turned, own)
+
+
+def _view_coordinates(sample: Sample, local: _Local, own) -> Finding:
+    """Hold points along the rays, and for parallel rays their origins, against world_to_camera_view."""
+    pixels, path, lost, lost_pixels = _view(local, sample.points)
+    errors = pixels - sample.pixels
+    if local.parallel:
+        pixels, start, lost_at_start, _ = _view(local, sample.origins)
+        errors = np.concatenate((errors, pixels - sample.pixels))
+        path, lost = path - start, lost + lost_at_start
+    turned = local.condition * length_of(lost) / length_of(path)
+    return finding(
+        "world_to_camera_view", errors, local.angles(sample.directions, path), length_of(lost_pixels), turned, own
+    )
+
+
+def _view(local: _Local, points):
+    """Return where world_to_camera_view sees world points (n, 3), and how much of it float32 can lose.
+
+    That is pixels (n, 2), the points in the camera's frame as the answer implies them (n, 3), and for each component
+    of both what can be lost.
+    """
+    view = local.witness.view_coordinates(points.astype(np.float32))
+    exact = (points - local.eye) @ np.linalg.inv(local.axes).T
+    if local.parallel:
+        seen_scale, scale, slope = np.ones((len(points), 1)), np.ones((len(points), 1)), 0.0
+    else:
+        seen_scale, scale = view[:, 2:] / local.depth, -exact[:, 2:] / local.depth
+        slope = np.abs(exact[:, :2] / exact[:, 2:])
+    plane = local.witness.frame[2, :2] + view[:, :2] * local.pitch * local.size
+    magnitude = np.abs(local.eye).sum() + np.abs(points).sum(axis=1, keepdims=True)
+    moved = gamma(21, EPS32) * magnitude / np.linalg.det(local.axes) ** 2
+    frame = gamma(8, EPS32) * local.reach + EPS32 * local.pitch * local.size
+    lost = moved * (1 + slope) + frame * np.abs(scale)
+    return (
+        view[:, :2] * local.size,
+        np.concatenate((plane * seen_scale, -view[:, 2:]), axis=1),
+        np.concatenate((lost, moved + EPS32 * np.abs(exact[:, 2:])), axis=1),
+        lost / np.abs(scale) / local.pitch,
+    )
