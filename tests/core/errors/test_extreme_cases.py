@@ -43,13 +43,18 @@ def sample(images):
     return list(zip(*np.unravel_index(flat, shape), strict=True))
 
 
-def is_open(images, camera, pixel, x, y, ray):
-    """Whether rounding may decide between hit and miss at a pixel: at an edge of some shape, or of the clip range."""
+def at_edges(images, camera, x, y):
+    """Where rounding may decide between hit and miss, as at an edge of some shape: bool, of pixel coordinates (n,)."""
+    undecided = np.zeros(len(x), bool)
     for k in range(len(images.plan.shapes)):
-        value, bound = decision(camera, images.plan.in_camera, k, np.array([[x]]), np.array([[y]]))
-        if abs(value[0, 0]) <= bound[0, 0]:
-            return True
-    ends = [t for k in range(len(images.plan.shapes)) for t in truth.crossings(images.plan.shapes, k, ray)[0]]
+        value, bound = decision(camera, images.plan.in_camera, k, x[None], y[None])
+        undecided |= (np.abs(value) <= bound)[0]
+    return undecided
+
+
+def at_clip(shapes, camera, ray):
+    """Whether rounding may decide that something lies within the clip range."""
+    ends = [t for k in range(len(shapes)) for t in truth.crossings(shapes, k, ray)[0]]
     return any(abs(t - clip) <= 64 * EPS * clip for t in ends for clip in (camera.clip_start, camera.clip_end))
 
 
@@ -60,35 +65,37 @@ def test_hits_and_misses_are_the_exact_ones_and_numbers_lie_within_their_bounds(
     seen = images["shape_index"] >= 0
     for name in PASSES:
         assert not np.isnan(images[name]).any(), name
-    rows, columns = camera.raster.rows()[:, 0], camera.raster.columns()[0]
-    for pixel in sample(images):
-        x, y = columns[pixel[1]], rows[pixel[0]]
+    pixels = sample(images)
+    at = tuple(np.transpose(pixels))
+    x_of, y_of = camera.raster.columns()[0, at[1]], camera.raster.rows()[at[0], 0]
+    for pixel, x, y, at_edge in zip(pixels, x_of, y_of, at_edges(images, camera, x_of, y_of), strict=True):
         ray = truth.ray(case.raw, x, y)
         assert images["valid"][pixel] == (ray is not None), pixel
         if ray is None:
             continue
+        is_open = at_edge or at_clip(shapes, camera, ray)
         exact = truth.nearest(shapes, ray, camera.clip_start, camera.clip_end)
         if seen[pixel] != (exact is not None):
-            assert is_open(images, camera, pixel, x, y, ray), f"{pixel} is {'hit' if seen[pixel] else 'missed'}"
+            assert is_open, f"{pixel} is {'hit' if seen[pixel] else 'missed'}"
             continue
         if exact is None:
             continue
         if images["shape_index"][pixel] != exact.shape:
             other = truth.crossings(shapes, images["shape_index"][pixel], ray)[0]
             gap = min((abs(t * ray.length - exact.distance) for t in other), default=truth.mp.inf)
-            assert gap <= images["distance_bound"][pixel] or is_open(images, camera, pixel, x, y, ray), pixel
+            assert gap <= images["distance_bound"][pixel] or is_open, pixel
             continue
         errors = {
             "distance": abs(exact.distance - truth.mp.mpf(images["distance"][pixel])),
             "position": truth.norm(truth.minus(exact.position, truth.exact(images["position"][pixel]))),
             "normal": truth.norm(truth.minus(exact.normal, truth.exact(images["normal"][pixel]))),
         }
-        if is_open(images, camera, pixel, x, y, ray):
+        if is_open:
             errors.pop("normal")
         for name, error in errors.items():
             assert error <= images[name + "_bound"][pixel], f"{name} at {pixel}"
         assert abs(exact.t - truth.mp.mpf(images["depth"][pixel])) <= images["distance_bound"][pixel]
-        if not is_open(images, camera, pixel, x, y, ray):
+        if not is_open:
             assert images["distance_bound"][pixel] <= TIGHT * EPS * condition(case.raw, shapes, x, y), pixel
 
 

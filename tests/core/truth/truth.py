@@ -7,6 +7,7 @@ recorded.
 """
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 from mpmath import asin, cos, mp, mpf, sin, sqrt
 
@@ -53,6 +54,16 @@ def inverse(rows):
     a, b, c = columns(rows)
     volume = dot(a, cross(b, c))
     return [[x / volume for x in row] for row in (cross(b, c), cross(c, a), cross(a, b))]
+
+
+def to_shape(shapes, k):
+    """The matrix from world directions to shape k's frame."""
+    return _inverse_of(tuple(map(tuple, shapes.axes[k].tolist())))
+
+
+@lru_cache(1024)  # every pixel of a test asks for the same few
+def _inverse_of(axes):
+    return inverse(exact(axes))
 
 
 @dataclass(frozen=True)
@@ -205,8 +216,8 @@ def crossings(shapes, k, ray):
 
     The discriminant is |D|^2 - |N x D|^2 in the shape's frame.
     """
-    kind, to_shape = shapes.kind[k], inverse(exact(shapes.axes[k]))
-    d, n = times(to_shape, ray.direction), times(to_shape, minus(exact(shapes.center[k]), ray.origin))
+    kind, inner = shapes.kind[k], to_shape(shapes, k)
+    d, n = times(inner, ray.direction), times(inner, minus(exact(shapes.center[k]), ray.origin))
     if kind != SPHERE:
         if d[2] == 0:
             return [], None
@@ -232,8 +243,8 @@ def nearest(shapes, ray, start, end):
         return None
     t, k = min(found)
     place = along(ray.origin, ray.direction, t)
-    to_shape = inverse(exact(shapes.axes[k]))
-    q = times(to_shape, minus(place, exact(shapes.center[k])))
-    normal = times(columns(to_shape), q if shapes.kind[k] == SPHERE else [mpf(0), mpf(0), mpf(1)])
+    inner = to_shape(shapes, k)
+    q = times(inner, minus(place, exact(shapes.center[k])))
+    normal = times(columns(inner), q if shapes.kind[k] == SPHERE else [mpf(0), mpf(0), mpf(1)])
     size = -norm(normal) if dot(normal, ray.direction) > 0 else norm(normal)
     return Hit(k, t, t * ray.length, place, [x / size for x in normal])
