@@ -8,6 +8,7 @@ from functools import partial
 import bpy
 
 from ...core.camera.camera import Camera
+from ...core.camera.pixel_time import LAST_FRAME
 from ...core.camera.stereo import eye_record
 from ...core.records import InputError, Shapes
 from .camera import check_camera, eye_object, has_pixel_times
@@ -58,20 +59,42 @@ def _with_motion(scene, camera_object, depsgraph, view: str) -> SceneRecord:
     return found.with_motion(motion_of(found.camera, camera_object, partial(go_to, scene), eye))
 
 
+_readings: list[bool] = []
+"""One for the reading that is under way: what it evaluates calls handlers, which may read, too."""
+
+
 @contextmanager
 def evaluated_camera(scene, camera_object=None, frame=None, view=""):
-    """Yield the camera object that ``read_camera`` reads for these arguments, and the depsgraph that evaluates it."""
+    """Yield the camera object that ``read_camera`` reads for these arguments, and the depsgraph that evaluates it.
+
+    Within another reading, in a handler that this one calls, the scene is read as it is evaluated then. Raises
+    InputError where that would not do: for another frame, another camera or a view, and for pixel times.
+    """
     if camera_object is not None:
         check_camera(scene, camera_object)
-    with evaluated(scene, frame, camera_object), evaluated(scene, None, eye_object(scene, view)) as depsgraph:
-        yield scene.camera, depsgraph
+    if _readings:
+        depsgraph = _layer(scene).depsgraph
+        active = scene.camera if camera_object is None else camera_object
+        if frame is not None or view or active != scene.camera or has_pixel_times(active, depsgraph):
+            raise InputError(
+                "a handler reads a camera while another reading evaluates the scene: "
+                "read the active camera at the current frame there, or read it later, in a timer"
+            )
+        yield active, depsgraph
+        return
+    _readings.append(True)
+    try:
+        with evaluated(scene, frame, camera_object), evaluated(scene, None, eye_object(scene, view)) as depsgraph:
+            yield scene.camera, depsgraph
+    finally:
+        _readings.clear()
 
 
 @contextmanager
 def evaluated(scene, frame=None, camera_object=None):
     """Yield the scene's depsgraph at a frame with a camera active, and put frame and camera back in the end."""
-    if frame is not None and not abs(frame) < 2**31:
-        raise InputError(f"frame {frame} is not one that Blender can hold: choose one nearer to 0")
+    if frame is not None and not abs(frame) <= LAST_FRAME:
+        raise InputError(f"frame {frame} is none of Blender's: choose one from -{LAST_FRAME} to {LAST_FRAME}")
     layer = _layer(scene)
     before = scene.frame_current, scene.frame_subframe, scene.camera
     try:

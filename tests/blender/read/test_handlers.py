@@ -1,0 +1,69 @@
+"""Cameras that are read within Blender's handlers, which a reading itself calls."""
+
+import bpy
+import pytest
+
+from camera_ray_caster.blender.read import read_camera, read_shapes
+from camera_ray_caster.core.records import InputError
+
+from .scene_parts import ball, new_object
+
+
+@pytest.fixture
+def scene():
+    scene = bpy.context.scene
+    scene.camera = new_object("Camera", bpy.data.cameras.new("Camera"))
+    ball()
+    return scene
+
+
+@pytest.fixture
+def handled(request):
+    """A function that lets another one be called by a handler, until the test is over."""
+    added = []
+
+    def add(name, function):
+        handlers = getattr(bpy.app.handlers, name)
+        handlers.append(function)
+        added.append((handlers, function))
+
+    yield add
+    for handlers, function in added:
+        handlers.remove(function)
+
+
+@pytest.mark.parametrize("name", ["depsgraph_update_post", "frame_change_post"])
+def test_a_handler_may_read_the_active_camera(scene, handled, name):
+    seen = []
+    handled(name, lambda *_: seen.append((read_camera(scene).pose.eye[0], len(read_shapes(scene)))))
+    scene.camera.location.x = 2.5
+    assert read_camera(scene).pose.eye[0] == 2.5
+    assert read_camera(scene, frame=7).pose.eye[0] == 2.5
+    assert 1 <= len(seen) <= 8
+    assert seen[-1] == (2.5, 1)
+    scene.camera.location.x = 3.5
+    bpy.context.view_layer.update()  # outside of any reading
+    assert read_camera(scene).pose.eye[0] == 3.5
+
+
+@pytest.mark.parametrize("mode", ["NONE", "ROWS"])
+def test_a_handler_cannot_set_frames_while_another_reading_does(scene, handled, mode):
+    scene.camera.data.camera_ray_caster.time_mode = mode
+    told = []
+
+    def read(*_):
+        try:
+            read_camera(scene, frame=3 if mode == "NONE" else None)
+        except InputError as error:
+            told.append(str(error))
+
+    handled("frame_change_post", read)
+    read_camera(scene, frame=7)
+    assert told
+    assert all("a handler reads a camera while another reading evaluates the scene" in line for line in told)
+
+
+@pytest.mark.parametrize("frame", [1e9, -1e9, float("nan"), float("inf")])
+def test_a_frame_that_blender_does_not_have_is_refused(scene, frame):
+    with pytest.raises(InputError, match="is none of Blender's"):
+        read_camera(scene, frame=frame)
