@@ -32,7 +32,7 @@ def through(command: str) -> int:
 
     for name in ("SIGINT", "SIGTERM", "SIGHUP"):
         if hasattr(signal, name):
-            signal.signal(getattr(signal, name), signals.note)
+            signal.signal(getattr(signal, name), signals.stop)
     camera_ray_caster.register()
     try:
         return commands.main(command, _arguments(bool(bpy.app.binary_path)), f"{command}.py")

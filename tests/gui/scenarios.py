@@ -246,10 +246,10 @@ def disable(user, scenes):
     space.shading.type = "RENDERED"
     yield from user.wait(1)
     for _ in range(10):
-        look = addon("engine.viewport").look
+        timer = addon("engine.viewport").redraw_if_finished
         bpy.ops.preferences.addon_disable(module=MODULE)
         space.shading.type = "SOLID"  # before the view is drawn by another engine, which takes its time
-        assert not bpy.app.timers.is_registered(look)
+        assert not bpy.app.timers.is_registered(timer)
         assert not hasattr(bpy.types, "CAMERA_RAY_CASTER_PT_camera")
         yield
         bpy.ops.preferences.addon_enable(module=MODULE)

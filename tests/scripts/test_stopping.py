@@ -42,7 +42,7 @@ def test_a_signal_within_a_callback_of_blenders_ends_the_run_in_one_line(blender
     @blender.app.handlers.persistent
     def interrupted(*_):
         if not called:
-            signals.note()
+            signals.stop()
         called.append(True)
 
     handlers.append(interrupted)
@@ -54,7 +54,7 @@ def test_a_signal_within_a_callback_of_blenders_ends_the_run_in_one_line(blender
     assert status == 130
     assert capfd.readouterr().err == "cast.py: stopped; what was under way has left nothing\n"
     assert not (tmp_path / "out").exists()
-    assert not signals.noted()  # the next run goes its whole way
+    assert not signals.is_stopping()
 
 
 @pytest.mark.parametrize("command", ["cast", "verify"])
@@ -67,7 +67,7 @@ def test_a_signal_ends_the_reading_of_a_camera_that_moves(blender, tmp_path, cap
     def interrupted(*_):
         visited.append(True)
         if len(visited) == 1:
-            signals.note()
+            signals.stop()
 
     blender.app.handlers.frame_change_post.append(interrupted)
     output = ("--output", str(tmp_path / "out")) if command == "cast" else ()
@@ -90,7 +90,7 @@ def test_a_signal_after_the_render_ends_the_run_before_files_are_written(blender
 
     def interrupted(scene):
         report = rendered(scene)
-        signals.note()
+        signals.stop()
         return report
 
     monkeypatch.setattr(files, "_rendered", interrupted)
@@ -104,8 +104,8 @@ def test_a_second_signal_is_not_waited_for():
     from camera_ray_caster.blender.terminal import signals
 
     try:
-        signals.note()
+        signals.stop()
         with pytest.raises(KeyboardInterrupt):
-            signals.note()
+            signals.stop()
     finally:
-        signals.forget()
+        signals.reset()

@@ -1,4 +1,4 @@
-"""What Blender is told of: classes, properties, handlers and commands, and how all of it is taken back."""
+"""Registration of everything that the add-on adds to Blender, in one step that can be undone."""
 
 from contextlib import ExitStack
 
@@ -27,10 +27,10 @@ CLASSES = (
 """Blender's types, in the order in which they are registered: a panel comes after the panel that it is in."""
 
 MODULES = (groups, reports, scene_cache, viewport, cast_operator, overlay, render_panels, commands)
-"""What has more to add than its classes: ``register(undo)`` adds it, and has each step taken back by ``undo``."""
+"""Modules that add more than classes. ``register(undo)`` adds it and gives ``undo`` the callbacks that remove it."""
 
 _registered: list[ExitStack] = []
-"""What takes back all that is registered; empty where nothing is."""
+"""The callbacks that remove everything again; empty where nothing is registered."""
 
 
 def register() -> None:
@@ -47,6 +47,6 @@ def register() -> None:
 
 
 def unregister() -> None:
-    """Take back all that is registered, the last first."""
+    """Remove all that is registered, the last first."""
     if _registered:
         _registered.pop().close()

@@ -75,7 +75,7 @@ def test_each_tile_shows_progress_and_asks_whether_to_stop(stopped, ends, monkey
 
     shown = []
     stand_in = SimpleNamespace(update_progress=shown.append, test_break=lambda: stopped)
-    monkeypatch.setattr(signals, "_noted", ends)
+    monkeypatch.setattr(signals, "_stopping", ends)
     assert engine.CameraRayCaster.advance(stand_in, 0.25) is not (stopped or ends)
     assert shown == [0.25]
 

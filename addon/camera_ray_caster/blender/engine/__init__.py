@@ -1,1 +1,1 @@
-"""The render engine and its walk from an evaluated scene to images and a report."""
+"""The render engine, and the job from an evaluated scene to images and a report."""

@@ -1,4 +1,4 @@
-"""The render engine: Blender asks for a picture, the walk makes it, Blender stores, shows and writes it."""
+"""The render engine: Blender asks for a picture, ``job`` casts it, Blender stores, shows and writes it."""
 
 import math
 from dataclasses import replace
@@ -110,7 +110,7 @@ class CameraRayCaster(Viewport, bpy.types.RenderEngine):
     def advance(self, fraction: float) -> bool:
         """Show how far the cast is; return whether to go on."""
         self.update_progress(fraction)
-        return not (signals.noted() or self.test_break())
+        return not (signals.is_stopping() or self.test_break())
 
 
 CLASSES = (CameraRayCaster,)

@@ -1,4 +1,4 @@
-"""The one walk that every door takes: scene → camera → rays → hits → passes → report."""
+"""The steps from an evaluated scene to images and a report, the same for panel, F12 and terminal."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from ..verification.check import verify_evaluated
 
 @dataclass(frozen=True)
 class Job:
-    """All that a cast needs of Blender: from here on it may go on in another thread."""
+    """All that a cast needs of Blender, read and verified; the cast itself may run in another thread."""
 
     camera: Camera
     shapes: Shapes

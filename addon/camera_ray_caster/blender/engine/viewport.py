@@ -24,7 +24,7 @@ STEPS = (8, 2, 1)
 """Pixels of the window to a side of the picture's, from coarse to fine. The first is cast at once."""
 
 INTERVAL = 0.03
-"""Seconds between two looks for a finer picture."""
+"""Seconds between two checks whether a finer picture is finished."""
 
 _workers: list[Worker] = []
 
@@ -70,10 +70,10 @@ class Viewport:
     def view_draw(self, context, depsgraph):
         """Draw the latest picture of this view, and have a finer one cast."""
         scene = cached_scene(context)
-        view = context.region_data
+        region_data = context.region_data
         settings = context.scene.camera_ray_caster
         shown = {"shading": settings.shading, "precision": settings.precision}
-        matrices = [tuple(row) for row in (*view.view_matrix, *view.window_matrix)]
+        matrices = [tuple(row) for row in (*region_data.view_matrix, *region_data.window_matrix)]
         key = scene, matrices, context.region.width, context.region.height, shown
         if self._key != key:
             self._key, self._step, self._picture = key, 0, None
@@ -103,8 +103,8 @@ class Viewport:
         if self._step < len(STEPS):
             self._worker = Worker(partial(self._cast, STEPS[self._step]))
             _workers.append(self._worker)
-            if not bpy.app.timers.is_registered(look):
-                bpy.app.timers.register(look, first_interval=INTERVAL)
+            if not bpy.app.timers.is_registered(redraw_if_finished):
+                bpy.app.timers.register(redraw_if_finished, first_interval=INTERVAL)
 
     def _take(self) -> None:
         worker, self._worker = self._worker, None
@@ -132,9 +132,9 @@ class Viewport:
 
 def _target(context, raw: BlenderCamera | None) -> Target | None:
     """Return what fills the region; None where it looks through a camera that cannot be cast."""
-    region, view = context.region, context.region_data
-    if view.view_perspective != "CAMERA":
-        record = view_record(view.view_matrix, view.window_matrix, region.width, region.height)
+    region, region_data = context.region, context.region_data
+    if region_data.view_perspective != "CAMERA":
+        record = view_record(region_data.view_matrix, region_data.window_matrix, region.width, region.height)
         return Target(0, 0, region.width, region.height, record, (0, 0, 1, 1))
     frame = camera_frame(context)
     if frame is None or raw is None:
@@ -152,7 +152,7 @@ def _cast(target: Target, shapes, shown: dict[str, str], step: int, progress=Non
     return images["combined"], target.rectangle(camera.raster)
 
 
-def look() -> float | None:
+def redraw_if_finished() -> float | None:
     """Redraw the 3D Views once a finer picture is there; Blender calls this until there is none to wait for."""
     finished = [worker for worker in _workers if worker.done]
     if finished:
@@ -168,8 +168,8 @@ def stop() -> None:
     """Stop what is under way."""
     while _workers:
         _workers.pop().stop()
-    if bpy.app.timers.is_registered(look):
-        bpy.app.timers.unregister(look)
+    if bpy.app.timers.is_registered(redraw_if_finished):
+        bpy.app.timers.unregister(redraw_if_finished)
 
 
 def register(undo) -> None:

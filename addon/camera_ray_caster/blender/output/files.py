@@ -48,7 +48,7 @@ def render(scene, folder: Path, name: str, number: str = "") -> tuple[Report, li
         report = report.with_seconds(files=perf_counter() - started)
         (temporary / f"report{number}.json").write_text(as_json(report), encoding="utf-8")
         names = sorted(os.listdir(temporary))
-        signals.heed()
+        signals.raise_if_stopping()
     return report, [folder / name for name in names]
 
 
@@ -76,7 +76,7 @@ def _rendered(scene) -> Report:
 
 def _save(scene, path: Path, settings) -> None:
     """Let Blender write the render to a file."""
-    signals.heed()
+    signals.raise_if_stopping()
     for name, value in settings.items():
         if hasattr(scene.render.image_settings, name):  # media_type: from 5.0 on; use_exr_interleave: not everywhere
             setattr(scene.render.image_settings, name, value)

@@ -11,7 +11,7 @@ GROUP = "camera_ray_caster"
 """The name of the property groups: ``camera.camera_ray_caster``, ``object.``, ``scene.`` likewise."""
 
 BLENDERS_OWN = "BLENDER"
-"""The item of MODEL that stands for the camera's type."""
+"""The item of MODEL for the model that Blender's camera type names."""
 
 MODEL = Choice(
     "model", "Model", "How the camera maps rays to pixels",

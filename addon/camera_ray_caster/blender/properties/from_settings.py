@@ -8,19 +8,19 @@ from ...core.cameras.parts.settings import Setting
 
 LARGEST, LARGEST_INT = float(np.finfo(np.float32).max), 2**31 - 1
 SMALLEST = float(np.finfo(np.float32).tiny)
-"""What stands for the least number above 0, which a property could not hold."""
+"""The minimum of a property in place of a smaller number above 0, which float32 cannot hold."""
 
 UNITS = {"angle": {"subtype": "ANGLE", "step": 100}, "length": {"unit": "LENGTH"}}
 
 
 def property_of(setting: Setting):
     """Return the property that holds a setting, for a class's annotations."""
-    named = {"name": setting.label, "description": setting.text, "update": _tell}
+    named = {"name": setting.label, "description": setting.text, "update": _tag}
     return KINDS[setting.kind](setting, named)
 
 
-def _tell(self, context):
-    """Have the depsgraph evaluate what a script has changed, as it does by itself what is changed in a window."""
+def _tag(self, context):
+    """Have the depsgraph evaluate what a script has changed; what is changed in a window it evaluates by itself."""
     self.id_data.update_tag()
 
 

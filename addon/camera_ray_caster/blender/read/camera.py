@@ -110,7 +110,7 @@ def find_camera(scene, name):
 
 
 def eye_object(scene, view: str):
-    """Return the object that stands for the active camera in a view: another one only in the Multi-View format."""
+    """Return the camera object of a multi-view view: the active camera, or in the Multi-View format another one."""
     camera, views = scene.camera, scene.render.views
     if not view or scene.render.views_format != "MULTIVIEW" or camera is None:
         return camera

@@ -8,7 +8,7 @@ import numpy as np
 from ...core.camera.camera import Camera
 from ...core.motion.evaluations import Motion, measure, resolve
 from ...core.records import Shapes
-from ..terminal.signals import heed
+from ..terminal.signals import raise_if_stopping
 from .evaluated import Eye, scene_at
 
 CHECKS = 4
@@ -26,7 +26,7 @@ def motion_of(camera: Camera, camera_object, visit: Callable, eye: Eye | None = 
 
     def evaluate(frame: float) -> tuple[Camera, Shapes]:
         depsgraph = visit(frame)
-        heed()
+        raise_if_stopping()
         found = scene_at(camera_object, depsgraph, eye)
         return replace(found.camera, pixel_time=pixel_time), found.shapes
 

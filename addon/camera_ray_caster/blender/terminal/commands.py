@@ -54,7 +54,7 @@ def main(command: str, arguments: Sequence[str], prog: str) -> int:
         print(f"{prog}: stopped; what was under way has left nothing", file=sys.stderr)
         return 130
     finally:
-        signals.forget()
+        signals.reset()
 
 
 def cast(arguments: Sequence[str], prog: str) -> int:
@@ -107,7 +107,7 @@ def verify(arguments: Sequence[str], prog: str) -> int:
     scene = _open(options)
     _go_to(scene, options.frame)
     report = verified(scene)
-    signals.heed()
+    signals.raise_if_stopping()
     _show(report, options.json, "All witnesses agree" if report.passed else "A witness disagrees")
     return int(not report.passed)
 

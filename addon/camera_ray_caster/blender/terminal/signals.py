@@ -1,34 +1,34 @@
-"""Whether the command under way is to end: a signal came for this process.
+"""Whether a signal has asked this process to stop.
 
 A signal's handler raises nothing at first: Python may run it in a callback of Blender's, which prints an exception and
-drops it. It notes that it was called, and what takes long asks. A second signal is not waited for.
+drops it. It remembers that it was called, and work that takes long asks. A second signal ends the process at once.
 """
 
 from ...core.records import Cancelled
 
-_noted = False
+_stopping = False
 
 
-def note(*_) -> None:
-    """Let what is under way end soon, at once the second time: to be called where a signal ends the process."""
-    global _noted
-    if _noted:
+def stop(*_) -> None:
+    """Ask what is running to end; the second time, raise KeyboardInterrupt. For ``signal.signal``."""
+    global _stopping
+    if _stopping:
         raise KeyboardInterrupt
-    _noted = True
+    _stopping = True
 
 
-def noted() -> bool:
-    """Return whether what is under way is to end."""
-    return _noted
+def is_stopping() -> bool:
+    """Return whether what is running has been asked to end."""
+    return _stopping
 
 
-def heed() -> None:
-    """Raise Cancelled where what is under way is to end."""
-    if _noted:
+def raise_if_stopping() -> None:
+    """Raise Cancelled where what is running has been asked to end."""
+    if _stopping:
         raise Cancelled
 
 
-def forget() -> None:
-    """Let what comes next go its whole way."""
-    global _noted
-    _noted = False
+def reset() -> None:
+    """Forget what was asked: what runs next is not concerned."""
+    global _stopping
+    _stopping = False

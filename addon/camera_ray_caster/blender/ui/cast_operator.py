@@ -17,14 +17,14 @@ from ..output import images, reports
 from .operators import NO_CAMERA
 
 INTERVAL = 0.1
-"""Seconds between two looks at how far the work is."""
+"""Seconds between two updates of the progress."""
 
 _running: list[Running] = []
 
 
 @dataclass(frozen=True)
 class Running:
-    """The cast that is under way, and the timer that looks after it."""
+    """The cast that is running, and the timer that asks for its progress."""
 
     worker: Worker
     timer: Any

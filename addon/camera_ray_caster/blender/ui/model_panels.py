@@ -36,7 +36,7 @@ class ModelPanel(bpy.types.Panel):
         return context.camera is not None
 
     def draw(self, context):
-        """The list; below it what the chosen model needs. A calibration file stands for the numbers under it."""
+        """The list; below it what the chosen model needs. A calibration file grays out the numbers that it replaces."""
         layout, camera = self.layout, context.camera
         layout.use_property_split = True
         own = getattr(camera, GROUP)
@@ -87,6 +87,6 @@ def _draw_image(layout, owner, name: str) -> None:
 
 
 KINDS = {"IMAGE": _draw_image}
-"""What is drawn as something else than a plain property."""
+"""How the kinds of settings are drawn that are not drawn as a plain property."""
 
 CLASSES = (ModelPanel, TimePanel)

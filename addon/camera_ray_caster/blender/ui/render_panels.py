@@ -1,4 +1,4 @@
-"""The engine's panels in the Properties editor, and the panels of Blender's own that hold for it too."""
+"""The engine's panels in the Properties editor, and Blender's own panels that are shown for it too."""
 
 from collections.abc import Iterator
 
@@ -66,7 +66,7 @@ class PassesPanel(EnginePanel, bpy.types.Panel):
 CLASSES = (RenderPanel, PassesPanel)
 
 BORROWED = {"EEVEE_MATERIAL_PT_context_material", "DATA_PT_EEVEE_light", "EEVEE_WORLD_PT_surface"}
-"""Panels of Blender's engines that hold here too: material slots, a light's strength, the world's color."""
+"""Panels of Blender's engines that are shown here too: material slots, a light's strength, the world's color."""
 
 
 def compatible() -> Iterator[set[str]]:

@@ -1,4 +1,4 @@
-"""In camera view, what the ray of the pixel under the mouse meets: a gizmo, since Blender tells those of the mouse."""
+"""In camera view, what the ray of the pixel under the mouse hits: a gizmo, since those receive the mouse's moves."""
 
 from __future__ import annotations
 
