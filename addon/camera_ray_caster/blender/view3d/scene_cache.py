@@ -58,7 +58,8 @@ def tag(scene, depsgraph):
     _stale.add("camera")
     for update in depsgraph.updates:
         source = update.id.original
-        if not isinstance(source, bpy.types.Camera) and getattr(source, "type", "") != "CAMERA":
+        is_camera_object = isinstance(source, bpy.types.Object) and source.type == "CAMERA"
+        if not (is_camera_object or isinstance(source, bpy.types.Camera)):
             _stale.add("shapes")
 
 
