@@ -15,7 +15,8 @@ import numpy as np
 from ..cameras.model import Model
 from ..cameras.parts.aperture import Aperture
 from ..conventions import gamma
-from ..maths.speed import BAND, sharing, whole_rows
+from ..maths.chebyshev import ROWS
+from ..maths.speed import sharing, whole_rows
 from ..maths.vector import components, dot, inverse, is_grid, matvec, norm
 from ..records import InputError, Pose, Raster, Rays
 from .pixel_time import PixelTime, groups, meeting
@@ -140,7 +141,7 @@ class Camera:
         if is_grid(x, y) and y.ndim == 2:
             threads = sharing(os.cpu_count() or 1, valid.size / SHARED_PIXELS)
             rows = min(BLOCK_PIXELS / max(x.size, 1), y.size / threads)
-            step = BAND * max(1, round(rows / BAND))
+            step = ROWS * max(1, round(rows / ROWS))  # whole panels
             blocks = [slice(*ends) for ends in pairwise([*range(0, y.size, step), y.size])]
             with ThreadPoolExecutor(threads) as pool:  # numpy releases the interpreter
                 list(pool.map(put, blocks))
