@@ -24,6 +24,7 @@ sys.path[:0] = [str(Path(__file__).resolve().parent), str(Path(__file__).resolve
 
 import arguments  # noqa: E402  (it lies beside this file)
 import contenders as c  # noqa: E402
+from kept_memory import keep_memory  # noqa: E402
 
 COUNTS = (10, 1_000, 10_000, 100_000)
 EMBREE_MOST = 10_000
@@ -42,6 +43,7 @@ def main() -> int:
     parser.add_argument("--picture", type=Path, metavar="FILE", help="with --scaling: draw a diagram")
     parser.add_argument("--json", type=Path, metavar="FILE", help="write the figures")
     options = parser.parse_args()
+    keep_memory()
     for path in filter(None, (options.json, options.picture)):
         if not path.absolute().parent.is_dir():
             parser.error(f"there is no folder for {str(path)!r}: make it or choose another")

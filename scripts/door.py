@@ -7,6 +7,8 @@ import signal
 import sys
 from pathlib import Path
 
+from kept_memory import keep_memory  # it lies beside this file
+
 ADDON = Path(__file__).resolve().parents[1] / "addon"
 ENGINE = "CAMERA_RAY_CASTER"
 
@@ -24,9 +26,11 @@ def through(command: str) -> int:
         return 2
     import addon_utils
 
+    if not bpy.app.binary_path:  # a process of our own, not somebody's Blender
+        keep_memory()
     installed = bpy.types.RenderEngine.bl_rna_get_subclass_py(ENGINE)
     if installed is not None:
-        addon_utils.disable(installed.__module__.removesuffix(".blender.engine"))
+        addon_utils.disable(package_of(installed))
     import camera_ray_caster
     from camera_ray_caster.blender.terminal import commands, signals
 
@@ -38,6 +42,11 @@ def through(command: str) -> int:
         return commands.main(command, _arguments(bool(bpy.app.binary_path)), f"{command}.py")
     finally:
         camera_ray_caster.unregister()  # Blender may hang at its end otherwise
+
+
+def package_of(engine: type) -> str:
+    """Return the name of the add-on's package, under which Blender has it, that an engine is of."""
+    return engine.__module__.partition(".blender.")[0]
 
 
 def _arguments(inside_blender: bool) -> list[str]:

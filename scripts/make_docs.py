@@ -111,4 +111,7 @@ KINDS = {
 
 
 if __name__ == "__main__":
+    from arguments import Parser  # it lies beside this file
+
+    Parser(prog="make_docs.py", description=__doc__.splitlines()[0]).parse_args()
     PAGE.write_text(page(), encoding="utf-8")

@@ -29,6 +29,21 @@ def test_what_cannot_be_meant_is_refused_in_one_line(given, says):
     assert "\n" not in str(caught.value)
 
 
+@pytest.mark.parametrize("wrong", [None, 3, "camera", []])
+def test_what_is_no_camera_and_no_shapes_is_told_by_its_type(wrong):
+    shapes = shapes_of((SPHERE, (0, 0, -5), 1.0))
+    for camera, cast_at in ((wrong, shapes), (camera_at(), wrong)):
+        with pytest.raises(TypeError, match="cast takes a camera and shapes"):
+            cast(camera, cast_at)
+
+
+@pytest.mark.parametrize("points", [None, 5, "abc", ["a", "b", "c"], [[1, 2, 3], [1, 2]], [10**400, 0, 0], [1.0, 2.0]])
+def test_what_is_no_point_is_not_projected(points):
+    with pytest.raises(InputError) as caught:
+        camera_at().project(points)
+    assert "\n" not in str(caught.value)
+
+
 def test_passes_may_come_from_a_generator():
     images = cast(camera_at(), shapes_of((SPHERE, (0, 0, -5), 1.0)), (name for name in ("depth", "valid")))
     assert list(images) == ["depth", "valid"]

@@ -46,7 +46,7 @@ class CameraMotion(Protocol):
 
 @dataclass(frozen=True)
 class Camera:
-    """What ``read_camera`` returns. The public faces are rays, rays_at, project, K and world_to_opencv."""
+    """What ``read_camera`` returns. Its public interface: rays, rays_at, project, K and world_to_opencv."""
 
     name: str
     model: Model
@@ -189,8 +189,8 @@ class Camera:
     def rays(self) -> Rays:
         """Return the chief rays of the render window: through its pixel centers, world frame, unit directions.
 
-        With a clock each ray is the camera's at the pixel's own time. Undefined (NaN, valid False) where the model has
-        no ray. Each component of a direction is right to a few EPS relative to the unit length, amplified by the
+        With pixel times each ray is the camera's at the pixel's own time. Undefined (NaN, valid False) where the model
+        has no ray. Each component of a direction is right to a few EPS relative to the unit length, amplified by the
         frame's offset (shift) over the pixel's own. Where a model's formula takes polynomials for whole pictures
         (see ``maths.chebyshev``), a ray that is asked for alone may differ by as much.
         """
@@ -200,9 +200,12 @@ class Camera:
         """Return the pixel coordinates (..., 2) in the full frame of world points (..., 3); NaN where none sees it, and
         for points that are not finite. Raises InputError for an array of another shape.
 
-        With a clock and a moving camera each point, taken to stand still, is sought by itself: see ``meeting``.
+        With pixel times and a moving camera each point, taken to stand still, is sought by itself: see ``meeting``.
         """
-        points = np.asarray(points, dtype=np.float64)
+        try:
+            points = np.asarray(points, dtype=np.float64)
+        except (TypeError, ValueError, OverflowError) as error:
+            raise InputError(f"what is projected are no points: {error}") from error
         if points.shape[-1:] != (3,):
             raise InputError(f"points of shape {points.shape} cannot be projected: give x, y, z, shape (..., 3)")
         if self.pixel_time is not None and self.motion is not None:

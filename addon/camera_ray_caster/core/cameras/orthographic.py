@@ -37,7 +37,7 @@ class Orthographic(WindowModel):
         Step("Size of a pixel there, V pixels on the fitted side", "q = ortho_scale / V"),
         Step("Origin", "o = eye + X u + Y v"),
         Step("Direction, the same for all", "r = w"),
-        Step("The lecture's form over [-1, 1]²", "o = e + x size u + y size v"),
+        Step("Normalized form over [-1, 1]²", "o = e + x size u + y size v"),
     )
 
     @classmethod

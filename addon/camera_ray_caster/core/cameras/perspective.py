@@ -38,7 +38,7 @@ class Perspective(WindowModel):
         Step("Pixel on the plane at unit depth", "X = (x - W/2 + shift_x V) q, Y = ((y - H/2) a + shift_y V) q"),
         Step("Size of a pixel there, V pixels on the fitted side", "q = sensor / (lens V)"),
         Step("Direction along the axes u, v, w", "r = X u + Y v + w"),
-        Step("The lecture's form over [-1, 1]²", "r = x u + aspect y v + d w, d = 1 / tan(fov / 2)"),
+        Step("Normalized form over [-1, 1]²", "r = x u + aspect y v + d w, d = 1 / tan(fov / 2)"),
     )
 
     @classmethod

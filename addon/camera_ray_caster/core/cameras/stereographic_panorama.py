@@ -1,4 +1,4 @@
-"""The stereographic panorama: all around in one picture without a rim. Centerd on the ground it is a "little planet".
+"""The stereographic panorama: all around in one picture without a rim. Centered on the ground it is a "little planet".
 
 Assumption: round pixels; the lens looks ``elevation`` above the viewing direction: at -90 degrees the ground lies in
 the middle and the front on top, at 90 degrees the sky and the front at the bottom.

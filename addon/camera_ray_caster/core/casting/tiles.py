@@ -38,7 +38,7 @@ class Effort:
     @property
     def fraction(self) -> float:
         """How much is done, 0 to 1."""
-        return self._done / self._steps
+        return self._done / self._steps if self._steps else 1.0
 
     def step(self) -> None:
         """Note that a step is done. Raises Cancelled where the cast is to stop."""

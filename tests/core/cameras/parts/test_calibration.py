@@ -89,6 +89,8 @@ def test_the_text_that_the_refusals_start_from_is_good(tmp_path):
         (("image_width: 640", ""), "has no imagewidth"),
         (("image_width: 640", "image_width: 0"), "imagewidth .* 0.0: it must be above 0"),
         (("image_height: 480", "image_height: tall"), "image_height .* 'tall': it must be of numbers"),
+        (("-0.1, 0.", "-0.1, 1e308"), "D .*finite numbers, up to 1e.30"),
+        (("600., 0., 320.", "1e-300, 0., 320."), "fx and fy above 0"),
         (("-0.1, 0.", "-0.1, zero"), "D .* 'zero'.*must be of numbers"),
         (("-0.1, 0.", "-0.1, .Nan"), "D .* '.Nan'.*must be of numbers"),
         (("600., 0., 320.", "600., 0., inf"), "K .* 'inf'.*finite"),

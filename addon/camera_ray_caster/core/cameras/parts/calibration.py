@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
-from math import isfinite
 from reprlib import repr as shortened
 
 from ...records import BlenderCamera, InputError, Raster
@@ -47,6 +46,9 @@ CALIBRATION = (FILE, *SIZE, *FOCAL, *CENTER)
 def _coefficient(name: str, text: str) -> Number:
     return Number(name, name.upper(), text, 0.0, digits=6, step=0.1)
 
+
+LARGEST = 1e30
+"""Of a calibration's numbers: products of three of them have to be numbers, too."""
 
 K1, K2, K3 = (_coefficient(name, "Radial") for name in ("k1", "k2", "k3"))
 K4 = _coefficient("k4", "Radial: of the denominator, or the fisheye's last")
@@ -87,7 +89,8 @@ class Calibration:
         path = FILE.read(raw)
         values = (
             _file_values(path, distortion) if path
-            else {setting.name: setting.read(raw) for setting in (*SIZE, *FOCAL, *CENTER, *distortion)}
+            else {setting.name: setting.read(raw) for setting in (*SIZE, *FOCAL, *CENTER)}
+            | {setting.name: setting.read(raw, -LARGEST, LARGEST) for setting in distortion}
         )  # fmt: skip
         return cls(
             **{setting.name: values[setting.name] for setting in (*FOCAL, *CENTER)},
@@ -113,7 +116,8 @@ def _file_values(path: str, distortion: tuple[Setting, ...]) -> dict[str, float]
     entries = {re.sub("[_-]", "", name).lower(): (name, value) for name, value in read_entries(path).items()}
     _check_model(entries, path, fisheye=distortion == FISHEYE)
     matrix = _numbers(entries, MATRIX_NAMES, path)
-    if len(matrix) != 9 or matrix[1] or matrix[3:4] != [0] or matrix[6:] != [0, 0, 1] or min(matrix[0], matrix[4]) <= 0:
+    is_plain = len(matrix) == 9 and [matrix[1], matrix[3], *matrix[6:]] == [0, 0, 0, 0, 1]
+    if not is_plain or min(matrix[0], matrix[4]) < 1 / LARGEST:
         raise InputError(
             f"the camera matrix in {path!r} is {shortened(matrix)}: "
             "it must be fx 0 cx, 0 fy cy, 0 0 1, with fx and fy above 0"
@@ -140,8 +144,9 @@ def _numbers(entries, spellings, path: str) -> list[float]:
             numbers = [float(item) for item in items]
         except (TypeError, ValueError) as error:
             raise InputError(f"{name} in {path!r} is {shortened(value)}: it must be of numbers") from error
-        if not numbers or not all(map(isfinite, numbers)):
-            raise InputError(f"{name} in {path!r} is {shortened(value)}: it must be of finite numbers")
+        if not numbers or not all(abs(one) <= LARGEST for one in numbers):
+            limits = f"finite numbers, up to {LARGEST:g}"
+            raise InputError(f"{name} in {path!r} is {shortened(value)}: it must be of {limits}")
         return numbers
     raise InputError(f"{path!r} has no {spellings[0]} (known names, in any case: {', '.join(spellings)})")
 
