@@ -44,7 +44,7 @@ class OpencvPinhole(WindowModel):
         Step("Gain, r² = X² + Y²", "g = (1 + k1 r² + k2 r⁴ + k3 r⁶) / (1 + k4 r² + k5 r⁴ + k6 r⁶)"),
         Step("Distortion across", "X g + 2 p1 X Y + p2 (r² + 2 X²) + s1 r² + s2 r⁴"),
         Step("Distortion down", "Y g + p1 (r² + 2 Y²) + 2 p2 X Y + s3 r² + s4 r⁴"),
-        Step("Direction", "r = X u - Y v + w"),
+        Step("Direction", "d = (X, -Y, -1)"),
     )
 
     @property

@@ -73,7 +73,7 @@ class Perspective(WindowModel):
 
     def facts(self) -> dict[str, object]:
         """Return the field of view across and up (degrees, without shift, as Blender's panel has it), the distance d of
-        the image plane of the lecture's ray x u + aspect y v + d w over [-1, 1]², that aspect, and K.
+        the image plane of the lecture's ray x u + aspect y v + d w over [-1, 1]², and that aspect.
         """
         width, height = self.frame
         tan_x, tan_y = self.window.pitch_x * width / 2, self.window.pitch_y * height / 2
@@ -81,5 +81,4 @@ class Perspective(WindowModel):
             "field_of_view": [degrees(2 * atan(tan_x)), degrees(2 * atan(tan_y))],
             "d": 1 / tan_x,
             "aspect": tan_y / tan_x,
-            "K": self.window.matrix(height).tolist(),
         }

@@ -10,8 +10,8 @@ def camera_facts(camera: Camera) -> dict[str, object]:
 
     Every camera: its model and the model's key, eye (world), orthobasis u, v and w = -Z (world, unit), raster (pixels),
     window (the columns x0 .. x1 and rows y0 .. y1 that are rendered), pixel aspect, clip range. Then what the model
-    says of itself (``Model.facts``): a pinhole its field of view, d, aspect and K, an orthographic camera its frame, a
-    general linear one its kind. Last the model's settings by name (``Camera.settings``) and its formula, step by step.
+    says of itself (``Model.facts``): a pinhole its field of view, d and aspect, an orthographic camera its frame, a
+    general linear one its kind; and K, of models that have one. Last the model's settings by name (``Camera.settings``) and its formula, step by step.
     """
     raster, basis = camera.raster, camera.pose.basis
     return {
@@ -27,6 +27,7 @@ def camera_facts(camera: Camera) -> dict[str, object]:
         "pixel_aspect": raster.pixel_aspect,
         "clip": [camera.clip_start, camera.clip_end],
         **camera.model.facts(),
+        **({} if camera.K is None else {"K": camera.K.tolist()}),
         "settings": dict(camera.settings),
         "formula": [step._asdict() for step in camera.model.FORMULA],
     }
