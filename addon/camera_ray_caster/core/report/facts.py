@@ -8,10 +8,11 @@ from ..camera.camera import Camera
 def camera_facts(camera: Camera) -> dict[str, object]:
     """Return names, numbers and lists of numbers, in the order in which they are shown.
 
-    Every camera: its model and the model's key, eye (world), orthobasis u, v and w = -Z (world, unit), raster (pixels),
-    window (the columns x0 .. x1 and rows y0 .. y1 that are rendered), pixel aspect, clip range. Then what the model
-    says of itself (``Model.facts``): a pinhole its field of view, d and aspect, an orthographic camera its frame, a
-    general linear one its kind; and K, of models that have one. Last the model's settings by name (``Camera.settings``) and its formula, step by step.
+    Every camera: its model, eye (world), orthobasis u, v and w = -Z (world, unit), raster (pixels), window (the columns
+    x0 .. x1 and rows y0 .. y1 that are rendered), pixel aspect, clip range. Then what the model says of itself
+    (``Model.facts``): a pinhole its field of view, d and aspect, an orthographic camera its frame, a general linear one
+    its kind; and K, of models that have one. Last the model's settings by name (``Camera.settings``) and its formula,
+    step by step.
     """
     raster, basis = camera.raster, camera.pose.basis
     return {
