@@ -103,3 +103,4 @@ if __name__ == "__main__":
     use = {"with": with_it, "without": without_it}[mode]
     found = use(camera_ray_caster, Path(path), Path(seen).parent)
     Path(seen).write_text(json.dumps(found))
+    sys.exit(0)  # Blender's program would end with 1 after a render that was refused, as one here is
