@@ -50,7 +50,7 @@ def cast(
     hits with float32. object_index, material_index and shape_index are int32, valid is bool. With ``samples`` above 1
     the combined pass is the mean of as many rays a pixel, all over the pixel and the camera's aperture; all other
     passes are of the chief rays. ``threads``: so many at most, one a processor if None; fewer where they
-    would wait for each other. ``progress(fraction)`` is called in the calling thread as tiles end, and ten times a
+    would wait for each other. ``progress(fraction)`` is called in the calling thread after each tile, and ten times a
     second; where it returns False the cast stops within the samples under way and raises Cancelled. ``cull=False``
     tests every shape at every pixel: the same picture, slower.
     Raises InputError for an unknown pass, shading or precision, for a dtype that is no floating-point number, and for a

@@ -154,9 +154,10 @@ def in_threads(
         try:
             while waiting:
                 done, waiting = wait(waiting, LISTEN, FIRST_COMPLETED)
-                total += sum(future.result() for future in done)
-                if progress is not None and not progress(effort.fraction):
-                    raise Cancelled
+                for seconds in [future.result() for future in done] or [np.zeros(len(STEPS))]:
+                    total += seconds
+                    if progress is not None and not progress(effort.fraction):
+                        raise Cancelled
         finally:
             effort.stop()
             for future in waiting:
