@@ -37,9 +37,10 @@ test-blender: .venv/pure/ready  ## run tests/blender inside a real Blender, and 
 		echo "test-blender: skipped, no program $(BLENDER); run make BLENDER=/path/to/blender test-blender"; \
 	fi
 
-lint: $(VENV)/ready  ## check style and types
+lint: $(VENV)/ready  ## check style, types and the table of models
 	$(VENV)/bin/ruff check
 	$(VENV)/bin/mypy
+	$(VENV)/bin/python scripts/make_docs.py --check
 
 zip: $(VENV)/ready  ## build the extension for Blender in dist/
 	@mkdir -p dist

@@ -1,6 +1,7 @@
 """Write the table of camera models from what they declare: addon/camera_ray_caster/core/cameras/README.md.
 
     python scripts/make_docs.py
+    python scripts/make_docs.py --check    # writes nothing; exit status 1 where the table is not up to date
 
 Needs numpy only.
 """
@@ -113,5 +114,9 @@ KINDS = {
 if __name__ == "__main__":
     from arguments import Parser  # it lies beside this file
 
-    Parser(prog="make_docs.py", description=__doc__.splitlines()[0]).parse_args()
-    PAGE.write_text(page(), encoding="utf-8")
+    parser = Parser(prog="make_docs.py", description=__doc__.splitlines()[0])
+    parser.add_argument("--check", action="store_true", help="write nothing; exit status 1 if it is not up to date")
+    if not parser.parse_args().check:
+        PAGE.write_text(page(), encoding="utf-8")
+    elif PAGE.read_text(encoding="utf-8") != page():
+        sys.exit(f"{PAGE.relative_to(ROOT)} is not up to date: run scripts/make_docs.py")

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import nullcontext
 from dataclasses import dataclass, field, replace
+from functools import partial
 from itertools import pairwise
 from typing import Any, Protocol
 
@@ -15,7 +16,7 @@ import numpy as np
 from ..cameras.model import Model
 from ..cameras.parts.aperture import Aperture
 from ..conventions import gamma
-from ..maths.chebyshev import ROWS
+from ..maths.chebyshev import ROWS, is_raster, on_raster
 from ..maths.speed import sharing, whole_rows
 from ..maths.vector import components, dot, inverse, is_grid, matvec, norm
 from ..records import InputError, Pose, Raster, Rays
@@ -155,15 +156,28 @@ class Camera:
 
     def _write(self, x, y, origins, directions, valid) -> None:
         """Write the world rays through pixel coordinates; the origins only where there is more than the eye."""
-        with whole_rows(valid.shape[-1] if valid.ndim else 1):
-            origin, direction = self.camera_rays(x, y)
-            scale = 1.0 / self._length(direction) if self.model.planar else 1.0
-            for axis, row in enumerate(self.pose.basis):
-                component = dot(row, direction)
-                np.multiply(component, scale, out=directions[..., axis])
-                if not self.model.central:
-                    np.add(dot(row, origin), self.pose.eye[axis], out=origins[..., axis])
-            np.logical_not(np.isnan(component), out=valid)
+        if self.model.by_polynomials and is_raster(x, y):
+            for part, place in enumerate((directions,) if self.model.central else (directions, origins)):
+                found = on_raster(partial(self._at_points, part), x, y, count=3, side_by_side=True)
+                place[...] = np.moveaxis(found, 0, -1)
+        else:
+            with whole_rows(valid.shape[-1] if valid.ndim else 1):
+                self._write_by_formula(x, y, origins, directions)
+        np.logical_not(np.isnan(directions[..., 0]), out=valid)
+
+    def _write_by_formula(self, x, y, origins, directions) -> None:
+        origin, direction = self.camera_rays(x, y)
+        scale = 1.0 / self._length(direction) if self.model.planar else 1.0
+        for axis, row in enumerate(self.pose.basis):
+            np.multiply(dot(row, direction), scale, out=directions[..., axis])
+            if not self.model.central:
+                np.add(dot(row, origin), self.pose.eye[axis], out=origins[..., axis])
+
+    def _at_points(self, part: int, x, y):
+        """Return the components of the directions, or with part 1 those of the origins, by the formula."""
+        directions, origins = np.empty((2, *np.broadcast_shapes(x.shape, y.shape), 3))
+        self._write_by_formula(x, y, origins, directions)
+        return components((directions, origins)[part])
 
     def _length(self, direction):
         """Return the world's length of what ``camera_rays`` gives; of a row and a column it is one sum."""

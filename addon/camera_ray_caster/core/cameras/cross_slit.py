@@ -41,6 +41,7 @@ class CrossSlit(WindowModel):
     group = "Multiperspective"
     number = 11
     central = False
+    by_polynomials = True
     SETTINGS = (SLIT, SECOND_SLIT, *Perspective.SETTINGS)
     FORMULA = (
         Step("Point on the perspective window", "P = (X, Y, -1)"),

@@ -52,6 +52,7 @@ class FisheyePolynomial(Radial):
     label = "Fisheye Lens Polynomial"
     description = "A measured lens: the angle is a polynomial of the radius on the sensor"
     group = "Blender's Own"
+    factors_by_polynomials = True
     by_polynomials = True
     SETTINGS = (*COEFFICIENTS, FISHEYE_FOV, *FILM)
     FORMULA = (

@@ -53,6 +53,7 @@ class GeneralLinear(Model):
     group = "Multiperspective"
     number = 10
     central = False
+    by_polynomials = True
     SETTINGS: ClassVar[tuple[Setting, ...]] = RAYS
     FORMULA: ClassVar[tuple[Step, ...]] = (
         Step("Place in the frame", "alpha = x/W, beta = y/H"),

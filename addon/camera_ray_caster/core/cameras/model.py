@@ -65,6 +65,12 @@ class Model(ABC):
     """Whether all chief rays have the same direction, then given as three numbers."""
     smooth: ClassVar[bool] = True
     """Whether rays are smooth functions of the pixel wherever there are any: the numerical inverse is exact then."""
+    by_polynomials: ClassVar[bool] = False
+    """Whether polynomials give what ``Camera.rays`` returns for a whole picture (see ``maths.chebyshev``): for models
+    whose rays take 1.35 to 3.5 times as long without, and fill a convex part of the picture, all of it or a disc. A
+    cast takes as long with them as without (0.8 to 1.2), since it has to have the components apart, in the camera's
+    frame: it asks the formula.
+    """
     SETTINGS: ClassVar[tuple[Setting, ...]] = ()
     """All settings that ``from_blender`` reads, in the order of the panel. Blender's properties, the panel, the copying
     into the record, the report and the table of models are made from them.

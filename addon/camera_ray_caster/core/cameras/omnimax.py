@@ -82,7 +82,7 @@ class Omnimax(Pitched, Lens):
     description = "The film of IMAX domes"
     group = "Dome"
     number = 6
-    by_polynomials = True
+    factors_by_polynomials = True
     SETTINGS = (TILT, *SHIFT)
     FORMULA = (
         Step("Pixel on the film, its top at 1, at most 1.283458 as wide as high", "(a, b), see the references"),

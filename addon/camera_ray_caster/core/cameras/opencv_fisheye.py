@@ -37,7 +37,7 @@ class OpencvFisheye(Radial):
     description = "A calibrated fisheye, by Kannala and Brandt"
     group = "Calibrated"
     number = 5
-    by_polynomials = True
+    factors_by_polynomials = True
     SETTINGS = (*CALIBRATION, *FISHEYE)
     FORMULA = (
         Step("Distorted coordinates, in focal lengths, y up", "a = (x - 1/2 - cx) / fx, b = (H - y - 1/2 - cy) / -fy"),

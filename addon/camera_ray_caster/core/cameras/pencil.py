@@ -44,6 +44,7 @@ class Pencil(WindowModel):
     group = "Multiperspective"
     number = 13
     central = False
+    by_polynomials = True
     SETTINGS = (SLIT, SLIDE, *Perspective.SETTINGS)
     FORMULA = (
         Step("Direction, the pixel on the perspective window", "d = (X, Y, -1)"),

@@ -44,6 +44,7 @@ class Pushbroom(WindowModel):
     group = "Multiperspective"
     number = 12
     central = False
+    by_polynomials = True
     SETTINGS = (SLIT, ORTHO_SCALE, *Perspective.SETTINGS)
     FORMULA = (
         Step("Point on the perspective window, a along the slit's picture, n across", "(X, Y)"),

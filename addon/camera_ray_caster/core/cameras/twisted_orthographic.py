@@ -34,6 +34,7 @@ class TwistedOrthographic(GeneralLinear):
     label = "Twisted Orthographic"
     description = "Parallel rays whose direction turns along an axis"
     number = 14
+    by_polynomials = True
     SETTINGS = (SLIT, TWIST, *Orthographic.SETTINGS)
     FORMULA = (
         Step("Origin, the pixel on the orthographic frame", "o = X u + Y v"),

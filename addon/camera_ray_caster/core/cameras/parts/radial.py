@@ -59,7 +59,7 @@ class Radial(WindowModel):
     """The r beyond which there is no ray; inf where the factors, or the frame alone, know an end."""
 
     group = "Fisheye"
-    by_polynomials: ClassVar[bool] = False
+    factors_by_polynomials: ClassVar[bool] = False
     """Whether polynomials give the factors of a whole picture (see ``maths.chebyshev``): where they take sines, or
     iterate, which costs more, and are smooth a little beyond the rim.
     """
@@ -107,7 +107,7 @@ class Radial(WindowModel):
         return self._r_squared(x, y) <= self.rim * self.rim
 
     def _factors_at(self, x, y):
-        if self.by_polynomials and is_raster(x, y):
+        if self.factors_by_polynomials and is_raster(x, y):
             return on_raster(lambda x, y: self.factors(self._r_squared(x, y)), x, y, self.disc)
         r_squared = self._r_squared(x, y)
         if self.rim < np.inf:
