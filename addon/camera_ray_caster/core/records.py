@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Any, Protocol
 
 import numpy as np
@@ -108,8 +109,56 @@ class Rays:
     """(rows, columns) float64: the frame at which each ray is cast; None where the picture has one time."""
 
 
-SPHERE, PLANE, INFINITE_PLANE = 0, 1, 2
+SPHERE, PLANE, INFINITE_PLANE, MESH = 0, 1, 2, 3
 """Values of ``Shapes.kind``."""
+
+
+@dataclass(frozen=True, eq=False)
+class Mesh:
+    """The triangles of an evaluated mesh in its object's space; its instances share it. A loop is a corner of a face.
+
+    Components and corners are rows, so that one component of all lies in one piece.
+    """
+
+    vertices: np.ndarray
+    """(3, v) float32."""
+    triangles: np.ndarray
+    """(3, k) intp: the vertices of each triangle, in the order that turns to the left as seen from its front."""
+    polygon: np.ndarray
+    """(k,) int32: the face that each triangle is a part of."""
+    loops: np.ndarray | None = None
+    """(3, k) intp: the loops of each triangle; None where neither normals nor uv are asked for by loop."""
+    normals: np.ndarray | None = None
+    """(3, l) float32: the unit normals at the loops; None where every face is flat, whose triangles' normals count."""
+    uv: np.ndarray | None = None
+    """(2, l) float32: the render UV map at the loops; None without one."""
+    slot: np.ndarray | None = None
+    """(k,) int16: the material slot of each triangle; None where all have the first one."""
+
+    def __len__(self) -> int:
+        return self.triangles.shape[1]
+
+    @cached_property
+    def middle(self) -> np.ndarray:
+        """(3,) float64: of the bounding box."""
+        return (self.vertices.min(axis=1) / 2.0 + self.vertices.max(axis=1) / 2.0).astype(np.float64)
+
+    @cached_property
+    def half_size(self) -> np.ndarray:
+        """(3,) float64: how far the vertices reach from the middle along each axis."""
+        return np.abs(self.vertices - self.middle[:, None]).max(axis=1)
+
+
+@dataclass(frozen=True, eq=False)
+class Slots:
+    """The materials of meshes that have several: row k of ``Shapes`` has those from ``first[k]`` on."""
+
+    first: np.ndarray
+    """(n,) int64."""
+    material_index: np.ndarray
+    """(s,) int32: pass indices."""
+    color: np.ndarray
+    """(s, 4) float32."""
 
 
 @dataclass(frozen=True)
@@ -134,19 +183,22 @@ class MovingShapes(Protocol):
 
 @dataclass(frozen=True)
 class Shapes:
-    """The spheres and planes of a scene, one row a shape; ``shape_index`` of a pixel is the row.
+    """The spheres, planes and meshes of a scene, one row a shape; ``shape_index`` of a pixel is the row.
 
     world = center + axes @ q with the unit sphere or unit square in q (see the conventions), so that every affine
     image of a sphere is an ellipsoid and every plane a parallelogram. An infinite plane ignores the lengths of its
-    first two axes for what it covers; they scale its uv.
+    first two axes for what it covers; they scale its uv. Of a mesh q is a vertex less the mesh's ``middle``; its axes
+    may lie in one plane.
     """
 
     kind: np.ndarray
-    """(n,) uint8: SPHERE, PLANE or INFINITE_PLANE."""
+    """(n,) uint8: SPHERE, PLANE, INFINITE_PLANE or MESH."""
     center: np.ndarray
     """(n, 3) float64, world."""
     axes: np.ndarray
-    """(n, 3, 3) float64: the columns are the images of the shape's axes. Invertible (the reader sees to it)."""
+    """(n, 3, 3) float64: the columns are the images of the shape's axes. Invertible (the reader sees to it), but of
+    meshes.
+    """
     object_index: np.ndarray
     """(n,) int32: the object's pass index."""
     material_index: np.ndarray
@@ -162,6 +214,11 @@ class Shapes:
     """What knows the shapes at other frames, for cameras whose pixels have each their own; else None."""
     left_out: tuple[tuple[str, str], ...] = ()
     """Objects that are not cast, each with the reason, in one line."""
+    meshes: tuple[Mesh, ...] = ()
+    mesh: np.ndarray = field(default_factory=lambda: np.zeros(0, np.int32))
+    """(n,) int32 into ``meshes``, -1 for other shapes; empty where there are no meshes."""
+    slots: Slots | None = None
+    """None where no mesh has more than one material."""
 
     def __len__(self) -> int:
         return len(self.kind)
