@@ -13,11 +13,15 @@ from .. import tuning
 from ..maths.vector import difference, norm
 from .kind import Candidates, SearchRays, ShapeSet
 from .mesh_in_camera import Triangles
+from .mesh_spans import Lattice, spans
 from .triangles import ROUNDING, crossing, signs, volumes
 from .windows import batches, gather, in_tile
 
 NONE = np.iinfo(np.int32).max
 """In place of a triangle where none is met."""
+
+SPANNED = 1 << 12
+"""Triangles whose spans are found at once."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,8 +39,17 @@ class MeshSet(ShapeSet):
             return
         found = Found.of(nearest, rays)
         reach = _longest(rays.direction), _longest(rays.origin or (0.0,))
+        lattice = Lattice.of(rays)
+        if lattice is not None:
+            others = [np.zeros(0, np.intp)]
+            for first in range(0, len(here), SPANNED):
+                some = slice(first, first + SPANNED)
+                clear = self._span(rays, lattice, here[some], bounds[some], found)
+                others.append(np.flatnonzero(~clear) + first)
+            rest = np.concatenate(others)
+            here, bounds = here[rest], bounds[rest]
         for batch in batches(bounds, tuning.TRIANGLE_PIXELS):
-            found.keep(*self._cast(rays, reach, here[batch], bounds[batch]))
+            self._cast(rays, reach, here[batch], bounds[batch], found)
         met = found.which != NONE
         which = np.where(met, found.which, 0)
         np.take(self.triangles.number, which, out=rays.scratch("triangle", rays.shape, np.int32))
@@ -44,8 +57,21 @@ class MeshSet(ShapeSet):
             self.triangles.shape[which][None], (np.zeros(1, int), np.zeros(1, int)), found.t[None], met[None]
         )
 
-    def _cast(self, rays: SearchRays, reach: tuple[float, float], here: np.ndarray, bounds: np.ndarray):
-        """Return the pixels of the tile at which triangles are met, t, and the triangles; (m,) each.
+    def _span(
+        self, rays: SearchRays, lattice: Lattice, here: np.ndarray, bounds: np.ndarray, found: Found
+    ) -> np.ndarray:
+        """Keep what is met in spans; return for which triangles that was done, bool."""
+        seen = spans(lattice, self.triangles.at(here), bounds)
+        width = rays.shape[1]
+        self._keep(found, seen.met.row * width + seen.met.column, seen.t, here[seen.met.at])
+        if len(seen.open.at):
+            self._test(rays, here[seen.open.at], seen.open.row * width + seen.open.column, found)
+        return seen.clear
+
+    def _cast(
+        self, rays: SearchRays, reach: tuple[float, float], here: np.ndarray, bounds: np.ndarray, found: Found
+    ) -> None:
+        """Keep what is met of triangles that are tested pixel by pixel, in windows.
 
         The windows are as large as the largest bounds, and moved until they lie in the tile.
         """
@@ -68,20 +94,31 @@ class MeshSet(ShapeSet):
         sure = (inner > doubt).reshape(-1)[hit]
         k, place = np.divmod(hit, high * wide)
         row, column = np.divmod(place, wide)
-        pixel = (y0[k] + row) * rays.shape[1] + x0[k] + column
-        k, pixel = self._decided(rays, here, k, pixel, sure)
-        t = crossing(*self._meeting(rays, here[k], pixel))
-        met = np.flatnonzero((t >= self.clip_start) & (t < np.inf))
-        return pixel[met], t[met], here[k[met]]
+        pixel, which = (y0[k] + row) * rays.shape[1] + x0[k] + column, here[k]
+        if not sure.all():
+            self._test(rays, which[~sure], pixel[~sure], found)
+            pixel, which = pixel[sure], which[sure]
+        self._keep(found, pixel, crossing(*self._meeting(rays, which, pixel)), which)
 
-    def _decided(self, rays: SearchRays, here: np.ndarray, k: np.ndarray, pixel: np.ndarray, sure: np.ndarray):
-        """Return those that exact signs confirm, where rounding could decide."""
-        open_ = np.flatnonzero(~sure)
+    def _test(self, rays: SearchRays, which: np.ndarray, pixel: np.ndarray, found: Found) -> None:
+        """Keep what is met of one triangle a pixel, by exact signs where rounding could decide."""
+        corners, direction = self._meeting(rays, which, pixel)
+        parts = volumes(corners, direction)
+        doubt = ROUNDING * np.maximum.reduce([norm(corner) for corner in corners]) ** 2 * norm(direction)
+        inner = np.maximum(np.minimum.reduce(parts), -np.maximum.reduce(parts))
+        met = inner > doubt
+        open_ = np.flatnonzero(np.abs(inner) <= doubt)
         if open_.size:
-            found = signs(*self._meeting(rays, here[k[open_]], pixel[open_]))
-            turned = (found <= 0).all(axis=0) if rays.origin is not None else False
-            sure[open_] = ((found >= 0).all(axis=0) | turned) & found.any(axis=0)
-        return (k, pixel) if sure.all() else (k[sure], pixel[sure])
+            exact = signs(corners[:, :, open_], direction[:, open_])
+            met[open_] = ((exact >= 0).all(axis=0) | (exact <= 0).all(axis=0)) & exact.any(axis=0)
+        self._keep(found, pixel[met], crossing(corners[:, :, met], direction[:, met]), which[met])
+
+    def _keep(self, found: Found, pixel: np.ndarray, t: np.ndarray, which: np.ndarray) -> None:
+        """Keep hits at or beyond the clip start."""
+        met = (t >= self.clip_start) & (t < np.inf)
+        if not met.all():
+            pixel, t, which = pixel[met], t[met], which[met]
+        found.keep(pixel, t, which)
 
     def _meeting(self, rays: SearchRays, which: np.ndarray, pixel: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Return corners relative to the rays' origins (3, 3, m) and directions (3, m), one triangle a pixel."""
