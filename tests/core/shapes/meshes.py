@@ -26,7 +26,7 @@ def grid(rows: int, columns: int, place) -> Mesh:
 
 
 def ball(rows: int, columns: int, radius: float = 1.0) -> Mesh:
-    """A closed sphere of latitudes and longitudes, with smooth normals and a map; its poles are many triangles' corner."""
+    """A closed sphere of latitudes and longitudes, smooth and with a map; its poles are many triangles' corner."""
     v, u = np.meshgrid(np.linspace(0, np.pi, rows + 1)[1:-1], np.arange(columns) * 2 * np.pi / columns, indexing="ij")
     ring = np.stack((np.sin(v) * np.cos(u), np.sin(v) * np.sin(u), np.cos(v)), axis=-1).reshape(-1, 3)
     vertices = np.concatenate((ring, [[0, 0, 1], [0, 0, -1]])) * radius
@@ -42,7 +42,9 @@ def ball(rows: int, columns: int, radius: float = 1.0) -> Mesh:
     corners = vertices.astype(np.float32)[triangles.ravel()]
     normals = (corners / np.linalg.norm(corners, axis=1, keepdims=True)).astype(np.float32)
     uv = np.ascontiguousarray(corners[:, :2].T / 2 + 0.5)
-    return mesh_of(vertices, triangles, loops=np.ascontiguousarray(loops.T), normals=np.ascontiguousarray(normals.T), uv=uv)
+    return mesh_of(
+        vertices, triangles, loops=np.ascontiguousarray(loops.T), normals=np.ascontiguousarray(normals.T), uv=uv
+    )
 
 
 def soup(rng, count: int) -> Mesh:

@@ -161,7 +161,7 @@ def _level(lattice: Lattice, edges: np.ndarray, is_level: np.ndarray, scale, bou
 def _at_rows(start, change, meant: np.ndarray, without: float, at: np.ndarray, row: np.ndarray) -> Iterator[np.ndarray]:
     """Yield the columns of the first and the last of the edges that are meant, (3, k), at rows of triangles."""
     for a, b, c in ((0, 1, 2), (2, 1, 0)):
-        place, slope = without, 0.0
+        place, slope = np.full(meant.shape[1], without), np.zeros(meant.shape[1])
         for edge in (c, b, a):
             place, slope = (np.where(meant[edge], v[edge], w) for v, w in ((start, place), (change, slope)))
         yield place[at] + slope[at] * row
