@@ -7,8 +7,9 @@ COUNT = 150
 WRONG = {
     "": (
         ("--frame", "nan"), ("--frame", "inf"), ("--frame", "1e300"), ("--frame", "half"), ("--frame", ""),
-        ("--frame",), ("--camera",), ("--camera", ""), ("--camera", "\n"), ("--camera", "x" * 5000), ("--camera", "\udcff"),
-        ("--unknown",), ("--frame", "1", "2", "3"), ("second.blend",), ("--json=1",), ("\n",), ("--frame", "1" * 5000),
+        ("--frame",), ("--camera",), ("--camera", ""), ("--camera", "\n"), ("--camera", "x" * 5000),
+        ("--camera", "\udcff"), ("--unknown",), ("--frame", "1", "2", "3"), ("second.blend",), ("--json=1",), ("\n",),
+        ("--frame", "1" * 5000),
     ),
     "cast": (
         ("--frames", "2:1"), ("--frames", ":"), ("--frames", "1"), ("--frames", "1:2:3"), ("--frames", "-9999999:1"),

@@ -1,10 +1,10 @@
 """Images as the time of pixels, and clocks."""
 
-import random
-
 from .parts import FLOATS, Hostile
 
 COUNT = 80
+
+HALF_A_PNG = b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\xff\xff\0\0\xff\xff\x08\x02\0\0\0" + bytes(range(200))
 
 
 def make(chance, number, folder):
@@ -47,10 +47,7 @@ def _image(chance, folder, said):
         return image
     if how in ("movie", "text", "half"):
         path = folder / f"time.{'mp4' if how == 'movie' else 'png'}"
-        whole = b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\xff\xff\0\0\xff\xff\x08\x02\0\0\0" + random.Random(how).randbytes(
-            200
-        )
-        path.write_bytes(whole if how == "half" else b"no picture")
+        path.write_bytes(HALF_A_PNG if how == "half" else b"no picture")
         image = bpy.data.images.new("File", 1, 1)
         image.source, image.filepath = "MOVIE" if how == "movie" else "FILE", str(path)
         return image
