@@ -5,6 +5,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import bpy
 import pytest
 
 import camera_ray_caster as crc
@@ -91,4 +92,22 @@ def test_where_a_later_step_fails_nothing_stays(plain, monkeypatch, module):
     monkeypatch.setattr(module, "register", fail)
     with pytest.raises(ValueError, match="this step has failed"):
         crc.register()
+    assert traces() == plain
+
+
+@pytest.mark.parametrize("cls", registration.CLASSES, ids=lambda cls: cls.__name__)
+def test_a_class_that_another_has_removed_is_gone_and_the_rest_is_removed(plain, cls):
+    crc.register()
+    bpy.utils.unregister_class(cls)
+    crc.unregister()
+    assert traces() == plain
+
+
+def test_handlers_and_properties_that_another_has_removed_are_gone_and_the_rest_is_removed(plain):
+    crc.register()
+    for handlers in (bpy.app.handlers.load_pre, bpy.app.handlers.undo_post, bpy.app.handlers.frame_change_post):
+        for handler in [one for one in handlers if one.__module__.startswith(crc.__name__)]:
+            handlers.remove(handler)
+    del bpy.types.Scene.camera_ray_caster, bpy.types.Scene.camera_ray_caster_overlay
+    crc.unregister()
     assert traces() == plain

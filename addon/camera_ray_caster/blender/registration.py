@@ -1,6 +1,6 @@
 """Registration of everything that the add-on adds to Blender, in one step that can be undone."""
 
-from contextlib import ExitStack
+from contextlib import ExitStack, suppress
 
 import bpy
 
@@ -29,7 +29,21 @@ CLASSES = (
 MODULES = (groups, reports, scene_cache, viewport, cast_operator, overlay, render_panels, commands)
 """Modules that add more than classes. ``register(undo)`` adds it and gives ``undo`` the callbacks that remove it."""
 
-_registered: list[ExitStack] = []
+
+class Undo(ExitStack):
+    """Callbacks that each remove one thing, the last first; what another add-on or script has removed is gone."""
+
+    def callback(self, remove, *arguments):
+        """Add one."""
+        return super().callback(_unless_gone, remove, *arguments)
+
+
+def _unless_gone(remove, *arguments) -> None:
+    with suppress(AttributeError, RuntimeError, ValueError):  # what Blender and lists raise where there is nothing
+        remove(*arguments)
+
+
+_registered: list[Undo] = []
 """The callbacks that remove everything again; empty where nothing is registered."""
 
 
@@ -37,7 +51,7 @@ def register() -> None:
     """Register everything, if nothing is. Where that fails nothing stays registered, and the error is raised."""
     if _registered:
         return
-    with ExitStack() as undo:
+    with Undo() as undo:
         for cls in CLASSES:
             bpy.utils.register_class(cls)
             undo.callback(bpy.utils.unregister_class, cls)
@@ -47,6 +61,6 @@ def register() -> None:
 
 
 def unregister() -> None:
-    """Remove all that is registered, the last first."""
+    """Remove all that is registered and still there, the last first."""
     if _registered:
         _registered.pop().close()

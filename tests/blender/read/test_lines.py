@@ -7,6 +7,7 @@ import pytest
 
 from camera_ray_caster.blender.read.scene import read_camera
 from camera_ray_caster.core.conventions import EPS32
+from camera_ray_caster.core.records import InputError
 
 from ..cycles.cycles import cycles_surface
 
@@ -180,6 +181,18 @@ def test_a_line_that_is_gone_is_named(blender, scene, how, model, name):
 def test_what_is_no_curve_is_no_path(blender, scene):
     choose(scene, "STRIP", path=empty(blender, scene, (0, 0, 0)))
     with pytest.raises(ValueError, match=r"path.*choose a curve"):
+        read_camera(scene)
+
+
+@pytest.mark.parametrize("kind", [None, "POLY", "BEZIER", "NURBS"])
+@pytest.mark.parametrize(("model", "name"), [("CROSS_SLIT", "slit_2"), ("STRIP", "path")])
+def test_a_curve_without_two_points_is_no_line(blender, scene, kind, model, name):
+    """As the last point's deletion leaves one: Blender makes no mesh of it."""
+    short = curve(blender, scene, ((0, 0, 12),), kind or "POLY")
+    if kind is None:
+        short.data.splines.clear()
+    choose(scene, model, slit_1=empty(blender, scene, (0, 0, 10)), **{name: short})
+    with pytest.raises(InputError, match=rf"{name} of camera 'Camera' has no (length|direction): .*"):
         read_camera(scene)
 
 

@@ -64,6 +64,23 @@ def test_blenders_other_primitives_are_named_with_the_reason(scene, name, reason
     assert reason in shapes.left_out[0][1]
 
 
+@pytest.mark.parametrize("index", [-1, 10**6, 2**31 - 1])
+@pytest.mark.parametrize("name", ["vertex_index", "edge_index"])
+def test_a_corrupt_mesh_is_left_out_by_name(scene, name, index):
+    ADD.primitive_uv_sphere_add()
+    mesh = bpy.context.object.data
+    values = np.empty(len(mesh.loops), np.int32)
+    mesh.loops.foreach_get(name, values)
+    values[3] = index
+    mesh.loops.foreach_set(name, values)
+    (left,) = read_shapes(scene).left_out
+    assert left[0] == bpy.context.object.name
+    assert "corrupt" in left[1]
+    assert "mesh.validate()" in left[1]
+    mesh.validate()
+    assert "corrupt" not in str(read_shapes(scene).left_out)
+
+
 def test_a_disc_is_flat_with_the_wrong_outline(scene):
     ADD.primitive_circle_add(fill_type="NGON")
     assert "outline has 32 corners" in read_shapes(scene).left_out[0][1]

@@ -209,6 +209,10 @@ def test_shapes_that_come_and_go_are_never_mixed():
         (ROWS | {"time_start": float("nan")}, "time_start .*nan"),
         (ROWS | {"time_mode": "DIAGONAL"}, "DIAGONAL.*ROWS"),
         (ROWS | {"time_mode": "IMAGE"}, "image"),
+        (
+            ROWS | {"time_mode": "IMAGE", "time_image": np.array([[0.0, np.nan], [np.inf, 1.0]])},
+            "time_image of camera .* 2 of 4 pixels are NaN or infinite: choose another image",
+        ),
         (ROWS | {"time_tolerance": 0.0}, "time_tolerance"),
         (ROWS | {"time_evaluations": 1}, "time_evaluations"),
         (SHUTTER | {"motion_blur_shutter": 0.0}, "motion_blur_shutter .* is 0: it must be above 0"),

@@ -148,4 +148,4 @@ def _gray(image):
     width, height = image.size
     pixels = np.empty(width * height * image.channels, np.float32)
     image.pixels.foreach_get(pixels)
-    return pixels.reshape(height, width, image.channels)[..., :3].mean(axis=-1)
+    return pixels.reshape(height, width, image.channels)[..., :3].mean(axis=-1, dtype=np.float64)

@@ -36,9 +36,11 @@ def _sampled(item):
     """Return a curve's sampled points, its matrix, and the edges between the points; None for what is no curve."""
     if item.type != "CURVE":
         return None
-    mesh = item.to_mesh()
-    points, edges = np.empty((len(mesh.vertices), 3), np.float32), np.empty((len(mesh.edges), 2), np.int32)
-    mesh.vertices.foreach_get("co", points.ravel())
-    mesh.edges.foreach_get("vertices", edges.ravel())
-    item.to_mesh_clear()
+    mesh = item.to_mesh()  # None where no spline has two points
+    counts = (len(mesh.vertices), len(mesh.edges)) if mesh else (0, 0)
+    points, edges = np.empty((counts[0], 3), np.float32), np.empty((counts[1], 2), np.int32)
+    if mesh:
+        mesh.vertices.foreach_get("co", points.ravel())
+        mesh.edges.foreach_get("vertices", edges.ravel())
+        item.to_mesh_clear()
     return points.astype(np.float64), np.array(item.matrix_world, np.float64), edges

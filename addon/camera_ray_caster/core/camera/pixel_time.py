@@ -186,7 +186,7 @@ def pixel_time_from(raw: BlenderCamera, raster: Raster) -> PixelTime | None:
 
     Slit scan: row or column centers span ``time_start`` .. ``time_end``, bottom or left first. IMAGE: black is the
     start, white the end; the image is stretched over the frame, nearest pixel. Raises InputError for an unknown
-    mode, equal or non-finite ends and a missing image.
+    mode, equal or non-finite ends, and an image that is missing or has pixels that are not finite.
     """
     if MODE.name not in raw.settings or MODE.read(raw) == NONE:
         return None
@@ -247,6 +247,9 @@ def _image_share(raw: BlenderCamera, raster: Raster) -> np.ndarray:
     if gray is None:
         raise InputError(f"camera {raw.name!r} reads its time from an image, but has none: choose a gray image")
     gray = np.asarray(gray, np.float64)
+    if not np.isfinite(gray).all():
+        lost = f"{np.count_nonzero(~np.isfinite(gray))} of {gray.size} pixels are NaN or infinite"
+        raise InputError(f"{GRAY.name} of camera {raw.name!r} gives no time where {lost}: choose another image")
     rows = (2 * np.arange(raster.height) + 1) * gray.shape[0] // (2 * raster.height)
     columns = (2 * np.arange(raster.width) + 1) * gray.shape[1] // (2 * raster.width)
     return np.rint(np.clip(gray[np.ix_(rows, columns)], 0, 1) * (LEVELS - 1)) / (LEVELS - 1)

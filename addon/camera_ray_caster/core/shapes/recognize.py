@@ -32,6 +32,9 @@ The vertices of any prism, cube or cylinder can lie on one sphere, but then some
 octahedron's are at 0.577, an icosahedron's at 0.795. UV spheres pass from 6 segments and 3 rings (0.750) on; coarser
 ones cannot be told from a cylinder."""
 
+CORRUPT = "it is corrupt, with faces of vertices or edges that it does not have: repair it with mesh.validate()"
+ROUNDED_AWAY = "it is too thin, or too small so far from the object's origin: float32 has rounded its shape away"
+
 
 @dataclass(frozen=True)
 class MeshArrays:
@@ -47,6 +50,24 @@ class MeshArrays:
     """(faces,) int32: the first loop of each face."""
     edge_count: int
 
+    @property
+    def is_whole(self) -> bool:
+        """Whether every face has corners, and every corner a vertex and an edge that are there: not in a corrupt file.
+
+        The starts of the faces ascend from the first loop on.
+        """
+        starts, ends = self.loop_starts, np.append(self.loop_starts[1:], len(self.loop_vertices))
+        return bool(
+            starts[0] == 0
+            and (starts < ends).all()
+            and _within(self.loop_vertices, len(self.vertices))
+            and _within(self.loop_edges, self.edge_count)
+        )
+
+
+def _within(indices, count: int) -> bool:
+    return bool(len(indices) and indices.min() >= 0 and indices.max() < count)
+
 
 def recognize(mesh: MeshArrays) -> Primitive | str:
     """Return the sphere or plane that a mesh with faces is, in object space, or in words why it is neither.
@@ -55,6 +76,8 @@ def recognize(mesh: MeshArrays) -> Primitive | str:
     matrix was applied to one. A sphere's axes are its radius times the object's axes; a plane's are half its sides, the
     first along its first edge, and a normal as long as the root of their area. All are right to the tolerances above.
     """
+    if not mesh.is_whole:
+        return CORRUPT
     if not np.isfinite(mesh.vertices).all():
         return "its vertices are not all finite"
     middle = mesh.vertices.mean(axis=0, dtype=np.float64)
@@ -100,15 +123,18 @@ def _ellipsoid(mesh, vertices, rounding):
         center, axes = fit(vertices)
         if axes is None:
             continue
+        thinnest = np.linalg.norm(axes, -2)
+        if thinnest <= rounding:
+            return ROUNDED_AWAY
         ball = np.linalg.solve(axes, (vertices - center).T).T
         distances = np.linalg.norm(ball, axis=1)
-        spread, noise = np.ptp(distances), rounding / np.linalg.norm(axes, -2)
+        spread, noise = np.ptp(distances), rounding / thinnest
         if spread <= SPHERE_TOLERANCE + noise:
             break
     else:
         return "its vertices are not on one sphere or ellipsoid"
     if noise > 0.01:
-        return "it is too thin, or too small so far from the object's origin: float32 has rounded its shape away"
+        return ROUNDED_AWAY
     if (np.bincount(mesh.loop_edges, minlength=mesh.edge_count) != 2).any():
         return "its vertices are on a sphere, but its surface is not closed"
     corners, areas = _faces(mesh, ball)
@@ -158,6 +184,8 @@ def _parallelogram(mesh, vertices, total, area, rounding):
     ahead = mesh.loop_vertices < loop_ends
     net = np.bincount(mesh.loop_edges, np.where(ahead, 1, -1), mesh.edge_count)[mesh.loop_edges]
     outline = dict(zip(mesh.loop_vertices[net != 0].tolist(), loop_ends[net != 0].tolist(), strict=True))
+    if not outline:
+        return CORRUPT  # edges that are not where their corners are
     start = vertex = next(iter(outline))
     walk = []
     while vertex in outline:
