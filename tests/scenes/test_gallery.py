@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from camera_ray_caster.core.camera.pixel_time import SETTINGS
 from camera_ray_caster.core import cameras
+from camera_ray_caster.core.camera.pixel_time import SETTINGS
 
 from .opening import FOLDER, README, look, opened, rendered
 

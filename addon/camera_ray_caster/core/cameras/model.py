@@ -61,6 +61,8 @@ class Model(ABC):
     """Whether t counts depth: directions have z = -1. Otherwise they have unit length, and t counts the distance."""
     central: ClassVar[bool] = True
     """Whether all chief rays leave the eye, the origin of the camera's frame."""
+    straight: ClassVar[bool] = False
+    """Whether straight lines have straight images: a triangle before the camera lies between its corners' images."""
     parallel: ClassVar[bool] = False
     """Whether all chief rays have the same direction, then given as three numbers."""
     smooth: ClassVar[bool] = True

@@ -28,6 +28,7 @@ class Orthographic(WindowModel):
     description = "Parallel rays: no foreshortening, no vanishing point"
     group = "Blender's Own"
     planar = True
+    straight = True
     central = False
     parallel = True
     ray_rounding = gamma(2)

@@ -32,6 +32,7 @@ class Perspective(WindowModel):
     description = "A pinhole before a film: straight lines stay straight"
     group = "Blender's Own"
     planar = True
+    straight = True
     ray_rounding = gamma(2)
     SETTINGS: ClassVar[tuple[Setting, ...]] = (LENS, *FILM)
     FORMULA: ClassVar[tuple[Step, ...]] = (

@@ -14,10 +14,8 @@ from ..shapes.frames import InCamera
 from ..shapes.in_camera import in_camera
 from ..shapes.kind import ShapeSet, Visible
 from ..shapes.normals import NormalTable, normal_table
+from .pixel_bounds import PixelBounds
 from .request import Request
-
-SAMPLE_MARGIN = np.array([-0.5, 0.5, -0.5, 0.5])
-"""Pixels by which bounds widen when samples lie all over the pixels."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,6 +29,7 @@ class Plan:
     shapes: Shapes
     request: Request
     in_camera: InCamera
+    pixels: PixelBounds
     seen: np.ndarray
     """(m,) indices into ``Shapes``, ascending: those that some pixel may see."""
     bounds: np.ndarray
@@ -47,7 +46,7 @@ class Plan:
         for kind, some in kinds.by_kind(self.shapes.kind[self.seen]):
             visible = Visible(
                 self.seen[some], self.bounds[some], self.near[some],
-                self.camera.clip_start, self.camera.parallel, self.request.real,
+                self.camera.clip_start, self.camera.clip_end, self.camera.parallel, self.request.real, self.pixels,
             )  # fmt: skip
             sets.append(kind.shape_set(self.in_camera, visible))
         return tuple(sets)
@@ -56,7 +55,8 @@ class Plan:
         """Return the plan of some of its pixels alone: of some columns and rows, (k,) and (l,) ascending."""
         bounds = np.hstack((np.searchsorted(columns, self.bounds[:, :2]), np.searchsorted(rows, self.bounds[:, 2:])))
         here = (bounds[:, 0] < bounds[:, 1]) & (bounds[:, 2] < bounds[:, 3])
-        return replace(self, seen=self.seen[here], bounds=bounds[here], near=self.near[here])
+        pixels = self.pixels.at(columns, rows)
+        return replace(self, pixels=pixels, seen=self.seen[here], bounds=bounds[here], near=self.near[here])
 
     @cached_property
     def work(self) -> np.ndarray:
@@ -121,18 +121,17 @@ class Plan:
 def make_plan(camera: Camera, shapes: Shapes, request: Request) -> Plan:
     """Return the plan; InputError names a shape that cannot be cast."""
     placed = in_camera(shapes, camera.pose)
-    height, width = camera.raster.shape
-    bounds = np.tile(np.array([0, width, 0, height]), (len(shapes), 1))
-    seen = np.ones(len(shapes), bool)
     near, far = _reach(camera, placed, request.sampled)
+    pixels = PixelBounds(camera, request.sampled, request.cull)
+    bounds, seen = pixels.of_balls(placed.center, placed.radius)
     if request.cull:
-        bounds, seen = _window_bounds(camera, placed, request.sampled)
         seen &= (near <= camera.clip_end) & (far >= camera.clip_start)
     plan = Plan(
         camera=camera,
         shapes=shapes,
         request=request,
         in_camera=placed,
+        pixels=pixels,
         seen=np.flatnonzero(seen),
         bounds=bounds[seen],
         near=near[seen],
@@ -153,25 +152,3 @@ def _reach(camera: Camera, shapes: InCamera, sampled: bool):
         return np.full(len(reach), -np.inf), np.full(len(reach), np.inf)
     reach = reach * (1 + 8 * np.finfo(float).eps)
     return middle - reach, middle + reach
-
-
-def _window_bounds(camera: Camera, shapes: InCamera, sampled: bool):
-    """Return (n, 4) int bounds in the render window, and which of them hold a pixel center."""
-    raster = camera.raster
-    endless = np.isinf(shapes.radius)
-    with np.errstate(all="ignore"):
-        radius = np.where(endless, 0.0, shapes.radius)
-        if sampled and camera.aperture is not None:
-            away = -shapes.center[:, 2] if camera.model.planar else np.sqrt((shapes.center**2).sum(axis=1))
-            radius = radius + camera.aperture.blur(away, radius)
-        frame = camera.model.bounds(shapes.center, radius)
-        if sampled:
-            frame = frame + SAMPLE_MARGIN
-    frame[endless] = (-np.inf, np.inf, -np.inf, np.inf)
-    seen = ~np.isnan(frame).any(axis=1)
-    corner, size = np.array([raster.x0, raster.y0]), raster.shape[::-1]
-    frame = np.where(seen[:, None], frame, 0.0)
-    first = np.clip(np.ceil(frame[:, 0::2] - 0.5) - corner, 0, size)  # pixel centers, not pixels
-    last = np.clip(np.floor(frame[:, 1::2] + 0.5) - corner, 0, size)
-    seen &= (first < last).all(axis=1)
-    return np.stack((first[:, 0], last[:, 0], first[:, 1], last[:, 1]), axis=1).astype(np.int64), seen

@@ -9,6 +9,8 @@ Accuracy and Stability of Numerical Algorithms, 2nd ed., chapter 12 (refinement 
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 SPLITTER = 2.0**27 + 1
@@ -70,3 +72,16 @@ def square_less_one(high, low):
     for i in range(3):
         terms += [*two_product(high[:, i], high[:, i]), 2 * high[:, i] * low[:, i]]
     return total(terms)[0]
+
+
+def volume_sign(a, b, c) -> np.ndarray:
+    """Return the sign of a . (b x c) of vectors (3, n) each, exactly: -1, 0 or 1, (n,).
+
+    The 24 parts of its six products are exact, and so is the sign of their sum (math.fsum), where no part underflows.
+    """
+    terms = []
+    for i, j, k in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
+        for sign, (left, right) in ((1, (j, k)), (-1, (k, j))):
+            for part in two_product(b[left], c[right]):
+                terms += two_product(sign * a[i], part)
+    return np.sign([math.fsum(column) for column in np.array(terms).T.tolist()])

@@ -14,6 +14,7 @@ import numpy as np
 from .. import tuning
 from ..maths.vector import cut, is_lattice
 from .kind import Candidates, Large, SearchRays, ShapeSet, Visible
+from .windows import batches, gather, in_tile, pixels_in
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,11 +43,8 @@ class Group:
         if self.is_small:
             ends = corner[1] - self.tallest, corner[1] + shape[0]
             some = slice(*np.searchsorted(self.visible.bounds[:, 2], ends))
-        (left, low), (high, wide) = corner, shape
-        edges = np.maximum(self.visible.bounds[some] - np.array((left, left, low, low)), 0)
-        np.minimum(edges, np.array((wide, wide, high, high)), out=edges)
-        here = np.flatnonzero((edges[:, 0] < edges[:, 1]) & (edges[:, 2] < edges[:, 3]))
-        return here + (some.start or 0), edges[here]
+        here, edges = in_tile(self.visible.bounds[some], corner, shape)
+        return here + (some.start or 0), edges
 
     def large(self, rays: SearchRays) -> Iterator[Large]:
         """See ``ShapeSet``."""
@@ -73,7 +71,7 @@ class Group:
     def batches(self, rays: SearchRays) -> Iterator[Candidates]:
         """Yield the crossings with small shapes: in windows as large as the largest bounds of a batch."""
         here, bounds = self.within(rays.corner, rays.shape)
-        for batch in _batches(bounds):
+        for batch in batches(bounds):
             yield self._cast_batch(rays, here[batch], bounds[batch])
 
     def _cast_batch(self, rays: SearchRays, here: np.ndarray, bounds: np.ndarray) -> Candidates:
@@ -85,7 +83,7 @@ class Group:
         x = x0[:, None, None] + np.arange(wide)
         y = y0[:, None, None] + np.arange(high)[:, None]
         constants = self._constants(here, axes=2)
-        t, where = self._intersect(rays, constants, lambda component: _gather(component, y, x))
+        t, where = self._intersect(rays, constants, lambda component: gather(component, y, x))
         t = np.broadcast_to(t, (len(here), high, wide))
         return Candidates(self.visible.at[here][:, None, None], (y0, x0), t, where)
 
@@ -135,30 +133,3 @@ def divide(visible: Visible) -> Iterator[tuple[Visible, bool, bool]]:
             bool(code & 2),
             bool(code & 1),
         )
-
-
-def pixels_in(bounds: np.ndarray) -> np.ndarray:
-    """Return how many pixels lie in bounds (n, 4), each x0, x1, y0, y1."""
-    return (bounds[:, 1] - bounds[:, 0]) * (bounds[:, 3] - bounds[:, 2])
-
-
-def _batches(bounds: np.ndarray) -> Iterator[np.ndarray]:
-    """Yield rows of shapes with bounds of about the same size, as many as fill a batch."""
-    size = np.maximum(bounds[:, 1] - bounds[:, 0], bounds[:, 3] - bounds[:, 2])
-    step = np.ceil(4 * np.log2(np.maximum(size, 1)))
-    for value in np.unique(step):
-        alike = np.flatnonzero(step == value)
-        pixels = (bounds[alike, 1] - bounds[alike, 0]).max() * (bounds[alike, 3] - bounds[alike, 2]).max()
-        count = max(1, tuning.BATCH_PIXELS // pixels)
-        for first in range(0, len(alike), count):
-            yield alike[first : first + count]
-
-
-def _gather(component, y, x):
-    """Return a broadcastable component at pixels given by a column of rows and a row of columns a shape."""
-    if np.ndim(component) == 0:
-        return component
-    rows, columns = component.shape
-    if rows == columns == 1:
-        return component[None]
-    return component[y if rows > 1 else 0, x if columns > 1 else 0]

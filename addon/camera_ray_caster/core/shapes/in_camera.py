@@ -41,7 +41,11 @@ def in_camera(shapes: Shapes, pose: Pose) -> InCamera:
     with np.errstate(all="ignore"):  # what is flat or too far is refused by name
         shape_from_world, rounding, skewness = invert(shapes.axes)
         offset = np.einsum("nij,nj->ni", shape_from_world, away)
-        _refuse(shapes, skewness, away, offset)
+        may_be_flat = np.zeros(len(shapes), bool)
+        for kind, at in by_kind(shapes.kind):
+            may_be_flat[at] = kind.may_be_flat
+        skewness[may_be_flat], offset[may_be_flat] = 1.0, 0.0
+        _refuse(shapes, may_be_flat, skewness, away, offset)
         axes = np.einsum("ij,njk->nki", camera_from_world, shapes.axes)  # an axis a row
         for kind, at in by_kind(shapes.kind):
             radius[at], reach[at] = kind.extent(shapes, at, axes[at])
@@ -66,11 +70,11 @@ def in_camera(shapes: Shapes, pose: Pose) -> InCamera:
     )
 
 
-def _refuse(shapes: Shapes, skewness, away, offset) -> None:
+def _refuse(shapes: Shapes, may_be_flat, skewness, away, offset) -> None:
     """Raise InputError for the first shape that cannot be cast."""
     size = _largest(shapes.axes)
     flat = ~(skewness < FLAT)
-    beyond = ~((size >= SIZES[0]) & (size <= SIZES[1])).all(axis=1)
+    beyond = ~((may_be_flat[:, None] | (size >= SIZES[0])) & (size <= SIZES[1])).all(axis=1)
     beyond |= ~((np.abs(away) <= SIZES[1]) & (np.abs(offset) <= SIZES[1])).all(axis=1)
     if flat.any() or beyond.any():
         first = int(np.argmax(flat | beyond))

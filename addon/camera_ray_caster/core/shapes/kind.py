@@ -15,13 +15,38 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
 from ..maths.speed import Scratch
 from ..records import Shapes
 from .frames import InCamera, WorldRays
+
+
+class PixelBounds(Protocol):
+    """In which pixels of the plan something may be seen: (n, 4) int, x0, x1, y0, y1, x1 and y1 not included."""
+
+    def of_balls(self, centers: np.ndarray, radii: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return the bounds of balls in the camera's frame, (n, 3) and (n,), and which of them hold a pixel center.
+
+        A radius may be infinite.
+        """
+
+    @property
+    def has_straight_lines(self) -> bool:
+        """Whether what lies between corners is seen between their images, so that ``of_corners`` may be asked."""
+
+    def images(self, points: np.ndarray) -> np.ndarray:
+        """Return the pixel coordinates (n, 2) in the full frame of points (n, 3) in the camera's frame; NaN for those
+        that have none, or one that is too far away to count.
+        """
+
+    def of_corners(self, low: np.ndarray, high: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return the bounds of what lies between pixel coordinates (n, 2) each, and which of them hold a pixel center.
+
+        NaN is seen nowhere.
+        """
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,10 +60,13 @@ class Visible:
     near: np.ndarray
     """(k,): the least t that each may have, -inf where that is not known."""
     clip_start: float
+    clip_end: float
     parallel: Any
     """The direction that all rays have, three numbers in the camera frame; None where they differ."""
     real: type
     """What hits are searched with: float64 or float32."""
+    pixels: PixelBounds
+    """Where parts of the shapes may be seen."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -150,6 +178,8 @@ class Kind(ABC):
     """The value of ``Shapes.kind``; it never changes."""
     name: str
     """In the report's words."""
+    may_be_flat: bool = False
+    """Whether the axes of a shape may lie in one plane: ``InCamera.shape_from_world`` is undefined then."""
 
     @abstractmethod
     def extent(self, shapes: Shapes, at: np.ndarray, axes: np.ndarray) -> tuple[Any, Any]:
@@ -177,6 +207,14 @@ class Kind(ABC):
     @abstractmethod
     def uv(self, shapes: InCamera, pixels: HitPixels, point: Any) -> tuple[np.ndarray, np.ndarray]:
         """Return u and v, (m,) each, of hit points given as components relative to the eye, world."""
+
+    def polygon(self, shapes: InCamera, pixels: HitPixels) -> np.ndarray:
+        """Return the face of the mesh that is hit, (m,) int32; by default there is none, -1."""
+        return np.full(len(pixels.at), -1, np.int32)
+
+    def slot(self, shapes: InCamera, pixels: HitPixels) -> np.ndarray:
+        """Return which material of a shape's ``Slots`` is hit, (m,); by default the first."""
+        return np.zeros(len(pixels.at), np.int32)
 
     @abstractmethod
     def errors(self, shapes: InCamera, pixels: HitPixels, rays: WorldRays, from_eye: bool, unit: bool) -> ShapeErrors:
