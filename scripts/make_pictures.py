@@ -8,13 +8,14 @@ Needs pip's bpy.
 
 from __future__ import annotations
 
-import argparse
 import os
 import sys
 import tempfile
+from argparse import RawDescriptionHelpFormatter
 from pathlib import Path
 
 import bpy  # noqa: F401  (first: bmesh, which the scenes use, comes with it)
+from arguments import Parser
 from door import through
 from scenes import PICTURES
 
@@ -49,7 +50,7 @@ def without_text(png: bytes) -> bytes:
 
 def main() -> int:
     """Make the pictures that are named, or all; stop at the first that fails."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = Parser(prog="make_pictures.py", description=__doc__, formatter_class=RawDescriptionHelpFormatter)
     parser.add_argument("names", metavar="NAME", nargs="*", help=", ".join(PICTURES))
     names = parser.parse_args().names or list(PICTURES)
     if unknown := [name for name in names if name not in PICTURES]:

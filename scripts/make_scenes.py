@@ -8,13 +8,14 @@ Needs pip's bpy. Run it with bpy 4.5, the oldest that is supported: newer ones o
 
 from __future__ import annotations
 
-import argparse
 import os
 import sys
 import tempfile
+from argparse import RawDescriptionHelpFormatter
 from pathlib import Path
 
 import bpy
+from arguments import Parser
 from scenes import EXAMPLES, GALLERY, SCENES
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -84,7 +85,7 @@ def write_scene(name: str) -> None:
 
 def main(arguments: list[str] | None = None) -> None:
     """Make the scenes that are named, or all."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = Parser(prog="make_scenes.py", description=__doc__, formatter_class=RawDescriptionHelpFormatter)
     parser.add_argument("names", metavar="NAME", nargs="*", help=", ".join(SCENES))
     names = parser.parse_args(arguments).names or list(SCENES)
     if unknown := [name for name in names if name not in SCENES]:

@@ -13,6 +13,9 @@ import numpy as np
 class InputError(ValueError):
     """What the user gave cannot be cast. The message is one line that says what is wrong and what to do."""
 
+    def __init__(self, message: str):
+        super().__init__(" ".join(message.splitlines()))  # what it quotes may have several
+
 
 class Cancelled(Exception):
     """The user stopped the work."""
