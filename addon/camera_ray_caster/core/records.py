@@ -157,7 +157,7 @@ class Slots:
     """The materials of meshes that have several: row k of ``Shapes`` has those from ``first[k]`` on."""
 
     first: np.ndarray
-    """(n,) int64."""
+    """(n,) int64; -1 for shapes that have one material, which ``Shapes`` has."""
     material_index: np.ndarray
     """(s,) int32: pass indices."""
     color: np.ndarray
