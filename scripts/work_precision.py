@@ -7,6 +7,11 @@
 Needs the packages of the ``test`` extra. Writes work_precision.json, .svg and .png into --output; prints the tables.
 """
 
+if __name__ == "__main__":
+    import ends  # it lies beside this file
+
+    ends.begin(__file__)
+
 import json
 import sys
 from dataclasses import asdict
@@ -86,4 +91,4 @@ def _read(path):
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(ends.run(__file__, main))
