@@ -16,7 +16,7 @@ endif
 SCENE := blend_scenes/spheres_and_planes.blend
 EXTENSION_TOOL = $(VENV)/lib/python3*/site-packages/bpy/*/scripts/addons_core/bl_pkg/cli/blender_ext.py
 
-.PHONY: cast test test-all test-blender lint zip clean help
+.PHONY: cast test test-hostile test-all test-blender lint zip clean help
 
 cast: $(VENV)/ready  ## render the example scene into out/ and print the report
 	$(VENV)/bin/python scripts/cast.py $(SCENE) --output out
@@ -24,6 +24,9 @@ cast: $(VENV)/ready  ## render the example scene into out/ and print the report
 # The tests of a file stay together, since they share fixtures, and one window.
 test: $(VENV)/ready  ## run every test with this Python, on all cores
 	$(VENV)/bin/python -m pytest --numprocesses auto --dist loadfile
+
+test-hostile: $(VENV)/ready  ## try all hostile inputs, kills and full disks, some minutes
+	$(VENV)/bin/python -m pytest tests/hostile -m hostile --numprocesses auto
 
 test-all:  ## run the tests on each supported bpy for which a Python is found, but those in a window
 	@$(PYTHON) scripts/environment.py test-all

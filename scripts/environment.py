@@ -1,10 +1,15 @@
 """Which bpy goes with which Python, and the tests on every such pair that this machine has.
 
     python scripts/environment.py             the newest bpy for this Python, or a sentence why there is none
-    python scripts/environment.py test-all    `make test` on each supported bpy, and which of them passed
+    python scripts/environment.py test-all    the tests on each supported bpy, hostile inputs on the newest: what passed
 
 Standard library only, and no syntax newer than Python 3.6: it has to be able to say that a Python is too old.
 """
+
+if __name__ == "__main__":
+    import ends  # it lies beside this file
+
+    ends.begin(__file__)
 
 import glob
 import importlib.util
@@ -43,31 +48,44 @@ def find_python(version):
 
 
 def test_all():
-    """Run `make test` for one supported bpy after the other, since each takes all cores; the exit status is 0 when at
-    least one bpy ran and none failed.
+    """Run `make test` for one supported bpy after the other, since each takes all cores, and `make test-hostile` for
+    the newest; the exit status is 0 when at least one bpy ran and none failed.
     """
-    results = {}
+    results, newest = {}, None
     for bpy, version in PYTHON_OF_BPY.items():
         python = find_python(version)
         if python is None:
             results[bpy] = f"not run, no Python {dotted(version)} with pip found"
             continue
         print(f"== bpy {bpy} on {python}", flush=True)
-        results[bpy] = "FAILED" if make_test(bpy, python) else "passed"
+        results[bpy], newest = in_words(make("test", bpy, python)), (bpy, python)
+    if newest:
+        results[f"{newest[0]}, hostile inputs"] = in_words(make("test-hostile", *newest))
     for bpy, result in results.items():
         print(f"bpy {bpy}: {result}")
     return int("FAILED" in results.values() or "passed" not in results.values())
 
 
-def make_test(bpy, python):
-    """Run `make test` for a bpy on a Python, but the tests in a window, and return its exit status."""
+def in_words(status):
+    """What the exit status of tests says."""
+    return "FAILED" if status else "passed"
+
+
+def make(target, bpy, python):
+    """Run a target of make for a bpy on a Python, without the tests in a window, and return its exit status."""
     # it gets its own settings, not those of the make that called; the window's Blender is the same with every bpy
     environment = {name: value for name, value in os.environ.items() if not name.startswith(("MAKE", "MFLAGS"))}
     environment["PYTEST_ADDOPTS"] = environment.get("PYTEST_ADDOPTS", "") + " --ignore=tests/gui"
-    return subprocess.run(["make", "test", f"PYTHON={python}", f"BPY={bpy}"], env=environment).returncode
+    return subprocess.run(["make", target, f"PYTHON={python}", f"BPY={bpy}"], env=environment).returncode
+
+
+def main():
+    """Do what the arguments ask for."""
+    if sys.argv[1:] == ["test-all"]:
+        return test_all()
+    print(bpy_for(sys.version_info[:2]) if importlib.util.find_spec("pip") else f"needs pip: {sys.executable} has none")
+    return 0
 
 
 if __name__ == "__main__":
-    if sys.argv[1:] == ["test-all"]:
-        sys.exit(test_all())
-    print(bpy_for(sys.version_info[:2]) if importlib.util.find_spec("pip") else f"needs pip: {sys.executable} has none")
+    sys.exit(ends.run(__file__, main))

@@ -8,7 +8,7 @@ import numpy as np
 
 from ...core.records import INFINITE_PLANE, PLANE, SPHERE
 from ...core.shapes.instances import Primitive, enclosing_primitive, points_primitive
-from ...core.shapes.recognize import MeshArrays, recognize
+from ...core.shapes.recognize import NOT_FINITE, MeshArrays, recognize
 
 FORCED = {"SPHERE": SPHERE, "PLANE": PLANE, "INFINITE_PLANE": INFINITE_PLANE}
 """What an object's own setting makes of it, whatever its geometry is."""
@@ -43,7 +43,14 @@ def _of_mesh(mesh, kind) -> tuple[Primitive | None, str]:
     if isinstance(found, Primitive) and (found.kind == SPHERE) == (kind == SPHERE):
         return replace(found, kind=kind), ""
     vertices = fetched(mesh.vertices, "co", np.float32, 3).reshape(-1, 3)
-    return (enclosing_primitive(kind, vertices), "") if len(vertices) else NOTHING
+    return _enclosing(kind, vertices)
+
+
+def _enclosing(kind, places: np.ndarray) -> tuple[Primitive | None, str]:
+    """Return the sphere or plane around (n, 3) places."""
+    if not len(places):
+        return NOTHING
+    return (enclosing_primitive(kind, places), "") if np.isfinite(places).all() else (None, NOT_FINITE)
 
 
 _known: dict[bytes, Primitive | str] = {}
@@ -67,7 +74,7 @@ def _of_points(cloud, kind) -> tuple[Primitive | None, str]:
         return NOTHING
     positions = fetched(cloud.attributes["position"].data, "vector", np.float32, 3).reshape(-1, 3)
     if kind in (PLANE, INFINITE_PLANE):
-        return enclosing_primitive(kind, positions), ""
+        return _enclosing(kind, positions)
     radius = cloud.attributes.get("radius")
     radii = fetched(radius.data, "value", np.float32) if radius else np.full(len(positions), DEFAULT_RADIUS, np.float32)
     primitive = points_primitive(positions, radii)

@@ -1,6 +1,9 @@
 """Lights and the world as a depsgraph evaluated them."""
 
+import math
+
 import bpy
+import numpy as np
 
 USED = {"SUN": True, "POINT": False}
 """The types that the combined pass uses, each with whether it is a sun."""
@@ -8,9 +11,20 @@ USED = {"SUN": True, "POINT": False}
 
 def light_color(light) -> tuple[float, float, float]:
     """Return a light's color times its strength, exposure and temperature, in Blender's units."""
-    strength = light.energy * 2.0**light.exposure
+    with np.errstate(over="ignore"):
+        strength = float(light.energy * np.exp2(light.exposure))
     tint = light.temperature_color if light.use_temperature else (1.0, 1.0, 1.0)
     return tuple(strength * a * b for a, b in zip(light.color, tint, strict=True))
+
+
+def is_finite(color) -> bool:
+    """Return whether all parts of a color are numbers that light can be."""
+    return all(map(math.isfinite, color))
+
+
+def shown(color) -> tuple[float, ...]:
+    """Return a color of three or four parts; black where one is NaN or infinite, which would spread to every pixel."""
+    return tuple(color) if is_finite(color) else (0.0, 0.0, 0.0, 1.0)[: len(color)]
 
 
 def world_color(scene) -> tuple[float, float, float, float]:
@@ -22,7 +36,7 @@ def world_color(scene) -> tuple[float, float, float, float]:
         return 0.0, 0.0, 0.0, 0.0
     if scene.world is None:
         return 0.0, 0.0, 0.0, 1.0
-    red, green, blue = _background(scene.world) or scene.world.color
+    red, green, blue = shown(_background(scene.world) or scene.world.color)
     return red, green, blue, 1.0
 
 

@@ -9,7 +9,7 @@ from ...core.records import Shapes
 from ...core.shapes.instances import Primitive, is_invertible, lights_in_world, put_in_world
 from ..properties.declared import PRIMITIVE
 from .geometry import shapes_of
-from .lights import USED, light_color, world_color
+from .lights import USED, is_finite, light_color, shown, world_color
 from .stored import own_value
 from .visibility import Visibility, original_source
 
@@ -21,6 +21,7 @@ NO_SURFACE = frozenset(
 HIDDEN = "it is hidden in the viewport, so that Blender evaluates it only in a render: show it, or render (F12)"
 HAIR = "its hair {!r} is neither sphere nor plane"
 SINGULAR = "its size is zero in some direction, or not finite: clear its scale (Alt S) or apply it"
+DAZZLING = "its strength or color is not finite: set them anew"
 
 
 @dataclass
@@ -82,6 +83,8 @@ def _group(instance, visibility, found) -> _Group:
     if item.type == "LIGHT":
         if item.data.type in USED:
             group.is_sun, group.color = USED[item.data.type], light_color(item.data)
+            if not is_finite(group.color):
+                group.is_sun, group.reason = None, DAZZLING
         else:
             group.reason = f"it is a light of type {item.data.type.lower()}: only sun and point lights are used"
     elif item.type not in NO_SURFACE:
@@ -103,7 +106,7 @@ def _fill(group, instance, visibility, found) -> None:
     material = _material(item)
     group.object_index = item.pass_index
     group.material_index = material.pass_index if material else 0
-    group.color = tuple(material.diffuse_color if material else item.color)
+    group.color = shown(material.diffuse_color if material else item.color)
     if visibility.is_holdout(instance):
         group.color = 0.0, 0.0, 0.0, 0.0
 

@@ -239,7 +239,13 @@ def _linear(raw: BlenderCamera, origin: float, per_column: float, per_row: float
         for x in (0.5, raster.width - 0.5)
         for y in (0.5, raster.height - 0.5)
     ]  # fmt: skip
-    return LinearTime(origin, per_column, per_row, min(corners), max(corners), *_effort(raw))
+    first, last = min(corners), max(corners)
+    if not -LAST_FRAME <= first <= last <= LAST_FRAME:
+        raise InputError(
+            f"the times of camera {raw.name!r} are frames {first:g} to {last:g}: "
+            f"keep them between -{LAST_FRAME} and {LAST_FRAME}, beyond which Blender has none"
+        )
+    return LinearTime(origin, per_column, per_row, first, last, *_effort(raw))
 
 
 def _image_share(raw: BlenderCamera, raster: Raster) -> np.ndarray:

@@ -33,6 +33,9 @@ class PixelBounds(Protocol):
         A radius may be infinite.
         """
 
+    def least_t(self, centers: np.ndarray, radii: np.ndarray) -> np.ndarray:
+        """Return no more than the least t of each ball, (n,); -inf where it is not known."""
+
     @property
     def has_straight_lines(self) -> bool:
         """Whether what lies between corners is seen between their images, so that ``of_corners`` may be asked."""
@@ -60,7 +63,8 @@ class Visible:
     near: np.ndarray
     """(k,): the least t that each may have, -inf where that is not known."""
     clip_start: float
-    clip_end: float
+    from_eye: bool
+    """Whether all rays leave the eye."""
     parallel: Any
     """The direction that all rays have, three numbers in the camera frame; None where they differ."""
     real: type

@@ -33,6 +33,7 @@ octahedron's are at 0.577, an icosahedron's at 0.795. UV spheres pass from 6 seg
 ones cannot be told from a cylinder."""
 
 CORRUPT = "it is corrupt, with faces of vertices or edges that it does not have: repair it with mesh.validate()"
+NOT_FINITE = "its vertices are not all finite"
 ROUNDED_AWAY = "it is too thin, or too small so far from the object's origin: float32 has rounded its shape away"
 
 
@@ -79,7 +80,7 @@ def recognize(mesh: MeshArrays) -> Primitive | str:
     if not mesh.is_whole:
         return CORRUPT
     if not np.isfinite(mesh.vertices).all():
-        return "its vertices are not all finite"
+        return NOT_FINITE
     middle = mesh.vertices.mean(axis=0, dtype=np.float64)
     vertices = mesh.vertices - middle  # small numbers: an offset that was applied costs no digits
     rounding = ROUNDING * float(np.abs(mesh.vertices).max())

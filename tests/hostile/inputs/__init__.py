@@ -1,0 +1,18 @@
+"""Hostile inputs, each from its kind and its number alone, which are the seed."""
+
+import random
+
+from . import blend_bytes, calibrations, command_lines, images, lines, meshes, names, numbers, settings
+
+KINDS = {
+    module.__name__.rpartition(".")[2]: module
+    for module in (settings, numbers, names, meshes, lines, images, calibrations, blend_bytes, command_lines)
+}
+"""Modules by name. ``COUNT`` is how many inputs a module has; ``make(chance, number, folder)`` makes one of them of
+the small scene that is open, with files in the folder, and returns a ``Hostile``.
+"""
+
+
+def make(kind, number, folder):
+    """Make an input."""
+    return KINDS[kind].make(random.Random(f"{kind} {number}"), number, folder)

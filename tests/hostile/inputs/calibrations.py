@@ -1,0 +1,100 @@
+"""Files of calibrations: deep, long, binary, cut off, of numbers that are none."""
+
+import json
+import random
+
+from .parts import Hostile
+
+COUNT = 160
+
+YAML = """%YAML:1.0
+---
+image_width: 640
+image_height: 480
+camera_matrix: !!opencv-matrix
+   rows: 3
+   cols: 3
+   dt: d
+   data: [ 500., 0., 320., 0., 500., 240., 0., 0., 1. ]
+distortion_coefficients: !!opencv-matrix
+   rows: 1
+   cols: 4
+   dt: d
+   data: [ -0.2, 0.1, 0.001, 0. ]
+"""
+PLAIN = {
+    "image_width": 640,
+    "image_height": 480,
+    "camera_matrix": {"rows": 3, "cols": 3, "data": [500.0, 0, 320, 0, 500, 240, 0, 0, 1]},
+    "distortion_coefficients": {"data": [-0.2, 0.1, 0.001, 0.0]},
+}
+NUMBERS = (
+    "1e999", "-1e999", ".Nan", ".Inf", "-.Inf", "NaN", "1" * 5000, "1" * 400, "0x10", "1e-400", "1_000", "٣", "-0",
+    "1e308", "1e30", "1e-30", "true", "null", '"5"', "[]", "{}", "0", "-1", "500.0.0", "1e", "",
+)  # fmt: skip
+
+
+def make(chance, number, folder):
+    """Write one, and let the camera read it."""
+    import bpy
+
+    way = WAYS[number % len(WAYS)]
+    is_yaml = chance.random() < 0.5
+    said, content = way(chance, YAML if is_yaml else json.dumps(PLAIN), is_yaml)
+    path = folder / ("lens.yml" if is_yaml else "lens.json")
+    path.write_bytes(content)
+    own = bpy.context.scene.camera.data.camera_ray_caster
+    own.model = chance.choice(("OPENCV_PINHOLE", "OPENCV_FISHEYE"))
+    own.calibration_file = str(path)
+    return Hostile(f"{own.model}, {path.name}: {way.__name__[1:]} {said}")
+
+
+def _number(chance, text, is_yaml):
+    old = chance.choice(("500.", "320", "240", "640", "480", "-0.2", "0.1", "0.001"))
+    new = chance.choice(NUMBERS)
+    return f"{new[:20]} for {old}", text.replace(old, new, chance.choice((1, 2))).encode()
+
+
+def _deep(chance, text, is_yaml):
+    depth = chance.choice((100, 10_000, 500_000))
+    opening, closing = chance.choice((("[", "]"), ('{"a":', "}"), ("[", ""), ("- ", ""), ("a:\n ", "")))
+    key = "deep: " if is_yaml else '{"deep": '
+    end = "" if is_yaml else ', "x": 1}'
+    return f"{depth} of {opening!r}", (key + opening * depth + "1" + closing * depth + end).encode()[: 1 << 20]
+
+
+def _long(chance, text, is_yaml):
+    piece, times = chance.choice((" ", "\n", "a", "- ", "'", '"', "\\", "# ", "[,", "!!a ", "&a ", ": ", "0")), 1 << 19
+    where = chance.choice((0, len(text) // 2, len(text)))
+    return f"{piece!r} many times at {where}", (text[:where] + piece * times + text[where:]).encode()
+
+
+def _binary(chance, text, is_yaml):
+    return "bytes", random.Random(chance.random()).randbytes(chance.choice((0, 1, 100, 100_000)))
+
+
+def _cut(chance, text, is_yaml):
+    where = chance.randrange(len(text))
+    return f"at {where}", text[:where].encode()
+
+
+def _mutated(chance, text, is_yaml):
+    data = bytearray(text.encode())
+    for _ in range(chance.choice((1, 2, 5, 20))):
+        where = chance.randrange(len(data))
+        how = chance.randrange(3)
+        if how == 0:
+            data[where] = chance.randrange(256)
+        elif how == 1:
+            del data[where]
+        else:
+            data.insert(where, ord(chance.choice("[]{}:,-'\"!&*#|>%@`\\\n\t \0.e9")))
+    return "bytes", bytes(data)
+
+
+def _other(chance, text, is_yaml):
+    encoding = chance.choice(("utf-16", "utf-32", "utf-8-sig", "utf-7"))
+    return encoding, text.encode(encoding)
+
+
+WAYS = (*[_number] * 4, _deep, _long, _binary, _cut, *[_mutated] * 4, _other)

@@ -1,0 +1,90 @@
+"""Every declared setting of every model and of every mode of pixel times, with every value that nobody means."""
+
+from itertools import chain
+from math import inf, nan
+
+from camera_ray_caster.core.camera import pixel_time
+from camera_ray_caster.core.cameras import MODELS
+from camera_ray_caster.core.cameras.parts.settings import OWN
+
+from .parts import FLOATS, WHOLES, Hostile, new_object, put, store
+
+VALUES = {
+    "FLOAT": (*FLOATS, "a word"),
+    "INT": (*WHOLES, 0.5, "a word"),
+    "BOOLEAN": (2, -1, 1.0),
+    "ENUM": (99, -1, 2**31 - 1, 0.5, "NONE"),
+    "VECTOR": (
+        (nan,) * 4,
+        (inf,) * 4,
+        (1e38,) * 4,
+        (0.0,) * 4,
+        (1.0,) * 3,
+        (1.0,) * 5,
+        1.0,
+        "a word",
+    ),
+    "FILE": ("", "/", "\n", "//" + "a" * 1000, "\udcff", "/dev/zero", 1.0),
+    "OBJECT": ("camera", "ball", "empty", "a word", 5),
+    "IMAGE": ("camera", 5),
+}
+OF_BLENDER = {"ENUM": ("AUTO", "VERTICAL", "HORIZONTAL"), "BOOLEAN": (True, False)}
+
+CASES = [
+    (model, mode, setting, value)
+    for model, mode, setting in chain(
+        ((model, pixel_time.NONE, setting) for model in MODELS for setting in model.SETTINGS),
+        ((MODELS[0], mode, setting) for mode, settings in pixel_time.SETTINGS.items() for setting in settings),
+        ((MODELS[0], pixel_time.NONE, setting) for setting in (pixel_time.MODE,)),
+    )
+    for value in (VALUES if setting.owner == OWN else VALUES | OF_BLENDER)[setting.kind]
+    if setting.owner == OWN or not isinstance(value, str) or setting.kind == "ENUM"
+]
+COUNT = len(CASES)
+
+
+def make(chance, number, folder):
+    """Set the model, the mode and the one setting."""
+    import bpy
+
+    model, mode, setting, value = CASES[number]
+    scene = bpy.context.scene
+    data = scene.camera.data
+    own = data.camera_ray_caster
+    what = f"{model.key}, {mode}, {setting.name} = {value!r}"
+    if model.number is None:
+        data.type = model.key if model.key in ("PERSP", "ORTHO") else "PANO"
+        if data.type == "PANO":
+            data.panorama_type = model.key
+    else:
+        own.model = model.key
+    own.time_mode = mode
+    for name in ("slit_1", "slit_2", "path"):
+        setattr(own, name, _line(name))
+    image = own.time_image = bpy.data.images.new("Time", 4, 4, float_buffer=True)
+    image.pixels[:] = [chance.random() for _ in range(64)]
+    image.pack()
+    if setting.owner == OWN:
+        value = {"camera": scene.camera, "ball": scene.objects[0], "empty": _line("other")}.get(value, value)
+        store(data, setting.name, value)
+    else:
+        owner = {"camera": data, "stereo": data.stereo, "render": scene.render}.get(setting.owner)
+        what += "; " + (put(owner, setting.name, value) if owner else "not Blender's without Cycles")
+    return Hostile(what)
+
+
+def _line(name):
+    """Return an empty, or for a path a curve, at a place of its own."""
+    import bpy
+
+    if name != "path":
+        item = new_object(name, None)
+        item.location, item.rotation_euler.z = (0, 0, -len(name) / 2), 1.0 if name == "slit_2" else 0.0
+        return item
+    curve = bpy.data.curves.new(name, "CURVE")
+    curve.dimensions = "3D"
+    spline = curve.splines.new("POLY")
+    spline.points.add(2)
+    for point, place in zip(spline.points, ((-1, 0, 0, 1), (0, 0, 1, 1), (1, 0, 0, 1)), strict=True):
+        point.co = place
+    return new_object(name, curve)

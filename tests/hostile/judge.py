@@ -1,0 +1,87 @@
+"""What may come of a hostile input: a right result, or one line and exit status 2."""
+
+import json
+
+import numpy as np
+
+from ..exr import read_exr
+
+EPS = float(np.finfo(np.float32).eps)
+
+
+def check_refusal(status, out, errors, folder):
+    """A refusal is one line on standard error, and leaves nothing."""
+    assert status == 2, f"status {status}: {errors[-3000:]}"
+    assert out == "", f"standard output has {out[:300]!r}"
+    lines = errors.splitlines()
+    assert len(lines) == 1, f"not one line: {errors[-3000:]!r}"
+    assert lines[0].isprintable(), f"control characters in {lines[0]!r}"
+    left = list(folder.rglob("*"))
+    assert not left, f"left behind: {left[:5]}"
+
+
+def check_cast(status, out, errors, folder):
+    """A cast has its files, a report of no disagreement, and pixels as the conventions say."""
+    assert status == 0, f"status {status}: {errors[-3000:] or out[:1500]}"
+    assert errors == "", f"standard error has {errors[-2000:]!r}"
+    reports, layers = list(folder.rglob("report*.json")), list(folder.rglob("*.exr"))
+    assert reports
+    assert layers
+    assert {path.suffix for path in folder.rglob("*") if path.is_file()} == {".json", ".exr", ".png"}
+    for path in reports:
+        report = json.loads(path.read_text(encoding="utf-8"), parse_constant=_refuse)
+        assert report["passed"] is True
+        assert report["findings"]
+        assert report["passes"]
+    for path in layers:
+        check_pixels(read_exr(path))
+
+
+def _refuse(word):
+    raise AssertionError(f"the report has {word}")
+
+
+def check_pixels(channels):
+    """Every pass of every layer has values that the conventions allow, and the passes agree with each other."""
+    passes: dict[str, dict[str, np.ndarray]] = {}
+    for layer, name in {tuple(channel.rsplit(".", 2)[:2]) for channel in channels if channel.count(".") > 1}:
+        names = sorted(channel for channel in channels if channel.rpartition(".")[0] == f"{layer}.{name}")
+        passes.setdefault(layer, {})[name] = np.stack([channels[channel] for channel in names], axis=-1).astype(float)
+    assert passes
+    for found in passes.values():
+        for name, check in CHECKS.items():
+            if name in found:
+                bad = ~check(found[name])
+                assert not bad.any(), f"{name}: {found[name][bad][:3]}"
+        if {"Valid", "Ray Origin", "Ray Direction", "Distance", "Position"} <= set(found):
+            check_rays(found)
+
+
+def check_rays(found):
+    """Where there is a ray its direction is a unit vector, and where it hits the place is on it; elsewhere no hit."""
+    valid, distance = found["Valid"][..., 0] == 1, found["Distance"]
+    lengths = np.linalg.norm(found["Ray Direction"], axis=-1)
+    assert (np.abs(lengths[valid] - 1) <= 4 * EPS).all(), f"directions of length {lengths[valid]}"
+    hit = np.isfinite(distance[..., 0]) & (distance[..., 0] < FLOAT32)
+    assert not (hit & ~valid).any(), "a hit without a ray"
+    place, origin, along = (found[name][hit] for name in ("Position", "Ray Origin", "Ray Direction"))
+    with np.errstate(invalid="ignore", over="ignore"):
+        off = np.abs(place - (origin + distance[hit] * along)).max(axis=-1)
+        size = np.abs(place).max(axis=-1) + np.abs(origin).max(axis=-1) + distance[hit][..., 0]
+    assert (off <= 4 * EPS * size).all(), f"places {off[~(off <= 4 * EPS * size)]} beside their rays"
+
+
+FLOAT32 = float(np.finfo(np.float32).max)
+
+CHECKS = {
+    "Combined": lambda values: ~np.isnan(values),
+    "Depth": lambda values: ~np.isnan(values),
+    "Distance": lambda values: values >= 0,
+    "Distance Bound": lambda values: values >= 0,
+    "Position Bound": lambda values: values >= 0,
+    "Normal Bound": lambda values: values >= 0,
+    "Valid": lambda values: (values == 0) | (values == 1),
+    "Shape Index": lambda values: (values >= -1) & (values == np.floor(values)),
+    "Ray Origin": lambda values: np.isfinite(values),
+}
+"""Which values of a pass are allowed."""

@@ -1,0 +1,57 @@
+"""A worker as the tests use it: where it crashes or hangs, that is what came of its input, and another one starts."""
+
+import json
+import os
+import select
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+PATIENCE = 60
+"""Seconds that an input may take, on a busy machine."""
+
+OPENING = "in _open"
+"""The line of our own code from which Blender opens a file."""
+
+
+class Pool:
+    """One process at a time."""
+
+    def __init__(self, folder):
+        self.log, self.process = folder / "crash.txt", None
+
+    def _start(self):
+        words = [sys.executable, "-m", "tests.hostile.worker", str(self.log)]
+        places = os.environ | {"PYTHONPATH": str(ROOT / "addon")}  # not that of a checkout that pip has installed
+        pipes = dict.fromkeys(("stdin", "stdout", "stderr"), subprocess.PIPE)
+        self.process = subprocess.Popen(words, cwd=ROOT, env=places, text=True, **pipes)
+
+    def tried(self, kind, number):
+        """What came of an input: a dict with ``what`` it is, the ``outcome`` and what was ``said``."""
+        if self.process is None:
+            self._start()
+        self.process.stdin.write(json.dumps([kind, number]) + "\n")
+        self.process.stdin.flush()
+        if select.select([self.process.stdout], [], [], PATIENCE)[0]:
+            answer = self.process.stdout.readline()
+            if answer:
+                return json.loads(answer)
+            return self._crashed()
+        self.process.send_signal(signal.SIGABRT)  # the log then says where
+        return self._crashed() | {"outcome": "hung"}
+
+    def _crashed(self):
+        self.process.wait(10)
+        said = self.process.stderr.read()[-2000:] + self.log.read_text()
+        self.process = None
+        main = said.partition("Current thread")[2].partition("\n\n")[0]
+        ours = next((line for line in main.splitlines() if "camera_ray_caster" in line or "tests/hostile" in line), "")
+        return {"what": "", "outcome": "opening crashed" if OPENING in ours else "crashed", "said": said}
+
+    def close(self):
+        """End the process."""
+        if self.process is not None:
+            self.process.stdin.close()
+            self.process.wait(30)

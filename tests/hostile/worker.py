@@ -1,0 +1,116 @@
+"""A process that tries one input after the other: a line of JSON in, a line of JSON out.
+
+    python -m tests.hostile.worker LOG
+
+Each input goes the way of a user's file: it is saved, opened by the command and cast, in a folder of its own. A crash
+writes where Python was into LOG; an exception that nobody handles ends the process.
+"""
+
+import contextlib
+import faulthandler
+import io
+import json
+import os
+import runpy
+import sys
+import tempfile
+from pathlib import Path
+
+from .inputs import make
+from .inputs.parts import Hostile, small_scene
+from .judge import check_cast, check_refusal
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+def run(command, words, folder):
+    """Run a command in a folder; return its exit status and what Python wrote to standard output and error.
+
+    What Blender's own libraries write there, such as libpng, is passed over.
+    """
+    folder.mkdir()
+    out, errors = io.StringIO(), io.StringIO()
+    with contextlib.chdir(folder), contextlib.redirect_stdout(out), contextlib.redirect_stderr(errors):
+        try:
+            status = command(words)
+        except SystemExit as ended:
+            status = ended.code
+    return status, out.getvalue(), errors.getvalue()
+
+
+def of_add_on(name):
+    """Return a command of the add-on's terminal."""
+    from camera_ray_caster.blender.terminal import commands
+
+    return lambda words: commands.main(name, words, f"{name}.py")
+
+
+def of_script(name):
+    """Return a script as a command."""
+
+    def command(words):
+        sys.argv[:] = [f"{name}.py", *words]
+        runpy.run_path(str(ROOT / "scripts" / f"{name}.py"), run_name="__main__")
+        return 0
+
+    return command
+
+
+def outcome(hostile: Hostile, file: Path, folder: Path) -> str:
+    """Return "cast" or "refused"; raise AssertionError for anything else."""
+    if hostile.script:
+        check_refusal(*run(of_script(hostile.script), list(hostile.words), folder / "script"), folder / "script")
+        return "refused"
+    cast = run(of_add_on("cast"), [str(file), "--output", "out", *hostile.words], folder / "cast")
+    (check_refusal if cast[0] == 2 else check_cast)(*cast, folder / "cast")
+    verify = run(of_add_on("verify"), [str(file), *hostile.words], folder / "verify")
+    if verify[0] == 2:
+        assert cast[0] == 2 or hostile.words, f"cast, but not verified: {verify[2]}"
+        check_refusal(*verify, folder / "verify")
+    else:
+        assert verify[0] == 0, f"verify has status {verify[0]}: {verify[2] or verify[1]}"
+        assert verify[2] == "", f"verify says {verify[2]}"
+    return "refused" if cast[0] == 2 else "cast"
+
+
+def tried(kind, number) -> dict:
+    """Return what came of an input."""
+    import bpy
+
+    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as place:
+        made, folder = Path(place) / "made", Path(place) / "run"
+        made.mkdir()
+        folder.mkdir()
+        small_scene()
+        hostile = make(kind, number, made)
+        file = hostile.file
+        if file is None:
+            file = made / "hostile.blend"
+            bpy.ops.wm.save_as_mainfile(filepath=str(file), copy=True)
+        try:
+            return {"what": hostile.what, "outcome": outcome(hostile, file, folder), "said": ""}
+        except AssertionError as error:
+            return {"what": hostile.what, "outcome": "broken", "said": str(error)}
+
+
+def main():
+    """Answer until the input ends."""
+    answers = os.fdopen(os.dup(1), "w", encoding="utf-8")
+    nowhere = os.open(os.devnull, os.O_WRONLY)
+    os.dup2(nowhere, 1)
+    with open(sys.argv[1], "w") as log:
+        faulthandler.enable(log)
+        import bpy
+
+        import camera_ray_caster
+
+        bpy.ops.wm.read_factory_settings(use_empty=True)
+        camera_ray_caster.register()
+        for line in sys.stdin:
+            print(json.dumps(tried(*json.loads(line))), file=answers, flush=True)
+        camera_ray_caster.unregister()
+    os._exit(0)  # bpy may hang at its end after many renders
+
+
+if __name__ == "__main__":
+    main()
