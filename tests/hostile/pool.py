@@ -29,7 +29,14 @@ class Pool:
         self.process = subprocess.Popen(words, cwd=ROOT, env=places, text=True, **pipes)
 
     def tried(self, kind, number):
-        """What came of an input: a dict with ``what`` it is, the ``outcome`` and what was ``said``."""
+        """What came of an input: a dict with ``what`` it is, the ``outcome`` and what was ``said``.
+
+        A crash counts where a new process crashes, too: an earlier file may have spoiled Blender's memory.
+        """
+        found = self._tried(kind, number)
+        return self._tried(kind, number) if found["outcome"] == "crashed" else found
+
+    def _tried(self, kind, number):
         if self.process is None:
             self._start()
         self.process.stdin.write(json.dumps([kind, number]) + "\n")
