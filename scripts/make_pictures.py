@@ -8,7 +8,13 @@ Needs pip's bpy.
 
 from __future__ import annotations
 
+if __name__ == "__main__":
+    import ends  # it lies beside this file
+
+    ends.begin(__file__)
+
 import os
+import signal
 import sys
 import tempfile
 from argparse import RawDescriptionHelpFormatter
@@ -17,6 +23,7 @@ from pathlib import Path
 import bpy  # noqa: F401  (first: bmesh, which the scenes use, comes with it)
 from arguments import Parser
 from door import through
+from ends import listen
 from scenes import PICTURES
 
 FOLDER = Path(__file__).resolve().parents[1] / "blend_scenes"
@@ -55,8 +62,9 @@ def main() -> int:
     names = parser.parse_args().names or list(PICTURES)
     if unknown := [name for name in names if name not in PICTURES]:
         parser.error(f"no picture is called {', '.join(unknown)}: choose from {', '.join(PICTURES)}")
+    listen(signal.default_int_handler)  # there will be a folder to clear up
     return next((status for status in map(make_picture, names) if status), 0)
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(ends.run(__file__, main))

@@ -8,7 +8,13 @@ Needs pip's bpy. Run it with bpy 4.5, the oldest that is supported: newer ones o
 
 from __future__ import annotations
 
+if __name__ == "__main__":
+    import ends  # it lies beside this file
+
+    ends.begin(__file__)
+
 import os
+import signal
 import sys
 import tempfile
 from argparse import RawDescriptionHelpFormatter
@@ -16,6 +22,7 @@ from pathlib import Path
 
 import bpy
 from arguments import Parser
+from ends import listen
 from scenes import EXAMPLES, GALLERY, SCENES
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -92,6 +99,7 @@ def main(arguments: list[str] | None = None) -> None:
         parser.error(f"no scene is called {', '.join(unknown)}: choose from {', '.join(SCENES)}")
     (FOLDER / "README.md").write_text(readme(), encoding="utf-8")
 
+    listen(signal.default_int_handler)  # there will be folders to clear up
     camera_ray_caster.register()
     for name in names:
         write_scene(name)
@@ -99,4 +107,4 @@ def main(arguments: list[str] | None = None) -> None:
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(ends.run(__file__, main))

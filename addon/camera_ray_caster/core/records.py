@@ -13,6 +13,9 @@ import numpy as np
 class InputError(ValueError):
     """What the user gave cannot be cast. The message is one line that says what is wrong and what to do."""
 
+    def __init__(self, message: str):
+        super().__init__(" ".join(message.splitlines()))  # what it quotes may have several
+
 
 class Cancelled(Exception):
     """The user stopped the work."""
@@ -154,7 +157,7 @@ class Slots:
     """The materials of meshes that have several: row k of ``Shapes`` has those from ``first[k]`` on."""
 
     first: np.ndarray
-    """(n,) int64."""
+    """(n,) int64; -1 for shapes that have one material, which ``Shapes`` has."""
     material_index: np.ndarray
     """(s,) int32: pass indices."""
     color: np.ndarray

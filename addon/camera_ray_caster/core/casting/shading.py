@@ -31,9 +31,9 @@ def shade(values: HitValues, out: np.ndarray) -> None:
         light = np.add(light, shapes.world_color[channel], out=values.array("spare"))
         if grid is not None:
             np.multiply(light, grid, out=light)
-        surface = values.look_up(color[channel], "color")
+        surface = np.take(color[channel], values.material, mode="wrap", out=values.array("color"))
         np.multiply(surface, light, out=out[..., channel], casting="same_kind")
-    out[..., 3] = values.look_up(color[3], "color")
+    out[..., 3] = np.take(color[3], values.material, mode="wrap")
     if missed is not None:
         out[missed] = shapes.world_color
 

@@ -51,6 +51,10 @@ class Report:
     """The setting that hits were searched with; empty where nothing was cast."""
     accuracy: Accuracy = field(default_factory=Accuracy)
     """The error bounds of the hits."""
+    file_outputs: tuple[str, ...] = ()
+    """The paths of what the compositor's File Output nodes wrote."""
+    warnings: tuple[str, ...] = ()
+    """What the file asked for and was not done; a terminal shows them apart."""
 
     @property
     def rays_per_second(self) -> float | None:
@@ -139,6 +143,7 @@ def as_lines(report: Report) -> list[str]:
         *_accuracy_lines(report),
         *_second_lines(report),
         *_listed("Motion", report.motion),
+        *_listed("Written by File Output nodes", report.file_outputs),
         *_listed("Left out", [*report.not_done, *(f"{name!r}: {reason}" for name, reason in report.left_out)]),
     ]
 

@@ -60,7 +60,8 @@ class Visible:
     near: np.ndarray
     """(k,): the least t that each may have, -inf where that is not known."""
     clip_start: float
-    clip_end: float
+    from_eye: bool
+    """Whether all rays leave the eye."""
     parallel: Any
     """The direction that all rays have, three numbers in the camera frame; None where they differ."""
     real: type

@@ -1,0 +1,167 @@
+"""The nearest triangle of every ray of a tile: many triangles at once, each in a window of pixels."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from .. import tuning
+from ..maths.vector import difference, norm
+from .kind import Candidates, SearchRays, ShapeSet
+from .mesh_in_camera import Triangles
+from .mesh_spans import Lattice, spans
+from .triangles import ROUNDING, crossing, signs, volumes
+from .windows import batches, gather, in_tile
+
+NONE = np.iinfo(np.int32).max
+"""In place of a triangle where none is met."""
+
+SPANNED = 1 << 12
+"""Triangles whose spans are found at once."""
+
+
+@dataclass(frozen=True, eq=False)
+class MeshSet(ShapeSet):
+    """The meshes that a camera may see. ``rest`` keeps each pixel's triangle in the scratch, as "triangle"."""
+
+    triangles: Triangles
+    clip_start: float
+    faces_eye = False
+
+    def rest(self, rays: SearchRays, nearest: np.ndarray) -> Iterator[Candidates]:
+        """See ``ShapeSet``."""
+        here, bounds = in_tile(self.triangles.bounds, rays.corner, rays.shape)
+        if not here.size:
+            return
+        found = Found.of(nearest, rays)
+        reach = _longest(rays.direction), _longest(rays.origin or (0.0,))
+        lattice = Lattice.of(rays)
+        if lattice is not None:
+            others = [np.zeros(0, np.intp)]
+            for first in range(0, len(here), SPANNED):
+                some = slice(first, first + SPANNED)
+                clear = self._span(rays, lattice, here[some], bounds[some], found)
+                others.append(np.flatnonzero(~clear) + first)
+            rest = np.concatenate(others)
+            here, bounds = here[rest], bounds[rest]
+        for batch in batches(bounds, tuning.TRIANGLE_PIXELS):
+            self._cast(rays, reach, here[batch], bounds[batch], found)
+        met = found.which != NONE
+        which = np.where(met, found.which, 0)
+        np.take(self.triangles.number, which, out=rays.scratch("triangle", rays.shape, np.int32))
+        yield Candidates(
+            self.triangles.shape[which][None], (np.zeros(1, int), np.zeros(1, int)), found.t[None], met[None]
+        )
+
+    def _span(
+        self, rays: SearchRays, lattice: Lattice, here: np.ndarray, bounds: np.ndarray, found: Found
+    ) -> np.ndarray:
+        """Keep what is met in spans; return for which triangles that was done, bool."""
+        seen = spans(lattice, self.triangles.at(here), bounds)
+        width = rays.shape[1]
+        self._keep(found, seen.met.row * width + seen.met.column, seen.t, here[seen.met.at])
+        if len(seen.open.at):
+            self._test(rays, here[seen.open.at], seen.open.row * width + seen.open.column, found)
+        return seen.clear
+
+    def _cast(
+        self, rays: SearchRays, reach: tuple[float, float], here: np.ndarray, bounds: np.ndarray, found: Found
+    ) -> None:
+        """Keep what is met of triangles that are tested pixel by pixel, in windows.
+
+        The windows are as large as the largest bounds, and moved until they lie in the tile.
+        """
+        x0, x1, y0, y1 = bounds.T
+        wide, high = int((x1 - x0).max()), int((y1 - y0).max())
+        x0, y0 = np.minimum(x0, rays.shape[1] - wide), np.minimum(y0, rays.shape[0] - high)
+        x, y = x0[:, None, None] + np.arange(wide), y0[:, None, None] + np.arange(high)[:, None]
+        corners: Any = self.triangles.at(here)[..., None, None]
+        most = np.maximum.reduce([norm(corner) for corner in corners])
+        direction = tuple(gather(component, y, x) for component in rays.direction)
+        if rays.origin is not None:
+            origin = tuple(gather(component, y, x) for component in rays.origin)
+            corners = [difference(corner, origin) for corner in corners]
+        first, second, third = volumes(corners, direction)
+        inner = np.minimum(np.minimum(first, second), third)
+        if rays.origin is not None:
+            np.maximum(inner, -np.maximum(np.maximum(first, second), third), out=inner)
+        doubt = ROUNDING * reach[0] * (most + reach[1]) ** 2
+        hit = np.flatnonzero(inner >= -doubt)
+        sure = (inner > doubt).reshape(-1)[hit]
+        k, place = np.divmod(hit, high * wide)
+        row, column = np.divmod(place, wide)
+        pixel, which = (y0[k] + row) * rays.shape[1] + x0[k] + column, here[k]
+        if not sure.all():
+            self._test(rays, which[~sure], pixel[~sure], found)
+            pixel, which = pixel[sure], which[sure]
+        self._keep(found, pixel, crossing(*self._meeting(rays, which, pixel)), which)
+
+    def _test(self, rays: SearchRays, which: np.ndarray, pixel: np.ndarray, found: Found) -> None:
+        """Keep what is met of one triangle a pixel, by exact signs where rounding could decide."""
+        corners, direction = self._meeting(rays, which, pixel)
+        parts = volumes(corners, direction)
+        doubt = ROUNDING * np.maximum.reduce([norm(corner) for corner in corners]) ** 2 * norm(direction)
+        inner = np.maximum(np.minimum.reduce(parts), -np.maximum.reduce(parts))
+        met = inner > doubt
+        open_ = np.flatnonzero(np.abs(inner) <= doubt)
+        if open_.size:
+            exact = signs(corners[:, :, open_], direction[:, open_])
+            met[open_] = ((exact >= 0).all(axis=0) | (exact <= 0).all(axis=0)) & exact.any(axis=0)
+        self._keep(found, pixel[met], crossing(corners[:, :, met], direction[:, met]), which[met])
+
+    def _keep(self, found: Found, pixel: np.ndarray, t: np.ndarray, which: np.ndarray) -> None:
+        """Keep hits at or beyond the clip start."""
+        met = (t >= self.clip_start) & (t < np.inf)
+        if not met.all():
+            pixel, t, which = pixel[met], t[met], which[met]
+        found.keep(pixel, t, which)
+
+    def _meeting(self, rays: SearchRays, which: np.ndarray, pixel: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return corners relative to the rays' origins (3, 3, m) and directions (3, m), one triangle a pixel."""
+        row, column = np.divmod(pixel, rays.shape[1])
+
+        def at(components):
+            return np.array([np.broadcast_to(component, rays.shape)[row, column] for component in components], float)
+
+        corners = self.triangles.at(which)
+        return corners if rays.origin is None else corners - at(rays.origin), at(rays.direction)
+
+
+@dataclass(frozen=True, eq=False)
+class Found:
+    """The nearest triangles of a tile so far; of those at exactly the same t the first."""
+
+    t: np.ndarray
+    """inf, or that of another shape, where none is met."""
+    which: np.ndarray
+    """int32; NONE where none is met."""
+
+    @classmethod
+    def of(cls, nearest: np.ndarray, rays: SearchRays):
+        """Begin with what was found before; nothing behind that is kept."""
+        t = rays.scratch("triangle t", rays.shape, np.float64)
+        which = rays.scratch("triangle found", rays.shape, np.int32)
+        np.copyto(t, nearest)
+        which.fill(NONE)
+        return cls(t, which)
+
+    def keep(self, pixel: np.ndarray, t: np.ndarray, which: np.ndarray) -> None:
+        """Note those that are the nearest so far; a pixel may have several."""
+        nearest, first = self.t.reshape(-1), self.which.reshape(-1)
+        before = nearest[pixel]
+        close = np.flatnonzero(t <= before)
+        pixel, t, which, before = pixel[close], t[close], which[close], before[close]
+        np.minimum.at(nearest, pixel, t)
+        won = np.flatnonzero(t == nearest[pixel])
+        pixel, which, nearer = pixel[won], which[won], t[won] < before[won]
+        first[pixel[nearer]] = NONE
+        np.minimum.at(first, pixel, which.astype(np.int32))
+
+
+def _longest(vectors: Any) -> float:
+    """Return how long some vectors are at most, from components that broadcast; NaN is none."""
+    return math.sqrt(sum(float(np.nanmax(np.square(component))) for component in vectors))
