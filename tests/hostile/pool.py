@@ -24,7 +24,8 @@ class Pool:
 
     def _start(self):
         words = [sys.executable, "-m", "tests.hostile.worker", str(self.log)]
-        places = os.environ | {"PYTHONPATH": str(ROOT / "addon")}  # not that of a checkout that pip has installed
+        # this checkout's add-on, not that which pip has installed; scripts find what lies beside them
+        places = os.environ | {"PYTHONPATH": os.pathsep.join(str(ROOT / name) for name in ("addon", "scripts"))}
         pipes = dict.fromkeys(("stdin", "stdout", "stderr"), subprocess.PIPE)
         self.process = subprocess.Popen(words, cwd=ROOT, env=places, text=True, **pipes)
 
