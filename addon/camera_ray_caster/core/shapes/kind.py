@@ -19,7 +19,7 @@ from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
-from ..maths.speed import Scratch
+from ..maths.speed import Scratch, lazy
 from ..records import Shapes
 from .frames import InCamera, WorldRays
 
@@ -125,12 +125,24 @@ class HitPixels:
     """(m,)."""
     first_row: int
     """Of the block, in the tile."""
+    from_eye: bool
+    """Whether their rays leave the eye."""
     scratch: Scratch
+
+    @lazy
+    def places(self) -> np.ndarray:
+        """(m,): where they are in the block, its rows one after the other."""
+        return np.flatnonzero(self.where)
+
+    def of(self, vector: Any) -> tuple[np.ndarray, ...]:
+        """Return the components of the block, which broadcast, at these pixels, (m,) each."""
+        return tuple(np.broadcast_to(part, self.where.shape).reshape(-1).take(self.places) for part in vector)
 
     def kept(self, name: str, dtype: type) -> np.ndarray:
         """Return the (m,) entries of these pixels in an array of the scratch that the search filled for the tile."""
         rows, columns = self.where.shape
-        return self.scratch(name, (self.first_row + rows, columns), dtype)[self.first_row :][self.where]
+        (kept,) = self.of((self.scratch(name, (self.first_row + rows, columns), dtype)[self.first_row :],))
+        return kept
 
     def only(self, some: np.ndarray) -> HitPixels:
         """Return those that are meant, (m,) bool."""

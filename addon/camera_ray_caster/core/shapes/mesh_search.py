@@ -12,7 +12,7 @@ import numpy as np
 from .. import tuning
 from ..maths.vector import difference, norm
 from .kind import Candidates, SearchRays, ShapeSet
-from .mesh_found import NONE, Found
+from .mesh_found import NONE, NUMBER, Found
 from .mesh_in_camera import MeshesInView
 from .mesh_spans import Lattice, spans
 from .triangles import ROUNDING, crossing, signs, volumes
@@ -27,7 +27,7 @@ SPANNED = 1 << 12, 1 << 17
 
 @dataclass(frozen=True, eq=False)
 class MeshSet(ShapeSet):
-    """The meshes that a camera may see. ``rest`` keeps each pixel's triangle in the scratch, as "triangle"."""
+    """The meshes that a camera may see. ``rest`` keeps each pixel's triangle in the scratch."""
 
     meshes: MeshesInView
     clip_start: float
@@ -52,16 +52,17 @@ class MeshSet(ShapeSet):
                     self._cast(rays, reach, here[slab[batch]], bounds[slab[batch]], found)
         met = found.which != NONE
         which = np.where(met, found.which, 0)
-        np.take(triangles.number, which, out=rays.scratch("triangle", rays.shape, np.int32))
+        np.take(triangles.number, which, out=rays.scratch(NUMBER, rays.shape, np.int32))
         yield Candidates(triangles.shape[which][None], (np.zeros(1, int), np.zeros(1, int)), found.t[None], met[None])
 
     def _span(self, rays: SearchRays, lattice: Lattice, here: np.ndarray, bounds: np.ndarray, found: Found) -> None:
         """Keep what is met of triangles in spans, and of those that have none pixel by pixel."""
-        seen = spans(lattice, self.meshes.corners(here), bounds)
-        width = rays.shape[1]
-        self._keep(found, seen.met.row * width + seen.met.column, seen.t, here.take(seen.met.at))
-        if len(seen.open.at):
-            self._test(rays, here[seen.open.at], seen.open.row * width + seen.open.column, found)
+        seen = spans(lattice, self.meshes.corners(here), bounds, rays.shape[1])
+        at, pixel = seen.met
+        self._keep(found, pixel, seen.t, here.take(at))
+        at, pixel = seen.open
+        if len(at):
+            self._test(rays, here[at], pixel, found)
         if not seen.clear.all():
             others = np.flatnonzero(~seen.clear)
             reach = _longest(rays.direction), _longest(rays.origin or (0.0,))
