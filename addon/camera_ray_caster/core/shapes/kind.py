@@ -33,6 +33,9 @@ class PixelBounds(Protocol):
         A radius may be infinite.
         """
 
+    def within(self, bounds: np.ndarray) -> np.ndarray:
+        """Return what bounds of the picture, (n, 4), are in the columns and rows that the plan has of it."""
+
     def least_t(self, centers: np.ndarray, radii: np.ndarray) -> np.ndarray:
         """Return no more than the least t of each ball, (n,); -inf where it is not known."""
 
@@ -71,6 +74,8 @@ class Visible:
     """What hits are searched with: float64 or float32."""
     pixels: PixelBounds
     """Where parts of the shapes may be seen."""
+    whole: ShapeSet | None = None
+    """What the kind has made for all pixels of the picture, where these are some columns and rows of them."""
 
 
 @dataclass(frozen=True, eq=False)

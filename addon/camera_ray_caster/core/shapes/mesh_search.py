@@ -4,16 +4,17 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
 from .. import tuning
+from ..maths.speed import lazy
 from ..maths.vector import difference, norm
-from .kind import Candidates, SearchRays, ShapeSet
+from .kind import Candidates, PixelBounds, SearchRays, ShapeSet
 from .mesh_found import NONE, NUMBER, Found
-from .mesh_in_camera import MeshesInView
+from .mesh_in_camera import MeshesInView, Triangles
 from .mesh_spans import Lattice, spans
 from .triangles import ROUNDING, crossing, signs, volumes
 from .windows import batches, gather, in_tile
@@ -31,11 +32,23 @@ class MeshSet(ShapeSet):
 
     meshes: MeshesInView
     clip_start: float
+    pixels: PixelBounds | None = None
+    """The columns and rows of the picture that are meant; None for all."""
     faces_eye = False
+
+    def at(self, pixels: PixelBounds) -> MeshSet:
+        """Return that of some columns and rows of the picture."""
+        return replace(self, pixels=pixels)
+
+    @lazy
+    def triangles(self) -> Triangles:
+        """Those that some pixel may see."""
+        whole = self.meshes.triangles
+        return whole if self.pixels is None else replace(whole, bounds=self.pixels.within(whole.bounds))
 
     def rest(self, rays: SearchRays, nearest: np.ndarray) -> Iterator[Candidates]:
         """See ``ShapeSet``."""
-        triangles = self.meshes.triangles
+        triangles = self.triangles
         here, bounds = in_tile(triangles.bounds, rays.corner, rays.shape)
         if not here.size:
             return
