@@ -88,6 +88,10 @@ class Camera:
         """Return the camera at a frame, without its pixel_time."""
         return replace(self, pixel_time=None, motion=None) if self.motion is None else self.motion.camera_at(frame)
 
+    def pixel_rounding(self, x, y) -> tuple[Any, Any]:
+        """Return what rounding before the model's own formula amounts to, in pixels; see ``Model``."""
+        return self.model.pixel_rounding(x, y)
+
     def camera_rays(self, x, y):
         """Return the camera-frame (origin, direction) components for pixel coordinates, scaled so that t is depth.
 

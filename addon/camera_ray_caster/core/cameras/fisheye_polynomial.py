@@ -18,6 +18,7 @@ from math import hypot
 
 import numpy as np
 
+from ..conventions import gamma
 from ..maths.inversion import Inverse
 from ..maths.roots import positive_roots
 from ..records import BlenderCamera, InputError, Raster
@@ -116,8 +117,7 @@ class FisheyePolynomial(Radial):
     def radius(self, theta):
         """See Radial: negative where theta is seen on the other side of the axis."""
         start, sign = self.coefficients[0], self._sign
-        same = sign * start + np.mod(sign * (theta - start), FULL_TURN)
-        across = sign * start + np.mod(sign * (-theta - start), FULL_TURN)
+        same, across = (sign * start + _turned(sign * (one - start)) for one in (theta, -theta))
         target = np.minimum(same, across)
         r = self._inverse(np.sign(target) * up_to(self.half_fov, np.abs(target)))
         return np.where(same <= across, r, -r)
@@ -132,6 +132,11 @@ class FisheyePolynomial(Radial):
         """See Radial; inf where the picture is turned or crosses the axis, so that it has no simple bounds."""
         rim = self.angle(self.limit)
         return min(rim, self.half_fov) if rim > self.coefficients[0] >= 0 else np.inf
+
+
+def _turned(theta):
+    """Return angles in one full turn from 0 on; those that rounding has put before 0 are 0."""
+    return np.mod(np.where(np.abs(theta) <= gamma(16), 0.0, theta), FULL_TURN)
 
 
 def _turns(coefficients, corner: float):

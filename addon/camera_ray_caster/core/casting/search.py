@@ -95,6 +95,11 @@ class Nearest:
             closer |= tied & (at < sliding_window_view(self.index, (high, wide))[found.corner])
         if found.where is not None:
             closer &= found.where
+        if len(closer) == 1:
+            whole = slice(first_row[0], first_row[0] + high), slice(first_column[0], first_column[0] + wide)
+            np.copyto(self.t[whole], found.t[0], where=closer[0], casting="same_kind")
+            np.copyto(self.index[whole], at[0], where=closer[0])
+            return
         hits = np.flatnonzero(closer)
         width = self.t.shape[1]
         window = (np.arange(high)[:, None] * width + np.arange(wide)).reshape(-1)

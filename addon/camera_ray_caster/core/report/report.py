@@ -166,11 +166,14 @@ def _finding_lines(report: Report) -> list[str]:
     columns = [f"{name:>9}" for name in ("worst px", "median", "bound", "worst rad", "median", "bound")]
     lines = ["", f"{'Witness':25} {'points':>7} " + " ".join(columns)]
     for finding in report.findings:
+        name = shorten(finding.witness, 23, placeholder="…")
+        if finding.not_compared:
+            lines.append(f"  {name:23} not compared: {finding.not_compared}")
+            continue
         errors = (
             finding.worst_pixels, finding.median_pixels, finding.bound_pixels,
             finding.worst_radians, finding.median_radians, finding.bound_radians,
         )  # fmt: skip
-        name = shorten(finding.witness, 23, placeholder="…")
         cells = " ".join(f"{error:9.1e}" for error in errors)
         lines.append(f"  {name:23} {finding.points:7} {cells} {'ok' if finding.passed else 'FAILED'}")
     return lines

@@ -33,6 +33,9 @@ class PixelBounds(Protocol):
         A radius may be infinite.
         """
 
+    def least_t(self, centers: np.ndarray, radii: np.ndarray) -> np.ndarray:
+        """Return no more than the least t of each ball, (n,); -inf where it is not known."""
+
     @property
     def has_straight_lines(self) -> bool:
         """Whether what lies between corners is seen between their images, so that ``of_corners`` may be asked."""

@@ -8,7 +8,7 @@ from ..records import MESH, Shapes
 from .frames import InCamera, WorldRays
 from .kind import HitPixels, Kind, PixelNormals, Visible
 from .mesh_errors import TriangleErrors, decide
-from .mesh_in_camera import triangles_in_view
+from .mesh_in_camera import MeshesInView
 from .mesh_search import MeshSet
 from .mesh_surface import HitTriangles
 
@@ -31,7 +31,7 @@ class Meshes(Kind):
 
     def shape_set(self, shapes: InCamera, visible: Visible) -> MeshSet:
         """See ``Kind``."""
-        return MeshSet(triangles_in_view(shapes, visible), visible.clip_start)
+        return MeshSet(MeshesInView(shapes, visible), visible.clip_start)
 
     def normals(self, shapes: InCamera, at: np.ndarray) -> tuple[np.ndarray, PixelNormals | None]:
         """See ``Kind``; each pixel's comes from its triangle."""

@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
+from functools import partial
 from itertools import pairwise
+from typing import NamedTuple
 
 import numpy as np
 
+from ..maths.speed import Shared, lazy
 from ..maths.vector import inverse
 from ..records import Mesh
 from .frames import MARGIN, InCamera
-from .kind import PixelBounds, Visible
+from .kind import Visible
 from .triangles import side
 
 CHUNK = 1 << 16
@@ -22,110 +25,153 @@ CHUNK = 1 << 16
 class Triangles:
     """The triangles of the meshes in view that some pixel may see, in the order of their shapes."""
 
-    vertices: np.ndarray
-    """(3, v) camera frame, of all meshes in view."""
     corners: np.ndarray
-    """(3, k) intp into ``vertices``; turned so that volumes of rays from the eye are positive, where all leave it."""
+    """(3, k) intp into the vertices; turned so that volumes of rays from the eye are positive, where all leave it."""
     shape: np.ndarray
     """(k,) int32 indices into ``Shapes``."""
     number: np.ndarray
     """(k,) int32 indices into the triangles of its mesh."""
     bounds: np.ndarray
     """(k, 4) int32: x0, x1, y0, y1 in the pixels of the plan."""
-
-    def at(self, some: np.ndarray) -> np.ndarray:
-        """Return the corners of triangles, (3, 3, m): corner, component."""
-        return self.vertices.take(self.corners[:, some], axis=1).transpose(1, 0, 2)
+    near: np.ndarray
+    """(k,) float32: no triangle has a lesser t; -inf where none is known."""
 
 
-def triangles_in_view(shapes: InCamera, visible: Visible) -> Triangles:
-    """Return the triangles that some pixel may see.
+class Instances(NamedTuple):
+    """Some shapes that show the same mesh, one after the other."""
+
+    mesh: Mesh
+    rows: np.ndarray
+    """Indices into ``Shapes``."""
+    start: int
+    """Where the vertices of the first begin; those of the others follow."""
+
+    def vertices(self, k: int) -> slice:
+        """Return where those of the k-th are."""
+        count = self.mesh.vertices.shape[1]
+        return slice(self.start + k * count, self.start + (k + 1) * count)
+
+
+class MeshesInView:
+    """The meshes in view, worked out when a thread first asks, by all threads that ask.
 
     Rounding: a vertex is right to gamma(8) of the length of the axes times its own from the mesh's middle, plus that of
     the shape's center. It is transformed by the same operations wherever it is used, so that triangles that share it
     share its rounded place.
     """
-    vertices, kept, start = [np.zeros((3, 0))], [], 0
-    for mesh, rows in _runs(shapes, visible.at):
-        for some in _parts(rows, mesh.vertices.shape[1]):
-            placed = _placed(shapes, mesh, some)
-            vertices.append(placed.reshape(3, -1))
-            for k, row in enumerate(some.tolist()):
-                kept += _seen(placed[:, k], mesh, row, start, visible.pixels, visible.from_eye)
-                start += mesh.vertices.shape[1]
-    empty = np.zeros((3, 0), np.intp), *np.zeros((2, 0), np.int32), np.zeros((0, 4), np.int32)
-    corners, shape, number, bounds = zip(empty, *kept, strict=True)
-    return Triangles(
-        np.concatenate(vertices, axis=1), np.concatenate(corners, axis=1),
-        np.concatenate(shape), np.concatenate(number), np.concatenate(bounds),
-    )  # fmt: skip
 
+    def __init__(self, shapes: InCamera, visible: Visible):
+        self._shapes, self._pixels, self._from_eye = shapes, visible.pixels, visible.from_eye
+        groups = list(_groups(shapes, visible.at))
+        total = sum(len(group.rows) * group.mesh.vertices.shape[1] for group in groups)
+        self._vertices = np.empty((3, total))
+        self._images = np.empty((2, total)) if visible.pixels.has_straight_lines else None
+        self._placing = Shared([
+            partial(self._place, group, slice(first, first + CHUNK))
+            for group in groups
+            for first in range(0, group.mesh.vertices.shape[1], CHUNK)
+        ])  # fmt: skip
+        self._seeing = Shared([
+            partial(self._see, group, k, slice(first, first + CHUNK))
+            for group in groups
+            for k in range(len(group.rows))
+            for first in range(0, len(group.mesh), CHUNK)
+        ])  # fmt: skip
 
-def _runs(shapes: InCamera, rows: np.ndarray) -> Iterator[tuple[Mesh, np.ndarray]]:
-    """Yield meshes with the shapes that show them, one after the other."""
-    mesh = shapes.shapes.mesh[rows]
-    cuts = np.flatnonzero(np.diff(mesh)) + 1
-    for first, last in pairwise((0, *cuts.tolist(), len(rows))):
-        yield shapes.shapes.meshes[mesh[first]], rows[first:last]
+    @property
+    def vertices(self) -> np.ndarray:
+        """(3, v) camera frame, of all meshes in view."""
+        self._placing.results()
+        return self._vertices
 
+    @lazy
+    def triangles(self) -> Triangles:
+        """Those that some pixel may see."""
+        self._placing.results()
+        parts = self._seeing.results()
+        whole = {}
+        for field in fields(Triangles):
+            axis = 0 if field.name == "bounds" else -1
+            whole[field.name] = np.concatenate([getattr(part, field.name) for part in parts], axis=axis)
+        return Triangles(**whole)
 
-def _parts(rows: np.ndarray, size: int) -> Iterator[np.ndarray]:
-    step = max(1, CHUNK // max(size, 1))
-    for first in range(0, len(rows), step):
-        yield rows[first : first + step]
+    def corners(self, some: np.ndarray) -> np.ndarray:
+        """Return the corners of triangles, (3, 3, m): corner, component."""
+        return self._at(self.triangles.corners.take(some, axis=1))
 
+    def _at(self, corners: np.ndarray) -> np.ndarray:
+        return self._vertices.take(corners, axis=1).swapaxes(0, 1)
 
-def _placed(shapes: InCamera, mesh: Mesh, rows: np.ndarray) -> np.ndarray:
-    """Return the vertices of shapes in the camera's frame, (3, rows, v)."""
-    camera_from_world = inverse(shapes.pose.basis)
-    axes = np.einsum("ij,njk->nik", camera_from_world, shapes.shapes.axes[rows])[..., None]
-    q = mesh.vertices - mesh.middle[:, None]
-    result = np.empty((3, len(rows), q.shape[1]))
-    for i in range(3):
-        np.add(axes[:, i, 1] * q[1], axes[:, i, 2] * q[2], out=result[i])
-        result[i] += axes[:, i, 0] * q[0]
-        result[i] += shapes.center[rows, i, None]
-    return result
+    def _place(self, group: Instances, some: slice) -> None:
+        """Transform some vertices of a mesh, for all its instances."""
+        rows, count = group.rows, group.mesh.vertices.shape[1]
+        axes = np.einsum("ij,njk->nik", inverse(self._shapes.pose.basis), self._shapes.shapes.axes[rows])[..., None]
+        q = group.mesh.vertices[:, some] - group.mesh.middle[:, None]
+        own = slice(group.start, group.start + len(rows) * count)
+        for i in range(3):
+            place = self._vertices[i, own].reshape(len(rows), count)[:, some]
+            np.add(axes[:, i, 1] * q[1], axes[:, i, 2] * q[2], out=place)
+            place += axes[:, i, 0] * q[0]
+            place += self._shapes.center[rows, i, None]
+        if self._images is not None:
+            for k in range(len(rows)):
+                at = group.vertices(k)
+                at = slice(at.start + some.start, min(at.start + some.stop, at.stop))
+                self._images[:, at] = self._pixels.images(self._vertices[:, at].T).T
 
-
-def _seen(vertices: np.ndarray, mesh: Mesh, row: int, start: int, pixels: PixelBounds, from_eye: bool) -> list:
-    """Return the fields of ``Triangles``, but the vertices, of one shape, in parts; its vertices begin at ``start``."""
-    images = pixels.images(vertices.T) if pixels.has_straight_lines else None
-    kept = []
-    for first in range(0, len(mesh), CHUNK):
-        corners = mesh.triangles[:, first : first + CHUNK]
-        bounds, seen = _bounds(vertices, images, corners, pixels)
+    def _see(self, group: Instances, k: int, some: slice) -> Triangles:
+        """Return the triangles of an instance that some pixel may see."""
+        corners = group.mesh.triangles[:, some] + group.vertices(k).start
+        bounds, near, seen = self._bounds(corners)
         number = np.flatnonzero(seen)
-        bounds, corners = bounds[number].astype(np.int32), corners[:, number]
-        if from_eye:
-            turn = side(vertices.take(corners, axis=1).transpose(1, 0, 2))
+        bounds, near, corners = bounds[number], near[number], corners[:, number]
+        if self._from_eye:
+            turn = side(self._at(corners))
             corners = np.where(turn > 0, corners, corners[[0, 2, 1]])
             if not turn.all():
-                number, bounds, corners = number[turn != 0], bounds[turn != 0], corners[:, turn != 0]
-        shape = np.full(len(number), row, np.int32)
-        kept.append((corners + start, shape, (number + first).astype(np.int32), bounds))
-    return kept
+                area = turn != 0
+                number, bounds, near, corners = number[area], bounds[area], near[area], corners[:, area]
+        return Triangles(
+            corners=corners,
+            shape=np.full(len(number), group.rows[k], np.int32),
+            number=(number + some.start).astype(np.int32),
+            bounds=bounds.astype(np.int32),
+            near=np.nextafter(near.astype(np.float32), np.float32(-np.inf)),
+        )
+
+    def _bounds(self, corners: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Return in which pixels triangles may be seen, (k, 4), the least t they may have, and which are in any pixel:
+        between the images of their corners where lines stay straight, otherwise where their balls are.
+        """
+        if self._images is None:
+            return self._ball_bounds(corners)
+        a, b, c = self._images.take(corners, axis=1).swapaxes(0, 1)
+        low, high = np.minimum(np.minimum(a, b), c), np.maximum(np.maximum(a, b), c)
+        bounds, seen = self._pixels.of_corners(low.T, high.T)
+        near = -np.maximum.reduce([self._vertices[2].take(corner) for corner in corners])
+        behind = np.flatnonzero(np.isnan(low).any(axis=0))
+        if behind.size:
+            bounds[behind], near[behind], seen[behind] = self._ball_bounds(corners[:, behind])
+        return bounds, near, seen
+
+    def _ball_bounds(self, corners: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        a, b, c = self._at(corners)
+        low, high = np.minimum(np.minimum(a, b), c), np.maximum(np.maximum(a, b), c)
+        middle = low / 2 + high / 2
+        radius = MARGIN * np.sqrt(np.maximum.reduce([((corner - middle) ** 2).sum(axis=0) for corner in (a, b, c)]))
+        bounds, seen = self._pixels.of_balls(middle.T, radius)
+        return bounds, self._pixels.least_t(middle.T, radius), seen
 
 
-def _bounds(vertices: np.ndarray, images: np.ndarray | None, corners: np.ndarray, pixels: PixelBounds):
-    """Return in which pixels triangles may be seen, (k, 4), and which are in any: between the images of their corners
-    where lines stay straight, otherwise where their balls are.
-    """
-    if images is None:
-        return _ball_bounds(vertices, corners, pixels)
-    low, high = images[corners[0]], images[corners[0]]
-    for corner in corners[1:]:
-        low, high = np.minimum(low, images[corner]), np.maximum(high, images[corner])
-    bounds, seen = pixels.of_corners(low, high)
-    behind = np.flatnonzero(np.isnan(low).any(axis=1))
-    if behind.size:
-        bounds[behind], seen[behind] = _ball_bounds(vertices, corners[:, behind], pixels)
-    return bounds, seen
-
-
-def _ball_bounds(vertices: np.ndarray, corners: np.ndarray, pixels: PixelBounds):
-    a, b, c = vertices.take(corners, axis=1).transpose(1, 0, 2)
-    low, high = np.minimum(np.minimum(a, b), c), np.maximum(np.maximum(a, b), c)
-    middle = low / 2 + high / 2
-    radius = np.sqrt(np.maximum.reduce([((corner - middle) ** 2).sum(axis=0) for corner in (a, b, c)]))
-    return pixels.of_balls(middle.T, radius * MARGIN)
+def _groups(shapes: InCamera, rows: np.ndarray) -> Iterator[Instances]:
+    """Yield the instances of each mesh, as many at once as fill a chunk."""
+    mesh, start = shapes.shapes.mesh[rows], 0
+    cuts = np.flatnonzero(np.diff(mesh)) + 1
+    for first, last in pairwise((0, *cuts.tolist(), len(rows))):
+        own = shapes.shapes.meshes[mesh[first]]
+        count = own.vertices.shape[1]
+        step = max(1, CHUNK // max(count, 1))
+        for begin in range(first, last, step):
+            group = Instances(own, rows[begin : min(begin + step, last)], start)
+            start += len(group.rows) * count
+            yield group

@@ -12,61 +12,61 @@ import numpy as np
 from .. import tuning
 from ..maths.vector import difference, norm
 from .kind import Candidates, SearchRays, ShapeSet
-from .mesh_in_camera import Triangles
+from .mesh_found import NONE, Found
+from .mesh_in_camera import MeshesInView
 from .mesh_spans import Lattice, spans
 from .triangles import ROUNDING, crossing, signs, volumes
 from .windows import batches, gather, in_tile
 
-NONE = np.iinfo(np.int32).max
-"""In place of a triangle where none is met."""
+SLABS = 4
+"""Parts in which triangles are tested, the nearest first: what they hide is not tested."""
 
-SPANNED = 1 << 12
-"""Triangles whose spans are found at once."""
+SPANNED = 1 << 12, 1 << 17
+"""Triangles whose spans are found at once, and pixels of their bounds."""
 
 
 @dataclass(frozen=True, eq=False)
 class MeshSet(ShapeSet):
     """The meshes that a camera may see. ``rest`` keeps each pixel's triangle in the scratch, as "triangle"."""
 
-    triangles: Triangles
+    meshes: MeshesInView
     clip_start: float
     faces_eye = False
 
     def rest(self, rays: SearchRays, nearest: np.ndarray) -> Iterator[Candidates]:
         """See ``ShapeSet``."""
-        here, bounds = in_tile(self.triangles.bounds, rays.corner, rays.shape)
+        triangles = self.meshes.triangles
+        here, bounds = in_tile(triangles.bounds, rays.corner, rays.shape)
         if not here.size:
             return
         found = Found.of(nearest, rays)
-        reach = _longest(rays.direction), _longest(rays.origin or (0.0,))
         lattice = Lattice.of(rays)
-        if lattice is not None:
-            others = [np.zeros(0, np.intp)]
-            for first in range(0, len(here), SPANNED):
-                some = slice(first, first + SPANNED)
-                clear = self._span(rays, lattice, here[some], bounds[some], found)
-                others.append(np.flatnonzero(~clear) + first)
-            rest = np.concatenate(others)
-            here, bounds = here[rest], bounds[rest]
-        for batch in batches(bounds, tuning.TRIANGLE_PIXELS):
-            self._cast(rays, reach, here[batch], bounds[batch], found)
+        reach = _longest(rays.direction), _longest(rays.origin or (0.0,))
+        for slab in _slabs(triangles.near.take(here)):
+            slab = slab.take(found.may_show(bounds[slab], triangles.near.take(here.take(slab))))
+            if lattice is not None:
+                for some, part in _pieces(bounds[slab]):
+                    self._span(rays, lattice, here[slab[some]], part, found)
+            else:
+                for batch in batches(bounds[slab], tuning.TRIANGLE_PIXELS):
+                    self._cast(rays, reach, here[slab[batch]], bounds[slab[batch]], found)
         met = found.which != NONE
         which = np.where(met, found.which, 0)
-        np.take(self.triangles.number, which, out=rays.scratch("triangle", rays.shape, np.int32))
-        yield Candidates(
-            self.triangles.shape[which][None], (np.zeros(1, int), np.zeros(1, int)), found.t[None], met[None]
-        )
+        np.take(triangles.number, which, out=rays.scratch("triangle", rays.shape, np.int32))
+        yield Candidates(triangles.shape[which][None], (np.zeros(1, int), np.zeros(1, int)), found.t[None], met[None])
 
-    def _span(
-        self, rays: SearchRays, lattice: Lattice, here: np.ndarray, bounds: np.ndarray, found: Found
-    ) -> np.ndarray:
-        """Keep what is met in spans; return for which triangles that was done, bool."""
-        seen = spans(lattice, self.triangles.at(here), bounds)
+    def _span(self, rays: SearchRays, lattice: Lattice, here: np.ndarray, bounds: np.ndarray, found: Found) -> None:
+        """Keep what is met of triangles in spans, and of those that have none pixel by pixel."""
+        seen = spans(lattice, self.meshes.corners(here), bounds)
         width = rays.shape[1]
-        self._keep(found, seen.met.row * width + seen.met.column, seen.t, here[seen.met.at])
+        self._keep(found, seen.met.row * width + seen.met.column, seen.t, here.take(seen.met.at))
         if len(seen.open.at):
             self._test(rays, here[seen.open.at], seen.open.row * width + seen.open.column, found)
-        return seen.clear
+        if not seen.clear.all():
+            others = np.flatnonzero(~seen.clear)
+            reach = _longest(rays.direction), _longest(rays.origin or (0.0,))
+            for batch in batches(bounds[others], tuning.TRIANGLE_PIXELS):
+                self._cast(rays, reach, here[others[batch]], bounds[others[batch]], found)
 
     def _cast(
         self, rays: SearchRays, reach: tuple[float, float], here: np.ndarray, bounds: np.ndarray, found: Found
@@ -79,7 +79,7 @@ class MeshSet(ShapeSet):
         wide, high = int((x1 - x0).max()), int((y1 - y0).max())
         x0, y0 = np.minimum(x0, rays.shape[1] - wide), np.minimum(y0, rays.shape[0] - high)
         x, y = x0[:, None, None] + np.arange(wide), y0[:, None, None] + np.arange(high)[:, None]
-        corners: Any = self.triangles.at(here)[..., None, None]
+        corners: Any = self.meshes.corners(here)[..., None, None]
         most = np.maximum.reduce([norm(corner) for corner in corners])
         direction = tuple(gather(component, y, x) for component in rays.direction)
         if rays.origin is not None:
@@ -127,41 +127,37 @@ class MeshSet(ShapeSet):
         def at(components):
             return np.array([np.broadcast_to(component, rays.shape)[row, column] for component in components], float)
 
-        corners = self.triangles.at(which)
+        corners = self.meshes.corners(which)
         return corners if rays.origin is None else corners - at(rays.origin), at(rays.direction)
-
-
-@dataclass(frozen=True, eq=False)
-class Found:
-    """The nearest triangles of a tile so far; of those at exactly the same t the first."""
-
-    t: np.ndarray
-    """inf, or that of another shape, where none is met."""
-    which: np.ndarray
-    """int32; NONE where none is met."""
-
-    @classmethod
-    def of(cls, nearest: np.ndarray, rays: SearchRays):
-        """Begin with what was found before; nothing behind that is kept."""
-        t = rays.scratch("triangle t", rays.shape, np.float64)
-        which = rays.scratch("triangle found", rays.shape, np.int32)
-        np.copyto(t, nearest)
-        which.fill(NONE)
-        return cls(t, which)
-
-    def keep(self, pixel: np.ndarray, t: np.ndarray, which: np.ndarray) -> None:
-        """Note those that are the nearest so far; a pixel may have several."""
-        nearest, first = self.t.reshape(-1), self.which.reshape(-1)
-        before = nearest[pixel]
-        close = np.flatnonzero(t <= before)
-        pixel, t, which, before = pixel[close], t[close], which[close], before[close]
-        np.minimum.at(nearest, pixel, t)
-        won = np.flatnonzero(t == nearest[pixel])
-        pixel, which, nearer = pixel[won], which[won], t[won] < before[won]
-        first[pixel[nearer]] = NONE
-        np.minimum.at(first, pixel, which.astype(np.int32))
 
 
 def _longest(vectors: Any) -> float:
     """Return how long some vectors are at most, from components that broadcast; NaN is none."""
     return math.sqrt(sum(float(np.nanmax(np.square(component))) for component in vectors))
+
+
+def _slabs(near: np.ndarray) -> Iterator[np.ndarray]:
+    """Yield triangles in parts of about the same number, those with the least t first."""
+    cuts = np.quantile(near[:: max(1, len(near) >> 12)], np.arange(1, SLABS) / SLABS)
+    slab = np.searchsorted(cuts, near)
+    for k in range(SLABS):
+        yield np.flatnonzero(slab == k)
+
+
+def _pieces(bounds: np.ndarray) -> Iterator[tuple[np.ndarray, np.ndarray]]:
+    """Yield triangles with their bounds, as many at once as SPANNED tells: a large one in bands of rows."""
+    triangles, most = SPANNED
+    wide, high = bounds[:, 1] - bounds[:, 0], bounds[:, 3] - bounds[:, 2]
+    rows = np.maximum(most // wide, 1)
+    bands = -(-high // rows)
+    at = np.repeat(np.arange(len(bounds)), bands)
+    band = np.arange(len(at)) - np.repeat(np.cumsum(bands) - bands, bands)
+    bounds = bounds[at]
+    bounds[:, 2] += band * rows[at]
+    bounds[:, 3] = np.minimum(bounds[:, 3], bounds[:, 2] + rows[at])
+    pixels = np.cumsum((bounds[:, 1] - bounds[:, 0]) * (bounds[:, 3] - bounds[:, 2]))
+    first = 0
+    while first < len(at):
+        end = min(first + triangles, int(np.searchsorted(pixels, pixels[first] + most)) + 1)
+        yield at[first:end], bounds[first:end]
+        first = end
