@@ -195,3 +195,29 @@ def test_meshes_pay_for_what_is_seen_of_them():
     assert set(meshes.triangles.shape) == {0}
     assert meshes.vertices.shape[1] == ball(5, 5).vertices.shape[1]
     assert EPS < images["depth"].min() < 5
+
+
+def test_the_grid_is_that_of_the_map_or_of_the_edges_of_faces():
+    """Two squares of two triangles each, without the diagonals between these; with a map its lines, 24 and 12."""
+    mesh = grid(1, 2, lambda u, v: (2 * u - 1, v - 0.5, 0 * u))
+    faces = replace(mesh, polygon=np.array([0, 1, 0, 1], np.int32))
+    mapped = replace(mesh, uv=np.float32(mesh.vertices[:2] / 6), loops=mesh.triangles)
+    cam = camera_at(resolution_x=201, resolution_y=101)
+    for shown in (faces, mapped):
+        images = cast(
+            cam, shapes_of((shown, (0.0, 0.0, -1), 1.0)), ("combined", "position"), np.float64, shading="GRID"
+        )
+        hit = images["combined"][..., 3] > 0
+        x, y, _ = images["position"][hit].T
+        if shown is faces:
+            expected = np.minimum(np.minimum(np.abs(x), 1 - np.abs(x)), 0.5 - np.abs(y)) < 0.06
+            near = [np.abs(value - 0.06) for value in (np.abs(x), 1 - np.abs(x), 0.5 - np.abs(y))]
+            sure = np.minimum.reduce(near) > 1e-9
+        else:
+            across = [np.abs(cells - np.rint(cells)) for cells in (24 * x / 6, 12 * y / 6)]
+            expected = np.minimum(*across) < 0.06
+            sure = np.minimum.reduce([np.abs(part - 0.06) for part in across]) > 1e-6
+        headlight = 1 / np.sqrt(1 + x**2 + y**2)
+        dark = images["combined"][hit][:, 2] < 0.5 * headlight
+        np.testing.assert_array_equal(dark[sure], expected[sure])
+        assert 0.1 < expected.mean() < 0.6

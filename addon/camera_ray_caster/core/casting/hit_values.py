@@ -143,6 +143,13 @@ class HitValues:
         """The surfaces' own coordinates, kind by kind: where one is hit, (rows, columns) bool, and u and v there."""
         return self.by_kind(lambda kind, pixels: kind.uv(self.plan.in_camera, pixels, self._at(pixels, self.point)))
 
+    @property
+    def from_edge(self) -> list[tuple[np.ndarray, np.ndarray]]:
+        """How far from the edges of faces without uv the hits are, kind by kind: see ``Kind.from_edge``."""
+        return self.by_kind(
+            lambda kind, pixels: kind.from_edge(self.plan.in_camera, pixels, self._at(pixels, self.point))
+        )
+
     @lazy
     def material(self) -> np.ndarray:
         """The rows of the hit materials in the plan's tables, (rows, columns) intp."""

@@ -41,11 +41,12 @@ def shade(values: HitValues, out: np.ndarray) -> None:
 def _grid(values: HitValues) -> np.ndarray:
     """Return 1 between the lines and 0.15 on them."""
     shade = np.ones(values.hits.t.shape)
-    for where, uv in values.uv:
+    for (where, uv), (_, from_edge) in zip(values.uv, values.from_edge, strict=True):
         on_line = np.zeros(len(uv[0]), bool)
         for coordinate, cells in zip(uv, GRID_CELLS.values(), strict=True):
             offset = coordinate * cells
             on_line |= np.abs(offset - np.rint(offset)) < LINE_WIDTH / 2
+        on_line = np.where(from_edge < np.inf, from_edge < LINE_WIDTH / 2, on_line)
         shade[where] = np.where(on_line, 0.15, 1.0)
     return shade
 

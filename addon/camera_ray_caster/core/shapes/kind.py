@@ -212,6 +212,12 @@ class Kind(ABC):
     def uv(self, shapes: InCamera, pixels: HitPixels, point: Any) -> tuple[np.ndarray, np.ndarray]:
         """Return u and v, (m,) each, of hit points given as components relative to the eye, world."""
 
+    def from_edge(self, shapes: InCamera, pixels: HitPixels, point: Any) -> np.ndarray:
+        """Return how far hit points are from the nearest edge of their faces, (m,), as a part of the height of the
+        triangle beside it; inf, as by default, on surfaces that have a uv map.
+        """
+        return np.full(len(pixels.at), np.inf)
+
     def polygon(self, shapes: InCamera, pixels: HitPixels) -> np.ndarray:
         """Return the face of the mesh that is hit, (m,) int32; by default there is none, -1."""
         return np.full(len(pixels.at), -1, np.int32)

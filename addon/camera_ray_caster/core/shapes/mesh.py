@@ -45,6 +45,10 @@ class Meshes(Kind):
         """See ``Kind``: the render UV map, 0 where there is none."""
         return HitTriangles.of(shapes, pixels).uv(point)
 
+    def from_edge(self, shapes: InCamera, pixels: HitPixels, point) -> np.ndarray:
+        """See ``Kind``; edges within a face are none."""
+        return HitTriangles.of(shapes, pixels).from_edge(point)
+
     def polygon(self, shapes: InCamera, pixels: HitPixels) -> np.ndarray:
         """See ``Kind``."""
         return HitTriangles.of(shapes, pixels).polygon

@@ -147,6 +147,13 @@ class HitTriangles:
         u, v = self.interpolated(self._gather((3, 2), float, _uv), point)
         return u, v
 
+    def from_edge(self, point: Any) -> np.ndarray:
+        """Return what ``Kind.from_edge`` does."""
+        outer = self._gather((3,), bool, lambda mesh, k: False if mesh.uv is not None else mesh.is_outer[:, k])
+        corners = np.broadcast_to(np.eye(3)[..., None], (3, 3, len(self.at)))
+        heights = np.array(list(self.interpolated(corners, point)))
+        return np.where(self.each(outer), heights, np.inf).min(axis=0)
+
     @lazy
     def _mesh(self) -> np.ndarray:
         return self.shapes.shapes.mesh[self.at]
