@@ -12,7 +12,7 @@ ROOT = Path(__file__).resolve().parents[2]
 PATIENCE = 60
 """Seconds that an input may take, on a busy machine."""
 
-OPENING = "in _open"
+OPENING = "in open_file"
 """The line of our own code from which Blender opens a file."""
 
 
