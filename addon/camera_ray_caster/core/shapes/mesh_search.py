@@ -147,7 +147,7 @@ class MeshSet(ShapeSet):
 
 def _longest(vectors: Any) -> float:
     """Return how long some vectors are at most, from components that broadcast; NaN is none."""
-    return math.sqrt(sum(float(np.nanmax(np.square(component))) for component in vectors))
+    return math.sqrt(sum(float(np.fmax.reduce(np.square(component), axis=None, initial=0.0)) for component in vectors))
 
 
 def _slabs(near: np.ndarray) -> Iterator[np.ndarray]:
