@@ -7,6 +7,7 @@ import bpy
 from .engine import engine, viewport
 from .output import reports
 from .properties import groups
+from .read import kept
 from .terminal import commands
 from .ui import (
     camera_panels,
@@ -26,7 +27,7 @@ CLASSES = (
 )  # fmt: skip
 """Blender's types, in the order in which they are registered: a panel comes after the panel that it is in."""
 
-MODULES = (groups, reports, scene_cache, viewport, cast_operator, overlay, render_panels, commands)
+MODULES = (groups, kept, reports, scene_cache, viewport, cast_operator, overlay, render_panels, commands)
 """Modules that add more than classes. ``register(undo)`` adds it and gives ``undo`` the callbacks that remove it."""
 
 

@@ -154,7 +154,7 @@ class Slots:
     """The materials of meshes that have several: row k of ``Shapes`` has those from ``first[k]`` on."""
 
     first: np.ndarray
-    """(n,) int64."""
+    """(n,) int64; -1 for shapes that have one material, which ``Shapes`` has."""
     material_index: np.ndarray
     """(s,) int32: pass indices."""
     color: np.ndarray
@@ -219,6 +219,10 @@ class Shapes:
     """(n,) int32 into ``meshes``, -1 for other shapes; empty where there are no meshes."""
     slots: Slots | None = None
     """None where no mesh has more than one material."""
+    exact: tuple[tuple[str, float], ...] = ()
+    """Objects whose mesh is cast as the sphere or plane that it is, and how far both are apart at most, over the radius
+    or the plane's longer half side.
+    """
 
     def __len__(self) -> int:
         return len(self.kind)

@@ -7,7 +7,7 @@ from camera_ray_caster.core.records import INFINITE_PLANE, PLANE, SPHERE
 from camera_ray_caster.core.shapes.instances import (
     Primitive,
     enclosing_primitive,
-    is_invertible,
+    is_castable,
     points_primitive,
     put_in_world,
 )
@@ -270,6 +270,6 @@ def test_matrices_that_span_no_space_are_told_from_thin_ones():
     flat_and_turned = np.float32(turn()) @ np.diag(np.float32([1, 0, 1])) @ np.float32(turn(0.3))
     linear = [np.diag([1e-12, 1.0, 1e12]), np.diag([1.0, 0.0, 1.0]), flat_and_turned, np.full((3, 3), np.nan)]
     matrices = np.array([np.c_[matrix, np.zeros(3)] for matrix in linear])
-    assert is_invertible(matrices, unit).tolist() == [True, False, False, False]
+    assert is_castable(matrices, unit).tolist() == [True, False, False, False]
     matrices[0, 0, 3] = np.inf
-    assert not is_invertible(matrices, unit)[0]
+    assert not is_castable(matrices, unit)[0]
