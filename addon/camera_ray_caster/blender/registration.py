@@ -14,6 +14,7 @@ from .ui import (
     cast_operator,
     cast_panels,
     model_panels,
+    object_panels,
     operators,
     overlay_panels,
     render_panels,
@@ -23,7 +24,7 @@ from .view3d import mouse_gizmo, overlay, scene_cache
 CLASSES = (
     *groups.CLASSES, *overlay.CLASSES, *engine.CLASSES, *operators.CLASSES, *cast_operator.CLASSES,
     *mouse_gizmo.CLASSES, *render_panels.CLASSES, *model_panels.CLASSES, *camera_panels.CLASSES, *cast_panels.CLASSES,
-    *overlay_panels.CLASSES,
+    *object_panels.CLASSES, *overlay_panels.CLASSES,
 )  # fmt: skip
 """Blender's types, in the order in which they are registered: a panel comes after the panel that it is in."""
 

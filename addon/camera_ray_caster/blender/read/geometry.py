@@ -43,7 +43,7 @@ def shapes_of(item, setting: str) -> Found:
         return _of_points(data, FORCED.get(setting))
     if not isinstance(data, bpy.types.Mesh):
         return None, f"it is of type {data.bl_rna.name.lower()}: only surfaces and point clouds are cast"
-    try:  # a mesh that is being edited, or that the GPU subdivides, has its faces only there
+    try:  # a mesh that is being edited has its faces only there
         return mesh_shapes(item.to_mesh(), setting)
     finally:
         item.to_mesh_clear()

@@ -51,7 +51,7 @@ def gathered(groups: list[Group], left_out: Counter, scene) -> Shapes:
         return np.repeat(np.array(values, dtype).reshape(len(cast), *width), counts, axis=0)
 
     meshes = tuple(dict.fromkeys(group.primitive.mesh for group in cast if group.primitive.mesh is not None))
-    numbers = {mesh: number for number, mesh in enumerate(meshes)}
+    numbers = {None: -1} | {mesh: number for number, mesh in enumerate(meshes)}
     looks = [group.looks[0] for group in cast]
     return Shapes(
         kind=column([group.primitive.kind for group in cast], np.uint8),
@@ -66,7 +66,7 @@ def gathered(groups: list[Group], left_out: Counter, scene) -> Shapes:
         world_color=world_color(scene),
         left_out=tuple((name, _counted(reason, count)) for (name, reason), count in left_out.items()),
         meshes=meshes,
-        mesh=column([numbers.get(group.primitive.mesh, -1) for group in cast], np.int32),
+        mesh=column([numbers[group.primitive.mesh] for group in cast], np.int32) if meshes else np.zeros(0, np.int32),
         slots=_slots(cast, column),
         exact=tuple((group.name, group.primitive.apart) for group in cast if group.primitive.apart is not None),
     )

@@ -32,8 +32,9 @@ def mesh_record(mesh, arrays: MeshArrays) -> Mesh:
     slot = mesh.attributes.get("material_index")
     polygon = fetched(mesh.loop_triangle_polygons, "value", np.int32)
     triangles = arrays.loop_vertices[loops].astype(np.intp)
-    normals = _normals(mesh, arrays, by_vertex=uv is None)
-    if normals is not None and normals.shape[1] != len(arrays.loop_vertices):
+    by_vertex = uv is None and mesh.normals_domain == "POINT"
+    normals = _normals(mesh, arrays, by_vertex)
+    if by_vertex:
         loops = triangles
     return Mesh(
         vertices=_rows(arrays.vertices),
@@ -61,16 +62,22 @@ def _triangle_loops(mesh) -> np.ndarray:
 
 
 def _normals(mesh, arrays: MeshArrays, by_vertex: bool) -> np.ndarray | None:
-    """Return the normals at the loops, (3, l) float32, or with ``by_vertex`` at the vertices where that is the same.
+    """Return the normals at the loops, (3, l) float32, or ``by_vertex``; None where all faces are flat.
 
-    Where corners have none of their own, those of the vertices take Blender a tenth of the time.
+    Where corners have no normal of their own, those of the vertices take Blender a tenth of the time.
     """
-    if mesh.normals_domain == "FACE" and "custom_normal" not in mesh.attributes:
+    domain, free = mesh.normals_domain, mesh.attributes.get("custom_normal")
+    if free is not None and free.data_type != "FLOAT_VECTOR":
+        free = None
+    if domain == "FACE" or (domain == "POINT" and free is not None and not is_smooth(mesh)):
         return None
-    if mesh.normals_domain == "POINT":
-        normals = _rows(fetched(mesh.vertex_normals, "vector", np.float32, 3).reshape(-1, 3))
-        return normals if by_vertex else normals[:, arrays.loop_vertices]
-    return _rows(fetched(mesh.corner_normals, "vector", np.float32, 3).reshape(-1, 3))
+    corners = mesh.vertex_normals if domain == "POINT" else mesh.corner_normals
+    source = corners if free is None else free.data  # of these Blender 4.5 and 5.0 hand over what they have freed
+    normals = _rows(fetched(source, "vector", np.float32, 3).reshape(-1, 3))
+    if free is not None:  # of any length
+        lengths = np.sqrt((normals * normals).sum(axis=0))
+        normals /= np.where(lengths > 0, lengths, 1)
+    return normals[:, arrays.loop_vertices] if domain == "POINT" and not by_vertex else normals
 
 
 def _slots(slots: np.ndarray, polygon: np.ndarray) -> np.ndarray | None:

@@ -105,9 +105,18 @@ class _Scene:
             if group.reason:
                 self.left_out[group.name, group.reason] += len(group.matrices)
         for item in self.visibility.unlisted(self.listed):
-            if item.type not in NO_SURFACE or item.instance_type == "COLLECTION":
+            if _may_have_surface(item) or item.instance_type == "COLLECTION":
                 self.left_out[item.name, HIDDEN] += 1
         return gathered(list(self.groups.values()), self.left_out, self.scene)
+
+
+def _may_have_surface(item) -> bool:
+    """Return whether an object that Blender has not evaluated would have something to cast."""
+    data = item.data
+    if item.type == "CURVE":
+        is_filled = data.dimensions == "2D" and data.fill_mode != "NONE"
+        return bool(data.bevel_depth or data.extrude or data.bevel_object or is_filled)
+    return item.type not in NO_SURFACE or item.type in {"SURFACE", "FONT", "META"}
 
 
 def _slots(item, mesh: Mesh | None) -> Iterable[int]:
