@@ -8,7 +8,8 @@ class Parser(argparse.ArgumentParser):
     """A parser that refuses in one line."""
 
     def error(self, message):
-        """Say what is wrong and end."""
+        """Say what is wrong and end; of the words that were given it shows no control characters."""
+        message = "".join(sign if sign.isprintable() else "?" for sign in message)
         self.exit(2, f"{self.prog}: {message} (--help shows what can be given)\n")
 
 

@@ -12,6 +12,11 @@ least, median, and the spread (the middle half of the rounds) behind it; ratios 
 
 from __future__ import annotations
 
+if __name__ == "__main__":
+    import ends  # it lies beside this file
+
+    ends.begin(__file__)
+
 import gc
 import json
 import sys
@@ -130,4 +135,4 @@ def blender(width: int, height: int, threads: int, rounds: int) -> list[dict]:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(ends.run(__file__, main))

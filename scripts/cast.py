@@ -6,12 +6,15 @@
 ``python scripts/cast.py --help`` shows what else can be given.
 """
 
+import os
 import sys
-from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parent))
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))  # inside Blender it is not there
 
-from door import through
+import ends
 
 if __name__ == "__main__":
-    sys.exit(through("cast"))
+    ends.begin(__file__)
+    from door import through
+
+    sys.exit(ends.run(__file__, lambda: through("cast")))

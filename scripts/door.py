@@ -3,11 +3,11 @@
 An extension that is installed and enabled steps aside for this process: the scripts run the code that they lie beside.
 """
 
-import signal
 import sys
 from pathlib import Path
 
-from kept_memory import keep_memory  # it lies beside this file
+from ends import listen  # they lie beside this file
+from kept_memory import keep_memory
 
 ADDON = Path(__file__).resolve().parents[1] / "addon"
 ENGINE = "CAMERA_RAY_CASTER"
@@ -34,9 +34,7 @@ def through(command: str) -> int:
     import camera_ray_caster
     from camera_ray_caster.blender.terminal import commands, signals
 
-    for name in ("SIGINT", "SIGTERM", "SIGHUP"):
-        if hasattr(signal, name):
-            signal.signal(getattr(signal, name), signals.stop)
+    listen(signals.stop)
     camera_ray_caster.register()
     try:
         return commands.main(command, _arguments(bool(bpy.app.binary_path)), f"{command}.py")

@@ -6,6 +6,11 @@
 Standard library only, and no syntax newer than Python 3.6: it has to be able to say that a Python is too old.
 """
 
+if __name__ == "__main__":
+    import ends  # it lies beside this file
+
+    ends.begin(__file__)
+
 import glob
 import importlib.util
 import os
@@ -74,7 +79,13 @@ def make(target, bpy, python):
     return subprocess.run(["make", target, f"PYTHON={python}", f"BPY={bpy}"], env=environment).returncode
 
 
-if __name__ == "__main__":
+def main():
+    """Do what the arguments ask for."""
     if sys.argv[1:] == ["test-all"]:
-        sys.exit(test_all())
+        return test_all()
     print(bpy_for(sys.version_info[:2]) if importlib.util.find_spec("pip") else f"needs pip: {sys.executable} has none")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(ends.run(__file__, main))

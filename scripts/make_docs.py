@@ -8,6 +8,11 @@ Needs numpy only.
 
 from __future__ import annotations
 
+if __name__ == "__main__":
+    import ends  # it lies beside this file
+
+    ends.begin(__file__)
+
 import inspect
 import math
 import re
@@ -111,7 +116,8 @@ KINDS = {
 """Unit, range and default of each kind of setting, in words."""
 
 
-if __name__ == "__main__":
+def main() -> int | str:
+    """Write the page, or say that it is not up to date."""
     from arguments import Parser  # it lies beside this file
 
     parser = Parser(prog="make_docs.py", description=__doc__.splitlines()[0])
@@ -119,4 +125,9 @@ if __name__ == "__main__":
     if not parser.parse_args().check:
         PAGE.write_text(page(), encoding="utf-8")
     elif PAGE.read_text(encoding="utf-8") != page():
-        sys.exit(f"{PAGE.relative_to(ROOT)} is not up to date: run scripts/make_docs.py")
+        return f"{PAGE.relative_to(ROOT)} is not up to date: run scripts/make_docs.py"
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(ends.run(__file__, main))

@@ -8,14 +8,22 @@ Needs pip's bpy.
 
 from __future__ import annotations
 
-import argparse
+if __name__ == "__main__":
+    import ends  # it lies beside this file
+
+    ends.begin(__file__)
+
 import os
+import signal
 import sys
 import tempfile
+from argparse import RawDescriptionHelpFormatter
 from pathlib import Path
 
 import bpy  # noqa: F401  (first: bmesh, which the scenes use, comes with it)
+from arguments import Parser
 from door import through
+from ends import listen
 from scenes import PICTURES
 
 FOLDER = Path(__file__).resolve().parents[1] / "blend_scenes"
@@ -49,13 +57,14 @@ def without_text(png: bytes) -> bytes:
 
 def main() -> int:
     """Make the pictures that are named, or all; stop at the first that fails."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = Parser(prog="make_pictures.py", description=__doc__, formatter_class=RawDescriptionHelpFormatter)
     parser.add_argument("names", metavar="NAME", nargs="*", help=", ".join(PICTURES))
     names = parser.parse_args().names or list(PICTURES)
     if unknown := [name for name in names if name not in PICTURES]:
         parser.error(f"no picture is called {', '.join(unknown)}: choose from {', '.join(PICTURES)}")
+    listen(signal.default_int_handler)  # there will be a folder to clear up
     return next((status for status in map(make_picture, names) if status), 0)
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(ends.run(__file__, main))

@@ -8,13 +8,21 @@ Needs pip's bpy. Run it with bpy 4.5, the oldest that is supported: newer ones o
 
 from __future__ import annotations
 
-import argparse
+if __name__ == "__main__":
+    import ends  # it lies beside this file
+
+    ends.begin(__file__)
+
 import os
+import signal
 import sys
 import tempfile
+from argparse import RawDescriptionHelpFormatter
 from pathlib import Path
 
 import bpy
+from arguments import Parser
+from ends import listen
 from scenes import EXAMPLES, GALLERY, SCENES
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -84,13 +92,14 @@ def write_scene(name: str) -> None:
 
 def main(arguments: list[str] | None = None) -> None:
     """Make the scenes that are named, or all."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = Parser(prog="make_scenes.py", description=__doc__, formatter_class=RawDescriptionHelpFormatter)
     parser.add_argument("names", metavar="NAME", nargs="*", help=", ".join(SCENES))
     names = parser.parse_args(arguments).names or list(SCENES)
     if unknown := [name for name in names if name not in SCENES]:
         parser.error(f"no scene is called {', '.join(unknown)}: choose from {', '.join(SCENES)}")
     (FOLDER / "README.md").write_text(readme(), encoding="utf-8")
 
+    listen(signal.default_int_handler)  # there will be folders to clear up
     camera_ray_caster.register()
     for name in names:
         write_scene(name)
@@ -98,4 +107,4 @@ def main(arguments: list[str] | None = None) -> None:
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(ends.run(__file__, main))

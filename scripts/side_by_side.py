@@ -9,6 +9,11 @@ table says so. All get the same rays, the exact chief rays rounded to their own 
 own from the camera.
 """
 
+if __name__ == "__main__":
+    import ends  # it lies beside this file
+
+    ends.begin(__file__)
+
 import sys
 from pathlib import Path
 
@@ -39,4 +44,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(ends.run(__file__, main))

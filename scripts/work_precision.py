@@ -7,10 +7,13 @@
 Needs the packages of the ``test`` extra. Writes work_precision.json, .svg and .png into --output; prints the tables.
 """
 
+if __name__ == "__main__":
+    import ends  # it lies beside this file
+
+    ends.begin(__file__)
+
 import json
-import os
 import sys
-from contextlib import redirect_stdout
 from dataclasses import asdict
 from pathlib import Path
 
@@ -65,8 +68,6 @@ def _read(path):
     """Return the camera of a file, as Blender has it but in a small picture, and its shapes."""
     from camera_ray_caster.core.records import InputError
 
-    if not os.path.isfile(path):
-        raise InputError(f"there is no file {path!r}: give the path of a .blend")
     try:
         import bpy
     except ModuleNotFoundError as missing:
@@ -77,19 +78,17 @@ def _read(path):
     from camera_ray_caster.blender.read.camera import camera_record
     from camera_ray_caster.blender.read.scene import evaluated
     from camera_ray_caster.blender.read.shapes import shapes_record
+    from camera_ray_caster.blender.terminal.opening import open_file
 
     camera_ray_caster.register()
     try:
-        with redirect_stdout(None):  # where Python's copy of the error would go
-            bpy.ops.wm.open_mainfile(filepath=os.path.abspath(path))
+        open_file(Path(path))
         with evaluated(bpy.context.scene) as depsgraph:
             scene = bpy.context.scene
             return small(camera_record(scene.camera, depsgraph)), shapes_record(depsgraph)
-    except RuntimeError as error:
-        raise InputError(f"{path!r} is no .blend that this Blender can open") from error
     finally:
         camera_ray_caster.unregister()
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(ends.run(__file__, main))

@@ -104,7 +104,8 @@ class Faulty:
     """A camera whose rays are up to FAULT pixels off around one place of the picture."""
 
     def __init__(self, camera):
-        self.camera, self.raster, self.project = camera, camera.raster, camera.project
+        self.camera, self.raster, self.pose = camera, camera.raster, camera.pose
+        self.project, self.pixel_rounding = camera.project, camera.pixel_rounding
 
     def rays_at(self, x, y):
         """Return the bent rays."""

@@ -82,6 +82,6 @@ CHECKS = {
     "Normal Bound": lambda values: values >= 0,
     "Valid": lambda values: (values == 0) | (values == 1),
     "Shape Index": lambda values: (values >= -1) & (values == np.floor(values)),
-    "Ray Origin": lambda values: np.isfinite(values),
+    "Ray Origin": lambda values: ~np.isnan(values),
 }
 """Which values of a pass are allowed."""

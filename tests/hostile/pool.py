@@ -12,7 +12,7 @@ ROOT = Path(__file__).resolve().parents[2]
 PATIENCE = 60
 """Seconds that an input may take, on a busy machine."""
 
-OPENING = "in _open"
+OPENING = "in open_file"
 """The line of our own code from which Blender opens a file."""
 
 
@@ -24,12 +24,20 @@ class Pool:
 
     def _start(self):
         words = [sys.executable, "-m", "tests.hostile.worker", str(self.log)]
-        places = os.environ | {"PYTHONPATH": str(ROOT / "addon")}  # not that of a checkout that pip has installed
+        # this checkout's add-on, not that which pip has installed; scripts find what lies beside them
+        places = os.environ | {"PYTHONPATH": os.pathsep.join(str(ROOT / name) for name in ("addon", "scripts"))}
         pipes = dict.fromkeys(("stdin", "stdout", "stderr"), subprocess.PIPE)
         self.process = subprocess.Popen(words, cwd=ROOT, env=places, text=True, **pipes)
 
     def tried(self, kind, number):
-        """What came of an input: a dict with ``what`` it is, the ``outcome`` and what was ``said``."""
+        """What came of an input: a dict with ``what`` it is, the ``outcome`` and what was ``said``.
+
+        A crash counts where a new process crashes, too: an earlier file may have spoiled Blender's memory.
+        """
+        found = self._tried(kind, number)
+        return self._tried(kind, number) if found["outcome"] == "crashed" else found
+
+    def _tried(self, kind, number):
         if self.process is None:
             self._start()
         self.process.stdin.write(json.dumps([kind, number]) + "\n")

@@ -71,6 +71,11 @@ def test_a_python_without_bpy_is_told_what_it_needs(command):
     assert "needs Blender or pip's bpy: `make cast`" in refused(done)
 
 
+@pytest.mark.parametrize("name", ["make_scenes", "make_pictures"])
+def test_what_is_made_has_to_be_known(name):
+    assert f"{name}.py: no {name[5:-1]} is called no?such: choose from " in refused(script(name, "no\nsuch"))
+
+
 UNCASTABLE = {
     "has a scale of zero": lambda scene: setattr(scene.camera, "scale", (1, 0, 1)),
     "has no active camera": lambda scene: setattr(scene, "camera", None),

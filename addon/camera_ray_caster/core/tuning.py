@@ -40,3 +40,6 @@ SERIAL_WORK = 1 << 18
 """Work that takes as long as what threads do one at a time for a tile, holding the interpreter: 0.4 to 3 ms, measured
 with 1 to 15 tiles. Without heed to it 16 threads took two to four times as long as two.
 """
+
+TRIANGLE_PIXELS = 1 << 16
+"""Pixels of the bounds of triangles that are tested at once."""

@@ -117,6 +117,27 @@ def test_sun_and_point_lights_are_used_and_others_named(scene):
     assert {name for name, _ in shapes.left_out} == {"Area", "Spot"}
 
 
+@pytest.mark.parametrize("strength", [np.nan, np.inf])
+def test_a_light_of_no_finite_strength_is_left_out(scene, strength):
+    new_object("Lamp", bpy.data.lights.new("Lamp", "POINT")).data.energy = strength
+    shapes = read_shapes(scene)
+    assert len(shapes.lights.is_sun) == 0
+    assert [(name, reason[:36]) for name, reason in shapes.left_out] == [
+        ("Lamp", "its strength or color is not finite:")
+    ]
+
+
+def test_a_color_that_is_not_finite_is_black(scene):
+    ball("Ball").color = np.nan, 0.5, 0.5, 1
+    scene.world = bpy.data.worlds.new("World")
+    scene.world.color = np.nan, 0.5, 0.5
+    if bpy.app.version >= (5, 0, 0):
+        scene.world.node_tree.nodes.clear()
+    shapes = read_shapes(scene)
+    assert shapes.color.tolist() == [[0, 0, 0, 1]]
+    assert shapes.world_color == (0, 0, 0, 1)
+
+
 def test_the_worlds_color_is_what_its_background_emits(scene):
     assert read_shapes(scene).world_color == (0, 0, 0, 1)
     scene.world = bpy.data.worlds.new("World")

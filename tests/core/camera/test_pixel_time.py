@@ -216,6 +216,11 @@ def test_shapes_that_come_and_go_are_never_mixed():
         (ROWS | {"time_tolerance": 0.0}, "time_tolerance"),
         (ROWS | {"time_evaluations": 1}, "time_evaluations"),
         (SHUTTER | {"motion_blur_shutter": 0.0}, "motion_blur_shutter .* is 0: it must be above 0"),
+        (
+            SHUTTER | {"motion_blur_shutter": 1e20},
+            "frames -4.79167e.19 to 5e.19: keep them between -1048574 and 1048574",
+        ),
+        (SHUTTER | {"frame": 1048574.0}, "to 1.04857e.06: keep them between"),
         (SHUTTER | {"rolling_shutter_duration": 2.0}, "rolling_shutter_duration .* is 2: it must be from 0 to 1"),
     ],
 )

@@ -14,6 +14,9 @@ class Bent:
         self.camera, self.bend, self.back = camera, bend, back
         self.raster = camera.raster
 
+    def __getattr__(self, name):
+        return getattr(self.camera, name)
+
     def rays_at(self, x, y):
         return self.camera.rays_at(*self.bend(np.asarray(x), np.asarray(y)))
 

@@ -111,7 +111,7 @@ def test_json_is_strict_and_holds_the_record(report):
 def test_the_table_says_all_and_fits(report):
     lines = as_lines(replace(report, findings=(GOOD, BAD)))
     assert max(map(len, lines)) <= WIDTH
-    table = "\n".join(lines)
+    table = " ".join(" ".join(lines).split())
     for word in ("'Camera'", "frame 1.5", "Perspective", "good witness", "read", "0.5000", "Suzanne", "not asked for"):
         assert word in table
     verdicts = {line.split()[0]: line.split()[-1] for line in lines if "witness" in line}

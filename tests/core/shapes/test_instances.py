@@ -26,6 +26,11 @@ def test_the_bounds_of_any_vertices():
     np.testing.assert_array_equal(enclosing_primitive(INFINITE_PLANE, vertices).axes, np.eye(3))
 
 
+def test_the_bounds_of_vertices_whose_squares_float32_cannot_hold():
+    ball = enclosing_primitive(SPHERE, np.array([(-3e38, 0, 0), (3e38, 0, 0)], np.float32))
+    np.testing.assert_allclose(ball.axes, np.float32(3e38) * np.eye(3), rtol=ULP)
+
+
 def test_points_without_a_radius_are_no_spheres():
     positions = np.array([(0, 0, 0), (1, 0, 0), (2, 0, 0), (np.nan, 0, 0)], np.float32)
     found = points_primitive(positions, np.array([1, 0, np.inf, 1], np.float32))

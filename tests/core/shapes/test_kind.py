@@ -119,4 +119,4 @@ def test_toy_kinds_are_culled_sampled_and_asked_at_given_pixels_as_all_others(ke
 def test_kinds_that_are_not_in_view_are_named():
     camera = camera_of("PERSP", SIZE)
     said = "\n".join(cast(camera, shapes_of((DISCS.number, (0, 0, -5), 1.0)), ("depth",)).plan.left_out())
-    assert "sphere, plane, infinite plane, tetrahedron" in said
+    assert "sphere, plane, infinite plane, mesh, tetrahedron" in said

@@ -2,6 +2,7 @@
 
 import os
 from contextlib import redirect_stdout
+from dataclasses import replace
 from pathlib import Path
 from time import perf_counter
 
@@ -11,7 +12,8 @@ from ...core.records import Cancelled, InputError
 from ...core.report.report import Report, as_json
 from ..engine.engine import CameraRayCaster
 from ..terminal import signals
-from . import reports
+from ..terminal.opening import not_run, reported
+from . import file_outputs, reports
 from .file_set import appearing
 
 PICTURE = {
@@ -31,17 +33,20 @@ LAYERS = {
 }
 """Image settings by Blender's names, in the order in which they have to be set."""
 
+NOT_WRITTEN = "the compositor's File Output nodes have written nothing: --file-output lets them write where they say"
 
-def render(scene, folder: Path, name: str, number: str = "") -> tuple[Report, list[Path]]:
+
+def render(scene, folder: Path, name: str, number: str = "", file_output: bool = False) -> tuple[Report, list[Path]]:
     """Render the scene's current frame into ``folder`` and return the report and the files.
 
     They are NAME.png, NAME.exr and report.json, ``number`` before each dot; of several views NAME_L.png, NAME_R.png and
-    so on, by the views' suffixes. Leaves all as it was and raises InputError where Blender cannot render or the folder
+    so on, by the views' suffixes. The compositor's File Output nodes write, where they say, only with ``file_output``.
+    Leaves all as it was and raises InputError where Blender cannot render or the folder
     cannot be written, Cancelled where it is stopped.
     """
     _check_suffixes(scene.render)
     with appearing(folder) as temporary:
-        report = _rendered(scene)
+        report = _composited(scene, file_output)
         started = perf_counter()
         _save(scene, temporary / f"{name}{number}.png", PICTURE)
         _save(scene, temporary / f"{name}{number}.exr", LAYERS)
@@ -52,6 +57,19 @@ def render(scene, folder: Path, name: str, number: str = "") -> tuple[Report, li
     return report, [folder / name for name in names]
 
 
+def _composited(scene, file_output: bool) -> Report:
+    """Render the current frame, let File Output nodes write or not, and return the report."""
+    nodes = file_outputs.writing(scene)
+    if file_output:
+        before = file_outputs.files(scene, nodes)
+        report = _rendered(scene)
+        written = file_outputs.changed(before, file_outputs.files(scene, nodes))
+        return replace(report, file_outputs=written, warnings=not_run())
+    with file_outputs.muted(nodes):
+        report = _rendered(scene)
+    return replace(report, warnings=(*not_run(), *([NOT_WRITTEN] if nodes else [])))
+
+
 def _rendered(scene) -> Report:
     """Render the current frame and return its report, with Blender's share of the time; Cancelled where it stopped."""
     if not any(layer.use for layer in scene.view_layers):
@@ -59,12 +77,14 @@ def _rendered(scene) -> Report:
     reports.forget()
     CameraRayCaster.stopped = False
     scene.render.use_sequencer = False  # a strip would be shown in place of the cast
+    if hasattr(scene.render, "use_render_cache"):  # before 5.2
+        scene.render.use_render_cache = False  # its files lie where the scene's name leads them
     started = perf_counter()
     try:
         with redirect_stdout(None):  # warnings and errors are in the report and in the exception
             bpy.ops.render.render(scene=scene.name)
     except RuntimeError as error:
-        raise InputError(str(error).strip().splitlines()[0].removeprefix("Error: ")) from error
+        raise InputError(reported(error)) from error
     elapsed = perf_counter() - started
     report = reports.latest()
     if CameraRayCaster.stopped:

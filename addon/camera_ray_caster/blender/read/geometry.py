@@ -8,7 +8,7 @@ import numpy as np
 
 from ...core.records import INFINITE_PLANE, PLANE, SPHERE
 from ...core.shapes.instances import Primitive, enclosing_primitive, mesh_primitive, points_primitive
-from ...core.shapes.recognize import MeshArrays, defect, exclude, recognize
+from ...core.shapes.recognize import NOT_FINITE, MeshArrays, defect, exclude, recognize
 from .kept import Found
 from .meshes import fetched, is_smooth, mesh_arrays, mesh_record, vertices
 
@@ -55,19 +55,24 @@ def mesh_shapes(mesh, setting: str) -> Found:
         return NOTHING
     kind = FORCED.get(setting)
     if not len(mesh.polygons):
-        return NOTHING if kind is None else (enclosing_primitive(kind, vertices(mesh)), "")
+        return NOTHING if kind is None else _enclosing(kind, vertices(mesh))
     arrays = mesh_arrays(mesh)
     wrong = defect(arrays)
     found = wrong if wrong or setting == "MESH" else _recognized(arrays)
     if kind is not None:
         if isinstance(found, Primitive) and (found.kind == SPHERE) == (kind == SPHERE):
             return replace(found, kind=kind), ""
-        return enclosing_primitive(kind, arrays.vertices), ""
+        return _enclosing(kind, arrays.vertices)
     if isinstance(found, Primitive) and not (CAST_MESHES and _is_solid(found, mesh)):
         return found, ""
     if wrong or not CAST_MESHES:
         return None, found or "its triangles are not cast"
     return mesh_primitive(mesh_record(mesh, arrays)), ""
+
+
+def _enclosing(kind, places: np.ndarray) -> Found:
+    """Return the sphere or plane around (n, 3) places."""
+    return (enclosing_primitive(kind, places), "") if np.isfinite(places).all() else (None, NOT_FINITE)
 
 
 def _is_solid(found: Primitive, mesh) -> bool:
@@ -98,7 +103,7 @@ def _of_points(cloud, kind) -> Found:
         return NOTHING
     positions = fetched(cloud.attributes["position"].data, "vector", np.float32, 3).reshape(-1, 3)
     if kind in (PLANE, INFINITE_PLANE):
-        return enclosing_primitive(kind, positions), ""
+        return _enclosing(kind, positions)
     radius = cloud.attributes.get("radius")
     radii = fetched(radius.data, "value", np.float32) if radius else np.full(len(positions), DEFAULT_RADIUS, np.float32)
     primitive = points_primitive(positions, radii)

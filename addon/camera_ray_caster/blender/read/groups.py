@@ -1,18 +1,23 @@
 """Instances that have everything but their place in common, and the record that they make."""
 
 from collections import Counter
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from ...core.records import Shapes, Slots
 from ...core.shapes.instances import Primitive, is_castable, lights_in_world, put_in_world
+from ..terminal.signals import raise_if_stopping
 from .kept import Found
 from .lights import world_color
 from .materials import Look
 
 SINGULAR = "its size is zero in some direction, or not finite: clear its scale (Alt S) or apply it"
+
+
+LISTEN = 256
+"""Instances or groups after which a reading asks whether to go on: some hundredths of a second."""
 
 
 @dataclass
@@ -35,23 +40,32 @@ class Group:
         return np.array(self.matrices, np.float64).reshape(-1, 3, 4)
 
 
+def heeding(items: Iterable) -> Iterator:
+    """Yield items, and raise Cancelled where what is running has been asked to end."""
+    for count, item in enumerate(items):
+        if count % LISTEN == 0:
+            raise_if_stopping()
+        yield item
+
+
 def gathered(groups: list[Group], left_out: Counter, scene) -> Shapes:
     """Return the record of all groups: their instances placed in the world, one row a shape."""
     lights = [group for group in groups if group.is_sun is not None]
-    parts = [part for group in groups if group.primitive is not None for part in _castable(group, left_out)]
+    parts = [part for group in heeding(groups) if group.primitive is not None for part in _castable(group, left_out)]
     cast, placings = zip(*parts, strict=True) if parts else ((), ())
     counts = [len(matrices) * len(group.primitive) for group, matrices in parts]
     ends = np.cumsum(counts, dtype=int)
     center, axes = np.empty((sum(counts), 3)), np.empty((sum(counts), 3, 3))
     for group, matrices, count, end in zip(cast, placings, counts, ends, strict=True):
-        rows = slice(end - count, end)
-        put_in_world(group.primitive, matrices, center[rows], axes[rows])
+        own = slice(end - count, end)
+        put_in_world(group.primitive, matrices, center[own], axes[own])
 
     def column(values, dtype, width=()):
         return np.repeat(np.array(values, dtype).reshape(len(cast), *width), counts, axis=0)
 
-    meshes = tuple(dict.fromkeys(group.primitive.mesh for group in cast if group.primitive.mesh is not None))
-    numbers = {None: -1} | {mesh: number for number, mesh in enumerate(meshes)}
+    meshes = {id(group.primitive): group.primitive.mesh for group in cast if group.primitive.mesh is not None}
+    numbers = {key: number for number, key in enumerate(meshes)}
+    rows = [numbers.get(id(group.primitive), -1) for group in cast]
     looks = [group.looks[0] for group in cast]
     return Shapes(
         kind=column([group.primitive.kind for group in cast], np.uint8),
@@ -65,8 +79,8 @@ def gathered(groups: list[Group], left_out: Counter, scene) -> Shapes:
         lights=lights_in_world([(group.is_sun, group.looks[0][1], group.placings()) for group in lights]),
         world_color=world_color(scene),
         left_out=tuple((name, _counted(reason, count)) for (name, reason), count in left_out.items()),
-        meshes=meshes,
-        mesh=column([numbers[group.primitive.mesh] for group in cast], np.int32) if meshes else np.zeros(0, np.int32),
+        meshes=tuple(meshes.values()),
+        mesh=column(rows, np.int32) if meshes else np.zeros(0, np.int32),
         slots=_slots(cast, column),
         exact=tuple((group.name, group.primitive.apart) for group in cast if group.primitive.apart is not None),
     )

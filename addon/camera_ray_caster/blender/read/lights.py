@@ -1,6 +1,8 @@
 """Lights and the world as a depsgraph evaluated them."""
 
-from .materials import surface_node
+import numpy as np
+
+from .materials import shown, surface_node
 
 USED = {"SUN": True, "POINT": False}
 """The types that the combined pass uses, each with whether it is a sun."""
@@ -8,7 +10,8 @@ USED = {"SUN": True, "POINT": False}
 
 def light_color(light) -> tuple[float, float, float]:
     """Return a light's color times its strength, exposure and temperature, in Blender's units."""
-    strength = light.energy * 2.0**light.exposure
+    with np.errstate(over="ignore"):
+        strength = float(light.energy * np.exp2(light.exposure))
     tint = light.temperature_color if light.use_temperature else (1.0, 1.0, 1.0)
     return tuple(strength * a * b for a, b in zip(light.color, tint, strict=True))
 
@@ -22,7 +25,7 @@ def world_color(scene) -> tuple[float, float, float, float]:
         return 0.0, 0.0, 0.0, 0.0
     if scene.world is None:
         return 0.0, 0.0, 0.0, 1.0
-    red, green, blue = _background(scene.world) or scene.world.color
+    red, green, blue = shown(_background(scene.world) or scene.world.color)
     return red, green, blue, 1.0
 
 

@@ -1,5 +1,7 @@
 """How materials look in the combined pass, and their pass indices."""
 
+import math
+
 import bpy
 import numpy as np
 
@@ -27,7 +29,7 @@ class Looks:
         slots = item.material_slots
         material = slots[min(slot, len(slots) - 1)].material if len(slots) else None
         if material is None:
-            return 0, tuple(item.color)
+            return 0, shown(item.color)
         if material not in self._known:
             self._known[material] = _look(material)
         return self._known[material]
@@ -37,6 +39,16 @@ def first_slot(item) -> int:
     """Return the material slot of an evaluated object's first face."""
     has_faces = item.type == "MESH" and len(item.data.polygons)
     return item.data.polygons[0].material_index if has_faces else 0
+
+
+def is_finite(color) -> bool:
+    """Return whether all parts of a color are numbers that light can be."""
+    return all(map(math.isfinite, color))
+
+
+def shown(color) -> tuple[float, ...]:
+    """Return a color of three or four parts; black where one is NaN or infinite, which would spread to every pixel."""
+    return tuple(color) if is_finite(color) else (0.0, 0.0, 0.0, 1.0)[: len(color)]
 
 
 def surface_node(owner, kind: str):
@@ -53,4 +65,4 @@ def _look(material) -> Look:
     base = node.inputs["Base Color"] if node else None
     *viewport, alpha = material.diffuse_color
     changed = base is not None and not base.is_linked and tuple(base.default_value)[:3] != UNCHANGED
-    return material.pass_index, (*(tuple(base.default_value)[:3] if changed else viewport), alpha)
+    return material.pass_index, shown((*(tuple(base.default_value)[:3] if changed else viewport), alpha))

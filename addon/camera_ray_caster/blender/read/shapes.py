@@ -7,10 +7,10 @@ from functools import partial
 from ...core.records import Mesh, Shapes
 from ..properties.declared import EXACT_SHAPES, PRIMITIVE
 from .geometry import mesh_shapes, shapes_of
-from .groups import Group, gathered
+from .groups import Group, gathered, heeding
 from .kept import Reading
 from .lights import USED, light_color
-from .materials import Looks, first_slot
+from .materials import Looks, first_slot, is_finite
 from .stored import own_value
 from .visibility import Visibility, original_source
 
@@ -20,6 +20,7 @@ NO_SURFACE = frozenset(
 """Object types to pass over. The surface of curves, texts and metaballs is listed apart, as a mesh of their object."""
 
 HIDDEN = "it is hidden in the viewport, so that Blender evaluates it only in a render: show it, or render (F12)"
+DAZZLING = "its strength or color is not finite: set them anew"
 HAIR = "its hair {!r} is no surface"
 
 
@@ -30,7 +31,7 @@ def shapes_record(depsgraph) -> Shapes:
     passed over; geometry that cannot be cast is in ``left_out``, once for each object and reason.
     """
     scene = _Scene(depsgraph)
-    for instance in depsgraph.object_instances:
+    for instance in heeding(depsgraph.object_instances):
         scene.add(instance)
     shapes = scene.record()
     scene.reading.keep()
@@ -71,13 +72,20 @@ class _Scene:
         if not self.visibility.is_rendered(instance):
             return group
         if item.type == "LIGHT":
-            if item.data.type in USED:
-                group.is_sun, group.looks = USED[item.data.type], ((0, light_color(item.data)),)
-            else:
-                group.reason = f"it is a light of type {item.data.type.lower()}: only sun and point lights are used"
+            self.light(group, item.data)
         elif item.type not in NO_SURFACE:
             self.fill(group, instance)
         return group
+
+    def light(self, group: Group, data) -> None:
+        """Set what a light is, or why it is not used."""
+        color = light_color(data)
+        if data.type not in USED:
+            group.reason = f"it is a light of type {data.type.lower()}: only sun and point lights are used"
+        elif not is_finite(color):
+            group.reason = DAZZLING
+        else:
+            group.is_sun, group.looks = USED[data.type], ((0, color),)
 
     def fill(self, group: Group, instance) -> None:
         """Set what the geometry of an instance stands for, or why it cannot be cast."""

@@ -6,10 +6,9 @@ Status 0: done; 1: done, but a witness disagrees with the camera's rays; 2: bad 
 
 import argparse
 import math
-import os
 import sys
 from collections.abc import Sequence
-from contextlib import redirect_stdout
+from dataclasses import replace
 from pathlib import Path
 from textwrap import fill
 
@@ -27,6 +26,7 @@ from ..read.camera import find_camera
 from ..read.scene import read_camera
 from ..verification.check import verified
 from . import signals
+from .opening import not_run, open_file
 from .standard_output import keep_output
 
 DEFAULT_PASSES = ("combined", "depth", "normal", "position", "object_index")
@@ -75,6 +75,8 @@ def cast(arguments: Sequence[str], prog: str) -> int:
     parser.add_argument("--precision", type=str.upper, choices=PRECISIONS,
                         help="what hits are searched with; default: the file's")  # fmt: skip
     parser.add_argument("--output", type=Path, default=Path("out"), metavar="FOLDER", help="default: %(default)s")
+    parser.add_argument("--file-output", action="store_true",
+                        help="let the compositor's File Output nodes write; default: they do not")  # fmt: skip
     options = parser.parse_args(_joined(arguments, "--frames"))
     scene = _open(options)
     for layer in scene.view_layers:
@@ -83,12 +85,16 @@ def cast(arguments: Sequence[str], prog: str) -> int:
     for setting in ("shading", "precision"):
         if getattr(options, setting):
             setattr(scene.camera_ray_caster, setting, getattr(options, setting))
-    passed = True
+    passed, warned = True, set()
     for frame in options.frames or [options.frame]:
         _go_to(scene, frame)
         read_camera(scene)  # a camera that cannot be cast is refused before anything is made
         number = f"_{frame:04d}" if options.frames else ""
-        report, paths = files.render(scene, options.output, _stem(), number)
+        report, paths = files.render(scene, options.output, _stem(), number, options.file_output)
+        for line in report.warnings:
+            if line not in warned:
+                _warn(prog, line)
+                warned.add(line)
         _show(report, options.json, f"Wrote {', '.join(map(str, paths))}")
         passed &= report.passed
     return int(not passed)
@@ -106,8 +112,10 @@ def verify(arguments: Sequence[str], prog: str) -> int:
     options = parser.parse_args(arguments)
     scene = _open(options)
     _go_to(scene, options.frame)
-    report = verified(scene)
+    report = replace(verified(scene), warnings=not_run())
     signals.raise_if_stopping()
+    for line in report.warnings:
+        _warn(prog, line)
     _show(report, options.json, "All witnesses agree" if report.passed else "A witness disagrees")
     return int(not report.passed)
 
@@ -137,6 +145,8 @@ def _parser(prog: str, purpose: str, example: str, result: str) -> Parser:
     )
     parser.add_argument("file", nargs="?", type=Path, metavar="FILE.blend", help="default: the file that is open")
     parser.add_argument("--camera", metavar="NAME", help="default: the scene's active camera")
+    parser.add_argument("--enable-autoexec", action="store_true",
+                        help="run the Python scripts and drivers of FILE.blend; default: they do not run")  # fmt: skip
     parser.add_argument("--json", action="store_true", help="print the report as JSON in place of the table")
     return parser
 
@@ -184,15 +194,10 @@ def _open(options):
     """Open the file that the options name, and return its scene with the engine and the camera that they ask for."""
     path = options.file
     if path is not None:
-        if not os.path.isfile(path):  # False, too, where Python may not look
-            raise InputError(f"there is no file {str(path)!r}: give the path of a .blend")
-        try:
-            with redirect_stdout(None):  # where Python's copy of the error would go
-                bpy.ops.wm.open_mainfile(filepath=str(path.resolve()))
-        except RuntimeError as error:
-            raise InputError(f"{str(path)!r} is no .blend that this Blender can open: {_line(error)}") from error
+        open_file(path, options.enable_autoexec)
     elif not bpy.app.binary_path:
         raise InputError("no file is open: give the path of a .blend")
+    signals.raise_if_stopping()
     scene = bpy.context.scene
     scene.render.engine = CameraRayCaster.bl_idname
     if options.camera is not None:
@@ -208,14 +213,13 @@ def _go_to(scene, frame: float | None) -> None:
         scene.frame_set(math.floor(frame), subframe=frame - math.floor(frame))
 
 
+def _warn(prog: str, line: str) -> None:
+    print(f"{prog}: warning: {line}", file=sys.stderr)
+
+
 def _stem() -> str:
     return Path(bpy.data.filepath).stem or "untitled"
 
 
 def _show(report: Report, json: bool, last_line: str) -> None:
     print(as_json(report) if json else "\n".join((*as_lines(report), "", last_line)), flush=True)
-
-
-def _line(error: RuntimeError) -> str:
-    """Return the first thing that an operator reported, without its label."""
-    return str(error).strip().splitlines()[0].removeprefix("Error: ")

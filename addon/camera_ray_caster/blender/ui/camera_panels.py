@@ -154,6 +154,8 @@ class SidebarVerify(Sidebar, bpy.types.Panel):
         draw_row(box, "Pixels", ["Worst", "Bound"], 0.46)
         for finding in report.findings:
             errors = [f"{error:.1e}" for error in (finding.worst_pixels, finding.bound_pixels)]
+            if finding.not_compared:
+                errors = ["not compared"]
             row = box.row()
             row.alert = not finding.passed
             draw_row(row, WITNESSES.get(finding.witness, finding.witness), errors, 0.46)

@@ -32,11 +32,11 @@ class Witness:
     depsgraph: Any
 
     def view_coordinates(self, points: np.ndarray) -> np.ndarray:
-        """Return world_to_camera_view of world points (n, 3), which Blender takes as float32: (n, 3)."""
+        """Return world_to_camera_view of world points (n, 3), which Blender takes as float32: (n, 3); NaN where it
+        fails.
+        """
         with _frame_of(self.size, self.depsgraph.scene_eval) as scene:
-            return _widened([world_to_camera_view(scene, self.camera, Vector(point)) for point in points]).reshape(
-                -1, 3
-            )
+            return _widened([_seen(scene, self.camera, Vector(point)) for point in points]).reshape(-1, 3)
 
 
 def ask(camera_object, depsgraph) -> Witness | None:
@@ -57,6 +57,13 @@ def ask(camera_object, depsgraph) -> Witness | None:
         depsgraph, x=size[0], y=size[1], scale_x=render.pixel_aspect_x, scale_y=render.pixel_aspect_y
     )
     return Witness(size, _widened(camera.matrix_world), _widened(frame), _widened(matrix), camera, depsgraph)
+
+
+def _seen(scene, camera, point):
+    try:
+        return world_to_camera_view(scene, camera, point)
+    except (ValueError, ZeroDivisionError):  # a matrix that float32 cannot invert, a frame without size
+        return np.full(3, np.nan)
 
 
 def _widened(answer) -> np.ndarray:

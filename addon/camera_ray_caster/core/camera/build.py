@@ -2,25 +2,34 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from ..cameras import find_model
+from ..cameras.model import Model
 from ..cameras.parts.film import raster_from
 from ..cameras.parts.pose import pose_from
-from ..cameras.parts.settings import values_of
-from ..records import BlenderCamera, InputError
+from ..cameras.parts.settings import Number, farthest_from_one, values_of
+from ..records import BlenderCamera, InputError, Pose
 from .camera import Camera
 from .pixel_time import pixel_time_from
+
+APART = 2.0**-40
+"""Of a coordinate: what lies nearer together is told apart by few of float64's digits, and by none of float32's, which
+is what Blender has.
+"""
 
 
 def camera_from(raw: BlenderCamera) -> Camera:
     """Return the camera that a record describes.
 
     Raises InputError, in one line, for a type without a model (it names those that have one) and for settings without
-    meaning.
+    meaning, also where they are so large or small together that neighboring pixels have the same ray.
     """
     kind, raster = find_model(raw), raster_from(raw)
     if not 0 <= raw.clip_start < raw.clip_end:
         raise InputError(f"clip start {raw.clip_start}, clip end {raw.clip_end} of camera {raw.name!r} leave no depth")
     model, pose = kind.from_blender(raw, raster), pose_from(raw)
+    _check_apart(raw, model, pose)
     return Camera(
         name=raw.name,
         model=model,
@@ -31,4 +40,26 @@ def camera_from(raw: BlenderCamera) -> Camera:
         aperture=model.aperture(raw, pose),
         pixel_time=pixel_time_from(raw, raster),
         settings=values_of(kind.SETTINGS, raw),
+    )
+
+
+def _check_apart(raw: BlenderCamera, model: Model, pose: Pose) -> None:
+    """Raise InputError where the pixels around the middle of the frame have one ray in the world, and one point at the
+    clip start; it says which number is farthest from 1. A middle without rays is none.
+    """
+    half = np.array((-0.5, 0.5))
+    x, y = model.frame[0] / 2 + half[None, :], model.frame[1] / 2 + half[:, None]
+    with np.errstate(all="ignore"):
+        origin, direction = (
+            pose.basis @ np.stack(np.broadcast_arrays(*part, x + y)[:3]).reshape(3, -1) for part in model.rays(x, y)
+        )
+        places = pose.eye[:, None] + origin + raw.clip_start * direction
+        same = [np.ptp(part, axis=1) <= APART * np.abs(part).max(axis=1) for part in (direction, places)]
+    if not np.all(same):
+        return
+    numbers = {one.name: one.read(raw) for one in model.SETTINGS if isinstance(one, Number)}
+    numbers["its distance from the world's origin"] = float(np.abs(pose.eye).max())
+    raise InputError(
+        f"rays of neighboring pixels of camera {raw.name!r} are not told apart: {farthest_from_one(numbers)}, "
+        "too large or too small for the rest"
     )

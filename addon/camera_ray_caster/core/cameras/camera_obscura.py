@@ -57,7 +57,7 @@ class CameraObscura(Perspective):
         Shift moves the film on the wall, in lengths of its fitted side.
         """
         depth = DEPTH.read(raw)
-        wall = Window.from_blender(raw, raster, WIDTH.read(raw) / depth)
+        wall = Window.before_eye(raw, raster, WIDTH.read(raw) / depth, (WIDTH, DEPTH))
         turned = Window(wall.center_x, wall.center_y, -wall.pitch_x, -wall.pitch_y)
         return cls(raster.size, turned, Aperture(HOLE.read(raw) / 2, -depth))
 

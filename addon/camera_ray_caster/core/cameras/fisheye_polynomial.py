@@ -18,7 +18,9 @@ from math import hypot
 
 import numpy as np
 
+from ..conventions import gamma
 from ..maths.inversion import Inverse
+from ..maths.roots import positive_roots
 from ..records import BlenderCamera, InputError, Raster
 from .model import Step
 from .parts.film import FILM, Film, Window
@@ -115,8 +117,7 @@ class FisheyePolynomial(Radial):
     def radius(self, theta):
         """See Radial: negative where theta is seen on the other side of the axis."""
         start, sign = self.coefficients[0], self._sign
-        same = sign * start + np.mod(sign * (theta - start), FULL_TURN)
-        across = sign * start + np.mod(sign * (-theta - start), FULL_TURN)
+        same, across = (sign * start + _turned(sign * (one - start)) for one in (theta, -theta))
         target = np.minimum(same, across)
         r = self._inverse(np.sign(target) * up_to(self.half_fov, np.abs(target)))
         return np.where(same <= across, r, -r)
@@ -133,14 +134,18 @@ class FisheyePolynomial(Radial):
         return min(rim, self.half_fov) if rim > self.coefficients[0] >= 0 else np.inf
 
 
+def _turned(theta):
+    """Return angles in one full turn from 0 on; those that rounding has put before 0 are 0."""
+    return np.mod(np.where(np.abs(theta) <= gamma(16), 0.0, theta), FULL_TURN)
+
+
 def _turns(coefficients, corner: float):
     """Return the radii inside (0, corner) where theta turns back, from the axis out; 0 where it is constant."""
     slope = np.polynomial.Polynomial(coefficients).deriv()
     if not slope.coef.any():
         return np.zeros(1)
-    roots = slope.roots()
-    real = roots.real[np.abs(roots.imag) <= 1e-9 * np.abs(roots)]
-    edges = np.concatenate(([0.0], np.sort(real[(real > 0) & (real < corner)]), [corner]))
+    roots = positive_roots(slope)
+    edges = np.concatenate(([0.0], roots[roots < corner], [corner]))
     signs = np.sign(slope((edges[1:] + edges[:-1]) / 2))
     return edges[1:-1][signs[1:] != signs[:-1]]
 

@@ -45,8 +45,8 @@ class Perspective(WindowModel):
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> Perspective:
         """Build it from lens, sensor and shift."""
-        size = Film.from_blender(raw, raster).size
-        return cls(raster.size, Window.from_blender(raw, raster, size / LENS.read(raw)))
+        film = Film.from_blender(raw, raster)
+        return cls(raster.size, Window.before_eye(raw, raster, film.size / LENS.read(raw), (LENS, film.sensor)))
 
     def rays(self, x, y):
         """Return origin and direction, each a tuple of three broadcastable arrays, camera frame, direction_z = -1.

@@ -42,7 +42,9 @@ FOLLOW = Flag(
 )
 
 BESIDE = 1e-9
-"""Fraction of a stretch of the path by which a column may lie beyond its end: rounding must not lose one at a joint."""
+"""Fraction of a stretch of the path by which a column may lie beyond its end, where no stretch holds it: rounding must
+not lose one at a joint.
+"""
 
 PIECES = 64
 """Parts of the path that are looked at apart for the bounds of a sphere."""
@@ -110,10 +112,11 @@ class Strip(Model):
         a quadratic in the place on it, is zero: solved without iteration, right to some EPS of the place.
         """
         points = np.asarray(points, np.float64)
-        x = np.full(points.shape[:-1], np.nan)
+        x, least = np.full(points.shape[:-1], np.nan), np.full(points.shape[:-1], np.inf)
         for k in reversed(range(len(self.columns) - 1)):
-            part = self._first_on_stretch(points, k)
-            seen = ~np.isnan(part)
+            part, beyond = self._first_on_stretch(points, k)
+            seen = ~np.isnan(part) & (beyond <= least)
+            least[seen] = beyond[seen]
             x[seen] = self.columns[k] + part[seen] * (self.columns[k + 1] - self.columns[k])
         eye, ahead_x, ahead_z = self._at(x)
         depth = (points[..., 0] - eye[0]) * ahead_x + (points[..., 2] - eye[2]) * ahead_z
@@ -159,20 +162,24 @@ class Strip(Model):
         return eye, normal_z / size, -normal_x / size
 
     def _first_on_stretch(self, points, k):
-        """Return the lowest place 0 .. 1 on stretch k whose column sees the points, NaN where none does."""
+        """Return the lowest place 0 .. 1 on stretch k whose column sees the points, NaN where none does, and how far
+        beyond the stretch it was before it was put on its end.
+        """
         eye, step = self.eyes[k], self.eyes[k + 1] - self.eyes[k]
         normal, turn = self.normals[k], self.normals[k + 1] - self.normals[k]
         c, b, a = _crossing(points, eye, step, normal, turn)
-        first = np.full(points.shape[:-1], np.nan)
+        first, beyond = np.full(points.shape[:-1], np.nan), np.full(points.shape[:-1], np.inf)
         with np.errstate(invalid="ignore", divide="ignore"):  # no root, or one at infinity: NaN and inf are answers
             root = -(b + np.copysign(np.sqrt(b * b - 4 * a * c), b)) / 2
             for place in (root / a, c / root):
-                inside = (place >= -BESIDE) & (place <= 1 + BESIDE)
-                place = np.clip(place, 0.0, 1.0)
+                free, place = place, np.clip(place, 0.0, 1.0)
+                off = np.abs(free - place)
                 beside_x, _, beside_z = components(points - (eye + place[..., None] * step))
                 ahead = (normal[1] + place * turn[1]) * beside_x - (normal[0] + place * turn[0]) * beside_z
-                first = np.where(inside & (ahead > 0), np.fmin(first, place), first)
-        return first
+                lower = (off < beyond) | ((off == beyond) & (place < first))
+                better = (off <= BESIDE) & (ahead > 0) & lower
+                first, beyond = np.where(better, place, first), np.where(better, off, beyond)
+        return first, beyond
 
 
 def _crossing(points, eye, step, normal, turn):

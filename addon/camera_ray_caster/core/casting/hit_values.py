@@ -5,17 +5,20 @@ Each is worked out when a pass first asks for it, once for all passes of a block
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Callable
+from typing import Any, TypeVar
 
 import numpy as np
 
 from ..errors.hits import HitErrors
 from ..maths.speed import Scratch, lazy
 from ..maths.vector import dot, inner, is_lattice, is_one, linear, matvec, norm
-from ..shapes.kind import HitPixels
+from ..shapes.kind import HitPixels, Kind
 from ..shapes.kinds import by_kind
 from .hits import Hits
 from .plan import Plan
+
+T = TypeVar("T")
 
 ZERO = np.zeros((3, 1, 1))
 """The term that adds nothing."""
@@ -129,15 +132,35 @@ class HitValues:
             np.copyto(normal, 0.0, where=self.hits.missed)
         return normal
 
+    def by_kind(self, of: Callable[[Kind, HitPixels], T]) -> list[tuple[np.ndarray, T]]:
+        """Return, for each kind that is seen, where it is, (rows, columns) bool, and what a function gives there."""
+        seen = self.pixels(self.hits.seen)
+        parts = ((kind, seen.only(some)) for kind, some in by_kind(self.plan.shapes.kind[seen.at]))
+        return [(pixels.where, of(kind, pixels)) for kind, pixels in parts]
+
     @lazy
     def uv(self) -> list[tuple[np.ndarray, tuple[np.ndarray, np.ndarray]]]:
         """The surfaces' own coordinates, kind by kind: where one is hit, (rows, columns) bool, and u and v there."""
-        seen = self.pixels(self.hits.seen)
-        found = []
-        for kind, some in by_kind(self.plan.shapes.kind[seen.at]):
-            pixels = seen.only(some)
-            found.append((pixels.where, kind.uv(self.plan.in_camera, pixels, self._at(pixels, self.point))))
-        return found
+        return self.by_kind(lambda kind, pixels: kind.uv(self.plan.in_camera, pixels, self._at(pixels, self.point)))
+
+    @property
+    def from_edge(self) -> list[tuple[np.ndarray, np.ndarray]]:
+        """How far from the edges of faces without uv the hits are, kind by kind: see ``Kind.from_edge``."""
+        return self.by_kind(
+            lambda kind, pixels: kind.from_edge(self.plan.in_camera, pixels, self._at(pixels, self.point))
+        )
+
+    @lazy
+    def material(self) -> np.ndarray:
+        """The rows of the hit materials in the plan's tables, (rows, columns) intp."""
+        slots = self.plan.shapes.slots
+        if slots is None:
+            return self.index
+        row = self.index.copy()
+        for where, slot in self.by_kind(lambda kind, pixels: kind.slot(self.plan.in_camera, pixels)):
+            first = slots.first[row[where]]
+            row[where] = np.where(first < 0, row[where], len(slots.first) + first + slot)
+        return row
 
     @lazy
     def errors(self) -> HitErrors:

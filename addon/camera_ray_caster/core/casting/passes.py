@@ -1,12 +1,12 @@
 """The passes of a picture: what each stores, for a tile of hits. A new pass is one function and one row in PASSES.
 
-Where a ray hits nothing depth and distance are inf, shape_index is -1, combined the world's color, all others 0;
-a pixel without a ray is the same with combined (0, 0, 0, 0) and valid False.
+Where a ray hits nothing depth and distance are inf, shape_index and face_index are -1, combined the world's color, all
+others 0; a pixel without a ray is the same with combined (0, 0, 0, 0) and valid False.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
 import numpy as np
@@ -78,12 +78,19 @@ def object_index(values: HitValues, out):
 
 def material_index(values: HitValues, out):
     """Blender's pass index of the material."""
-    values.look_up(values.plan.material_index, out)
+    np.take(values.plan.material_index, values.material, mode="wrap", out=out)
 
 
 def shape_index(values: HitValues, out):
     """The row of the shape in ``Shapes``, instances apart."""
     out[...] = values.hits.index
+
+
+def face_index(values: HitValues, out):
+    """The polygon of the evaluated mesh, -1 where no mesh is hit."""
+    out[...] = -1
+    for where, polygon in values.by_kind(lambda kind, pixels: kind.polygon(values.plan.in_camera, pixels)):
+        out[where] = polygon
 
 
 def valid(values: HitValues, out):
@@ -147,6 +154,7 @@ PASSES = {
     "object_index": Pass(object_index, 0, np.int32),
     "material_index": Pass(material_index, 0, np.int32),
     "shape_index": Pass(shape_index, 0, np.int32),
+    "face_index": Pass(face_index, 0, np.int32),
     "valid": Pass(valid, 0, np.bool_),
     "ray_origin": Pass(ray_origin, 3),
     "ray_direction": Pass(ray_direction, 3),
@@ -155,6 +163,12 @@ PASSES = {
     "normal_bound": Pass(normal_bound),
 }
 """Every pass by its name, in the order of the report."""
+
+
+def image_bytes(shape: tuple[int, int], passes: Iterable[str], dtype) -> int:
+    """Return how much memory the arrays of some passes take."""
+    sizes = (max(PASSES[name].channels, 1) * np.dtype(PASSES[name].dtype or dtype).itemsize for name in passes)
+    return shape[0] * shape[1] * sum(sizes)
 
 
 def store(hits: Hits, outs: dict[str, np.ndarray], where=None) -> None:

@@ -60,6 +60,14 @@ class PixelBounds:
         frame[endless] = (-np.inf, np.inf, -np.inf, np.inf)
         return self._in_plan(frame)
 
+    def least_t(self, centers: np.ndarray, radii: np.ndarray) -> np.ndarray:
+        """See ``shapes.kind.PixelBounds``."""
+        if self.camera.model.planar:
+            return -centers[:, 2] - radii
+        if self.camera.model.central and self.camera.is_rigid and not (self.sampled and self.camera.aperture):
+            return np.sqrt((centers * centers).sum(axis=1)) - radii
+        return np.full(len(radii), -np.inf)
+
     @property
     def has_straight_lines(self) -> bool:
         """See ``shapes.kind.PixelBounds``."""

@@ -46,10 +46,15 @@ class Plan:
         for kind, some in kinds.by_kind(self.shapes.kind[self.seen]):
             visible = Visible(
                 self.seen[some], self.bounds[some], self.near[some],
-                self.camera.clip_start, self.camera.clip_end, self.camera.parallel, self.request.real, self.pixels,
+                self.camera.clip_start, self.from_eye, self.camera.parallel, self.request.real, self.pixels,
             )  # fmt: skip
             sets.append(kind.shape_set(self.in_camera, visible))
         return tuple(sets)
+
+    @property
+    def from_eye(self) -> bool:
+        """Whether all rays leave the eye."""
+        return self.camera.model.central and not (self.request.sampled and self.camera.aperture)
 
     def at_pixels(self, columns: np.ndarray, rows: np.ndarray) -> Plan:
         """Return the plan of some of its pixels alone: of some columns and rows, (k,) and (l,) ascending."""
@@ -82,13 +87,15 @@ class Plan:
 
     @cached_property
     def material_index(self) -> np.ndarray:
-        """(n + 1,): the shapes' material indices, and 0 for what sees none."""
-        return np.append(self.shapes.material_index, np.int32(0))
+        """(n + s + 1,): the shapes' material indices, those of ``Slots``, and 0 for what sees none."""
+        slots = () if self.shapes.slots is None else self.shapes.slots.material_index
+        return np.concatenate((self.shapes.material_index, slots, [0])).astype(np.int32)
 
     @cached_property
     def colors(self) -> np.ndarray:
-        """(4, n + 1) float64: the shapes' colors, and transparent black for what sees none."""
-        return np.hstack((self.shapes.color.T, np.zeros((4, 1)))).astype(np.float64, order="C")
+        """(4, n + s + 1) float64: the shapes' colors, those of ``Slots``, and transparent black for what sees none."""
+        slots = np.zeros((4, 0)) if self.shapes.slots is None else self.shapes.slots.color.T
+        return np.hstack((self.shapes.color.T, slots, np.zeros((4, 1)))).astype(np.float64, order="C")
 
     @cached_property
     def normals(self) -> NormalTable:

@@ -31,9 +31,9 @@ def shade(values: HitValues, out: np.ndarray) -> None:
         light = np.add(light, shapes.world_color[channel], out=values.array("spare"))
         if grid is not None:
             np.multiply(light, grid, out=light)
-        surface = values.look_up(color[channel], "color")
+        surface = np.take(color[channel], values.material, mode="wrap", out=values.array("color"))
         np.multiply(surface, light, out=out[..., channel], casting="same_kind")
-    out[..., 3] = values.look_up(color[3], "color")
+    out[..., 3] = np.take(color[3], values.material, mode="wrap")
     if missed is not None:
         out[missed] = shapes.world_color
 
@@ -41,11 +41,12 @@ def shade(values: HitValues, out: np.ndarray) -> None:
 def _grid(values: HitValues) -> np.ndarray:
     """Return 1 between the lines and 0.15 on them."""
     shade = np.ones(values.hits.t.shape)
-    for where, uv in values.uv:
+    for (where, uv), (_, from_edge) in zip(values.uv, values.from_edge, strict=True):
         on_line = np.zeros(len(uv[0]), bool)
         for coordinate, cells in zip(uv, GRID_CELLS.values(), strict=True):
             offset = coordinate * cells
             on_line |= np.abs(offset - np.rint(offset)) < LINE_WIDTH / 2
+        on_line = np.where(from_edge < np.inf, from_edge < LINE_WIDTH / 2, on_line)
         shade[where] = np.where(on_line, 0.15, 1.0)
     return shade
 

@@ -9,8 +9,13 @@ import numpy as np
 
 
 def polar(matrices) -> tuple[np.ndarray, np.ndarray]:
-    """Return proper rotations and symmetric stretches (negative for mirrored matrices) whose products these are."""
+    """Return proper rotations and symmetric stretches (negative for mirrored matrices) whose products these are.
+
+    A flat matrix is not mirrored: of the two rotations that it leaves open it has the proper one.
+    """
     left, values, right = np.linalg.svd(matrices)
+    flat = values[:, 2] <= 4 * np.finfo(float).eps * values[:, 0]
+    left[flat, :, 2] *= np.sign(np.linalg.det(left[flat]) * np.linalg.det(right[flat]))[:, None]
     sign = np.where(np.linalg.det(left) * np.linalg.det(right) < 0, -1.0, 1.0)[:, None, None]
     return left @ right * sign, np.swapaxes(right, 1, 2) @ (values[:, :, None] * right) * sign
 

@@ -8,9 +8,10 @@ Source: numpy's manual, setbufsize.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from math import prod, sqrt
+from threading import Event, Lock
 from typing import Any, Generic, TypeVar, overload
 
 import numpy as np
@@ -69,6 +70,46 @@ class Scratch:
         if found is None or found.size < size:
             found = self._arrays[name, dtype] = np.empty(size, dtype)
         return found[:size].reshape(shape)
+
+
+class Shared(Generic[T]):
+    """Parts of a piece of work that threads share: who needs the results works on parts until none is left, and waits
+    for those that others have begun.
+    """
+
+    def __init__(self, parts: Sequence[Callable[[], T]]):
+        self._parts, self._next, self._lock = parts, iter(range(len(parts))), Lock()
+        self._results: list[T | None] = [None] * len(parts)
+        self._left, self._ended = len(parts), Event()
+        self._error: BaseException | None = None
+        if not parts:
+            self._ended.set()
+
+    def results(self) -> list[T]:
+        """Return what the parts return, in their order; raises what the first that failed has raised."""
+        while not self._ended.is_set():
+            with self._lock:
+                k = next(self._next, None)
+            if k is None:
+                self._ended.wait()
+                break
+            self._run(k)
+        if self._error is not None:
+            raise self._error
+        return self._results  # type: ignore[return-value]  # all are there
+
+    def _run(self, k: int) -> None:
+        try:
+            if self._error is None:
+                self._results[k] = self._parts[k]()
+        except BaseException as error:
+            self._error = error
+            raise
+        finally:
+            with self._lock:
+                self._left -= 1
+                if not self._left:
+                    self._ended.set()
 
 
 class lazy(Generic[T]):

@@ -20,6 +20,7 @@ import numpy as np
 from ..camera.camera import Camera
 from ..maths.rotations import polar, sine_and_angle
 from ..records import Shapes
+from .deformation import alike, changed, vertices
 from .interpolation import State, TimeInterval, matched
 
 PROBES = (0.381966, 0.618034)
@@ -142,16 +143,20 @@ def measure(motion: Motion, evaluate: Callable[[float], State], frames) -> float
 
 
 def _difference(state: State, truth: State) -> float:
-    """Return the largest distance in pixels between the images of the shapes' centers and ends of axes.
+    """Return the largest distance in pixels between the images of the shapes' centers and ends of axes, and of the
+    vertices of meshes that change their form.
 
     Shapes that the true camera does not see near its picture do not count; where their number differs it is infinite.
     """
     (camera, shapes), (true_camera, true_shapes) = state, truth
     if len(shapes) != len(true_shapes):
         return np.inf
+    deforming = changed(shapes, true_shapes) if alike(shapes.meshes, true_shapes.meshes) else np.zeros(0, int)
     with np.errstate(all="ignore"):
-        there = replace(true_camera, pixel_time=None, motion=None).project(_landmarks(true_shapes, true_camera))
-        here = replace(camera, pixel_time=None, motion=None).project(_landmarks(shapes, true_camera))
+        there = replace(true_camera, pixel_time=None, motion=None).project(
+            _landmarks(true_shapes, true_camera, deforming)
+        )
+        here = replace(camera, pixel_time=None, motion=None).project(_landmarks(shapes, true_camera, deforming))
     raster = true_camera.raster
     size = np.array([raster.width, raster.height])
     counts = (there >= -size).all(axis=-1) & (there <= 2 * size).all(axis=-1)
@@ -159,13 +164,15 @@ def _difference(state: State, truth: State) -> float:
     return float(np.where(np.isnan(apart), np.inf, apart).max(initial=0.0))
 
 
-def _landmarks(shapes: Shapes, camera: Camera) -> np.ndarray:
-    """Return the center and both ends of each axis, (7 n, 3); without shapes places before the camera."""
+def _landmarks(shapes: Shapes, camera: Camera, deforming: np.ndarray) -> np.ndarray:
+    """Return the center and both ends of each axis, and vertices of some rows, (n, 3); without shapes places before the
+    camera.
+    """
     if not len(shapes):
         return camera.pose.eye + (camera.pose.basis @ [[0, 3, 0], [0, 0, 3], [-10.0, -10.0, -10.0]]).T
     ends = np.swapaxes(shapes.axes, 1, 2)
     offsets = np.concatenate((np.zeros_like(ends[:, :1]), ends, -ends), axis=1)
-    return (shapes.center[:, None, :] + offsets).reshape(-1, 3)
+    return np.concatenate(((shapes.center[:, None, :] + offsets).reshape(-1, 3), vertices(shapes, deforming)))
 
 
 def _turn(before: State, after: State) -> float:

@@ -12,6 +12,7 @@ import numpy as np
 from ..camera.camera import Camera
 from ..maths.rotations import polar, rotation, rotation_vector
 from ..records import Pose, Shapes
+from .deformation import alike, deformed
 
 State = tuple[Camera, Shapes]
 """A scene as it was evaluated at one frame."""
@@ -47,7 +48,7 @@ class TimeInterval:
             return shapes[max(bisect_right(self.frames, frame) - 1, 0)]
         weights = self._weights(frame)
         center = _sum([one.center for one in shapes], weights)
-        return replace(shapes[0], center=center, axes=self._shape_axes.at(weights))
+        return deformed(replace(shapes[0], center=center, axes=self._shape_axes.at(weights)), shapes, weights)
 
     def at(self, frame: float) -> State:
         """Return both."""
@@ -107,6 +108,8 @@ def matched(before: Shapes, after: Shapes) -> bool:
         before.names == after.names
         and np.array_equal(before.kind, after.kind)
         and np.array_equal(before.name_index, after.name_index)
+        and np.array_equal(before.mesh, after.mesh)
+        and alike(before.meshes, after.meshes)
     )
 
 

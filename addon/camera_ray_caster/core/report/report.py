@@ -53,6 +53,10 @@ class Report:
     """The setting that hits were searched with; empty where nothing was cast."""
     accuracy: Accuracy = field(default_factory=Accuracy)
     """The error bounds of the hits."""
+    file_outputs: tuple[str, ...] = ()
+    """The paths of what the compositor's File Output nodes wrote."""
+    warnings: tuple[str, ...] = ()
+    """What the file asked for and was not done; a terminal shows them apart."""
 
     @property
     def rays_per_second(self) -> float | None:
@@ -145,6 +149,7 @@ def as_lines(report: Report) -> list[str]:
         *_second_lines(report),
         *_exact_lines(report),
         *_listed("Motion", report.motion),
+        *_listed("Written by File Output nodes", report.file_outputs),
         *_listed("Left out", [*report.not_done, *(f"{name!r}: {reason}" for name, reason in report.left_out)]),
     ]
 
@@ -167,11 +172,14 @@ def _finding_lines(report: Report) -> list[str]:
     columns = [f"{name:>9}" for name in ("worst px", "median", "bound", "worst rad", "median", "bound")]
     lines = ["", f"{'Witness':25} {'points':>7} " + " ".join(columns)]
     for finding in report.findings:
+        name = shorten(finding.witness, 23, placeholder="…")
+        if finding.not_compared:
+            lines.append(f"  {name:23} not compared: {finding.not_compared}")
+            continue
         errors = (
             finding.worst_pixels, finding.median_pixels, finding.bound_pixels,
             finding.worst_radians, finding.median_radians, finding.bound_radians,
         )  # fmt: skip
-        name = shorten(finding.witness, 23, placeholder="…")
         cells = " ".join(f"{error:9.1e}" for error in errors)
         lines.append(f"  {name:23} {finding.points:7} {cells} {'ok' if finding.passed else 'FAILED'}")
     return lines

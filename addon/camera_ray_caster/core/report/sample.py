@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Any, Protocol
 
 import numpy as np
 
-from ..records import Finding, Raster, Rays
+from ..records import Finding, Pose, Raster, Rays
 
 
 class CameraRays(Protocol):
@@ -20,8 +20,15 @@ class CameraRays(Protocol):
     def rays_at(self, x, y) -> Rays:
         """Return the world rays through pixel coordinates."""
 
+    @property
+    def pose(self) -> Pose:
+        """Where it stands."""
+
     def project(self, points) -> np.ndarray:
         """Return the pixel coordinates of world points."""
+
+    def pixel_rounding(self, x, y) -> tuple[Any, Any]:
+        """Return what rounding before a model's formula amounts to, in pixels; see ``Model``."""
 
 
 @dataclass(frozen=True)
@@ -66,6 +73,11 @@ def finding(name: str, errors, angles, bound_pixels, bound_radians, own) -> Find
         median_radians=float(np.median(angles)) if len(angles) else 0.0,
         bound_radians=largest(bound_radians) + own[1],
     )
+
+
+def not_compared(name: str, reason: str) -> Finding:
+    """Return the finding of a witness that has no answer."""
+    return Finding(name, 0, *6 * (float("nan"),), not_compared=reason)
 
 
 def largest(errors) -> float:

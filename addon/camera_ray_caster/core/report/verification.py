@@ -1,10 +1,12 @@
 """A camera's rays compared with witnesses: errors in pixels and radians, beside the bound that each witness can reach.
 
-It knows a camera by its public ``rays_at``, ``project`` and ``raster`` alone and no model's formula. Blender's own
-answers are the witnesses of ``report.witness``; the round trip needs none:
+It knows a camera by its public ``rays_at``, ``project``, ``raster`` and ``pose`` and by what its model says of its
+rounding, and no model's formula. Blender's own answers are the witnesses of ``report.witness``; the round trip needs
+none:
 
-round trip             float64: what moving the point by 32 EPS (|origin| + |point|) does to its pixel. It is our own
-                       rounding, so it is added to every other bound.
+round trip             float64: what moving the point by 32 EPS (|eye| + |origin| + |point|) does to its pixel, and what
+                       the model rounds away of a pixel, there and back. It is our own rounding, so it is added to every
+                       other bound.
 """
 
 from __future__ import annotations
@@ -27,6 +29,12 @@ STEP = 2.0**-4
 ENLARGED = 2.0**15
 """How many times its rounding a point is moved to see what the rounding does to its pixel."""
 
+MOVES = ENLARGED, 2.0**5
+"""The second where pixels turn so fast that the first would leave what is straight."""
+
+PART = 0.38
+"""Of the way to another pixel that sees a point: no simple fraction, or rays might have turned all the way round."""
+
 
 def verify(camera: CameraRays, witness: Witness | None = None, grid: int = GRID) -> list[Finding]:
     """Return what each witness says of the camera's rays, at ``grid`` x ``grid`` pixels of the render window.
@@ -48,31 +56,42 @@ def _round_trip(camera: CameraRays, sample: Sample) -> tuple[tuple[Any, Any], Fi
 
     A point that several pixels see may come back to another one: where the ray of that one meets it, it is left out.
     """
-    keep = sample.valid & ~_seen_elsewhere(camera, sample)
-    pixels, points, directions = sample.pixels[keep], sample.points[keep], sample.directions[keep]
+    valid = sample.valid
+    pixels, points, directions = sample.pixels[valid], sample.points[valid], sample.directions[valid]
     back = camera.project(points)
     again = camera.rays_at(back[:, 0], back[:, 1]).directions
-    moved = _moved(sample)[keep]
-    bound = np.zeros(len(points))
+    moved = _moved(camera, sample)[valid]
+    bound = np.broadcast_to(2 * np.hypot(*camera.pixel_rounding(*pixels.T)), len(points)).copy()
     for side in np.eye(3):
-        step = (ENLARGED * moved)[:, None] * side
-        slips = [length_of(camera.project(points + near) - back) for near in (step, -step)]
-        bound += np.fmax(*slips) / ENLARGED  # at the picture's rim one of the two has no pixel
+        slips = []
+        for times in MOVES:
+            step = (times * moved)[:, None] * side
+            slips += [length_of(camera.project(points + near) - back) / times for near in (step, -step)]
+        bound += np.fmax.reduce(slips)  # at the picture's rim some have no pixel
     steps = STEP * np.concatenate((np.eye(2), -np.eye(2)))
     turns = [angles_between(camera.rays_at(*(pixels + step).T).directions, directions) for step in steps]
     turned = np.fmax.reduce(turns) / STEP * bound + gamma(32)
+    near = ENLARGED * moved + sample.distance * np.nan_to_num(turned)
+    turned[np.isnan(turned)] = np.pi  # no neighbor has a ray: the error in pixels says it all
     own = largest(bound), largest(turned)
-    return own, finding("round trip", back - pixels, angles_between(again, directions), bound, turned, (0.0, 0.0))
+    keep = ~_seen_elsewhere(camera, pixels, points, back, near)
+    errors, angles = (back - pixels)[keep], angles_between(again, directions)[keep]
+    return own, finding("round trip", errors, angles, bound[keep], turned[keep], (0.0, 0.0))
 
 
-def _seen_elsewhere(camera: CameraRays, sample: Sample):
-    """Return which points come back to another pixel whose ray meets them too."""
-    back = camera.project(sample.points)
-    rays = camera.rays_at(back[:, 0], back[:, 1])
-    beside = length_of(np.cross(sample.points - rays.origins, rays.directions))
-    return (length_of(back - sample.pixels) > 1) & (beside <= ENLARGED * _moved(sample))
+def _seen_elsewhere(camera: CameraRays, pixels, points, back, near):
+    """Return which points come back to another pixel whose ray comes as near to them: farther than the next pixel, or
+    with rays between them that do not.
+    """
+
+    def is_met(part: float):
+        rays = camera.rays_at(*(pixels + part * (back - pixels)).T)
+        return length_of(np.cross(points - rays.origins, rays.directions)) <= near
+
+    return is_met(1.0) & ((length_of(back - pixels) > 1) | ~is_met(PART))
 
 
-def _moved(sample: Sample):
+def _moved(camera: CameraRays, sample: Sample):
     """Return how far rounding may move each point, (n,)."""
-    return gamma(32) * (np.abs(sample.origins).sum(axis=1) + np.abs(sample.points).sum(axis=1))
+    places = camera.pose.eye[None], sample.origins, sample.points
+    return gamma(32) * sum(np.abs(place).sum(axis=1) for place in places)

@@ -12,6 +12,7 @@ world_to_camera_view   the local point: axes normalized 5, cofactors 2, determin
                        the point given as float32 1, and axes tilted by their rounding 2: 21 (|eye| + |point|) / det^2,
                        det the volume of the unit axes (1 unless sheared), sums of magnitudes; seen at its depth.
                        Its frame: 6 as above and 2 for scaling it to the depth: 8 M; 1 for the result.
+A witness whose own arithmetic has overflowed, or lost its digits below float32's least number, is not compared.
 Reference for the operations: Blender's camera.cc, mathutils and bpy_extras; see Higham (conventions.gamma) for sums.
 """
 
@@ -24,7 +25,13 @@ import numpy as np
 
 from ..conventions import EPS32, gamma
 from ..records import Finding
-from .sample import CameraRays, Sample, angles_between, finding, length_of
+from .sample import CameraRays, Sample, angles_between, finding, length_of, not_compared
+
+NOT_CARRIED = "Blender's own float32 does not carry these numbers"
+
+LEAST = float(np.finfo(np.float32).tiny)
+"""Below it a float32 has fewer digits."""
+FRAME, MATRIX, VIEW = "view_frame", "calc_matrix_camera", "world_to_camera_view"
 
 
 class Witness(Protocol):
@@ -36,7 +43,7 @@ class Witness(Protocol):
     matrix: np.ndarray
 
     def view_coordinates(self, points: np.ndarray) -> np.ndarray:
-        """Return where in the view the camera sees world points, (n, 3)."""
+        """Return where in the view the camera sees world points, (n, 3); NaN where its arithmetic has failed."""
 
 
 def findings_of(camera: CameraRays, sample: Sample, witness: Witness, own) -> list[Finding]:
@@ -44,8 +51,10 @@ def findings_of(camera: CameraRays, sample: Sample, witness: Witness, own) -> li
 
     own: what our own rounding does to a round trip, in pixels and radians.
     """
-    local = _Local.of(witness)
     with np.errstate(all="ignore"):  # a wrong ray may pass beside the frame's plane, or a bound exceed float64
+        local = _Local.of(witness)
+        if not local.is_carried:
+            return [not_compared(name, NOT_CARRIED) for name in (FRAME, MATRIX, VIEW)]
         return [_view_frame(camera, local, own), _matrix(sample, local, own), _view_coordinates(sample, local, own)]
 
 
@@ -85,6 +94,12 @@ class _Local:
         )
 
     @property
+    def is_carried(self) -> bool:
+        """Whether frame and matrix are numbers in which float32 has all its digits."""
+        answers = self.witness.frame, self.witness.matrix, self.witness.matrix_world
+        return all(np.isfinite(answer).all() for answer in answers) and bool((self.reach >= LEAST).all())
+
+    @property
     def condition(self) -> float:
         return float(np.linalg.cond(self.axes))
 
@@ -119,9 +134,7 @@ def _view_frame(camera: CameraRays, local: _Local, own) -> Finding:
     rounding = gamma(6, EPS32) * local.reach
     aim = np.broadcast_to((0.0, 0.0, -1.0), expected.shape) if local.parallel else expected
     turned = local.direction_bound(aim, rounding)
-    return finding(
-        "view_frame", errors, local.angles(rays.directions, aim), np.hypot(*(rounding / local.pitch)), turned, own
-    )
+    return finding(FRAME, errors, local.angles(rays.directions, aim), np.hypot(*(rounding / local.pitch)), turned, own)
 
 
 def _matrix(sample: Sample, local: _Local, own) -> Finding:
@@ -136,7 +149,7 @@ def _matrix(sample: Sample, local: _Local, own) -> Finding:
     rounding = gamma(18, EPS32) * local.reach
     turned = local.direction_bound(expected, rounding)
     angles = local.angles(sample.directions, expected)
-    return finding("calc_matrix_camera", errors, angles, np.hypot(*(rounding / local.pitch)), turned, own)
+    return finding(MATRIX, errors, angles, np.hypot(*(rounding / local.pitch)), turned, own)
 
 
 def _view_coordinates(sample: Sample, local: _Local, own) -> Finding:
@@ -147,10 +160,11 @@ def _view_coordinates(sample: Sample, local: _Local, own) -> Finding:
         pixels, start, lost_at_start, _ = _view(local, sample.origins)
         errors = np.concatenate((errors, pixels - sample.pixels))
         path, lost = path - start, lost + lost_at_start
+    answered = np.isfinite(errors).reshape(-1, *sample.pixels.shape).all(axis=(0, 2))
     turned = local.condition * length_of(lost) / length_of(path)
-    return finding(
-        "world_to_camera_view", errors, local.angles(sample.directions, path), length_of(lost_pixels), turned, own
-    )
+    if (np.isfinite(sample.points).all(axis=1) & ~(answered & np.isfinite(turned))).any():
+        return not_compared(VIEW, NOT_CARRIED)
+    return finding(VIEW, errors, local.angles(sample.directions, path), length_of(lost_pixels), turned, own)
 
 
 def _view(local: _Local, points):

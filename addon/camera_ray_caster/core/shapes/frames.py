@@ -14,6 +14,9 @@ from ..conventions import gamma
 from ..maths.vector import cross, dot, matrix_rows, matvec, norm
 from ..records import Pose, Shapes
 
+MARGIN = 1 + 1e-9
+"""Widens what holds a shape: rounding moves its edge by 1e-12 of its size at most."""
+
 
 @dataclass(frozen=True, eq=False)
 class InCamera:

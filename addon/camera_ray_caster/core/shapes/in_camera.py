@@ -8,7 +8,7 @@ from ..conventions import EPS, gamma
 from ..maths.exact import solve, two_sum
 from ..maths.vector import cross, dot, inverse, norm
 from ..records import InputError, Pose, Shapes
-from .frames import InCamera
+from .frames import MARGIN, InCamera
 from .kinds import by_kind
 
 SIZES = 1e-152, 1e152
@@ -19,9 +19,6 @@ SKEW = 32.0
 
 FLAT = 1e13
 """Beyond this skewness axes cannot be told from ones in one plane."""
-
-MARGIN = 1 + 1e-9
-"""Widens what holds a shape: rounding moves its edge by 1e-12 of its size at most."""
 
 
 def in_camera(shapes: Shapes, pose: Pose) -> InCamera:

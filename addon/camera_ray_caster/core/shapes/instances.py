@@ -37,11 +37,12 @@ def points_primitive(positions: np.ndarray, radii: np.ndarray) -> Primitive:
 
 
 def enclosing_primitive(kind: int, vertices: np.ndarray) -> Primitive:
-    """Return the sphere or plane that encloses a mesh which is neither, from its vertices, (n, 3).
+    """Return the sphere or plane that encloses a mesh which is neither, from its vertices, (n, 3), all finite.
 
     A sphere stands in the middle of their bounding box and reaches the farthest of them. A plane is their bounding
     rectangle in the object's XY, at their mean z.
     """
+    vertices = vertices.astype(np.float64)  # the squares of a float32 may be none
     low, high = vertices.min(axis=0), vertices.max(axis=0)
     center = (low + high) / 2
     if kind == SPHERE:

@@ -33,6 +33,9 @@ class PixelBounds(Protocol):
         A radius may be infinite.
         """
 
+    def least_t(self, centers: np.ndarray, radii: np.ndarray) -> np.ndarray:
+        """Return no more than the least t of each ball, (n,); -inf where it is not known."""
+
     @property
     def has_straight_lines(self) -> bool:
         """Whether what lies between corners is seen between their images, so that ``of_corners`` may be asked."""
@@ -60,7 +63,8 @@ class Visible:
     near: np.ndarray
     """(k,): the least t that each may have, -inf where that is not known."""
     clip_start: float
-    clip_end: float
+    from_eye: bool
+    """Whether all rays leave the eye."""
     parallel: Any
     """The direction that all rays have, three numbers in the camera frame; None where they differ."""
     real: type
@@ -207,6 +211,12 @@ class Kind(ABC):
     @abstractmethod
     def uv(self, shapes: InCamera, pixels: HitPixels, point: Any) -> tuple[np.ndarray, np.ndarray]:
         """Return u and v, (m,) each, of hit points given as components relative to the eye, world."""
+
+    def from_edge(self, shapes: InCamera, pixels: HitPixels, point: Any) -> np.ndarray:
+        """Return how far hit points are from the nearest edge of their faces, (m,), as a part of the height of the
+        triangle beside it; inf, as by default, on surfaces that have a uv map.
+        """
+        return np.full(len(pixels.at), np.inf)
 
     def polygon(self, shapes: InCamera, pixels: HitPixels) -> np.ndarray:
         """Return the face of the mesh that is hit, (m,) int32; by default there is none, -1."""

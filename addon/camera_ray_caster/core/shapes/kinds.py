@@ -7,10 +7,11 @@ from collections.abc import Iterator
 import numpy as np
 
 from .kind import Kind
+from .mesh import MESHES
 from .plane import INFINITE_PLANES, PLANES
 from .sphere import SPHERES
 
-KINDS: tuple[Kind, ...] = (SPHERES, PLANES, INFINITE_PLANES)
+KINDS: tuple[Kind, ...] = (SPHERES, PLANES, INFINITE_PLANES, MESHES)
 """Every kind, in the order of the report."""
 
 

@@ -17,10 +17,10 @@ def pixels_in(bounds: np.ndarray) -> np.ndarray:
 def in_tile(bounds: np.ndarray, corner: tuple[int, int], shape: tuple[int, int]) -> tuple[np.ndarray, np.ndarray]:
     """Return which of some bounds (n, 4) have a part in a tile, (k,), and these parts in the tile's pixels, (k, 4)."""
     (left, low), (high, wide) = corner, shape
-    edges = np.maximum(bounds - np.array((left, left, low, low)), 0)
-    np.minimum(edges, np.array((wide, wide, high, high)), out=edges)
-    here = np.flatnonzero((edges[:, 0] < edges[:, 1]) & (edges[:, 2] < edges[:, 3]))
-    return here, edges[here]
+    x0, x1, y0, y1 = bounds.T
+    here = np.flatnonzero((x1 > left) & (x0 < left + wide) & (y1 > low) & (y0 < low + high))
+    edges = np.maximum(bounds[here] - np.array((left, left, low, low), bounds.dtype), 0)
+    return here, np.minimum(edges, np.array((wide, wide, high, high), bounds.dtype), out=edges)
 
 
 def batches(bounds: np.ndarray, most: int = tuning.BATCH_PIXELS) -> Iterator[np.ndarray]:

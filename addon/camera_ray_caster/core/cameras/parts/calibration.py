@@ -14,7 +14,7 @@ from reprlib import repr as shortened
 
 from ...records import BlenderCamera, InputError, Raster
 from .filestorage import read_entries
-from .film import Window
+from .film import FARTHEST_PIXELS, Window
 from .settings import FilePath, Number, Setting, Whole
 
 FOCAL = (
@@ -23,10 +23,14 @@ FOCAL = (
 )
 CENTER = (
     Number(
-        "cx", "Center X", "From the center of the top left pixel, to the right", 959.5, -1e6, unit="pixels", digits=3
+        "cx", "Center X", "From the center of the top left pixel, to the right",
+        959.5, -1e6, FARTHEST_PIXELS, unit="pixels", digits=3,
     ),
-    Number("cy", "Y", "From the center of the top left pixel, down", 539.5, -1e6, unit="pixels", digits=3),
-)
+    Number(
+        "cy", "Y", "From the center of the top left pixel, down",
+        539.5, -1e6, FARTHEST_PIXELS, unit="pixels", digits=3,
+    ),
+)  # fmt: skip
 SIZE = (
     Whole("calibration_width", "Width", "Of the calibrated picture, pixels; 0 is the frame's", 1920, 0, unit="pixels"),
     Whole(
@@ -121,6 +125,10 @@ def _file_values(path: str, distortion: tuple[Setting, ...]) -> dict[str, float]
         raise InputError(
             f"the camera matrix in {path!r} is {shortened(matrix)}: "
             "it must be fx 0 cx, 0 fy cy, 0 0 1, with fx and fy above 0"
+        )
+    if max(map(abs, (matrix[2], matrix[5]))) > FARTHEST_PIXELS:
+        raise InputError(
+            f"the camera matrix in {path!r} is {shortened(matrix)}: cx and cy must be up to {FARTHEST_PIXELS:.0f}"
         )
     found = _numbers(entries, DISTORTION_NAMES, path)
     if any(found[len(names) :]):

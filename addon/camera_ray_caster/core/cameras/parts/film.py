@@ -2,16 +2,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
 
 from ...records import BlenderCamera, InputError, Raster
-from .settings import ABOVE_ZERO, CAMERA, RENDER, Choice, Item, Number
+from .settings import ABOVE_ZERO, CAMERA, RENDER, Choice, Item, Number, farthest_from_one
 
 BORDER = "border_min_x", "border_max_x", "border_min_y", "border_max_y"
 FARTHEST_SHIFT = 1e6
-"""Frames: beyond that a pixel of the frame is no longer told from its neighbor in float32."""
+"""Frames: farther than any frame may be shifted."""
+FARTHEST_PIXELS = 2.0**24
+"""Pixels from the axis, beyond which float32, which is what Blender has, tells no pixel from its neighbor."""
+STEEPEST = 2.0**30
+"""Over its depth, how far from the axis a ray may lead: float32 does not tell it from the image plane by far, and
+float64 soon no more.
+"""
 
 
 LENS = Number("lens", "Focal Length", "From the eye to the film", 50.0, ABOVE_ZERO, unit="mm", owner=CAMERA)
@@ -94,6 +101,21 @@ def _border(low: float, high: float, size: int) -> tuple[int, int]:
     return int(np.float32(low) * np.float32(size)), int(np.float32(high) * np.float32(size))
 
 
+def check_slope(raw: BlenderCamera, slope: float, numbers: Iterable[Number]) -> None:
+    """Raise InputError for a ray's slope beyond STEEPEST, with the number that is farthest from 1."""
+    if not slope <= STEEPEST:
+        said = farthest_from_one({one.name: one.read(raw) for one in (*numbers, *SHIFT)})
+        raise InputError(
+            f"the frame of camera {raw.name!r} looks along the image plane, to {slope:.3g} times the depth: {said}, "
+            "too large or too small for the rest"
+        )
+
+
+def _shift(shift: Number, raw: BlenderCamera, unit: float) -> float:
+    """Return a shift that counts in so many pixels. Raises InputError where it comes to more than FARTHEST_PIXELS."""
+    return shift.read(raw, -FARTHEST_PIXELS / unit, FARTHEST_PIXELS / unit)
+
+
 @dataclass(frozen=True)
 class Film:
     """The sensor as Blender fits it to the frame: which side counts, how long it is, and the shift.
@@ -107,17 +129,19 @@ class Film:
     """Length of the fitted side, mm."""
     fitted_pixels: float
     """The fitted side in pixel widths."""
+    sensor: Number
+    """The setting that the length is from."""
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> Film:
         """Fit the sensor; InputError names a sensor fit or size without meaning."""
         height = raster.height * raster.pixel_aspect
-        size, fitted_pixels = {
+        sensor, fitted_pixels = {
             "HORIZONTAL": (SENSOR_WIDTH, raster.width),
             "VERTICAL": (SENSOR_HEIGHT, height),
             "AUTO": (SENSOR_WIDTH, max(raster.width, height)),
         }[SENSOR_FIT.read(raw)]
-        return cls(size.read(raw), float(fitted_pixels))
+        return cls(sensor.read(raw), float(fitted_pixels), sensor)
 
 
 @dataclass(frozen=True)
@@ -137,13 +161,24 @@ class Window:
     def from_blender(cls, raw: BlenderCamera, raster: Raster, fitted_length: float) -> Window:
         """Return the window in which the fitted side of the film has this length on the image plane."""
         fitted_pixels = Film.from_blender(raw, raster).fitted_pixels
+        fitted_height = fitted_pixels / raster.pixel_aspect
         pitch = fitted_length / fitted_pixels
         return cls(
-            raster.width / 2 - raw.shift_x * fitted_pixels,
-            raster.height / 2 - raw.shift_y * fitted_pixels / raster.pixel_aspect,
+            raster.width / 2 - _shift(SHIFT_X, raw, fitted_pixels) * fitted_pixels,
+            raster.height / 2 - _shift(SHIFT_Y, raw, fitted_height) * fitted_height,
             pitch,
             pitch * raster.pixel_aspect,
         )
+
+    @classmethod
+    def before_eye(cls, raw: BlenderCamera, raster: Raster, fitted_length: float, numbers: Iterable[Number]) -> Window:
+        """Return the window of a pinhole, with the length at depth 1, which follows from these numbers.
+
+        Raises InputError for a frame that reaches beyond STEEPEST.
+        """
+        window = cls.from_blender(raw, raster, fitted_length)
+        check_slope(raw, float(np.abs(window.extent(raster.size)).max()), numbers)
+        return window
 
     @classmethod
     def over_frame(cls, raw: BlenderCamera, raster: Raster, x_range, y_range) -> Window:
@@ -153,8 +188,8 @@ class Window:
         """
         (left, right), (bottom, top) = x_range, y_range
         return cls(
-            raster.width * (-left / (right - left) - raw.shift_x),
-            raster.height * (-bottom / (top - bottom) - raw.shift_y),
+            raster.width * (-left / (right - left) - _shift(SHIFT_X, raw, raster.width)),
+            raster.height * (-bottom / (top - bottom) - _shift(SHIFT_Y, raw, raster.height)),
             (right - left) / raster.width,
             (top - bottom) / raster.height,
         )

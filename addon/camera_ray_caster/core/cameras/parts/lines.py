@@ -39,7 +39,8 @@ ROUNDING = 16 * EPS32
 def points_in_camera(raw: BlenderCamera, line: Line, choose: str) -> np.ndarray:
     """Return the points of the object of a setting in the camera's frame, (n, 3), right to some EPS of their place.
 
-    Raises InputError, which ends in what to choose, where there is no object, or one of no finite place.
+    Raises InputError, which ends in what to choose, where there is no object, and for one of no finite place or too far
+    away for its size.
     """
     given: Any = line.given(raw)
     if given is None:
@@ -51,7 +52,14 @@ def points_in_camera(raw: BlenderCamera, line: Line, choose: str) -> np.ndarray:
     points, matrix = (np.asarray(part, np.float64) for part in given[:2])
     if not (np.isfinite(points).all() and np.isfinite(matrix).all()):
         raise InputError(f"{line.name} of camera {raw.name!r} has no finite place: clear its object's transform")
-    return (points @ matrix[:3, :3].T + (matrix[:3, 3] - pose.eye)) @ np.linalg.inv(pose.basis).T
+    points, away = points @ matrix[:3, :3].T, matrix[:3, 3] - pose.eye
+    size, far = np.ptp(points, axis=0).max() if len(points) else 0.0, np.abs(away).max()
+    if 0 < size <= EPS32 * far:
+        raise InputError(
+            f"{line.name} of camera {raw.name!r} is {size:.3g} long and {far:.3g} away, where float32 does not tell "
+            "its ends apart: bring it and the camera together"
+        )
+    return (points + away) @ np.linalg.inv(pose.basis).T
 
 
 def slit_from(raw: BlenderCamera, slit: Line = SLIT) -> tuple[np.ndarray, np.ndarray]:

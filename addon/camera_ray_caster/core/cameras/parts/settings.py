@@ -243,6 +243,12 @@ def span(
     return first, last
 
 
+def farthest_from_one(numbers: dict[str, float]) -> str:
+    """Return, for a message, the number that is farthest from 1 in its magnitude, with its name; 0 is none."""
+    name, value = max(numbers.items(), key=lambda item: abs(math.log(abs(item[1]))) if item[1] else 0.0)
+    return f"{name} is {value:.6g}"
+
+
 def values_of(settings: Iterable[Setting], raw: BlenderCamera) -> dict[str, Any]:
     """Return the values that a record has of some settings, by name; see ``Setting.reported``."""
     return {setting.name: setting.reported(raw) for setting in settings}

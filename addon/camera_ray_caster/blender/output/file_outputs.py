@@ -1,0 +1,74 @@
+"""The compositor's File Output nodes, which write where the file says: only where the user lets them."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+
+
+def writing(scene) -> list:
+    """Return the File Output nodes that a render of the scene runs, those of node groups too."""
+    if not scene.render.use_compositing:
+        return []
+    from_5_0 = hasattr(scene, "compositing_node_group")
+    trees = [scene.compositing_node_group if from_5_0 else scene.node_tree if scene.use_nodes else None]
+    found = []
+    for tree in trees:  # which grows
+        nodes = [node for node in tree.nodes if not node.mute] if tree is not None else []
+        found += [node for node in nodes if node.type == "OUTPUT_FILE"]
+        trees += [node.node_tree for node in nodes if node.type == "GROUP" and node.node_tree not in trees]
+    return found
+
+
+@contextmanager
+def muted(nodes: Sequence) -> Iterator[None]:
+    """Keep nodes from doing anything."""
+    for node in nodes:
+        node.mute = True
+    try:
+        yield
+    finally:
+        for node in nodes:
+            node.mute = False
+
+
+def files(scene, nodes: Sequence) -> dict[Path, tuple]:
+    """Return what is in the folders into which nodes write, each file with what changes when it is written."""
+    found = {}
+    for folder in {folder for node in nodes for folder in _folders(scene, node)}:
+        if folder.is_dir():
+            with os.scandir(folder) as entries:
+                for entry in entries:
+                    if entry.is_file():
+                        stat = entry.stat()
+                        found[folder / entry.name] = stat.st_ino, stat.st_mtime_ns, stat.st_size
+    return found
+
+
+def changed(before: Mapping[Path, tuple], after: Mapping[Path, tuple]) -> tuple[str, ...]:
+    """Return the paths of the files that have been written between two times."""
+    return tuple(sorted(str(path) for path, state in after.items() if before.get(path) != state))
+
+
+def _folders(scene, node) -> set[Path]:
+    """Return the folders of a node's files, as Blender makes paths of what the node says."""
+    if hasattr(node, "directory"):  # from 5.0 on
+        names = ["", *(item.name for item in node.file_output_items)]
+        paths = [os.path.join(node.directory, node.file_name + name) for name in names]
+    elif node.format.file_format == "OPEN_EXR_MULTILAYER":
+        paths = [node.base_path]
+    else:
+        paths = [os.path.join(node.base_path, slot.path) for slot in node.file_slots]
+    kept, folders = scene.render.filepath, set()
+    for path in paths:
+        try:
+            scene.render.filepath = path.replace("{node_name}", re.sub(r"[/\\]", "_", node.name))
+            folders.add(Path(scene.render.frame_path(frame=scene.frame_current)).absolute().parent)
+        except RuntimeError:  # a word in braces that Blender does not know: it writes nothing then
+            continue
+        finally:
+            scene.render.filepath = kept
+    return folders

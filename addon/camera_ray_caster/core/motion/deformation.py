@@ -1,0 +1,65 @@
+"""Meshes that change their form between a few evaluations: each vertex moves on the polynomial through its places."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from ..records import Mesh, Shapes
+
+FIXED = "triangles", "polygon", "loops", "slot"
+"""What meshes must share for their vertices to be the same ones."""
+
+MOST_VERTICES = 4096
+"""Vertices of a mesh whose motion is judged, evenly spaced in its list where it has more."""
+
+
+def alike(before: Sequence[Mesh], after: Sequence[Mesh]) -> bool:
+    """Whether meshes have the same triangles, one by one, so that only their vertices may differ."""
+    return len(before) == len(after) and all(
+        one is other or (one.vertices.shape == other.vertices.shape and all(_same(one, other, name) for name in FIXED))
+        for one, other in zip(before, after, strict=True)
+    )
+
+
+def deformed(shapes: Shapes, evaluations: Sequence[Shapes], weights: Sequence[float]) -> Shapes:
+    """Return shapes with their meshes as they are between evaluations, whose weights have the sum 1."""
+    meshes, center = list(shapes.meshes), shapes.center.copy()
+    for k, forms in enumerate(zip(*(one.meshes for one in evaluations), strict=True)):
+        if all(_same(forms[0], other, name) for other in forms[1:] for name in ("vertices", "normals")):
+            continue
+        places = _mean([form.vertices - form.middle[:, None] for form in forms], weights)
+        normals = None if forms[0].normals is None else _mean([form.normals for form in forms], weights)
+        if normals is not None:
+            normals = normals / np.maximum(np.sqrt((normals * normals).sum(axis=0)), np.finfo(float).tiny)
+        meshes[k] = replace(forms[0], vertices=places, normals=normals)
+        rows = shapes.mesh == k
+        center[rows] += shapes.axes[rows] @ meshes[k].middle  # a place is counted from the middle
+    return replace(shapes, meshes=tuple(meshes), center=center)
+
+
+def vertices(shapes: Shapes, rows: np.ndarray) -> np.ndarray:
+    """Return vertices of meshes in the world, (n, 3), of shapes whose meshes have the same number of them each time."""
+    places = [np.zeros((3, 0))]
+    for row in rows.tolist():
+        mesh = shapes.meshes[shapes.mesh[row]]
+        some = mesh.vertices[:, :: -(-mesh.vertices.shape[1] // MOST_VERTICES)] - mesh.middle[:, None]
+        places.append(shapes.axes[row] @ some + shapes.center[row][:, None])
+    return np.concatenate(places, axis=1).T
+
+
+def changed(before: Shapes, after: Shapes) -> np.ndarray:
+    """Return the rows of the shapes whose meshes are others in two evaluations that ``alike`` holds for."""
+    others = [k for k, (one, other) in enumerate(zip(before.meshes, after.meshes, strict=True)) if one is not other]
+    return np.flatnonzero(np.isin(before.mesh, others))
+
+
+def _same(one: Mesh, other: Mesh, name: str) -> bool:
+    first, second = getattr(one, name), getattr(other, name)
+    return first is second or (first is not None and second is not None and np.array_equal(first, second))
+
+
+def _mean(values: Sequence[np.ndarray], weights: Sequence[float]) -> np.ndarray:
+    return np.sum([weight * value for weight, value in zip(weights, values, strict=True)], axis=0)

@@ -1,0 +1,69 @@
+"""Triangle meshes: world = center + axes @ (vertex - the mesh's middle), any affine image of any mesh."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..records import MESH, Shapes
+from .frames import InCamera, WorldRays
+from .kind import HitPixels, Kind, PixelNormals, Visible
+from .mesh_errors import TriangleErrors, decide
+from .mesh_in_camera import MeshesInView
+from .mesh_search import MeshSet
+from .mesh_surface import HitTriangles
+
+
+class Meshes(Kind):
+    """Triangle meshes, seen from both sides; triangles without area are invisible."""
+
+    number = MESH
+    name = "mesh"
+    may_be_flat = True
+
+    def extent(self, shapes: Shapes, at: np.ndarray, axes: np.ndarray):
+        """See ``Kind``; of the mesh's bounding box."""
+        half = np.array([shapes.meshes[k].half_size for k in shapes.mesh[at].tolist()])[..., None] * axes
+        return np.sqrt((np.abs(half).sum(axis=1) ** 2).sum(axis=1)), np.abs(half[..., 2]).sum(axis=1)
+
+    def is_close(self, offset: np.ndarray, shape_from_world: np.ndarray, away: np.ndarray) -> np.ndarray:
+        """See ``Kind``; never, since vertices are taken to the camera's frame."""
+        return np.zeros(len(offset), bool)
+
+    def shape_set(self, shapes: InCamera, visible: Visible) -> MeshSet:
+        """See ``Kind``."""
+        return MeshSet(MeshesInView(shapes, visible), visible.clip_start)
+
+    def normals(self, shapes: InCamera, at: np.ndarray) -> tuple[np.ndarray, PixelNormals | None]:
+        """See ``Kind``; each pixel's comes from its triangle."""
+
+        def normals(pixels: HitPixels, point, direction):
+            return HitTriangles.of(shapes, pixels).normals(point, direction)
+
+        return np.full((len(at), 4), np.nan), normals
+
+    def uv(self, shapes: InCamera, pixels: HitPixels, point) -> tuple[np.ndarray, np.ndarray]:
+        """See ``Kind``: the render UV map, 0 where there is none."""
+        return HitTriangles.of(shapes, pixels).uv(point)
+
+    def from_edge(self, shapes: InCamera, pixels: HitPixels, point) -> np.ndarray:
+        """See ``Kind``; edges within a face are none."""
+        return HitTriangles.of(shapes, pixels).from_edge(point)
+
+    def polygon(self, shapes: InCamera, pixels: HitPixels) -> np.ndarray:
+        """See ``Kind``."""
+        return HitTriangles.of(shapes, pixels).polygon
+
+    def slot(self, shapes: InCamera, pixels: HitPixels) -> np.ndarray:
+        """See ``Kind``."""
+        return HitTriangles.of(shapes, pixels).slot
+
+    def errors(self, shapes: InCamera, pixels: HitPixels, rays: WorldRays, from_eye: bool, unit: bool):
+        """See ``Kind``."""
+        return TriangleErrors(HitTriangles.of(shapes, pixels), pixels.t, rays)
+
+    def decision(self, shapes: InCamera, at: np.ndarray, rays: WorldRays, from_eye: bool):
+        """See ``Kind``: how far the ray is inside of the triangle that it meets, or from meeting any."""
+        return decide(shapes, at, rays)
+
+
+MESHES = Meshes()

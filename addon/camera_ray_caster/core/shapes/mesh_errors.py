@@ -1,0 +1,120 @@
+"""Error bounds of hits of triangles; see ``errors.hits`` for what they bound and how."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..conventions import EPS, gamma
+from ..maths.speed import lazy
+from ..maths.vector import along, difference, dot, norm
+from .frames import InCamera, WorldRays, least
+from .kind import ShapeErrors
+from .mesh_surface import HitTriangles
+from .triangles import ROUNDING, volumes
+
+CHUNK = 1 << 16
+"""Pairs of rays and triangles that are worked on at once."""
+
+
+@dataclass(frozen=True, eq=False)
+class TriangleErrors(ShapeErrors):
+    """The bounds of hits of the triangles that were found; a ray that rounding may take to a neighbor is not told."""
+
+    triangles: HitTriangles
+    found: np.ndarray
+    """(m,): t."""
+    rays: WorldRays
+
+    @lazy
+    def _moved(self) -> np.ndarray:
+        """How far rounding may have moved a corner, (r,)."""
+        triangles = self.triangles
+        turned = norm([dot(np.abs(row), np.abs(triangles.local).max(axis=0)) for row in triangles.axes])
+        return gamma(8) * (turned + norm(triangles.center))
+
+    @lazy
+    def _turned(self) -> np.ndarray:
+        """By how much the cross product of the edges may be wrong, as a vector's length, (r,)."""
+        first, second = map(norm, self.triangles.edges)
+        return 2 * self._moved * (first + second + 2 * self._moved) + gamma(4) * first * second
+
+    @property
+    def t(self) -> np.ndarray:
+        """The residual in the plane's equation over its slope, or how far t is from those of the corners."""
+        each, rays, corners = self.triangles.each, self.rays, self.triangles.corners
+        moved, turned, normal = each(self._moved), each(self._turned), each(np.array(self.triangles.area))
+        corner = each(np.array(corners[0]))
+        place = along(rays.origin, rays.direction, self.found)
+        offset, length, steep = difference(place, corner), norm(normal), norm(rays.direction)
+        beside = np.abs(self.found) * rays.direction_error + rays.origin_error
+        place_error = beside + moved + gamma(4) * (norm(rays.origin) + np.abs(self.found) * steep + norm(corner))
+        residual = np.abs(dot(normal, offset)) + gamma(3) * length * norm(offset)
+        residual += length * place_error + turned * (norm(offset) + place_error)
+        slope = np.abs(dot(normal, rays.direction)) - gamma(3) * length * steep
+        slope -= length * rays.direction_error + turned * (steep + rays.direction_error)
+        return least(np.where(slope > 0, residual / slope, np.inf), self._within)
+
+    @property
+    def _within(self) -> np.ndarray:
+        """How far t is from those of the corners: the exact one lies between the exact ones."""
+        rays, each = self.rays, self.triangles.each
+        square = dot(rays.direction, rays.direction)
+        worst = np.zeros(len(self.found))
+        for corner in self.triangles.corners:
+            towards = difference(each(np.array(corner)), rays.origin)
+            moved = each(self._moved) + rays.origin_error + EPS * norm(towards)
+            error = moved / np.sqrt(square) + norm(towards) * (
+                3 * rays.direction_error / square + gamma(8) / np.sqrt(square)
+            )
+            worst = np.maximum(worst, np.abs(dot(towards, rays.direction) / square - self.found) + error)
+        return worst
+
+    def normal(self, point: np.ndarray) -> np.ndarray:
+        """See ``ShapeErrors``: what moves the point moves the weights of the corners' normals."""
+        triangles = self.triangles
+        length = norm(triangles.area)
+        turn = 2 * self._turned / length
+        corner_normals = triangles.corner_normals
+        spread = sum(norm(difference(corner_normals[k], corner_normals[0])) for k in (1, 2))
+        edge = np.maximum(*map(norm, triangles.edges))
+        weights = (edge / length) * (1 + edge * turn)
+        least_length = np.maximum(norm(corner_normals[0]) - spread, 0.0)
+        reach = np.maximum.reduce([norm(corner) for corner in triangles.corners])
+        each = triangles.each
+        moved = point + each(self._moved + gamma(16) * reach)
+        of_weights = each(2 * spread / least_length * weights) * moved
+        smooth = each(spread > 0)
+        return np.where(smooth, of_weights + gamma(64), each(turn))
+
+
+def decide(shapes: InCamera, at: np.ndarray, rays: WorldRays) -> tuple[np.ndarray, np.ndarray]:
+    """Return, for rays and one shape each, the largest that the least volume of a triangle's edges has on the inside,
+    over the product of its vectors' lengths, and how far rounding may have moved it.
+    """
+    at = np.broadcast_to(at, np.broadcast_shapes(np.shape(at), *map(np.shape, rays.direction)))
+    origin, direction = (
+        np.array([np.broadcast_to(c, at.shape).ravel() for c in v]) for v in (rays.origin, rays.direction)
+    )
+    value, moved = np.full(at.size, -np.inf), np.zeros(at.size)
+    for row in np.unique(at).tolist():
+        mine = np.flatnonzero(at.ravel() == row)
+        mesh = shapes.shapes.meshes[shapes.shapes.mesh[row]]
+        step = max(1, CHUNK // mine.size)
+        for first in range(0, len(mesh), step):
+            number = np.arange(first, min(first + step, len(mesh)))
+            some = HitTriangles(shapes, np.ones(len(number), int), np.full(len(number), row), number)
+            corners = [difference([c[:, None] for c in corner], origin[:, None, mine]) for corner in some.corners]
+            lengths = [norm(corner) for corner in corners]
+            scale = np.maximum.reduce(lengths) ** 2 * norm(direction[:, mine])
+            found = [v / scale for v in volumes(corners, direction[:, None, mine])]
+            inner = np.maximum(np.minimum.reduce(found), -np.maximum.reduce(found))
+            value[mine] = np.maximum(value[mine], inner.max(axis=0))
+            reach = np.minimum.reduce(np.maximum.reduce(lengths))
+            bound = TriangleErrors(some, np.zeros(len(number)), rays)._moved.max()
+            moved[mine] = np.maximum(
+                moved[mine], 4 * (bound + np.broadcast_to(rays.origin_error, at.shape).ravel()[mine]) / reach
+            )
+    turned = np.broadcast_to(rays.direction_error, at.shape).ravel() / norm(direction)
+    return value.reshape(at.shape), (moved + 4 * turned + ROUNDING).reshape(at.shape)

@@ -1,0 +1,71 @@
+"""The nearest triangles of a tile so far, and which others they hide."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .kind import SearchRays
+
+NONE = np.iinfo(np.int32).max
+"""In place of a triangle where none is met."""
+
+CELLS = 8, 32
+"""Pixels of the sides of cells, each with the farthest t of its pixels: a triangle no larger lies in four at most."""
+
+
+@dataclass(frozen=True, eq=False)
+class Found:
+    """The nearest triangles so far; of those at exactly the same t the first."""
+
+    t: np.ndarray
+    """inf, or that of another shape, where none is met."""
+    which: np.ndarray
+    """int32; NONE where none is met."""
+
+    @classmethod
+    def of(cls, nearest: np.ndarray, rays: SearchRays) -> Found:
+        """Begin with what was found before; nothing behind that is kept."""
+        t = rays.scratch("triangle t", rays.shape, np.float64)
+        which = rays.scratch("triangle found", rays.shape, np.int32)
+        np.copyto(t, nearest)
+        which.fill(NONE)
+        return cls(t, which)
+
+    def keep(self, pixel: np.ndarray, t: np.ndarray, which: np.ndarray) -> None:
+        """Note those that are the nearest so far; a pixel may have several."""
+        nearest, first = self.t.reshape(-1), self.which.reshape(-1)
+        before = nearest.take(pixel)
+        close = np.flatnonzero(t <= before)
+        pixel, t, which, before = pixel.take(close), t.take(close), which.take(close), before.take(close)
+        np.minimum.at(nearest, pixel, t)
+        won = np.flatnonzero(t == nearest.take(pixel))
+        pixel, which, nearer = pixel.take(won), which.take(won), t.take(won) < before.take(won)
+        first[pixel[nearer]] = NONE
+        np.minimum.at(first, pixel, which.astype(np.int32))
+
+    def may_show(self, bounds: np.ndarray, near: np.ndarray) -> np.ndarray:
+        """Return which triangles may be seen, indices: all but small ones that lie behind what was found, whose least t
+        are given, (k,), with their bounds in the tile, (k, 4).
+        """
+        size = np.maximum(bounds[:, 1] - bounds[:, 0], bounds[:, 3] - bounds[:, 2])
+        shows, smaller = np.ones(len(bounds), bool), 0
+        for cell in CELLS:
+            some = np.flatnonzero((size <= cell) & (size > smaller))
+            smaller = cell
+            if some.size:
+                x, y = bounds[some, 0] // cell, bounds[some, 2] // cell
+                shows[some] = near[some] <= _farthest(self.t, cell)[y, x]
+        return np.flatnonzero(shows)
+
+
+def _farthest(t: np.ndarray, cell: int) -> np.ndarray:
+    """Return the largest t of each cell and the next ones to the right and above."""
+    height, width = (-(-size // cell) for size in t.shape)
+    padded = np.full((height * cell, width * cell), -np.inf)
+    padded[: t.shape[0], : t.shape[1]] = t
+    cells = padded.reshape(height, cell, width * cell).max(axis=1).reshape(height, width, cell).max(axis=2)
+    cells[:-1] = np.maximum(cells[:-1], cells[1:])
+    cells[:, :-1] = np.maximum(cells[:, :-1], cells[:, 1:])
+    return cells

@@ -1,0 +1,177 @@
+"""Meshes as a camera sees them: vertices in its frame, and in which pixels each triangle may be seen."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, fields
+from functools import partial
+from itertools import pairwise
+from typing import NamedTuple
+
+import numpy as np
+
+from ..maths.speed import Shared, lazy
+from ..maths.vector import inverse
+from ..records import Mesh
+from .frames import MARGIN, InCamera
+from .kind import Visible
+from .triangles import side
+
+CHUNK = 1 << 16
+"""Vertices or triangles that are worked on at once: their working arrays stay in a core's cache."""
+
+
+@dataclass(frozen=True, eq=False)
+class Triangles:
+    """The triangles of the meshes in view that some pixel may see, in the order of their shapes."""
+
+    corners: np.ndarray
+    """(3, k) intp into the vertices; turned so that volumes of rays from the eye are positive, where all leave it."""
+    shape: np.ndarray
+    """(k,) int32 indices into ``Shapes``."""
+    number: np.ndarray
+    """(k,) int32 indices into the triangles of its mesh."""
+    bounds: np.ndarray
+    """(k, 4) int32: x0, x1, y0, y1 in the pixels of the plan."""
+    near: np.ndarray
+    """(k,) float32: no triangle has a lesser t; -inf where none is known."""
+
+
+class Instances(NamedTuple):
+    """Some shapes that show the same mesh, one after the other."""
+
+    mesh: Mesh
+    rows: np.ndarray
+    """Indices into ``Shapes``."""
+    start: int
+    """Where the vertices of the first begin; those of the others follow."""
+
+    def vertices(self, k: int) -> slice:
+        """Return where those of the k-th are."""
+        count = self.mesh.vertices.shape[1]
+        return slice(self.start + k * count, self.start + (k + 1) * count)
+
+
+class MeshesInView:
+    """The meshes in view, worked out when a thread first asks, by all threads that ask.
+
+    Rounding: a vertex is right to gamma(8) of the length of the axes times its own from the mesh's middle, plus that of
+    the shape's center. It is transformed by the same operations wherever it is used, so that triangles that share it
+    share its rounded place.
+    """
+
+    def __init__(self, shapes: InCamera, visible: Visible):
+        self._shapes, self._pixels, self._from_eye = shapes, visible.pixels, visible.from_eye
+        groups = list(_groups(shapes, visible.at))
+        total = sum(len(group.rows) * group.mesh.vertices.shape[1] for group in groups)
+        self._vertices = np.empty((3, total))
+        self._images = np.empty((2, total)) if visible.pixels.has_straight_lines else None
+        self._placing = Shared([
+            partial(self._place, group, slice(first, first + CHUNK))
+            for group in groups
+            for first in range(0, group.mesh.vertices.shape[1], CHUNK)
+        ])  # fmt: skip
+        self._seeing = Shared([
+            partial(self._see, group, k, slice(first, first + CHUNK))
+            for group in groups
+            for k in range(len(group.rows))
+            for first in range(0, len(group.mesh), CHUNK)
+        ])  # fmt: skip
+
+    @property
+    def vertices(self) -> np.ndarray:
+        """(3, v) camera frame, of all meshes in view."""
+        self._placing.results()
+        return self._vertices
+
+    @lazy
+    def triangles(self) -> Triangles:
+        """Those that some pixel may see."""
+        self._placing.results()
+        parts = self._seeing.results()
+        whole = {}
+        for field in fields(Triangles):
+            axis = 0 if field.name == "bounds" else -1
+            whole[field.name] = np.concatenate([getattr(part, field.name) for part in parts], axis=axis)
+        return Triangles(**whole)
+
+    def corners(self, some: np.ndarray) -> np.ndarray:
+        """Return the corners of triangles, (3, 3, m): corner, component."""
+        return self._at(self.triangles.corners.take(some, axis=1))
+
+    def _at(self, corners: np.ndarray) -> np.ndarray:
+        return self._vertices.take(corners, axis=1).swapaxes(0, 1)
+
+    def _place(self, group: Instances, some: slice) -> None:
+        """Transform some vertices of a mesh, for all its instances."""
+        rows, count = group.rows, group.mesh.vertices.shape[1]
+        axes = np.einsum("ij,njk->nik", inverse(self._shapes.pose.basis), self._shapes.shapes.axes[rows])[..., None]
+        q = group.mesh.vertices[:, some] - group.mesh.middle[:, None]
+        own = slice(group.start, group.start + len(rows) * count)
+        for i in range(3):
+            place = self._vertices[i, own].reshape(len(rows), count)[:, some]
+            np.add(axes[:, i, 1] * q[1], axes[:, i, 2] * q[2], out=place)
+            place += axes[:, i, 0] * q[0]
+            place += self._shapes.center[rows, i, None]
+        if self._images is not None:
+            for k in range(len(rows)):
+                at = group.vertices(k)
+                at = slice(at.start + some.start, min(at.start + some.stop, at.stop))
+                self._images[:, at] = self._pixels.images(self._vertices[:, at].T).T
+
+    def _see(self, group: Instances, k: int, some: slice) -> Triangles:
+        """Return the triangles of an instance that some pixel may see."""
+        corners = group.mesh.triangles[:, some] + group.vertices(k).start
+        bounds, near, seen = self._bounds(corners)
+        number = np.flatnonzero(seen)
+        bounds, near, corners = bounds[number], near[number], corners[:, number]
+        if self._from_eye:
+            turn = side(self._at(corners))
+            corners = np.where(turn > 0, corners, corners[[0, 2, 1]])
+            if not turn.all():
+                area = turn != 0
+                number, bounds, near, corners = number[area], bounds[area], near[area], corners[:, area]
+        return Triangles(
+            corners=corners,
+            shape=np.full(len(number), group.rows[k], np.int32),
+            number=(number + some.start).astype(np.int32),
+            bounds=bounds.astype(np.int32),
+            near=np.nextafter(near.astype(np.float32), np.float32(-np.inf)),
+        )
+
+    def _bounds(self, corners: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Return in which pixels triangles may be seen, (k, 4), the least t they may have, and which are in any pixel:
+        between the images of their corners where lines stay straight, otherwise where their balls are.
+        """
+        if self._images is None:
+            return self._ball_bounds(corners)
+        a, b, c = self._images.take(corners, axis=1).swapaxes(0, 1)
+        low, high = np.minimum(np.minimum(a, b), c), np.maximum(np.maximum(a, b), c)
+        bounds, seen = self._pixels.of_corners(low.T, high.T)
+        near = -np.maximum.reduce([self._vertices[2].take(corner) for corner in corners])
+        behind = np.flatnonzero(np.isnan(low).any(axis=0))
+        if behind.size:
+            bounds[behind], near[behind], seen[behind] = self._ball_bounds(corners[:, behind])
+        return bounds, near, seen
+
+    def _ball_bounds(self, corners: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        a, b, c = self._at(corners)
+        low, high = np.minimum(np.minimum(a, b), c), np.maximum(np.maximum(a, b), c)
+        middle = low / 2 + high / 2
+        radius = MARGIN * np.sqrt(np.maximum.reduce([((corner - middle) ** 2).sum(axis=0) for corner in (a, b, c)]))
+        bounds, seen = self._pixels.of_balls(middle.T, radius)
+        return bounds, self._pixels.least_t(middle.T, radius), seen
+
+
+def _groups(shapes: InCamera, rows: np.ndarray) -> Iterator[Instances]:
+    """Yield the instances of each mesh, as many at once as fill a chunk."""
+    mesh, start = shapes.shapes.mesh[rows], 0
+    cuts = np.flatnonzero(np.diff(mesh)) + 1
+    for first, last in pairwise((0, *cuts.tolist(), len(rows))):
+        own = shapes.shapes.meshes[mesh[first]]
+        count = own.vertices.shape[1]
+        step = max(1, CHUNK // max(count, 1))
+        for begin in range(first, last, step):
+            group = Instances(own, rows[begin : min(begin + step, last)], start)
+            start += len(group.rows) * count
+            yield group

@@ -1,0 +1,163 @@
+"""The nearest triangle of every ray of a tile: many triangles at once, each in a window of pixels."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from .. import tuning
+from ..maths.vector import difference, norm
+from .kind import Candidates, SearchRays, ShapeSet
+from .mesh_found import NONE, Found
+from .mesh_in_camera import MeshesInView
+from .mesh_spans import Lattice, spans
+from .triangles import ROUNDING, crossing, signs, volumes
+from .windows import batches, gather, in_tile
+
+SLABS = 4
+"""Parts in which triangles are tested, the nearest first: what they hide is not tested."""
+
+SPANNED = 1 << 12, 1 << 17
+"""Triangles whose spans are found at once, and pixels of their bounds."""
+
+
+@dataclass(frozen=True, eq=False)
+class MeshSet(ShapeSet):
+    """The meshes that a camera may see. ``rest`` keeps each pixel's triangle in the scratch, as "triangle"."""
+
+    meshes: MeshesInView
+    clip_start: float
+    faces_eye = False
+
+    def rest(self, rays: SearchRays, nearest: np.ndarray) -> Iterator[Candidates]:
+        """See ``ShapeSet``."""
+        triangles = self.meshes.triangles
+        here, bounds = in_tile(triangles.bounds, rays.corner, rays.shape)
+        if not here.size:
+            return
+        found = Found.of(nearest, rays)
+        lattice = Lattice.of(rays)
+        reach = _longest(rays.direction), _longest(rays.origin or (0.0,))
+        for slab in _slabs(triangles.near.take(here)):
+            slab = slab.take(found.may_show(bounds[slab], triangles.near.take(here.take(slab))))
+            if lattice is not None:
+                for some, part in _pieces(bounds[slab]):
+                    self._span(rays, lattice, here[slab[some]], part, found)
+            else:
+                for batch in batches(bounds[slab], tuning.TRIANGLE_PIXELS):
+                    self._cast(rays, reach, here[slab[batch]], bounds[slab[batch]], found)
+        met = found.which != NONE
+        which = np.where(met, found.which, 0)
+        np.take(triangles.number, which, out=rays.scratch("triangle", rays.shape, np.int32))
+        yield Candidates(triangles.shape[which][None], (np.zeros(1, int), np.zeros(1, int)), found.t[None], met[None])
+
+    def _span(self, rays: SearchRays, lattice: Lattice, here: np.ndarray, bounds: np.ndarray, found: Found) -> None:
+        """Keep what is met of triangles in spans, and of those that have none pixel by pixel."""
+        seen = spans(lattice, self.meshes.corners(here), bounds)
+        width = rays.shape[1]
+        self._keep(found, seen.met.row * width + seen.met.column, seen.t, here.take(seen.met.at))
+        if len(seen.open.at):
+            self._test(rays, here[seen.open.at], seen.open.row * width + seen.open.column, found)
+        if not seen.clear.all():
+            others = np.flatnonzero(~seen.clear)
+            reach = _longest(rays.direction), _longest(rays.origin or (0.0,))
+            for batch in batches(bounds[others], tuning.TRIANGLE_PIXELS):
+                self._cast(rays, reach, here[others[batch]], bounds[others[batch]], found)
+
+    def _cast(
+        self, rays: SearchRays, reach: tuple[float, float], here: np.ndarray, bounds: np.ndarray, found: Found
+    ) -> None:
+        """Keep what is met of triangles that are tested pixel by pixel, in windows.
+
+        The windows are as large as the largest bounds, and moved until they lie in the tile.
+        """
+        x0, x1, y0, y1 = bounds.T
+        wide, high = int((x1 - x0).max()), int((y1 - y0).max())
+        x0, y0 = np.minimum(x0, rays.shape[1] - wide), np.minimum(y0, rays.shape[0] - high)
+        x, y = x0[:, None, None] + np.arange(wide), y0[:, None, None] + np.arange(high)[:, None]
+        corners: Any = self.meshes.corners(here)[..., None, None]
+        most = np.maximum.reduce([norm(corner) for corner in corners])
+        direction = tuple(gather(component, y, x) for component in rays.direction)
+        if rays.origin is not None:
+            origin = tuple(gather(component, y, x) for component in rays.origin)
+            corners = [difference(corner, origin) for corner in corners]
+        first, second, third = volumes(corners, direction)
+        inner = np.minimum(np.minimum(first, second), third)
+        if rays.origin is not None:
+            np.maximum(inner, -np.maximum(np.maximum(first, second), third), out=inner)
+        doubt = ROUNDING * reach[0] * (most + reach[1]) ** 2
+        hit = np.flatnonzero(inner >= -doubt)
+        sure = (inner > doubt).reshape(-1)[hit]
+        k, place = np.divmod(hit, high * wide)
+        row, column = np.divmod(place, wide)
+        pixel, which = (y0[k] + row) * rays.shape[1] + x0[k] + column, here[k]
+        if not sure.all():
+            self._test(rays, which[~sure], pixel[~sure], found)
+            pixel, which = pixel[sure], which[sure]
+        self._keep(found, pixel, crossing(*self._meeting(rays, which, pixel)), which)
+
+    def _test(self, rays: SearchRays, which: np.ndarray, pixel: np.ndarray, found: Found) -> None:
+        """Keep what is met of one triangle a pixel, by exact signs where rounding could decide."""
+        corners, direction = self._meeting(rays, which, pixel)
+        parts = volumes(corners, direction)
+        doubt = ROUNDING * np.maximum.reduce([norm(corner) for corner in corners]) ** 2 * norm(direction)
+        inner = np.maximum(np.minimum.reduce(parts), -np.maximum.reduce(parts))
+        met = inner > doubt
+        open_ = np.flatnonzero(np.abs(inner) <= doubt)
+        if open_.size:
+            exact = signs(corners[:, :, open_], direction[:, open_])
+            met[open_] = ((exact >= 0).all(axis=0) | (exact <= 0).all(axis=0)) & exact.any(axis=0)
+        self._keep(found, pixel[met], crossing(corners[:, :, met], direction[:, met]), which[met])
+
+    def _keep(self, found: Found, pixel: np.ndarray, t: np.ndarray, which: np.ndarray) -> None:
+        """Keep hits at or beyond the clip start."""
+        met = (t >= self.clip_start) & (t < np.inf)
+        if not met.all():
+            pixel, t, which = pixel[met], t[met], which[met]
+        found.keep(pixel, t, which)
+
+    def _meeting(self, rays: SearchRays, which: np.ndarray, pixel: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return corners relative to the rays' origins (3, 3, m) and directions (3, m), one triangle a pixel."""
+        row, column = np.divmod(pixel, rays.shape[1])
+
+        def at(components):
+            return np.array([np.broadcast_to(component, rays.shape)[row, column] for component in components], float)
+
+        corners = self.meshes.corners(which)
+        return corners if rays.origin is None else corners - at(rays.origin), at(rays.direction)
+
+
+def _longest(vectors: Any) -> float:
+    """Return how long some vectors are at most, from components that broadcast; NaN is none."""
+    return math.sqrt(sum(float(np.nanmax(np.square(component))) for component in vectors))
+
+
+def _slabs(near: np.ndarray) -> Iterator[np.ndarray]:
+    """Yield triangles in parts of about the same number, those with the least t first."""
+    cuts = np.quantile(near[:: max(1, len(near) >> 12)], np.arange(1, SLABS) / SLABS)
+    slab = np.searchsorted(cuts, near)
+    for k in range(SLABS):
+        yield np.flatnonzero(slab == k)
+
+
+def _pieces(bounds: np.ndarray) -> Iterator[tuple[np.ndarray, np.ndarray]]:
+    """Yield triangles with their bounds, as many at once as SPANNED tells: a large one in bands of rows."""
+    triangles, most = SPANNED
+    wide, high = bounds[:, 1] - bounds[:, 0], bounds[:, 3] - bounds[:, 2]
+    rows = np.maximum(most // wide, 1)
+    bands = -(-high // rows)
+    at = np.repeat(np.arange(len(bounds)), bands)
+    band = np.arange(len(at)) - np.repeat(np.cumsum(bands) - bands, bands)
+    bounds = bounds[at]
+    bounds[:, 2] += band * rows[at]
+    bounds[:, 3] = np.minimum(bounds[:, 3], bounds[:, 2] + rows[at])
+    pixels = np.cumsum((bounds[:, 1] - bounds[:, 0]) * (bounds[:, 3] - bounds[:, 2]))
+    first = 0
+    while first < len(at):
+        end = min(first + triangles, int(np.searchsorted(pixels, pixels[first] + most)) + 1)
+        yield at[first:end], bounds[first:end]
+        first = end

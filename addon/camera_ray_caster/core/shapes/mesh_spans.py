@@ -1,0 +1,174 @@
+"""Triangles under rays that lie on a lattice, as a pinhole's and parallel ones: each row of a triangle is one span.
+
+The volume of an edge is affine in the pixel then: it is positive on one side of the pixel coordinate where it vanishes
+in a row. Where that is so near to a pixel's center that rounding could decide, the exact sign does, as it does for all
+other rays: see ``triangles``. t is a quotient of terms that are affine in the pixel, too.
+Reference: M. Olano and T. Greer, Triangle Scan Conversion using 2D Homogeneous Coordinates, 1997.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ..conventions import EPS
+from ..maths.vector import cross, dot, is_grid, is_lattice, is_one, norm
+from .kind import SearchRays
+from .triangles import EDGES, ROUNDING, STEEP, plane
+
+CLEAR = 1 / 8
+"""Pixels. An edge so near to the direction of the rows that rounding moves where it crosses them by more decides of
+whole rows; where it leaves one open its pixels are tested.
+"""
+
+
+@dataclass(frozen=True, eq=False)
+class Lattice:
+    """The rays of a tile, which are l = (first[0] + column step[0], first[1] + row step[1], 1) in some coordinates."""
+
+    first: tuple[float, float]
+    step: tuple[float, float]
+    z: float
+    """Of all directions."""
+    is_parallel: bool
+    reach: float
+    """The length of the longest l."""
+
+    @classmethod
+    def of(cls, rays: SearchRays) -> Lattice | None:
+        """Return that of the rays; None where they have none, or not at even distances."""
+        if rays.origin is None and is_lattice(rays.direction):
+            x, y, z = rays.direction
+        elif rays.origin is not None and is_one(rays.direction) and is_grid(*rays.origin[:2]):
+            (x, y, height), z = rays.origin, rays.direction[2]
+            if np.ndim(height) or height or rays.direction[0] or rays.direction[1]:
+                return None
+        else:
+            return None
+        first, step = [], []
+        for places in (x.ravel().astype(float), y.ravel().astype(float)):
+            pitch = (places[-1] - places[0]) / max(len(places) - 1, 1)
+            even = places[0] + pitch * np.arange(len(places))
+            if not pitch or np.abs(places - even).max() > 4 * EPS * np.abs(places).max():
+                return None
+            first.append(float(places[0]))
+            step.append(float(pitch))
+        reach = float(np.sqrt(np.square(x).max() + np.square(y).max() + 1))
+        return cls((first[0], first[1]), (step[0], step[1]), float(z), rays.origin is not None, reach)
+
+    def edges(self, corners: Any) -> list[tuple[Any, Any, Any]]:
+        """Return the coefficients of l of the three volumes."""
+        if self.is_parallel:
+            return [
+                tuple(self.z * part for part in (a[1] - b[1], b[0] - a[0], a[0] * b[1] - a[1] * b[0]))
+                for a, b in ((corners[i], corners[j]) for i, j in EDGES)
+            ]
+        return [(x, y, z * self.z) for x, y, z in (cross(corners[i], corners[j]) for i, j in EDGES)]
+
+    def scale(self, corners: Any) -> Any:
+        """Return what the volumes are right to ROUNDING of."""
+        longest = np.maximum.reduce([norm(corner) for corner in corners])
+        return (longest + self.reach) ** 2 if self.is_parallel else longest**2 * self.reach
+
+
+class Pixels(NamedTuple):
+    """Pixels of triangles, (m,) each."""
+
+    at: np.ndarray
+    """Indices of the triangles."""
+    row: np.ndarray
+    column: np.ndarray
+
+
+@dataclass(frozen=True, eq=False)
+class Spans:
+    """Where the rays of a lattice meet k triangles."""
+
+    clear: np.ndarray
+    """(k,) bool: the triangles that are meant; others are to be tested pixel by pixel."""
+    met: Pixels
+    t: np.ndarray
+    """Of those that are met."""
+    open: Pixels
+    """Pixels that are to be tested, since rounding could decide."""
+
+
+def spans(lattice: Lattice, corners: Any, bounds: np.ndarray) -> Spans:
+    """Return those of triangles with corners (3, 3, k), seen within bounds (k, 4)."""
+    normal, product = plane(corners)
+    height, slope = dot(normal, corners[0]), normal[2] * lattice.z
+    scale = 2 * ROUNDING * lattice.scale(corners)
+    edges = np.array(lattice.edges(corners))  # edge, coefficient, triangle
+    if lattice.is_parallel:
+        edges *= np.sign(slope)
+        t_terms = np.array((-normal[0], -normal[1], height)) / slope
+        steep, clear = np.abs(slope), np.abs(slope) > scale
+    else:
+        t_terms = np.array((normal[0], normal[1], slope)) / height
+        steep, clear = np.abs(height) / np.abs(corners[:, 2]).max(axis=0), True
+    clear = clear & (steep > STEEP * product * lattice.reach)
+    inverse = 1 / (edges[:, 0] * lattice.step[0])
+    doubt = scale * np.abs(inverse)
+    is_level = ~(doubt < CLEAR)
+    x0, x1, y0, y1 = bounds.T
+    at, row = _counted(np.where(clear, y1 - y0, 0), y0)
+    is_open = np.zeros(len(at), bool)
+    if is_level.any():
+        at, row, is_open = _level(lattice, edges, is_level, scale, bounds, at, row)
+    start = -(edges[:, 0] * lattice.first[0] + (edges[:, 1] * lattice.first[1] + edges[:, 2])) * inverse
+    change = -edges[:, 1] * lattice.step[1] * inverse
+    low = np.maximum(*_at_rows(start, change, ~is_level & (inverse > 0), -np.inf, at, row))
+    high = np.minimum(*_at_rows(start, change, ~is_level & (inverse < 0), np.inf, at, row))
+    doubt = np.where(is_level, 0, doubt).max(axis=0)[at]
+    first = np.maximum(np.ceil(low - doubt), x0[at]).astype(np.intp)
+    last = np.minimum(np.floor(high + doubt), x1[at] - 1).astype(np.intp)
+    left = (first <= last) & (first < low + doubt) & ~is_open
+    right = (first + left <= last) & (last > high - doubt) & ~is_open
+    span, column = _counted(np.where(is_open, np.maximum(last - first + 1, 0), 0), first)
+    rest = (
+        Pixels(at[span], row[span], column),
+        Pixels(at[left], row[left], first[left]),
+        Pixels(at[right], row[right], last[right]),
+    )
+    span, column = _counted(np.where(is_open, 0, np.maximum(last - right + 1 - first - left, 0)), first + left)
+    x, y, z = t_terms
+    at_row = (x * lattice.first[0] + z)[at] + y[at] * (lattice.first[1] + row * lattice.step[1])
+    value = at_row[span] + (x * lattice.step[0])[at][span] * column
+    return Spans(
+        np.broadcast_to(clear, len(bounds)), Pixels(at[span], row[span], column),
+        value if lattice.is_parallel else 1 / value, Pixels(*map(np.concatenate, zip(*rest, strict=True))),
+    )  # fmt: skip
+
+
+def _level(lattice: Lattice, edges: np.ndarray, is_level: np.ndarray, scale, bounds: np.ndarray, at, row):
+    """Return the rows of triangles that are not outside of an edge along them, and where rounding could decide."""
+    gone, is_open = np.zeros((2, len(at)), bool)
+    some = np.flatnonzero(is_level.any(axis=0)[at])
+    k = at[some]
+    x = lattice.first[0] + lattice.step[0] * np.stack((bounds[k, 0], bounds[k, 1] - 1))
+    y = lattice.first[1] + lattice.step[1] * row[some]
+    for (to_x, to_y, to_z), meant in zip(edges, is_level, strict=True):
+        ends = to_x[k] * x + (to_y[k] * y + to_z[k])
+        gone[some] |= meant[k] & (ends.max(axis=0) < -scale[k])
+        is_open[some] |= meant[k] & (ends.min(axis=0) <= scale[k])
+    stay = ~gone
+    return at[stay], row[stay], is_open[stay]
+
+
+def _at_rows(start, change, meant: np.ndarray, without: float, at: np.ndarray, row: np.ndarray) -> Iterator[np.ndarray]:
+    """Yield the columns of the first and the last of the edges that are meant, (3, k), at rows of triangles."""
+    for a, b, c in ((0, 1, 2), (2, 1, 0)):
+        place, slope = np.full(meant.shape[1], without), np.zeros(meant.shape[1])
+        for edge in (c, b, a):
+            place, slope = (np.where(meant[edge], v[edge], w) for v, w in ((start, place), (change, slope)))
+        yield place[at] + slope[at] * row
+
+
+def _counted(count: np.ndarray, first: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return, for each of some runs of numbers, its index and the number, one after the other."""
+    at = np.repeat(np.arange(len(count)), count)
+    begin = np.cumsum(count) - count
+    return at, np.arange(len(at)) + (first - begin)[at]

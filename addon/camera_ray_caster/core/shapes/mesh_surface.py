@@ -1,0 +1,182 @@
+"""The surface of meshes where rays meet it: normals, uv, faces and materials of the triangles that pixels see.
+
+Neighboring pixels often see the same triangle. What follows from a triangle alone is worked out once for each run of
+such pixels; over a triangle normals and uv are affine in the hit point.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ..conventions import EPS
+from ..maths.speed import lazy
+from ..maths.vector import components, cross, difference, dot, matrix_rows, matvec, norm, unit
+from ..records import Mesh
+from .frames import InCamera
+from .kind import HitPixels
+
+LOST = 1 / 16
+"""A triangle so thin that rounding of its points moves a barycentric coordinate by this much has one value all over."""
+
+
+@dataclass(frozen=True, eq=False)
+class HitTriangles:
+    """The triangles that m pixels see, in r runs of pixels with the same triangle; vectors in the world."""
+
+    shapes: InCamera
+    lengths: np.ndarray
+    """(r,) of the runs, in pixels."""
+    at: np.ndarray
+    """(r,) indices into ``Shapes``."""
+    number: np.ndarray
+    """(r,) indices into the triangles of the mesh."""
+
+    @classmethod
+    def of(cls, shapes: InCamera, pixels: HitPixels) -> HitTriangles:
+        """Return those of pixels that see meshes."""
+        at, number = pixels.at, pixels.kept("triangle", np.int32)
+        change = (at[1:] != at[:-1]) | (number[1:] != number[:-1])
+        first = np.concatenate(([0], np.flatnonzero(change) + 1)) if len(at) else np.zeros(0, int)
+        return cls(shapes, np.diff(first, append=len(at)), at[first], number[first])
+
+    def each(self, values: Any) -> np.ndarray:
+        """Return the values of runs (..., r) for their pixels, (..., m)."""
+        return np.repeat(values, self.lengths, axis=-1)
+
+    @property
+    def polygon(self) -> np.ndarray:
+        """(m,) int32: the faces of the meshes."""
+        return self.each(self._gather((), np.int32, lambda mesh, number: mesh.polygon[number]))
+
+    @property
+    def slot(self) -> np.ndarray:
+        """(m,) int32: the materials' places among those of the shape."""
+        return self.each(self._gather((), np.int32, lambda mesh, k: 0 if mesh.slot is None else mesh.slot[k]))
+
+    @lazy
+    def local(self) -> np.ndarray:
+        """The corners in their meshes' frames from the middle, (3, 3, r): corner, component."""
+        return self._gather(
+            (3, 3), float, lambda mesh, k: _corners(mesh.vertices, mesh.triangles[:, k]) - mesh.middle[:, None]
+        )
+
+    @lazy
+    def axes(self) -> tuple[Any, ...]:
+        """The rows of the shapes' axes, three of three (r,)."""
+        return matrix_rows(self.shapes.shapes.axes[self.at])
+
+    @lazy
+    def center(self) -> tuple[np.ndarray, ...]:
+        """The shapes' centers relative to the eye, three (r,)."""
+        return components((self.shapes.shapes.center - self.shapes.pose.eye)[self.at])
+
+    @lazy
+    def corners(self) -> list[tuple[np.ndarray, ...]]:
+        """The corners relative to the eye, three of three (r,)."""
+        return [
+            tuple(c + p for c, p in zip(self.center, matvec(self.axes, corner), strict=True)) for corner in self.local
+        ]
+
+    @lazy
+    def edges(self) -> tuple[Any, Any]:
+        """From the first corner to the two others."""
+        return difference(self.corners[1], self.corners[0]), difference(self.corners[2], self.corners[0])
+
+    @lazy
+    def area(self) -> Any:
+        """The cross product of the edges: the normal of the mesh's front, but for mirrored meshes their back's."""
+        return cross(*self.edges)
+
+    @lazy
+    def corner_normals(self) -> np.ndarray:
+        """The normals at the corners on the side of ``area``, (3, 3, r): corner, component; not of unit length.
+
+        Those of a mesh that one object shows are made unit in the world, those of a shared one in the mesh's frame, as
+        Cycles interpolates them.
+        """
+        smooth = self._gather((), bool, lambda mesh, k: mesh.normals is not None)
+        local = self._gather((3, 3), float, _normals)
+        shared = np.bincount(self.shapes.shapes.mesh + 1)[self._mesh + 1] > 1
+        first, second, third = zip(*self.axes, strict=True)
+        columns = [cross(second, third), cross(third, first), cross(first, second)]
+        turned = np.array([matvec(tuple(zip(*columns, strict=True)), corner) for corner in local])
+        turned = np.where(shared, turned, np.array([unit(corner) for corner in turned]))
+        return np.where(smooth, turned, np.array(self.area))
+
+    @lazy
+    def gradients(self) -> tuple[Any, Any]:
+        """By how much the second and the third barycentric coordinate grow along each axis; 0 for triangles that are
+        too thin: see LOST.
+        """
+        square = dot(self.area, self.area)
+        found = cross(self.edges[1], self.area), cross(self.area, self.edges[0])
+        both = tuple(tuple(component / square for component in vector) for vector in found)
+        reach = np.maximum.reduce([norm(corner) for corner in self.corners])
+        lost = ~(16 * EPS * reach * np.maximum(norm(both[0]), norm(both[1])) < LOST)
+        second, third = (tuple(np.where(lost, 0.0, component) for component in vector) for vector in both)
+        return second, third
+
+    def interpolated(self, values: np.ndarray, point: Any) -> Iterator[np.ndarray]:
+        """Yield each component of values at the corners, (3, c, r), at hit points relative to the eye: (m,)."""
+        second, third = self.gradients
+        for at_corners in np.swapaxes(values, 0, 1):
+            first = at_corners[0]
+            to_second, to_third = at_corners[1] - first, at_corners[2] - first
+            slope = [to_second * g + to_third * h for g, h in zip(second, third, strict=True)]
+            yield self.each(first - dot(slope, self.corners[0])) + dot([self.each(s) for s in slope], point)
+
+    def normals(self, point: Any, direction: Any) -> Any:
+        """Return the unit normals turned towards the rays, as Blender's Normal pass has them; (m,) components.
+
+        The side of the face that is hit gives the sign, not the interpolated normal.
+        """
+        behind = dot(self.each(np.array(self.area)), direction) > 0
+        if any(self.shapes.shapes.meshes[k].normals is not None for k in np.unique(self._mesh).tolist()):
+            normal = np.array(list(self.interpolated(self.corner_normals, point)))
+        else:
+            normal = self.each(np.array(self.area))
+        length = norm(normal)
+        return tuple(component / np.where(behind, -length, length) for component in normal)
+
+    def uv(self, point: Any) -> tuple[np.ndarray, np.ndarray]:
+        """Return u and v, (m,) each; 0 where the mesh has no map."""
+        u, v = self.interpolated(self._gather((3, 2), float, _uv), point)
+        return u, v
+
+    def from_edge(self, point: Any) -> np.ndarray:
+        """Return what ``Kind.from_edge`` does."""
+        outer = self._gather((3,), bool, lambda mesh, k: False if mesh.uv is not None else mesh.is_outer[:, k])
+        corners = np.broadcast_to(np.eye(3)[..., None], (3, 3, len(self.at)))
+        heights = np.array(list(self.interpolated(corners, point)))
+        return np.where(self.each(outer), heights, np.inf).min(axis=0)
+
+    @lazy
+    def _mesh(self) -> np.ndarray:
+        return self.shapes.shapes.mesh[self.at]
+
+    def _gather(self, shape: tuple[int, ...], dtype: type, of: Callable[[Mesh, np.ndarray], Any]) -> np.ndarray:
+        """Return what a function gives for triangles of a mesh, (*shape, r) of all runs."""
+        result: np.ndarray = np.empty((*shape, len(self.at)), dtype)
+        for k in np.unique(self._mesh).tolist():
+            some = self._mesh == k
+            result[..., some] = of(self.shapes.shapes.meshes[k], self.number[some])
+        return result
+
+
+def _corners(values: np.ndarray, which: np.ndarray) -> np.ndarray:
+    """Return the columns (3, c, k) of values (c, n) that triangles (3, k) name."""
+    return values.take(which, axis=1).swapaxes(0, 1)
+
+
+def _normals(mesh: Mesh, which: np.ndarray) -> Any:
+    """Return the normals of triangles at their corners, (3, 3, k); 0 where the mesh is flat."""
+    return 0.0 if mesh.normals is None or mesh.loops is None else _corners(mesh.normals, mesh.loops[:, which])
+
+
+def _uv(mesh: Mesh, which: np.ndarray) -> Any:
+    """Return the map of triangles at their corners, (3, 2, k); 0 where the mesh has none."""
+    return 0.0 if mesh.uv is None or mesh.loops is None else _corners(mesh.uv, mesh.loops[:, which])

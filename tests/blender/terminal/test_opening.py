@@ -1,0 +1,103 @@
+"""What a .blend may not do to who casts it: run its scripts, or write outside the output folder."""
+
+import pytest
+
+from camera_ray_caster.blender.terminal import commands
+
+LEAD_AWAY = "/../../../away"
+
+
+@pytest.fixture
+def scene(blender, tmp_path):
+    """A small scene with a camera, whose file is saved by ``cast``."""
+    blender.ops.object.camera_add()
+    scene = blender.context.scene
+    scene.camera = blender.context.object
+    scene.render.resolution_x = scene.render.resolution_y = 8
+    return scene
+
+
+@pytest.fixture
+def cast(blender, tmp_path, capfd):
+    """A function that saves the file once, casts it, and returns the lines on standard error that are ours."""
+
+    def cast(*words, command="cast"):
+        deep = tmp_path / "a" / "b" / "c"
+        if not deep.exists():
+            deep.mkdir(parents=True)
+            blender.ops.wm.save_as_mainfile(filepath=str(deep / "file.blend"))
+        for mark in tmp_path.glob("ran_*"):
+            mark.unlink()
+        output = ("--output", str(deep / "out")) if command == "cast" else ()
+        assert commands.main(command, [str(deep / "file.blend"), *output, *words], "it") == 0
+        return [line for line in capfd.readouterr().err.splitlines() if line.startswith("it:")]
+
+    return cast
+
+
+def text(blender, tmp_path, name):
+    """A text that leaves a mark where it runs."""
+    block = blender.data.texts.new(name)
+    block.from_string(f"open({str(tmp_path / ('ran_' + name))!r}, 'w').close()\n")
+    return block
+
+
+def driver(blender, scene, tmp_path):
+    expression = f"len(str(open({str(tmp_path / 'ran_driver')!r}, 'w')))"
+    scene.camera.driver_add("location", 0).driver.expression = expression
+
+
+def registered_text(blender, scene, tmp_path):
+    text(blender, tmp_path, "text.py").use_module = True
+
+
+def style_module(blender, scene, tmp_path):
+    blender.ops.mesh.primitive_uv_sphere_add(location=(0, 0, -5))  # without a mesh there are no lines
+    scene.render.use_freestyle = True
+    settings = scene.view_layers[0].freestyle_settings
+    settings.mode = "SCRIPT"
+    module = settings.modules.new()
+    module.script = text(blender, tmp_path, "style")
+
+
+@pytest.mark.parametrize("kind", [driver, registered_text, style_module])
+def test_scripts_run_only_where_they_are_let(blender, scene, cast, tmp_path, kind):
+    kind(blender, scene, tmp_path)
+    (line,) = cast("--frames", "1:2")
+    assert line.startswith("it: warning: scripts in the file were not run")
+    assert "--enable-autoexec" in line
+    assert not list(tmp_path.glob("ran_*"))
+    assert cast("--enable-autoexec") == []
+    assert list(tmp_path.glob("ran_*"))
+
+
+def test_verify_says_that_a_driver_did_not_run(blender, scene, cast, tmp_path):
+    driver(blender, scene, tmp_path)
+    (line,) = cast(command="verify")
+    assert "scripts in the file were not run" in line
+    assert not list(tmp_path.glob("ran_*"))
+
+
+def test_drivers_that_blender_reads_itself_are_no_scripts(scene, cast):
+    scene.camera.driver_add("location", 0).driver.expression = "frame * 2 + sin(1)"
+    assert cast() == []
+
+
+def test_names_that_look_like_paths_lead_nowhere(blender, scene, cast, tmp_path):
+    render = scene.render
+    render.use_render_cache = True
+    render.filepath = "//../../written"
+    layer = scene.view_layers[0]
+    for block in (scene, scene.camera, scene.camera.data, layer, blender.data.worlds.new("")):
+        block.name = LEAD_AWAY
+    render.use_multiview, render.views_format = True, "MULTIVIEW"
+    render.views.new(LEAD_AWAY).file_suffix = "_away"
+    layer.aovs.add().name = LEAD_AWAY
+    before = set(tmp_path.rglob("*"))
+    outside = [path for folder in tmp_path.parents for path in folder.glob("away*")]
+    assert cast() == []
+    assert [path for folder in tmp_path.parents for path in folder.glob("away*")] == outside
+    appeared = {str(path.relative_to(tmp_path)) for path in tmp_path.rglob("*") if path not in before}
+    inside = {path for path in appeared if path.startswith("a/b/c/out/")}
+    assert appeared - inside == {"a", "a/b", "a/b/c", "a/b/c/file.blend", "a/b/c/out"}
+    assert len(inside) == 3 * 2 + 1

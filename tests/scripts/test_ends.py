@@ -1,0 +1,122 @@
+"""How the scripts end where they are stopped early, or where nobody takes what they print: without a traceback."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from random import Random
+
+import pytest
+
+from .running import ROOT
+
+pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="Windows ends a process without telling it")
+SCENE = str(ROOT / "blend_scenes" / "empty.blend")
+WORDS = {
+    "benchmark": ["--help"],
+    "cast": [SCENE, "--passes", "depth"],
+    "environment": [],
+    "make_docs": ["--help"],
+    "make_pictures": ["--help"],
+    "make_scenes": ["--help"],
+    "side_by_side": ["--help"],
+    "verify": [SCENE],
+    "work_precision": ["--help"],
+}
+"""Every script, and what lets it print something soon."""
+ENVIRONMENT = {name: value for name, value in os.environ.items() if name != "PYTHONUNBUFFERED"}
+
+
+def start(name, folder, stdout=subprocess.PIPE, action=signal.SIG_DFL):
+    """Start a script in a folder, with the signals as a shell in front of a user hands them over."""
+    return subprocess.Popen(
+        [sys.executable, str(ROOT / "scripts" / f"{name}.py"), *WORDS[name]],
+        stdout=stdout,
+        stderr=subprocess.PIPE,
+        text=True,
+        cwd=folder,
+        env=ENVIRONMENT,
+        preexec_fn=lambda: [signal.signal(number, action) for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)],
+    )
+
+
+def test_every_script_is_here():
+    scripts = {path.stem for path in (ROOT / "scripts").glob("*.py") if '__name__ == "__main__"' in path.read_text()}
+    assert scripts == set(WORDS)
+
+
+@pytest.mark.parametrize("name", WORDS)
+def test_full_standard_output_is_one_line_and_status_2(name, tmp_path):
+    with open("/dev/full", "w") as full, start(name, tmp_path, stdout=full) as run:
+        (line,) = run.stderr.read().splitlines()
+    assert run.returncode == 2
+    assert line == f"{name}.py: cannot use standard output: No space left on device; choose another place"
+
+
+@pytest.mark.parametrize("name", WORDS)
+def test_a_pipe_that_nobody_reads_needs_no_words(name, tmp_path):
+    reading, writing = os.pipe()
+    os.close(reading)
+    with os.fdopen(writing, "w") as pipe, start(name, tmp_path, stdout=pipe) as run:
+        assert run.stderr.read() == ""
+    assert run.returncode == 141
+
+
+@pytest.mark.parametrize("closed", [">&-", ">&- 2>&-", "<&- >&- 2>&-"])
+@pytest.mark.parametrize("name", ["cast", "environment"])
+def test_closed_standard_output_is_refused_before_anything_is_made(name, closed, tmp_path):
+    words = [
+        "sh",
+        "-c",
+        f'exec "$@" {closed}',
+        "sh",
+        sys.executable,
+        str(ROOT / "scripts" / f"{name}.py"),
+        *WORDS[name],
+    ]
+    done = subprocess.run(words, capture_output=True, text=True, cwd=tmp_path, timeout=60)
+    assert done.returncode == 2
+    assert list(tmp_path.iterdir()) == []
+    if "2>" not in closed:
+        assert done.stderr == f"{name}.py: standard output is closed: send it to a file, or to /dev/null\n"
+
+
+def test_what_blender_says_on_closed_standard_error_reaches_no_file(tmp_path):
+    words = ["sh", "-c", 'exec "$@" <&- 2>&-', "sh", sys.executable, str(ROOT / "scripts" / "cast.py"), *WORDS["cast"]]
+    assert subprocess.run(words, capture_output=True, cwd=tmp_path, timeout=60).returncode == 0
+    assert (tmp_path / "out" / "empty.exr").read_bytes()[:4] == b"\x76\x2f\x31\x01"
+
+
+def hears(pid, number):
+    """Whether a process has a handler for a signal. Source: proc(5)."""
+    with open(f"/proc/{pid}/status") as lines:
+        (mask,) = (int(line.split()[1], 16) for line in lines if line.startswith("SigCgt"))
+    return mask >> (number - 1) & 1
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="asks the system which signals a process hears")
+@pytest.mark.parametrize("name", WORDS)
+def test_a_stop_during_the_imports_is_one_line(name, tmp_path):
+    """From the first moment on that a script can hear it; before that Python itself has only begun."""
+    random = Random(name)
+    for _ in range(8 if name == "cast" else 2):
+        with start(name, tmp_path) as run:
+            while run.poll() is None and not hears(run.pid, signal.SIGTERM):
+                time.sleep(0.001)
+            time.sleep(random.uniform(0, 0.35))
+            run.send_signal(random.choice((signal.SIGINT, signal.SIGTERM, signal.SIGHUP)))
+            said = run.stderr.read()
+        # -n: at its very end, when Python has given the signals back
+        assert run.returncode == 130 or (run.returncode <= 0 and name != "cast"), said
+        if run.returncode == 130:
+            assert said == f"{name}.py: stopped; what was under way has left nothing\n"
+    assert name != "cast" or list(tmp_path.iterdir()) == []
+
+
+def test_what_is_told_to_ignore_a_hangup_goes_on(tmp_path):
+    with start("cast", tmp_path, action=signal.SIG_IGN) as run:
+        time.sleep(0.3)
+        run.send_signal(signal.SIGHUP)
+        assert "Wrote" in run.stdout.read()
+    assert run.returncode == 0
