@@ -12,7 +12,7 @@ from ...core.shapes.recognize import NOT_FINITE, MeshArrays, defect, exclude, re
 from .kept import Found
 from .meshes import fetched, is_smooth, mesh_arrays, mesh_record, vertices
 
-CAST_MESHES = False
+CAST_MESHES = True
 """Whether meshes are cast as triangles; without it what is neither sphere nor plane is left out."""
 
 FORCED = {"SPHERE": SPHERE, "PLANE": PLANE, "INFINITE_PLANE": INFINITE_PLANE}
