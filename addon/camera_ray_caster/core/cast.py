@@ -48,9 +48,9 @@ def cast(
     hits with float32. object_index, material_index and shape_index are int32, valid is bool. With ``samples`` above 1
     the combined pass is the mean of as many rays a pixel, all over the pixel and the camera's aperture; all other
     passes are of the chief rays. ``threads``: so many at most, one a processor if None; fewer where they
-    would wait for each other. ``progress(fraction)`` is called in the calling thread after each tile, and ten times a
-    second; where it returns False the cast stops within the samples under way and raises Cancelled. ``cull=False``
-    tests every shape at every pixel: the same picture, slower.
+    would wait for each other. ``progress(fraction)`` is called in the calling thread after each tile, and twenty
+    times a second; where it returns False the cast stops within the shapes under way and raises Cancelled.
+    ``cull=False`` tests every shape at every pixel: the same picture, slower.
     Raises InputError for an unknown pass, shading or precision, for a dtype that is no floating-point number, for a
     number of samples or threads that is not whole, below 1, or above MOST_SAMPLES, and for passes that take more memory
     than there is.

@@ -74,9 +74,10 @@ def test_each_tile_shows_progress_and_asks_whether_to_stop(stopped, ends, monkey
     from camera_ray_caster.blender.terminal import signals
 
     shown = []
-    stand_in = SimpleNamespace(update_progress=shown.append, test_break=lambda: stopped)
+    stand_in = SimpleNamespace(update_progress=shown.append)
     monkeypatch.setattr(signals, "_stopping", ends)
-    assert engine.CameraRayCaster.advance(stand_in, 0.25) is not (stopped or ends)
+    with signals.heard(lambda: stopped):
+        assert engine.CameraRayCaster.advance(stand_in, 0.25) is not (stopped or ends)
     assert shown == [0.25]
 
 

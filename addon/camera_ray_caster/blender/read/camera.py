@@ -154,10 +154,16 @@ def _focus_position(dof, depsgraph):
 
 
 def _gray(image):
-    """Return the mean of an image's red, green and blue, (rows, columns) from the bottom; None without an image."""
-    if image is None or not image.size[0]:
+    """Return the mean of an image's red, green and blue, (rows, columns) from the bottom; None without an image.
+
+    Raises InputError where Blender finds no pixels.
+    """
+    if image is None:
         return None
     width, height = image.size
+    if not width * height:
+        path = bpy.path.abspath(image.filepath, library=image.library)
+        raise InputError(f"image {image.name!r} cannot be read from {path!r}: find its file, or choose another image")
     pixels = np.empty(width * height * image.channels, np.float32)
     image.pixels.foreach_get(pixels)
     return pixels.reshape(height, width, image.channels)[..., :3].mean(axis=-1, dtype=np.float64)

@@ -8,6 +8,7 @@ import numpy as np
 from ...core.records import Shapes
 from ...core.shapes.instances import Primitive, is_invertible, lights_in_world, put_in_world
 from ..properties.declared import PRIMITIVE
+from ..terminal.signals import raise_if_stopping
 from .geometry import shapes_of
 from .lights import USED, is_finite, light_color, shown, world_color
 from .stored import own_value
@@ -21,6 +22,8 @@ NO_SURFACE = frozenset(
 HIDDEN = "it is hidden in the viewport, so that Blender evaluates it only in a render: show it, or render (F12)"
 HAIR = "its hair {!r} is neither sphere nor plane"
 SINGULAR = "its size is zero in some direction, or not finite: clear its scale (Alt S) or apply it"
+LISTEN = 256
+"""Instances after which a reading asks whether to go on: some hundredths of a second."""
 DAZZLING = "its strength or color is not finite: set them anew"
 
 
@@ -53,7 +56,9 @@ def shapes_record(depsgraph) -> Shapes:
     found: dict[tuple, tuple[Primitive | None, str]] = {}
     left_out: Counter[tuple[str, str]] = Counter()
     listed = set()
-    for instance in depsgraph.object_instances:
+    for count, instance in enumerate(depsgraph.object_instances):
+        if count % LISTEN == 0:
+            raise_if_stopping()
         item = instance.object  # for an instance, a stand-in that the next one overwrites
         owner = instance.parent
         key = instance.instance_object or item, owner, item.data
@@ -133,7 +138,9 @@ def _gathered(groups: list[_Group], left_out: Counter, scene) -> Shapes:
     lights = [group for group in groups if group.is_sun is not None]
     cast = [group for group in groups if group.primitive is not None]
     placings = []
-    for group in cast:
+    for count, group in enumerate(cast):
+        if count % LISTEN == 0:
+            raise_if_stopping()
         matrices = group.placings()
         usable = is_invertible(matrices, group.primitive)
         if not usable.all():
