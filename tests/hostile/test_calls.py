@@ -49,7 +49,7 @@ def anything(bpy):
     return [
         None, True, False, 0, 1, 2, -1, -(2**70), 2**70, 0.0, 1.5, -0.5, 1e9, 1e308, float("nan"), float("inf"), 1j,
         Decimal("NaN"), Decimal("1.5"), Decimal("sNaN"), Fraction(1, 3), np.float32(2), np.int8(3), np.bool_(True),
-        np.float64("nan"), np.datetime64("NaT"), np.array(3), np.array([]), np.random.default_rng(0).random((7, 7)),
+        np.float64("nan"), np.datetime64("NaT", "s"), np.array(3), np.array([]), np.eye(7) / 3,
         np.array([["a\n"] * 40] * 40), np.zeros((2, 3)), np.ones((4, 3), complex), np.array([1, None, "x"], object),
         "", "left", "right", "depth", "combined", "MATERIAL", "GRID", "FAST", "float64", "f4", "V3", "x\ny", "\ud800",
         "\0", "x" * 10_000, b"depth", bytearray(9), [], (), {}, set(), {"depth"}, {"depth": 1}, ["depth", "valid"],

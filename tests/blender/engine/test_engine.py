@@ -126,6 +126,7 @@ def test_bad_input_is_one_line_and_no_traceback(scene, capfd):
 def test_what_is_left_out_is_warned_of_by_name(blender, scene, capfd):
     for _ in range(12):
         blender.ops.mesh.primitive_monkey_add()
+        blender.context.object.camera_ray_caster.primitive = "IGNORE"
     capfd.readouterr()
     blender.ops.render.render()
     said = "".join(capfd.readouterr())

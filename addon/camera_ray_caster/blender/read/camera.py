@@ -158,7 +158,7 @@ def _gray(image):
 
     Raises InputError where Blender finds no pixels.
     """
-    if image is None:
+    if not isinstance(image, bpy.types.Image):  # a file may store anything else there
         return None
     width, height = image.size
     if not width * height:

@@ -41,7 +41,7 @@ def read_camera(scene, camera_object=None, frame=None, view="") -> Camera:
 
 
 def read_shapes(scene, frame=None, camera_object=None, view="") -> Shapes:
-    """Return the scene's spheres and planes as they are evaluated, in the world, and the names of what is neither.
+    """Return the scene's shapes as they are evaluated, in the world, and the names of what cannot be cast.
 
     The arguments are as in ``read_camera``. The camera counts only where its pixels have each their own time: the
     shapes then come with their motion, and InputError is raised for a camera that cannot be cast.
