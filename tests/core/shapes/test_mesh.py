@@ -144,6 +144,15 @@ def test_normals_are_of_the_side_that_is_hit_smooth_or_flat_and_right_to_their_b
         assert np.median(images["normal_bound"][hit]) < 1e-11
 
 
+def test_a_smooth_ball_that_is_flattened_to_a_disc_has_its_normal():
+    """Also where the normals at corners lie in the disc's plane and vanish."""
+    shapes = shapes_of((ball(8, 12), (0, 0, -3), np.diag([1.0, 1.0, 0.0])))
+    images = cast(camera_at(), shapes, ("normal", "face_index"), np.float64)
+    hit = images["face_index"] >= 0
+    assert hit.sum() > 50
+    np.testing.assert_allclose(images["normal"][hit], np.tile([0.0, 0, 1], (hit.sum(), 1)), atol=1e-15)
+
+
 def test_normals_of_a_shared_mesh_are_interpolated_in_its_own_frame():
     """As Cycles does: under an uneven scale they differ from those of a mesh that one object shows."""
     tilted = np.float32([[0, -0.6, 0.6], [0, 0, 0], [1, 0.8, 0.8]])
