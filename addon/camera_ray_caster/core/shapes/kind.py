@@ -14,7 +14,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any, NamedTuple, Protocol
 
 import numpy as np
@@ -131,12 +131,6 @@ class HitPixels:
         """Return the (m,) entries of these pixels in an array of the scratch that the search filled for the tile."""
         rows, columns = self.where.shape
         return self.scratch(name, (self.first_row + rows, columns), dtype)[self.first_row :][self.where]
-
-    def only(self, some: np.ndarray) -> HitPixels:
-        """Return those that are meant, (m,) bool."""
-        where = self.where.copy()
-        where[where] = some
-        return replace(self, where=where, at=self.at[some], t=self.t[some])
 
 
 class ShapeErrors(ABC):
