@@ -14,13 +14,15 @@ MODULES = sorted(PACKAGE.rglob("*.py"))
 SOURCES = [*MODULES, *sorted((ROOT / "scripts").glob("*.py")), *sorted((ROOT / "tests").rglob("*.py"))]
 
 # What a part of the package may import of the package: the longest name that fits counts. The lowest layer comes first.
-LOW = {"core.conventions", "core.tuning", "core.records", "core.maths"}
+LOW = {"core.conventions", "core.tuning", "core.records", "core.arguments", "core.memory", "core.maths"}
 RAYS = LOW | {"core.cameras", "core.camera"}
 HITS = RAYS | {"core.shapes", "core.errors", "core.casting"}
 MAY_IMPORT = {
     "core.conventions": set(),
     "core.tuning": set(),
     "core.records": {"core.conventions"},
+    "core.arguments": {"core.records"},
+    "core.memory": {"core.records"},
     "core.maths": {"core.conventions", "core.maths"},
     "core.cameras": LOW | {"core.cameras"},
     "core.camera": RAYS,

@@ -12,7 +12,7 @@ ROOT = Path(__file__).resolve().parents[2]
 PATIENCE = 60
 """Seconds that an input may take, on a busy machine."""
 
-OPENING = "in _open"
+OPENING = "in open_file"
 """The line of our own code from which Blender opens a file."""
 
 
@@ -52,10 +52,11 @@ class Pool:
 
     def _crashed(self):
         self.process.wait(10)
-        said = self.process.stderr.read()[-2000:] + self.log.read_text()
+        told, log = self.process.stderr.read()[-2000:], self.log.read_text()
         self.process = None
-        main = said.partition("Current thread")[2].partition("\n\n")[0]
-        ours = next((line for line in main.splitlines() if "camera_ray_caster" in line or "tests/hostile" in line), "")
+        stack = log.partition("Current thread")[2].partition("\n\n")[0].splitlines()
+        ours = next((line for line in stack if "camera_ray_caster" in line or "tests/hostile" in line), "")
+        said = told + "\n".join([*log.splitlines()[:1], *stack[:12]])
         return {"what": "", "outcome": "opening crashed" if OPENING in ours else "crashed", "said": said}
 
     def close(self):

@@ -109,3 +109,43 @@ def test_a_second_signal_is_not_waited_for():
             signals.stop()
     finally:
         signals.reset()
+
+
+@pytest.mark.parametrize("moment", [0, 300, 700])
+def test_a_stop_is_heard_while_many_objects_are_read(blender, moment, monkeypatch):
+    """At once, not when all have been read: of the instances of each block only some are looked at."""
+    from camera_ray_caster.blender.read import shapes
+    from camera_ray_caster.blender.terminal import signals
+    from camera_ray_caster.core.records import Cancelled
+
+    blender.ops.mesh.primitive_plane_add()
+    plane = blender.context.object
+    for _ in range(999):
+        blender.context.collection.objects.link(plane.copy())
+    seen, group = [], shapes._group
+
+    def counting(*given):
+        seen.append(True)
+        return group(*given)
+
+    monkeypatch.setattr(shapes, "_group", counting)
+    depsgraph = blender.context.evaluated_depsgraph_get()
+    with pytest.raises(Cancelled), signals.heard(lambda: len(seen) >= moment):
+        shapes.shapes_record(depsgraph)
+    assert moment <= len(seen) < moment + shapes.LISTEN
+    assert len(shapes.shapes_record(depsgraph)) == 1000  # it was asked for that one reading only
+
+
+def test_what_a_thread_asks_is_not_asked_in_another():
+    from threading import Thread
+
+    from camera_ray_caster.blender.terminal import signals
+
+    answers = []
+    with signals.heard(lambda: True):
+        other = Thread(target=lambda: answers.append(signals.is_stopping()))
+        other.start()
+        other.join()
+        assert signals.is_stopping()
+    assert answers == [False]
+    assert not signals.is_stopping()

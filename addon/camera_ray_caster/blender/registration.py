@@ -7,12 +7,14 @@ import bpy
 from .engine import engine, viewport
 from .output import reports
 from .properties import groups
+from .read import kept
 from .terminal import commands
 from .ui import (
     camera_panels,
     cast_operator,
     cast_panels,
     model_panels,
+    object_panels,
     operators,
     overlay_panels,
     render_panels,
@@ -22,11 +24,11 @@ from .view3d import mouse_gizmo, overlay, scene_cache
 CLASSES = (
     *groups.CLASSES, *overlay.CLASSES, *engine.CLASSES, *operators.CLASSES, *cast_operator.CLASSES,
     *mouse_gizmo.CLASSES, *render_panels.CLASSES, *model_panels.CLASSES, *camera_panels.CLASSES, *cast_panels.CLASSES,
-    *overlay_panels.CLASSES,
+    *object_panels.CLASSES, *overlay_panels.CLASSES,
 )  # fmt: skip
 """Blender's types, in the order in which they are registered: a panel comes after the panel that it is in."""
 
-MODULES = (groups, reports, scene_cache, viewport, cast_operator, overlay, render_panels, commands)
+MODULES = (groups, kept, reports, scene_cache, viewport, cast_operator, overlay, render_panels, commands)
 """Modules that add more than classes. ``register(undo)`` adds it and gives ``undo`` the callbacks that remove it."""
 
 

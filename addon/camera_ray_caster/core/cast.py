@@ -2,23 +2,21 @@
 
 from __future__ import annotations
 
-import math
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable
 from dataclasses import replace
-from operator import index
 from time import perf_counter
 
 import numpy as np
 
-from . import tuning
+from . import arguments, memory, tuning
 from .camera.camera import Camera
-from .casting.passes import PASSES
+from .casting.passes import PASSES, image_bytes
 from .casting.plan import Plan, make_plan
 from .casting.request import AUTOMATIC, MATERIAL, Request
 from .casting.tiles import STEPS, Effort, Tile, cast_tile, in_threads, moments, shares
 from .maths.speed import Scratch
-from .records import InputError, Shapes
+from .records import Shapes
 
 MOST_SAMPLES = 1 << 24
 """Rays a pixel, as many as Cycles allows: more are no closer to the mean than a stored float32."""
@@ -34,7 +32,7 @@ class Images(dict[str, np.ndarray]):
 def cast(
     camera: Camera,
     shapes: Shapes,
-    passes: str | Sequence[str] = ("depth", "normal"),
+    passes: str | Iterable[str] = ("depth", "normal"),
     dtype=np.float32,
     *,
     shading: str = MATERIAL,
@@ -50,21 +48,23 @@ def cast(
     hits with float32. object_index, material_index and shape_index are int32, valid is bool. With ``samples`` above 1
     the combined pass is the mean of as many rays a pixel, all over the pixel and the camera's aperture; all other
     passes are of the chief rays. ``threads``: so many at most, one a processor if None; fewer where they
-    would wait for each other. ``progress(fraction)`` is called in the calling thread after each tile, and ten times a
-    second; where it returns False the cast stops within the samples under way and raises Cancelled. ``cull=False``
-    tests every shape at every pixel: the same picture, slower.
-    Raises InputError for an unknown pass, shading or precision, for a dtype that is no floating-point number, and for a
-    number of samples or threads that is not whole, below 1, or above MOST_SAMPLES.
+    would wait for each other. ``progress(fraction)`` is called in the calling thread after each tile, and twenty
+    times a second; where it returns False the cast stops within the shapes under way and raises Cancelled.
+    ``cull=False`` tests every shape at every pixel: the same picture, slower.
+    Raises InputError for an unknown pass, shading or precision, for a dtype that is no floating-point number, for a
+    number of samples or threads that is not whole, below 1, or above MOST_SAMPLES, and for passes that take more memory
+    than there is.
     """
     if not (isinstance(camera, Camera) and isinstance(shapes, Shapes)):
         raise TypeError(f"cast takes a camera and shapes as they are read, not {type(camera)} and {type(shapes)}")
     started = perf_counter()
-    threads = (os.cpu_count() or 1) if threads is None else _count(threads, "threads")
-    samples = _count(samples, "samples", MOST_SAMPLES)
-    if np.dtype(dtype).kind != "f":
-        raise InputError(f"passes are not stored as {np.dtype(dtype)}: choose float16, float32 or float64")
-    passes = (passes,) if isinstance(passes, str) else tuple(passes)
-    request = Request(passes, tuple(PASSES), shading, cull, precision=precision)
+    threads = (os.cpu_count() or 1) if threads is None else arguments.count(threads, "threads")
+    samples = arguments.count(samples, "samples", MOST_SAMPLES)
+    dtype = arguments.real_type(dtype, "dtype")
+    progress = arguments.function(progress, "progress")
+    passes = arguments.words(passes, "passes", PASSES)
+    request = Request(passes, tuple(PASSES), shading, arguments.flag(cull, "cull"), precision=precision)
+    memory.require(image_bytes(camera.raster.shape, passes, dtype), camera.raster.shape, "the passes")
     time = camera.pixel_time
     whole = make_plan(*_moment(camera, shapes, (time.first + time.last) / 2 if time else None), request)
     images = Images({name: PASSES[name].empty(camera.raster.shape, dtype) for name in passes})
@@ -98,18 +98,6 @@ def cast(
     share = (perf_counter() - began) / max(busy.sum(), np.finfo(float).tiny)
     images.seconds |= dict(zip(STEPS, busy * share, strict=True))
     return images
-
-
-def _count(given, unit: str, most: float = math.inf) -> int:
-    """Return a number of things. Raises InputError where it is none, or out of range."""
-    try:
-        count = index(given)
-    except TypeError as error:
-        raise InputError(f"{given!r} is no number of {unit}: ask for a whole number") from error
-    if not 1 <= count <= most:
-        limit = f", up to {most}" if count > 1 else ""
-        raise InputError(f"{count} {unit} make no picture: ask for 1 or more{limit}")
-    return count
 
 
 def _moment(camera: Camera, shapes: Shapes, frame: float | None) -> tuple[Camera, Shapes]:

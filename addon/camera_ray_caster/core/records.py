@@ -233,6 +233,10 @@ class Shapes:
     """(n,) int32 into ``meshes``, -1 for other shapes; empty where there are no meshes."""
     slots: Slots | None = None
     """None where no mesh has more than one material."""
+    exact: tuple[tuple[str, float], ...] = ()
+    """Objects whose mesh is cast as the sphere or plane that it is, and how far both are apart at most, over the radius
+    or the plane's longer half side.
+    """
 
     def __len__(self) -> int:
         return len(self.kind)

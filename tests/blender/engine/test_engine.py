@@ -74,9 +74,10 @@ def test_each_tile_shows_progress_and_asks_whether_to_stop(stopped, ends, monkey
     from camera_ray_caster.blender.terminal import signals
 
     shown = []
-    stand_in = SimpleNamespace(update_progress=shown.append, test_break=lambda: stopped)
+    stand_in = SimpleNamespace(update_progress=shown.append)
     monkeypatch.setattr(signals, "_stopping", ends)
-    assert engine.CameraRayCaster.advance(stand_in, 0.25) is not (stopped or ends)
+    with signals.heard(lambda: stopped):
+        assert engine.CameraRayCaster.advance(stand_in, 0.25) is not (stopped or ends)
     assert shown == [0.25]
 
 
@@ -125,6 +126,7 @@ def test_bad_input_is_one_line_and_no_traceback(scene, capfd):
 def test_what_is_left_out_is_warned_of_by_name(blender, scene, capfd):
     for _ in range(12):
         blender.ops.mesh.primitive_monkey_add()
+        blender.context.object.camera_ray_caster.primitive = "IGNORE"
     capfd.readouterr()
     blender.ops.render.render()
     said = "".join(capfd.readouterr())

@@ -2,6 +2,8 @@
 
 import pytest
 
+from camera_ray_caster.blender.read import geometry
+
 from ..pictures import tick
 from .scene_parts import ball, new_object
 from .time_scene import PASSES, SIZE
@@ -26,3 +28,17 @@ def scene(blender):
 def sphere(scene):
     """The sphere that moves."""
     return ball("Ball", subdivisions=3)
+
+
+@pytest.fixture
+def triangles(monkeypatch):
+    """Meshes are cast as triangles."""
+    monkeypatch.setattr(geometry, "CAST_MESHES", True)
+
+
+@pytest.fixture
+def read_meshes(triangles, monkeypatch):
+    """The names of the evaluated meshes that are read, in order."""
+    read, found = [], geometry.mesh_shapes
+    monkeypatch.setattr(geometry, "mesh_shapes", lambda mesh, setting: read.append(mesh.name) or found(mesh, setting))
+    return read

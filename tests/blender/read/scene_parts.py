@@ -16,10 +16,11 @@ def new_object(name, data=None, collection=None):
 
 
 def ball(name="Ball", collection=None, **options):
-    """Return an object whose mesh is Blender's ico sphere."""
+    """Return an object whose mesh is Blender's ico sphere, smooth."""
     ADD.primitive_ico_sphere_add(**options)
     made = bpy.context.object
     item = new_object(name, made.data, collection)
+    item.data.shade_smooth()
     bpy.data.objects.remove(made)
     return item
 
@@ -59,8 +60,8 @@ def counts(shapes):
     return Counter(shapes.names[index] for index in shapes.name_index)
 
 
-def in_a_render(scene):
-    """Return what a render's depsgraph gives."""
+def in_a_render(scene, frames=()):
+    """Return what a render's depsgraph gives, the last one of those at some frames."""
     found = []
 
     class Engine(bpy.types.RenderEngine):
@@ -68,6 +69,9 @@ def in_a_render(scene):
 
         def render(self, depsgraph):
             found.append(shapes_record(depsgraph))
+            for frame in frames:
+                self.frame_set(frame, 0.0)
+                found.append(shapes_record(depsgraph))
 
     scene.camera = scene.camera or new_object("Camera", bpy.data.cameras.new("Camera"))
     scene.render.resolution_x = scene.render.resolution_y = 8
@@ -78,4 +82,4 @@ def in_a_render(scene):
     finally:
         scene.render.engine = "CYCLES" if "CYCLES" in dir(scene) else "BLENDER_WORKBENCH"
         bpy.utils.unregister_class(Engine)
-    return found[0]
+    return found[-1]

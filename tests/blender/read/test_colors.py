@@ -38,6 +38,71 @@ def test_color_and_indices_come_from_the_first_faces_material(scene):
     assert looks == {"Plain": (0, (0.5, 0.25, 0, 1)), "First": red, "Second": green, "Own": green}
 
 
+def principled(color=None):
+    """A material with nodes, green in the viewport, and its Principled BSDF."""
+    material = bpy.data.materials.new("Material")
+    if bpy.app.version < (5, 0, 0):
+        material.use_nodes = True
+    material.diffuse_color = 0, 1, 0, 0.5
+    node = next(node for node in material.node_tree.nodes if node.bl_idname == "ShaderNodeBsdfPrincipled")
+    if color:
+        node.inputs["Base Color"].default_value = color
+    return material, node
+
+
+def mixed(material, node):
+    """Put another shader between the node and the output."""
+    nodes, links = material.node_tree.nodes, material.node_tree.links
+    mix = nodes.new("ShaderNodeMixShader")
+    links.new(node.outputs[0], mix.inputs[1])
+    links.new(mix.outputs[0], nodes["Material Output"].inputs["Surface"])
+
+
+def textured(material, node):
+    """Let a texture give the color."""
+    noise = material.node_tree.nodes.new("ShaderNodeTexNoise")
+    material.node_tree.links.new(noise.outputs["Color"], node.inputs["Base Color"])
+
+
+def turned_off(material, node):
+    """Leave the nodes aside, which Blender can up to 4.5."""
+    if bpy.app.version < (5, 0, 0):
+        material.use_nodes = False
+    else:
+        material.node_tree.links.clear()
+
+
+GOLD, GREEN = (1, 0.5, 0.125, 1), (0, 1, 0, 0.5)
+
+
+@pytest.mark.parametrize(
+    ("color", "change", "expected"),
+    [
+        (GOLD, None, (*GOLD[:3], 0.5)),
+        (None, None, GREEN),
+        ((0.8, 0.8, 0.8, 1), None, GREEN),
+        (GOLD, mixed, GREEN),
+        (GOLD, textured, GREEN),
+        (GOLD, turned_off, GREEN),
+    ],
+    ids=["changed", "as it was made", "set to the same", "mixed", "textured", "turned off"],
+)
+def test_a_plain_base_color_that_was_changed_is_the_color(scene, color, change, expected):
+    material, node = principled(color)
+    if change:
+        change(material, node)
+    ball("Ball").data.materials.append(material)
+    np.testing.assert_allclose(read_shapes(scene).color, [expected], atol=ULP)
+
+
+def test_a_base_color_that_is_animated_is_that_of_the_frame(scene):
+    material, node = principled(GOLD)
+    node.inputs["Base Color"].driver_add("default_value", 0).driver.expression = "frame / 8"
+    ball("Ball").data.materials.append(material)
+    reds = [read_shapes(scene, frame).color[0, 0] for frame in (2, 4)]
+    np.testing.assert_allclose(reds, [0.25, 0.5], atol=ULP)
+
+
 def test_sun_and_point_lights_are_used_and_others_named(scene):
     for kind in ("SUN", "POINT", "SPOT", "AREA"):
         light = new_object(kind.title(), bpy.data.lights.new(kind, kind))

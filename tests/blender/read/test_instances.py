@@ -106,6 +106,7 @@ def test_what_cannot_be_cast_is_named_once_however_often_it_is_instanced(scene):
     collection = new_collection("Collection")
     ADD.primitive_cube_add()
     cube = new_object("Cube of many", bpy.context.object.data, collection)
+    cube.camera_ray_caster.primitive = "IGNORE"
     bpy.data.objects.remove(bpy.context.object)
     for _ in range(4):
         empty = new_object("Empty")

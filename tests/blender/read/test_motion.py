@@ -5,6 +5,7 @@ import pytest
 
 from camera_ray_caster.blender.output import reports
 from camera_ray_caster.blender.read.scene import read_camera
+from camera_ray_caster.core.records import InputError
 
 from ..pictures import picture
 from .scene_parts import geometry_nodes, new_object
@@ -111,3 +112,17 @@ def test_a_fan_of_whole_turns_a_frame_is_resolved(blender, scene):
     along, across = x * np.cos(angle) + y * np.sin(angle), y * np.cos(angle) - x * np.sin(angle)
     edge = np.maximum(np.abs(along) - 2.5, np.abs(across) - 0.4)
     same(found["shape_index"] == 0, edge <= 0, np.abs(edge) < 0.05)  # the tolerance: a tenth of a pixel, doubled
+
+
+def test_a_time_image_whose_file_is_missing_is_named_with_its_path(blender, tmp_path):
+    blender.ops.object.camera_add()
+    scene = blender.context.scene
+    scene.camera = blender.context.object
+    image = blender.data.images.new("Times\nof pixels", 2, 2)
+    image.source, image.filepath = "FILE", str(tmp_path / "gone.png")
+    own = scene.camera.data.camera_ray_caster
+    own.time_mode, own.time_image = "IMAGE", image
+    path = str(tmp_path / "gone.png")
+    with pytest.raises(InputError) as refusal:
+        read_camera(scene)
+    assert str(refusal.value).startswith(f"image 'Times\\nof pixels' cannot be read from {path!r}: find its file")

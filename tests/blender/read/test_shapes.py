@@ -21,6 +21,7 @@ def scene():
 @pytest.mark.parametrize("segments", [(6, 4), (7, 5), (8, 3), (32, 16), (48, 24), (200, 100)])
 def test_blenders_uv_spheres_are_spheres(scene, segments):
     ADD.primitive_uv_sphere_add(segments=segments[0], ring_count=segments[1], radius=2.5, location=(1, 2, 3))
+    bpy.context.object.data.shade_smooth()
     shapes = read_shapes(scene)
     assert (list(shapes.kind), shapes.left_out) == ([SPHERE], ())
     np.testing.assert_array_equal(shapes.center, [(1, 2, 3)])
@@ -29,7 +30,7 @@ def test_blenders_uv_spheres_are_spheres(scene, segments):
 
 @pytest.mark.parametrize("subdivisions", [1, 2, 3, 4, 5, 6])
 def test_blenders_ico_spheres_are_spheres(scene, subdivisions):
-    ADD.primitive_ico_sphere_add(subdivisions=subdivisions, radius=0.25)
+    ball(subdivisions=subdivisions, radius=0.25)
     shapes = read_shapes(scene)
     assert (list(shapes.kind), shapes.left_out) == ([SPHERE], ())
     np.testing.assert_array_equal(shapes.center, [(0, 0, 0)])
@@ -43,25 +44,6 @@ def test_blenders_planes_are_planes(scene, name):
     assert (list(shapes.kind), shapes.left_out) == ([PLANE], ())
     np.testing.assert_array_equal(shapes.center, [(0, 0, -1)])
     np.testing.assert_array_equal(shapes.axes[0, :, :2], [(3, 0), (0, 3), (0, 0)])
-
-
-@pytest.mark.parametrize(
-    ("name", "reason"),
-    [
-        ("cube", "cut deep"),
-        ("cylinder", "cut deep"),
-        ("cone", "cut deep"),
-        ("torus", "not on one sphere"),
-        ("monkey", "not on one sphere"),
-    ],
-)
-def test_blenders_other_primitives_are_named_with_the_reason(scene, name, reason):
-    getattr(ADD, f"primitive_{name}_add")()
-    bpy.context.object.name = "Thing"
-    shapes = read_shapes(scene)
-    assert len(shapes) == 0
-    assert [item for item, _ in shapes.left_out] == ["Thing"]
-    assert reason in shapes.left_out[0][1]
 
 
 @pytest.mark.parametrize("index", [-1, 10**6, 2**31 - 1])
@@ -81,27 +63,10 @@ def test_a_corrupt_mesh_is_left_out_by_name(scene, name, index):
     assert "corrupt" not in str(read_shapes(scene).left_out)
 
 
-def test_a_disc_is_flat_with_the_wrong_outline(scene):
-    ADD.primitive_circle_add(fill_type="NGON")
-    assert "outline has 32 corners" in read_shapes(scene).left_out[0][1]
-
-
 def test_a_scale_that_an_operator_applies_makes_an_ellipsoid(scene):
     ADD.primitive_uv_sphere_add(scale=(1, 2, 3))
     shapes = read_shapes(scene)
     np.testing.assert_allclose(shapes.axes[0], np.diag([1, 2, 3]), atol=3 * 10 * ULP)
-
-
-@pytest.mark.parametrize("add", ["curve.primitive_bezier_circle_add", "object.text_add", "object.metaball_add"])
-def test_surfaces_that_are_no_mesh_are_named_once(scene, add):
-    group, operator = add.split(".")
-    getattr(getattr(bpy.ops, group), operator)()
-    bpy.context.object.name = "Thing"
-    if "curve" in add:
-        bpy.context.object.data.bevel_depth = 0.1
-    shapes = read_shapes(scene)
-    assert len(shapes) == 0
-    assert [item for item, _ in shapes.left_out] == ["Thing"]
 
 
 def test_hair_and_hair_curves_are_named(scene):
@@ -150,17 +115,8 @@ def test_constraints_drivers_and_subframes_move_shapes_and_the_frame_is_put_back
         assert (scene.frame_current, scene.frame_subframe) == (3, 0.5)
 
 
-def test_modifiers_are_applied(scene):
-    item = ball()
-    modifier = item.modifiers.new("Array", "ARRAY")
-    modifier.count = 2
-    assert "not on one sphere" in read_shapes(scene).left_out[0][1]
-    modifier.count = 1
-    assert len(read_shapes(scene)) == 1
-
-
-@pytest.mark.parametrize("scale", [(0, 0, 0), (1, 0, 1), (float("inf"), 1, 1), (float("nan"), 1, 1)])
-def test_a_matrix_without_size_is_named(scene, scale):
+@pytest.mark.parametrize("scale", [(float("inf"), 1, 1), (float("nan"), 1, 1)])
+def test_a_matrix_that_is_not_finite_is_named(scene, scale):
     ball("Good")
     bad = ball("Bad")
     bad.parent = new_object("Parent")

@@ -1,4 +1,4 @@
-"""The buttons of the sidebar and what its panels draw, without a window; tests/gui presses them with one."""
+"""The buttons of the sidebar, without a window; tests/gui presses them with one."""
 
 import numpy as np
 import pytest
@@ -11,20 +11,7 @@ from camera_ray_caster.core.cast import cast
 from camera_ray_caster.core.casting.passes import PASSES
 from camera_ray_caster.core.casting.request import PRECISIONS
 
-WIDTH, HEIGHT = 24, 16
-
-
-@pytest.fixture
-def scene(blender):
-    """A sphere and a monkey before a camera."""
-    bpy = blender
-    bpy.ops.mesh.primitive_monkey_add(location=(3, 0, 0))
-    bpy.ops.mesh.primitive_uv_sphere_add(radius=1)
-    bpy.ops.object.camera_add(location=(0, 0, 6))
-    scene = bpy.context.scene
-    scene.camera = bpy.context.object
-    scene.render.resolution_x, scene.render.resolution_y = WIDTH, HEIGHT
-    return scene
+from .conftest import HEIGHT, WIDTH
 
 
 def pixels_of(image):
@@ -220,67 +207,6 @@ def test_a_file_goes_without_the_add_on_and_comes_back_with_it(blender, scene, t
     assert blender.data.objects["Suzanne"].camera_ray_caster.primitive == "SPHERE"
     assert blender.ops.camera_ray_caster.cast() == {"FINISHED"}
     assert reports.latest().shapes == 2
-
-
-class Layout:
-    """Stands for Blender's layout: it takes everything and notes the text and the operators."""
-
-    def __init__(self):
-        self.said = []
-
-    def __getattr__(self, name):
-        def call(*arguments, **keywords):
-            self.said += [keywords["text"]] if keywords.get("text") else []
-            self.said += arguments if name == "operator" else ()
-            return self
-
-        return call
-
-
-def drawn(blender, panel):
-    """Draw a panel as Blender does, and return what it says."""
-    layout = Layout()
-    context = blender.context.copy() | {"region": type("Region", (), {"width": 300})}
-    context["evaluated_depsgraph_get"] = blender.context.evaluated_depsgraph_get
-    context = type("Context", (), {name: staticmethod(v) if callable(v) else v for name, v in context.items()})
-    panel.draw(type("Panel", (), {"layout": layout}), context)
-    return " ".join(layout.said)
-
-
-def test_the_panels_say_what_the_camera_is_and_why_it_is_none(blender, scene):
-    from camera_ray_caster.blender.ui import camera_panels, cast_panels, overlay_panels
-
-    sidebar = [*camera_panels.CLASSES[:2], *cast_panels.CLASSES[:2], overlay_panels.SidebarOverlay]
-    said = drawn(blender, camera_panels.SidebarCamera)
-    for text in ("Eye", "6 m", "24 × 16 px", "39.6°", "Plane Distance d", "2.77778", "K"):
-        assert text in said
-    blender.ops.camera_ray_caster.cast()
-    for panel in (*sidebar, *cast_panels.CLASSES[2:]):
-        drawn(blender, panel)
-    assert "Suzanne" in drawn(blender, cast_panels.SidebarLeftOut)
-    assert "All witnesses agree" in drawn(blender, camera_panels.SidebarVerify)
-    scene.camera.location.x = 1
-    assert "has changed since" in drawn(blender, camera_panels.SidebarVerify)
-    scene.camera = None
-    assert "no active camera" in drawn(blender, camera_panels.SidebarCamera)
-    for panel in sidebar:
-        drawn(blender, panel)
-
-
-def test_the_panels_say_how_right_the_hits_are(blender, scene):
-    from camera_ray_caster.blender.ui import cast_panels, render_panels
-
-    blender.ops.camera_ray_caster.cast()
-    found = reports.latest().accuracy
-    assert found.hits > 0
-    assert 0 < reports.latest().seconds["accuracy"] < sum(reports.latest().seconds.values())
-    median, worst = (f"≤ {getattr(found, name)('relative_distance'):.0e}" for name in ("median", "worst"))
-    said = drawn(blender, cast_panels.SidebarReport)
-    assert f"Distance Error, Median {median} Distance Error, Worst {worst}" in said
-    assert f"Worst distance error: {worst}" in drawn(blender, render_panels.RenderPanel)
-    scene.camera.location.z = -6  # it looks away from all there is
-    blender.ops.camera_ray_caster.cast()
-    assert "Distance Error, Worst nothing hit" in drawn(blender, cast_panels.SidebarReport)
 
 
 def test_nothing_runs_after_a_cast(blender, scene):

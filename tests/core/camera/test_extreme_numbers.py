@@ -49,11 +49,6 @@ def made(kind, settings):
         ("TWISTED_ORTHOGRAPHIC", {"ortho_scale": HUGE}, "along the image plane, .*: ortho_scale is 1e.30"),
         ("TWISTED_ORTHOGRAPHIC", {"twist": HUGE}, "along the image plane, .*: twist is 1e.30"),
         ("CAMERA_OBSCURA", {"obscura_width": HUGE}, "along the image plane, .*: obscura_width is 1e.30"),
-        (
-            "CENTRAL_CYLINDRICAL",
-            {"central_cylindrical_range_v_max": HUGE, "matrix_world": placed()},
-            "not told apart: .*range_v_max is 1e.30",
-        ),
         ("OPENCV_PINHOLE", {"cx": HUGE}, "cx .* is 1e.30: it must be from"),
         ("OPENCV_FISHEYE", {"cy": HUGE}, "cy .* is 1e.30: it must be from"),
         ("STRIP", {"matrix_world": placed(location=1e12)}, "path .* away, where float32 does not tell its ends apart"),

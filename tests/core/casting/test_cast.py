@@ -238,7 +238,7 @@ def test_what_is_not_needed_is_said():
 
 
 def test_unknown_pass_and_shading_are_refused_by_name():
-    with pytest.raises(InputError, match=r"depht.*choose from.*depth"):
+    with pytest.raises(InputError, match=r"passes is 'depht': it must be one of .*depth"):
         cast(camera_at(), shapes_of(), ("depht",))
     with pytest.raises(InputError, match=r"PHONG.*MATERIAL"):
         cast(camera_at(), shapes_of(), ("depth",), shading="PHONG")
@@ -248,7 +248,7 @@ def test_one_pass_may_be_named_alone_and_no_threads_are_refused():
     ball = shapes_of((SPHERE, (0, 0, -5), 1.0))
     assert list(cast(camera_at(), ball, "depth")) == ["depth"]
     for threads in (0, -1):
-        with pytest.raises(InputError, match=f"{threads} threads"):
+        with pytest.raises(InputError, match=f"threads is {threads}"):
             cast(camera_at(), ball, "depth", threads=threads)
 
 

@@ -13,6 +13,7 @@ from camera_ray_caster.core.casting.passes import PASSES
 from camera_ray_caster.core.casting.pixels import hits_at, passes_at
 
 from ..cameras.model_examples import camera as camera_of
+from ..shapes import meshes
 from .test_cast import camera_at, random_shapes
 
 SIZE = {"resolution_x": 64, "resolution_y": 48}
@@ -52,6 +53,22 @@ def test_the_plan_of_a_picture_serves_pixels_of_its_window_and_tests_only_what_t
     assert np.array_equal(hits.t, images["depth"][at])
     assert np.array_equal(hits.index, images["shape_index"][at])
     assert 0 < len(hits.plan.seen) < len(images.plan.seen)
+
+
+@pytest.mark.parametrize("model", MODELS, ids=lambda model: model.key)
+def test_meshes_at_pixels_are_those_of_the_picture_and_are_not_placed_again(model):
+    """To rounding: single pixels have no spans."""
+    camera = camera_of(model.key, SIZE)
+    shapes = meshes.shapes_of((meshes.soup(np.random.default_rng(2), 300), (0, 0, -1), 2.0))
+    images = cast(camera, shapes, ("distance", "face_index"), np.float64)
+    for columns, rows in LATTICES:
+        some = passes_at(camera, shapes, np.array(columns), np.array(rows), ("distance", "face_index"))
+        at = np.ix_(rows, columns)
+        assert np.array_equal(some["face_index"], images["face_index"][at])
+        np.testing.assert_allclose(some["distance"], images["distance"][at], rtol=1e-12)
+    if camera.pixel_time is None:
+        plan = images.plan.at_pixels(np.array([3, 7]), np.array([2]))
+        assert [one.meshes for one in plan.sets] == [one.meshes for one in images.plan.sets][: len(plan.sets)]
 
 
 def test_the_time_of_a_pixel_is_left_out():

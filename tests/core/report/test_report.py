@@ -38,6 +38,7 @@ def report():
         name_index=np.zeros(1, np.int32),
         names=("Sphere",),
         left_out=(("Suzanne", "it is a monkey " + "of many words " * 20),),
+        exact=(("Sphere", 0.0096), ("Floor", 0.0), ("Sphere", 0.0096)),
     )
     images = cast(camera(), shapes, ("depth",), precision="ROBUST")
     seconds = {"read": 0.5, "plan": 0.01, "cast": 0.02, "passes": 0.03, "write": 0.25}
@@ -68,6 +69,7 @@ def test_a_second_layer_adds_up(report):
     assert both.seconds == {"read": 0.75, "plan": 0.01, "cast": 0.02, "passes": 0.03, "write": 0.25, "files": 1.0}
     assert both.findings == (GOOD, BAD)
     assert both.left_out == report.left_out, "an object is named once"
+    assert both.exact == report.exact == (("Sphere", 0.0096), ("Floor", 0.0))
     assert report.passed
     assert not both.passed
 
@@ -102,6 +104,7 @@ def test_json_is_strict_and_holds_the_record(report):
     assert data["frame"] == 1.5
     assert data["seconds"] == dict(report.seconds)
     assert data["left_out"][0]["name"] == "Suzanne"
+    assert data["exact"][0] == {"name": "Sphere", "apart": 0.0096}
     assert data["passed"] is True
 
 
@@ -113,6 +116,7 @@ def test_the_table_says_all_and_fits(report):
         assert word in table
     verdicts = {line.split()[0]: line.split()[-1] for line in lines if "witness" in line}
     assert verdicts == {"good": "ok", "bad": "FAILED"}
+    assert "2 meshes cast as spheres or planes: at most 0.96% of the radius off, 'Sphere'" in table
 
 
 def test_settings_and_formula_of_the_model_are_in_the_report(report):

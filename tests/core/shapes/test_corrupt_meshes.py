@@ -47,3 +47,10 @@ def test_a_corrupt_mesh_is_named_and_nothing_is_read_beyond_its_arrays():
     assert said["a shape"] > 20
     assert said[CORRUPT] > 200
     assert said[ROUNDED_AWAY] > 10
+
+
+def test_a_face_of_two_corners_is_corrupt():
+    """Blender's own triangles of such a face would be none, or fewer."""
+    whole = mesh(SQUARE, [(0, 1, 2), (0, 2, 3)])
+    assert whole.is_whole
+    assert not replace(whole, loop_starts=np.array([0, 2], np.int32)).is_whole

@@ -3,15 +3,9 @@
 import numpy as np
 import pytest
 
-from camera_ray_caster.core.records import INFINITE_PLANE, PLANE, SPHERE
-from camera_ray_caster.core.shapes.instances import (
-    Primitive,
-    enclosing_primitive,
-    is_invertible,
-    points_primitive,
-    put_in_world,
-)
-from camera_ray_caster.core.shapes.recognize import MeshArrays, recognize
+from camera_ray_caster.core.records import PLANE, SPHERE
+from camera_ray_caster.core.shapes.instances import Primitive
+from camera_ray_caster.core.shapes.recognize import MeshArrays, exclude, recognize
 
 ULP = float(np.finfo(np.float32).eps)
 
@@ -114,6 +108,33 @@ OCTAHEDRON = (
 def test_solids_with_their_corners_on_one_sphere_are_no_sphere(solid, scale):
     vertices, faces = solid
     assert "cut deep" in recognize(mesh(vertices * scale, faces))
+
+
+def test_how_far_the_faces_of_a_sphere_and_an_ellipsoid_are_from_it():
+    """A face of a UV sphere between two meridians and two parallels, with the middle of the equator's farthest in."""
+    vertices, faces = uv_sphere(16, 8)
+    lowest = np.cos(np.pi / 16) * np.cos(np.pi / 16)  # half a step along, half a step up
+    for matrix in (np.eye(3), 100 * np.eye(3), np.diag([1, 2, 3])):
+        found = recognize(mesh(vertices @ matrix, faces))
+        corners = np.array([vertices[list(face)[:3]] for face in faces])
+        normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+        heights = np.abs((corners[:, 0] * normals).sum(axis=1)) / np.linalg.norm(normals, axis=1)
+        assert found.apart == pytest.approx(1 - heights.min(), abs=8 * ULP)
+        assert found.apart == pytest.approx(1 - lowest, abs=2e-3)
+    assert recognize(mesh(SQUARE, [(0, 1, 2, 3)])).apart == 0
+
+
+def test_large_meshes_are_excluded_by_some_of_their_vertices_and_shapes_are_not():
+    vertices, faces = uv_sphere(64, 48)
+    for matrix, offset in ((np.eye(3), (0, 0, 0)), (np.diag([1, 2, 3]), (5, 0, 0)), (turn() * 1e-3, (0, 1, 0))):
+        assert exclude(mesh(vertices @ matrix + offset, faces)) == ""
+    points, quads = grid(np.linspace(-1, 1, 50), np.linspace(-1, 1, 50))
+    for matrix in (np.eye(3), turn()):
+        assert exclude(mesh(points @ matrix, quads)) == ""
+    dented = vertices * np.where(vertices[:, :1] > 0.5, 1.01, 1)
+    wavy = points + np.c_[np.zeros((len(points), 2)), 0.01 * np.sin(7 * points[:, 0])]
+    for array, polygons in ((dented, faces), (wavy, quads)):
+        assert "not on one sphere" in exclude(mesh(array, polygons))
 
 
 def test_a_sphere_with_a_face_missing_is_not_closed():
@@ -230,51 +251,3 @@ def test_a_trapezoid_beyond_rounding_is_told_from_a_parallelogram():
     vertices = SQUARE.copy()
     vertices[2, 0] += 1e-5
     assert "no parallelogram" in recognize(mesh(vertices, [(0, 1, 2, 3)]))
-
-
-def test_the_bounds_of_any_vertices():
-    vertices = np.array([(0, 0, 0), (4, 0, 0), (0, 2, 0), (0, 0, 6)], np.float32)
-    ball = enclosing_primitive(SPHERE, vertices)
-    np.testing.assert_array_equal(ball.centers, [(2, 1, 3)])
-    np.testing.assert_allclose(ball.axes, np.sqrt(14) * np.eye(3), rtol=ULP)
-    plane = enclosing_primitive(PLANE, vertices)
-    np.testing.assert_array_equal(plane.centers, [(2, 1, 1.5)])
-    np.testing.assert_array_equal(plane.axes, np.diag([2, 1, 1]))
-    np.testing.assert_array_equal(enclosing_primitive(INFINITE_PLANE, vertices).axes, np.eye(3))
-
-
-def test_the_bounds_of_vertices_whose_squares_float32_cannot_hold():
-    ball = enclosing_primitive(SPHERE, np.array([(-3e38, 0, 0), (3e38, 0, 0)], np.float32))
-    np.testing.assert_allclose(ball.axes, np.float32(3e38) * np.eye(3), rtol=ULP)
-
-
-def test_points_without_a_radius_are_no_spheres():
-    positions = np.array([(0, 0, 0), (1, 0, 0), (2, 0, 0), (np.nan, 0, 0)], np.float32)
-    found = points_primitive(positions, np.array([1, 0, np.inf, 1], np.float32))
-    np.testing.assert_array_equal(found.centers, [(0, 0, 0)])
-
-
-def test_placing_is_the_matrix_instance_by_instance():
-    random = np.random.default_rng(5)
-    primitive = Primitive(SPHERE, random.normal(size=(3, 3)), np.diag([1.0, 2.0, 3.0]), np.array([1.0, 2.0, 0.5]))
-    matrices = random.normal(size=(2, 3, 4))
-    centers, axes = np.empty((6, 3)), np.empty((6, 3, 3))
-    put_in_world(primitive, matrices, centers, axes)
-    for row, (matrix, k) in enumerate((m, k) for m in matrices for k in range(3)):
-        at = np.eye(4)
-        at[:3] = matrix
-        local = np.eye(4)
-        local[:3, :3], local[:3, 3] = primitive.sizes[k] * primitive.axes, primitive.centers[k]
-        expected = at @ local
-        np.testing.assert_allclose(centers[row], expected[:3, 3], rtol=1e-14, atol=1e-14)
-        np.testing.assert_allclose(axes[row], expected[:3, :3], rtol=1e-14, atol=1e-14)
-
-
-def test_matrices_that_span_no_space_are_told_from_thin_ones():
-    unit = Primitive(SPHERE, np.zeros((1, 3)), np.eye(3), np.ones(1))
-    flat_and_turned = np.float32(turn()) @ np.diag(np.float32([1, 0, 1])) @ np.float32(turn(0.3))
-    linear = [np.diag([1e-12, 1.0, 1e12]), np.diag([1.0, 0.0, 1.0]), flat_and_turned, np.full((3, 3), np.nan)]
-    matrices = np.array([np.c_[matrix, np.zeros(3)] for matrix in linear])
-    assert is_invertible(matrices, unit).tolist() == [True, False, False, False]
-    matrices[0, 0, 3] = np.inf
-    assert not is_invertible(matrices, unit)[0]

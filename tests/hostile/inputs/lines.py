@@ -2,7 +2,7 @@
 
 from .parts import FLOATS, Hostile, new_object
 
-COUNT = 110
+COUNT = 240
 MODELS = ("STRIP", "STRIP", "CROSS_SLIT", "PUSHBROOM", "PENCIL", "TWISTED_ORTHOGRAPHIC")
 
 

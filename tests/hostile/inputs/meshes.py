@@ -2,7 +2,7 @@
 
 from .parts import FLOATS, Hostile, new_object
 
-COUNT = 140
+COUNT = 210
 
 
 def make(chance, number, folder):

@@ -2,7 +2,7 @@
 
 from .parts import FLOATS, WHOLES, Hostile, put
 
-COUNT = 160
+COUNT = 300
 
 FIELDS = {
     "camera": ("location", "rotation_euler", "scale", "delta_location", "delta_scale", "matrix_world"),
@@ -62,8 +62,12 @@ def make(chance, number, folder):
             continue
         kind = owners[where].bl_rna.properties[name].type
         value = chance.choice(WHOLES if kind == "INT" else FLOATS)
-        if name in ("resolution_x", "resolution_y", "samples"):  # what is large and legal takes its time
-            value = chance.choice((1, 2, 3, 4, 64, 0, -1)) if chance.random() < 0.8 or value == 65536 else value
+        if name in ("resolution_x", "resolution_y", "samples") and value == 65536:  # legal, and takes its time
+            value = 64
+        if name in ("resolution_x", "resolution_y"):
+            value = min(value, 2048)
+        if name.startswith("frame_"):  # Blender itself ends at frame 2147483647, before the file is saved
+            value = max(-1048575, min(1048575, value))
         said.append(put(owners[where], name, value))
     return Hostile(", ".join(said))
 

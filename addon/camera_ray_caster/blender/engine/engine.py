@@ -41,7 +41,8 @@ class CameraRayCaster(Viewport, bpy.types.RenderEngine):
     def render(self, depsgraph):
         """Render one view layer."""
         try:
-            report = self.render_layer(depsgraph)
+            with signals.heard(self.test_break):
+                report = self.render_layer(depsgraph)
         except InputError as error:
             self.report({"ERROR"}, str(error))
         except (Cancelled, KeyboardInterrupt):
@@ -110,7 +111,7 @@ class CameraRayCaster(Viewport, bpy.types.RenderEngine):
     def advance(self, fraction: float) -> bool:
         """Show how far the cast is; return whether to go on."""
         self.update_progress(fraction)
-        return not (signals.is_stopping() or self.test_break())
+        return not signals.is_stopping()
 
 
 CLASSES = (CameraRayCaster,)

@@ -7,9 +7,13 @@ from dataclasses import dataclass
 from functools import partial
 from time import perf_counter
 
+import numpy as np
+
 from ...core.camera.camera import Camera
 from ...core.camera.stereo import eye_record
 from ...core.cast import Images, cast
+from ...core.casting.passes import image_bytes
+from ...core.memory import require
 from ...core.records import Finding, Shapes
 from ...core.report.accuracy import accuracy
 from ...core.report.report import Report, report_cast
@@ -33,6 +37,8 @@ class Job:
     seconds: dict[str, float]
     frame: float
     layer: str
+    stored: tuple[int, int]
+    """Rows and columns of what Blender makes of the picture: of a border that it does not crop to, the whole frame."""
     several: bool
     """Whether the layer is one of several that are rendered."""
 
@@ -71,6 +77,7 @@ class Job:
             finally:
                 visit(frame)
         moved = perf_counter()
+        raster = found.camera.raster
         return cls(
             camera=found.camera,
             shapes=found.shapes,
@@ -82,12 +89,17 @@ class Job:
             seconds={"read": read - started + moved - verified, "verify": verified - read},
             frame=frame,
             layer=layer,
+            stored=raster.shape
+            if not scene.render.use_border or scene.render.use_crop_to_border
+            else raster.size[::-1],
             several=several,
         )
 
     def cast(self, progress: Callable[[float], bool] | None = None, threads=None) -> tuple[Images, Report]:
         """Cast the passes and report. ``progress`` and ``threads`` are as in ``cast``, and so is Cancelled."""
         settings = {"shading": self.shading, "samples": self.samples, "precision": self.precision}
+        shapes = [self.camera.raster.shape, self.stored]
+        require(sum(image_bytes(shape, self.passes, np.float32) for shape in shapes), self.stored, "the passes")
         images = cast(self.camera, self.shapes, self.passes, **settings, threads=threads, progress=progress)
         began = perf_counter()
         bounds = accuracy(self.camera, self.shapes, images.plan)

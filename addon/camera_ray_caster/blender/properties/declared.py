@@ -32,13 +32,17 @@ PRIMITIVE = Choice(
     "primitive", "Cast As", "What the rays meet in place of this object",
     "AUTOMATIC",
     (
-        Item("AUTOMATIC", "Automatic", "A sphere or plane if its mesh is one, spheres for the points of a cloud", 0),
+        Item(
+            "AUTOMATIC", "Automatic",
+            "A sphere or plane if its mesh is one, else its triangles; spheres for the points of a cloud", 0,
+        ),
         Item(
             "SPHERE", "Sphere",
             "A sphere in any case: around the middle of its bounding box, to its farthest vertex", 1,
         ),
         Item("PLANE", "Plane", "A plane in any case: its bounding rectangle in its own XY", 2),
         Item("INFINITE_PLANE", "Infinite Plane", "The plane of its face, or else its own XY, without an edge", 3),
+        Item("MESH", "Mesh", "Its triangles, also where they are a sphere or a plane", 5),
         Item("IGNORE", "Ignore", "Nothing: the rays pass", 4),
     ),
 )  # fmt: skip
@@ -71,11 +75,18 @@ PRECISION = Choice(
         ),
     ),
 )  # fmt: skip
+EXACT_SHAPES = Flag(
+    "exact_shapes", "Exact Shapes",
+    "Meshes that are spheres or planes are cast as those exact shapes; off: as their triangles, but where an object's "
+    "own Cast As says what it is",
+    True,
+)  # fmt: skip
 PASSES = tuple(
     Flag(f"use_pass_{name}", name.replace("_", " ").title(), text, False)
     for name, text in (
         ("distance", "Distance along the ray; Z is planar depth"),
         ("shape_index", "Number of the shape, each instance its own"),
+        ("face_index", "Number of the face of a mesh after its modifiers, -1 where there is none"),
         ("valid", "Whether the pixel has a ray at all"),
         ("ray_origin", "Where the pixel's ray starts, in the world"),
         ("ray_direction", "The ray's unit direction in the world"),
@@ -85,5 +96,5 @@ PASSES = tuple(
     )
 )
 
-SCENE = (SHADING, SAMPLES, PRECISION, *PASSES)
+SCENE = (SHADING, SAMPLES, PRECISION, EXACT_SHAPES, *PASSES)
 """``scene.camera_ray_caster``"""

@@ -6,6 +6,7 @@ from types import MappingProxyType
 import bpy
 import numpy as np
 
+from ...core.arguments import shown
 from ...core.camera import pixel_time
 from ...core.camera.stereo import camera_name
 from ...core.cameras import find_model
@@ -115,17 +116,28 @@ def eye_object(scene, view: str):
     if not view or scene.render.views_format != "MULTIVIEW" or camera is None:
         return camera
     if view not in views:
-        raise InputError(f"scene {scene.name!r} has no view {view!r}: its views are {', '.join(views.keys())}")
+        raise InputError(f"scene {scene.name!r} has no view {shown(view)}: its views are {', '.join(views.keys())}")
     name = camera_name(camera.name, views[view].camera_suffix, [one.camera_suffix for one in views])
     return scene.objects.get(name, camera)
 
 
+def is_removed(item) -> bool:
+    """Whether Blender has freed what a Python object stands for."""
+    try:
+        item.name  # noqa: B018 (asking is what raises)
+    except ReferenceError:
+        return True
+    return False
+
+
 def check_camera(scene, camera_object) -> None:
-    """Raise InputError unless the object is a camera. Blender itself takes any object for one."""
+    """Raise InputError unless the object is a camera of this file. Blender itself takes any object for one."""
     if camera_object is None:
         raise InputError(f"scene {scene.name!r} has no active camera: add one, or set one in the Scene properties")
     if not isinstance(camera_object, bpy.types.Object):
-        raise InputError(f"{camera_object!r} is no object: give one, such as scene.objects['Camera']")
+        raise InputError(f"{shown(camera_object)} is no object: give one, such as scene.objects['Camera']")
+    if is_removed(camera_object):
+        raise InputError("the camera object has been removed from the file: give one that is there")
     if camera_object.type != "CAMERA":
         kind = camera_object.type.replace("_", " ").lower()
         raise InputError(f"{camera_object.name!r} is of type {kind}, not a camera: set one in the Scene properties")
@@ -142,10 +154,16 @@ def _focus_position(dof, depsgraph):
 
 
 def _gray(image):
-    """Return the mean of an image's red, green and blue, (rows, columns) from the bottom; None without an image."""
-    if image is None or not image.size[0]:
+    """Return the mean of an image's red, green and blue, (rows, columns) from the bottom; None without an image.
+
+    Raises InputError where Blender finds no pixels.
+    """
+    if not isinstance(image, bpy.types.Image):  # a file may store anything else there
         return None
     width, height = image.size
+    if not width * height:
+        path = bpy.path.abspath(image.filepath, library=image.library)
+        raise InputError(f"image {image.name!r} cannot be read from {path!r}: find its file, or choose another image")
     pixels = np.empty(width * height * image.channels, np.float32)
     image.pixels.foreach_get(pixels)
     return pixels.reshape(height, width, image.channels)[..., :3].mean(axis=-1, dtype=np.float64)

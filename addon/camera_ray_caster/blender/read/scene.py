@@ -7,11 +7,12 @@ from functools import partial
 
 import bpy
 
+from ...core.arguments import number, shown, word
 from ...core.camera.camera import Camera
 from ...core.camera.pixel_time import LAST_FRAME
 from ...core.camera.stereo import eye_record
 from ...core.records import InputError, Shapes
-from .camera import check_camera, eye_object, has_pixel_times
+from .camera import check_camera, eye_object, has_pixel_times, is_removed
 from .evaluated import SceneRecord, camera_at, scene_at
 from .motion import motion_of
 from .shapes import shapes_record
@@ -40,7 +41,7 @@ def read_camera(scene, camera_object=None, frame=None, view="") -> Camera:
 
 
 def read_shapes(scene, frame=None, camera_object=None, view="") -> Shapes:
-    """Return the scene's spheres and planes as they are evaluated, in the world, and the names of what is neither.
+    """Return the scene's shapes as they are evaluated, in the world, and the names of what cannot be cast.
 
     The arguments are as in ``read_camera``. The camera counts only where its pixels have each their own time: the
     shapes then come with their motion, and InputError is raised for a camera that cannot be cast.
@@ -70,6 +71,9 @@ def evaluated_camera(scene, camera_object=None, frame=None, view=""):
     Within another reading, in a handler that this one calls, the scene is read as it is evaluated then. Raises
     InputError where that would not do: for another frame, another camera or a view, and for pixel times.
     """
+    _check_scene(scene)
+    frame = None if frame is None else number(frame, "frame", LAST_FRAME)
+    view = word(view, "view")
     if camera_object is not None:
         check_camera(scene, camera_object)
     if _readings:
@@ -93,8 +97,6 @@ def evaluated_camera(scene, camera_object=None, frame=None, view=""):
 @contextmanager
 def evaluated(scene, frame=None, camera_object=None):
     """Yield the scene's depsgraph at a frame with a camera active, and put frame and camera back in the end."""
-    if frame is not None and not abs(frame) <= LAST_FRAME:
-        raise InputError(f"frame {frame} is none of Blender's: choose one from -{LAST_FRAME} to {LAST_FRAME}")
     layer = _layer(scene)
     before = scene.frame_current, scene.frame_subframe, scene.camera
     try:
@@ -117,6 +119,13 @@ def go_to(scene, frame: float):
     """Set a scene to a frame, its fraction the subframe, and return the depsgraph evaluated there."""
     scene.frame_set(math.floor(frame), subframe=frame - math.floor(frame))
     return _layer(scene).depsgraph
+
+
+def _check_scene(scene) -> None:
+    if not isinstance(scene, bpy.types.Scene):
+        raise InputError(f"{shown(scene)} is no scene: give one, such as bpy.context.scene")
+    if is_removed(scene):
+        raise InputError("the scene has been removed from the file: give one that is there")
 
 
 def _layer(scene):

@@ -1,15 +1,16 @@
-"""The spheres, planes and lights that a depsgraph shows to a renderer; geometry that is neither is named."""
+"""The shapes and lights that a depsgraph shows to a renderer; geometry that cannot be cast is named."""
 
 from collections import Counter
-from dataclasses import dataclass, field
+from collections.abc import Iterable
+from functools import partial
 
-import numpy as np
-
-from ...core.records import Shapes
-from ...core.shapes.instances import Primitive, is_invertible, lights_in_world, put_in_world
-from ..properties.declared import PRIMITIVE
-from .geometry import shapes_of
-from .lights import USED, is_finite, light_color, shown, world_color
+from ...core.records import Mesh, Shapes
+from ..properties.declared import EXACT_SHAPES, PRIMITIVE
+from .geometry import mesh_shapes, shapes_of
+from .groups import Group, gathered, heeding
+from .kept import Reading
+from .lights import USED, light_color
+from .materials import Looks, first_slot, is_finite
 from .stored import own_value
 from .visibility import Visibility, original_source
 
@@ -19,27 +20,8 @@ NO_SURFACE = frozenset(
 """Object types to pass over. The surface of curves, texts and metaballs is listed apart, as a mesh of their object."""
 
 HIDDEN = "it is hidden in the viewport, so that Blender evaluates it only in a render: show it, or render (F12)"
-HAIR = "its hair {!r} is neither sphere nor plane"
-SINGULAR = "its size is zero in some direction, or not finite: clear its scale (Alt S) or apply it"
 DAZZLING = "its strength or color is not finite: set them anew"
-
-
-@dataclass
-class _Group:
-    """The instances of one mesh, point cloud or light of one object."""
-
-    name: str
-    primitive: Primitive | None = None
-    reason: str = ""
-    object_index: int = 0
-    material_index: int = 0
-    color: tuple[float, ...] = ()
-    is_sun: bool | None = None
-    matrices: list[tuple[float, ...]] = field(default_factory=list)
-
-    def placings(self) -> np.ndarray:
-        """Return the world matrices of the instances, (k, 3, 4) float64."""
-        return np.array(self.matrices, np.float64).reshape(-1, 3, 4)
+HAIR = "its hair {!r} is no surface"
 
 
 def shapes_record(depsgraph) -> Shapes:
@@ -48,67 +30,108 @@ def shapes_record(depsgraph) -> Shapes:
     Rows stand together by object and mesh, in the order in which the depsgraph lists them first. What a render hides is
     passed over; geometry that cannot be cast is in ``left_out``, once for each object and reason.
     """
-    visibility = Visibility(depsgraph)
-    groups: dict[tuple, _Group] = {}
-    found: dict[tuple, tuple[Primitive | None, str]] = {}
-    left_out: Counter[tuple[str, str]] = Counter()
-    listed = set()
-    for instance in depsgraph.object_instances:
+    scene = _Scene(depsgraph)
+    for instance in heeding(depsgraph.object_instances):
+        scene.add(instance)
+    shapes = scene.record()
+    scene.reading.keep()
+    return shapes
+
+
+class _Scene:
+    """What is found while a depsgraph lists its instances."""
+
+    def __init__(self, depsgraph):
+        self.scene = depsgraph.scene_eval
+        self.visibility = Visibility(depsgraph)
+        self.reading = Reading(depsgraph)
+        self.looks = Looks()
+        self.exact = own_value(self.scene, EXACT_SHAPES)
+        self.groups: dict[tuple, Group] = {}
+        self.left_out: Counter[tuple[str, str]] = Counter()
+        self.listed = set()
+
+    def add(self, instance) -> None:
+        """Add an instance to its group, which the first one opens."""
         item = instance.object  # for an instance, a stand-in that the next one overwrites
         owner = instance.parent
         key = instance.instance_object or item, owner, item.data
-        group = groups.get(key)
+        group = self.groups.get(key)
         if group is None:
-            group = groups[key] = _group(instance, visibility, found)
+            group = self.groups[key] = self.opened(instance)
             if owner is None:
-                listed.add(item.original)
-                left_out.update((group.name, HAIR.format(name)) for name in visibility.strands(item))
+                self.listed.add(item.original)
+                self.left_out.update((group.name, HAIR.format(name)) for name in self.visibility.strands(item))
         matrix = instance.matrix_world
         group.matrices.append((*matrix[0], *matrix[1], *matrix[2]))
-    for group in groups.values():
-        if group.reason:
-            left_out[group.name, group.reason] += len(group.matrices)
-    for item in visibility.unlisted(listed):
-        if item.type not in NO_SURFACE or item.instance_type == "COLLECTION":
-            left_out[item.name, HIDDEN] += 1
-    return _gathered(list(groups.values()), left_out, depsgraph.scene_eval)
 
-
-def _group(instance, visibility, found) -> _Group:
-    """Return the group, still empty, that the first of its instances opens."""
-    item = instance.object
-    group = _Group(original_source(instance).name)
-    if not visibility.is_rendered(instance):
+    def opened(self, instance) -> Group:
+        """Return a group, still empty."""
+        item = instance.object
+        group = Group(original_source(instance).name)
+        if not self.visibility.is_rendered(instance):
+            return group
+        if item.type == "LIGHT":
+            self.light(group, item.data)
+        elif item.type not in NO_SURFACE:
+            self.fill(group, instance)
         return group
-    if item.type == "LIGHT":
-        if item.data.type in USED:
-            group.is_sun, group.color = USED[item.data.type], light_color(item.data)
-            if not is_finite(group.color):
-                group.is_sun, group.reason = None, DAZZLING
+
+    def light(self, group: Group, data) -> None:
+        """Set what a light is, or why it is not used."""
+        color = light_color(data)
+        if data.type not in USED:
+            group.reason = f"it is a light of type {data.type.lower()}: only sun and point lights are used"
+        elif not is_finite(color):
+            group.reason = DAZZLING
         else:
-            group.reason = f"it is a light of type {item.data.type.lower()}: only sun and point lights are used"
-    elif item.type not in NO_SURFACE:
-        _fill(group, instance, visibility, found)
-    return group
+            group.is_sun, group.looks = USED[data.type], ((0, color),)
+
+    def fill(self, group: Group, instance) -> None:
+        """Set what the geometry of an instance stands for, or why it cannot be cast."""
+        item, source = instance.object, original_source(instance)
+        setting = own_value(source, PRIMITIVE)  # the file's own: setting it evaluates nothing anew
+        group.reason = _refusal(setting) or self.visibility.objection(instance)
+        if group.reason:
+            return
+        if setting == "AUTOMATIC" and not self.exact:
+            setting = "MESH"
+        find = partial(self.reading.find, item.data, source)
+        group.primitive, group.reason = find(setting, partial(shapes_of, item, setting))
+        if group.primitive is None:
+            return
+        if setting == "AUTOMATIC" and group.primitive.apart is not None:
+            group.flattened = partial(find, "MESH", partial(mesh_shapes, item.data, "MESH"))
+        group.object_index = item.pass_index
+        group.looks = tuple(self.looks.of_slot(item, slot) for slot in _slots(item, group.primitive.mesh))
+        if self.visibility.is_holdout(instance):
+            group.looks = tuple((index, (0.0,) * 4) for index, _ in group.looks)
+
+    def record(self) -> Shapes:
+        """Return all of it."""
+        for group in self.groups.values():
+            if group.reason:
+                self.left_out[group.name, group.reason] += len(group.matrices)
+        for item in self.visibility.unlisted(self.listed):
+            if _may_have_surface(item) or item.instance_type == "COLLECTION":
+                self.left_out[item.name, HIDDEN] += 1
+        return gathered(list(self.groups.values()), self.left_out, self.scene)
 
 
-def _fill(group, instance, visibility, found) -> None:
-    """Set what the geometry of an instance stands for, or why it cannot be cast."""
-    item = instance.object
-    setting = own_value(original_source(instance), PRIMITIVE)  # the file's own: setting it evaluates nothing anew
-    group.reason = _refusal(setting) or visibility.objection(instance)
-    if group.reason:
-        return
-    key = item.data.as_pointer(), setting
-    if key not in found:
-        found[key] = shapes_of(item.data, setting)
-    group.primitive, group.reason = found[key]
-    material = _material(item)
-    group.object_index = item.pass_index
-    group.material_index = material.pass_index if material else 0
-    group.color = shown(material.diffuse_color if material else item.color)
-    if visibility.is_holdout(instance):
-        group.color = 0.0, 0.0, 0.0, 0.0
+def _may_have_surface(item) -> bool:
+    """Return whether an object that Blender has not evaluated would have something to cast."""
+    data = item.data
+    if item.type == "CURVE":
+        is_filled = data.dimensions == "2D" and data.fill_mode != "NONE"
+        return bool(data.bevel_depth or data.extrude or data.bevel_object or is_filled)
+    return item.type not in NO_SURFACE or item.type in {"SURFACE", "FONT", "META"}
+
+
+def _slots(item, mesh: Mesh | None) -> Iterable[int]:
+    """Return the material slots of an evaluated object that count: the first face's, or all that a mesh has."""
+    if mesh is None:
+        return (first_slot(item),)
+    return (0,) if mesh.slot is None else range(mesh.slot.max() + 1)
 
 
 def _refusal(setting: str) -> str:
@@ -117,52 +140,3 @@ def _refusal(setting: str) -> str:
         return "it is ignored by its own setting"
     known = setting in {item.key for item in PRIMITIVE.items}
     return "" if known else f"its Cast As is {setting}, which this version does not know: choose another one"
-
-
-def _material(item):
-    """Return the material of the first face, or of the first slot where there are no faces; None without one."""
-    slots = item.material_slots
-    if not len(slots):
-        return None
-    has_faces = item.type == "MESH" and len(item.data.polygons)
-    return slots[min(item.data.polygons[0].material_index if has_faces else 0, len(slots) - 1)].material
-
-
-def _gathered(groups: list[_Group], left_out: Counter, scene) -> Shapes:
-    """Return the record of all groups: their instances placed in the world, one row a shape."""
-    lights = [group for group in groups if group.is_sun is not None]
-    cast = [group for group in groups if group.primitive is not None]
-    placings = []
-    for group in cast:
-        matrices = group.placings()
-        usable = is_invertible(matrices, group.primitive)
-        if not usable.all():
-            left_out[group.name, SINGULAR] += int((~usable).sum())
-        placings.append(matrices[usable])
-    counts = [len(matrices) * len(group.primitive) for group, matrices in zip(cast, placings, strict=True)]
-    ends = np.cumsum(counts, dtype=int)
-    center, axes = np.empty((sum(counts), 3)), np.empty((sum(counts), 3, 3))
-    for group, matrices, count, end in zip(cast, placings, counts, ends, strict=True):
-        rows = slice(end - count, end)
-        put_in_world(group.primitive, matrices, center[rows], axes[rows])
-
-    def column(values, dtype, width=()):
-        return np.repeat(np.array(values, dtype).reshape(len(cast), *width), counts, axis=0)
-
-    return Shapes(
-        kind=column([group.primitive.kind for group in cast], np.uint8),
-        center=center,
-        axes=axes,
-        object_index=column([group.object_index for group in cast], np.int32),
-        material_index=column([group.material_index for group in cast], np.int32),
-        color=column([group.color for group in cast], np.float32, (4,)),
-        name_index=column(range(len(cast)), np.int32),
-        names=tuple(group.name for group in cast),
-        lights=lights_in_world([(group.is_sun, group.color, group.placings()) for group in lights]),
-        world_color=world_color(scene),
-        left_out=tuple((name, _counted(reason, count)) for (name, reason), count in left_out.items()),
-    )
-
-
-def _counted(reason: str, count: int) -> str:
-    return reason if count == 1 else f"{reason} ({count} instances)"

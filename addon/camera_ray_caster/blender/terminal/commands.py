@@ -197,6 +197,7 @@ def _open(options):
         open_file(path, options.enable_autoexec)
     elif not bpy.app.binary_path:
         raise InputError("no file is open: give the path of a .blend")
+    signals.raise_if_stopping()
     scene = bpy.context.scene
     scene.render.engine = CameraRayCaster.bl_idname
     if options.camera is not None:

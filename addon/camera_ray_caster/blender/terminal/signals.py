@@ -1,12 +1,18 @@
-"""Whether a signal has asked this process to stop.
+"""Whether what is running has been asked to stop: by a signal, or by Blender's window.
 
 A signal's handler raises nothing at first: Python may run it in a callback of Blender's, which prints an exception and
 drops it. It remembers that it was called, and work that takes long asks. A second signal ends the process at once.
 """
 
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from threading import local
+
 from ...core.records import Cancelled
 
 _stopping = False
+_others = local()
+"""``asks``: who is asked beside the signals in a thread; a render has one of its own."""
 
 
 def stop(*_) -> None:
@@ -19,12 +25,23 @@ def stop(*_) -> None:
 
 def is_stopping() -> bool:
     """Return whether what is running has been asked to end."""
-    return _stopping
+    return _stopping or any(ask() for ask in getattr(_others, "asks", ()))
+
+
+@contextmanager
+def heard(ask: Callable[[], bool]) -> Iterator[None]:
+    """Ask another one, too, for the work of this thread that is going on: a window in which Esc is pressed."""
+    before = getattr(_others, "asks", ())
+    _others.asks = (*before, ask)
+    try:
+        yield
+    finally:
+        _others.asks = before
 
 
 def raise_if_stopping() -> None:
     """Raise Cancelled where what is running has been asked to end."""
-    if _stopping:
+    if is_stopping():
         raise Cancelled
 
 

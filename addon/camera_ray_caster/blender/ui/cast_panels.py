@@ -8,6 +8,7 @@ from ..engine.passes import PASSES, ticked
 from ..output import reports
 from . import cast_operator
 from .camera_panels import Sidebar, draw_message, draw_row
+from .object_panels import draw_cast_as
 
 LISTED = 20
 """Objects that the panel names; the report has them all."""
@@ -35,6 +36,7 @@ class SidebarCast(Sidebar, bpy.types.Panel):
         layout.row().prop(settings, "shading", expand=True)
         layout.prop(settings, "samples")
         layout.prop(settings, "precision")
+        layout.prop(settings, "exact_shapes")
 
 
 class SidebarPasses(Sidebar, bpy.types.Panel):
@@ -98,11 +100,13 @@ class SidebarLeftOut(Sidebar, bpy.types.Panel):
         self.layout.label(text=str(len(reports.latest().left_out)))
 
     def draw(self, context):
-        """Each object with a button that selects it, and the reason."""
+        """Each object with a button that selects it and what it is cast as, and the reason."""
         left_out = reports.latest().left_out
         for name, reason in left_out[:LISTED]:
             column = self.layout.column(align=True)
-            column.operator("camera_ray_caster.select", text=name, icon="RESTRICT_SELECT_OFF").name = name
+            row = column.row(align=True)
+            row.operator("camera_ray_caster.select", text=name, icon="RESTRICT_SELECT_OFF").name = name
+            draw_cast_as(row, context.view_layer.objects.get(name), text="")
             draw_message(column, context, reason, "BLANK1")
         if len(left_out) > LISTED:
             draw_message(self.layout, context, f"and {len(left_out) - LISTED} more: see the report")

@@ -35,7 +35,7 @@ class RenderPanel(EnginePanel, bpy.types.Panel):
         layout = self.layout
         layout.use_property_split = True
         layout.use_property_decorate = False
-        for setting in ("shading", "samples", "precision"):
+        for setting in ("shading", "samples", "precision", "exact_shapes"):
             layout.prop(context.scene.camera_ray_caster, setting)
         report = reports.latest()
         if report is not None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 from collections.abc import Mapping
 from concurrent.futures import ThreadPoolExecutor
@@ -13,12 +14,14 @@ from typing import Any, Protocol
 
 import numpy as np
 
+from ..arguments import numbers
 from ..cameras.model import Model
 from ..cameras.parts.aperture import Aperture
 from ..conventions import gamma
 from ..maths.chebyshev import ROWS, is_raster, on_raster
 from ..maths.speed import lazy, sharing, whole_rows
 from ..maths.vector import components, dot, inverse, is_grid, matvec, norm
+from ..memory import require
 from ..records import InputError, Pose, Raster, Rays
 from .pixel_time import PixelTime, groups, meeting
 from .sampling import in_opening, sub_pixel
@@ -133,12 +136,18 @@ class Camera:
     def rays_at(self, x, y) -> Rays:
         """Return the world rays through pixel coordinates x, y (scalars or arrays that broadcast), as ``rays`` does.
 
-        Pixel coordinates that are not finite have no ray.
+        Pixel coordinates that are not finite have no ray. Raises InputError for what are no numbers, for shapes that do
+        not go together, and for rays that take more memory than there is.
         """
-        x, y = np.asarray(x, np.float64), np.asarray(y, np.float64)
+        x, y = numbers(x, "x"), numbers(y, "y")
+        try:
+            shape = np.broadcast_shapes(x.shape, y.shape)
+        except ValueError as error:
+            raise InputError(f"x and y have shapes {x.shape} and {y.shape}: give shapes that broadcast") from error
+        timed = self.pixel_time is not None
+        require((57 if timed else 25 if self.model.central else 49) * math.prod(shape), shape, "the rays")
         if self.pixel_time is not None:
             return self._timed_rays(self.pixel_time, x, y)
-        shape = np.broadcast_shapes(x.shape, y.shape)
         directions = np.empty((*shape, 3))
         origins = np.broadcast_to(self.pose.eye, directions.shape) if self.model.central else np.empty((*shape, 3))
         valid = np.empty(shape, bool)
@@ -225,10 +234,7 @@ class Camera:
 
         With pixel times and a moving camera each point, taken to stand still, is sought by itself: see ``meeting``.
         """
-        try:
-            points = np.asarray(points, dtype=np.float64)
-        except (TypeError, ValueError, OverflowError) as error:
-            raise InputError(f"what is projected are no points: {error}") from error
+        points = numbers(points, "points")
         if points.shape[-1:] != (3,):
             raise InputError(f"points of shape {points.shape} cannot be projected: give x, y, z, shape (..., 3)")
         if self.pixel_time is not None and self.motion is not None:

@@ -17,6 +17,7 @@ from itertools import pairwise
 import numpy as np
 
 from ..cameras.parts.settings import ABOVE_ZERO, CYCLES, RENDER, Choice, Image, Item, Number, Setting, Whole, span
+from ..memory import require
 from ..records import BlenderCamera, InputError, Raster
 
 NONE, ROWS, COLUMNS, IMAGE, ROLLING_SHUTTER = "NONE", "ROWS", "COLUMNS", "IMAGE", "ROLLING_SHUTTER"
@@ -74,6 +75,8 @@ SHUTTER_STARTS = {"START": 0.0, "CENTER": -0.5, "END": -1.0}
 
 LAST_FRAME = 1048574
 """Blender knows no frame beyond it, on either side of 0."""
+
+WHOLE_FRAME = "take fewer pixels: an image gives all pixels of the frame a time, also beyond a border"
 
 LEVELS = 256
 """Times that a gray image is rounded to, from black to white: what an 8 bit image holds."""
@@ -256,6 +259,7 @@ def _image_share(raw: BlenderCamera, raster: Raster) -> np.ndarray:
     if not np.isfinite(gray).all():
         lost = f"{np.count_nonzero(~np.isfinite(gray))} of {gray.size} pixels are NaN or infinite"
         raise InputError(f"{GRAY.name} of camera {raw.name!r} gives no time where {lost}: choose another image")
+    require(24 * raster.width * raster.height, (raster.height, raster.width), "the times", WHOLE_FRAME)
     rows = (2 * np.arange(raster.height) + 1) * gray.shape[0] // (2 * raster.height)
     columns = (2 * np.arange(raster.width) + 1) * gray.shape[1] // (2 * raster.width)
     return np.rint(np.clip(gray[np.ix_(rows, columns)], 0, 1) * (LEVELS - 1)) / (LEVELS - 1)

@@ -20,6 +20,7 @@ import numpy as np
 
 from ..conventions import gamma
 from ..maths.inversion import Inverse
+from ..maths.roots import positive_roots
 from ..records import BlenderCamera, InputError, Raster
 from .model import Step
 from .parts.film import FILM, Film, Window
@@ -143,9 +144,8 @@ def _turns(coefficients, corner: float):
     slope = np.polynomial.Polynomial(coefficients).deriv()
     if not slope.coef.any():
         return np.zeros(1)
-    roots = slope.roots()
-    real = roots.real[np.abs(roots.imag) <= 1e-9 * np.abs(roots)]
-    edges = np.concatenate(([0.0], np.sort(real[(real > 0) & (real < corner)]), [corner]))
+    roots = positive_roots(slope)
+    edges = np.concatenate(([0.0], roots[roots < corner], [corner]))
     signs = np.sign(slope((edges[1:] + edges[:-1]) / 2))
     return edges[1:-1][signs[1:] != signs[:-1]]
 

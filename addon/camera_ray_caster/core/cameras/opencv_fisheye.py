@@ -17,6 +17,7 @@ from functools import cached_property
 import numpy as np
 
 from ..maths.inversion import Inverse
+from ..maths.roots import positive_roots
 from ..records import BlenderCamera, Raster
 from .model import Step
 from .parts.calibration import CALIBRATION, FISHEYE, Calibration
@@ -51,8 +52,8 @@ class OpencvFisheye(Radial):
         """Build it from the settings of the same names or a calibration file; see Calibration for what is refused."""
         calibration = Calibration.from_blender(raw, raster, FISHEYE)
         coefficients = tuple(calibration.coefficients[setting.name] for setting in FISHEYE)
-        squares = np.polynomial.Polynomial([1.0, *((2 * i + 3) * k for i, k in enumerate(coefficients))]).roots()
-        turns = squares.real[(np.abs(squares.imag) <= 1e-9 * np.abs(squares)) & (squares.real > 0)]
+        slope = np.polynomial.Polynomial([1.0, *((2 * i + 3) * k for i, k in enumerate(coefficients))])
+        turns = positive_roots(slope)
         limit = min(np.pi, *np.sqrt(turns).tolist(), np.pi)
         lens = cls(raster.size, calibration.window(raster), np.inf, coefficients, limit)
         return replace(lens, rim=lens.distorted(limit))

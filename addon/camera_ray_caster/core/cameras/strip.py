@@ -5,7 +5,8 @@ right edge. A column is the middle column of a perspective camera that stands th
 window's, by lens, sensor and shift_y, and its rays lie in one plane through up, the camera's +Y. With ``follow_path``
 the camera turns about up so that it looks to the left of where it is going; else it keeps its orientation.
 Between the points in which Blender samples the curve, the place and the column's normal change evenly.
-Singular: a point about which the columns' planes turn, so that none or many see it; a path along the viewing direction.
+Singular: a point about which the columns' planes turn, so that none or many see it. Refused: without ``follow_path`` a
+path along the viewing direction or up, all columns of which see one plane.
 Reference: P. Rademacher and G. Bishop, Multiple-Center-of-Projection Images, SIGGRAPH 1998.
 """
 
@@ -21,7 +22,7 @@ from ..maths.vector import components
 from ..records import BlenderCamera, InputError, Raster
 from .model import Model, Step
 from .parts.film import Window
-from .parts.lines import path_from
+from .parts.lines import ROUNDING, path_from
 from .parts.settings import Flag, Line
 from .parts.silhouette import MARGIN
 from .perspective import Perspective
@@ -91,6 +92,11 @@ class Strip(Model):
                     f"{int(size.argmin())}: bend it, or clear follow_path"
                 )
             normals = normals / size
+        elif np.ptp(eyes[:, 0]) <= ROUNDING * np.ptp(eyes, axis=0).max():
+            raise InputError(
+                f"path of camera {raw.name!r} leads nowhere but ahead or up, where all columns see one plane: "
+                "turn it across the view, or set follow_path"
+            )
         rows, columns = Perspective.from_blender(raw, raster).window, walked * (raster.width / walked[-1])
         return cls(raster.size, rows, columns, eyes, normals)
 

@@ -119,10 +119,11 @@ class HitValues:
             np.multiply(-np.sign(dot(normal, self.direction)), normal, out=normal)
         for which, normals in table.others:
             pixels = self.pixels(self.look_up(which, "which"))
-            direction = None if faces_eye else self._at(pixels, self.direction)
-            own = normals(pixels, self._at(pixels, self.point), direction)
-            for component, values in zip(normal, own, strict=True):
-                component[pixels.where] = values
+            if not pixels.at.size:
+                continue
+            direction = None if faces_eye else pixels.of(self.direction)
+            for component, own in zip(normal, normals(pixels, pixels.of(self.point), direction), strict=True):
+                component.reshape(-1)[pixels.places] = own
         return normal, ZERO
 
     @lazy
@@ -141,14 +142,12 @@ class HitValues:
     @lazy
     def uv(self) -> list[tuple[np.ndarray, tuple[np.ndarray, np.ndarray]]]:
         """The surfaces' own coordinates, kind by kind: where one is hit, (rows, columns) bool, and u and v there."""
-        return self.by_kind(lambda kind, pixels: kind.uv(self.plan.in_camera, pixels, self._at(pixels, self.point)))
+        return self.by_kind(lambda kind, pixels: kind.uv(self.plan.in_camera, pixels, pixels.of(self.point)))
 
     @property
     def from_edge(self) -> list[tuple[np.ndarray, np.ndarray]]:
         """How far from the edges of faces without uv the hits are, kind by kind: see ``Kind.from_edge``."""
-        return self.by_kind(
-            lambda kind, pixels: kind.from_edge(self.plan.in_camera, pixels, self._at(pixels, self.point))
-        )
+        return self.by_kind(lambda kind, pixels: kind.from_edge(self.plan.in_camera, pixels, pixels.of(self.point)))
 
     @lazy
     def material(self) -> np.ndarray:
@@ -175,10 +174,4 @@ class HitValues:
     def pixels(self, where: np.ndarray) -> HitPixels:
         """Return pixels that hit something."""
         hits = self.hits
-        return HitPixels(where, self.index[where], hits.t[where], hits.first_row, self.scratch)
-
-    @staticmethod
-    def _at(pixels: HitPixels, vector: Any) -> tuple[np.ndarray, ...]:
-        """Return the components of the block at some of its pixels, (m,) each."""
-        shape = pixels.where.shape
-        return tuple(np.broadcast_to(component, shape)[pixels.where] for component in vector)
+        return HitPixels(where, self.index[where], hits.t[where], hits.first_row, hits.rays.from_eye, self.scratch)

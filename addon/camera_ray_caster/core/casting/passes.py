@@ -6,7 +6,7 @@ others 0; a pixel without a ray is the same with combined (0, 0, 0, 0) and valid
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import Any
 
@@ -165,6 +165,12 @@ PASSES = {
     "normal_bound": Pass(normal_bound),
 }
 """Every pass by its name, in the order of the report."""
+
+
+def image_bytes(shape: tuple[int, int], passes: Iterable[str], dtype) -> int:
+    """Return how much memory the arrays of some passes take."""
+    sizes = (max(PASSES[name].channels, 1) * np.dtype(PASSES[name].dtype or dtype).itemsize for name in passes)
+    return shape[0] * shape[1] * sum(sizes)
 
 
 def store(hits: Hits, outs: dict[str, np.ndarray], where=None) -> None:

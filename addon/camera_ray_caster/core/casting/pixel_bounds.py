@@ -60,6 +60,12 @@ class PixelBounds:
         frame[endless] = (-np.inf, np.inf, -np.inf, np.inf)
         return self._in_plan(frame)
 
+    def within(self, bounds: np.ndarray) -> np.ndarray:
+        """See ``shapes.kind.PixelBounds``."""
+        if self.columns is None or self.rows is None:
+            return bounds
+        return np.hstack((np.searchsorted(self.columns, bounds[:, :2]), np.searchsorted(self.rows, bounds[:, 2:])))
+
     def least_t(self, centers: np.ndarray, radii: np.ndarray) -> np.ndarray:
         """See ``shapes.kind.PixelBounds``."""
         if self.camera.model.planar:
@@ -96,8 +102,5 @@ class PixelBounds:
         first = np.clip(np.ceil(frame[:, 0::2] - 0.5) - corner, 0, size)  # pixel centers, not pixels
         last = np.clip(np.floor(frame[:, 1::2] + 0.5) - corner, 0, size)
         bounds = np.stack((first[:, 0], last[:, 0], first[:, 1], last[:, 1]), axis=1).astype(np.int64)
-        if self.columns is not None:
-            bounds[:, :2] = np.searchsorted(self.columns, bounds[:, :2])
-        if self.rows is not None:
-            bounds[:, 2:] = np.searchsorted(self.rows, bounds[:, 2:])
+        bounds = self.within(bounds)
         return bounds, seen & (bounds[:, 0] < bounds[:, 1]) & (bounds[:, 2] < bounds[:, 3])

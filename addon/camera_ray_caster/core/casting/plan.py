@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -38,18 +39,32 @@ class Plan:
     """(m,): the least t that each may have, -inf where that is not known."""
     clips: bool
     """Whether anything that may be seen reaches beyond the clip end."""
+    whole: Plan | None = None
+    """The plan of all pixels, where this one has some columns and rows of them."""
+
+    @property
+    def sets(self) -> Collection[ShapeSet]:
+        """The shapes that may be seen, kind by kind, ready to be searched."""
+        return self.set_of.values()
 
     @cached_property
-    def sets(self) -> tuple[ShapeSet, ...]:
-        """The shapes that may be seen, kind by kind, ready to be searched."""
-        sets = []
+    def set_of(self) -> dict[int, ShapeSet]:
+        """Those of each kind, by its number."""
+        sets = {}
         for kind, some in kinds.by_kind(self.shapes.kind[self.seen]):
             visible = Visible(
-                self.seen[some], self.bounds[some], self.near[some],
-                self.camera.clip_start, self.from_eye, self.camera.parallel, self.request.real, self.pixels,
-            )  # fmt: skip
-            sets.append(kind.shape_set(self.in_camera, visible))
-        return tuple(sets)
+                at=self.seen[some],
+                bounds=self.bounds[some],
+                near=self.near[some],
+                clip_start=self.camera.clip_start,
+                from_eye=self.from_eye,
+                parallel=self.camera.parallel,
+                real=self.request.real,
+                pixels=self.pixels,
+                whole=self.whole.set_of[kind.number] if self.whole else None,
+            )
+            sets[kind.number] = kind.shape_set(self.in_camera, visible)
+        return sets
 
     @property
     def from_eye(self) -> bool:
@@ -58,10 +73,10 @@ class Plan:
 
     def at_pixels(self, columns: np.ndarray, rows: np.ndarray) -> Plan:
         """Return the plan of some of its pixels alone: of some columns and rows, (k,) and (l,) ascending."""
-        bounds = np.hstack((np.searchsorted(columns, self.bounds[:, :2]), np.searchsorted(rows, self.bounds[:, 2:])))
-        here = (bounds[:, 0] < bounds[:, 1]) & (bounds[:, 2] < bounds[:, 3])
         pixels = self.pixels.at(columns, rows)
-        return replace(self, pixels=pixels, seen=self.seen[here], bounds=bounds[here], near=self.near[here])
+        bounds = pixels.within(self.bounds)
+        here = (bounds[:, 0] < bounds[:, 1]) & (bounds[:, 2] < bounds[:, 3])
+        return replace(self, whole=self, pixels=pixels, seen=self.seen[here], bounds=bounds[here], near=self.near[here])
 
     @cached_property
     def work(self) -> np.ndarray:
@@ -149,7 +164,7 @@ def make_plan(camera: Camera, shapes: Shapes, request: Request) -> Plan:
         near=near[seen],
         clips=bool((far[seen] > camera.clip_end).any()),
     )
-    _ = plan.sets  # made now, before threads share the plan
+    _ = plan.set_of  # made now, before threads share the plan
     return plan
 
 

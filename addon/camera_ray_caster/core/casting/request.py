@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..records import InputError
+from ..arguments import word, words
 
 MATERIAL, GRID = "MATERIAL", "GRID"
 SHADINGS = (MATERIAL, GRID)
@@ -37,13 +37,9 @@ class Request:
     precision: str = AUTOMATIC
 
     def __post_init__(self):
-        unknown = [name for name in self.passes if name not in self.known]
-        if unknown:
-            raise InputError(f"no pass is called {', '.join(map(repr, unknown))}: choose from {', '.join(self.known)}")
-        if self.shading not in SHADINGS:
-            raise InputError(f"no shading is called {self.shading!r}: choose from {', '.join(SHADINGS)}")
-        if self.precision not in PRECISIONS:
-            raise InputError(f"no precision is called {self.precision!r}: choose from {', '.join(PRECISIONS)}")
+        words(self.passes, "passes", self.known)
+        word(self.shading, "shading", SHADINGS)
+        word(self.precision, "precision", PRECISIONS)
 
     @property
     def real(self) -> type:

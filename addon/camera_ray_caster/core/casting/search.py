@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from heapq import merge
 from operator import attrgetter
@@ -17,11 +18,11 @@ from .plan import Plan
 from .rays import TileRays
 
 
-def nearest_hits(plan: Plan, rays: TileRays) -> Hits:
+def nearest_hits(plan: Plan, rays: TileRays, listen: Callable[[], object] = bool) -> Hits:
     """Return the nearest hits within the clip range, in the scratch of the rays.
 
     Of shapes hit at exactly the same t the one with the lowest index counts, whatever order they are tested
-    in.
+    in. ``listen()`` is called between them, and may raise; the default does nothing.
     """
     shape, scratch, real = rays.shape, rays.scratch, plan.request.real
     own = SearchRays(
@@ -32,10 +33,12 @@ def nearest_hits(plan: Plan, rays: TileRays) -> Hits:
     nearest = Nearest(own, scratch("t", shape), scratch("index", shape, plan.index_type))
     for large in merge(*(one.large(own) for one in plan.sets), key=attrgetter("at"), reverse=True):
         nearest.cast(large)
+        listen()
     nearest.clear()
     for one in plan.sets:
         for candidates in one.rest(own, nearest.t):
             nearest.keep(candidates)
+            listen()
     if plan.clips:
         beyond = np.greater(nearest.t, real(plan.camera.clip_end), out=scratch("closer", shape, bool))
         np.copyto(nearest.index, NOTHING, where=beyond)

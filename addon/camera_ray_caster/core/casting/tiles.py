@@ -25,7 +25,7 @@ STEPS = "rays", "cast", "passes"
 """What the seconds of a tile are spent on: rays, their nearest hits, the passes of these."""
 
 
-LISTEN = 0.1
+LISTEN = 0.05
 """Seconds after which the calling thread asks whether to go on, at the latest."""
 
 
@@ -41,14 +41,18 @@ class Effort:
         return self._done / self._steps if self._steps else 1.0
 
     def step(self) -> None:
-        """Note that a step is done. Raises Cancelled where the cast is to stop."""
+        """Note that a step is done. Raises what ``listen`` raises."""
         with self._lock:
             self._done += 1
+        self.listen()
+
+    def listen(self) -> None:
+        """Raise Cancelled where the cast is to stop."""
         if self._stopped:
             raise Cancelled
 
     def stop(self) -> None:
-        """Let every thread end at its next step."""
+        """Let every thread end the next time that it listens."""
         self._stopped = True
 
 
@@ -104,7 +108,8 @@ def cast_tile(
 ) -> np.ndarray:
     """Cast one tile and store the passes of these images; return the seconds of STEPS.
 
-    With samples above 1 the only pass is combined, the mean of as many rays a pixel. Raises Cancelled between samples.
+    With samples above 1 the only pass is combined, the mean of as many rays a pixel. Raises Cancelled between
+    samples, and between shapes.
     """
     raster = plan.camera.raster
     place = raster.columns()[:, tile.columns], raster.rows()[tile.rows], (tile.columns.start, tile.rows.start)
@@ -118,7 +123,7 @@ def cast_tile(
         else:
             rays = sampled_rays(plan.camera, *place[:2], sample, place[2], scratch)
         generated = perf_counter()
-        hits = nearest_hits(plan, rays)
+        hits = nearest_hits(plan, rays, effort.listen)
         found = perf_counter()
         if total is None:
             store(hits, parts, tile.where)

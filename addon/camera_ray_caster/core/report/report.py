@@ -45,6 +45,8 @@ class Report:
     """What the cast had no need to do, and why."""
     left_out: tuple[tuple[str, str], ...] = ()
     """Objects that were not cast, each with the reason."""
+    exact: tuple[tuple[str, float], ...] = ()
+    """Objects that were cast as the sphere or plane that their mesh is: see ``Shapes``."""
     motion: tuple[str, ...] = ()
     """At how many times the scene was evaluated for pixels that have each their own, and how well that is enough."""
     precision: str = ""
@@ -83,6 +85,7 @@ class Report:
             findings=_union(self.findings, other.findings),
             not_done=_union(self.not_done, other.not_done),
             left_out=_union(self.left_out, other.left_out),
+            exact=_union(self.exact, other.exact),
             motion=_union(self.motion, other.motion),
             accuracy=self.accuracy + other.accuracy,
         )
@@ -113,6 +116,7 @@ def report_cast(
         findings=tuple(findings),
         not_done=tuple(f"{layer}: {line}" if several else line for line in images.plan.left_out()),
         left_out=shapes.left_out,
+        exact=_union(shapes.exact, ()),
         motion=tuple(camera.motion.in_words()) if camera.motion is not None else (),
         precision=precision,
         accuracy=accuracy,
@@ -127,6 +131,7 @@ def as_data(report: Report) -> dict:
     data["passed"] = report.passed
     data["findings"] = [{**asdict(finding), "passed": finding.passed} for finding in report.findings]
     data["left_out"] = [{"name": name, "reason": reason} for name, reason in report.left_out]
+    data["exact"] = [{"name": name, "apart": apart} for name, apart in report.exact]
     return _plain(data)
 
 
@@ -142,6 +147,7 @@ def as_lines(report: Report) -> list[str]:
         *_finding_lines(report),
         *_accuracy_lines(report),
         *_second_lines(report),
+        *_exact_lines(report),
         *_listed("Motion", report.motion),
         *_listed("Written by File Output nodes", report.file_outputs),
         *_listed("Left out", [*report.not_done, *(f"{name!r}: {reason}" for name, reason in report.left_out)]),
@@ -202,6 +208,14 @@ def _second_lines(report: Report) -> list[str]:
         millions = report.rays_per_second / 1e6
         lines.append(f"  {report.pixels} rays at {report.shapes} shapes: {millions:.3g} million rays per second")
     return lines
+
+
+def _exact_lines(report: Report) -> list[str]:
+    if not report.exact:
+        return []
+    name, apart = max(report.exact, key=lambda each: each[1])
+    text = f"{len(report.exact)} meshes cast as spheres or planes: at most {apart:.2%} of the radius off, {name!r}"
+    return _listed("Exact shapes", [text])
 
 
 def _listed(title: str, texts) -> list[str]:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..conventions import EPS32
-from ..records import INFINITE_PLANE, SPHERE, Lights
+from ..records import INFINITE_PLANE, MESH, SPHERE, Lights, Mesh
 
 
 @dataclass(frozen=True)
@@ -21,6 +21,10 @@ class Primitive:
     """(3, 3) float64: the columns are the images of the shape's axes."""
     sizes: np.ndarray
     """(n,) float64."""
+    mesh: Mesh | None = None
+    """The triangles; None but of kind MESH."""
+    apart: float | None = None
+    """How far the mesh that it was recognized in is from it at most, over its radius or its longer half side."""
 
     def __len__(self) -> int:
         return len(self.sizes)
@@ -50,13 +54,21 @@ def enclosing_primitive(kind: int, vertices: np.ndarray) -> Primitive:
     return Primitive(kind, center[None], axes, np.ones(1))
 
 
-def is_invertible(matrices: np.ndarray, primitive: Primitive) -> np.ndarray:
-    """Return under which of (k, 3, 4) object matrices a primitive is finite and spans space, however thin it is.
+def mesh_primitive(mesh: Mesh) -> Primitive:
+    """Return a mesh as a shape in its object's space: around its middle."""
+    return Primitive(MESH, mesh.middle[None], np.eye(3), np.ones(1), mesh)
+
+
+def is_castable(matrices: np.ndarray, primitive: Primitive) -> np.ndarray:
+    """Return under which of (k, 3, 4) object matrices a primitive is finite and spans space, however thin it is; a mesh
+    need not span it.
 
     Axes that were scaled to zero under a turned parent are coplanar to a few roundings of float32: a determinant of
     the axes, each over its largest component, below 8 EPS32 cannot be told from zero.
     """
     finite = np.isfinite(matrices).all(axis=(1, 2))
+    if primitive.mesh is not None:
+        return finite
     axes = np.where(finite[:, None, None], matrices[:, :, :3], 0.0) @ primitive.axes
     lengths = np.abs(axes).max(axis=1, keepdims=True)
     return np.abs(np.linalg.det(axes / np.where(lengths > 0, lengths, 1.0))) > 8 * EPS32

@@ -19,7 +19,7 @@ from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
-from ..maths.speed import Scratch
+from ..maths.speed import Scratch, lazy
 from ..records import Shapes
 from .frames import InCamera, WorldRays
 
@@ -32,6 +32,9 @@ class PixelBounds(Protocol):
 
         A radius may be infinite.
         """
+
+    def within(self, bounds: np.ndarray) -> np.ndarray:
+        """Return what bounds of the picture, (n, 4), are in the columns and rows that the plan has of it."""
 
     def least_t(self, centers: np.ndarray, radii: np.ndarray) -> np.ndarray:
         """Return no more than the least t of each ball, (n,); -inf where it is not known."""
@@ -71,6 +74,8 @@ class Visible:
     """What hits are searched with: float64 or float32."""
     pixels: PixelBounds
     """Where parts of the shapes may be seen."""
+    whole: ShapeSet | None = None
+    """What the kind has made for all pixels of the picture, where these are some columns and rows of them."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -125,12 +130,24 @@ class HitPixels:
     """(m,)."""
     first_row: int
     """Of the block, in the tile."""
+    from_eye: bool
+    """Whether their rays leave the eye."""
     scratch: Scratch
+
+    @lazy
+    def places(self) -> np.ndarray:
+        """(m,): where they are in the block, its rows one after the other."""
+        return np.flatnonzero(self.where)
+
+    def of(self, vector: Any) -> tuple[np.ndarray, ...]:
+        """Return the components of the block, which broadcast, at these pixels, (m,) each."""
+        return tuple(np.broadcast_to(part, self.where.shape).reshape(-1).take(self.places) for part in vector)
 
     def kept(self, name: str, dtype: type) -> np.ndarray:
         """Return the (m,) entries of these pixels in an array of the scratch that the search filled for the tile."""
         rows, columns = self.where.shape
-        return self.scratch(name, (self.first_row + rows, columns), dtype)[self.first_row :][self.where]
+        (kept,) = self.of((self.scratch(name, (self.first_row + rows, columns), dtype)[self.first_row :],))
+        return kept
 
 
 class ShapeErrors(ABC):

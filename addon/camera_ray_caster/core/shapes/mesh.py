@@ -31,6 +31,8 @@ class Meshes(Kind):
 
     def shape_set(self, shapes: InCamera, visible: Visible) -> MeshSet:
         """See ``Kind``."""
+        if isinstance(visible.whole, MeshSet):
+            return visible.whole.at(visible.pixels)
         return MeshSet(MeshesInView(shapes, visible), visible.clip_start)
 
     def normals(self, shapes: InCamera, at: np.ndarray) -> tuple[np.ndarray, PixelNormals | None]:

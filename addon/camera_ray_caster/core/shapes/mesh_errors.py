@@ -29,14 +29,14 @@ class TriangleErrors(ShapeErrors):
 
     @lazy
     def _moved(self) -> np.ndarray:
-        """How far rounding may have moved a corner, (r,)."""
+        """How far rounding may have moved a corner, (k,)."""
         triangles = self.triangles
         turned = norm([dot(np.abs(row), np.abs(triangles.local).max(axis=0)) for row in triangles.axes])
         return gamma(8) * (turned + norm(triangles.center))
 
     @lazy
     def _turned(self) -> np.ndarray:
-        """By how much the cross product of the edges may be wrong, as a vector's length, (r,)."""
+        """By how much the cross product of the edges may be wrong, as a vector's length, (k,)."""
         first, second = map(norm, self.triangles.edges)
         return 2 * self._moved * (first + second + 2 * self._moved) + gamma(4) * first * second
 
@@ -104,7 +104,7 @@ def decide(shapes: InCamera, at: np.ndarray, rays: WorldRays) -> tuple[np.ndarra
         step = max(1, CHUNK // mine.size)
         for first in range(0, len(mesh), step):
             number = np.arange(first, min(first + step, len(mesh)))
-            some = HitTriangles(shapes, np.ones(len(number), int), np.full(len(number), row), number)
+            some = HitTriangles(shapes, np.arange(len(number)), np.full(len(number), row), number, False)
             corners = [difference([c[:, None] for c in corner], origin[:, None, mine]) for corner in some.corners]
             lengths = [norm(corner) for corner in corners]
             scale = np.maximum.reduce(lengths) ** 2 * norm(direction[:, mine])

@@ -11,6 +11,9 @@ from .kind import SearchRays
 NONE = np.iinfo(np.int32).max
 """In place of a triangle where none is met."""
 
+FOUND, NUMBER = "triangle found", "triangle"
+"""Arrays of the scratch that keep each pixel's triangle: among those in view, and among those of its mesh."""
+
 CELLS = 8, 32
 """Pixels of the sides of cells, each with the farthest t of its pixels: a triangle no larger lies in four at most."""
 
@@ -28,7 +31,7 @@ class Found:
     def of(cls, nearest: np.ndarray, rays: SearchRays) -> Found:
         """Begin with what was found before; nothing behind that is kept."""
         t = rays.scratch("triangle t", rays.shape, np.float64)
-        which = rays.scratch("triangle found", rays.shape, np.int32)
+        which = rays.scratch(FOUND, rays.shape, np.int32)
         np.copyto(t, nearest)
         which.fill(NONE)
         return cls(t, which)
@@ -37,13 +40,19 @@ class Found:
         """Note those that are the nearest so far; a pixel may have several."""
         nearest, first = self.t.reshape(-1), self.which.reshape(-1)
         before = nearest.take(pixel)
-        close = np.flatnonzero(t <= before)
-        pixel, t, which, before = pixel.take(close), t.take(close), which.take(close), before.take(close)
-        np.minimum.at(nearest, pixel, t)
-        won = np.flatnonzero(t == nearest.take(pixel))
-        pixel, which, nearer = pixel.take(won), which.take(won), t.take(won) < before.take(won)
-        first[pixel[nearer]] = NONE
-        np.minimum.at(first, pixel, which.astype(np.int32))
+        closer = np.less(t, before)
+        tied = np.flatnonzero(t == before)
+        if tied.size:
+            closer[tied] = which[tied] < first[pixel[tied]]
+        if not closer.all():
+            pixel, t, which = pixel[closer], t[closer], which[closer]
+        while pixel.size:
+            nearest[pixel], first[pixel] = t, which  # of several hits in one pixel the last stays: others try again
+            lost = np.flatnonzero(first.take(pixel) != which)
+            pixel, t, which = pixel[lost], t[lost], which[lost]
+            now = nearest.take(pixel)
+            nearer = (t < now) | ((t == now) & (which < first.take(pixel)))
+            pixel, t, which = pixel[nearer], t[nearer], which[nearer]
 
     def may_show(self, bounds: np.ndarray, near: np.ndarray) -> np.ndarray:
         """Return which triangles may be seen, indices: all but small ones that lie behind what was found, whose least t

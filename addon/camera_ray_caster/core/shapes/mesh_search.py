@@ -4,16 +4,17 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
 from .. import tuning
+from ..maths.speed import lazy
 from ..maths.vector import difference, norm
-from .kind import Candidates, SearchRays, ShapeSet
-from .mesh_found import NONE, Found
-from .mesh_in_camera import MeshesInView
+from .kind import Candidates, PixelBounds, SearchRays, ShapeSet
+from .mesh_found import NONE, NUMBER, Found
+from .mesh_in_camera import MeshesInView, Triangles
 from .mesh_spans import Lattice, spans
 from .triangles import ROUNDING, crossing, signs, volumes
 from .windows import batches, gather, in_tile
@@ -27,15 +28,27 @@ SPANNED = 1 << 12, 1 << 17
 
 @dataclass(frozen=True, eq=False)
 class MeshSet(ShapeSet):
-    """The meshes that a camera may see. ``rest`` keeps each pixel's triangle in the scratch, as "triangle"."""
+    """The meshes that a camera may see. ``rest`` keeps each pixel's triangle in the scratch."""
 
     meshes: MeshesInView
     clip_start: float
+    pixels: PixelBounds | None = None
+    """The columns and rows of the picture that are meant; None for all."""
     faces_eye = False
+
+    def at(self, pixels: PixelBounds) -> MeshSet:
+        """Return that of some columns and rows of the picture."""
+        return replace(self, pixels=pixels)
+
+    @lazy
+    def triangles(self) -> Triangles:
+        """Those that some pixel may see."""
+        whole = self.meshes.triangles
+        return whole if self.pixels is None else replace(whole, bounds=self.pixels.within(whole.bounds))
 
     def rest(self, rays: SearchRays, nearest: np.ndarray) -> Iterator[Candidates]:
         """See ``ShapeSet``."""
-        triangles = self.meshes.triangles
+        triangles = self.triangles
         here, bounds = in_tile(triangles.bounds, rays.corner, rays.shape)
         if not here.size:
             return
@@ -52,16 +65,17 @@ class MeshSet(ShapeSet):
                     self._cast(rays, reach, here[slab[batch]], bounds[slab[batch]], found)
         met = found.which != NONE
         which = np.where(met, found.which, 0)
-        np.take(triangles.number, which, out=rays.scratch("triangle", rays.shape, np.int32))
+        np.take(triangles.number, which, out=rays.scratch(NUMBER, rays.shape, np.int32))
         yield Candidates(triangles.shape[which][None], (np.zeros(1, int), np.zeros(1, int)), found.t[None], met[None])
 
     def _span(self, rays: SearchRays, lattice: Lattice, here: np.ndarray, bounds: np.ndarray, found: Found) -> None:
         """Keep what is met of triangles in spans, and of those that have none pixel by pixel."""
-        seen = spans(lattice, self.meshes.corners(here), bounds)
-        width = rays.shape[1]
-        self._keep(found, seen.met.row * width + seen.met.column, seen.t, here.take(seen.met.at))
-        if len(seen.open.at):
-            self._test(rays, here[seen.open.at], seen.open.row * width + seen.open.column, found)
+        seen = spans(lattice, self.meshes.corners(here), bounds, rays.shape[1])
+        at, pixel = seen.met
+        self._keep(found, pixel, seen.t, here.take(at))
+        at, pixel = seen.open
+        if len(at):
+            self._test(rays, here[at], pixel, found)
         if not seen.clear.all():
             others = np.flatnonzero(~seen.clear)
             reach = _longest(rays.direction), _longest(rays.origin or (0.0,))
@@ -133,7 +147,7 @@ class MeshSet(ShapeSet):
 
 def _longest(vectors: Any) -> float:
     """Return how long some vectors are at most, from components that broadcast; NaN is none."""
-    return math.sqrt(sum(float(np.nanmax(np.square(component))) for component in vectors))
+    return math.sqrt(sum(float(np.fmax.reduce(np.square(component), axis=None, initial=0.0)) for component in vectors))
 
 
 def _slabs(near: np.ndarray) -> Iterator[np.ndarray]:

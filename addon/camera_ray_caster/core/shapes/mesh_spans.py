@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -74,30 +74,21 @@ class Lattice:
         return (longest + self.reach) ** 2 if self.is_parallel else longest**2 * self.reach
 
 
-class Pixels(NamedTuple):
-    """Pixels of triangles, (m,) each."""
-
-    at: np.ndarray
-    """Indices of the triangles."""
-    row: np.ndarray
-    column: np.ndarray
-
-
 @dataclass(frozen=True, eq=False)
 class Spans:
     """Where the rays of a lattice meet k triangles."""
 
     clear: np.ndarray
     """(k,) bool: the triangles that are meant; others are to be tested pixel by pixel."""
-    met: Pixels
+    met: tuple[np.ndarray, np.ndarray]
+    """Triangles and the pixels of the tile in which they are met, (m,) each."""
     t: np.ndarray
-    """Of those that are met."""
-    open: Pixels
-    """Pixels that are to be tested, since rounding could decide."""
+    open: tuple[np.ndarray, np.ndarray]
+    """Triangles and the pixels in which they are to be tested, since rounding could decide."""
 
 
-def spans(lattice: Lattice, corners: Any, bounds: np.ndarray) -> Spans:
-    """Return those of triangles with corners (3, 3, k), seen within bounds (k, 4)."""
+def spans(lattice: Lattice, corners: Any, bounds: np.ndarray, width: int) -> Spans:
+    """Return those of triangles with corners (3, 3, k), seen within bounds (k, 4) of a tile of this width."""
     normal, product = plane(corners)
     height, slope = dot(normal, corners[0]), normal[2] * lattice.z
     scale = 2 * ROUNDING * lattice.scale(corners)
@@ -127,20 +118,24 @@ def spans(lattice: Lattice, corners: Any, bounds: np.ndarray) -> Spans:
     last = np.minimum(np.floor(high + doubt), x1[at] - 1).astype(np.intp)
     left = (first <= last) & (first < low + doubt) & ~is_open
     right = (first + left <= last) & (last > high - doubt) & ~is_open
+    place = row * width
     span, column = _counted(np.where(is_open, np.maximum(last - first + 1, 0), 0), first)
-    rest = (
-        Pixels(at[span], row[span], column),
-        Pixels(at[left], row[left], first[left]),
-        Pixels(at[right], row[right], last[right]),
-    )
-    span, column = _counted(np.where(is_open, 0, np.maximum(last - right + 1 - first - left, 0)), first + left)
+    rest = [(at[span], place[span] + column)]
+    rest += [(at[some], place[some] + end[some]) for some, end in ((left, first), (right, last))]
+    first += left
+    span, column = _counted(np.where(is_open, 0, np.maximum(last - right + 1 - first, 0)), first)
     x, y, z = t_terms
-    at_row = (x * lattice.first[0] + z)[at] + y[at] * (lattice.first[1] + row * lattice.step[1])
-    value = at_row[span] + (x * lattice.step[0])[at][span] * column
+    at_row = (x * lattice.first[0] + z).take(at) + y.take(at) * (lattice.first[1] + row * lattice.step[1])
+    t = (x * lattice.step[0]).take(at).take(span)
+    t *= column
+    t += at_row.take(span)
+    column += place.take(span)
     return Spans(
-        np.broadcast_to(clear, len(bounds)), Pixels(at[span], row[span], column),
-        value if lattice.is_parallel else 1 / value, Pixels(*map(np.concatenate, zip(*rest, strict=True))),
-    )  # fmt: skip
+        clear=np.broadcast_to(clear, len(bounds)),
+        met=(at.take(span), column),
+        t=t if lattice.is_parallel else np.reciprocal(t, out=t),
+        open=(np.concatenate([one for one, _ in rest]), np.concatenate([one for _, one in rest])),
+    )
 
 
 def _level(lattice: Lattice, edges: np.ndarray, is_level: np.ndarray, scale, bounds: np.ndarray, at, row):
@@ -170,5 +165,6 @@ def _at_rows(start, change, meant: np.ndarray, without: float, at: np.ndarray, r
 def _counted(count: np.ndarray, first: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Return, for each of some runs of numbers, its index and the number, one after the other."""
     at = np.repeat(np.arange(len(count)), count)
-    begin = np.cumsum(count) - count
-    return at, np.arange(len(at)) + (first - begin)[at]
+    number = np.arange(len(at))
+    number += (first - (np.cumsum(count) - count)).take(at)
+    return at, number

@@ -1,7 +1,7 @@
 """The surface of meshes where rays meet it: normals, uv, faces and materials of the triangles that pixels see.
 
-Neighboring pixels often see the same triangle. What follows from a triangle alone is worked out once for each run of
-such pixels; over a triangle normals and uv are affine in the hit point.
+Many pixels may see the same triangle. What follows from a triangle alone is worked out once for all of them; over a
+triangle normals and uv are affine in the hit point.
 """
 
 from __future__ import annotations
@@ -18,6 +18,7 @@ from ..maths.vector import components, cross, difference, dot, matrix_rows, matv
 from ..records import Mesh
 from .frames import InCamera
 from .kind import HitPixels
+from .mesh_found import FOUND, NUMBER
 
 LOST = 1 / 16
 """A triangle so thin that rounding of its points moves a barycentric coordinate by this much has one value all over."""
@@ -25,27 +26,34 @@ LOST = 1 / 16
 
 @dataclass(frozen=True, eq=False)
 class HitTriangles:
-    """The triangles that m pixels see, in r runs of pixels with the same triangle; vectors in the world."""
+    """The k triangles that m pixels see; vectors in the world."""
 
     shapes: InCamera
-    lengths: np.ndarray
-    """(r,) of the runs, in pixels."""
+    which: np.ndarray
+    """(m,) indices into these triangles."""
     at: np.ndarray
-    """(r,) indices into ``Shapes``."""
+    """(k,) indices into ``Shapes``."""
     number: np.ndarray
-    """(r,) indices into the triangles of the mesh."""
+    """(k,) indices into the triangles of the mesh."""
+    from_eye: bool
+    """Whether the rays leave the eye, so that all pixels see the same side of a triangle."""
 
     @classmethod
     def of(cls, shapes: InCamera, pixels: HitPixels) -> HitTriangles:
-        """Return those of pixels that see meshes."""
-        at, number = pixels.at, pixels.kept("triangle", np.int32)
-        change = (at[1:] != at[:-1]) | (number[1:] != number[:-1])
-        first = np.concatenate(([0], np.flatnonzero(change) + 1)) if len(at) else np.zeros(0, int)
-        return cls(shapes, np.diff(first, append=len(at)), at[first], number[first])
+        """Return those of pixels that see meshes, one at least."""
+        found = pixels.kept(FOUND, np.int32)
+        found -= found.min()
+        place = np.full(found.max() + 1, -1, np.int32)
+        place[found] = np.arange(len(found))
+        seen = np.flatnonzero(place >= 0)
+        example = place[seen]
+        place[seen] = np.arange(len(seen))
+        number = pixels.kept(NUMBER, np.int32)[example]
+        return cls(shapes, place.take(found), pixels.at[example], number, pixels.from_eye)
 
     def each(self, values: Any) -> np.ndarray:
-        """Return the values of runs (..., r) for their pixels, (..., m)."""
-        return np.repeat(values, self.lengths, axis=-1)
+        """Return the values of triangles (..., k) for the pixels that see them, (..., m)."""
+        return values.take(self.which, axis=-1)
 
     @property
     def polygon(self) -> np.ndarray:
@@ -59,24 +67,24 @@ class HitTriangles:
 
     @lazy
     def local(self) -> np.ndarray:
-        """The corners in their meshes' frames from the middle, (3, 3, r): corner, component."""
+        """The corners in their meshes' frames from the middle, (3, 3, k): corner, component."""
         return self._gather(
             (3, 3), float, lambda mesh, k: _corners(mesh.vertices, mesh.triangles[:, k]) - mesh.middle[:, None]
         )
 
     @lazy
     def axes(self) -> tuple[Any, ...]:
-        """The rows of the shapes' axes, three of three (r,)."""
+        """The rows of the shapes' axes, three of three (k,)."""
         return matrix_rows(self.shapes.shapes.axes[self.at])
 
     @lazy
     def center(self) -> tuple[np.ndarray, ...]:
-        """The shapes' centers relative to the eye, three (r,)."""
+        """The shapes' centers relative to the eye, three (k,)."""
         return components((self.shapes.shapes.center - self.shapes.pose.eye)[self.at])
 
     @lazy
     def corners(self) -> list[tuple[np.ndarray, ...]]:
-        """The corners relative to the eye, three of three (r,)."""
+        """The corners relative to the eye, three of three (k,)."""
         return [
             tuple(c + p for c, p in zip(self.center, matvec(self.axes, corner), strict=True)) for corner in self.local
         ]
@@ -93,7 +101,7 @@ class HitTriangles:
 
     @lazy
     def corner_normals(self) -> np.ndarray:
-        """The normals at the corners on the side of ``area``, (3, 3, r): corner, component; not of unit length.
+        """The normals at the corners on the side of ``area``, (3, 3, k): corner, component; not of unit length.
 
         Those of a mesh that one object shows are made unit in the world, those of a shared one in the mesh's frame, as
         Cycles interpolates them.
@@ -121,26 +129,35 @@ class HitTriangles:
         return second, third
 
     def interpolated(self, values: np.ndarray, point: Any) -> Iterator[np.ndarray]:
-        """Yield each component of values at the corners, (3, c, r), at hit points relative to the eye: (m,)."""
+        """Yield each component of values at the corners, (3, c, k), at hit points relative to the eye: (m,)."""
         second, third = self.gradients
         for at_corners in np.swapaxes(values, 0, 1):
             first = at_corners[0]
             to_second, to_third = at_corners[1] - first, at_corners[2] - first
             slope = [to_second * g + to_third * h for g, h in zip(second, third, strict=True)]
-            yield self.each(first - dot(slope, self.corners[0])) + dot([self.each(s) for s in slope], point)
+            total = self.each(first - dot(slope, self.corners[0]))
+            for along, component in zip(slope, point, strict=True):
+                part = self.each(along)
+                part *= component
+                total += part
+            yield total
 
     def normals(self, point: Any, direction: Any) -> Any:
         """Return the unit normals turned towards the rays, as Blender's Normal pass has them; (m,) components.
 
         The side of the face that is hit gives the sign, not the interpolated normal.
         """
-        behind = dot(self.each(np.array(self.area)), direction) > 0
-        if any(self.shapes.shapes.meshes[k].normals is not None for k in np.unique(self._mesh).tolist()):
-            normal = np.array(list(self.interpolated(self.corner_normals, point)))
-        else:
-            normal = self.each(np.array(self.area))
-        length = norm(normal)
-        return tuple(component / np.where(behind, -length, length) for component in normal)
+        area, smooth = np.array(self.area), any(self.shapes.shapes.meshes[k].normals is not None for k in self._meshes)
+        corner_normals = self.corner_normals if smooth else area[None]
+        if self.from_eye:
+            corner_normals = -np.sign(dot(area, self.corners[0])) * corner_normals
+        normal = list(self.interpolated(corner_normals, point)) if smooth else list(self.each(corner_normals[0]))
+        scale = 1 / norm(normal)
+        if not self.from_eye:
+            scale *= -np.sign(dot(self.each(area), direction))
+        for component in normal:
+            component *= scale
+        return normal
 
     def uv(self, point: Any) -> tuple[np.ndarray, np.ndarray]:
         """Return u and v, (m,) each; 0 where the mesh has no map."""
@@ -156,13 +173,19 @@ class HitTriangles:
 
     @lazy
     def _mesh(self) -> np.ndarray:
+        """(k,) indices into ``Shapes.meshes``."""
         return self.shapes.shapes.mesh[self.at]
 
+    @lazy
+    def _meshes(self) -> list[int]:
+        """Those that are seen."""
+        return np.flatnonzero(np.bincount(self._mesh)).tolist()
+
     def _gather(self, shape: tuple[int, ...], dtype: type, of: Callable[[Mesh, np.ndarray], Any]) -> np.ndarray:
-        """Return what a function gives for triangles of a mesh, (*shape, r) of all runs."""
+        """Return what a function gives for triangles of a mesh, (*shape, k)."""
         result: np.ndarray = np.empty((*shape, len(self.at)), dtype)
-        for k in np.unique(self._mesh).tolist():
-            some = self._mesh == k
+        for k in self._meshes:
+            some = self._mesh == k if len(self._meshes) > 1 else slice(None)
             result[..., some] = of(self.shapes.shapes.meshes[k], self.number[some])
         return result
 

@@ -32,8 +32,12 @@ The vertices of any prism, cube or cylinder can lie on one sphere, but then some
 octahedron's are at 0.577, an icosahedron's at 0.795. UV spheres pass from 6 segments and 3 rings (0.750) on; coarser
 ones cannot be told from a cylinder."""
 
+SAMPLE = 256
+"""Vertices by which a mesh of many more is told from a sphere and a plane: that takes a hundredth of the time."""
+
 CORRUPT = "it is corrupt, with faces of vertices or edges that it does not have: repair it with mesh.validate()"
 NOT_FINITE = "its vertices are not all finite"
+NOT_ROUND = "its vertices are not on one sphere or ellipsoid"
 ROUNDED_AWAY = "it is too thin, or too small so far from the object's origin: float32 has rounded its shape away"
 
 
@@ -53,14 +57,15 @@ class MeshArrays:
 
     @property
     def is_whole(self) -> bool:
-        """Whether every face has corners, and every corner a vertex and an edge that are there: not in a corrupt file.
+        """Whether every face has three corners or more, and each a vertex and an edge that are there: not in a corrupt
+        file.
 
         The starts of the faces ascend from the first loop on.
         """
         starts, ends = self.loop_starts, np.append(self.loop_starts[1:], len(self.loop_vertices))
         return bool(
             starts[0] == 0
-            and (starts < ends).all()
+            and (ends - starts >= 3).all()
             and _within(self.loop_vertices, len(self.vertices))
             and _within(self.loop_edges, self.edge_count)
         )
@@ -70,6 +75,25 @@ def _within(indices, count: int) -> bool:
     return bool(len(indices) and indices.min() >= 0 and indices.max() < count)
 
 
+def defect(mesh: MeshArrays) -> str:
+    """Return in words why the faces of a mesh are not to be used, else ""."""
+    if not mesh.is_whole:
+        return CORRUPT
+    return "" if np.isfinite(mesh.vertices).all() else NOT_FINITE
+
+
+def exclude(mesh: MeshArrays) -> str:
+    """Return in words why a mesh can be neither sphere nor plane, as far as some of its vertices tell, else ""."""
+    if len(mesh.vertices) < 4 * SAMPLE:
+        return ""
+    sample = mesh.vertices[np.random.default_rng(0).integers(len(mesh.vertices), size=SAMPLE)]
+    sample = sample - sample.mean(axis=0, dtype=np.float64)
+    rounding = ROUNDING * float(np.abs(mesh.vertices).max())
+    _, _, (_, _, across) = np.linalg.svd(sample, full_matrices=False)
+    is_flat = np.ptp(sample @ across) <= 4 * rounding
+    return "" if is_flat or _fitted(sample, rounding, slack=16.0) else NOT_ROUND
+
+
 def recognize(mesh: MeshArrays) -> Primitive | str:
     """Return the sphere or plane that a mesh with faces is, in object space, or in words why it is neither.
 
@@ -77,10 +101,8 @@ def recognize(mesh: MeshArrays) -> Primitive | str:
     matrix was applied to one. A sphere's axes are its radius times the object's axes; a plane's are half its sides, the
     first along its first edge, and a normal as long as the root of their area. All are right to the tolerances above.
     """
-    if not mesh.is_whole:
-        return CORRUPT
-    if not np.isfinite(mesh.vertices).all():
-        return NOT_FINITE
+    if reason := defect(mesh) or exclude(mesh):
+        return reason
     middle = mesh.vertices.mean(axis=0, dtype=np.float64)
     vertices = mesh.vertices - middle  # small numbers: an offset that was applied costs no digits
     rounding = ROUNDING * float(np.abs(mesh.vertices).max())
@@ -92,10 +114,10 @@ def recognize(mesh: MeshArrays) -> Primitive | str:
         found = _ellipsoid(mesh, vertices, rounding)
     if isinstance(found, str):
         return found
-    kind, center, axes, uncertainty = found
+    kind, center, axes, uncertainty, apart = found
     center = center + middle
     center[np.abs(center) <= uncertainty] = 0  # rounding, where the user has the object's origin
-    return Primitive(kind, center[None], axes, np.ones(1))
+    return Primitive(kind, center[None], axes, np.ones(1), apart=float(apart))
 
 
 def _following(mesh) -> np.ndarray:
@@ -120,33 +142,41 @@ def _ellipsoid(mesh, vertices, rounding):
     """
     if not np.ptp(vertices, axis=0).all():
         return "it is neither flat nor round"
+    fitted = _fitted(vertices, rounding)
+    if fitted is None:
+        return NOT_ROUND
+    center, axes, ball, noise = fitted
+    if noise > 0.01:
+        return ROUNDED_AWAY
+    if (np.bincount(mesh.loop_edges, minlength=mesh.edge_count) != 2).any():
+        return "its vertices are on a sphere, but its surface is not closed"
+    corners, areas = _faces(mesh, ball)
+    heights, sizes = (corners * areas).sum(axis=1), np.linalg.norm(areas, axis=1)
+    if (np.abs(heights) < MIN_INRADIUS * sizes).any():
+        return "its vertices are on a sphere, but its faces cut deep into it, as a box's or a cylinder's do"
+    if abs(heights.sum() / 3) < MIN_INRADIUS**3 * (4 / 3 * np.pi):
+        return "its vertices are on a sphere, but its faces do not go round it once, all facing outwards"
+    distances, pole = np.linalg.norm(ball, axis=1), np.ptp(ball[:, 2]) / 2
+    reach = pole if distances.min() <= pole <= distances.max() else distances.mean()
+    apart = 1 - (np.abs(heights[sizes > 0]) / sizes[sizes > 0]).min() / reach
+    return SPHERE, center, axes * reach, np.ptp(distances) * np.abs(axes).max(), apart
+
+
+def _fitted(vertices, rounding, slack=1.0):
+    """Return center and axes of the sphere, or else the ellipsoid, that vertices lie on to ``slack`` tolerances, the
+    vertices in its frame, and what rounding may move them there; None where there is none.
+    """
     for fit in (_fitted_sphere, _fitted_ellipsoid):
         center, axes = fit(vertices)
         if axes is None:
             continue
         thinnest = np.linalg.norm(axes, -2)
         if thinnest <= rounding:
-            return ROUNDED_AWAY
-        ball = np.linalg.solve(axes, (vertices - center).T).T
-        distances = np.linalg.norm(ball, axis=1)
-        spread, noise = np.ptp(distances), rounding / thinnest
-        if spread <= SPHERE_TOLERANCE + noise:
-            break
-    else:
-        return "its vertices are not on one sphere or ellipsoid"
-    if noise > 0.01:
-        return ROUNDED_AWAY
-    if (np.bincount(mesh.loop_edges, minlength=mesh.edge_count) != 2).any():
-        return "its vertices are on a sphere, but its surface is not closed"
-    corners, areas = _faces(mesh, ball)
-    heights = (corners * areas).sum(axis=1)
-    if (np.abs(heights) < MIN_INRADIUS * np.linalg.norm(areas, axis=1)).any():
-        return "its vertices are on a sphere, but its faces cut deep into it, as a box's or a cylinder's do"
-    if abs(heights.sum() / 3) < MIN_INRADIUS**3 * (4 / 3 * np.pi):
-        return "its vertices are on a sphere, but its faces do not go round it once, all facing outwards"
-    pole = np.ptp(ball[:, 2]) / 2
-    reach = pole if distances.min() <= pole <= distances.max() else distances.mean()
-    return SPHERE, center, axes * reach, spread * np.abs(axes).max()
+            return center, axes, vertices, np.inf
+        ball, noise = np.linalg.solve(axes, (vertices - center).T).T, rounding / thinnest
+        if np.ptp(np.linalg.norm(ball, axis=1)) <= slack * (SPHERE_TOLERANCE + noise):
+            return center, axes, ball, noise
+    return None
 
 
 def _least_squares(terms, values):
@@ -213,4 +243,5 @@ def _parallelogram(mesh, vertices, total, area, rounding):
         return "it has no area"
     if abs(area - 4 * size) > rounding * (np.linalg.norm(x) + np.linalg.norm(y)) * 8:
         return "it is flat, but its faces do not fill its outline once"
-    return PLANE, center, np.column_stack([x, y, third / np.sqrt(size)]), rounding
+    apart = np.ptp(vertices @ normal) / max(np.linalg.norm(x), np.linalg.norm(y))
+    return PLANE, center, np.column_stack([x, y, third / np.sqrt(size)]), rounding, apart

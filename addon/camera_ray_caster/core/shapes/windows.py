@@ -18,7 +18,8 @@ def in_tile(bounds: np.ndarray, corner: tuple[int, int], shape: tuple[int, int])
     """Return which of some bounds (n, 4) have a part in a tile, (k,), and these parts in the tile's pixels, (k, 4)."""
     (left, low), (high, wide) = corner, shape
     x0, x1, y0, y1 = bounds.T
-    here = np.flatnonzero((x1 > left) & (x0 < left + wide) & (y1 > low) & (y0 < low + high))
+    across, up = (x1 > np.maximum(x0, left)) & (x0 < left + wide), (y1 > np.maximum(y0, low)) & (y0 < low + high)
+    here = np.flatnonzero(across & up)
     edges = np.maximum(bounds[here] - np.array((left, left, low, low), bounds.dtype), 0)
     return here, np.minimum(edges, np.array((wide, wide, high, high), bounds.dtype), out=edges)
 

@@ -23,6 +23,7 @@ from numpy.polynomial.polynomial import polyval
 
 from ...maths.inversion import Inverse
 from ...maths.recording import is_recorded, loop, roundoff
+from ...maths.roots import positive_roots
 
 STEEPEST = tan(radians(89.9))
 """The largest undistorted radius that an endless picture is given."""
@@ -124,9 +125,7 @@ class RadialTangential:
         bend = r * (6 * hypot(self.p1, self.p2) + 2 * hypot(self.s1, self.s3)) + 4 * r**3 * hypot(self.s2, self.s4)
         least = inf
         for polynomial in (below, above * below - bend * below**2, above * below + slope - bend * below**2):
-            roots = polynomial.roots()
-            real = roots.real[(np.abs(roots.imag) <= 1e-9 * np.abs(roots)) & (roots.real > 0)]
-            least = min(least, *real.tolist(), inf)
+            least = min(least, *positive_roots(polynomial).tolist(), inf)
         return least * (1 - 1e-9)
 
     @cached_property

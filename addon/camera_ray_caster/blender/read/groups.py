@@ -1,0 +1,125 @@
+"""Instances that have everything but their place in common, and the record that they make."""
+
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from ...core.records import Shapes, Slots
+from ...core.shapes.instances import Primitive, is_castable, lights_in_world, put_in_world
+from ..terminal.signals import raise_if_stopping
+from .kept import Found
+from .lights import world_color
+from .materials import Look
+
+SINGULAR = "its size is zero in some direction, or not finite: clear its scale (Alt S) or apply it"
+
+
+LISTEN = 256
+"""Instances or groups after which a reading asks whether to go on: some hundredths of a second."""
+
+
+@dataclass
+class Group:
+    """The instances of one mesh, point cloud or light of one object."""
+
+    name: str
+    primitive: Primitive | None = None
+    reason: str = ""
+    object_index: int = 0
+    looks: tuple[Look, ...] = ()
+    """Of the shape; of a mesh of several materials that of each slot; of a light its color."""
+    is_sun: bool | None = None
+    flattened: Callable[[], Found] | None = None
+    """Returns the triangles that stand in for an exact shape where its matrix lies in one plane."""
+    matrices: list[tuple[float, ...]] = field(default_factory=list)
+
+    def placings(self) -> np.ndarray:
+        """Return the world matrices of the instances, (k, 3, 4) float64."""
+        return np.array(self.matrices, np.float64).reshape(-1, 3, 4)
+
+
+def heeding(items: Iterable) -> Iterator:
+    """Yield items, and raise Cancelled where what is running has been asked to end."""
+    for count, item in enumerate(items):
+        if count % LISTEN == 0:
+            raise_if_stopping()
+        yield item
+
+
+def gathered(groups: list[Group], left_out: Counter, scene) -> Shapes:
+    """Return the record of all groups: their instances placed in the world, one row a shape."""
+    lights = [group for group in groups if group.is_sun is not None]
+    parts = [part for group in heeding(groups) if group.primitive is not None for part in _castable(group, left_out)]
+    cast, placings = zip(*parts, strict=True) if parts else ((), ())
+    counts = [len(matrices) * len(group.primitive) for group, matrices in parts]
+    ends = np.cumsum(counts, dtype=int)
+    center, axes = np.empty((sum(counts), 3)), np.empty((sum(counts), 3, 3))
+    for group, matrices, count, end in zip(cast, placings, counts, ends, strict=True):
+        own = slice(end - count, end)
+        put_in_world(group.primitive, matrices, center[own], axes[own])
+
+    def column(values, dtype, width=()):
+        return np.repeat(np.array(values, dtype).reshape(len(cast), *width), counts, axis=0)
+
+    meshes = {id(group.primitive): group.primitive.mesh for group in cast if group.primitive.mesh is not None}
+    numbers = {key: number for number, key in enumerate(meshes)}
+    rows = [numbers.get(id(group.primitive), -1) for group in cast]
+    looks = [group.looks[0] for group in cast]
+    return Shapes(
+        kind=column([group.primitive.kind for group in cast], np.uint8),
+        center=center,
+        axes=axes,
+        object_index=column([group.object_index for group in cast], np.int32),
+        material_index=column([index for index, _ in looks], np.int32),
+        color=column([color for _, color in looks], np.float32, (4,)),
+        name_index=column(range(len(cast)), np.int32),
+        names=tuple(group.name for group in cast),
+        lights=lights_in_world([(group.is_sun, group.looks[0][1], group.placings()) for group in lights]),
+        world_color=world_color(scene),
+        left_out=tuple((name, _counted(reason, count)) for (name, reason), count in left_out.items()),
+        meshes=tuple(meshes.values()),
+        mesh=column(rows, np.int32) if meshes else np.zeros(0, np.int32),
+        slots=_slots(cast, column),
+        exact=tuple((group.name, group.primitive.apart) for group in cast if group.primitive.apart is not None),
+    )
+
+
+def _castable(group: Group, left_out: Counter) -> Iterator[tuple[Group, np.ndarray]]:
+    """Yield the group with the matrices under which it can be cast, and as triangles with the others where it can be.
+
+    What remains is named.
+    """
+    matrices = group.placings()
+    usable = is_castable(matrices, group.primitive)
+    if usable.any():
+        yield group, matrices[usable]
+    rest = matrices[~usable]
+    if len(rest) and group.flattened is not None:
+        primitive, _ = group.flattened()
+        if primitive is not None:
+            flat = is_castable(rest, primitive)
+            if flat.any():
+                yield replace(group, primitive=primitive), rest[flat]
+            rest = rest[~flat]
+    if len(rest):
+        left_out[group.name, SINGULAR] += len(rest)
+
+
+def _slots(groups, column) -> Slots | None:
+    """Return the looks of the groups that have several."""
+    several = [group.looks if len(group.looks) > 1 else () for group in groups]
+    looks = [look for looks in several for look in looks]
+    if not looks:
+        return None
+    counts = np.array([len(looks) for looks in several])
+    return Slots(
+        first=column(np.where(counts > 0, np.cumsum(counts) - counts, -1), np.int64),
+        material_index=np.array([index for index, _ in looks], np.int32),
+        color=np.array([color for _, color in looks], np.float32),
+    )
+
+
+def _counted(reason: str, count: int) -> str:
+    return reason if count == 1 else f"{reason} ({count} instances)"

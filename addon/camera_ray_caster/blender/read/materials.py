@@ -1,0 +1,68 @@
+"""How materials look in the combined pass, and their pass indices."""
+
+import math
+
+import bpy
+import numpy as np
+
+ALWAYS_NODES = bpy.app.version >= (5, 0, 0)
+"""Whether materials and worlds have no other way than nodes."""
+
+UNCHANGED = (float(np.float32(0.8)),) * 3
+"""The Base Color that a Principled BSDF is made with."""
+
+Look = tuple[int, tuple[float, ...]]
+"""A pass index and linear RGBA."""
+
+
+class Looks:
+    """The looks of objects, each material looked up once."""
+
+    def __init__(self):
+        self._known: dict[object, Look] = {}
+
+    def of_slot(self, item, slot: int) -> Look:
+        """Return the look of what has an evaluated object's material slot; behind the last one it is the last one's.
+
+        Without a material it is the object's own color.
+        """
+        slots = item.material_slots
+        material = slots[min(slot, len(slots) - 1)].material if len(slots) else None
+        if material is None:
+            return 0, shown(item.color)
+        if material not in self._known:
+            self._known[material] = _look(material)
+        return self._known[material]
+
+
+def first_slot(item) -> int:
+    """Return the material slot of an evaluated object's first face."""
+    has_faces = item.type == "MESH" and len(item.data.polygons)
+    return item.data.polygons[0].material_index if has_faces else 0
+
+
+def is_finite(color) -> bool:
+    """Return whether all parts of a color are numbers that light can be."""
+    return all(map(math.isfinite, color))
+
+
+def shown(color) -> tuple[float, ...]:
+    """Return a color of three or four parts; black where one is NaN or infinite, which would spread to every pixel."""
+    return tuple(color) if is_finite(color) else (0.0, 0.0, 0.0, 1.0)[: len(color)]
+
+
+def surface_node(owner, kind: str):
+    """Return the node of that kind that is a material's or a world's surface; None where another one is, or none."""
+    uses_nodes = owner.node_tree is not None and (ALWAYS_NODES or owner.use_nodes)
+    output = owner.node_tree.get_output_node("ALL") if uses_nodes else None
+    links = output.inputs["Surface"].links if output else ()
+    return links[0].from_node if links and links[0].from_node.bl_idname == kind else None
+
+
+def _look(material) -> Look:
+    """Return a material's look: a plain Base Color of a Principled BSDF that was changed, else its viewport color."""
+    node = surface_node(material, "ShaderNodeBsdfPrincipled")
+    base = node.inputs["Base Color"] if node else None
+    *viewport, alpha = material.diffuse_color
+    changed = base is not None and not base.is_linked and tuple(base.default_value)[:3] != UNCHANGED
+    return material.pass_index, shown((*(tuple(base.default_value)[:3] if changed else viewport), alpha))

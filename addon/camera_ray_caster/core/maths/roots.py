@@ -1,0 +1,20 @@
+"""The positive roots of a polynomial, for coefficients of any size."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.polynomial import Polynomial
+
+REAL = 1e-9
+"""Of a root: an imaginary part that is its rounding."""
+
+LEAST = 1e-250
+"""Of the largest coefficient: leading ones below it have roots beyond all use, and their quotients have no number."""
+
+
+def positive_roots(polynomial: Polynomial) -> np.ndarray:
+    """Return the real roots above 0, (n,) float64, in order; none of a constant."""
+    size = np.abs(polynomial.coef)
+    last = np.flatnonzero(size > LEAST * size.max())
+    roots = Polynomial(polynomial.coef[: last[-1] + 1]).roots() if last.size else np.zeros(0)
+    return np.sort(roots.real[(np.abs(roots.imag) <= REAL * np.abs(roots)) & (roots.real > 0)])

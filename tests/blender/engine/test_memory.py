@@ -1,0 +1,50 @@
+"""Frames that no memory holds: F12, the sidebar and the files refuse them in one line; a border of them is rendered."""
+
+import numpy as np
+import pytest
+
+from camera_ray_caster.blender.output import files
+from camera_ray_caster.blender.read.scene import read_camera, read_shapes
+from camera_ray_caster.core import memory
+from camera_ray_caster.core.cast import cast
+from camera_ray_caster.core.records import InputError
+
+from ..pictures import picture
+
+SAID = r"the passes of 65536 x 65536 pixels take [\d.]+ GiB of memory and 1 GiB are there: render a border"
+
+
+@pytest.fixture
+def huge(scene, monkeypatch):
+    """The scene with 65,536 x 65,536 pixels, on a machine that has 1 GiB left."""
+    monkeypatch.setattr(memory, "available", lambda: 1 << 30)
+    scene.render.resolution_x = scene.render.resolution_y = 1 << 16
+    scene.render.resolution_percentage = 100
+    return scene
+
+
+def bordered(scene, crop):
+    render = scene.render
+    render.use_border, render.use_crop_to_border = True, crop
+    render.border_min_x, render.border_max_x, render.border_min_y, render.border_max_y = 0.5, 0.501, 0.5, 0.5005
+
+
+@pytest.mark.parametrize("border", [False, True])
+def test_a_frame_that_does_not_fit_is_refused_before_it_is_begun(blender, huge, tmp_path, border):
+    if border:
+        bordered(huge, crop=False)  # Blender puts the border into a whole frame
+    with pytest.raises(RuntimeError, match=SAID) as refused:
+        blender.ops.render.render()
+    assert str(refused.value).strip().count("\n") == 0
+    with pytest.raises(InputError, match=SAID):
+        files.render(huge, tmp_path / "out", "frame")
+    assert not list(tmp_path.rglob("*"))
+
+
+def test_a_cropped_border_of_such_a_frame_is_rendered(huge, render):
+    bordered(huge, crop=True)
+    found = render()
+    expected = cast(read_camera(huge), read_shapes(huge), ("position", "ray_direction"))
+    assert expected["position"].shape == (32, 65, 3)
+    for name, image in expected.items():
+        np.testing.assert_array_equal(picture(found, name), image)

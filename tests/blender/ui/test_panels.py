@@ -1,0 +1,85 @@
+"""What the panels draw, without a window."""
+
+from camera_ray_caster.blender.output import reports
+
+
+class Layout:
+    """Stands for Blender's layout: it takes everything and notes the text, the operators and the properties."""
+
+    def __init__(self):
+        self.said = []
+
+    def __getattr__(self, name):
+        def call(*arguments, **keywords):
+            self.said += [keywords["text"]] if keywords.get("text") else []
+            self.said += {"operator": arguments, "prop": arguments[1:]}.get(name, ())
+            return self
+
+        return call
+
+
+def drawn(blender, panel):
+    """Draw a panel as Blender does, and return what it says."""
+    layout = Layout()
+    context = blender.context.copy() | {"region": type("Region", (), {"width": 300})}
+    context["evaluated_depsgraph_get"] = blender.context.evaluated_depsgraph_get
+    context = type("Context", (), {name: staticmethod(v) if callable(v) else v for name, v in context.items()})
+    panel.draw(type("Panel", (), {"layout": layout}), context)
+    return " ".join(layout.said)
+
+
+def test_the_panels_say_what_the_camera_is_and_why_it_is_none(blender, scene):
+    from camera_ray_caster.blender.ui import camera_panels, cast_panels, overlay_panels
+
+    sidebar = [*camera_panels.CLASSES[:2], *cast_panels.CLASSES[:2], overlay_panels.SidebarOverlay]
+    said = drawn(blender, camera_panels.SidebarCamera)
+    for text in ("Eye", "6 m", "24 × 16 px", "39.6°", "Plane Distance d", "2.77778", "K"):
+        assert text in said
+    blender.ops.camera_ray_caster.cast()
+    for panel in (*sidebar, *cast_panels.CLASSES[2:]):
+        drawn(blender, panel)
+    assert "Suzanne" in drawn(blender, cast_panels.SidebarLeftOut)
+    assert "All witnesses agree" in drawn(blender, camera_panels.SidebarVerify)
+    scene.camera.location.x = 1
+    assert "has changed since" in drawn(blender, camera_panels.SidebarVerify)
+    scene.camera = None
+    assert "no active camera" in drawn(blender, camera_panels.SidebarCamera)
+    for panel in sidebar:
+        drawn(blender, panel)
+
+
+def test_cast_as_stands_in_the_objects_properties_and_beside_what_was_left_out(blender, scene):
+    from camera_ray_caster.blender.ui import cast_panels, object_panels
+
+    blender.ops.camera_ray_caster.cast()
+    assert drawn(blender, cast_panels.SidebarLeftOut).split()[:3] == [
+        "Suzanne",
+        "camera_ray_caster.select",
+        "primitive",
+    ]
+    blender.data.objects["Suzanne"].name = "Renamed"
+    assert "primitive" not in drawn(blender, cast_panels.SidebarLeftOut)
+    assert not object_panels.ObjectPanel.poll(blender.context)  # the camera is active
+    blender.context.view_layer.objects.active = blender.data.objects["Renamed"]
+    assert object_panels.ObjectPanel.poll(blender.context)
+    assert drawn(blender, object_panels.ObjectPanel) == "primitive"
+    items = blender.data.objects["Renamed"].camera_ray_caster.bl_rna.properties["primitive"].enum_items
+    assert {item.identifier: item.value for item in items} == {
+        "AUTOMATIC": 0, "SPHERE": 1, "PLANE": 2, "INFINITE_PLANE": 3, "IGNORE": 4, "MESH": 5,
+    }  # fmt: skip
+
+
+def test_the_panels_say_how_right_the_hits_are(blender, scene):
+    from camera_ray_caster.blender.ui import cast_panels, render_panels
+
+    blender.ops.camera_ray_caster.cast()
+    found = reports.latest().accuracy
+    assert found.hits > 0
+    assert 0 < reports.latest().seconds["accuracy"] < sum(reports.latest().seconds.values())
+    median, worst = (f"≤ {getattr(found, name)('relative_distance'):.0e}" for name in ("median", "worst"))
+    said = drawn(blender, cast_panels.SidebarReport)
+    assert f"Distance Error, Median {median} Distance Error, Worst {worst}" in said
+    assert f"Worst distance error: {worst}" in drawn(blender, render_panels.RenderPanel)
+    scene.camera.location.z = -6  # it looks away from all there is
+    blender.ops.camera_ray_caster.cast()
+    assert "Distance Error, Worst nothing hit" in drawn(blender, cast_panels.SidebarReport)
