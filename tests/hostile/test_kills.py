@@ -70,14 +70,18 @@ def write_next(folder):
 
 
 def kill_a_writing(folder, name, random):
-    """End one of two writers while both write as fast as they can; let the other one end by itself."""
+    """End one of two writers while both write as fast as they can, or both: the other one ends by itself else."""
     write(folder, "before", 0)
     writer = Path(__file__).with_name("writer.py")
-    runs = [start(writer, "first", folder, -1), start(writer, "second", folder, 20)]
-    assert runs[0].stdout.readline() == "ready\n"
+    both = random.random() < 0.7
+    runs = [start(writer, "first", folder, -1), start(writer, "second", folder, -1 if both else 20)]
+    for run in runs:
+        assert run.stdout.readline() == "ready\n"
     time.sleep(random.uniform(0, 0.06))
-    runs[0].send_signal(getattr(signal, name))
-    check_set(folder, [ended(run, name, run is runs[0]) for run in runs])
+    killed = runs if both else runs[:1]
+    for run in killed:
+        run.send_signal(getattr(signal, name))
+    check_set(folder, [ended(run, name, run in killed) for run in runs])
 
 
 def kill_a_cast(folder, name, random, scenes):
