@@ -19,7 +19,7 @@ from ..cameras.model import Model
 from ..cameras.parts.aperture import Aperture
 from ..conventions import gamma
 from ..maths.chebyshev import ROWS, is_raster, on_raster
-from ..maths.speed import sharing, whole_rows
+from ..maths.speed import lazy, sharing, whole_rows
 from ..maths.vector import components, dot, inverse, is_grid, matvec, norm
 from ..memory import require
 from ..records import InputError, Pose, Raster, Rays
@@ -121,6 +121,11 @@ class Camera:
     def parallel(self):
         """The direction that all chief rays have, three numbers in the camera frame; None where they differ."""
         return self.model.rays(0.0, 0.0)[1] if self.model.parallel else None
+
+    @lazy
+    def stretch(self) -> float:
+        """How many times as long vectors become at most, from the camera's frame to the world: 1 without shear."""
+        return float(np.linalg.norm(self.pose.basis, 2))
 
     @property
     def is_rigid(self) -> bool:
