@@ -7,10 +7,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from camera_ray_caster.core import memory
 from camera_ray_caster.core.cameras import MODELS
 from camera_ray_caster.core.cast import cast
+from camera_ray_caster.core.casting.passes import PASSES
+from camera_ray_caster.core.casting.plan import make_plan
+from camera_ray_caster.core.casting.request import Request
 from camera_ray_caster.core.conventions import EPS
-from camera_ray_caster.core.records import Slots
+from camera_ray_caster.core.records import InputError, Slots
 
 from ..cameras.model_examples import EXAMPLES, camera
 from ..casting.test_cast import camera_at
@@ -230,3 +234,21 @@ def test_the_grid_is_that_of_the_map_or_of_the_edges_of_faces():
         dark = images["combined"][hit][:, 2] < 0.5 * headlight
         np.testing.assert_array_equal(dark[sure], expected[sure])
         assert 0.1 < expected.mean() < 0.6
+
+
+def test_more_triangles_than_the_memory_holds_are_refused_before_any_is_placed(monkeypatch):
+    """A hundred million, of instances that share a mesh: one line that says what they take."""
+    monkeypatch.setattr(memory, "available", lambda: 8 << 30)
+    monkeypatch.setattr(np, "empty", None)
+    many = shapes_of(*[(ball(100, 100), (0, 0, -5), 1.0)] * 5050)
+    with pytest.raises(
+        InputError, match="^99,990,000 triangles in view take .* GiB are there: show"
+    ):
+        make_plan(camera_at(), many, Request(("depth",), tuple(PASSES)))
+
+
+def test_many_triangles_in_one_pixel_are_a_hit_of_the_nearest():
+    """Forty thousand, a tenth of a pixel wide together, whose bounds hold a pixel's center."""
+    images = cast(camera_at(), shapes_of((ball(100, 200), (0, 0, -5), 0.01)), ("depth", "shape_index"), np.float64)
+    assert (images["shape_index"] >= 0).sum() == 1
+    assert images["depth"][16, 16] == pytest.approx(4.99, abs=1e-5)
