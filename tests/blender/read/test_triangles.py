@@ -9,8 +9,6 @@ from camera_ray_caster.blender.read.scene import read_shapes
 
 from .scene_parts import ADD, geometry_nodes, new_object
 
-pytestmark = pytest.mark.usefixtures("triangles")
-
 
 @pytest.fixture
 def scene():

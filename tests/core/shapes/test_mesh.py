@@ -241,9 +241,7 @@ def test_more_triangles_than_the_memory_holds_are_refused_before_any_is_placed(m
     monkeypatch.setattr(memory, "available", lambda: 8 << 30)
     monkeypatch.setattr(np, "empty", None)
     many = shapes_of(*[(ball(100, 100), (0, 0, -5), 1.0)] * 5050)
-    with pytest.raises(
-        InputError, match="^99,990,000 triangles in view take .* GiB are there: show"
-    ):
+    with pytest.raises(InputError, match=r"^99,990,000 triangles in view take .* GiB are there: show"):
         make_plan(camera_at(), many, Request(("depth",), tuple(PASSES)))
 
 

@@ -99,7 +99,8 @@ class Job:
         """Cast the passes and report. ``progress`` and ``threads`` are as in ``cast``, and so is Cancelled."""
         settings = {"shading": self.shading, "samples": self.samples, "precision": self.precision}
         shapes = [self.camera.raster.shape, self.stored]
-        require(sum(image_bytes(shape, self.passes, np.float32) for shape in shapes), of_pixels("the passes", self.stored))
+        needed = sum(image_bytes(shape, self.passes, np.float32) for shape in shapes)
+        require(needed, of_pixels("the passes", self.stored))
         images = cast(self.camera, self.shapes, self.passes, **settings, threads=threads, progress=progress)
         began = perf_counter()
         bounds = accuracy(self.camera, self.shapes, images.plan)
