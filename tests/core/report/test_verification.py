@@ -179,3 +179,14 @@ def test_a_window_without_rays_has_nothing_to_err():
     corner = {"use_border": True, "border_max_x": 0.05, "border_max_y": 0.05}
     (finding,) = verify(camera("FISHEYE_EQUIDISTANT", corner))
     assert (finding.points, finding.worst_pixels, finding.passed) == (0, 0.0, True)
+
+
+@pytest.mark.parametrize("lens", [{"k1": -1e30}, {"k4": 1e30}])
+def test_a_pixel_whose_ray_bends_so_much_that_no_other_has_one_is_rounded_as_all_are(lens):
+    """The middle one, which no distortion moves; its coordinates have three digits before the point."""
+    size = {"calibration_width": 0, "calibration_height": 0, "resolution_x": 1921, "resolution_y": 1081}
+    (finding,) = verify(
+        camera("OPENCV_PINHOLE", {"cx": 960.0, "cy": 540.0, "fx": 1500.0, "fy": 1500.0, **size, **lens})
+    )
+    assert finding.points == 1
+    assert finding.passed, finding
