@@ -5,8 +5,8 @@ rounding, and no model's formula. Blender's own answers are the witnesses of ``r
 none:
 
 round trip             float64: what moving the point by 32 EPS (|eye| + |origin| + |point|) does to its pixel, what the
-                       model rounds away of a pixel, there and back, and the rounding of the pixel itself. It is our own rounding, so it is added to every
-                       other bound.
+                       model rounds away of a pixel, there and back, and the rounding of the pixel itself. It is our
+                       own rounding, so it is added to every other bound.
 """
 
 from __future__ import annotations
