@@ -21,7 +21,7 @@ from ..conventions import gamma
 from ..maths.chebyshev import ROWS, is_raster, on_raster
 from ..maths.speed import lazy, sharing, whole_rows
 from ..maths.vector import components, dot, inverse, is_grid, matvec, norm
-from ..memory import require
+from ..memory import of_pixels, require
 from ..records import InputError, Pose, Raster, Rays
 from .pixel_time import PixelTime, groups, meeting
 from .sampling import in_opening, sub_pixel
@@ -149,7 +149,7 @@ class Camera:
         except ValueError as error:
             raise InputError(f"x and y have shapes {x.shape} and {y.shape}: give shapes that broadcast") from error
         timed = self.pixel_time is not None
-        require((57 if timed else 25 if self.model.central else 49) * math.prod(shape), shape, "the rays")
+        require((57 if timed else 25 if self.model.central else 49) * math.prod(shape), of_pixels("the rays", shape))
         if self.pixel_time is not None:
             return self._timed_rays(self.pixel_time, x, y)
         directions = np.empty((*shape, 3))

@@ -105,20 +105,22 @@ class HitValues:
     @lazy
     def normal_terms(self) -> tuple[np.ndarray, np.ndarray]:
         """Two terms whose sum is ``normal`` where something is hit: storing it can add them."""
-        table = self.plan.normals
-        constants = self.look_up(table.constants, "constants")
-        gain, offset = constants[0], constants[1:]
-        normal = np.multiply(gain, self.point, out=self.array("turned", 3))
+        table, normal = self.plan.normals, self.array("turned", 3)
         faces_eye = self.hits.rays.from_eye and all(one.faces_eye for one in self.plan.sets)
-        if faces_eye and table.is_sum:
-            return normal, offset
-        np.add(normal, offset, out=normal)
-        if not table.unit:
-            np.divide(normal, np.maximum(norm(normal), np.finfo(float).tiny), out=normal)
-        if not faces_eye:
-            np.multiply(-np.sign(dot(normal, self.direction)), normal, out=normal)
-        for which, normals in table.others:
-            pixels = self.pixels(self.look_up(which, "which"))
+        others = [(self.look_up(mask, f"others {k}"), normals) for k, (mask, normals) in enumerate(table.others)]
+        if not (others and (np.logical_or.reduce([mask for mask, _ in others]) >= self.hits.seen).all()):
+            constants = self.look_up(table.constants, "constants")
+            gain, offset = constants[0], constants[1:]
+            np.multiply(gain, self.point, out=normal)
+            if faces_eye and table.is_sum:
+                return normal, offset
+            np.add(normal, offset, out=normal)
+            if not table.unit:
+                np.divide(normal, np.maximum(norm(normal), np.finfo(float).tiny), out=normal)
+            if not faces_eye:
+                np.multiply(-np.sign(dot(normal, self.direction)), normal, out=normal)
+        for mask, normals in others:
+            pixels = self.pixels(mask)
             if not pixels.at.size:
                 continue
             direction = None if faces_eye else pixels.of(self.direction)

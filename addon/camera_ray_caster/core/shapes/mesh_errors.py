@@ -80,13 +80,13 @@ class TriangleErrors(ShapeErrors):
         spread = sum(norm(difference(corner_normals[k], corner_normals[0])) for k in (1, 2))
         edge = np.maximum(*map(norm, triangles.edges))
         weights = (edge / length) * (1 + edge * turn)
-        least_length = np.maximum(norm(corner_normals[0]) - spread, 0.0)
         reach = np.maximum.reduce([norm(corner) for corner in triangles.corners])
         each = triangles.each
-        moved = point + each(self._moved + gamma(16) * reach)
-        of_weights = each(2 * spread / least_length * weights) * moved
-        smooth = each(spread > 0)
-        return np.where(smooth, of_weights + gamma(64), each(turn))
+        change = each(2 * spread * weights) * (point + each(self._moved + gamma(16) * reach))
+        place = along(self.rays.origin, self.rays.direction, self.found)
+        left = norm(tuple(triangles.interpolated(corner_normals, place))) - change
+        smooth = np.where(left > 0, change / left, 2.0) + gamma(64)
+        return np.where(each(spread > 0), smooth, each(turn))
 
 
 def decide(shapes: InCamera, at: np.ndarray, rays: WorldRays) -> tuple[np.ndarray, np.ndarray]:
