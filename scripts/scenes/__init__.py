@@ -1,6 +1,6 @@
 """The example scenes by name: functions that fill an empty Blender scene. The docstring is the line in the README."""
 
-from . import cameras, contents, lenses, multiperspective, panoramas, showcase, time
+from . import cameras, contents, lenses, meshes, multiperspective, panoramas, showcase, time
 
 
 def _by_name(*makers):
@@ -25,6 +25,14 @@ EXAMPLES = _by_name(
 )
 
 GALLERY = {
+    "Meshes": _by_name(
+        meshes.toys,meshes.twisted_monkey,meshes.rotunda_strip,meshes.street_along,meshes.street_pushbroom,meshes.sculpture_garden,meshes.propeller,
+        meshes.rotunda_fisheye,
+        meshes.rotunda_cylindrical,
+        meshes.rotunda_omnimax,meshes.rotunda_plain,
+        meshes.room_of_meshes,
+        meshes.room_all_around,
+    ),
     "Lenses": _by_name(
         lenses.pinhole,
         lenses.camera_obscura,
