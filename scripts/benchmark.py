@@ -2,6 +2,7 @@
 
     python scripts/benchmark.py                 1920 x 1080: 10, 1,000, 10,000 and 100,000 spheres
     python scripts/benchmark.py --quick         the first two, fewer rounds
+    python scripts/benchmark.py --meshes        triangle meshes, also beside Open3D
     python scripts/benchmark.py --models        rays and pictures of every camera model
     python scripts/benchmark.py --scaling --picture FILE.png    cost against pixels and shapes
 
@@ -43,6 +44,7 @@ def main() -> int:
     parser.add_argument("--rounds", type=arguments.count, help="default: 9, with --quick 3")
     parser.add_argument("--threads", type=arguments.count, default=2, help="default: %(default)s")
     parser.add_argument("--size", type=arguments.size, default=(1920, 1080), help="default: 1920x1080")
+    parser.add_argument("--meshes", action="store_true", help="triangle meshes of 1,000 to a million triangles")
     parser.add_argument("--models", action="store_true", help="ray generation and casting of every camera model")
     parser.add_argument("--scaling", action="store_true", help="cost against pixels and shapes")
     parser.add_argument("--picture", type=Path, metavar="FILE", help="with --scaling: draw a diagram")
@@ -58,6 +60,10 @@ def main() -> int:
         import by_model
 
         figures = by_model.run(width, height, rounds, options.threads)
+    elif options.meshes:
+        import mesh_contest
+
+        figures = mesh_contest.run(compare, options.quick, width, height, rounds, options.threads)
     elif options.scaling:
         import scaling
 
@@ -66,15 +72,15 @@ def main() -> int:
             scaling.draw(figures, options.picture)
     else:
         counts = COUNTS[:2] if options.quick else COUNTS
-        figures = [row for count in counts for row in compare(count, width, height, rounds, options.threads)]
+        figures = [row for count in counts for row in spheres(count, width, height, rounds, options.threads)]
         figures += blender(width, height, options.threads, min(rounds, 3))
     if options.json:
         options.json.write_text(json.dumps(figures, indent=1) + "\n")
     return 0
 
 
-def compare(count: int, width: int, height: int, rounds: int, threads: int) -> list[dict]:
-    """Time one scene with every contender and print its table."""
+def spheres(count: int, width: int, height: int, rounds: int, threads: int) -> list[dict]:
+    """Time one scene of spheres with every contender."""
     entries = {
         "ours, 4 passes": c.ours(c.PASSES, threads),
         "ours, depth + index": c.ours(("depth", "shape_index"), threads),
@@ -85,12 +91,18 @@ def compare(count: int, width: int, height: int, rounds: int, threads: int) -> l
     if c.has("embreex") and count <= EMBREE_MOST:
         entries["Embree, distance"] = c.embree
     camera, shapes = c.scene(count, width, height)
-    print(f"\n{count:,} spheres and a wall, {width} x {height}, {threads} threads, {rounds} rounds, ms")
+    title = f"{count:,} spheres and a wall, {width} x {height}, {threads} threads"
+    return [{"spheres": count} | row for row in compare(title, camera, shapes, entries, rounds)]
+
+
+def compare(title: str, camera, shapes, entries: dict, rounds: int) -> list[dict]:
+    """Time one scene with every contender and print its table."""
+    print(f"\n{title}, {rounds} rounds, ms")
     rows, runs = [], {}
     for name, prepare in entries.items():
         began = perf_counter()
         runs[name] = prepare(camera, shapes)
-        rows.append({"spheres": count, "name": name, "prepare_ms": 1e3 * (perf_counter() - began)})
+        rows.append({"name": name, "prepare_ms": 1e3 * (perf_counter() - began)})
     times = take_turns(runs, rounds)
     reference = {"4": np.median(times["ours, 4 passes"]), "d": np.median(times["ours, depth + index"])}
     print(f"  {'':28}{'least':>9}{'median':>9}{'spread':>15}{'prepare':>10}{'over ours':>11}")

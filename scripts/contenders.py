@@ -58,12 +58,25 @@ def ours(passes, threads: int) -> Callable:
     return prepare
 
 
-def mitsuba(aovs: str | None) -> Callable:
-    """Mitsuba 3 on its LLVM backend: the aov integrator, or with None the intersection of rays that are given."""
+def mitsuba(aovs: str | None, add: Callable | None = None) -> Callable:
+    """Mitsuba 3 on its LLVM backend: the aov integrator, or with None the intersection of rays that are given.
+
+    ``add(content, shapes)`` puts the shapes into the scene's dictionary; by default they are spheres and rectangles.
+    """
     import mitsuba as mi
 
     mi.set_variant("llvm_ad_rgb")
     import drjit as dr
+
+    def balls(content, shapes):
+        for k in range(len(shapes)):
+            if shapes.kind[k] == SPHERE:
+                content[f"s{k}"] = {
+                    "type": "sphere", "center": shapes.center[k].tolist(), "radius": float(shapes.axes[k, 0, 0])
+                }  # fmt: skip
+            else:
+                place = mi.ScalarTransform4f().translate(shapes.center[k].tolist()).scale(float(shapes.axes[k, 0, 0]))
+                content[f"s{k}"] = {"type": "rectangle", "to_world": place}
 
     def prepare(camera, shapes):
         height, width = camera.raster.shape
@@ -78,14 +91,7 @@ def mitsuba(aovs: str | None) -> Callable:
                 "sampler": {"type": "independent", "sample_count": 1},
             },
         }  # fmt: skip
-        for k in range(len(shapes)):
-            if shapes.kind[k] == SPHERE:
-                content[f"s{k}"] = {
-                    "type": "sphere", "center": shapes.center[k].tolist(), "radius": float(shapes.axes[k, 0, 0])
-                }  # fmt: skip
-            else:
-                place = mi.ScalarTransform4f().translate(shapes.center[k].tolist()).scale(float(shapes.axes[k, 0, 0]))
-                content[f"s{k}"] = {"type": "rectangle", "to_world": place}
+        (add or balls)(content, shapes)
         world = mi.load_dict(content)
         if aovs is not None:
             integrator = mi.load_dict({"type": "aov", "aovs": aovs})

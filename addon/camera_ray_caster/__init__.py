@@ -1,4 +1,4 @@
-"""Camera Ray Caster: the rays of Blender's cameras, cast at spheres and planes.
+"""Camera Ray Caster: the rays of Blender's cameras, cast at meshes, spheres and planes.
 
     import camera_ray_caster as crc
 

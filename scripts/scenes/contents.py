@@ -55,17 +55,16 @@ def particles(emitter, instance, count: int = 40) -> None:
 
 
 def left_out(scene):
-    """a monkey, a cube, a text, a bent quad, a flattened sphere: named in the report; what is hidden is not drawn."""
+    """hair, a volume, a quad with an infinite corner: named in the report; what is hidden is not drawn."""
     add(scene, "Floor", square(), scale=4, color="d9d2c6", index=1)
     add(scene, "Sphere", uv_sphere(), (0, 0, 0.8), scale=0.8, color="e2674a", index=2)
     add(scene, "Monkey", mesh("monkey"), (-2.2, 0, 1), index=3)
-    add(scene, "Cube", mesh("cube", size=1), (2.2, 0, 0.5), index=4)
-    add(scene, "Cylinder", mesh("cone", segments=32, radius1=0.5, radius2=0.5, depth=1), (2.2, 2, 0.5), index=5)
-    add(scene, "Text", bpy.data.curves.new("Text", "FONT"), (-0.8, -2.5, 0.1), index=6).data.body = "text"
-    bent = bpy.data.meshes.new("bent quad")
-    bent.from_pydata([(-1, -1, 0), (1, -1, 0), (1, 1, 0.5), (-1, 1, 0)], [], [(0, 1, 2, 3)])
-    add(scene, "Bent quad", bent, (-2.2, 2, 0.5), index=7)
-    add(scene, "Flat sphere", uv_sphere(), (0, -1.5, 0.5), scale=(0.5, 0.5, 0), index=8)
+    add(scene, "Flat sphere", uv_sphere(), (0, -1.5, 0.5), scale=(0.5, 0.5, 0), index=4)
+    add(scene, "Hair", bpy.data.hair_curves.new("Hair"), (2.2, 0, 0.5), index=5)
+    add(scene, "Volume", bpy.data.volumes.new("Volume"), (-0.8, -2.5, 0.1), index=7)
+    endless = bpy.data.meshes.new("endless quad")
+    endless.from_pydata([(-1, -1, 0), (1, -1, 0), (1, float("inf"), 0.5), (-1, 1, 0)], [], [(0, 1, 2, 3)])
+    add(scene, "Endless quad", endless, (-2.2, 2, 0.5), index=8)
     add(scene, "Hidden", uv_sphere(), (0, -2.5, 1.2), color="f0b941", index=9).hide_render = True
     sun(scene, (46, 0, -46), 2)
     camera(scene, (1, -9, 3.5), (0, 0, 0.8), lens=40)

@@ -17,6 +17,7 @@ LABELS = {
     "object_index": ("Object Index", "X"),
     "material_index": ("Material Index", "X"),
     "shape_index": ("Shape Index", "X"),
+    "face_index": ("Face Index", "X"),
     "valid": ("Valid", "X"),
     "ray_origin": ("Ray Origin", "XYZ"),
     "ray_direction": ("Ray Direction", "XYZ"),

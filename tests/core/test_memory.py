@@ -81,9 +81,9 @@ def test_a_border_of_what_does_not_fit_is_cast_as_the_part_that_it_is(little):
 def test_memory_is_known_here_and_never_asked_for_in_vain():
     there = memory.available()
     assert there is None or there > 1 << 24
-    memory.require(memory.ALWAYS_THERE, (1, 1), "nothing")
+    memory.require(memory.ALWAYS_THERE, "no passes")
 
 
 def test_where_nobody_knows_the_memory_nothing_is_refused(monkeypatch):
     monkeypatch.setattr(memory, "available", lambda: None)
-    memory.require(1 << 60, (1 << 20, 1 << 20), "passes")
+    memory.require(1 << 60, memory.of_pixels("passes", (1 << 20, 1 << 20)))

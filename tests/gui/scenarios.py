@@ -139,6 +139,31 @@ def stop(user, scenes):
     assert "Ray Caster depth" not in bpy.data.images
 
 
+def stop_samples(user, scenes):
+    """Esc stops a picture of 256 x 256 pixels with 4,096 samples, which is one tile, as soon as any."""
+    yield from load(user, scenes, "spheres_and_planes")
+    scene, cast = bpy.context.scene, addon("ui.cast_operator")
+    scene.render.resolution_x = scene.render.resolution_y = 256
+    scene.camera_ray_caster.samples = 4096
+    addon("engine.passes").tick(scene, bpy.context.view_layer, ["combined"])
+    yield from user.press(f"{BUTTON}cast(")
+    yield from user.until(lambda: (cast.fraction() or 0) > 0, "it has begun")
+    worker = cast._running[0].worker
+    stop, waited = worker.stop, []
+
+    def timed():
+        started = time.perf_counter()
+        stop()
+        waited.append(time.perf_counter() - started)
+
+    worker.stop = timed
+    yield from user.key("Escape")
+    yield from user.until(lambda: cast.fraction() is None, "it has stopped", 5)
+    print(f"stopped after {waited[0]:.2f} s")
+    assert waited[0] < PAUSE, waited
+    assert addon("output.reports").latest() is None
+
+
 def load_while_casting(user, scenes):
     """Another file ends the cast of this one, and nothing of it stays."""
     yield from begin(user, scenes, 8192)
@@ -264,6 +289,7 @@ def disable(user, scenes):
 SCENARIOS = {
     scenario.__name__: scenario
     for scenario in (
-        panel, no_camera, left_out, stop, load_while_casting, overlay, ray_under_mouse, viewport, disable,
+        panel, no_camera, left_out, stop, stop_samples, load_while_casting, overlay, ray_under_mouse, viewport,
+        disable,
     )
 }  # fmt: skip

@@ -18,7 +18,8 @@ OUTPUT = ROOT / "out" / "gui"
 """Where the screenshots are: below the project, which a Blender in a box of its own can see too."""
 
 SCENARIOS = (
-    "panel", "no_camera", "left_out", "stop", "load_while_casting", "overlay", "ray_under_mouse", "viewport", "disable",
+    "panel", "no_camera", "left_out", "stop", "stop_samples", "load_while_casting", "overlay", "ray_under_mouse",
+    "viewport", "disable",
 )  # fmt: skip
 SIZE = "1400x900"
 LIMIT = 1200

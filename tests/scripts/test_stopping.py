@@ -114,7 +114,7 @@ def test_a_second_signal_is_not_waited_for():
 @pytest.mark.parametrize("moment", [0, 300, 700])
 def test_a_stop_is_heard_while_many_objects_are_read(blender, moment, monkeypatch):
     """At once, not when all have been read: of the instances of each block only some are looked at."""
-    from camera_ray_caster.blender.read import shapes
+    from camera_ray_caster.blender.read import groups, shapes
     from camera_ray_caster.blender.terminal import signals
     from camera_ray_caster.core.records import Cancelled
 
@@ -122,17 +122,17 @@ def test_a_stop_is_heard_while_many_objects_are_read(blender, moment, monkeypatc
     plane = blender.context.object
     for _ in range(999):
         blender.context.collection.objects.link(plane.copy())
-    seen, group = [], shapes._group
+    seen, add = [], shapes._Scene.add
 
     def counting(*given):
         seen.append(True)
-        return group(*given)
+        return add(*given)
 
-    monkeypatch.setattr(shapes, "_group", counting)
+    monkeypatch.setattr(shapes._Scene, "add", counting)
     depsgraph = blender.context.evaluated_depsgraph_get()
     with pytest.raises(Cancelled), signals.heard(lambda: len(seen) >= moment):
         shapes.shapes_record(depsgraph)
-    assert moment <= len(seen) < moment + shapes.LISTEN
+    assert moment <= len(seen) < moment + groups.LISTEN
     assert len(shapes.shapes_record(depsgraph)) == 1000  # it was asked for that one reading only
 
 

@@ -53,14 +53,16 @@ def word(value, name: str, known: Collection[str] | None = None) -> str:
     return value
 
 
-def words(value, name: str, known: Collection[str]) -> tuple[str, ...]:
+def words(value: str | Iterable[str], name: str, known: Collection[str]) -> tuple[str, ...]:
     """Return some of the strings that are known, each once: from one string, or from what gives some."""
     if isinstance(value, str):
         value = (value,)
-    if not isinstance(value, Iterable):
-        raise _refusal(name, value, f"some of {', '.join(known)}")
+    try:
+        given_one_by_one = iter(value)
+    except TypeError as error:
+        raise _refusal(name, value, f"some of {', '.join(known)}") from error
     most = 100 * len(known)  # what never ends is not waited for
-    given = list(islice(value, most + 1))
+    given = list(islice(given_one_by_one, most + 1))
     if len(given) > most:
         raise _refusal(name, value, f"at most {most} names")
     return tuple(dict.fromkeys(word(one, f"one of {name}", known) for one in given))

@@ -64,7 +64,7 @@ def cast(
     progress = arguments.function(progress, "progress")
     passes = arguments.words(passes, "passes", PASSES)
     request = Request(passes, tuple(PASSES), shading, arguments.flag(cull, "cull"), precision=precision)
-    memory.require(image_bytes(camera.raster.shape, passes, dtype), camera.raster.shape, "the passes")
+    memory.require(image_bytes(camera.raster.shape, passes, dtype), memory.of_pixels("the passes", camera.raster.shape))
     time = camera.pixel_time
     whole = make_plan(*_moment(camera, shapes, (time.first + time.last) / 2 if time else None), request)
     images = Images({name: PASSES[name].empty(camera.raster.shape, dtype) for name in passes})

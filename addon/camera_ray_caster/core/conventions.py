@@ -5,7 +5,8 @@ Frames
     camera    +X right, +Y up, the camera looks along -Z. The lecture's orthobasis is u = +X, v = +Y, w = -Z. Its
               axes in the world are the columns of the camera's matrix, each normalized for itself, as Blender does:
               scale is ignored, a negative scale mirrors, shear stays (then u, v, w are unit but not orthogonal).
-    shape     the unit sphere |q| = 1, or the square |q_x| <= 1, |q_y| <= 1 on q_z = 0; world = center + axes @ q.
+    shape     the unit sphere |q| = 1, the square |q_x| <= 1, |q_y| <= 1 on q_z = 0, or a mesh's vertices less the
+              middle of their box; world = center + axes @ q.
     Arrays and matrices name the target first: ``world_from_camera``.
 
 Pixels

@@ -45,12 +45,15 @@ def available() -> int | None:
 LESS = "render a border of the frame (Ctrl B, and crop to it), fewer pixels or fewer passes"
 
 
-def require(needed: int, shape: tuple[int, ...], what: str, cure: str = LESS) -> None:
-    """Raise InputError where arrays of ``shape``, rows and columns, of something need more bytes than there are."""
+def require(needed: int, what: str, cure: str = LESS) -> None:
+    """Raise InputError where something, named in the plural, needs more bytes than there are."""
     there = available() if needed > ALWAYS_THERE else None
     if there is not None and needed > there:
-        pixels = " x ".join(str(side) for side in reversed(shape))
         raise InputError(
-            f"{what} of {pixels} pixels take {needed / 2**30:.3g} GiB of memory and {there / 2**30:.3g} GiB are there: "
-            + cure
+            f"{what} take {needed / 2**30:.3g} GiB of memory and {there / 2**30:.3g} GiB are there: {cure}"
         )
+
+
+def of_pixels(what: str, shape: tuple[int, ...]) -> str:
+    """Return words for what there is of rows and columns of pixels."""
+    return f"{what} of {' x '.join(str(side) for side in reversed(shape))} pixels"

@@ -43,3 +43,6 @@ with 1 to 15 tiles. Without heed to it 16 threads took two to four times as long
 
 TRIANGLE_PIXELS = 1 << 16
 """Pixels of the bounds of triangles that are tested at once."""
+
+LARGE_TRIANGLE = 1 << 13
+"""A triangle with as many pixels in its bounds is tested by itself, in whole windows."""

@@ -19,7 +19,7 @@ def cycles_directions(scene):
 
 
 def cycles_surface(scene, output, reach):
-    """Return "Position" or "Normal", (h, w, 3), or "View Z Depth" three times, where a surface is met; else NaN.
+    """Return "Position", "Normal" or "UV", (h, w, 3), or "View Z Depth" three times, where a surface is met; else NaN.
 
     ``reach`` is more than the largest magnitude of a component.
     """
@@ -47,7 +47,8 @@ def _render(scene, output, reach, sky):
 
 def _emit(block, shader, target, output, reach):
     """Give a world or material the shader that emits what a node puts out, brought to 0 .. 1."""
-    source = "ShaderNodeCameraData" if output.startswith("View") else "ShaderNodeNewGeometry"
+    others = {"View Z Depth": "ShaderNodeCameraData", "UV": "ShaderNodeTexCoord"}
+    source = others.get(output, "ShaderNodeNewGeometry")
     nodes, links = _nodes(block), block.node_tree.links
     nodes.clear()
     source, scaled, shader, target = (nodes.new(name) for name in (source, "ShaderNodeVectorMath", shader, target))

@@ -1,4 +1,6 @@
-"""The properties that are made from declarations: those of version 0.1 are what they were, down to the tooltips."""
+"""The properties that are made from declarations: those of version 0.1 are what they were, down to the tooltips (but
+where what an item does has become more).
+"""
 
 import json
 from pathlib import Path

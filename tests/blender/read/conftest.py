@@ -31,13 +31,7 @@ def sphere(scene):
 
 
 @pytest.fixture
-def triangles(monkeypatch):
-    """Meshes are cast as triangles."""
-    monkeypatch.setattr(geometry, "CAST_MESHES", True)
-
-
-@pytest.fixture
-def read_meshes(triangles, monkeypatch):
+def read_meshes(monkeypatch):
     """The names of the evaluated meshes that are read, in order."""
     read, found = [], geometry.mesh_shapes
     monkeypatch.setattr(geometry, "mesh_shapes", lambda mesh, setting: read.append(mesh.name) or found(mesh, setting))

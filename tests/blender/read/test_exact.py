@@ -9,8 +9,6 @@ from camera_ray_caster.core.records import MESH, PLANE, SPHERE
 
 from .scene_parts import ADD, ball, mesh_of, new_object
 
-pytestmark = pytest.mark.usefixtures("triangles")
-
 
 @pytest.fixture
 def scene():

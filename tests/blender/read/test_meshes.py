@@ -12,8 +12,6 @@ from .scene_parts import ADD, ball, counts, geometry_nodes, in_a_render, mesh_of
 
 ULP = float(np.finfo(np.float32).eps)
 
-pytestmark = pytest.mark.usefixtures("triangles")
-
 
 @pytest.fixture
 def scene():

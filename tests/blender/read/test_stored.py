@@ -1,5 +1,6 @@
 """What a file has stored, read without registration as a script does that only imports the package."""
 
+import bpy
 import numpy as np
 import pytest
 
@@ -73,6 +74,15 @@ def test_a_path_and_its_flag_are_as_they_were_stored(blender, scene, reopened):
     assert stored.settings["path"] == [[0, 0, 0], [4, 0, 0]]
     assert stored.settings["follow_path"] is True
     np.testing.assert_array_equal(stored.rays().origins, registered.rays().origins)
+
+
+def test_what_is_stored_as_an_image_and_is_none_is_refused(scene):
+    data = scene.camera.data
+    data.camera_ray_caster.time_mode = "IMAGE"
+    properties = data.bl_system_properties_get() if bpy.app.version >= (5, 0, 0) else data
+    properties["camera_ray_caster"]["time_image"] = scene.camera
+    with pytest.raises(crc.InputError, match="has none: choose a gray image"):
+        crc.read_camera(scene)
 
 
 def test_the_times_of_pixels_and_their_image_are_as_they_were_stored(blender, scene, reopened):

@@ -4,11 +4,10 @@ import bpy
 import numpy as np
 import pytest
 
+from camera_ray_caster.blender.read import meshes
 from camera_ray_caster.blender.read.scene import read_shapes
 
 from .scene_parts import ADD, geometry_nodes, new_object
-
-pytestmark = pytest.mark.usefixtures("triangles")
 
 
 @pytest.fixture
@@ -55,6 +54,14 @@ def test_triangles_and_polygons_are_blenders(scene, levels, triangulated):
     for array in (found.vertices, found.triangles, found.loops, found.uv):
         assert array.flags.c_contiguous
     assert (found.triangles.dtype, found.polygon.dtype) == (np.intp, np.int32)
+
+
+@pytest.mark.parametrize("name", ["loop_start", "loop_total", "material_index"])
+def test_what_is_copied_in_one_piece_is_what_blender_says_of_each(scene, name):
+    """Also of a property that does not lie where its member does, which the last one's value tells."""
+    truth = evaluated(monkey(1))
+    expected = [getattr(polygon, name) for polygon in truth.polygons]
+    np.testing.assert_array_equal(meshes.copied(truth.polygons, name, np.int32), expected)
 
 
 def smooth(item):

@@ -60,20 +60,19 @@ class Disc(AffineKind):
 
     def root_error(self, hits):
         """The residual over the slope."""
-        d, n, tau = hits.local.d[2], hits.local.n[2], np.abs(hits.tau)
-        residual = np.abs(hits.tau * d - n) + tau * hits.local.row_d[2] + hits.local.row_n[2]
+        (d, n, d_error, n_error), tau = hits.local.component(2), np.abs(hits.tau)
+        residual = np.abs(hits.tau * d - n) + tau * d_error + n_error
         residual = residual + gamma(2) * (tau * np.abs(d) + np.abs(n))
-        return residual / (np.abs(d) - hits.local.row_d[2])
+        return residual / (np.abs(d) - d_error)
 
     def normal_error(self, hits, point):
         """A constant's."""
         return hits.local.rounding
 
-    def decide(self, shapes, at, local):
+    def decide(self, shapes, local):
         """How far inside of the edge."""
-        across = local.cross
-        inside = np.abs(local.d[2]) - np.hypot(across[0], across[1])
-        return inside, local.row_d[2] + 2 * local.product_error()
+        (d, _, d_error, _), across = local.component(2), local.cross
+        return np.abs(d) - np.hypot(across[0], across[1]), d_error + 2 * local.product_error()
 
 
 DISCS = Disc()

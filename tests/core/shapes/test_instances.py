@@ -5,8 +5,8 @@ import numpy as np
 from camera_ray_caster.core.records import INFINITE_PLANE, PLANE, SPHERE, Mesh
 from camera_ray_caster.core.shapes.instances import (
     Primitive,
+    castable,
     enclosing_primitive,
-    is_castable,
     mesh_primitive,
     points_primitive,
     put_in_world,
@@ -58,9 +58,9 @@ def test_matrices_that_span_no_space_are_told_from_thin_ones():
     flat_and_turned = np.float32(turn()) @ np.diag(np.float32([1, 0, 1])) @ np.float32(turn(0.3))
     linear = [np.diag([1e-12, 1.0, 1e12]), np.diag([1.0, 0.0, 1.0]), flat_and_turned, np.full((3, 3), np.nan)]
     matrices = np.array([np.c_[matrix, np.zeros(3)] for matrix in linear])
-    assert is_castable(matrices, unit).tolist() == [True, False, False, False]
+    assert castable([(unit, matrices)])[0].tolist() == [True, False, False, False]
     matrices[0, 0, 3] = np.inf
-    assert not is_castable(matrices, unit)[0]
+    assert not castable([(unit, matrices)])[0][0]
 
 
 def test_a_mesh_is_placed_by_its_middle_and_may_be_flat():
@@ -70,9 +70,18 @@ def test_a_mesh_is_placed_by_its_middle_and_may_be_flat():
     matrices = random.normal(size=(3, 3, 4))
     matrices[1, :, 1] = 0
     matrices[2, 0, 3] = np.nan
-    assert is_castable(matrices, primitive).tolist() == [True, True, False]
+    assert castable([(primitive, matrices)])[0].tolist() == [True, True, False]
     centers, axes = np.empty((2, 3)), np.empty((2, 3, 3))
     put_in_world(primitive, matrices[:2], centers, axes)
     for matrix, center, columns in zip(matrices, centers, axes, strict=False):
         placed = center[:, None] + columns @ (mesh.vertices - mesh.middle[:, None])
         np.testing.assert_allclose(placed, matrix[:, :3] @ mesh.vertices + matrix[:, 3:], atol=1e-14)
+
+
+def test_matrices_of_several_primitives_are_told_apart():
+    ball = Primitive(SPHERE, np.zeros((1, 3)), np.diag([1.0, 1.0, 2.0]), np.ones(1))
+    mesh = mesh_primitive(Mesh(np.eye(3, dtype=np.float32), np.array([[0], [1], [2]]), np.zeros(1, np.int32)))
+    round_, flat = (np.c_[np.diag(sizes), np.zeros(3)] for sizes in ((1.0, 1.0, 1.0), (1.0, 0.0, 1.0)))
+    placed = [(ball, np.array([round_, flat, round_])), (mesh, np.array([flat])), (ball, np.array([flat]))]
+    assert [each.tolist() for each in castable(placed)] == [[True, False, True], [True], [False]]
+    assert castable([]) == []

@@ -7,10 +7,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from camera_ray_caster.core import memory
 from camera_ray_caster.core.cameras import MODELS
 from camera_ray_caster.core.cast import cast
+from camera_ray_caster.core.casting.passes import PASSES
+from camera_ray_caster.core.casting.plan import make_plan
+from camera_ray_caster.core.casting.request import Request
 from camera_ray_caster.core.conventions import EPS
-from camera_ray_caster.core.records import Slots
+from camera_ray_caster.core.records import InputError, Slots
 
 from ..cameras.model_examples import EXAMPLES, camera
 from ..casting.test_cast import camera_at
@@ -144,6 +148,15 @@ def test_normals_are_of_the_side_that_is_hit_smooth_or_flat_and_right_to_their_b
         assert np.median(images["normal_bound"][hit]) < 1e-11
 
 
+def test_a_smooth_ball_that_is_flattened_to_a_disc_has_its_normal():
+    """Also where the normals at corners lie in the disc's plane and vanish."""
+    shapes = shapes_of((ball(8, 12), (0, 0, -3), np.diag([1.0, 1.0, 0.0])))
+    images = cast(camera_at(), shapes, ("normal", "face_index"), np.float64)
+    hit = images["face_index"] >= 0
+    assert hit.sum() > 50
+    np.testing.assert_allclose(images["normal"][hit], np.tile([0.0, 0, 1], (hit.sum(), 1)), atol=1e-15)
+
+
 def test_normals_of_a_shared_mesh_are_interpolated_in_its_own_frame():
     """As Cycles does: under an uneven scale they differ from those of a mesh that one object shows."""
     tilted = np.float32([[0, -0.6, 0.6], [0, 0, 0], [1, 0.8, 0.8]])
@@ -221,3 +234,19 @@ def test_the_grid_is_that_of_the_map_or_of_the_edges_of_faces():
         dark = images["combined"][hit][:, 2] < 0.5 * headlight
         np.testing.assert_array_equal(dark[sure], expected[sure])
         assert 0.1 < expected.mean() < 0.6
+
+
+def test_more_triangles_than_the_memory_holds_are_refused_before_any_is_placed(monkeypatch):
+    """A hundred million, of instances that share a mesh: one line that says what they take."""
+    monkeypatch.setattr(memory, "available", lambda: 8 << 30)
+    monkeypatch.setattr(np, "empty", None)
+    many = shapes_of(*[(ball(100, 100), (0, 0, -5), 1.0)] * 5050)
+    with pytest.raises(InputError, match=r"^99,990,000 triangles in view take .* GiB are there: show"):
+        make_plan(camera_at(), many, Request(("depth",), tuple(PASSES)))
+
+
+def test_many_triangles_in_one_pixel_are_a_hit_of_the_nearest():
+    """Forty thousand, a tenth of a pixel wide together, whose bounds hold a pixel's center."""
+    images = cast(camera_at(), shapes_of((ball(100, 200), (0, 0, -5), 0.01)), ("depth", "shape_index"), np.float64)
+    assert (images["shape_index"] >= 0).sum() == 1
+    assert images["depth"][16, 16] == pytest.approx(4.99, abs=1e-5)

@@ -11,7 +11,7 @@ import numpy as np
 
 from camera_ray_caster.core.conventions import gamma
 from camera_ray_caster.core.maths.vector import difference, dot, matrix_rows, matvec, norm, unit
-from camera_ray_caster.core.shapes.frames import InCamera, LocalRays, local_rays
+from camera_ray_caster.core.shapes.frames import InCamera, LocalRays
 from camera_ray_caster.core.shapes.kind import Candidates, HitPixels, Kind, ShapeErrors, ShapeSet, Visible
 
 FACES = np.array([[1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 1, 1]], float)
@@ -55,7 +55,7 @@ class Tetrahedron(Kind):
 
     def errors(self, shapes, pixels, rays, from_eye, unit):
         """Of the triangles that are hit."""
-        return TetrahedronErrors(pixels, local_rays(shapes, pixels.at, rays, from_eye))
+        return TetrahedronErrors(pixels, LocalRays(shapes.tables, pixels.at, rays, from_eye))
 
     def decision(self, shapes, at, rays, from_eye):
         """Always open."""

@@ -7,10 +7,10 @@ from camera_ray_caster.core.camera import pixel_time
 from camera_ray_caster.core.cameras import MODELS
 from camera_ray_caster.core.cameras.parts.settings import OWN
 
-from .parts import FLOATS, WHOLES, Hostile, new_object, put, store
+from .parts import WHOLES, Hostile, new_object, put, store
 
 VALUES = {
-    "FLOAT": (*FLOATS, "a word"),
+    "FLOAT": (nan, inf, -inf, 3.4e38, -1e30, 1e20, 1e-7, 1e-30, 1e-45, 0.0, -1.0, "a word"),
     "INT": (*WHOLES, 0.5, "a word"),
     "BOOLEAN": (2, -1, 1.0),
     "ENUM": (99, -1, 2**31 - 1, 0.5, "NONE"),
@@ -28,7 +28,14 @@ VALUES = {
     "OBJECT": ("camera", "ball", "empty", "a word", 5),
     "IMAGE": ("camera", 5),
 }
-OF_BLENDER = {"ENUM": ("AUTO", "VERTICAL", "HORIZONTAL"), "BOOLEAN": (True, False)}
+
+
+def values(setting):
+    """The values for a setting: Blender's own words are the only ones that Blender takes for its enums."""
+    if setting.owner == OWN or setting.kind != "ENUM":
+        return VALUES[setting.kind]
+    return [item.key for item in setting.items]
+
 
 CASES = [
     (model, mode, setting, value)
@@ -37,7 +44,7 @@ CASES = [
         ((MODELS[0], mode, setting) for mode, settings in pixel_time.SETTINGS.items() for setting in settings),
         ((MODELS[0], pixel_time.NONE, setting) for setting in (pixel_time.MODE,)),
     )
-    for value in (VALUES if setting.owner == OWN else VALUES | OF_BLENDER)[setting.kind]
+    for value in values(setting)
     if setting.owner == OWN or not isinstance(value, str) or setting.kind == "ENUM"
 ]
 COUNT = len(CASES)

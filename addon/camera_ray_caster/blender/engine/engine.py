@@ -24,7 +24,7 @@ WARNINGS = 10
 
 
 class CameraRayCaster(Viewport, bpy.types.RenderEngine):
-    """Rays of the scene's camera, cast at spheres and planes."""
+    """Rays of the scene's camera, cast at meshes, spheres and planes."""
 
     bl_idname = "CAMERA_RAY_CASTER"
     bl_label = "Camera Ray Caster"

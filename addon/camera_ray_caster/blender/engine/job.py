@@ -13,7 +13,7 @@ from ...core.camera.camera import Camera
 from ...core.camera.stereo import eye_record
 from ...core.cast import Images, cast
 from ...core.casting.passes import image_bytes
-from ...core.memory import require
+from ...core.memory import of_pixels, require
 from ...core.records import Finding, Shapes
 from ...core.report.accuracy import accuracy
 from ...core.report.report import Report, report_cast
@@ -99,7 +99,8 @@ class Job:
         """Cast the passes and report. ``progress`` and ``threads`` are as in ``cast``, and so is Cancelled."""
         settings = {"shading": self.shading, "samples": self.samples, "precision": self.precision}
         shapes = [self.camera.raster.shape, self.stored]
-        require(sum(image_bytes(shape, self.passes, np.float32) for shape in shapes), self.stored, "the passes")
+        needed = sum(image_bytes(shape, self.passes, np.float32) for shape in shapes)
+        require(needed, of_pixels("the passes", self.stored))
         images = cast(self.camera, self.shapes, self.passes, **settings, threads=threads, progress=progress)
         began = perf_counter()
         bounds = accuracy(self.camera, self.shapes, images.plan)

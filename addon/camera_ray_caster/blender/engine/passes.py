@@ -38,6 +38,7 @@ PASSES = (
     RenderPass("material_index", "Material Index" if FROM_5_0 else "IndexMA", "X", "VALUE", "use_pass_material_index"),
     RenderPass("distance", "Distance", "X", "VALUE", "use_pass_distance", own=True),
     RenderPass("shape_index", "Shape Index", "X", "VALUE", "use_pass_shape_index", own=True),
+    RenderPass("face_index", "Face Index", "X", "VALUE", "use_pass_face_index", own=True),
     RenderPass("valid", "Valid", "X", "VALUE", "use_pass_valid", own=True),
     RenderPass("ray_origin", "Ray Origin", "XYZ", "VECTOR", "use_pass_ray_origin", own=True),
     RenderPass("ray_direction", "Ray Direction", "XYZ", "VECTOR", "use_pass_ray_direction", own=True),

@@ -86,6 +86,7 @@ PASSES = tuple(
     for name, text in (
         ("distance", "Distance along the ray; Z is planar depth"),
         ("shape_index", "Number of the shape, each instance its own"),
+        ("face_index", "Number of the face of a mesh after its modifiers, -1 where there is none"),
         ("valid", "Whether the pixel has a ray at all"),
         ("ray_origin", "Where the pixel's ray starts, in the world"),
         ("ray_direction", "The ray's unit direction in the world"),

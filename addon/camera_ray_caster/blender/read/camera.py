@@ -116,7 +116,7 @@ def eye_object(scene, view: str):
     if not view or scene.render.views_format != "MULTIVIEW" or camera is None:
         return camera
     if view not in views:
-        raise InputError(f"scene {scene.name!r} has no view {view!r}: its views are {', '.join(views.keys())}")
+        raise InputError(f"scene {scene.name!r} has no view {shown(view)}: its views are {', '.join(views.keys())}")
     name = camera_name(camera.name, views[view].camera_suffix, [one.camera_suffix for one in views])
     return scene.objects.get(name, camera)
 
@@ -158,7 +158,7 @@ def _gray(image):
 
     Raises InputError where Blender finds no pixels.
     """
-    if image is None:
+    if not isinstance(image, bpy.types.Image):  # a file may store anything else there
         return None
     width, height = image.size
     if not width * height:

@@ -12,9 +12,6 @@ from ...core.shapes.recognize import NOT_FINITE, MeshArrays, defect, exclude, re
 from .kept import Found
 from .meshes import fetched, is_smooth, mesh_arrays, mesh_record, vertices
 
-CAST_MESHES = True
-"""Whether meshes are cast as triangles; without it what is neither sphere nor plane is left out."""
-
 FORCED = {"SPHERE": SPHERE, "PLANE": PLANE, "INFINITE_PLANE": INFINITE_PLANE}
 """What an object's own setting makes of it, whatever its geometry is."""
 
@@ -63,10 +60,10 @@ def mesh_shapes(mesh, setting: str) -> Found:
         if isinstance(found, Primitive) and (found.kind == SPHERE) == (kind == SPHERE):
             return replace(found, kind=kind), ""
         return _enclosing(kind, arrays.vertices)
-    if isinstance(found, Primitive) and not (CAST_MESHES and _is_solid(found, mesh)):
+    if isinstance(found, Primitive) and not _is_solid(found, mesh):
         return found, ""
-    if wrong or not CAST_MESHES:
-        return None, found or "its triangles are not cast"
+    if wrong:
+        return None, wrong
     return mesh_primitive(mesh_record(mesh, arrays)), ""
 
 

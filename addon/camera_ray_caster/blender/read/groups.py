@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from ...core.records import Shapes, Slots
-from ...core.shapes.instances import Primitive, is_castable, lights_in_world, put_in_world
+from ...core.shapes.instances import Primitive, castable, lights_in_world, put_in_world
 from ..terminal.signals import raise_if_stopping
 from .kept import Found
 from .lights import world_color
@@ -51,7 +51,7 @@ def heeding(items: Iterable) -> Iterator:
 def gathered(groups: list[Group], left_out: Counter, scene) -> Shapes:
     """Return the record of all groups: their instances placed in the world, one row a shape."""
     lights = [group for group in groups if group.is_sun is not None]
-    parts = [part for group in heeding(groups) if group.primitive is not None for part in _castable(group, left_out)]
+    parts = list(_castable([group for group in heeding(groups) if group.primitive is not None], left_out))
     cast, placings = zip(*parts, strict=True) if parts else ((), ())
     counts = [len(matrices) * len(group.primitive) for group, matrices in parts]
     ends = np.cumsum(counts, dtype=int)
@@ -86,25 +86,25 @@ def gathered(groups: list[Group], left_out: Counter, scene) -> Shapes:
     )
 
 
-def _castable(group: Group, left_out: Counter) -> Iterator[tuple[Group, np.ndarray]]:
-    """Yield the group with the matrices under which it can be cast, and as triangles with the others where it can be.
+def _castable(groups: list[Group], left_out: Counter) -> Iterator[tuple[Group, np.ndarray]]:
+    """Yield groups with the matrices under which they can be cast, and as triangles with the others where they can be.
 
     What remains is named.
     """
-    matrices = group.placings()
-    usable = is_castable(matrices, group.primitive)
-    if usable.any():
-        yield group, matrices[usable]
-    rest = matrices[~usable]
-    if len(rest) and group.flattened is not None:
-        primitive, _ = group.flattened()
-        if primitive is not None:
-            flat = is_castable(rest, primitive)
+    placed = [(group, group.placings()) for group in groups]
+    usable = castable([(group.primitive, matrices) for group, matrices in placed])
+    for (group, matrices), well in zip(placed, usable, strict=True):
+        if well.any():
+            yield group, matrices[well]
+        rest = matrices[~well]
+        triangles = group.flattened()[0] if len(rest) and group.flattened is not None else None
+        if triangles is not None:
+            (flat,) = castable([(triangles, rest)])
             if flat.any():
-                yield replace(group, primitive=primitive), rest[flat]
+                yield replace(group, primitive=triangles), rest[flat]
             rest = rest[~flat]
-    if len(rest):
-        left_out[group.name, SINGULAR] += len(rest)
+        if len(rest):
+            left_out[group.name, SINGULAR] += len(rest)
 
 
 def _slots(groups, column) -> Slots | None:

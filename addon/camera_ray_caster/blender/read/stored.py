@@ -23,8 +23,9 @@ def own_value(owner, setting: Setting):
     A number of an enum that has no item here, as one of a newer version, is returned as a word. Raises InputError where
     the setting is animated and the add-on is not registered: Blender cannot evaluate it then.
     """
-    if GROUP in owner.bl_rna.properties:
-        value = getattr(getattr(owner, GROUP), setting.name)
+    group = getattr(owner, GROUP, None)
+    if group is not None:
+        value = getattr(group, setting.name)
         return _stored(owner, setting) if setting.kind == "ENUM" and not value else value
     if f"{GROUP}.{setting.name}" in _animated(owner):
         raise InputError(

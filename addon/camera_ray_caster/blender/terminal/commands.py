@@ -61,7 +61,7 @@ def cast(arguments: Sequence[str], prog: str) -> int:
     """Render frames of a file to pictures, EXR files and reports."""
     parser = _parser(
         prog,
-        "Cast the rays of a Blender file's camera at its spheres and planes.",
+        "Cast the rays of a Blender file's camera at what it shows.",
         f"{prog} blend_scenes/spheres_and_planes.blend --output out --passes combined,depth",
         "writes out/spheres_and_planes.png, the 32-bit multilayer out/spheres_and_planes.exr with a layer a pass, and "
         "out/report.json; with --frames each name ends in its frame's number.",

@@ -19,9 +19,9 @@ from ..cameras.model import Model
 from ..cameras.parts.aperture import Aperture
 from ..conventions import gamma
 from ..maths.chebyshev import ROWS, is_raster, on_raster
-from ..maths.speed import sharing, whole_rows
+from ..maths.speed import lazy, sharing, whole_rows
 from ..maths.vector import components, dot, inverse, is_grid, matvec, norm
-from ..memory import require
+from ..memory import of_pixels, require
 from ..records import InputError, Pose, Raster, Rays
 from .pixel_time import PixelTime, groups, meeting
 from .sampling import in_opening, sub_pixel
@@ -122,6 +122,11 @@ class Camera:
         """The direction that all chief rays have, three numbers in the camera frame; None where they differ."""
         return self.model.rays(0.0, 0.0)[1] if self.model.parallel else None
 
+    @lazy
+    def stretch(self) -> float:
+        """How many times as long vectors become at most, from the camera's frame to the world: 1 without shear."""
+        return float(np.linalg.norm(self.pose.basis, 2))
+
     @property
     def is_rigid(self) -> bool:
         """Whether the basis is orthogonal to rounding, so that camera lengths are world lengths."""
@@ -140,7 +145,7 @@ class Camera:
         except ValueError as error:
             raise InputError(f"x and y have shapes {x.shape} and {y.shape}: give shapes that broadcast") from error
         timed = self.pixel_time is not None
-        require((57 if timed else 25 if self.model.central else 49) * math.prod(shape), shape, "the rays")
+        require((57 if timed else 25 if self.model.central else 49) * math.prod(shape), of_pixels("the rays", shape))
         if self.pixel_time is not None:
             return self._timed_rays(self.pixel_time, x, y)
         directions = np.empty((*shape, 3))

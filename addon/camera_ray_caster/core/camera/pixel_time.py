@@ -17,7 +17,7 @@ from itertools import pairwise
 import numpy as np
 
 from ..cameras.parts.settings import ABOVE_ZERO, CYCLES, RENDER, Choice, Image, Item, Number, Setting, Whole, span
-from ..memory import require
+from ..memory import of_pixels, require
 from ..records import BlenderCamera, InputError, Raster
 
 NONE, ROWS, COLUMNS, IMAGE, ROLLING_SHUTTER = "NONE", "ROWS", "COLUMNS", "IMAGE", "ROLLING_SHUTTER"
@@ -259,7 +259,7 @@ def _image_share(raw: BlenderCamera, raster: Raster) -> np.ndarray:
     if not np.isfinite(gray).all():
         lost = f"{np.count_nonzero(~np.isfinite(gray))} of {gray.size} pixels are NaN or infinite"
         raise InputError(f"{GRAY.name} of camera {raw.name!r} gives no time where {lost}: choose another image")
-    require(24 * raster.width * raster.height, (raster.height, raster.width), "the times", WHOLE_FRAME)
+    require(24 * raster.width * raster.height, of_pixels("the times", (raster.height, raster.width)), WHOLE_FRAME)
     rows = (2 * np.arange(raster.height) + 1) * gray.shape[0] // (2 * raster.height)
     columns = (2 * np.arange(raster.width) + 1) * gray.shape[1] // (2 * raster.width)
     return np.rint(np.clip(gray[np.ix_(rows, columns)], 0, 1) * (LEVELS - 1)) / (LEVELS - 1)

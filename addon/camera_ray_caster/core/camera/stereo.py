@@ -19,6 +19,7 @@ from math import atan, cos, sin
 
 import numpy as np
 
+from ..arguments import shown
 from ..cameras import find_model
 from ..records import BlenderCamera, InputError
 
@@ -36,7 +37,7 @@ def eye_record(raw: BlenderCamera, view: str) -> BlenderCamera:
     if not view or settings["views_format"] == "MULTIVIEW":
         return raw
     if view not in SIDES:
-        raise InputError(f"view {view!r} is no eye of Stereo 3D: choose one of {', '.join(SIDES)}")
+        raise InputError(f"view {shown(view)} is no eye of Stereo 3D: choose one of {', '.join(SIDES)}")
     own = find_model(raw).eye(raw, view)
     if own is not None:
         return own

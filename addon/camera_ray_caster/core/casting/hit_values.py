@@ -11,6 +11,7 @@ from typing import Any, TypeVar
 import numpy as np
 
 from ..errors.hits import HitErrors
+from ..errors.rays import world_rays
 from ..maths.speed import Scratch, lazy
 from ..maths.vector import dot, inner, is_lattice, is_one, linear, matvec, norm
 from ..shapes.kind import HitPixels, Kind
@@ -104,20 +105,22 @@ class HitValues:
     @lazy
     def normal_terms(self) -> tuple[np.ndarray, np.ndarray]:
         """Two terms whose sum is ``normal`` where something is hit: storing it can add them."""
-        table = self.plan.normals
-        constants = self.look_up(table.constants, "constants")
-        gain, offset = constants[0], constants[1:]
-        normal = np.multiply(gain, self.point, out=self.array("turned", 3))
+        table, normal = self.plan.normals, self.array("turned", 3)
         faces_eye = self.hits.rays.from_eye and all(one.faces_eye for one in self.plan.sets)
-        if faces_eye and table.is_sum:
-            return normal, offset
-        np.add(normal, offset, out=normal)
-        if not table.unit:
-            np.divide(normal, np.maximum(norm(normal), np.finfo(float).tiny), out=normal)
-        if not faces_eye:
-            np.multiply(-np.sign(dot(normal, self.direction)), normal, out=normal)
-        for which, normals in table.others:
-            pixels = self.pixels(self.look_up(which, "which"))
+        others = [(self.look_up(mask, f"others {k}"), normals) for k, (mask, normals) in enumerate(table.others)]
+        if not (others and (np.logical_or.reduce([mask for mask, _ in others]) >= self.hits.seen).all()):
+            constants = self.look_up(table.constants, "constants")
+            gain, offset = constants[0], constants[1:]
+            np.multiply(gain, self.point, out=normal)
+            if faces_eye and table.is_sum:
+                return normal, offset
+            np.add(normal, offset, out=normal)
+            if not table.unit:
+                np.divide(normal, np.maximum(norm(normal), np.finfo(float).tiny), out=normal)
+            if not faces_eye:
+                np.multiply(-np.sign(dot(normal, self.direction)), normal, out=normal)
+        for mask, normals in others:
+            pixels = self.pixels(mask)
             if not pixels.at.size:
                 continue
             direction = None if faces_eye else pixels.of(self.direction)
@@ -135,9 +138,8 @@ class HitValues:
 
     def by_kind(self, of: Callable[[Kind, HitPixels], T]) -> list[tuple[np.ndarray, T]]:
         """Return, for each kind that is seen, where it is, (rows, columns) bool, and what a function gives there."""
-        seen = self.pixels(self.hits.seen)
-        parts = ((kind, seen.only(some)) for kind, some in by_kind(self.plan.shapes.kind[seen.at]))
-        return [(pixels.where, of(kind, pixels)) for kind, pixels in parts]
+        kinds = self.look_up(self.plan.kinds, "kinds")
+        return [(where, of(kind, self.pixels(where))) for kind, where in by_kind(kinds)]
 
     @lazy
     def uv(self) -> list[tuple[np.ndarray, tuple[np.ndarray, np.ndarray]]]:
@@ -162,13 +164,16 @@ class HitValues:
         return row
 
     @lazy
-    def errors(self) -> HitErrors:
-        """How far from the exact picture the hits are at most."""
-        plan, hits = self.plan, self.hits
-        x, y = (np.broadcast_to(places, hits.t.shape)[hits.seen] for places in (hits.rays.x, hits.rays.y))
-        return HitErrors(plan.camera, plan.in_camera, self.pixels(hits.seen), x, y, plan.normals.unit)
+    def errors(self) -> list[tuple[np.ndarray, HitErrors]]:
+        """How far from the exact picture the hits are at most, kind by kind; see ``by_kind``."""
+        plan = self.plan
+        camera, unit = plan.camera, plan.normals.unit
+        rays = world_rays(camera, self.hits.rays.x, self.hits.rays.y)
+        return self.by_kind(
+            lambda kind, pixels: HitErrors(camera, plan.in_camera, kind, pixels, rays.only(pixels.where), unit)
+        )
 
     def pixels(self, where: np.ndarray) -> HitPixels:
         """Return pixels that hit something."""
         hits = self.hits
-        return HitPixels(where, hits.index[where], hits.t[where], hits.first_row, hits.rays.from_eye, self.scratch)
+        return HitPixels(where, self.index[where], hits.t[where], hits.first_row, hits.rays.from_eye, self.scratch)

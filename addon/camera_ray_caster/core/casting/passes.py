@@ -8,11 +8,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
+from ..errors.hits import HitErrors
 from ..maths.speed import whole_rows
-from ..maths.vector import matvec, norm, unit
+from ..maths.vector import matvec, unit
 from .hit_values import ZERO, HitValues
 from .hits import Hits
 from .shading import shade
@@ -111,25 +113,25 @@ def ray_direction(values: HitValues, out):
 
 def distance_bound(values: HitValues, out):
     """How far the stored distance, and the depth, are from the exact ones at most; world units."""
-    errors = values.errors
-    _bound(values, out, errors.distance, errors.t * norm(errors.rays.direction))
+    _bound(values, out, lambda errors: (errors.distance, errors.t * errors.rays.length))
 
 
 def position_bound(values: HitValues, out):
     """How far the stored position is from the exact one at most; world units."""
-    places = (p + e for p, e in zip(values.point, values.plan.camera.pose.eye, strict=True))
-    _bound(values, out, values.errors.position, norm(tuple(place[values.hits.seen] for place in places)))
+    _bound(values, out, lambda errors: (errors.position, errors.far))
 
 
 def normal_bound(values: HitValues, out):
     """How far the stored unit normal is from the exact one at most."""
-    _bound(values, out, values.errors.normal, 1.0)
+    _bound(values, out, lambda errors: (errors.normal, 1.0))
 
 
-def _bound(values: HitValues, out, bound, size):
-    """Write bounds rounded up, with what storing a number of this size loses."""
+def _bound(values: HitValues, out, of: Callable[[HitErrors], tuple[np.ndarray, Any]]):
+    """Write bounds rounded up, with what storing numbers loses: ``of`` gives the bound of some, and their size."""
     out[...] = 0
-    out[values.hits.seen] = (bound + np.finfo(out.dtype).eps * size) * ROUNDED_UP
+    for where, errors in values.errors:
+        bound, size = of(errors)
+        out[where] = (bound + np.finfo(out.dtype).eps * size) * ROUNDED_UP
 
 
 def _write(out, vector, offset, blank):

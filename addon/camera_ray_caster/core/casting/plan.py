@@ -96,6 +96,11 @@ class Plan:
         return np.min_scalar_type(-max(len(self.shapes), 1))
 
     @cached_property
+    def kinds(self) -> np.ndarray:
+        """(n + 1,): the numbers of the shapes' kinds, and -1 for what sees none."""
+        return np.append(self.shapes.kind.astype(np.int16), np.int16(-1))
+
+    @cached_property
     def object_index(self) -> np.ndarray:
         """(n + 1,): the shapes' object indices, and 0 for what sees none."""
         return np.append(self.shapes.object_index, np.int32(0))

@@ -11,75 +11,59 @@ ed., chapters 1 and 3; S. Rump, Verification Methods, Acta Numerica 19 (2010), s
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import numpy as np
 
 from ..camera.camera import Camera
 from ..conventions import EPS, gamma
 from ..maths.speed import lazy
-from ..maths.vector import norm
-from ..shapes.frames import InCamera
-from ..shapes.kind import HitPixels, ShapeErrors
+from ..maths.vector import along, difference, norm
+from ..shapes.frames import InCamera, WorldRays
+from ..shapes.kind import HitPixels, Kind
 from ..shapes.kinds import by_kind
 from .rays import world_rays
 
 
 class HitErrors:
-    """The error bounds of pixels whose chief rays hit something; (m,) arrays over them.
+    """The error bounds of pixels whose chief rays hit shapes of one kind; (m,) arrays over them.
 
-    x, y: (m,) their pixel coordinates. ``unit``: whether normals that come from constants keep the length they come
-    with.
+    ``unit``: whether normals that come from constants keep the length they come with.
     """
 
-    def __init__(self, camera: Camera, shapes: InCamera, pixels: HitPixels, x: np.ndarray, y: np.ndarray, unit: bool):
-        self.t = pixels.t
-        self._eye = camera.pose.eye
-        self._kinds: list[tuple[np.ndarray, ShapeErrors]] = []
-        with np.errstate(all="ignore"):
-            self.rays = world_rays(camera, x, y)
-            for kind, some in by_kind(shapes.shapes.kind[pixels.at]):
-                own = pixels.only(some), self.rays.only(some)
-                self._kinds.append((some, kind.errors(shapes, *own, camera.model.central, unit)))
-
-    def _gather(self, of: Callable[[np.ndarray, ShapeErrors], np.ndarray]) -> np.ndarray:
-        """Return what a function gives for the pixels of each kind."""
-        found = np.empty(len(self.t))
-        with np.errstate(all="ignore"):
-            for some, errors in self._kinds:
-                found[some] = of(some, errors)
-        return found
+    def __init__(self, camera: Camera, shapes: InCamera, kind: Kind, pixels: HitPixels, rays: WorldRays, unit: bool):
+        self.t, self.rays, self._eye = pixels.t, rays, camera.pose.eye
+        self._shape = kind.errors(shapes, pixels, rays, camera.model.central, unit)
 
     @lazy
     def t_error(self) -> np.ndarray:
         """Of t, the depth that Blender's pass shows; inf where nothing is known."""
-        error = self._gather(lambda some, errors: errors.t)
+        error = self._shape.t
         return np.where(np.isnan(error), np.inf, error) + EPS * np.abs(self.t)
 
     @lazy
     def distance(self) -> np.ndarray:
         """Of the distance along the ray; bounds depth, too, since directions are not shorter than 1."""
-        length = norm(self.rays.direction)
-        return self.t_error * length + np.abs(self.t) * (self.rays.direction_error + gamma(4) * length)
+        rays = self.rays
+        return self.t_error * rays.length + np.abs(self.t) * (rays.direction_error + gamma(4) * rays.length)
 
     @lazy
     def point(self) -> np.ndarray:
         """Of the hit point relative to the eye, as a vector's length."""
-        rays = self.rays
-        along = self.t_error * norm(rays.direction)
-        aside = np.abs(self.t) * (rays.direction_error + gamma(4) * norm(rays.direction))
-        return along + aside + rays.origin_error + gamma(4) * norm(rays.origin)
+        return self.distance + self.rays.origin_error + gamma(4) * norm(self.rays.origin)
+
+    @lazy
+    def far(self) -> np.ndarray:
+        """How far the hit point is from the world's origin."""
+        return norm(difference(along(self.rays.origin, self.rays.direction, self.t), -self._eye))
 
     @lazy
     def position(self) -> np.ndarray:
         """Of the hit point in the world, as a vector's length."""
-        parts = zip(self.rays.origin, self.rays.direction, self._eye, strict=True)
-        return self.point + EPS * norm(tuple(o + self.t * d + e for o, d, e in parts))
+        return self.point + EPS * self.far
 
     @lazy
     def normal(self) -> np.ndarray:
         """Of the unit normal, as a vector's length; 2 where nothing is known."""
-        error = self._gather(lambda some, errors: errors.normal(self.point[some])) + gamma(8)
+        error = self._shape.normal(self.point) + gamma(8)
         return np.where(error < 2, error, 2.0)
 
 

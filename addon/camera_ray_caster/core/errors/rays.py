@@ -9,7 +9,7 @@ import numpy as np
 
 from ..camera.camera import Camera
 from ..conventions import gamma
-from ..maths.vector import matvec, norm
+from ..maths.vector import difference, matvec, norm
 from ..shapes.frames import WorldRays
 
 STEP = 2.0**-20
@@ -24,18 +24,21 @@ def world_rays(camera: Camera, x: np.ndarray, y: np.ndarray) -> WorldRays:
     """
     here = camera.camera_rays(x, y)
     moves = ((STEP, 0.0), (-STEP, 0.0)), ((0.0, STEP), (0.0, -STEP))
-    basis = camera.pose.basis.tolist()
-    stretch = np.linalg.norm(camera.pose.basis, 2)
+    moved = [[camera.camera_rays(x + dx, y + dy) for dx, dy in axis] for axis in moves]
     in_pixels = camera.model.pixel_rounding(x, y)
+    basis = camera.pose.basis.tolist()
     parts = []
     for part in range(2):
-        error = camera.model.ray_rounding * norm(here[part])
-        for axis in range(2):
-            turned = [_moved(camera.camera_rays(x + dx, y + dy)[part], here[part]) for dx, dy in moves[axis]]
-            error = error + in_pixels[axis] / STEP * np.fmax(*turned)
-        parts.append((matvec(basis, here[part]), stretch * error + gamma(8) * norm(here[part])))
+        length = norm(here[part])
+        error = (camera.stretch * camera.model.ray_rounding + gamma(8)) * length
+        for pixels, there in zip(in_pixels, moved, strict=True):
+            turned = np.fmax(*(_apart(rays[part], here[part]) for rays in there))
+            error = error + camera.stretch / STEP * pixels * turned
+        parts.append((matvec(basis, here[part]), error))
     return WorldRays(parts[0][0], parts[1][0], parts[0][1], parts[1][1])
 
 
-def _moved(there, here):
-    return norm(tuple(a - b for a, b in zip(there, here, strict=True)))
+def _apart(there, here):
+    """Return the length of the difference; of a row or a column, where the other does not move."""
+    moved = difference(there, here)
+    return norm([component if np.any(component) else 0.0 for component in moved])

@@ -77,11 +77,31 @@ def square_less_one(high, low):
 def volume_sign(a, b, c) -> np.ndarray:
     """Return the sign of a . (b x c) of vectors (3, n) each, exactly: -1, 0 or 1, (n,).
 
-    The 24 parts of its six products are exact, and so is the sign of their sum (math.fsum), where no part underflows.
+    The 24 parts of its six products are exact where none underflows, and so is the sign of their sum.
     """
     terms = []
     for i, j, k in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
         for sign, (left, right) in ((1, (j, k)), (-1, (k, j))):
             for part in two_product(b[left], c[right]):
                 terms += two_product(sign * a[i], part)
-    return np.sign([math.fsum(column) for column in np.array(terms).T.tolist()])
+    return sum_sign(np.array(terms))
+
+
+def sum_sign(terms) -> np.ndarray:
+    """Return the exact sign of sums of terms, (m, n) to (n,).
+
+    Each pass leaves the leading digits of a sum in its last term, and in the others what was lost, until the last is
+    beyond them (T. Ogita, S. Rump, S. Oishi, Accurate Sum and Dot Product, 2005: distillation).
+    """
+    sign, left = np.zeros(terms.shape[1]), np.arange(terms.shape[1])
+    for _ in range(len(terms)):
+        for k in range(1, len(terms)):
+            terms[k], terms[k - 1] = two_sum(terms[k], terms[k - 1])
+        rest = np.abs(terms[:-1]).sum(axis=0)
+        open_ = ~(np.abs(terms[-1]) > 2 * rest) & (rest > 0)
+        sign[left] = np.sign(terms[-1])
+        left, terms = left[open_], terms[:, open_]
+        if not left.size:
+            return sign
+    sign[left] = np.sign([math.fsum(column) for column in terms.T.tolist()])
+    return sign

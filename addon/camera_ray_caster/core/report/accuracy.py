@@ -13,7 +13,6 @@ from ..casting.hit_values import HitValues
 from ..casting.pixels import hits_at
 from ..casting.plan import Plan, make_plan
 from ..conventions import EPS32
-from ..maths.vector import norm
 from ..records import Raster, Shapes
 
 PIXELS = 4096
@@ -105,11 +104,11 @@ def _even(count: int, total: int) -> np.ndarray:
 def _bounds(plan: Plan, x: np.ndarray, y: np.ndarray, where: np.ndarray | bool = True) -> np.ndarray:
     """Return the bounds, (hits, 4), at the pixels of x (1, columns) and y (rows, 1) that are meant."""
     hits = hits_at(plan, np.floor(x[0]).astype(int), np.floor(y[:, 0]).astype(int))
-    if not hits.seen.any():
-        return np.zeros((0, len(QUANTITIES)))
+    meant = np.broadcast_to(where, hits.t.shape)
+    found = [np.zeros((0, len(QUANTITIES)))]
     with np.errstate(all="ignore"):
-        errors = HitValues(hits).errors
-        relative = errors.distance / (np.abs(errors.t) * norm(errors.rays.direction))
-        found = np.stack((errors.distance, relative, errors.position, errors.normal), axis=1)
-    meant = np.broadcast_to(where, hits.t.shape)[hits.seen]
-    return np.where(np.isnan(found), np.inf, found)[meant]
+        for seen, errors in HitValues(hits).errors:
+            relative = errors.distance / (np.abs(errors.t) * errors.rays.length)
+            of_kind = np.stack((errors.distance, relative, errors.position, errors.normal), axis=1)
+            found.append(np.where(np.isnan(of_kind), np.inf, of_kind)[meant[seen]])
+    return np.concatenate(found)

@@ -11,10 +11,10 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from ..maths.speed import Scratch
+from ..maths.speed import Scratch, lazy
 from ..maths.vector import components, difference, matrix_rows, matvec
 from .affine_search import AffineSet, Group, divide
-from .frames import InCamera, LocalRays, WorldRays, local_rays
+from .frames import InCamera, LocalRays, WorldRays
 from .kind import HitPixels, Kind, ShapeErrors, Visible
 
 
@@ -67,7 +67,7 @@ class AffineKind(Kind):
         """Return the bound of the unit normal: see ``ShapeErrors``."""
 
     @abstractmethod
-    def decide(self, shapes: InCamera, at: np.ndarray, local: LocalRays) -> tuple[Any, Any]:
+    def decide(self, shapes: InCamera, local: LocalRays) -> tuple[Any, Any]:
         """Return what ``decision`` does."""
 
     def shape_set(self, shapes: InCamera, visible: Visible) -> AffineSet:
@@ -85,11 +85,11 @@ class AffineKind(Kind):
 
     def errors(self, shapes: InCamera, pixels: HitPixels, rays: WorldRays, from_eye: bool, unit: bool) -> AffineErrors:
         """See ``Kind``."""
-        return AffineErrors(self, shapes, pixels, rays, local_rays(shapes, pixels.at, rays, from_eye), unit)
+        return AffineErrors(self, shapes, pixels, LocalRays(shapes.tables, pixels.at, rays, from_eye), unit)
 
     def decision(self, shapes: InCamera, at: np.ndarray, rays: WorldRays, from_eye: bool) -> tuple[Any, Any]:
         """See ``Kind``."""
-        return self.decide(shapes, at, local_rays(shapes, at, rays, from_eye))
+        return self.decide(shapes, LocalRays(shapes.tables, at, rays, from_eye))
 
 
 @dataclass(frozen=True, eq=False)
@@ -99,12 +99,11 @@ class AffineErrors(ShapeErrors):
     kind: AffineKind
     shapes: InCamera
     pixels: HitPixels
-    rays: WorldRays
     local: LocalRays
     unit: bool
     """Whether normals from constants keep the length they come with."""
 
-    @property
+    @lazy
     def tau(self) -> np.ndarray:
         """The t of the scaled rays."""
         return self.pixels.t / self.local.scale

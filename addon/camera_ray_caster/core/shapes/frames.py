@@ -11,7 +11,8 @@ from typing import Any
 import numpy as np
 
 from ..conventions import gamma
-from ..maths.vector import cross, dot, matrix_rows, matvec, norm
+from ..maths.speed import lazy
+from ..maths.vector import cross, difference, dot, matvec, norm
 from ..records import Pose, Shapes
 
 MARGIN = 1 + 1e-9
@@ -46,6 +47,17 @@ class InCamera:
     reach: np.ndarray
     """(n,): how far the shape reaches from its center along the camera's Z; inf for infinite shapes."""
 
+    @lazy
+    def tables(self) -> Tables:
+        """What error bounds look up."""
+        return Tables(self)
+
+    @lazy
+    def is_scalar(self) -> np.ndarray:
+        """(n,) bool: whether the axes are one number times the world's."""
+        axes = self.shapes.axes
+        return (axes == axes[:, :1, :1] * np.eye(3)).all(axis=(1, 2))
+
 
 @dataclass(frozen=True, eq=False)
 class WorldRays:
@@ -57,40 +69,138 @@ class WorldRays:
     origin_error: Any
     direction_error: Any
 
+    @lazy
+    def length(self) -> Any:
+        """Of the direction."""
+        return norm(self.direction)
+
     def only(self, some: np.ndarray) -> WorldRays:
-        """Return those that are meant, bool; each component is a number or has this shape."""
+        """Return those that are meant, bool; components broadcast to its shape, and numbers stay numbers."""
 
         def part(values):
-            return values[some] if np.ndim(values) else values
+            return np.broadcast_to(values, some.shape)[some] if np.ndim(values) else values
 
         origin, direction = (tuple(map(part, vector)) for vector in (self.origin, self.direction))
         return WorldRays(origin, direction, part(self.origin_error), part(self.direction_error))
 
 
+class Tables:
+    """What error bounds need to know of shapes, whichever rays hit them; the last axis counts the shapes."""
+
+    def __init__(self, shapes: InCamera):
+        matrix = np.ascontiguousarray(shapes.shape_from_world.transpose(1, 2, 0))
+        power = -np.frexp(np.abs(matrix).max(axis=(0, 1)))[1]
+        self.matrix = np.ldexp(matrix, power)
+        """(3, 3, n): shape_from_world, scaled by a power of two to about 1."""
+        self.scale = np.ldexp(1.0, power)
+        """(n,): that power."""
+        self.rounding = shapes.rounding
+        """(n,): of each row of the matrix."""
+        self.rows = norm(self.matrix.swapaxes(0, 1))
+        """(3, n): the lengths of the matrix's rows."""
+        self.size = norm(self.rows)
+        """(n,): the length of these."""
+        sizes = np.abs(self.matrix)
+        self.stretch = np.sqrt(sizes.sum(axis=0).max(axis=0) * sizes.sum(axis=1).max(axis=0))
+        """(n,): a bound of the matrix's spectral norm, the root of the largest sums of a row and of a column."""
+        self.center = np.ascontiguousarray((shapes.shapes.center - shapes.pose.eye).T)
+        """(3, n): relative to the eye, world."""
+        self.away = norm(self.center)
+        """(n,): the length of that."""
+        self.offset = np.ascontiguousarray(shapes.offset.T)
+        """(3, n): N of rays from the eye."""
+
+
 @dataclass(frozen=True, eq=False)
 class LocalRays:
-    """Rays in the frames of shapes, one shape a pixel: q(t) = t D - N, D scaled by a power of two to about 1.
+    """Rays in the frames of shapes, one shape a ray: q(t) = t D - N, D scaled by a power of two to about 1."""
 
-    Components and their errors; ``row_d`` and ``row_n`` are the errors of each component, ``d_error`` and ``n_error``
-    those of the vectors.
-    """
-
-    matrix: np.ndarray
-    """(..., 3, 3) shape_from_world, scaled."""
-    scale: np.ndarray
-    rounding: np.ndarray
-    """Of each row of the matrix."""
-    d: Any
-    n: Any
-    row_d: Any
-    row_n: Any
-    d_error: np.ndarray
-    n_error: np.ndarray
-    size: Any
-    """The length of the unscaled matrix's rows, times ``away``."""
-    away: Any
-    """Length of the vector from the ray's origin to the shape's center, world."""
+    tables: Tables
+    at: np.ndarray
+    """Indices of the shapes, which broadcast with the rays."""
+    rays: WorldRays
     from_eye: bool
+
+    def of(self, table: np.ndarray) -> np.ndarray:
+        """Return what a table of all shapes, (..., n), has for each ray."""
+        return table.take(self.at, axis=-1)
+
+    @lazy
+    def scale(self) -> np.ndarray:
+        """That of D."""
+        return self.of(self.tables.scale)
+
+    @lazy
+    def rounding(self) -> np.ndarray:
+        """Of each row of the matrix."""
+        return self.of(self.tables.rounding)
+
+    @lazy
+    def matrix(self) -> np.ndarray:
+        """(3, 3, ...): shape_from_world, scaled."""
+        return self.of(self.tables.matrix)
+
+    @lazy
+    def size(self) -> np.ndarray:
+        """The length of the matrix's rows."""
+        return self.of(self.tables.size)
+
+    @lazy
+    def _towards(self) -> Any:
+        """From the ray's origin to the shape's center, world."""
+        return difference(self.of(self.tables.center), self.rays.origin)
+
+    @lazy
+    def away(self) -> Any:
+        """The length of that."""
+        return self.of(self.tables.away) if self.from_eye else norm(self._towards)
+
+    @lazy
+    def d(self) -> Any:
+        """D."""
+        return matvec(self.matrix, self.rays.direction)
+
+    @lazy
+    def n(self) -> Any:
+        """N."""
+        if self.from_eye:
+            return self.of(self.tables.offset)
+        return tuple(component / self.scale for component in matvec(self.matrix, self._towards))
+
+    @lazy
+    def d_error(self) -> np.ndarray:
+        """How wrong D is at most, as a vector."""
+        return self.of(self.tables.stretch) * self.rays.direction_error + self.size * self._d_turned
+
+    @lazy
+    def n_error(self) -> np.ndarray:
+        """How wrong N is at most, as a vector."""
+        return (self.of(self.tables.stretch) * self._moved + self.size * self._n_turned) / self.scale
+
+    def component(self, i: int) -> tuple[Any, Any, Any, Any]:
+        """Return one component of D and of N, and how wrong they are at most."""
+        row, length = self.of(self.tables.matrix[i]), self.of(self.tables.rows[i])
+        d_error = length * (self.rays.direction_error + self._d_turned)
+        n_error = length / self.scale * (self._moved + self._n_turned)
+        n = self.of(self.tables.offset[i]) if self.from_eye else dot(row, self._towards) / self.scale
+        return dot(row, self.rays.direction), n, d_error, n_error
+
+    @lazy
+    def _moved(self) -> Any:
+        """How wrong the vector to the center is at most."""
+        if self.from_eye:
+            return gamma(2) * self.away
+        return gamma(4) * (self.of(self.tables.away) + norm(self.rays.origin)) + self.rays.origin_error
+
+    @lazy
+    def _d_turned(self) -> Any:
+        """What the rounding of a row, and of its product, does to a component of D, for a row of length 1."""
+        return (self.rounding + gamma(4)) * self.rays.length
+
+    @lazy
+    def _n_turned(self) -> Any:
+        """The same of N."""
+        return (self.rounding + gamma(4)) * self.away
 
     @property
     def cross(self):
@@ -110,43 +220,3 @@ class LocalRays:
     def q(self, tau):
         """Return the points tau D - N."""
         return tuple(tau * d - n for d, n in zip(self.d, self.n, strict=True))
-
-
-def local_rays(shapes: InCamera, at: np.ndarray, rays: WorldRays, from_eye: bool) -> LocalRays:
-    """Return the rays in the frames of the shapes ``at``, indices that broadcast with them."""
-    matrix = shapes.shape_from_world[at]
-    power = -np.frexp(np.abs(matrix).max(axis=(-2, -1)))[1]
-    unscaled = tuple(norm(row) for row in matrix_rows(matrix))
-    matrix = np.ldexp(matrix, power[..., None, None])
-    scale = np.ldexp(1.0, power)
-    rounding = shapes.rounding[at]
-    lengths = tuple(norm(row) for row in matrix_rows(matrix))
-    d = matvec(matrix_rows(matrix), rays.direction)
-    relative = rays.direction_error + (rounding + gamma(4)) * norm(rays.direction)
-    row_d = tuple(length * relative for length in lengths)
-
-    center = (shapes.shapes.center - shapes.pose.eye)[at]
-    towards = tuple(center[..., i] - rays.origin[i] for i in range(3))
-    away, origin = norm(towards), norm(rays.origin)
-    if from_eye:
-        n = tuple(shapes.offset[at][..., i] for i in range(3))
-        move = gamma(2) * away
-    else:
-        n = tuple(component / scale for component in matvec(matrix_rows(matrix), towards))
-        move = gamma(4) * (norm(tuple(center[..., i] for i in range(3))) + origin) + rays.origin_error
-    row_n = tuple(length * (move + (rounding + gamma(4)) * away) for length in unscaled)
-    size = norm(unscaled) * away
-    turn = rounding + gamma(4)
-    d_error = _largest(matrix) * rays.direction_error + turn * norm(lengths) * norm(rays.direction)
-    n_error = _largest(matrix) / scale * move + turn * norm(unscaled) * away
-    return LocalRays(matrix, scale, rounding, d, n, row_d, row_n, d_error, n_error, size, away, from_eye)
-
-
-def _largest(matrix):
-    """Return a bound of the spectral norm: the root of the largest sums of a row and of a column."""
-    return np.sqrt(np.abs(matrix).sum(axis=-1).max(axis=-1) * np.abs(matrix).sum(axis=-2).max(axis=-1))
-
-
-def least(*terms):
-    """Return the least of several bounds, those that are NaN left out."""
-    return np.fmin.reduce(np.broadcast_arrays(*terms))

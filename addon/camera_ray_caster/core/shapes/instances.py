@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -59,19 +60,26 @@ def mesh_primitive(mesh: Mesh) -> Primitive:
     return Primitive(MESH, mesh.middle[None], np.eye(3), np.ones(1), mesh)
 
 
-def is_castable(matrices: np.ndarray, primitive: Primitive) -> np.ndarray:
-    """Return under which of (k, 3, 4) object matrices a primitive is finite and spans space, however thin it is; a mesh
-    need not span it.
+def castable(placed: Sequence[tuple[Primitive, np.ndarray]]) -> list[np.ndarray]:
+    """Return under which of its (k, 3, 4) object matrices each primitive is finite and spans space, however thin it is;
+    a mesh need not span it.
 
     Axes that were scaled to zero under a turned parent are coplanar to a few roundings of float32: a determinant of
     the axes, each over its largest component, below 8 EPS32 cannot be told from zero.
     """
+    if not placed:
+        return []
+    counts = [len(matrices) for _, matrices in placed]
+    matrices = np.concatenate([matrices for _, matrices in placed])
+    own_axes, may_be_flat = (
+        np.repeat(values, counts, axis=0)
+        for values in ([each.axes for each, _ in placed], [each.mesh is not None for each, _ in placed])
+    )
     finite = np.isfinite(matrices).all(axis=(1, 2))
-    if primitive.mesh is not None:
-        return finite
-    axes = np.where(finite[:, None, None], matrices[:, :, :3], 0.0) @ primitive.axes
+    axes = np.where(finite[:, None, None], matrices[:, :, :3], 0.0) @ own_axes
     lengths = np.abs(axes).max(axis=1, keepdims=True)
-    return np.abs(np.linalg.det(axes / np.where(lengths > 0, lengths, 1.0))) > 8 * EPS32
+    spans = np.abs(np.linalg.det(axes / np.where(lengths > 0, lengths, 1.0))) > 8 * EPS32
+    return np.split(finite & (may_be_flat | spans), np.cumsum(counts)[:-1])
 
 
 def put_in_world(primitive: Primitive, matrices: np.ndarray, centers: np.ndarray, axes: np.ndarray) -> None:

@@ -14,7 +14,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any, NamedTuple, Protocol
 
 import numpy as np
@@ -148,12 +148,6 @@ class HitPixels:
         rows, columns = self.where.shape
         (kept,) = self.of((self.scratch(name, (self.first_row + rows, columns), dtype)[self.first_row :],))
         return kept
-
-    def only(self, some: np.ndarray) -> HitPixels:
-        """Return those that are meant, (m,) bool."""
-        where = self.where.copy()
-        where[where] = some
-        return replace(self, where=where, at=self.at[some], t=self.t[some])
 
 
 class ShapeErrors(ABC):

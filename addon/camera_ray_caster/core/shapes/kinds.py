@@ -16,7 +16,8 @@ KINDS: tuple[Kind, ...] = (SPHERES, PLANES, INFINITE_PLANES, MESHES)
 
 
 def by_kind(numbers: np.ndarray) -> Iterator[tuple[Kind, np.ndarray]]:
-    """Yield each kind whose number is among some, (n,), and where it is, (n,) bool."""
-    kinds = {kind.number: kind for kind in KINDS}
-    for number in np.unique(numbers).tolist():
-        yield kinds[number], numbers == number
+    """Yield each kind whose number is among some, and where it is, bool of their shape; others are no kind's."""
+    for kind in KINDS:
+        some = numbers == kind.number
+        if some.any():
+            yield kind, some

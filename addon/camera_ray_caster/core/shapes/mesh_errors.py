@@ -9,7 +9,7 @@ import numpy as np
 from ..conventions import EPS, gamma
 from ..maths.speed import lazy
 from ..maths.vector import along, difference, dot, norm
-from .frames import InCamera, WorldRays, least
+from .frames import InCamera, WorldRays
 from .kind import ShapeErrors
 from .mesh_surface import HitTriangles
 from .triangles import ROUNDING, volumes
@@ -54,7 +54,7 @@ class TriangleErrors(ShapeErrors):
         residual += length * place_error + turned * (norm(offset) + place_error)
         slope = np.abs(dot(normal, rays.direction)) - gamma(3) * length * steep
         slope -= length * rays.direction_error + turned * (steep + rays.direction_error)
-        return least(np.where(slope > 0, residual / slope, np.inf), self._within)
+        return np.fmin(np.where(slope > 0, residual / slope, np.inf), self._within)
 
     @property
     def _within(self) -> np.ndarray:

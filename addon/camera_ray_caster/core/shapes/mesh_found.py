@@ -54,6 +54,14 @@ class Found:
             nearer = (t < now) | ((t == now) & (which < first.take(pixel)))
             pixel, t, which = pixel[nearer], t[nearer], which[nearer]
 
+    def fill(self, window: tuple[slice, slice], met: np.ndarray, t: np.ndarray, which: int) -> None:
+        """Note one triangle in a window where it is met and is the nearest so far."""
+        before, first = self.t[window], self.which[window]
+        closer = (t < before) | ((t == before) & (which < first))
+        closer &= met
+        np.copyto(before, t, where=closer)
+        np.copyto(first, which, where=closer)
+
     def may_show(self, bounds: np.ndarray, near: np.ndarray) -> np.ndarray:
         """Return which triangles may be seen, indices: all but small ones that lie behind what was found, whose least t
         are given, (k,), with their bounds in the tile, (k, 4).

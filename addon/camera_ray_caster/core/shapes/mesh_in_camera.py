@@ -12,6 +12,7 @@ import numpy as np
 
 from ..maths.speed import Shared, lazy
 from ..maths.vector import inverse
+from ..memory import require
 from ..records import Mesh
 from .frames import MARGIN, InCamera
 from .kind import Visible
@@ -19,6 +20,11 @@ from .triangles import side
 
 CHUNK = 1 << 16
 """Vertices or triangles that are worked on at once: their working arrays stay in a core's cache."""
+
+VERTEX_BYTES, TRIANGLE_BYTES = 40, 104
+"""Of memory that each in view takes at most."""
+
+FEWER = "show fewer instances, or subdivide them less"
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,7 +69,8 @@ class MeshesInView:
     def __init__(self, shapes: InCamera, visible: Visible):
         self._shapes, self._pixels, self._from_eye = shapes, visible.pixels, visible.from_eye
         groups = list(_groups(shapes, visible.at))
-        total = sum(len(group.rows) * group.mesh.vertices.shape[1] for group in groups)
+        total, count = (sum(len(group.rows) * n(group.mesh) for group in groups) for n in (_vertex_count, len))
+        require(VERTEX_BYTES * total + TRIANGLE_BYTES * count, f"{count:,} triangles in view", FEWER)
         self._vertices = np.empty((3, total))
         self._images = np.empty((2, total)) if visible.pixels.has_straight_lines else None
         self._placing = Shared([
@@ -161,6 +168,10 @@ class MeshesInView:
         radius = MARGIN * np.sqrt(np.maximum.reduce([((corner - middle) ** 2).sum(axis=0) for corner in (a, b, c)]))
         bounds, seen = self._pixels.of_balls(middle.T, radius)
         return bounds, self._pixels.least_t(middle.T, radius), seen
+
+
+def _vertex_count(mesh: Mesh) -> int:
+    return mesh.vertices.shape[1]
 
 
 def _groups(shapes: InCamera, rows: np.ndarray) -> Iterator[Instances]:

@@ -11,19 +11,23 @@ import numpy as np
 
 from .. import tuning
 from ..maths.speed import lazy
-from ..maths.vector import difference, norm
+from ..maths.vector import cut, difference, dot, norm
 from .kind import Candidates, PixelBounds, SearchRays, ShapeSet
 from .mesh_found import NONE, NUMBER, Found
 from .mesh_in_camera import MeshesInView, Triangles
 from .mesh_spans import Lattice, spans
-from .triangles import ROUNDING, crossing, signs, volumes
-from .windows import batches, gather, in_tile
+from .triangles import ROUNDING, STEEP, crossing, plane, signs, volumes
+from .windows import batches, gather, in_tile, pixels_in
 
 SLABS = 4
 """Parts in which triangles are tested, the nearest first: what they hide is not tested."""
 
 SPANNED = 1 << 12, 1 << 17
 """Triangles whose spans are found at once, and pixels of their bounds."""
+
+
+Reach = tuple[float, float]
+"""How long the directions and the origins of a tile's rays are at most."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,18 +61,47 @@ class MeshSet(ShapeSet):
         reach = _longest(rays.direction), _longest(rays.origin or (0.0,))
         for slab in _slabs(triangles.near.take(here)):
             slab = slab.take(found.may_show(bounds[slab], triangles.near.take(here.take(slab))))
+            is_large = pixels_in(bounds[slab]) >= tuning.LARGE_TRIANGLE
+            large, small = slab[is_large], slab[~is_large]
+            for one, band in _bands(here[large], bounds[large]):
+                self._fill(rays, reach, one, band, found)
             if lattice is not None:
-                for some, part in _pieces(bounds[slab]):
-                    self._span(rays, lattice, here[slab[some]], part, found)
+                for piece in _pieces(bounds[small]):
+                    self._span(rays, lattice, reach, here[small[piece]], bounds[small[piece]], found)
             else:
-                for batch in batches(bounds[slab], tuning.TRIANGLE_PIXELS):
-                    self._cast(rays, reach, here[slab[batch]], bounds[slab[batch]], found)
+                for batch in batches(bounds[small], tuning.TRIANGLE_PIXELS):
+                    self._cast(rays, reach, here[small[batch]], bounds[small[batch]], found)
         met = found.which != NONE
         which = np.where(met, found.which, 0)
         np.take(triangles.number, which, out=rays.scratch(NUMBER, rays.shape, np.int32))
         yield Candidates(triangles.shape[which][None], (np.zeros(1, int), np.zeros(1, int)), found.t[None], met[None])
 
-    def _span(self, rays: SearchRays, lattice: Lattice, here: np.ndarray, bounds: np.ndarray, found: Found) -> None:
+    def _fill(self, rays: SearchRays, reach: Reach, which: int, bounds: list[int], found: Found) -> None:
+        """Keep what is met of one triangle in a window of the tile."""
+        x0, x1, y0, y1 = bounds
+        window = slice(y0, y1), slice(x0, x1)
+        corners: Any = self.meshes.corners(np.array([which]))[..., None]
+        direction = tuple(cut(component, window) for component in rays.direction)
+        doubt = _doubt(corners, reach).item()
+        if rays.origin is not None:
+            corners = [difference(corner, tuple(cut(part, window) for part in rays.origin)) for corner in corners]
+        inner = _inside(corners, direction, rays.origin is None)
+        normal, product = plane(corners)
+        slope = dot(normal, direction)
+        t = dot(normal, corners[0]) / slope
+        poor = np.abs(slope) <= STEEP * product * reach[0]
+        met = (inner > doubt) & (t >= self.clip_start) & (t < np.inf)
+        open_ = (np.abs(inner) <= doubt) | (poor & (inner > doubt)) if poor.any() else np.abs(inner) <= doubt
+        if open_.any():
+            row, column = np.nonzero(np.broadcast_to(open_, inner.shape))
+            pixel = (y0 + row) * rays.shape[1] + x0 + column
+            self._test(rays, np.full(len(pixel), which), pixel, found)
+            met &= ~open_
+        found.fill(window, met, t, which)
+
+    def _span(
+        self, rays: SearchRays, lattice: Lattice, reach: Reach, here: np.ndarray, bounds: np.ndarray, found: Found
+    ) -> None:
         """Keep what is met of triangles in spans, and of those that have none pixel by pixel."""
         seen = spans(lattice, self.meshes.corners(here), bounds, rays.shape[1])
         at, pixel = seen.met
@@ -78,13 +111,10 @@ class MeshSet(ShapeSet):
             self._test(rays, here[at], pixel, found)
         if not seen.clear.all():
             others = np.flatnonzero(~seen.clear)
-            reach = _longest(rays.direction), _longest(rays.origin or (0.0,))
             for batch in batches(bounds[others], tuning.TRIANGLE_PIXELS):
                 self._cast(rays, reach, here[others[batch]], bounds[others[batch]], found)
 
-    def _cast(
-        self, rays: SearchRays, reach: tuple[float, float], here: np.ndarray, bounds: np.ndarray, found: Found
-    ) -> None:
+    def _cast(self, rays: SearchRays, reach: Reach, here: np.ndarray, bounds: np.ndarray, found: Found) -> None:
         """Keep what is met of triangles that are tested pixel by pixel, in windows.
 
         The windows are as large as the largest bounds, and moved until they lie in the tile.
@@ -94,16 +124,12 @@ class MeshSet(ShapeSet):
         x0, y0 = np.minimum(x0, rays.shape[1] - wide), np.minimum(y0, rays.shape[0] - high)
         x, y = x0[:, None, None] + np.arange(wide), y0[:, None, None] + np.arange(high)[:, None]
         corners: Any = self.meshes.corners(here)[..., None, None]
-        most = np.maximum.reduce([norm(corner) for corner in corners])
+        doubt = _doubt(corners, reach)
         direction = tuple(gather(component, y, x) for component in rays.direction)
         if rays.origin is not None:
             origin = tuple(gather(component, y, x) for component in rays.origin)
             corners = [difference(corner, origin) for corner in corners]
-        first, second, third = volumes(corners, direction)
-        inner = np.minimum(np.minimum(first, second), third)
-        if rays.origin is not None:
-            np.maximum(inner, -np.maximum(np.maximum(first, second), third), out=inner)
-        doubt = ROUNDING * reach[0] * (most + reach[1]) ** 2
+        inner = _inside(corners, direction, rays.origin is None)
         hit = np.flatnonzero(inner >= -doubt)
         sure = (inner > doubt).reshape(-1)[hit]
         k, place = np.divmod(hit, high * wide)
@@ -117,9 +143,8 @@ class MeshSet(ShapeSet):
     def _test(self, rays: SearchRays, which: np.ndarray, pixel: np.ndarray, found: Found) -> None:
         """Keep what is met of one triangle a pixel, by exact signs where rounding could decide."""
         corners, direction = self._meeting(rays, which, pixel)
-        parts = volumes(corners, direction)
         doubt = ROUNDING * np.maximum.reduce([norm(corner) for corner in corners]) ** 2 * norm(direction)
-        inner = np.maximum(np.minimum.reduce(parts), -np.maximum.reduce(parts))
+        inner = _inside(corners, direction, is_turned=False)
         met = inner > doubt
         open_ = np.flatnonzero(np.abs(inner) <= doubt)
         if open_.size:
@@ -145,6 +170,24 @@ class MeshSet(ShapeSet):
         return corners if rays.origin is None else corners - at(rays.origin), at(rays.direction)
 
 
+def _inside(corners: Any, direction: Any, is_turned: bool) -> np.ndarray:
+    """Return the volume that is nearest to letting a ray miss its triangle: positive where it is met.
+
+    ``is_turned``: all volumes of a hit are known to be positive; else they may all be negative, too.
+    """
+    first, second, third = volumes(corners, direction)
+    inner = np.minimum(np.minimum(first, second), third)
+    if not is_turned:
+        np.maximum(inner, -np.maximum(np.maximum(first, second), third), out=inner)
+    return inner
+
+
+def _doubt(corners: Any, reach: Reach) -> np.ndarray:
+    """Return what volumes are right to, of triangles with corners in the camera's frame, for all rays of a tile."""
+    longest = np.maximum.reduce([norm(corner) for corner in corners])
+    return ROUNDING * reach[0] * (longest + reach[1]) ** 2
+
+
 def _longest(vectors: Any) -> float:
     """Return how long some vectors are at most, from components that broadcast; NaN is none."""
     return math.sqrt(sum(float(np.fmax.reduce(np.square(component), axis=None, initial=0.0)) for component in vectors))
@@ -158,20 +201,20 @@ def _slabs(near: np.ndarray) -> Iterator[np.ndarray]:
         yield np.flatnonzero(slab == k)
 
 
-def _pieces(bounds: np.ndarray) -> Iterator[tuple[np.ndarray, np.ndarray]]:
-    """Yield triangles with their bounds, as many at once as SPANNED tells: a large one in bands of rows."""
+def _bands(here: np.ndarray, bounds: np.ndarray) -> Iterator[tuple[int, list[int]]]:
+    """Yield triangles in windows of some rows: working arrays stay in a core's cache."""
+    for which, (x0, x1, y0, y1) in zip(here.tolist(), bounds.tolist(), strict=True):
+        rows = max(1, tuning.BLOCK_PIXELS // (x1 - x0))
+        for low in range(y0, y1, rows):
+            yield which, [x0, x1, low, min(low + rows, y1)]
+
+
+def _pieces(bounds: np.ndarray) -> Iterator[slice]:
+    """Yield as many triangles at once as SPANNED tells."""
     triangles, most = SPANNED
-    wide, high = bounds[:, 1] - bounds[:, 0], bounds[:, 3] - bounds[:, 2]
-    rows = np.maximum(most // wide, 1)
-    bands = -(-high // rows)
-    at = np.repeat(np.arange(len(bounds)), bands)
-    band = np.arange(len(at)) - np.repeat(np.cumsum(bands) - bands, bands)
-    bounds = bounds[at]
-    bounds[:, 2] += band * rows[at]
-    bounds[:, 3] = np.minimum(bounds[:, 3], bounds[:, 2] + rows[at])
-    pixels = np.cumsum((bounds[:, 1] - bounds[:, 0]) * (bounds[:, 3] - bounds[:, 2]))
+    pixels = np.cumsum(pixels_in(bounds))
     first = 0
-    while first < len(at):
+    while first < len(bounds):
         end = min(first + triangles, int(np.searchsorted(pixels, pixels[first] + most)) + 1)
-        yield at[first:end], bounds[first:end]
+        yield slice(first, end)
         first = end

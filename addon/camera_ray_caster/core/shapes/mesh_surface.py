@@ -104,7 +104,7 @@ class HitTriangles:
         """The normals at the corners on the side of ``area``, (3, 3, k): corner, component; not of unit length.
 
         Those of a mesh that one object shows are made unit in the world, those of a shared one in the mesh's frame, as
-        Cycles interpolates them.
+        Cycles interpolates them. A triangle with a normal that a flattened object leaves no direction is flat.
         """
         smooth = self._gather((), bool, lambda mesh, k: mesh.normals is not None)
         local = self._gather((3, 3), float, _normals)
@@ -112,6 +112,8 @@ class HitTriangles:
         first, second, third = zip(*self.axes, strict=True)
         columns = [cross(second, third), cross(third, first), cross(first, second)]
         turned = np.array([matvec(tuple(zip(*columns, strict=True)), corner) for corner in local])
+        for corner in turned:
+            smooth &= norm(corner) > 0
         turned = np.where(shared, turned, np.array([unit(corner) for corner in turned]))
         return np.where(smooth, turned, np.array(self.area))
 
@@ -145,14 +147,14 @@ class HitTriangles:
     def normals(self, point: Any, direction: Any) -> Any:
         """Return the unit normals turned towards the rays, as Blender's Normal pass has them; (m,) components.
 
-        The side of the face that is hit gives the sign, not the interpolated normal.
+        The side of the face that is hit gives the sign, not the interpolated normal; 0 where the corners' cancel.
         """
         area, smooth = np.array(self.area), any(self.shapes.shapes.meshes[k].normals is not None for k in self._meshes)
         corner_normals = self.corner_normals if smooth else area[None]
         if self.from_eye:
             corner_normals = -np.sign(dot(area, self.corners[0])) * corner_normals
         normal = list(self.interpolated(corner_normals, point)) if smooth else list(self.each(corner_normals[0]))
-        scale = 1 / norm(normal)
+        scale = 1 / np.maximum(norm(normal), np.finfo(float).tiny)
         if not self.from_eye:
             scale *= -np.sign(dot(self.each(area), direction))
         for component in normal:

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..conventions import EPS, gamma
-from ..maths.vector import cross, difference, linear, matvec, norm
+from ..maths.vector import cross, difference, linear, matvec
 from ..records import INFINITE_PLANE, PLANE, Shapes
 from .affine import AffineErrors, AffineKind
 from .frames import InCamera, LocalRays
@@ -106,10 +106,10 @@ class Plane(AffineKind):
     def root_error(self, hits: AffineErrors) -> np.ndarray:
         """Return how far tau may be from the root of tau D_z = N_z."""
         local, tau = hits.local, hits.tau
-        d, n, d_error = local.d[2], local.n[2], local.row_d[2]
-        parts = norm(tuple(local.matrix[..., 2, i] for i in range(3))) / local.scale * local.away
+        d, n, d_error, n_error = local.component(2)
+        parts = local.of(local.tables.rows[2]) / local.scale * local.away
         exact = (np.abs(n) < GRAZING / 4 * parts) & local.from_eye
-        n_error = np.where(exact, gamma(4) * np.abs(n) + 64 * EPS * EPS * parts, local.row_n[2])
+        n_error = np.where(exact, gamma(4) * np.abs(n) + 64 * EPS * EPS * parts, n_error)
         residual = np.abs(tau * d - n) + np.abs(tau) * d_error + n_error + gamma(2) * (np.abs(tau * d) + np.abs(n))
         steep = np.abs(d) - d_error
         return np.where(steep > 0, residual / steep, np.inf)
@@ -118,11 +118,12 @@ class Plane(AffineKind):
         """See ``AffineKind``."""
         return hits.local.rounding
 
-    def decide(self, shapes: InCamera, at: np.ndarray, local: LocalRays):
+    def decide(self, shapes: InCamera, local: LocalRays):
         """Return by how much the crossing is inside of the edges."""
-        steep, across = np.abs(local.d[2]), local.cross
+        d, _, d_error, _ = local.component(2)
+        steep, across = np.abs(d), local.cross
         inside = np.minimum(steep - np.abs(across[0]), steep - np.abs(across[1]))
-        return inside, local.row_d[2] + local.product_error()
+        return inside, d_error + local.product_error()
 
 
 class InfinitePlane(Plane):
@@ -136,9 +137,10 @@ class InfinitePlane(Plane):
         """See ``Kind``."""
         return np.inf, np.inf
 
-    def decide(self, shapes: InCamera, at: np.ndarray, local: LocalRays):
+    def decide(self, shapes: InCamera, local: LocalRays):
         """Return how steep the ray is."""
-        return np.abs(local.d[2]), local.row_d[2]
+        d, _, d_error, _ = local.component(2)
+        return np.abs(d), d_error
 
 
 class Lattice:

@@ -13,11 +13,11 @@ import numpy as np
 
 from ..conventions import EPS, gamma
 from ..maths.speed import Scratch
-from ..maths.vector import components, difference, dot, matrix_rows, matvec, norm, unit
+from ..maths.vector import components, cross, difference, dot, matrix_rows, matvec, norm, unit
 from ..records import SPHERE, Shapes
 from . import sphere_rays
 from .affine import AffineErrors, AffineKind
-from .frames import InCamera, LocalRays, least
+from .frames import InCamera, LocalRays
 from .kind import HitPixels, PixelNormals
 
 
@@ -53,7 +53,7 @@ class Sphere(AffineKind):
 
     def normals(self, shapes: InCamera, at: np.ndarray) -> tuple[np.ndarray, PixelNormals | None]:
         """See ``Kind``; outward. Round spheres have constants: 1 / radius, and from the center to the eye in radii."""
-        is_round = _is_round(shapes.shapes, at)
+        is_round = shapes.is_scalar[at]
         gain = 1 / np.abs(np.where(is_round, shapes.shapes.axes[at, 0, 0], np.nan))[:, None]
         offset = (shapes.pose.eye - shapes.shapes.center[at]) * gain + 0.0  # never -0
         curved = at[~is_round]
@@ -67,47 +67,45 @@ class Sphere(AffineKind):
     def root_error(self, hits: AffineErrors) -> np.ndarray:
         """Return how far tau may be from a root of |tau D - N|^2 = 1."""
         local, tau = hits.local, hits.tau
-        d, a = norm(local.d), dot(local.d, local.d)
-        a_error = 2 * d * local.d_error + local.d_error**2 + gamma(4) * a
-        q = local.q(tau)
-        length = norm(q)
-        q_error = np.abs(tau) * local.d_error + local.n_error + gamma(2) * (np.abs(tau) * d + norm(local.n))
-        far = np.abs((length - 1) * (length + 1)) + 2 * length * q_error + q_error**2 + gamma(6) * (length * length + 1)
-        b, b_error = local.inner, local.product_error()
-        c, c_rest = _outside(hits.shapes, hits.pixels.at, local)
-        terms = a * tau * tau + 2 * np.abs(b * tau) + np.abs(c)
-        near = np.abs((a * tau - 2 * b) * tau + c) + gamma(8) * terms + c_rest
-        near = near + tau * tau * a_error + 2 * np.abs(tau) * b_error
-        residual = least(far, near)
+        a, q, span = dot(local.d, local.d), local.q(tau), np.abs(tau)
+        d, length = np.sqrt(a), norm(q)
+        a_error = (2 * d + local.d_error) * local.d_error + gamma(4) * a
+        q_error = span * local.d_error + local.n_error + gamma(2) * (span * d + norm(local.n))
+        residual = np.abs((length - 1) * (length + 1)) + (2 * length + q_error) * q_error
+        residual += gamma(6) * (length * length + 1)
+        if (known := _outside(hits.shapes, local)) is not None:
+            (c, c_rest), b, b_error = known, local.inner, local.product_error()
+            terms = a * tau * tau + 2 * np.abs(b * tau) + np.abs(c)
+            near = np.abs((a * tau - 2 * b) * tau + c) + gamma(8) * terms + c_rest
+            residual = np.fmin(residual, near + tau * tau * a_error + 2 * span * b_error)
         slope = np.abs(dot(q, local.d))
         slope_error = length * local.d_error + d * q_error + gamma(4) * length * d
         low, high = slope - slope_error, slope + slope_error
-        room = low * low - (a + a_error) * residual
-        apart = np.sqrt(high * high + (a + a_error) * residual)
-        return np.where((low > 0) & (room > 0), residual / (low + np.sqrt(room)), (high + apart) / (a - a_error))
+        rise = (a + a_error) * residual
+        room = low * low - rise
+        beside = (high + np.sqrt(high * high + rise)) / (a - a_error)
+        return np.where((low > 0) & (room > 0), residual / (low + np.sqrt(room)), beside)
 
     def normal_error(self, hits: AffineErrors, point: np.ndarray) -> np.ndarray:
         """See ``AffineKind``: what moves the gradient aside turns it, what moves it along itself does not."""
-        local, t = hits.local, hits.pixels.t
+        local = hits.local
         q = local.q(hits.tau)
-        gradient = matvec(matrix_rows(np.swapaxes(local.matrix, -1, -2)), q)
+        gradient = matvec(local.matrix.swapaxes(0, 1), q)
         length = norm(gradient)
-        span = t * norm(hits.rays.direction) + local.away
-        reach = point + (local.rounding + gamma(8)) * (point + span)
-        aside, along = 0.0, 0.0
-        for i, row in enumerate(matrix_rows(local.matrix)):
-            row = tuple(row)
-            size, share = norm(row), dot(row, gradient) / length
-            tilt = norm(tuple(r - share * g / length for r, g in zip(row, gradient, strict=True))) + gamma(8) * size
-            q_error = size / local.scale * reach
-            aside = aside + tilt * q_error + size * (local.rounding + gamma(8)) * (np.abs(q[i]) + q_error)
-            along = along + size * q_error
+        normal = tuple(component / length for component in gradient)
+        span = hits.pixels.t * local.rays.length + local.away
+        turned = local.rounding + gamma(8)
+        moved = (point + turned * (point + span)) / local.scale  # for a row of length 1, as all of these
+        along = local.size * local.size * moved
+        aside = (turned + gamma(8)) * along
+        for row, size, component in zip(local.matrix, local.of(local.tables.rows), q, strict=True):
+            aside += size * (norm(cross(row, normal)) * moved + turned * np.abs(component))
         error = np.where(along < length / 2, aside / (length - along), 2.0)
         if hits.unit:
-            error = error + np.where(_is_round(hits.shapes.shapes, hits.pixels.at), along / length, 0.0)
+            error += np.where(local.of(hits.shapes.is_scalar), along / length, 0.0)
         return error
 
-    def decide(self, shapes: InCamera, at: np.ndarray, local: LocalRays):
+    def decide(self, shapes: InCamera, local: LocalRays):
         """Return the discriminant |D|^2 - |N x D|^2, in scaled units, and the bound below which hit or miss is open.
 
         The bound is the lesser of two: of this form, EPS (distance / radius), and of b^2 - |D|^2 c where c is exact,
@@ -116,21 +114,15 @@ class Sphere(AffineKind):
         d, across = norm(local.d), norm(local.cross)
         moved = local.product_error()
         value = (d - across) * (d + across)
-        error = 2 * d * local.d_error + 2 * across * moved + local.d_error**2 + moved**2
-        error = error + gamma(8) * (d * d + across * across)
-        b, b_error = local.inner, moved
-        c, c_rest = _outside(shapes, at, local)
-        c_error = gamma(4) * np.abs(c) + c_rest
         d_squared = 2 * d * local.d_error + local.d_error**2
-        near = 2 * np.abs(b) * b_error + b_error**2 + (np.abs(c) + c_error) * d_squared + d * d * c_error
+        error = d_squared + 2 * across * moved + moved**2 + gamma(8) * (d * d + across * across)
+        if (known := _outside(shapes, local)) is None:
+            return value, error
+        (c, c_rest), b = known, local.inner
+        c_error = gamma(4) * np.abs(c) + c_rest
+        near = 2 * np.abs(b) * moved + moved**2 + (np.abs(c) + c_error) * d_squared + d * d * c_error
         near = near + gamma(8) * (b * b + d * d * np.abs(c))
-        return np.where(near < error, b * b - d * d * c, value), least(error, near)
-
-
-def _is_round(shapes: Shapes, at: np.ndarray) -> np.ndarray:
-    """Return which shapes are spheres whose axes are the world's, so that one number scales all."""
-    axes = shapes.axes[at]
-    return (axes == axes[:, :1, :1] * np.eye(3)).all(axis=(1, 2))
+        return np.where(near < error, b * b - d * d * c, value), np.fmin(error, near)
 
 
 def _curved(shapes: InCamera, at: np.ndarray) -> PixelNormals:
@@ -155,12 +147,16 @@ def _curved(shapes: InCamera, at: np.ndarray) -> PixelNormals:
     return normals
 
 
-def _outside(shapes: InCamera, at: np.ndarray, local: LocalRays) -> tuple[Any, Any]:
-    """Return |N|^2 - 1 where it is a constant of the shape, NaN elsewhere, and what to add to gamma(4) of it."""
-    c = np.full(np.shape(local.away), np.nan)
-    if local.from_eye:
-        c = np.where(norm(local.n) < 1.9, sphere_rays.outside(shapes, at), c)
-    return c, 64 * EPS * EPS * (1 + local.size * local.size)
+def _outside(shapes: InCamera, local: LocalRays) -> tuple[Any, Any] | None:
+    """Return |N|^2 - 1 where it is a constant of a shape that is near, NaN elsewhere, and what to add to gamma(4) of
+    it; None where it is nowhere.
+    """
+    near = norm(local.n) < 1.9
+    if not (local.from_eye and near.any()):
+        return None
+    c = local.of(sphere_rays.outside(shapes, slice(None)))
+    span = local.size / local.scale * local.away
+    return np.where(near, c, np.nan), 64 * EPS * EPS * (1 + span * span)
 
 
 SPHERES = Sphere()

@@ -165,5 +165,5 @@ def test_a_box_without_meaning_is_refused_by_name(name, value):
 def test_bad_aperture_and_samples_are_refused():
     with pytest.raises(InputError, match="aperture_ratio"):
         camera(LENS | {"aperture_ratio": 0.0})
-    with pytest.raises(InputError, match="0 samples"):
+    with pytest.raises(InputError, match="samples is 0"):
         cast(camera(), glowing((0, 0, -5), 1.0), ("combined",), samples=0)

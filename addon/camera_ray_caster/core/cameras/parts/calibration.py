@@ -23,14 +23,10 @@ FOCAL = (
 )
 CENTER = (
     Number(
-        "cx", "Center X", "From the center of the top left pixel, to the right",
-        959.5, -1e6, FARTHEST_PIXELS, unit="pixels", digits=3,
+        "cx", "Center X", "From the center of the top left pixel, to the right", 959.5, -1e6, unit="pixels", digits=3
     ),
-    Number(
-        "cy", "Y", "From the center of the top left pixel, down",
-        539.5, -1e6, FARTHEST_PIXELS, unit="pixels", digits=3,
-    ),
-)  # fmt: skip
+    Number("cy", "Y", "From the center of the top left pixel, down", 539.5, -1e6, unit="pixels", digits=3),
+)
 SIZE = (
     Whole("calibration_width", "Width", "Of the calibrated picture, pixels; 0 is the frame's", 1920, 0, unit="pixels"),
     Whole(
@@ -93,7 +89,8 @@ class Calibration:
         path = FILE.read(raw)
         values = (
             _file_values(path, distortion) if path
-            else {setting.name: setting.read(raw) for setting in (*SIZE, *FOCAL, *CENTER)}
+            else {setting.name: setting.read(raw) for setting in (*SIZE, *FOCAL)}
+            | {setting.name: setting.read(raw, high=FARTHEST_PIXELS) for setting in CENTER}
             | {setting.name: setting.read(raw, -LARGEST, LARGEST) for setting in distortion}
         )  # fmt: skip
         return cls(

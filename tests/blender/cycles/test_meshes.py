@@ -1,0 +1,134 @@
+"""What our rays hit of meshes, curves, texts, metaballs and instances is what Cycles hits: position, normal and map."""
+
+import numpy as np
+import pytest
+
+from camera_ray_caster.blender.read.scene import read_camera, read_shapes
+from camera_ray_caster.core.cast import cast
+from camera_ray_caster.core.conventions import EPS32
+
+from .cycles import cycles_surface
+
+REACH = 16.0
+"""More than any coordinate in the scene."""
+
+TEXT = 4
+WITH_MAP = 1, 2, 3, 7
+
+OFF = 1 / 128
+"""Pixels. Where a ray so far aside meets another face, it may be another one that Cycles meets, in float32."""
+
+POSITION = 128 * EPS32
+"""As of spheres and planes: see test_hits."""
+
+THIN = 5e-4
+"""A hundredth of a pixel at the distance of 8: what Cycles is off by at most on long thin triangles, as a text's.
+"""
+
+TURNED = 2e-4
+"""Radians. Blender 5.2 packs normals, to 1e-4; and what moves the point by 2e-5 on triangles of 0.1 that turn by 0.3
+moves a smooth normal by 6e-5.
+"""
+
+MAPPED = 5e-5
+"""Of a map that grows by less than 1 on 0.5, where the point is off by 2e-5."""
+
+
+def add(bpy, name, data, index, place, turn=(0, 0, 0), scale=(1, 1, 1)):
+    item = bpy.data.objects.new(name, data)
+    item.pass_index, item.location, item.rotation_euler, item.scale = index, place, turn, scale
+    bpy.context.scene.collection.objects.link(item)
+    return item
+
+
+def shaded(mesh, smooth):
+    mesh.polygons.foreach_set("use_smooth", np.full(len(mesh.polygons), smooth))
+    mesh.update()
+    return mesh
+
+
+def made(bpy, name):
+    """A mesh of Blender's own."""
+    getattr(bpy.ops.mesh, f"primitive_{name}_add")()
+    item = bpy.context.object
+    mesh = item.data
+    bpy.data.objects.remove(item)
+    return mesh
+
+
+@pytest.fixture
+def scene(blender):
+    scene = blender.context.scene
+    data = blender.data
+    monkey = add(blender, "Monkey", shaded(made(blender, "monkey"), True), 1, (0, 0, 0.4), (0.2, 0.1, 0.5))
+    monkey.modifiers.new("Subdivision", "SUBSURF").levels = 1
+    monkey.modifiers[0].render_levels = 1
+    add(blender, "Cube", made(blender, "cube"), 2, (-2.2, 0.5, 0), (0.3, 0.4, 0.5), (0.7, 0.5, 0.9))
+    torus = shaded(made(blender, "torus"), True)
+    add(blender, "Torus", torus, 3, (2.2, 0.3, 0.3), (0.9, 0.2, 0), (0.6, 0.6, 0.6))
+    add(blender, "Mirrored", torus, 3, (1.4, -1.6, 0.1), (0.3, 0.2, 0.1), (-0.5, 0.7, 0.4))
+    text = data.curves.new("Text", "FONT")
+    text.body, text.extrude, text.bevel_depth = "Ray", 0.1, 0.02
+    add(blender, "Text", text, TEXT, (-2.6, -2, 0), (0.9, 0, 0.2))
+    curve = data.curves.new("Curve", "CURVE")
+    curve.dimensions, curve.bevel_depth = "3D", 0.2
+    spline = curve.splines.new("BEZIER")
+    spline.bezier_points.add(2)
+    for point, place in zip(spline.bezier_points, [(-1, 1, 1), (0, 2, 2), (2, 1, 1.4)], strict=True):
+        point.co, point.handle_left_type, point.handle_right_type = place, "AUTO", "AUTO"
+    add(blender, "Curve", curve, 5, (0, 0, 0))
+    ball = data.metaballs.new("Ball")
+    ball.resolution = ball.render_resolution  # what is read is the viewport's, what Cycles renders the render's
+    ball.elements.new().co = (0, 0, 0)
+    ball.elements.new().co = (0.7, 0, 0.2)
+    add(blender, "Metaball", ball, 6, (-0.6, -1.9, -0.9), scale=(0.5, 0.5, 0.5))
+    add(blender, "Floor", made(blender, "grid"), 7, (0, 0, -1.5), (0.05, 0.02, 0), (6, 6, 6))
+    inner = data.collections.new("Inner")
+    inner.objects.link(monkey)
+    instance = add(blender, "Instances", None, 8, (1.8, 2.2, 0), (0, 0, 2), (0.6, 0.6, 0.9))
+    instance.instance_type, instance.instance_collection = "COLLECTION", inner
+    scene.camera = add(blender, "Camera", data.cameras.new("Camera"), 0, (4, -5, 4), (1.02, 0.1, 0.68))
+    scene.camera.data.lens, scene.camera.data.ortho_scale = 40.0, 6.0
+    scene.render.resolution_x, scene.render.resolution_y = 144, 96
+    scene.camera_ray_caster.exact_shapes = False
+    return scene
+
+
+def seen(scene, names):
+    return cast(read_camera(scene), read_shapes(scene), names, np.float64)
+
+
+def unambiguous(scene):
+    """Where rays a little aside meet the same face: found without Cycles."""
+    data, found = scene.camera.data, []
+    for dx, dy in ((0, 0), (OFF, OFF), (OFF, -OFF), (-OFF, OFF), (-OFF, -OFF)):
+        data.shift_x, data.shift_y = (part / scene.render.resolution_x for part in (dx, dy))
+        images = seen(scene, ("shape_index", "face_index"))
+        found.append(np.stack((images["shape_index"], images["face_index"])))
+    data.shift_x = data.shift_y = 0
+    return (np.array(found) == found[0]).all(axis=(0, 1))
+
+
+@pytest.mark.parametrize("kind", ["PERSP", "ORTHO"])
+def test_meshes_are_those_of_cycles(blender, scene, kind):
+    scene.camera.data.type = kind
+    sure = unambiguous(scene)
+    ours = seen(scene, ("position", "normal", "uv", "object_index", "ray_direction"))
+    index = ours["object_index"]
+    assert set(np.unique(index)) == {0, 1, 2, 3, 4, 5, 6, 7}
+    assert sure.mean() > 0.9
+    position = cycles_surface(scene, "Position", REACH)
+    normal = cycles_surface(scene, "Normal", 1.0)
+    uv = cycles_surface(scene, "UV", 1.0)
+    np.testing.assert_array_equal((index != 0)[sure], ~np.isnan(position[..., 0])[sure])
+    hit = sure & (index != 0)
+    cosine = np.abs((ours["normal"] * ours["ray_direction"]).sum(axis=-1))
+    away = np.linalg.norm(position - ours["position"], axis=-1)
+    turned = np.linalg.norm(normal - ours["normal"], axis=-1)
+    thin = index == TEXT
+    assert (away * cosine)[hit & ~thin].max() <= POSITION
+    assert away[hit & thin].max() <= THIN
+    assert turned[hit].max() <= TURNED
+    assert np.median(turned[hit]) <= TURNED / 10
+    mapped = hit & np.isin(index, WITH_MAP)
+    assert np.abs(uv - ours["uv"])[mapped].max() <= MAPPED

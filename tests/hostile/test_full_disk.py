@@ -1,0 +1,86 @@
+"""Disks that are full at another moment each: the new set of files is there, whole, or the old one, and one line."""
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from ..scripts.running import ROOT, script, small
+
+ALONE = ["unshare", "--mount", *([] if hasattr(os, "getuid") and os.getuid() == 0 else ["--map-root-user"])]
+"""The words that give a process mounts of its own, also to who is not root, where the system allows that."""
+
+OLD, NEW = 8, 160
+"""Pixels of a side."""
+
+
+def can_mount():
+    """Whether a file system of a chosen size can be had here."""
+    if shutil.which("unshare") is None:
+        return False
+    return not subprocess.run([*ALONE, "mount", "-t", "tmpfs", "none", "/mnt"], capture_output=True).returncode
+
+
+pytestmark = pytest.mark.skipif(
+    not can_mount(), reason="needs mounts of its own (unshare, as root or in a user namespace)"
+)
+
+
+@pytest.fixture(scope="module")
+def try_sizes(registered, tmp_path_factory):
+    """A function that casts into file systems of so many sizes, from next to nothing free to more than enough."""
+    folder = tmp_path_factory.mktemp("disk")
+    files = {}
+    for size in (OLD, NEW):
+        (folder / str(size)).mkdir()
+        path = small(registered, folder / str(size) / "scene.blend", resolution_x=size, resolution_y=size)
+        files[size] = path
+        assert script("cast", path, "--output", folder / f"out{size}").returncode == 0
+
+    def kilobytes(name):
+        return sum(-(-path.stat().st_size // 4096) * 4 for path in (folder / name).iterdir())
+
+    def try_sizes(count):
+        least, most = kilobytes(f"out{OLD}"), kilobytes(f"out{OLD}") + kilobytes(f"out{NEW}") + 64
+        sizes = [str(4 * round((least + (most - least) * k / (count - 1)) / 4)) for k in range(count)]
+        (folder / "disk").mkdir(exist_ok=True)
+        inside = [Path(__file__).with_name("full_disk.py"), folder / "disk", folder / f"out{OLD}", files[NEW], *sizes]
+        done = subprocess.run(
+            [*ALONE, sys.executable, *map(str, inside)],
+            env=os.environ | {"PYTHONPATH": str(ROOT / "addon")},
+            capture_output=True,
+            text=True,
+            timeout=200,
+        )
+        assert done.returncode == 0, done.stderr
+        return json.loads(done.stdout)
+
+    return try_sizes
+
+
+def check(found):
+    """Each is one of the two outcomes, and both are there."""
+    for one in found:
+        assert one["names"] == ["report.json", "scene.exr", "scene.png"], one
+        if one["status"] == 0:
+            assert (one["same"], one["whole"], one["report"], one["said"]) == ([], True, NEW * NEW, ""), one
+            assert one["exr"] == pytest.approx(max(one["exr"] for one in found), rel=0.01)  # it notes the time, too
+        else:
+            assert one["status"] == 2, one
+            assert one["same"] == one["names"], one
+            (line,) = one["said"].splitlines()
+            assert "cannot write into" in line, one
+    assert {one["status"] for one in found} == {0, 2}
+
+
+def test_a_few_sizes(try_sizes):
+    check(try_sizes(6))
+
+
+@pytest.mark.hostile
+def test_forty_sizes(try_sizes):
+    check(try_sizes(40))
