@@ -26,12 +26,16 @@ EXAMPLES = _by_name(
 
 GALLERY = {
     "Meshes": _by_name(
-        meshes.toys,meshes.twisted_monkey,meshes.rotunda_strip,meshes.street_along,meshes.street_pushbroom,meshes.sculpture_garden,meshes.propeller,
+        meshes.toys,
+        meshes.living_room,
+        meshes.living_room_equirectangular,
         meshes.rotunda_fisheye,
-        meshes.rotunda_cylindrical,
-        meshes.rotunda_omnimax,meshes.rotunda_plain,
-        meshes.room_of_meshes,
-        meshes.room_all_around,
+        meshes.rotunda_panorama,
+        meshes.street,
+        meshes.street_pushbroom,
+        meshes.sculpture_garden,
+        meshes.propeller,
+        meshes.twisted_monkey,
     ),
     "Lenses": _by_name(
         lenses.pinhole,

@@ -70,7 +70,16 @@ def meadow(scene) -> None:
 
 
 def photograph(
-    scene, location, target, width: int = 480, height: int = 300, *, world="9aa0aa", own=None, shading="GRID", **settings
+    scene,
+    location,
+    target,
+    width: int = 480,
+    height: int = 300,
+    *,
+    world="9aa0aa",
+    own=None,
+    shading="GRID",
+    **settings,
 ):
     """Take the picture: camera, its own ``own`` settings of the add-on, size, shading and smooth edges."""
     made = camera(scene, location, target, **settings)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from hashlib import blake2b
 from math import pi, radians
 
 import bpy
@@ -18,7 +19,8 @@ def modified(thing, kind: str, **settings):
 
 
 def drawn(name: str, vertices, edges=(), faces=()):
-    """Return the smooth mesh of this name, made once and shared."""
+    """Return a smooth mesh, made once and shared by all that ask for the same."""
+    name = f"{name} {blake2b(repr((vertices, edges, faces)).encode(), digest_size=4).hexdigest()}"
     if name not in bpy.data.meshes:
         data = bpy.data.meshes.new(name)
         data.from_pydata(vertices, edges, faces)
@@ -26,17 +28,28 @@ def drawn(name: str, vertices, edges=(), faces=()):
     return bpy.data.meshes[name]
 
 
+def sheet(name: str, places, across: int):
+    """Return the mesh of the quads between places that come in rows of ``across``."""
+    corners = [k for k in range(len(places) - across) if (k + 1) % across]
+    return drawn(name, places, faces=[(k, k + 1, k + 1 + across, k + across) for k in corners])
+
+
+def line(name: str, places):
+    """Return the mesh of the edges from place to place: a profile for a screw."""
+    return drawn(name, places, edges=[(k, k + 1) for k in range(len(places) - 1)])
+
+
 def block(scene, name: str, size, place=(0, 0, 0), turn=(0, 0, 0), *, edge: float = 0.01, **look):
     """Add a box of a size along x, y and z, centered, with round edges."""
-    return rounded(add(scene, name, box("box", size), place, turn, **look), edge)
+    return rounded(add(scene, name, box(size), place, turn, **look), edge)
 
 
-def box(name: str, size):
-    """Return the mesh of a box, made once for a name and a size along x, y and z."""
+def box(size):
+    """Return the mesh of a box of a size along x, y and z, centered."""
     x, y, z = (side / 2 for side in size)
     corners = [(a * x, b * y, c * z) for a in (-1, 1) for b in (-1, 1) for c in (-1, 1)]
     sides = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
-    return drawn(f"{name} {size[0]:g} {size[1]:g} {size[2]:g}", corners, faces=sides)
+    return drawn("box", corners, faces=sides)
 
 
 def prism(scene, name: str, outline, depth: float, place=(0, 0, 0), turn=(0, 0, 0), *, edge: float = 0.01, **look):
@@ -45,7 +58,7 @@ def prism(scene, name: str, outline, depth: float, place=(0, 0, 0), turn=(0, 0, 
     ends = [(x, y, z) for y in (-depth / 2, depth / 2) for x, z in outline]
     sides = [(k, (k + 1) % count, (k + 1) % count + count, k + count) for k in range(count)]
     faces = [tuple(range(count))[::-1], tuple(range(count, 2 * count)), *(side[::-1] for side in sides)]
-    return rounded(add(scene, name, drawn(f"prism {name}", ends, faces=faces), place, turn, **look), edge)
+    return rounded(add(scene, name, drawn(name, ends, faces=faces), place, turn, **look), edge)
 
 
 def rounded(thing, edge: float):
@@ -57,8 +70,7 @@ def rounded(thing, edge: float):
 
 def turned(scene, name: str, profile, place=(0, 0, 0), turn=(0, 0, 0), *, steps: int = 48, sharp: float = 35, **look):
     """Add what a lathe makes of a profile of (radius, height); corners of more than ``sharp`` degrees stay sharp."""
-    edges = [(k, k + 1) for k in range(len(profile) - 1)]
-    data = drawn(f"profile {name}", [(radius, 0, height) for radius, height in profile], edges)
+    data = line(name, [(radius, 0, height) for radius, height in profile])
     thing = add(scene, name, data, place, turn, **look)
     modified(thing, "SCREW", steps=steps, render_steps=steps, use_merge_vertices=True, use_normal_calculate=True)
     return modified(thing, "EDGE_SPLIT", split_angle=radians(sharp))
@@ -66,7 +78,7 @@ def turned(scene, name: str, profile, place=(0, 0, 0), turn=(0, 0, 0), *, steps:
 
 def soft(scene, name: str, size, place=(0, 0, 0), turn=(0, 0, 0), *, crease: float = 0.6, **look):
     """Add a cushion: a subdivided box."""
-    thing = add(scene, name, box("cushion", size), place, turn, **look)
+    thing = add(scene, name, box(size), place, turn, **look)
     modified(thing, "BEVEL", width=(1 - crease) * min(size) / 2, segments=1)
     return modified(thing, "SUBSURF", levels=2, render_levels=2)
 

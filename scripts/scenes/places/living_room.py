@@ -4,10 +4,25 @@ from __future__ import annotations
 
 from math import cos, pi, sin
 
-from .parts import add, ico_sphere, lamp, mesh, square, sun, uv_sphere
-from .solids import assembled, block, drawn, modified, monkey, prism, repeated, soft, stand, tube, turned
+from ..parts import add, ico_sphere, lamp, square, sun, uv_sphere
+from ..solids import (
+    assembled,
+    block,
+    drawn,
+    line,
+    modified,
+    monkey,
+    prism,
+    repeated,
+    sheet,
+    soft,
+    stand,
+    tube,
+    turned,
+)
 
-WALLS, FLOOR, TABLE, CHAIRS, SHELF, BOOKS, SOFA, LAMPS, PLANT, DISHES, WINDOW, OUTSIDE, PICTURE, DOOR, FIGURE = range(1, 16)
+WALLS, FLOOR, WINDOW, OUTSIDE, DOOR, TABLE, CHAIRS, SOFA, SHELF = range(1, 10)
+BOOKS, LAMPS, PLANT, DISHES, PICTURE, FIGURE = range(10, 16)
 WOOD, DARK_WOOD, WHITE = "b98a5e", "8b6242", "f2efe8"
 
 
@@ -29,33 +44,29 @@ def shell(scene) -> None:
     """Add floor boards, walls, a window with curtains, a ceiling with beams."""
     add(scene, "Ground", square(), (0, 0, -0.03), scale=(3.3, 3.1, 1), color="5b4532", index=FLOOR)
     for k, color in enumerate(("c29669", "b58859", "caa075")):
-        plank = block(scene, "Plank", (1.29, 0.194, 0.03), (-3.2 + 0.43 * k, -2.9 + 0.2 * k, -0.015), edge=0.004,
+        plank = block(scene, "Plank", (1.29, 0.194, 0.03), (-3.63 + 0.43 * k, -2.9 + 0.2 * k, -0.015), edge=0.004,
                       color=color, index=FLOOR)  # fmt: skip
-        repeated(plank, (6, (1.3, 0, 0)), (10, (0, 0.6, 0)))
+        repeated(plank, (7, (1.3, 0, 0)), (10, (0, 0.6, 0)))
     for name, place, turn, half, color in (
-        ("Back wall", (0, 3, 1.35), (90, 0, 0), 3.2, "dfe3dd"),
+        ("Back wall", (0, 3, 1.35), (90, 0, 0), 3.2, "eae4d6"),
         ("Front wall", (0, -3, 1.35), (90, 0, 180), 3.2, "e9dfce"),
-        ("Right wall", (3.2, 0, 1.35), (90, 0, -90), 3.0, "c8d5d6"),
+        ("Right wall", (3.2, 0, 1.35), (90, 0, -90), 3.0, "d3ddd6"),
     ):
         add(scene, name, square(), place, turn, (half + 0.01, 1.36, 1), color=color, index=WALLS)
         skirting = block(scene, "Skirting", (2 * half, 0.02, 0.09), place, turn, color=WHITE, index=WALLS)
         skirting.rotation_euler.x, skirting.location.z = 0, 0.045
     add(scene, "Ceiling", square(), (0, 0, 2.7), (180, 0, 0), (3.21, 3.01, 1), color=WHITE, index=WALLS)
-    repeated(
-        block(scene, "Beam", (6.4, 0.14, 0.16), (0, -2.25, 2.63), color=DARK_WOOD, index=WALLS), (4, (0, 1.5, 0))
-    )
+    repeated(block(scene, "Beam", (6.4, 0.14, 0.16), (0, -2.25, 2.63), color=DARK_WOOD, index=WALLS), (4, (0, 1.5, 0)))
     corners = [(-3, 0), (3, 0), (3, 2.7), (-3, 2.7), (-1.3, 0.85), (1.3, 0.85), (1.3, 2.3), (-1.3, 2.3)]
     sides = [(k, (k + 1) % 4, (k + 1) % 4 + 4, k + 4) for k in range(4)]
     wall = drawn("wall with a window", [(0, y, z) for y, z in corners], faces=sides)
     wall.shade_flat()
-    modified(add(scene, "Left wall", wall, (-3.2, 0, 0), color="dcd7c8", index=WALLS), "SOLIDIFY", thickness=0.2)
+    modified(add(scene, "Left wall", wall, (-3.2, 0, 0), color="e6dfd0", index=WALLS), "SOLIDIFY", thickness=0.2)
     panes = [(0, 1.3 * a / 2, 1.575 + 0.725 * b) for a in range(-2, 3) for b in range(-1, 2)]
-    squares = [(k, k + 1, k + 4, k + 3) for j in range(4) for k in (3 * j, 3 * j + 1)]
-    frame = add(scene, "Window", drawn("panes", panes, faces=squares), (-3.27, 0, 0), color=WHITE, index=WINDOW)
+    frame = add(scene, "Window", sheet("panes", panes, 3), (-3.27, 0, 0), color=WHITE, index=WINDOW)
     modified(frame, "WIREFRAME", thickness=0.07)
     block(scene, "Sill", (0.3, 2.8, 0.04), (-3.12, 0, 0.85), color=WHITE, index=WINDOW)
-    waves = [(0.035 * sin(0.7 * k), 0.01 * k) for k in range(47)]
-    cloth = drawn("curtain", [(x, y, 0) for x, y in waves], [(k, k + 1) for k in range(46)])
+    cloth = line("curtain", [(0.035 * sin(0.7 * k), 0.01 * k, 0) for k in range(47)])
     for y in (-1.75, 1.29):
         curtain = add(scene, "Curtain", cloth, (-3.1, y, 0.12), color="d98f6c", index=WINDOW)
         modified(curtain, "SCREW", angle=0, screw_offset=2.28, steps=1, render_steps=1)
@@ -64,8 +75,7 @@ def shell(scene) -> None:
 
 def outside(scene) -> None:
     """Add what the window shows: a meadow, hills and trees."""
-    meadow = add(scene, "Meadow", square(), (0, 0, -0.4), color="a9c47f", index=OUTSIDE)
-    meadow.camera_ray_caster.primitive = "INFINITE_PLANE"
+    add(scene, "Meadow", square(), (-60, 0, -0.4), scale=56, color="a9c47f", index=OUTSIDE)
     for k in range(5):
         hill = (-34 - 4 * sin(2 * k), -26 + 13 * k, -2), (0, 0, 0), (9, 11, 3.4 + cos(2 * k))
         add(scene, "Hill", uv_sphere(), *hill, color="c4dcc0", index=OUTSIDE)
@@ -78,7 +88,15 @@ def dining(scene) -> None:
     """Add a rug, a table that is laid, four chairs and a lamp above it."""
     at = -0.3, 0
     for radius, high, color in ((1.75, 0.008, "3f6f8f"), (1.55, 0.012, "e9dcc3"), (1.45, 0.016, "5f8fa8")):
-        turned(scene, f"Rug {color}", [(0, high), (radius, high), (radius, 0)], (*at, 0), steps=64, color=color, index=FLOOR)
+        turned(
+            scene,
+            f"Rug {color}",
+            [(0, high), (radius, high), (radius, 0)],
+            (*at, 0),
+            steps=64,
+            color=color,
+            index=FLOOR,
+        )
     block(scene, "Table top", (1.7, 0.95, 0.05), (*at, 0.735), edge=0.015, color=WOOD, index=TABLE)
     block(scene, "Apron", (1.5, 0.75, 0.08), (*at, 0.67), color=DARK_WOOD, index=TABLE)
     leg = [(0, 0), (0.022, 0), (0.04, 0.55), (0.03, 0.57), (0.045, 0.6), (0.045, 0.7)]
@@ -149,16 +167,50 @@ def lounge(scene) -> None:
         soft(scene, "Arm", (0.86, 0.22, 0.55), (x, y, 0.36), color=gray, index=SOFA)
     for y in (-0.83, 0.13):
         soft(scene, "Cushion", (0.66, 0.95, 0.18), (x - 0.1, y, 0.47), color="8f9db2", index=SOFA)
-    soft(scene, "Pillow", (0.16, 0.44, 0.44), (x + 0.12, 0.38, 0.75), (0, 20, 6), crease=0.2, color="f0b941", index=SOFA)
-    soft(scene, "Pillow", (0.16, 0.44, 0.44), (x + 0.1, -1.05, 0.75), (0, 20, -10), crease=0.2, color="e2674a", index=SOFA)
+    soft(
+        scene, "Pillow", (0.16, 0.44, 0.44), (x + 0.12, 0.38, 0.75), (0, 20, 6), crease=0.2, color="f0b941", index=SOFA
+    )
+    soft(
+        scene,
+        "Pillow",
+        (0.16, 0.44, 0.44),
+        (x + 0.1, -1.05, 0.75),
+        (0, 20, -10),
+        crease=0.2,
+        color="e2674a",
+        index=SOFA,
+    )
     frame = block(scene, "Frame", (0.03, 1.3, 0.8), (3.18, -0.35, 1.65), color=DARK_WOOD, index=PICTURE)
     block(scene, "Sky", (0.03, 1.2, 0.7), (3.17, -0.35, 1.65), edge=0, color="bcd7ea", index=PICTURE)
     for name, outline, color, out in (
-        ("Far mountain", ((-0.6, 0), (0.6, 0), (0.6, 0.22), (0.3, 0.45), (0.05, 0.2), (-0.25, 0.38), (-0.6, 0.1)), "7f9fb8", 0.018),
+        (
+            "Far mountain",
+            ((-0.6, 0), (0.6, 0), (0.6, 0.22), (0.3, 0.45), (0.05, 0.2), (-0.25, 0.38), (-0.6, 0.1)),
+            "7f9fb8",
+            0.018,
+        ),
         ("Near mountain", ((-0.6, 0), (0.6, 0), (0.6, 0.05), (0.1, 0.16), (-0.3, 0.3), (-0.6, 0.2)), "3f6f6a", 0.022),
     ):
-        prism(scene, name, outline, 0.01, (3.17 - out, frame.location.y, 1.3), (0, 0, 90), edge=0, color=color, index=PICTURE)
-    turned(scene, "Sun disc", [(0, 0), (0.09, 0), (0.09, -0.01)], (3.15, -0.65, 1.83), (0, -90, 0), color="f0b941", index=PICTURE)
+        prism(
+            scene,
+            name,
+            outline,
+            0.01,
+            (3.17 - out, frame.location.y, 1.3),
+            (0, 0, 90),
+            edge=0,
+            color=color,
+            index=PICTURE,
+        )
+    turned(
+        scene,
+        "Sun disc",
+        [(0, 0), (0.09, 0), (0.09, -0.01)],
+        (3.15, -0.65, 1.83),
+        (0, -90, 0),
+        color="f0b941",
+        index=PICTURE,
+    )
     foot = [(0, 0), (0.15, 0), (0.15, 0.02), (0.015, 0.04), (0.012, 1.5), (0, 1.5)]
     turned(scene, "Stem", foot, (2.75, 1.25, 0), color="3a3a44", index=LAMPS)
     shade = [(0.22, 0), (0.13, 0.3), (0.124, 0.3), (0.214, 0)]
@@ -172,8 +224,7 @@ def plant(scene, place) -> None:
     spine = [(0.02, 0, 0), (0.16, 0.1, 0.4), (0.42, 0.13, 0.72), (0.75, 0.08, 0.8), (0.98, 0, 0.62)]
     rows = [(x, side * half, z - 0.25 * half) for x, half, z in ((x, w, z) for x, w, z in spine) for side in (-1, 0, 1)]
     rows = [(x, y, z if k % 3 != 1 else z - 0.04) for k, (x, y, z) in enumerate(rows)]
-    faces = [(3 * j + k, 3 * j + k + 1, 3 * j + k + 4, 3 * j + k + 3) for j in range(4) for k in range(2)]
-    leaf = drawn("leaf", rows, faces=faces)
+    leaf = sheet("leaf", rows, 3)
     for k in range(13):
         size = 0.75 + 0.25 * sin(2.6 * k)
         turn = 0, -22 - 26 * (k % 3), 137.5 * k
@@ -193,7 +244,9 @@ def entrance(scene) -> None:
     block(scene, "Sideboard", (1.7, 0.45, 0.6), (-0.9, -2.75, 0.45), edge=0.02, color=WOOD, index=SHELF)
     doors = block(scene, "Sideboard door", (0.52, 0.02, 0.5), (-1.45, -2.52, 0.45), color=DARK_WOOD, index=SHELF)
     repeated(doors, (3, (0.55, 0, 0)))
-    repeated(block(scene, "Foot", (0.05, 0.05, 0.16), (-1.65, -2.6, 0.08), color=DARK_WOOD, index=SHELF), (2, (1.5, 0, 0)))
+    repeated(
+        block(scene, "Foot", (0.05, 0.05, 0.16), (-1.65, -2.6, 0.08), color=DARK_WOOD, index=SHELF), (2, (1.5, 0, 0))
+    )
     turned(scene, "Tall vase", [(1.5 * r, 1.5 * z) for r, z in VASE], (-1.4, -2.75, 0.75), color="2a9d8f", index=DISHES)
     rim = [(0, 0.02), (0.2, 0.02), (0.2, 0.05), (0.23, 0.05), (0.23, 0)]
     turned(scene, "Clock", rim, (-0.6, -3, 1.75), (-90, 0, 0), color=WHITE, index=FIGURE)

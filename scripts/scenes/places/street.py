@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from math import pi, sin
+from math import sin
 
-from .outdoors import tree
-from .parts import add, square, sun, uv_sphere
-from .solids import assembled, block, modified, prism, repeated, soft, stand, turned
+from ..parts import add, square, sun, uv_sphere
+from ..solids import assembled, block, prism, repeated, soft, stand, turned
+from .tree import tree
 
 GROUND, HOUSE, WINDOW, DOOR, LAMP, CAR, ROOF = range(1, 8)
 WHITE, GLASS, IRON = "f2efe8", "4f6f86", "3a4048"
@@ -18,10 +18,13 @@ HOUSES = (
 )  # fmt: skip
 """Width, height of the eaves, gable, color, windows side by side."""
 
+GABLES = {"steps": 2.2, "bell": 2.0, "point": 2.4}
+"""How high each kind is."""
+
 
 def street(scene) -> None:
     """Fill the scene."""
-    add(scene, "Lawn", square(), (0, 0, -0.2), color="8faa72", index=GROUND).camera_ray_caster.primitive = "INFINITE_PLANE"
+    add(scene, "Lawn", square(), (0, 0, -0.2), scale=90, color="8faa72", index=GROUND)
     block(scene, "Road", (60, 7, 0.2), (0, -2.3, -0.1), edge=0, color="77777c", index=GROUND)
     dash = block(scene, "Dash", (1.2, 0.12, 0.01), (-24, -2.3, 0.005), edge=0, color=WHITE, index=GROUND)
     repeated(dash, (21, (2.4, 0, 0)))
@@ -35,8 +38,8 @@ def street(scene) -> None:
     for k, x in enumerate((-13.4, -5.2, 3.6, 12.2)):
         tree(scene, (x, 1.7, 0.1), 1.5 + 0.2 * sin(2 * k), k)
     lantern = assembled(scene, "Lantern", [
-        turned(scene, "Post", [(0, 0), (0.14, 0), (0.14, 0.1), (0.06, 0.25), (0.045, 2.8), (0.12, 2.9), (0, 2.9)], steps=16,
-               color=IRON, index=LAMP),
+        turned(scene, "Post", [(0, 0), (0.14, 0), (0.14, 0.1), (0.06, 0.25), (0.045, 2.8), (0.12, 2.9), (0, 2.9)],
+               steps=16, color=IRON, index=LAMP),
         add(scene, "Globe", uv_sphere(), (0, 0, 3.1), scale=0.22, color="fff0c0", index=LAMP),
         turned(scene, "Cap", [(0.26, 3.28), (0.05, 3.46), (0, 3.48)], steps=16, color=IRON, index=LAMP),
     ])  # fmt: skip
@@ -64,24 +67,21 @@ def window(scene):
 
 def house(scene, number, x, width, eaves, gable, color, count, windows) -> None:
     """Add a house in the row."""
-    half, top = width / 2, eaves + {"steps": 2.2, "bell": 2.0, "point": 2.4}[gable]
+    half, top = width / 2, eaves + GABLES[gable]
     right = {
-        "steps": [(half - half * k / 4 * 0.9, eaves + 0.55 * (k + j)) for k in range(4) for j in (0, 1)],
-        "bell": [(half * (0.52 + 0.48 * (1 - u) ** 2.2), eaves + 1.5 * u) for u in (k / 6 for k in range(7))]
-        + [(half * 0.5 * (1 - u * u) ** 0.5, eaves + 1.5 + 0.5 * u) for u in (0.3, 0.6, 0.85)],
-        "point": [(half, eaves), (0.25, top - 0.1)],
+        "steps": [(half * (1 - 0.225 * k), eaves + 0.55 * (k + j)) for k in range(4) for j in (0, 1)],
+        "bell": [(half * (0.52 + 0.48 * (1 - u / 6) ** 2.2), eaves + 0.25 * u) for u in range(7)]
+        + [(half * 0.5 * (1 - u * u) ** 0.5, eaves + 1.5 + 0.5 * u) for u in (0.3, 0.6, 0.85, 0.97)],
+        "point": [(half, eaves), (0.25, top - 0.1), (0.25, top)],
     }[gable]
-    if gable != "steps":
-        right = [*right, (0.0, top)] if gable == "bell" else [*right, (0.25, top)]
-    left = [(-a, b) for a, b in reversed(right) if a]
-    outline = [(-half, 0), (half, 0), *right, *left]
-    prism(scene, f"Front {number}", outline, 0.4, (x, 4.2, 0), edge=0.03, color=color, index=HOUSE)
+    outline = [(-half, 0), (half, 0), *right, *((-a, b) for a, b in reversed(right))]
+    prism(scene, f"Front {number}", outline, 0.4, (x, 4.2, 0), edge=0, color=color, index=HOUSE)
     roof = [(-half, 0), (half, 0), (half, eaves - 0.2), (0, top - 0.5), (-half, eaves - 0.2)]
     prism(scene, f"Behind {number}", roof, 7, (x, 7.8, 0), edge=0, color="7a5650", index=ROOF)
     block(scene, "Plinth", (width - 0.06, 0.1, 0.5), (x, 3.97, 0.25), color="a39a8e", index=HOUSE)
     block(scene, "Cornice", (width - 0.02, 0.16, 0.14), (x, 3.95, eaves - 0.12), edge=0.03, color=WHITE, index=HOUSE)
     gap, floors = (width - 0.3) / count, 2 if eaves < 6.5 else 3
-    rise = (eaves - 2.9) / (floors - 1 or 1) if floors == 2 else (eaves - 2.6) / 2
+    rise = (eaves - 2.7) / (floors - 1)
     for row in range(floors):
         for column in range(count):
             at = x + (column - (count - 1) / 2) * gap
@@ -89,9 +89,9 @@ def house(scene, number, x, width, eaves, gable, color, count, windows) -> None:
                 entry(scene, at, ("2f5d50", "7a3038", "31486b")[number % 3])
             else:
                 stand(scene, windows, (at, 3.98, 1.55 + rise * row), scale=(0.95, 1, 1))
-    turned(scene, "Oculus", [(0, 0.02), (0.32, 0.02), (0.32, 0.08), (0.4, 0.08), (0.4, 0)], (x, 4.0, eaves + 0.75), (90, 0, 0),
-           steps=32, color=WHITE, index=WINDOW)  # fmt: skip
-    turned(scene, "Pane", [(0, 0.035), (0.3, 0.035)], (x, 4.0, eaves + 0.75), (90, 0, 0), steps=32, color=GLASS, index=WINDOW)
+    middle, rim = ((x, 4.0, eaves + 0.75), (90, 0, 0)), [(0, 0.02), (0.32, 0.02), (0.32, 0.08), (0.4, 0.08), (0.4, 0)]
+    turned(scene, "Oculus", rim, *middle, steps=32, color=WHITE, index=WINDOW)
+    turned(scene, "Pane", [(0, 0.035), (0.3, 0.035)], *middle, steps=32, color=GLASS, index=WINDOW)
 
 
 def entry(scene, x: float, color: str) -> None:

@@ -1,25 +1,23 @@
-"""Places of meshes within walls: toys before a backdrop, and a living room."""
+"""Toys on a photographer's backdrop."""
 
 from __future__ import annotations
 
 from math import cos, pi, radians, sin
 
-from .parts import add, ico_sphere, lamp, mesh, square, sun, uv_sphere
-from .solids import assembled, block, drawn, letters, modified, monkey, prism, repeated, soft, stand, tube, turned
+from ..parts import add, ico_sphere, sun, uv_sphere
+from ..solids import block, line, modified, monkey, turned
 
-RED, TEAL, YELLOW, BLUE, PURPLE, PINK, CREAM, DARK = (
-    "e2674a", "2a9d8f", "f0b941", "3f7cc0", "8a63b8", "d9809a", "eae1d0", "2b2d42",
-)  # fmt: skip
-WOOD, PALE_WOOD, WALL = "a9764c", "c9a27a", "e6e0d4"
+RED, TEAL, YELLOW, BLUE, PURPLE, PINK = "e2674a", "2a9d8f", "f0b941", "3f7cc0", "8a63b8", "d9809a"
 
 
 def backdrop(scene) -> None:
-    """Add a floor that rises behind in a smooth curve."""
+    """Add a floor that rises behind in a smooth curve, and two lights."""
     bend = [(6 + 3 * sin(radians(angle)), 3 - 3 * cos(radians(angle))) for angle in range(0, 91, 6)]
     profile = [(-14, 0), (2, 0), (4, 0), *bend, (9, 5), (9, 12)]
-    data = drawn("backdrop", [(-20, y, z) for y, z in profile], [(k, k + 1) for k in range(len(profile) - 1)])
-    floor = add(scene, "Backdrop", data, color="d5d3ce", index=1)
+    floor = add(scene, "Backdrop", line("backdrop", [(-20, y, z) for y, z in profile]), color="d5d3ce", index=1)
     modified(floor, "SCREW", axis="X", angle=0, screw_offset=40, steps=1, render_steps=1)
+    sun(scene, (44, 0, -42), 2.3, "fff2df")
+    sun(scene, (58, 0, 62), 0.8, "cfe0ff")
 
 
 def toy_table(scene) -> None:
@@ -30,15 +28,13 @@ def toy_table(scene) -> None:
     block(scene, "Small cube", (0.66,) * 3, (1.25, -1.75, 0.33), (0, 0, -24), edge=0.05, color=YELLOW, index=4)
     turned(scene, "Cylinder", disc(0.62, 1.25, 0.07), (2.75, 0.75, 0), color=TEAL, index=5)
     turned(scene, "Small cylinder", disc(0.36, 0.6, 0.05), (-1.5, -1.6, 0.36), (90, 0, 52), color=PURPLE, index=6)
-    add(scene, "Ball", uv_sphere(), (4.4, 2.6, 0.85), scale=0.85, color=PURPLE, index=7)
+    add(scene, "Ball", uv_sphere(), (4.0, 2.8, 0.85), scale=0.85, color=PURPLE, index=7)
     add(scene, "Small ball", uv_sphere(), (-0.25, -2.35, 0.34), scale=0.34, color=TEAL, index=8)
     add(scene, "Marble", ico_sphere(), (3.0, -1.35, 0.26), scale=0.26, color=RED, index=9)
     cone = [(0, 0), (0.62, 0), (0.66, 0.05), (0.05, 1.5), (0, 1.52)]
-    turned(scene, "Cone", cone, (-4.1, 2.6, 0), color=YELLOW, index=10)
-    ring(scene, "Ring", 0.55, 0.2, (-3.6, -0.9, 0.2), color=CREAM, index=11)
+    turned(scene, "Cone", cone, (-3.9, 2.5, 0), color=YELLOW, index=10)
+    ring(scene, "Ring", 0.55, 0.2, (-3.0, -0.85, 0.2), color="eae1d0", index=11)
     ring(scene, "Upright ring", 0.46, 0.17, (1.95, 2.9, 0.63), (90, 0, 30), color=PINK, index=12)
-    sun(scene, (44, 0, -42), 2.3, "fff2df")
-    sun(scene, (58, 0, 62), 0.8, "cfe0ff")
 
 
 def disc(radius: float, high: float, edge: float):
