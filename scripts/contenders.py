@@ -8,7 +8,7 @@ Embree sees them as icospheres, since embreex knows only triangles.
 from __future__ import annotations
 
 from collections.abc import Callable
-from importlib.util import find_spec
+from importlib import import_module
 
 import numpy as np
 
@@ -132,5 +132,9 @@ def embree(camera, shapes):
 
 
 def has(module: str) -> bool:
-    """Whether a module is installed."""
-    return find_spec(module) is not None
+    """Whether a module is installed, with the libraries that it needs."""
+    try:
+        import_module(module)
+    except ImportError:
+        return False
+    return True

@@ -5,6 +5,7 @@ import pytest
 
 from camera_ray_caster.core.camera.build import camera_from
 from camera_ray_caster.core.cameras import MODELS
+from camera_ray_caster.core.maths.rotations import rotation
 from camera_ray_caster.core.records import BlenderCamera
 from camera_ray_caster.core.report.verification import verify
 
@@ -179,3 +180,19 @@ def test_a_window_without_rays_has_nothing_to_err():
     corner = {"use_border": True, "border_max_x": 0.05, "border_max_y": 0.05}
     (finding,) = verify(camera("FISHEYE_EQUIDISTANT", corner))
     assert (finding.points, finding.worst_pixels, finding.passed) == (0, 0.0, True)
+
+
+def test_a_pixel_whose_ray_bends_so_much_that_no_other_has_one_is_rounded_as_all_are():
+    """The middle one, which no distortion moves: it comes back to a unit of its last place."""
+    lens = {"k1": -1e30, "cx": 960.0, "cy": 540.0, "fx": 1500.0, "fy": 1500.0}
+    size = {"calibration_width": 0, "calibration_height": 0, "resolution_x": 1921, "resolution_y": 1081}
+    off = 0.0
+    for turn in np.linspace(0, 3, 40):
+        matrix = np.eye(4)
+        matrix[:3, :3] = rotation(np.array([[turn, 0.3, turn / 2]]))[0]
+        matrix[:3, 3] = 7.36, -6.93, 4.96
+        (finding,) = verify(camera("OPENCV_PINHOLE", lens | size | {"matrix_world": matrix}))
+        assert finding.points == 1
+        assert finding.passed, finding
+        off = max(off, finding.worst_pixels)
+    assert off > 0

@@ -67,7 +67,7 @@ class Disc(AffineKind):
 
     def normal_error(self, hits, point):
         """A constant's."""
-        return hits.local.rounding
+        return hits.local.frame.rounding
 
     def decide(self, shapes, local):
         """How far inside of the edge."""

@@ -11,8 +11,9 @@ import numpy as np
 
 from camera_ray_caster.core.conventions import gamma
 from camera_ray_caster.core.maths.vector import difference, dot, matrix_rows, matvec, norm, unit
-from camera_ray_caster.core.shapes.frames import InCamera, LocalRays
+from camera_ray_caster.core.shapes.frames import InCamera
 from camera_ray_caster.core.shapes.kind import Candidates, HitPixels, Kind, ShapeErrors, ShapeSet, Visible
+from camera_ray_caster.core.shapes.local_rays import LocalRays
 
 FACES = np.array([[1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 1, 1]], float)
 """The planes face . q = OFFSETS of the corner between the origin and the ends of the axes."""
@@ -55,7 +56,7 @@ class Tetrahedron(Kind):
 
     def errors(self, shapes, pixels, rays, from_eye, unit):
         """Of the triangles that are hit."""
-        return TetrahedronErrors(pixels, LocalRays(shapes.tables, pixels.at, rays, from_eye))
+        return TetrahedronErrors(pixels, LocalRays(shapes, pixels.at, rays, from_eye))
 
     def decision(self, shapes, at, rays, from_eye):
         """Always open."""
@@ -105,16 +106,16 @@ class TetrahedronErrors(ShapeErrors):
         """See ``ShapeErrors``."""
         face = self.pixels.kept("face", np.int8)
         normal, offset = FACES[face].T, OFFSETS[face]
-        local, tau = self.local, self.pixels.t / self.local.scale
+        local, tau = self.local, self.pixels.t / self.local.frame.scale
         d, n = dot(normal, local.d), dot(normal, local.n)
         d_error = np.sqrt(3) * (local.d_error + gamma(4) * norm(local.d))
         n_error = np.sqrt(3) * (local.n_error + gamma(4) * (norm(local.n) + offset))
         residual = np.abs(tau * d - n - offset) + np.abs(tau) * d_error + n_error
-        return residual / (np.abs(d) - d_error) * local.scale
+        return residual / (np.abs(d) - d_error) * local.frame.scale
 
     def normal(self, point):
         """A constant's of the triangle, as far as the axes are not skew."""
-        return 3 * self.local.rounding + gamma(8)
+        return 3 * self.local.frame.rounding + gamma(8)
 
 
 TETRAHEDRA = Tetrahedron()

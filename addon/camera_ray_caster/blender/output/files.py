@@ -3,14 +3,19 @@
 import os
 from contextlib import redirect_stdout
 from dataclasses import replace
+from math import ceil
 from pathlib import Path
 from time import perf_counter
 
 import bpy
+import numpy as np
 
+from ...core.casting.passes import image_bytes
+from ...core.memory import of_pixels, require
 from ...core.records import Cancelled, InputError
 from ...core.report.report import Report, as_json
 from ..engine.engine import CameraRayCaster
+from ..engine.passes import ticked
 from ..terminal import signals
 from ..terminal.opening import not_run, reported
 from . import file_outputs, reports
@@ -45,6 +50,7 @@ def render(scene, folder: Path, name: str, number: str = "", file_output: bool =
     cannot be written, Cancelled where it is stopped.
     """
     _check_suffixes(scene.render)
+    _check_memory(scene)
     with appearing(folder) as temporary:
         report = _composited(scene, file_output)
         started = perf_counter()
@@ -105,6 +111,18 @@ def _save(scene, path: Path, settings) -> None:
     except RuntimeError as error:
         if not _views_written(scene.render, path):
             raise OSError(0, str(error).strip()) from error
+
+
+def _check_memory(scene) -> None:
+    """Raise InputError where Blender's own copy of the passes takes more memory than there is: it makes that first."""
+    render = scene.render
+    shape = [side * render.resolution_percentage // 100 for side in (render.resolution_y, render.resolution_x)]
+    if render.use_border and render.use_crop_to_border:
+        borders = (render.border_min_y, render.border_max_y), (render.border_min_x, render.border_max_x)
+        shape = [ceil(side * (high - low)) for side, (low, high) in zip(shape, borders, strict=True)]
+    layers = (layer for layer in scene.view_layers if layer.use)
+    asked = [entry.key for layer in layers for entry in ticked(scene, layer)]
+    require(image_bytes(tuple(shape), asked, np.float32), of_pixels("the passes", tuple(shape)))
 
 
 def _check_suffixes(render) -> None:

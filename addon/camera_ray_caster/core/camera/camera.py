@@ -127,6 +127,10 @@ class Camera:
         """How many times as long vectors become at most, from the camera's frame to the world: 1 without shear."""
         return float(np.linalg.norm(self.pose.basis, 2))
 
+    def length_of(self, direction):
+        """Return the world's length of what ``camera_rays`` gives; of a row and a column it is one sum."""
+        return norm(direction if self.is_rigid else matvec(self.pose.basis, direction))
+
     @property
     def is_rigid(self) -> bool:
         """Whether the basis is orthogonal to rounding, so that camera lengths are world lengths."""
@@ -185,7 +189,7 @@ class Camera:
 
     def _write_by_formula(self, x, y, origins, directions) -> None:
         origin, direction = self.camera_rays(x, y)
-        scale = 1.0 / self._length(direction) if self.model.planar else 1.0
+        scale = 1.0 / self.length_of(direction) if self.model.planar else 1.0
         for axis, row in enumerate(self.pose.basis):
             np.multiply(dot(row, direction), scale, out=directions[..., axis])
             if not self.model.central:
@@ -196,10 +200,6 @@ class Camera:
         directions, origins = np.empty((2, *np.broadcast_shapes(x.shape, y.shape), 3))
         self._write_by_formula(x, y, origins, directions)
         return components((directions, origins)[part])
-
-    def _length(self, direction):
-        """Return the world's length of what ``camera_rays`` gives; of a row and a column it is one sum."""
-        return norm(direction if self.is_rigid else matvec(self.pose.basis, direction))
 
     def _timed_rays(self, pixel_time: PixelTime, x, y) -> Rays:
         """Return what ``rays_at`` does, of the camera at each pixel's own time."""

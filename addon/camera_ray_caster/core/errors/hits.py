@@ -36,8 +36,7 @@ class HitErrors:
     @lazy
     def t_error(self) -> np.ndarray:
         """Of t, the depth that Blender's pass shows; inf where nothing is known."""
-        error = self._shape.t
-        return np.where(np.isnan(error), np.inf, error) + EPS * np.abs(self.t)
+        return np.fmin(self._shape.t, np.inf) + EPS * np.abs(self.t)
 
     @lazy
     def distance(self) -> np.ndarray:
@@ -63,8 +62,7 @@ class HitErrors:
     @lazy
     def normal(self) -> np.ndarray:
         """Of the unit normal, as a vector's length; 2 where nothing is known."""
-        error = self._shape.normal(self.point) + gamma(8)
-        return np.where(error < 2, error, 2.0)
+        return np.fmin(self._shape.normal(self.point) + gamma(8), 2.0)
 
 
 def decision(camera: Camera, shapes: InCamera, at: int, x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

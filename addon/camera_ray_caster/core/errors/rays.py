@@ -5,6 +5,8 @@ All lengths of error vectors are Euclidean, in the manner of gamma(n): they hold
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from ..camera.camera import Camera
@@ -22,23 +24,26 @@ def world_rays(camera: Camera, x: np.ndarray, y: np.ndarray) -> WorldRays:
     How far a moved pixel moves the ray is measured, whatever the model: near a singular place, as the rim of a mirror
     ball, rays turn fast and errors grow.
     """
+    x, y = np.asarray(x), np.asarray(y)
     here = camera.camera_rays(x, y)
-    moves = ((STEP, 0.0), (-STEP, 0.0)), ((0.0, STEP), (0.0, -STEP))
-    moved = [[camera.camera_rays(x + dx, y + dy) for dx, dy in axis] for axis in moves]
-    in_pixels = camera.model.pixel_rounding(x, y)
+    sides = STEP, -STEP
+    beside = camera.camera_rays(np.add.outer(sides, x), y[None]), camera.camera_rays(x[None], np.add.outer(sides, y))
+    pixels = camera.model.pixel_rounding(x, y)
     basis = camera.pose.basis.tolist()
-    parts = []
-    for part in range(2):
-        length = norm(here[part])
-        error = (camera.stretch * camera.model.ray_rounding + gamma(8)) * length
-        for pixels, there in zip(in_pixels, moved, strict=True):
-            turned = np.fmax(*(_apart(rays[part], here[part]) for rays in there))
-            error = error + camera.stretch / STEP * pixels * turned
-        parts.append((matvec(basis, here[part]), error))
-    return WorldRays(parts[0][0], parts[1][0], parts[0][1], parts[1][1])
+
+    def moved(part: int) -> tuple[Any, Any]:
+        """Return a vector in the world, and how wrong it is at most."""
+        error = (camera.stretch * camera.model.ray_rounding + gamma(8)) * norm(here[part])
+        for there, rounding in zip(beside, pixels, strict=True):
+            error = error + camera.stretch / STEP * rounding * _farthest(difference(there[part], here[part]))
+        return matvec(basis, here[part]), error
+
+    origin, origin_error = ((0.0, 0.0, 0.0), 0.0) if camera.model.central else moved(0)
+    direction, direction_error = moved(1)
+    return WorldRays(origin, direction, camera.length_of(here[1]), origin_error, direction_error)
 
 
-def _apart(there, here):
-    """Return the length of the difference; of a row or a column, where the other does not move."""
-    moved = difference(there, here)
-    return norm([component if np.any(component) else 0.0 for component in moved])
+def _farthest(moves) -> Any:
+    """Return the greatest length along the first axis, NaN left out; a row or a column stays one where it can."""
+    lengths = norm([component if np.any(component) else 0.0 for component in moves])
+    return np.fmax.reduce(lengths, axis=0) if np.ndim(lengths) else lengths

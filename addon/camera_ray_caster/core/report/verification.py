@@ -4,9 +4,9 @@ It knows a camera by its public ``rays_at``, ``project``, ``raster`` and ``pose`
 rounding, and no model's formula. Blender's own answers are the witnesses of ``report.witness``; the round trip needs
 none:
 
-round trip             float64: what moving the point by 32 EPS (|eye| + |origin| + |point|) does to its pixel, and what
-                       the model rounds away of a pixel, there and back. It is our own rounding, so it is added to every
-                       other bound.
+round trip             float64: what moving the point by 32 EPS (|eye| + |origin| + |point|) does to its pixel, what the
+                       model rounds away of a pixel, there and back, and the rounding of the pixel itself. It is our
+                       own rounding, so it is added to every other bound.
 """
 
 from __future__ import annotations
@@ -61,7 +61,7 @@ def _round_trip(camera: CameraRays, sample: Sample) -> tuple[tuple[Any, Any], Fi
     back = camera.project(points)
     again = camera.rays_at(back[:, 0], back[:, 1]).directions
     moved = _moved(camera, sample)[valid]
-    bound = np.broadcast_to(2 * np.hypot(*camera.pixel_rounding(*pixels.T)), len(points)).copy()
+    bound = 2 * np.hypot(*camera.pixel_rounding(*pixels.T)) + gamma(4) * length_of(pixels)
     for side in np.eye(3):
         slips = []
         for times in MOVES:

@@ -14,8 +14,9 @@ import numpy as np
 from ..maths.speed import Scratch, lazy
 from ..maths.vector import components, difference, matrix_rows, matvec
 from .affine_search import AffineSet, Group, divide
-from .frames import InCamera, LocalRays, WorldRays
+from .frames import InCamera, WorldRays
 from .kind import HitPixels, Kind, ShapeErrors, Visible
+from .local_rays import LocalRays
 
 
 class Lattice(Protocol):
@@ -85,11 +86,11 @@ class AffineKind(Kind):
 
     def errors(self, shapes: InCamera, pixels: HitPixels, rays: WorldRays, from_eye: bool, unit: bool) -> AffineErrors:
         """See ``Kind``."""
-        return AffineErrors(self, shapes, pixels, LocalRays(shapes.tables, pixels.at, rays, from_eye), unit)
+        return AffineErrors(self, shapes, pixels, LocalRays(shapes, pixels.at, rays, from_eye), unit)
 
     def decision(self, shapes: InCamera, at: np.ndarray, rays: WorldRays, from_eye: bool) -> tuple[Any, Any]:
         """See ``Kind``."""
-        return self.decide(shapes, LocalRays(shapes.tables, at, rays, from_eye))
+        return self.decide(shapes, LocalRays(shapes, at, rays, from_eye))
 
 
 @dataclass(frozen=True, eq=False)
@@ -106,12 +107,12 @@ class AffineErrors(ShapeErrors):
     @lazy
     def tau(self) -> np.ndarray:
         """The t of the scaled rays."""
-        return self.pixels.t / self.local.scale
+        return self.pixels.t / self.local.frame.scale
 
     @property
     def t(self) -> np.ndarray:
         """See ``ShapeErrors``."""
-        return self.kind.root_error(self) * self.local.scale
+        return self.kind.root_error(self) * self.local.frame.scale
 
     def normal(self, point: np.ndarray) -> np.ndarray:
         """See ``ShapeErrors``."""

@@ -18,8 +18,9 @@ from ..conventions import EPS, gamma
 from ..maths.vector import cross, difference, linear, matvec
 from ..records import INFINITE_PLANE, PLANE, Shapes
 from .affine import AffineErrors, AffineKind
-from .frames import InCamera, LocalRays
+from .frames import InCamera
 from .kind import PixelNormals
+from .local_rays import LocalRays
 
 GRAZING = 1 / 16
 """A plane whose distance from the eye is this fraction of what it is the sum of has it with twice the digits."""
@@ -107,16 +108,18 @@ class Plane(AffineKind):
         """Return how far tau may be from the root of tau D_z = N_z."""
         local, tau = hits.local, hits.tau
         d, n, d_error, n_error = local.component(2)
-        parts = local.of(local.tables.rows[2]) / local.scale * local.away
-        exact = (np.abs(n) < GRAZING / 4 * parts) & local.from_eye
-        n_error = np.where(exact, gamma(4) * np.abs(n) + 64 * EPS * EPS * parts, n_error)
-        residual = np.abs(tau * d - n) + np.abs(tau) * d_error + n_error + gamma(2) * (np.abs(tau * d) + np.abs(n))
+        size, along = np.abs(n), tau * d
+        if local.from_eye:
+            parts = local.offset.row("parts", 2)
+            exact = size < GRAZING / 4 * parts
+            n_error = np.where(exact, gamma(4) * size + 64 * EPS * EPS * parts, n_error)
+        residual = np.abs(along - n) + np.abs(tau) * d_error + n_error + gamma(2) * (np.abs(along) + size)
         steep = np.abs(d) - d_error
         return np.where(steep > 0, residual / steep, np.inf)
 
     def normal_error(self, hits: AffineErrors, point: np.ndarray) -> np.ndarray:
         """See ``AffineKind``."""
-        return hits.local.rounding
+        return hits.local.frame.rounding
 
     def decide(self, shapes: InCamera, local: LocalRays):
         """Return by how much the crossing is inside of the edges."""

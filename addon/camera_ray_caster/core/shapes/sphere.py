@@ -17,8 +17,9 @@ from ..maths.vector import components, cross, difference, dot, matrix_rows, matv
 from ..records import SPHERE, Shapes
 from . import sphere_rays
 from .affine import AffineErrors, AffineKind
-from .frames import InCamera, LocalRays
+from .frames import InCamera
 from .kind import HitPixels, PixelNormals
+from .local_rays import LocalRays
 
 
 class Sphere(AffineKind):
@@ -70,7 +71,7 @@ class Sphere(AffineKind):
         a, q, span = dot(local.d, local.d), local.q(tau), np.abs(tau)
         d, length = np.sqrt(a), norm(q)
         a_error = (2 * d + local.d_error) * local.d_error + gamma(4) * a
-        q_error = span * local.d_error + local.n_error + gamma(2) * (span * d + norm(local.n))
+        q_error = span * local.d_error + local.n_error + gamma(2) * (span * d + local.offset.length)
         residual = np.abs((length - 1) * (length + 1)) + (2 * length + q_error) * q_error
         residual += gamma(6) * (length * length + 1)
         if (known := _outside(hits.shapes, local)) is not None:
@@ -88,21 +89,18 @@ class Sphere(AffineKind):
 
     def normal_error(self, hits: AffineErrors, point: np.ndarray) -> np.ndarray:
         """See ``AffineKind``: what moves the gradient aside turns it, what moves it along itself does not."""
-        local = hits.local
-        q = local.q(hits.tau)
-        gradient = matvec(local.matrix.swapaxes(0, 1), q)
+        local, frame, q = hits.local, hits.local.frame, hits.local.q(hits.tau)
+        gradient = dot(frame.matrix, q)
         length = norm(gradient)
-        normal = tuple(component / length for component in gradient)
-        span = hits.pixels.t * local.rays.length + local.away
-        turned = local.rounding + gamma(8)
-        moved = (point + turned * (point + span)) / local.scale  # for a row of length 1, as all of these
-        along = local.size * local.size * moved
-        aside = (turned + gamma(8)) * along
-        for row, size, component in zip(local.matrix, local.of(local.tables.rows), q, strict=True):
-            aside += size * (norm(cross(row, normal)) * moved + turned * np.abs(component))
+        turned = frame.rounding + gamma(8)
+        span = hits.pixels.t * local.rays.length + local.offset.away
+        moved = (point + turned * (point + span)) / frame.scale  # for a row of length 1, as all of these
+        along = frame.size * frame.size * moved
+        tilt = norm(cross(frame.matrix.swapaxes(0, 1), gradient / length))
+        aside = (turned + gamma(8)) * along + dot(frame.rows, tilt * moved + turned * np.abs(q))
         error = np.where(along < length / 2, aside / (length - along), 2.0)
         if hits.unit:
-            error += np.where(local.of(hits.shapes.is_scalar), along / length, 0.0)
+            error += np.where(frame.is_scalar, along / length, 0.0)
         return error
 
     def decide(self, shapes: InCamera, local: LocalRays):
@@ -151,12 +149,11 @@ def _outside(shapes: InCamera, local: LocalRays) -> tuple[Any, Any] | None:
     """Return |N|^2 - 1 where it is a constant of a shape that is near, NaN elsewhere, and what to add to gamma(4) of
     it; None where it is nowhere.
     """
-    near = norm(local.n) < 1.9
+    near = local.offset.length < 1.9
     if not (local.from_eye and near.any()):
         return None
-    c = local.of(sphere_rays.outside(shapes, slice(None)))
-    span = local.size / local.scale * local.away
-    return np.where(near, c, np.nan), 64 * EPS * EPS * (1 + span * span)
+    c, parts = local.frame.of(sphere_rays.outside(shapes, slice(None))), local.offset.parts
+    return np.where(near, c, np.nan), 64 * EPS * EPS * (1 + dot(parts, parts))
 
 
 SPHERES = Sphere()

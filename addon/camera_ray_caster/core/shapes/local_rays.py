@@ -1,0 +1,98 @@
+"""Rays in the frames of the shapes that they hit, with what rounding has done to them.
+
+What follows from a shape alone is worked out once, and looked up by rays: it is most of what there is to work out.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ..conventions import gamma
+from ..maths.speed import lazy
+from ..maths.vector import cross, difference, dot, norm
+from .frames import InCamera, Offsets, WorldRays
+
+
+class Lookup:
+    """What one object knows of each shape, for rays: its arrays (..., n), looked up when they are first asked for."""
+
+    def __init__(self, tables: Any, at: np.ndarray):
+        self._tables, self._at = tables, at
+
+    def of(self, table: np.ndarray) -> np.ndarray:
+        """Return what a table of all shapes has for the rays."""
+        return table.take(self._at, axis=-1)
+
+    def row(self, name: str, i: int) -> np.ndarray:
+        """Return what one row of a table has for them."""
+        return self.of(getattr(self._tables, name)[i])
+
+    def __getattr__(self, name: str) -> np.ndarray:
+        value = self.__dict__[name] = self.of(getattr(self._tables, name))
+        return value
+
+
+class LocalRays:
+    """Rays in the frames of shapes, one shape a ray: q(t) = t D - N, D scaled by a power of two to about 1."""
+
+    def __init__(self, shapes: InCamera, at: np.ndarray, rays: WorldRays, from_eye: bool):
+        """Take the shapes' indices, which broadcast with the rays, and whether all rays leave the eye."""
+        self.rays, self.from_eye = rays, from_eye
+        self.frame: Any = Lookup(shapes.frames, at)
+        """The ``Frames`` of the rays."""
+        self.offset: Any
+        """The ``Offsets`` of the rays."""
+        if from_eye:
+            self.offset = Lookup(shapes.eye_offsets, at)
+        else:
+            center = self.frame.center
+            moved = gamma(4) * (norm(center) + norm(rays.origin)) + rays.origin_error
+            self.offset = Offsets(self.frame, difference(center, rays.origin), moved)
+
+    @property
+    def n(self) -> np.ndarray:
+        """(3, ...): N."""
+        return self.offset.vector
+
+    @property
+    def n_error(self) -> np.ndarray:
+        """How wrong N is at most, as a vector."""
+        return self.offset.error
+
+    @lazy
+    def d(self) -> np.ndarray:
+        """(3, ...): D."""
+        return dot(self.frame.matrix.swapaxes(0, 1), self.rays.direction)
+
+    @lazy
+    def d_error(self) -> np.ndarray:
+        """How wrong D is at most, as a vector."""
+        return self.frame.stretch * self.rays.direction_error + self.frame.error * self.rays.length
+
+    def component(self, i: int) -> tuple[Any, Any, Any, Any]:
+        """Return one component of D and of N, and how wrong they are at most."""
+        d = dot(self.frame.row("matrix", i), self.rays.direction)
+        turned = self.frame.row("row_error", i) * self.rays.length
+        d_error = self.frame.row("rows", i) * self.rays.direction_error + turned
+        return d, self.offset.row("vector", i), d_error, self.offset.row("row_error", i)
+
+    @property
+    def cross(self) -> Any:
+        """N x D."""
+        return cross(self.n, self.d)
+
+    @property
+    def inner(self) -> Any:
+        """N . D."""
+        return dot(self.n, self.d)
+
+    def product_error(self) -> np.ndarray:
+        """Return the error of ``inner``, and of ``cross``: of the vector, and so of each component."""
+        n, d = self.offset.length, norm(self.d)
+        return n * self.d_error + d * self.n_error + self.n_error * self.d_error + gamma(4) * n * d
+
+    def q(self, tau) -> np.ndarray:
+        """Return the points tau D - N, (3, ...)."""
+        return tau * self.d - self.n
