@@ -38,10 +38,13 @@ To look at one: `python scripts/cast.py blend_scenes/NAME.blend --output out`
 
 ## Gallery
 
-What each camera does, in the program's own pictures with the grid shading: most of them of one room, six meters high
-with cells of half a meter, so that they can be compared. Where a camera has no ray, a picture is transparent.
+What each camera does, in the program's own pictures: places full of meshes in the colors of their materials, then, with
+the grid shading, mostly one room, six meters high with cells of half a meter, so that cameras can be compared. Where a
+camera has no ray, a picture is transparent.
 {gallery}
 ## Small scenes, each hard for a ray caster in one way
+
+<img src="pictures/spheres_and_planes.png" width="480" alt="spheres, ellipsoids, a ring of points and walls">
 
 {examples}
 

@@ -1,6 +1,6 @@
 """The example scenes by name: functions that fill an empty Blender scene. The docstring is the line in the README."""
 
-from . import cameras, contents, lenses, multiperspective, panoramas, showcase, time
+from . import cameras, contents, lenses, meshes, multiperspective, panoramas, showcase, time
 
 
 def _by_name(*makers):
@@ -25,6 +25,18 @@ EXAMPLES = _by_name(
 )
 
 GALLERY = {
+    "Meshes": _by_name(
+        meshes.toys,
+        meshes.living_room,
+        meshes.living_room_equirectangular,
+        meshes.rotunda_fisheye,
+        meshes.rotunda_panorama,
+        meshes.street,
+        meshes.street_pushbroom,
+        meshes.sculpture_garden,
+        meshes.propeller,
+        meshes.twisted_monkey,
+    ),
     "Lenses": _by_name(
         lenses.pinhole,
         lenses.camera_obscura,

@@ -19,10 +19,12 @@ def linear(hexadecimal: str) -> tuple[float, float, float, float]:
 
 
 def material(color: str):
-    """Return the material of an sRGB viewport color, made once; pass indices count the materials from 1."""
+    """Return the Principled material of an sRGB color, made once; pass indices count the materials from 1."""
     found = bpy.data.materials.get(color)
     if found is None:
         found = bpy.data.materials.new(color)
+        found.use_nodes = True
+        found.node_tree.nodes["Principled BSDF"].inputs["Base Color"].default_value = linear(color)
         found.diffuse_color = linear(color)
         found.pass_index = len(bpy.data.materials)
     return found
@@ -86,7 +88,7 @@ def points(positions, radii):
 
 def spheres_of_points(thing) -> None:
     """Let geometry nodes turn an object's vertices into a point cloud with its radii and first material."""
-    to_points, tree = _nodes(thing, "GeometryNodeMeshToPoints", "GeometryNodeSetMaterial")
+    to_points, tree = geometry_nodes(thing, "GeometryNodeMeshToPoints", "GeometryNodeSetMaterial")
     radius = tree.nodes.new("GeometryNodeInputNamedAttribute")
     radius.inputs["Name"].default_value = "radius"
     tree.links.new(radius.outputs["Attribute"], to_points.inputs["Radius"])
@@ -95,7 +97,7 @@ def spheres_of_points(thing) -> None:
 
 def instances_of_points(thing, instance) -> None:
     """Let geometry nodes put an instance of another object, with its scale, on each of an object's vertices."""
-    on_points, tree = _nodes(thing, "GeometryNodeInstanceOnPoints")
+    on_points, tree = geometry_nodes(thing, "GeometryNodeInstanceOnPoints")
     source = tree.nodes.new("GeometryNodeObjectInfo")
     source.inputs["Object"].default_value = instance
     source.inputs["As Instance"].default_value = True
@@ -103,7 +105,7 @@ def instances_of_points(thing, instance) -> None:
     tree.links.new(source.outputs["Scale"], on_points.inputs["Scale"])
 
 
-def _nodes(thing, *kinds: str):
+def geometry_nodes(thing, *kinds: str):
     """Give an object geometry nodes that pass its geometry through these kinds; return the first of them, the tree."""
     tree = bpy.data.node_groups.new("Points", "GeometryNodeTree")
     for in_out in ("INPUT", "OUTPUT"):
@@ -152,6 +154,8 @@ def render(scene, width: int = 640, height: int = 360, world: str = "8d99ae", **
     scene.view_settings.view_transform = "Standard"
     scene.world = bpy.data.worlds.new("World")
     scene.world.color = linear(world)[:3]
+    scene.world.use_nodes = True
+    scene.world.node_tree.nodes["Background"].inputs["Color"].default_value = linear(world)
     for layer in scene.view_layers:
         for name in ("combined", "z", "normal", "position", "object_index"):
             setattr(layer, f"use_pass_{name}", True)

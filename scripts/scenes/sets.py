@@ -69,12 +69,23 @@ def meadow(scene) -> None:
     sun(scene, (42, 0, -40), 2.2, "fff3df")
 
 
-def photograph(scene, location, target, width: int = 480, height: int = 300, *, world="9aa0aa", own=None, **settings):
-    """Take the picture: camera, its own ``own`` settings of the add-on, size, grid shading and smooth edges."""
+def photograph(
+    scene,
+    location,
+    target,
+    width: int = 480,
+    height: int = 300,
+    *,
+    world="9aa0aa",
+    own=None,
+    shading="GRID",
+    **settings,
+):
+    """Take the picture: camera, its own ``own`` settings of the add-on, size, shading and smooth edges."""
     made = camera(scene, location, target, **settings)
     for name, value in (own or {}).items():
         setattr(made.data.camera_ray_caster, name, value)
     render(scene, width, height, world)
     scene.render.image_settings.compression = 100
-    scene.camera_ray_caster.shading, scene.camera_ray_caster.samples = "GRID", 16
+    scene.camera_ray_caster.shading, scene.camera_ray_caster.samples = shading, 16
     return made

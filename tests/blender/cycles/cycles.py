@@ -47,7 +47,9 @@ def _render(scene, output, reach, sky):
 
 def _emit(block, shader, target, output, reach):
     """Give a world or material the shader that emits what a node puts out, brought to 0 .. 1."""
-    others = {"View Z Depth": "ShaderNodeCameraData", "UV": "ShaderNodeTexCoord"}
+    others = {
+        "View Z Depth": "ShaderNodeCameraData", "UV": "ShaderNodeTexCoord", "Object Index": "ShaderNodeObjectInfo",
+    }  # fmt: skip
     source = others.get(output, "ShaderNodeNewGeometry")
     nodes, links = _nodes(block), block.node_tree.links
     nodes.clear()
