@@ -196,3 +196,15 @@ def test_a_pixel_whose_ray_bends_so_much_that_no_other_has_one_is_rounded_as_all
         assert finding.passed, finding
         off = max(off, finding.worst_pixels)
     assert off > 0
+
+
+def test_slits_that_are_far_away_are_rounded_as_far_points_are():
+    """A cross-slit camera's, whose ends lie anywhere up to 1e5 from it."""
+    rng = np.random.default_rng(1)
+    examples = [settings for settings in EXAMPLES["CROSS_SLIT"] if {"slit_1", "slit_2"} <= set(settings)]
+    for settings in examples * 30:
+        off = rng.normal(size=3) * 10 ** rng.uniform(0, 5)
+        slits = {name: tuple(tuple(np.add(end, off)) for end in settings[name]) for name in ("slit_1", "slit_2")}
+        (finding,) = verify(camera("CROSS_SLIT", settings | slits))
+        assert finding.points > 0
+        assert finding.passed, finding

@@ -95,6 +95,11 @@ class Camera:
         """Return what rounding before the model's own formula amounts to, in pixels; see ``Model``."""
         return self.model.pixel_rounding(x, y)
 
+    @property
+    def formula_reach(self) -> float:
+        """How far from the eye the model's formula reaches; see ``Model``."""
+        return self.model.formula_reach
+
     def camera_rays(self, x, y):
         """Return the camera-frame (origin, direction) components for pixel coordinates, scaled so that t is depth.
 

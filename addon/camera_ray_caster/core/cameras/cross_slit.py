@@ -71,6 +71,11 @@ class CrossSlit(WindowModel):
             raise InputError(f"slit_1 and slit_2 of camera {raw.name!r} are parallel: turn one of them")
         return cls(raster.size, Perspective.from_blender(raw, raster).window, (first, second))
 
+    @property
+    def formula_reach(self) -> float:
+        """See Model."""
+        return max(float(np.linalg.norm(point)) for point, _ in self.slits)
+
     def rays(self, x, y):
         """Return origin and direction, each a tuple of three broadcastable arrays, camera frame, unit length.
 

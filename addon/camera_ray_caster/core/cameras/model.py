@@ -139,6 +139,11 @@ class Model(ABC):
         """Return what else is to be said of the camera: numbers and lists of numbers by name, in the order shown."""
         return {}
 
+    @property
+    def formula_reach(self) -> float:
+        """How far from the eye, in the camera's frame, the formula reaches for what else it has, as slits."""
+        return 0.0
+
     def pixel_rounding(self, x, y) -> tuple[Any, Any]:
         """Return what rounding before the model's own formula amounts to: moves of the pixel in x and in y, in pixels.
 

@@ -30,6 +30,10 @@ class CameraRays(Protocol):
     def pixel_rounding(self, x, y) -> tuple[Any, Any]:
         """Return what rounding before a model's formula amounts to, in pixels; see ``Model``."""
 
+    @property
+    def formula_reach(self) -> float:
+        """How far from the eye the model's formula reaches for what else it has; see ``Model``."""
+
 
 @dataclass(frozen=True)
 class Sample:

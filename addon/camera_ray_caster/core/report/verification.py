@@ -4,9 +4,9 @@ It knows a camera by its public ``rays_at``, ``project``, ``raster`` and ``pose`
 rounding, and no model's formula. Blender's own answers are the witnesses of ``report.witness``; the round trip needs
 none:
 
-round trip             float64: what moving the point by 32 EPS (|eye| + |origin| + |point|) does to its pixel, what the
-                       model rounds away of a pixel, there and back, and the rounding of the pixel itself. It is our
-                       own rounding, so it is added to every other bound.
+round trip             float64: what moving the point by 32 EPS (|eye| + |origin| + |point| + what else the formula has)
+                       does to its pixel, what the model rounds away of a pixel, there and back, and the rounding of the
+                       pixel itself. It is our own rounding, so it is added to every other bound.
 """
 
 from __future__ import annotations
@@ -94,4 +94,4 @@ def _seen_elsewhere(camera: CameraRays, pixels, points, back, near):
 def _moved(camera: CameraRays, sample: Sample):
     """Return how far rounding may move each point, (n,)."""
     places = camera.pose.eye[None], sample.origins, sample.points
-    return gamma(32) * sum(np.abs(place).sum(axis=1) for place in places)
+    return gamma(32) * (sum(np.abs(place).sum(axis=1) for place in places) + camera.formula_reach)
