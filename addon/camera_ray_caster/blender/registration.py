@@ -39,6 +39,13 @@ class Undo(ExitStack):
         """Add one."""
         return super().callback(_unless_gone, remove, *arguments)
 
+    def add_handlers(self, handlers) -> None:
+        """Add functions to the lists of these names in ``bpy.app.handlers``, until this is undone."""
+        for name, function in handlers:
+            own = getattr(bpy.app.handlers, name)
+            own.append(function)
+            self.callback(own.remove, function)
+
 
 def _unless_gone(remove, *arguments) -> None:
     with suppress(AttributeError, RuntimeError, ValueError):  # what Blender and lists raise where there is nothing

@@ -154,7 +154,4 @@ HANDLERS = (
 def register(undo) -> None:
     """See ``registration``."""
     undo.callback(forget)
-    for name, function in HANDLERS:
-        handlers = getattr(bpy.app.handlers, name)
-        handlers.append(function)
-        undo.callback(handlers.remove, function)
+    undo.add_handlers(HANDLERS)
