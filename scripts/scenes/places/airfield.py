@@ -47,17 +47,10 @@ def airfield(scene):
             tube(scene, "Strut", strut, 0.035, color="8b6242", index=6)
         tube(scene, "Leg", [(side * 0.4, 0.7, height - 0.5), (side * 0.85, 0.6, 0.42)], 0.05, color="8b6242", index=6)
         tire = [(0.2, 0.11), (0.38, 0.11), (0.42, 0.05), (0.42, -0.05), (0.38, -0.11), (0.2, -0.11)]
-        turned(scene, "Tire", tire, (side * 0.92, 0.6, 0.42), (0, 90, 0), steps=32, color="2b2d42", index=7)
-        turned(
-            scene,
-            "Hub",
-            [(0, 0.1), (0.2, 0.1), (0.2, -0.1), (0, -0.1)],
-            (side * 0.92, 0.6, 0.42),
-            (0, 90, 0),
-            steps=24,
-            color="eae1d0",
-            index=7,
-        )
+        wheel = (side * 0.92, 0.6, 0.42), (0, 90, 0)
+        turned(scene, "Tire", tire, *wheel, steps=32, color="2b2d42", index=7)
+        hub = [(0, 0.1), (0.2, 0.1), (0.2, -0.1), (0, -0.1)]
+        turned(scene, "Hub", hub, *wheel, steps=24, color="eae1d0", index=7)
     for k in range(7):
         angle = pi / 2 + 0.42 * (k - 3)
         place = 70 * cos(angle), 70 * sin(angle), 20 + 6 * sin(2.4 * k)
@@ -82,13 +75,5 @@ def wing(scene, name: str, half: float, deep: float, place, raised: float) -> No
     """Add a wing: a subdivided slab with round tips whose sides rise by ``raised`` degrees."""
     for side in (-1, 1):
         at = place[0] + side * half / 2 * cos(radians(raised)), place[1], place[2] + half / 2 * sin(radians(raised))
-        soft(
-            scene,
-            f"{name} slab",
-            (half + 0.1, deep, 0.16),
-            at,
-            (0, -side * raised, 0),
-            crease=0.3,
-            color="f0b941",
-            index=5,
-        )
+        size, turn = (half + 0.1, deep, 0.16), (0, -side * raised, 0)
+        soft(scene, name, size, at, turn, crease=0.3, color="f0b941", index=5)

@@ -1,4 +1,4 @@
-"""A living room of some eighty meshes: |x| <= 3.2, |y| <= 3, 0 <= z <= 2.7; pass indices tell kinds of things apart."""
+"""A living room: |x| <= 3.2, |y| <= 3, 0 <= z <= 2.7. Pass indices tell kinds of things apart."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from ..solids import (
     stand,
     tube,
     turned,
-)
+)  # fmt: skip
 
 WALLS, FLOOR, WINDOW, OUTSIDE, DOOR, TABLE, CHAIRS, SOFA, SHELF = range(1, 10)
 BOOKS, LAMPS, PLANT, DISHES, PICTURE, FIGURE = range(10, 16)
@@ -88,15 +88,8 @@ def dining(scene) -> None:
     """Add a rug, a table that is laid, four chairs and a lamp above it."""
     at = -0.3, 0
     for radius, high, color in ((1.75, 0.008, "3f6f8f"), (1.55, 0.012, "e9dcc3"), (1.45, 0.016, "5f8fa8")):
-        turned(
-            scene,
-            f"Rug {color}",
-            [(0, high), (radius, high), (radius, 0)],
-            (*at, 0),
-            steps=64,
-            color=color,
-            index=FLOOR,
-        )
+        edge = [(0, high), (radius, high), (radius, 0)]
+        turned(scene, "Rug", edge, (*at, 0), steps=64, color=color, index=FLOOR)
     block(scene, "Table top", (1.7, 0.95, 0.05), (*at, 0.735), edge=0.015, color=WOOD, index=TABLE)
     block(scene, "Apron", (1.5, 0.75, 0.08), (*at, 0.67), color=DARK_WOOD, index=TABLE)
     leg = [(0, 0), (0.022, 0), (0.04, 0.55), (0.03, 0.57), (0.045, 0.6), (0.045, 0.7)]
@@ -167,50 +160,19 @@ def lounge(scene) -> None:
         soft(scene, "Arm", (0.86, 0.22, 0.55), (x, y, 0.36), color=gray, index=SOFA)
     for y in (-0.83, 0.13):
         soft(scene, "Cushion", (0.66, 0.95, 0.18), (x - 0.1, y, 0.47), color="8f9db2", index=SOFA)
-    soft(
-        scene, "Pillow", (0.16, 0.44, 0.44), (x + 0.12, 0.38, 0.75), (0, 20, 6), crease=0.2, color="f0b941", index=SOFA
-    )
-    soft(
-        scene,
-        "Pillow",
-        (0.16, 0.44, 0.44),
-        (x + 0.1, -1.05, 0.75),
-        (0, 20, -10),
-        crease=0.2,
-        color="e2674a",
-        index=SOFA,
-    )
-    frame = block(scene, "Frame", (0.03, 1.3, 0.8), (3.18, -0.35, 1.65), color=DARK_WOOD, index=PICTURE)
-    block(scene, "Sky", (0.03, 1.2, 0.7), (3.17, -0.35, 1.65), edge=0, color="bcd7ea", index=PICTURE)
-    for name, outline, color, out in (
-        (
-            "Far mountain",
-            ((-0.6, 0), (0.6, 0), (0.6, 0.22), (0.3, 0.45), (0.05, 0.2), (-0.25, 0.38), (-0.6, 0.1)),
-            "7f9fb8",
-            0.018,
-        ),
-        ("Near mountain", ((-0.6, 0), (0.6, 0), (0.6, 0.05), (0.1, 0.16), (-0.3, 0.3), (-0.6, 0.2)), "3f6f6a", 0.022),
-    ):
-        prism(
-            scene,
-            name,
-            outline,
-            0.01,
-            (3.17 - out, frame.location.y, 1.3),
-            (0, 0, 90),
-            edge=0,
-            color=color,
-            index=PICTURE,
+    for y, turn, color in ((0.38, 6, "f0b941"), (-1.05, -10, "e2674a")):
+        soft(
+            scene, "Pillow", (0.16, 0.44, 0.44), (x + 0.12, y, 0.75), (0, 20, turn), crease=0.2, color=color, index=SOFA
         )
-    turned(
-        scene,
-        "Sun disc",
-        [(0, 0), (0.09, 0), (0.09, -0.01)],
-        (3.15, -0.65, 1.83),
-        (0, -90, 0),
-        color="f0b941",
-        index=PICTURE,
-    )
+    block(scene, "Frame", (0.03, 1.3, 0.8), (3.18, -0.35, 1.65), color=DARK_WOOD, index=PICTURE)
+    block(scene, "Sky", (0.03, 1.2, 0.7), (3.17, -0.35, 1.65), edge=0, color="bcd7ea", index=PICTURE)
+    far = (-0.6, 0), (0.6, 0), (0.6, 0.22), (0.3, 0.45), (0.05, 0.2), (-0.25, 0.38), (-0.6, 0.1)
+    near = (-0.6, 0), (0.6, 0), (0.6, 0.05), (0.1, 0.16), (-0.3, 0.3), (-0.6, 0.2)
+    for outline, out, color in ((far, 3.152, "7f9fb8"), (near, 3.148, "3f6f6a")):
+        at = (out, -0.35, 1.3), (0, 0, 90)
+        prism(scene, "Mountains", outline, 0.01, *at, edge=0, color=color, index=PICTURE)
+    disc, at = [(0, 0), (0.09, 0), (0.09, -0.01)], ((3.15, -0.65, 1.83), (0, -90, 0))
+    turned(scene, "Sun disc", disc, *at, color="f0b941", index=PICTURE)
     foot = [(0, 0), (0.15, 0), (0.15, 0.02), (0.015, 0.04), (0.012, 1.5), (0, 1.5)]
     turned(scene, "Stem", foot, (2.75, 1.25, 0), color="3a3a44", index=LAMPS)
     shade = [(0.22, 0), (0.13, 0.3), (0.124, 0.3), (0.214, 0)]
