@@ -96,11 +96,9 @@ class MeshesInView:
         """Those that some pixel may see."""
         self._placing.results()
         parts = self._seeing.results()
-        whole = {}
-        for field in fields(Triangles):
-            axis = 0 if field.name == "bounds" else -1
-            whole[field.name] = np.concatenate([getattr(part, field.name) for part in parts], axis=axis)
-        return Triangles(**whole)
+        whole = {field.name: [getattr(part, field.name) for part in parts] for field in fields(Triangles)}
+        bounds = np.concatenate([part.T for part in whole.pop("bounds")], axis=1).T  # a column in one piece
+        return Triangles(bounds=bounds, **{name: np.concatenate(own, axis=-1) for name, own in whole.items()})
 
     def corners(self, some: np.ndarray) -> np.ndarray:
         """Return the corners of triangles, (3, 3, m): corner, component."""

@@ -63,8 +63,10 @@ class MeshSet(ShapeSet):
             slab = slab.take(found.may_show(bounds[slab], triangles.near.take(here.take(slab))))
             is_large = pixels_in(bounds[slab]) >= tuning.LARGE_TRIANGLE
             large, small = slab[is_large], slab[~is_large]
-            for one, band in _bands(here[large], bounds[large]):
-                self._fill(rays, reach, one, band, found)
+            is_open = [self._fill(rays, reach, one, band, found) for one, band in _bands(here[large], bounds[large])]
+            if is_open:
+                which, pixel = (np.concatenate(part) for part in zip(*is_open, strict=True))
+                self._test(rays, which, pixel, found)
             if lattice is not None:
                 for piece in _pieces(bounds[small]):
                     self._span(rays, lattice, reach, here[small[piece]], bounds[small[piece]], found)
@@ -76,8 +78,10 @@ class MeshSet(ShapeSet):
         np.take(triangles.number, which, out=rays.scratch(NUMBER, rays.shape, np.int32))
         yield Candidates(triangles.shape[which][None], (np.zeros(1, int), np.zeros(1, int)), found.t[None], met[None])
 
-    def _fill(self, rays: SearchRays, reach: Reach, which: int, bounds: list[int], found: Found) -> None:
-        """Keep what is met of one triangle in a window of the tile."""
+    def _fill(self, rays: SearchRays, reach: Reach, which: int, bounds: list[int], found: Found):
+        """Keep what is met of one triangle in a window of the tile. Return it for each pixel in which it is still to be
+        tested, and these pixels.
+        """
         x0, x1, y0, y1 = bounds
         window = slice(y0, y1), slice(x0, x1)
         corners: Any = self.meshes.corners(np.array([which]))[..., None]
@@ -92,12 +96,10 @@ class MeshSet(ShapeSet):
         poor = np.abs(slope) <= STEEP * product * reach[0]
         met = (inner > doubt) & (t >= self.clip_start) & (t < np.inf)
         open_ = (np.abs(inner) <= doubt) | (poor & (inner > doubt)) if poor.any() else np.abs(inner) <= doubt
-        if open_.any():
-            row, column = np.nonzero(np.broadcast_to(open_, inner.shape))
-            pixel = (y0 + row) * rays.shape[1] + x0 + column
-            self._test(rays, np.full(len(pixel), which), pixel, found)
-            met &= ~open_
+        met &= ~open_
         found.fill(window, met, t, which)
+        row, column = np.nonzero(np.broadcast_to(open_, inner.shape))
+        return np.full(len(row), which), (y0 + row) * rays.shape[1] + x0 + column
 
     def _span(
         self, rays: SearchRays, lattice: Lattice, reach: Reach, here: np.ndarray, bounds: np.ndarray, found: Found
@@ -107,8 +109,7 @@ class MeshSet(ShapeSet):
         at, pixel = seen.met
         self._keep(found, pixel, seen.t, here.take(at))
         at, pixel = seen.open
-        if len(at):
-            self._test(rays, here[at], pixel, found)
+        self._test(rays, here[at], pixel, found)
         if not seen.clear.all():
             others = np.flatnonzero(~seen.clear)
             for batch in batches(bounds[others], tuning.TRIANGLE_PIXELS):
@@ -135,13 +136,14 @@ class MeshSet(ShapeSet):
         k, place = np.divmod(hit, high * wide)
         row, column = np.divmod(place, wide)
         pixel, which = (y0[k] + row) * rays.shape[1] + x0[k] + column, here[k]
-        if not sure.all():
-            self._test(rays, which[~sure], pixel[~sure], found)
-            pixel, which = pixel[sure], which[sure]
+        self._test(rays, which[~sure], pixel[~sure], found)
+        pixel, which = pixel[sure], which[sure]
         self._keep(found, pixel, crossing(*self._meeting(rays, which, pixel)), which)
 
     def _test(self, rays: SearchRays, which: np.ndarray, pixel: np.ndarray, found: Found) -> None:
         """Keep what is met of one triangle a pixel, by exact signs where rounding could decide."""
+        if not len(which):
+            return
         corners, direction = self._meeting(rays, which, pixel)
         doubt = ROUNDING * np.maximum.reduce([norm(corner) for corner in corners]) ** 2 * norm(direction)
         inner = _inside(corners, direction, is_turned=False)
