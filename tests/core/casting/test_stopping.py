@@ -13,6 +13,9 @@ from camera_ray_caster.core.cast import cast
 from camera_ray_caster.core.casting import tiles
 from camera_ray_caster.core.records import SPHERE, Cancelled
 
+from ..cameras.model_examples import EXAMPLES
+from ..cameras.model_examples import camera as camera_of
+from ..shapes import meshes
 from .test_cast import camera_at, shapes_of
 
 HEARD = 0.3
@@ -32,9 +35,8 @@ CASTS = {
 }
 
 
-@pytest.mark.parametrize("case", CASTS)
-def test_a_stop_is_heard_within_the_steps_of_a_cast(case, monkeypatch):
-    size, count, request = CASTS[case]
+def steps_of(monkeypatch, *scene, **request):
+    """The seconds between the moments at which a cast listens that is stopped after a second of them."""
     began, steps = {}, []
     listen = tiles.Effort.listen
 
@@ -48,5 +50,22 @@ def test_a_stop_is_heard_within_the_steps_of_a_cast(case, monkeypatch):
 
     monkeypatch.setattr(tiles.Effort, "listen", timed)
     with pytest.raises(Cancelled):
-        cast(camera_at(resolution_x=size, resolution_y=size), many_spheres(count), threads=2, **request)
+        cast(*scene, threads=2, **request)
+    return steps
+
+
+@pytest.mark.parametrize("case", CASTS)
+def test_a_stop_is_heard_within_the_steps_of_a_cast(case, monkeypatch):
+    size, count, request = CASTS[case]
+    steps = steps_of(monkeypatch, camera_at(resolution_x=size, resolution_y=size), many_spheres(count), **request)
+    assert max(steps) + tiles.LISTEN < HEARD, max(steps)
+
+
+def test_a_stop_is_heard_between_triangles(monkeypatch):
+    """Of a camera whose rays have an origin each, so that every triangle takes long."""
+    size = {"resolution_x": 512, "resolution_y": 256}
+    shapes = meshes.shapes_of((meshes.ball(100, 400, 3.0), (0, 0, -4), 1.0))
+    steps = steps_of(
+        monkeypatch, camera_of("STRIP", EXAMPLES["STRIP"][0] | size), shapes, passes="combined", samples=64
+    )
     assert max(steps) + tiles.LISTEN < HEARD, max(steps)

@@ -37,7 +37,8 @@ def nearest_hits(plan: Plan, rays: TileRays, listen: Callable[[], object] = bool
     nearest.clear()
     for one in plan.sets:
         for candidates in one.rest(own, nearest.t):
-            nearest.keep(candidates)
+            if candidates is not None:
+                nearest.keep(candidates)
             listen()
     if plan.clips:
         beyond = np.greater(nearest.t, real(plan.camera.clip_end), out=scratch("closer", shape, bool))

@@ -85,15 +85,21 @@ class Shared(Generic[T]):
         if not parts:
             self._ended.set()
 
-    def results(self) -> list[T]:
-        """Return what the parts return, in their order; raises what the first that failed has raised."""
-        while not self._ended.is_set():
+    def work(self) -> Iterator[None]:
+        """Work on parts until none is left, one between two steps of the iteration."""
+        while True:
             with self._lock:
                 k = next(self._next, None)
             if k is None:
-                self._ended.wait()
-                break
+                return
             self._run(k)
+            yield
+
+    def results(self) -> list[T]:
+        """Return what the parts return, in their order; raises what the first that failed has raised."""
+        for _ in self.work():
+            pass
+        self._ended.wait()
         if self._error is not None:
             raise self._error
         return self._results  # type: ignore[return-value]  # all are there

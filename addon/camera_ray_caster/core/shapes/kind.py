@@ -176,8 +176,11 @@ class ShapeSet(ABC):
         return iter(())
 
     @abstractmethod
-    def rest(self, rays: SearchRays, nearest: np.ndarray) -> Iterator[Candidates]:
-        """Yield the crossings with all other shapes, in any order; ``nearest`` is the t found so far, inf for none."""
+    def rest(self, rays: SearchRays, nearest: np.ndarray) -> Iterator[Candidates | None]:
+        """Yield the crossings with all other shapes, in any order; ``nearest`` is the t found so far, inf for none.
+
+        None is yielded where there is still to do before the next: a request to stop is heard then.
+        """
 
 
 PixelNormals = Callable[[HitPixels, Any, Any], Any]

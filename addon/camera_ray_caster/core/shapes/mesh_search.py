@@ -50,8 +50,10 @@ class MeshSet(ShapeSet):
         whole = self.meshes.triangles
         return whole if self.pixels is None else replace(whole, bounds=self.pixels.within(whole.bounds))
 
-    def rest(self, rays: SearchRays, nearest: np.ndarray) -> Iterator[Candidates]:
+    def rest(self, rays: SearchRays, nearest: np.ndarray) -> Iterator[Candidates | None]:
         """See ``ShapeSet``."""
+        for _ in self.meshes.prepare():
+            yield None
         triangles = self.triangles
         here, bounds = in_tile(triangles.bounds, rays.corner, rays.shape)
         if not here.size:
@@ -63,16 +65,21 @@ class MeshSet(ShapeSet):
             slab = slab.take(found.may_show(bounds[slab], triangles.near.take(here.take(slab))))
             is_large = pixels_in(bounds[slab]) >= tuning.LARGE_TRIANGLE
             large, small = slab[is_large], slab[~is_large]
-            is_open = [self._fill(rays, reach, one, band, found) for one, band in _bands(here[large], bounds[large])]
+            is_open = []
+            for one, band in _bands(here[large], bounds[large]):
+                is_open.append(self._fill(rays, reach, one, band, found))
+                yield None
             if is_open:
                 which, pixel = (np.concatenate(part) for part in zip(*is_open, strict=True))
                 self._test(rays, which, pixel, found)
             if lattice is not None:
                 for piece in _pieces(bounds[small]):
                     self._span(rays, lattice, reach, here[small[piece]], bounds[small[piece]], found)
+                    yield None
             else:
                 for batch in batches(bounds[small], tuning.TRIANGLE_PIXELS):
                     self._cast(rays, reach, here[small[batch]], bounds[small[batch]], found)
+                    yield None
         met = found.which != NONE
         which = np.where(met, found.which, 0)
         np.take(triangles.number, which, out=rays.scratch(NUMBER, rays.shape, np.int32))
