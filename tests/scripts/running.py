@@ -1,5 +1,6 @@
 """How the tests run a script, and what they run it on."""
 
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -10,7 +11,8 @@ ROOT = Path(__file__).resolve().parents[2]
 def script(name, *arguments, folder=None):
     """Run a script to its end."""
     words = [sys.executable, str(ROOT / "scripts" / f"{name}.py"), *map(str, arguments)]
-    return subprocess.run(words, cwd=folder, capture_output=True, text=True, timeout=120)
+    clean = {key: value for key, value in os.environ.items() if key != "OCIO"}  # bpy sets it, and then speaks of it
+    return subprocess.run(words, cwd=folder, capture_output=True, text=True, timeout=120, env=clean)
 
 
 def small(bpy, path, **settings):
