@@ -106,6 +106,7 @@ class Faulty:
     def __init__(self, camera):
         self.camera, self.raster, self.pose = camera, camera.raster, camera.pose
         self.project, self.pixel_rounding = camera.project, camera.pixel_rounding
+        self.formula_reach = camera.formula_reach
 
     def rays_at(self, x, y):
         """Return the bent rays."""
