@@ -17,12 +17,12 @@ from .mesh_found import NONE, NUMBER, Found
 from .mesh_in_camera import MeshesInView, Triangles
 from .mesh_spans import Lattice, spans
 from .triangles import ROUNDING, STEEP, crossing, plane, signs, volumes
-from .windows import batches, gather, in_tile, pixels_in
+from .windows import banded, batches, gather, in_tile, pixels_in
 
 SLABS = 4
 """Parts in which triangles are tested, the nearest first: what they hide is not tested."""
 
-SPANNED = 1 << 12, 1 << 17
+SPANNED, SPANNED_PIXELS = 1 << 12, 1 << 17
 """Triangles whose spans are found at once, and pixels of their bounds."""
 
 
@@ -63,27 +63,39 @@ class MeshSet(ShapeSet):
         reach = _longest(rays.direction), _longest(rays.origin or (0.0,))
         for slab in _slabs(triangles.near.take(here)):
             slab = slab.take(found.may_show(bounds[slab], triangles.near.take(here.take(slab))))
-            is_large = pixels_in(bounds[slab]) >= tuning.LARGE_TRIANGLE
-            large, small = slab[is_large], slab[~is_large]
-            is_open = []
-            for one, band in _bands(here[large], bounds[large]):
-                is_open.append(self._fill(rays, reach, one, band, found))
-                yield None
-            if is_open:
-                which, pixel = (np.concatenate(part) for part in zip(*is_open, strict=True))
-                self._test(rays, which, pixel, found)
             if lattice is not None:
-                for piece in _pieces(bounds[small]):
-                    self._span(rays, lattice, reach, here[small[piece]], bounds[small[piece]], found)
-                    yield None
+                steps = self._in_spans(rays, lattice, reach, here[slab], bounds[slab], found)
             else:
-                for batch in batches(bounds[small], tuning.TRIANGLE_PIXELS):
-                    self._cast(rays, reach, here[small[batch]], bounds[small[batch]], found)
-                    yield None
+                steps = self._in_windows(rays, reach, here[slab], bounds[slab], found)
+            for _ in steps:
+                yield None
         met = found.which != NONE
         which = np.where(met, found.which, 0)
         np.take(triangles.number, which, out=rays.scratch(NUMBER, rays.shape, np.int32))
         yield Candidates(triangles.shape[which][None], (np.zeros(1, int), np.zeros(1, int)), found.t[None], met[None])
+
+    def _in_spans(self, rays, lattice: Lattice, reach: Reach, here, bounds, found: Found) -> Iterator[None]:
+        """Keep what is met of triangles under a lattice of rays, in small steps."""
+        at, bands = banded(bounds, SPANNED_PIXELS)
+        for some in _pieces(bands):
+            self._span(rays, lattice, reach, here[at[some]], bands[some], found)
+            yield
+
+    def _in_windows(self, rays, reach: Reach, here, bounds, found: Found) -> Iterator[None]:
+        """Keep what is met of triangles under any rays, in small steps: the large ones one by one."""
+        is_large = pixels_in(bounds) >= tuning.LARGE_TRIANGLE
+        at, bands = banded(bounds[is_large], tuning.BLOCK_PIXELS)
+        rest = []
+        for one, band in zip(here[is_large][at].tolist(), bands.tolist(), strict=True):
+            rest.append(self._fill(rays, reach, one, band, found))
+            yield
+        if rest:
+            which, pixel = (np.concatenate(part) for part in zip(*rest, strict=True))
+            self._test(rays, which, pixel, found)
+        here, bounds = here[~is_large], bounds[~is_large]
+        for batch in batches(bounds, tuning.TRIANGLE_PIXELS):
+            self._cast(rays, reach, here[batch], bounds[batch], found)
+            yield
 
     def _fill(self, rays: SearchRays, reach: Reach, which: int, bounds: list[int], found: Found):
         """Keep what is met of one triangle in a window of the tile. Return it for each pixel in which it is still to be
@@ -210,20 +222,11 @@ def _slabs(near: np.ndarray) -> Iterator[np.ndarray]:
         yield np.flatnonzero(slab == k)
 
 
-def _bands(here: np.ndarray, bounds: np.ndarray) -> Iterator[tuple[int, list[int]]]:
-    """Yield triangles in windows of some rows: working arrays stay in a core's cache."""
-    for which, (x0, x1, y0, y1) in zip(here.tolist(), bounds.tolist(), strict=True):
-        rows = max(1, tuning.BLOCK_PIXELS // (x1 - x0))
-        for low in range(y0, y1, rows):
-            yield which, [x0, x1, low, min(low + rows, y1)]
-
-
 def _pieces(bounds: np.ndarray) -> Iterator[slice]:
-    """Yield as many triangles at once as SPANNED tells."""
-    triangles, most = SPANNED
+    """Yield as many triangles at once as SPANNED and SPANNED_PIXELS tell."""
     pixels = np.cumsum(pixels_in(bounds))
     first = 0
     while first < len(bounds):
-        end = min(first + triangles, int(np.searchsorted(pixels, pixels[first] + most)) + 1)
+        end = min(first + SPANNED, int(np.searchsorted(pixels, pixels[first] + SPANNED_PIXELS)) + 1)
         yield slice(first, end)
         first = end

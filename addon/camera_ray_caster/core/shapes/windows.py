@@ -24,6 +24,18 @@ def in_tile(bounds: np.ndarray, corner: tuple[int, int], shape: tuple[int, int])
     return here, np.minimum(edges, np.array((wide, wide, high, high), bounds.dtype), out=edges)
 
 
+def banded(bounds: np.ndarray, most: int) -> tuple[np.ndarray, np.ndarray]:
+    """Return bounds (n, 4) cut into bands of rows with so many pixels at most, and which of them each is of."""
+    rows = np.maximum(most // (bounds[:, 1] - bounds[:, 0]), 1)
+    count = -(-(bounds[:, 3] - bounds[:, 2]) // rows)
+    at = np.repeat(np.arange(len(bounds)), count)
+    band = np.arange(len(at)) - np.repeat(np.cumsum(count) - count, count)
+    parts = bounds[at]
+    parts[:, 2] += band * rows[at]
+    parts[:, 3] = np.minimum(parts[:, 3], parts[:, 2] + rows[at])
+    return at, parts
+
+
 def batches(bounds: np.ndarray, most: int = tuning.BATCH_PIXELS) -> Iterator[np.ndarray]:
     """Yield rows of bounds of about the same size, as many as fill a batch of pixels."""
     size = np.maximum(bounds[:, 1] - bounds[:, 0], bounds[:, 3] - bounds[:, 2])
