@@ -42,8 +42,22 @@ SERIAL_WORK = 1 << 18
 with 1 to 15 tiles. Without heed to it 16 threads took two to four times as long as two.
 """
 
-TRIANGLE_PIXELS = 1 << 16
-"""Pixels of the bounds of triangles that are tested at once."""
+CHUNK = 1 << 16
+"""Vertices or triangles of meshes that are placed at once. Times as below: 2**14 within 6 %, 2**20 up to 1.1 times."""
 
-LARGE_TRIANGLE = 1 << 13
-"""A triangle with as many pixels in its bounds is tested by itself, in whole windows."""
+BOUNDED = 1 << 12
+"""Triangles whose balls are bounded at once: a strip's takes 8 microseconds each, and a stop is heard between them."""
+
+SLABS = 4
+"""Parts in which triangles are tested, the nearest first: what they hide is not tested. Processor time of four passes
+of a ball of a thousand, 63,000 and a million triangles before a wall: one part 1.02, 1.07 and 1.33 times; two 1.0, 1.0
+and 1.16; eight within 8 %.
+"""
+
+CELLS = 8, 32
+"""Pixels of the sides of cells, each with the farthest t of its pixels: a triangle no larger lies in four at most."""
+
+SPANNED, SPANNED_PIXELS = 1 << 12, 1 << 17
+"""Triangles whose spans are found at once, and pixels of their bounds. A quarter of both: 1.1 to 1.2 times the time of
+those casts; four times: within 3 %.
+"""

@@ -91,6 +91,10 @@ class Camera:
         """Return the camera at a frame, without its pixel_time."""
         return replace(self, pixel_time=None, motion=None) if self.motion is None else self.motion.camera_at(frame)
 
+    def from_eye(self, sampled: bool) -> bool:
+        """Whether all rays leave the eye: the chief rays, or also those all over the aperture where it is sampled."""
+        return self.model.central and not (sampled and self.aperture is not None)
+
     def pixel_rounding(self, x, y) -> tuple[Any, Any]:
         """Return what rounding before the model's own formula amounts to, in pixels; see ``Model``."""
         return self.model.pixel_rounding(x, y)

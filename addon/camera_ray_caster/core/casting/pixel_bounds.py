@@ -1,4 +1,6 @@
-"""In which pixels of a plan something may be seen: those of the render window, or some of its columns and rows."""
+"""Where something may be seen: in which pixels of a plan, of its render window or of some columns and rows, and how far
+away at least.
+"""
 
 from __future__ import annotations
 
@@ -70,7 +72,7 @@ class PixelBounds:
         """See ``shapes.kind.PixelBounds``."""
         if self.camera.model.planar:
             return -centers[:, 2] - radii
-        if self.camera.model.central and self.camera.is_rigid and not (self.sampled and self.camera.aperture):
+        if self.camera.is_rigid and self.camera.from_eye(self.sampled):
             return np.sqrt((centers * centers).sum(axis=1)) - radii
         return np.full(len(radii), -np.inf)
 

@@ -57,7 +57,7 @@ class Plan:
                 bounds=self.bounds[some],
                 near=self.near[some],
                 clip_start=self.camera.clip_start,
-                from_eye=self.from_eye,
+                from_eye=self.camera.from_eye(self.request.sampled),
                 parallel=self.camera.parallel,
                 real=self.request.real,
                 pixels=self.pixels,
@@ -65,11 +65,6 @@ class Plan:
             )
             sets[kind.number] = kind.shape_set(self.in_camera, visible)
         return sets
-
-    @property
-    def from_eye(self) -> bool:
-        """Whether all rays leave the eye."""
-        return self.camera.model.central and not (self.request.sampled and self.camera.aperture)
 
     def at_pixels(self, columns: np.ndarray, rows: np.ndarray) -> Plan:
         """Return the plan of some of its pixels alone: of some columns and rows, (k,) and (l,) ascending."""
@@ -173,7 +168,7 @@ def _reach(camera: Camera, shapes: InCamera, sampled: bool):
     reach = shapes.radius
     if camera.model.planar:
         middle, reach = -shapes.center[:, 2], shapes.reach
-    elif camera.model.central and camera.is_rigid and not (sampled and camera.aperture):
+    elif camera.is_rigid and camera.from_eye(sampled):
         middle = np.sqrt((shapes.center * shapes.center).sum(axis=1))
     else:
         return np.full(len(reach), -np.inf), np.full(len(reach), np.inf)

@@ -39,13 +39,12 @@ class TileRays:
 def chief_rays(camera: Camera, x: np.ndarray, y: np.ndarray, corner: tuple[int, int], scratch: Scratch) -> TileRays:
     """Return the rays through the pixels' centers and the center of the lens or hole."""
     origin, direction = camera.camera_rays(x, y)
-    return TileRays(x, y, corner, camera.model.central, origin, direction, scratch)
+    return TileRays(x, y, corner, camera.from_eye(sampled=False), origin, direction, scratch)
 
 
 def sampled_rays(
     camera: Camera, x: np.ndarray, y: np.ndarray, sample: int, corner: tuple[int, int], scratch: Scratch
 ) -> TileRays:
     """Return one of the rays that lie all over the pixels and the aperture."""
-    from_eye = camera.model.central and camera.aperture is None
     origin, direction = camera.sample_rays(x, y, sample)
-    return TileRays(x, y, corner, from_eye, origin, direction, scratch)
+    return TileRays(x, y, corner, camera.from_eye(sampled=True), origin, direction, scratch)

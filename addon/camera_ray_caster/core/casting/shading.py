@@ -21,7 +21,8 @@ def shade(values: HitValues, out: np.ndarray) -> None:
 
     Lambert's law without shadows: a sun of E W/m^2 gives color E cos / pi; a point light of P W at distance r
     gives color P cos / (4 pi^2 r^2), as Blender's units have it; the world's color is added as even light from
-    all around. Without sun and point lights a headlight shines along each ray. GRID darkens lines of constant uv.
+    all around. Without sun and point lights a headlight shines along each ray. GRID darkens lines
+    of constant uv, or the edges of faces where there is no map.
     """
     shapes, missed = values.plan.shapes, values.hits.missed
     color = values.plan.colors

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .. import tuning
 from .kind import SearchRays
 
 NONE = np.iinfo(np.int32).max
@@ -13,9 +14,6 @@ NONE = np.iinfo(np.int32).max
 
 FOUND, NUMBER = "triangle found", "triangle"
 """Arrays of the scratch that keep each pixel's triangle: among those in view, and among those of its mesh."""
-
-CELLS = 8, 32
-"""Pixels of the sides of cells, each with the farthest t of its pixels: a triangle no larger lies in four at most."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,7 +66,7 @@ class Found:
         """
         size = np.maximum(bounds[:, 1] - bounds[:, 0], bounds[:, 3] - bounds[:, 2])
         shows, smaller = np.ones(len(bounds), bool), 0
-        for cell in CELLS:
+        for cell in tuning.CELLS:
             some = np.flatnonzero((size <= cell) & (size > smaller))
             smaller = cell
             if some.size:

@@ -10,6 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from .. import tuning
 from ..maths.speed import Shared, lazy
 from ..maths.vector import inverse
 from ..memory import require
@@ -17,12 +18,6 @@ from ..records import Mesh
 from .frames import MARGIN, InCamera
 from .kind import Visible
 from .triangles import side
-
-CHUNK = 1 << 16
-"""Vertices or triangles that are worked on at once: their working arrays stay in a core's cache."""
-
-BOUNDED = 1 << 12
-"""Triangles whose balls are bounded at once: a strip's takes 8 microseconds each, and a stop is heard between them."""
 
 VERTEX_BYTES, TRIANGLE_BYTES = 40, 104
 """Of memory that each in view takes at most."""
@@ -77,11 +72,11 @@ class MeshesInView:
         self._vertices = np.empty((3, total))
         self._images = np.empty((2, total)) if visible.pixels.has_straight_lines else None
         self._placing = Shared([
-            partial(self._place, group, slice(first, first + CHUNK))
+            partial(self._place, group, slice(first, first + tuning.CHUNK))
             for group in groups
-            for first in range(0, group.mesh.vertices.shape[1], CHUNK)
+            for first in range(0, group.mesh.vertices.shape[1], tuning.CHUNK)
         ])  # fmt: skip
-        chunk = CHUNK if visible.pixels.has_straight_lines else BOUNDED
+        chunk = tuning.CHUNK if visible.pixels.has_straight_lines else tuning.BOUNDED
         self._seeing = Shared([
             partial(self._see, group, k, slice(first, first + chunk))
             for group in groups
@@ -189,7 +184,7 @@ def _groups(shapes: InCamera, rows: np.ndarray) -> Iterator[Instances]:
     for first, last in pairwise((0, *cuts.tolist(), len(rows))):
         own = shapes.shapes.meshes[mesh[first]]
         count = own.vertices.shape[1]
-        step = max(1, CHUNK // max(count, 1))
+        step = max(1, tuning.CHUNK // max(count, 1))
         for begin in range(first, last, step):
             group = Instances(own, rows[begin : min(begin + step, last)], start)
             start += len(group.rows) * count

@@ -19,13 +19,6 @@ from .mesh_spans import Lattice, spans
 from .triangles import ROUNDING, STEEP, crossing, plane, signs, volumes
 from .windows import banded, batches, gather, in_tile, pixels_in
 
-SLABS = 4
-"""Parts in which triangles are tested, the nearest first: what they hide is not tested."""
-
-SPANNED, SPANNED_PIXELS = 1 << 12, 1 << 17
-"""Triangles whose spans are found at once, and pixels of their bounds."""
-
-
 Reach = tuple[float, float]
 """How long the directions and the origins of a tile's rays are at most."""
 
@@ -76,14 +69,14 @@ class MeshSet(ShapeSet):
 
     def _in_spans(self, rays, lattice: Lattice, reach: Reach, here, bounds, found: Found) -> Iterator[None]:
         """Keep what is met of triangles under a lattice of rays, in small steps."""
-        at, bands = banded(bounds, SPANNED_PIXELS)
+        at, bands = banded(bounds, tuning.SPANNED_PIXELS)
         for some in _pieces(bands):
             self._span(rays, lattice, reach, here[at[some]], bands[some], found)
             yield
 
     def _in_windows(self, rays, reach: Reach, here, bounds, found: Found) -> Iterator[None]:
         """Keep what is met of triangles under any rays, in small steps: the large ones one by one."""
-        is_large = pixels_in(bounds) >= tuning.LARGE_TRIANGLE
+        is_large = pixels_in(bounds) >= tuning.SMALL_PIXELS
         at, bands = banded(bounds[is_large], tuning.BLOCK_PIXELS)
         rest = []
         for one, band in zip(here[is_large][at].tolist(), bands.tolist(), strict=True):
@@ -93,7 +86,7 @@ class MeshSet(ShapeSet):
             which, pixel = (np.concatenate(part) for part in zip(*rest, strict=True))
             self._test(rays, which, pixel, found)
         here, bounds = here[~is_large], bounds[~is_large]
-        for batch in batches(bounds, tuning.TRIANGLE_PIXELS):
+        for batch in batches(bounds):
             self._cast(rays, reach, here[batch], bounds[batch], found)
             yield
 
@@ -131,7 +124,7 @@ class MeshSet(ShapeSet):
         self._test(rays, here[at], pixel, found)
         if not seen.clear.all():
             others = np.flatnonzero(~seen.clear)
-            for batch in batches(bounds[others], tuning.TRIANGLE_PIXELS):
+            for batch in batches(bounds[others]):
                 self._cast(rays, reach, here[others[batch]], bounds[others[batch]], found)
 
     def _cast(self, rays: SearchRays, reach: Reach, here: np.ndarray, bounds: np.ndarray, found: Found) -> None:
@@ -216,9 +209,9 @@ def _longest(vectors: Any) -> float:
 
 def _slabs(near: np.ndarray) -> Iterator[np.ndarray]:
     """Yield triangles in parts of about the same number, those with the least t first."""
-    cuts = np.quantile(near[:: max(1, len(near) >> 12)], np.arange(1, SLABS) / SLABS)
+    cuts = np.quantile(near[:: max(1, len(near) >> 12)], np.arange(1, tuning.SLABS) / tuning.SLABS)
     slab = np.searchsorted(cuts, near)
-    for k in range(SLABS):
+    for k in range(tuning.SLABS):
         yield np.flatnonzero(slab == k)
 
 
@@ -227,6 +220,6 @@ def _pieces(bounds: np.ndarray) -> Iterator[slice]:
     pixels = np.cumsum(pixels_in(bounds))
     first = 0
     while first < len(bounds):
-        end = min(first + SPANNED, int(np.searchsorted(pixels, pixels[first] + SPANNED_PIXELS)) + 1)
+        end = min(first + tuning.SPANNED, int(np.searchsorted(pixels, pixels[first] + tuning.SPANNED_PIXELS)) + 1)
         yield slice(first, end)
         first = end

@@ -36,14 +36,14 @@ def banded(bounds: np.ndarray, most: int) -> tuple[np.ndarray, np.ndarray]:
     return at, parts
 
 
-def batches(bounds: np.ndarray, most: int = tuning.BATCH_PIXELS) -> Iterator[np.ndarray]:
+def batches(bounds: np.ndarray) -> Iterator[np.ndarray]:
     """Yield rows of bounds of about the same size, as many as fill a batch of pixels."""
     size = np.maximum(bounds[:, 1] - bounds[:, 0], bounds[:, 3] - bounds[:, 2])
     step = np.ceil(4 * np.log2(np.maximum(size, 1)))
     for value in np.unique(step):
         alike = np.flatnonzero(step == value)
         pixels = (bounds[alike, 1] - bounds[alike, 0]).max() * (bounds[alike, 3] - bounds[alike, 2]).max()
-        count = max(1, most // pixels)
+        count = max(1, tuning.BATCH_PIXELS // pixels)
         for first in range(0, len(alike), count):
             yield alike[first : first + count]
 
