@@ -64,14 +64,11 @@ class Found:
         """Return which triangles may be seen, indices: all but small ones that lie behind what was found, whose least t
         are given, (k,), with their bounds in the tile, (k, 4).
         """
-        size = np.maximum(bounds[:, 1] - bounds[:, 0], bounds[:, 3] - bounds[:, 2])
-        shows, smaller = np.ones(len(bounds), bool), 0
-        for cell in tuning.CELLS:
-            some = np.flatnonzero((size <= cell) & (size > smaller))
-            smaller = cell
-            if some.size:
-                x, y = bounds[some, 0] // cell, bounds[some, 2] // cell
-                shows[some] = near[some] <= _farthest(self.t, cell)[y, x]
+        wide, high = bounds[:, 1] - bounds[:, 0], bounds[:, 3] - bounds[:, 2]
+        shows = np.maximum(wide, high) > tuning.CELL
+        small = np.flatnonzero(~shows)
+        x, y = (bounds[small, i] // tuning.CELL for i in (0, 2))
+        shows[small] = near[small] <= _farthest(self.t, tuning.CELL)[y, x]
         return np.flatnonzero(shows)
 
 
