@@ -12,6 +12,16 @@ def empty_file(blender):
     return blender
 
 
+@pytest.fixture
+def camera_scene(blender):
+    """The scene, of 8 x 8 pixels, with a camera and nothing else."""
+    blender.ops.object.camera_add()
+    scene = blender.context.scene
+    scene.camera = blender.context.object
+    scene.render.resolution_x = scene.render.resolution_y = 8
+    return scene
+
+
 @pytest.fixture(scope="session")
 def archive(tmp_path_factory):
     """The extension as a zip."""

@@ -32,12 +32,9 @@ def file_output(tree, socket, folder, name):
 
 
 @pytest.fixture
-def scene(blender, tmp_path):
+def scene(blender, camera_scene, tmp_path):
     """A small scene with a node that writes beside the file, one in a group that writes elsewhere, and a muted one."""
-    blender.ops.object.camera_add()
-    scene = blender.context.scene
-    scene.camera = blender.context.object
-    scene.render.resolution_x = scene.render.resolution_y = 8
+    scene = camera_scene
     scene.render.engine = "CAMERA_RAY_CASTER"
     tree = compositor(blender, scene)
     group = blender.data.node_groups.new("Group", "CompositorNodeTree")

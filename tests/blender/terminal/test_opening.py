@@ -8,13 +8,9 @@ LEAD_AWAY = "/../../../away"
 
 
 @pytest.fixture
-def scene(blender, tmp_path):
+def scene(camera_scene):
     """A small scene with a camera, whose file is saved by ``cast``."""
-    blender.ops.object.camera_add()
-    scene = blender.context.scene
-    scene.camera = blender.context.object
-    scene.render.resolution_x = scene.render.resolution_y = 8
-    return scene
+    return camera_scene
 
 
 @pytest.fixture
