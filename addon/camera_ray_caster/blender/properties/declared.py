@@ -54,8 +54,11 @@ SHADING = Choice(
     "shading", "Shading", "What the combined pass shows on a shape",
     "MATERIAL",
     (
-        Item("MATERIAL", "Material", "The viewport color of its material, or its own, lit by sun and point lights", 0),
-        Item("GRID", "Grid", "The same with lines of constant u and v, to see what a projection does", 1),
+        Item(
+            "MATERIAL", "Material",
+            "The Base Color of its material where it was changed, else its viewport color, lit by sun and point lights", 0,
+        ),
+        Item("GRID", "Grid", "The same with lines of constant u and v, or the edges of faces without a UV map", 1),
     ),
 )  # fmt: skip
 SAMPLES = Whole(
