@@ -28,7 +28,10 @@ def scene(level: int, crowd: bool, width: int, height: int, model: str = ""):
     """Return camera and shapes of a monkey, or of a crowd of them, before a wall; and the scene."""
     import bpy
 
+    import camera_ray_caster
+
     bpy.ops.wm.read_factory_settings(use_empty=True)
+    camera_ray_caster.register()
     scene = bpy.context.scene
     scene.render.resolution_x, scene.render.resolution_y = width, height
     camera = bpy.data.objects.new("Camera", bpy.data.cameras.new("Camera"))

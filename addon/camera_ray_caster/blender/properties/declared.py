@@ -56,7 +56,8 @@ SHADING = Choice(
     (
         Item(
             "MATERIAL", "Material",
-            "The Base Color of its material where it was changed, else its viewport color, lit by sun and point lights", 0,
+            "The Base Color of its material where it was changed, else its viewport color, lit by sun and point lights",
+            0,
         ),
         Item("GRID", "Grid", "The same with lines of constant u and v, or the edges of faces without a UV map", 1),
     ),

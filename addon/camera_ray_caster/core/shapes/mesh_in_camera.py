@@ -50,11 +50,6 @@ class Instances(NamedTuple):
     start: int
     """Where the vertices of the first begin; those of the others follow."""
 
-    def vertices(self, k: int) -> slice:
-        """Return where those of the k-th are."""
-        count = self.mesh.vertices.shape[1]
-        return slice(self.start + k * count, self.start + (k + 1) * count)
-
 
 class MeshesInView:
     """The meshes in view, worked out when a thread first asks, by all threads that ask.
@@ -66,40 +61,39 @@ class MeshesInView:
 
     def __init__(self, shapes: InCamera, visible: Visible):
         self._shapes, self._pixels, self._from_eye = shapes, visible.pixels, visible.from_eye
-        groups = list(_groups(shapes, visible.at))
+        chunk = tuning.CHUNK if visible.pixels.has_straight_lines else tuning.BOUNDED
+        groups = list(_groups(shapes, visible.at, chunk))
         total, count = (sum(len(group.rows) * n(group.mesh) for group in groups) for n in (_vertex_count, len))
         require(VERTEX_BYTES * total + TRIANGLE_BYTES * count, f"{count:,} triangles in view", FEWER)
         self._vertices = np.empty((3, total))
         self._images = np.empty((2, total)) if visible.pixels.has_straight_lines else None
         self._placing = Shared([
-            partial(self._place, group, slice(first, first + tuning.CHUNK))
+            partial(self._place, group, part)
             for group in groups
-            for first in range(0, group.mesh.vertices.shape[1], tuning.CHUNK)
+            for part in _parts(_vertex_count(group.mesh), tuning.CHUNK)
         ])  # fmt: skip
-        chunk = tuning.CHUNK if visible.pixels.has_straight_lines else tuning.BOUNDED
+        self._imaging = Shared([
+            partial(self._image, self._images, part)
+            for part in _parts(total, tuning.CHUNK)
+            if self._images is not None
+        ])  # fmt: skip
         self._seeing = Shared([
-            partial(self._see, group, k, slice(first, first + chunk))
+            partial(self._see, group, part)
             for group in groups
-            for k in range(len(group.rows))
-            for first in range(0, len(group.mesh), chunk)
+            for part in _parts(len(group.mesh), chunk)
         ])  # fmt: skip
 
     def prepare(self) -> Iterator[None]:
         """Work on all that is still to do, in small steps."""
-        yield from self._placing.work()
-        self._placing.results()
-        yield from self._seeing.work()
-
-    @property
-    def vertices(self) -> np.ndarray:
-        """(3, v) camera frame, of all meshes in view."""
-        self._placing.results()
-        return self._vertices
+        for step in (self._placing, self._imaging, self._seeing):
+            yield from step.work()
+            step.results()
 
     @lazy
     def triangles(self) -> Triangles:
         """Those that some pixel may see."""
-        self._placing.results()
+        for _ in self.prepare():
+            pass
         parts = self._seeing.results()
         whole = {field.name: [getattr(part, field.name) for part in parts] for field in fields(Triangles)}
         bounds = np.concatenate([part.T for part in whole.pop("bounds")], axis=1).T  # a column in one piece
@@ -123,15 +117,16 @@ class MeshesInView:
             np.add(axes[:, i, 1] * q[1], axes[:, i, 2] * q[2], out=place)
             place += axes[:, i, 0] * q[0]
             place += self._shapes.center[rows, i, None]
-        if self._images is not None:
-            for k in range(len(rows)):
-                at = group.vertices(k)
-                at = slice(at.start + some.start, min(at.start + some.stop, at.stop))
-                self._images[:, at] = self._pixels.images(self._vertices[:, at].T).T
 
-    def _see(self, group: Instances, k: int, some: slice) -> Triangles:
-        """Return the triangles of an instance that some pixel may see."""
-        corners = group.mesh.triangles[:, some] + group.vertices(k).start
+    def _image(self, images: np.ndarray, some: slice) -> None:
+        """Find the pixels in which some vertices are seen."""
+        images[:, some] = self._pixels.images(self._vertices[:, some].T).T
+
+    def _see(self, group: Instances, some: slice) -> Triangles:
+        """Return which of some triangles of a mesh may be seen by some pixel, of all its instances."""
+        own = group.mesh.triangles[:, None, some]
+        starts = group.start + _vertex_count(group.mesh) * np.arange(len(group.rows))
+        corners = (own + starts[:, None]).reshape(3, -1)
         bounds, near, seen = self._bounds(corners)
         number = np.flatnonzero(seen)
         bounds, near, corners = bounds[number], near[number], corners[:, number]
@@ -141,9 +136,10 @@ class MeshesInView:
             if not turn.all():
                 area = turn != 0
                 number, bounds, near, corners = number[area], bounds[area], near[area], corners[:, area]
+        instance, number = np.divmod(number, own.shape[2])
         return Triangles(
             corners=corners,
-            shape=np.full(len(number), group.rows[k], np.int32),
+            shape=group.rows[instance].astype(np.int32),
             number=(number + some.start).astype(np.int32),
             bounds=bounds.astype(np.int32),
             near=np.nextafter(near.astype(np.float32), np.float32(-np.inf)),
@@ -177,15 +173,19 @@ def _vertex_count(mesh: Mesh) -> int:
     return mesh.vertices.shape[1]
 
 
-def _groups(shapes: InCamera, rows: np.ndarray) -> Iterator[Instances]:
-    """Yield the instances of each mesh, as many at once as fill a chunk."""
+def _parts(count: int, most: int) -> Iterator[slice]:
+    """Yield slices of so many things at most."""
+    for first in range(0, count, most):
+        yield slice(first, min(first + most, count))
+
+
+def _groups(shapes: InCamera, rows: np.ndarray, chunk: int) -> Iterator[Instances]:
+    """Yield the instances of each mesh, as many at once as fill a chunk with vertices or triangles."""
     mesh, start = shapes.shapes.mesh[rows], 0
     cuts = np.flatnonzero(np.diff(mesh)) + 1
     for first, last in pairwise((0, *cuts.tolist(), len(rows))):
         own = shapes.shapes.meshes[mesh[first]]
-        count = own.vertices.shape[1]
-        step = max(1, tuning.CHUNK // max(count, 1))
-        for begin in range(first, last, step):
-            group = Instances(own, rows[begin : min(begin + step, last)], start)
-            start += len(group.rows) * count
+        for part in _parts(last - first, max(1, chunk // max(_vertex_count(own), len(own), 1))):
+            group = Instances(own, rows[first:last][part], start)
+            start += len(group.rows) * _vertex_count(own)
             yield group
