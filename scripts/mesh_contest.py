@@ -6,7 +6,9 @@ every triangle in the world's coordinates as float32; the time to build their sc
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Callable, Iterator
+from pathlib import Path
 from time import perf_counter
 
 import contenders as c
@@ -24,14 +26,11 @@ MODELS = "FISHEYE_EQUISOLID", "EQUIRECTANGULAR", "CROSS_SLIT", "PUSHBROOM"
 MODELS_LEVEL = 3
 
 
-def scene(level: int, crowd: bool, width: int, height: int, model: str = ""):
-    """Return camera and shapes of a monkey, or of a crowd of them, before a wall; and the scene."""
+def scene(level: int, crowd: bool, width: int, height: int):
+    """Return camera and shapes of a monkey, or of a crowd of them, before a wall."""
     import bpy
 
-    import camera_ray_caster
-
     bpy.ops.wm.read_factory_settings(use_empty=True)
-    camera_ray_caster.register()
     scene = bpy.context.scene
     scene.render.resolution_x, scene.render.resolution_y = width, height
     camera = bpy.data.objects.new("Camera", bpy.data.cameras.new("Camera"))
@@ -55,11 +54,8 @@ def scene(level: int, crowd: bool, width: int, height: int, model: str = ""):
             one.rotation_euler = rng.uniform(0, 6, 3)
             one.scale = (0.5,) * 3
             scene.collection.objects.link(one)
-    if model:
-        own = camera.data.camera_ray_caster
-        own.model = model
     bpy.context.view_layer.update()
-    return read_camera(scene), read_shapes(scene), scene
+    return read_camera(scene), read_shapes(scene)
 
 
 def triangles(shapes: Shapes) -> Iterator[tuple[np.ndarray, np.ndarray, np.ndarray | None]]:
@@ -144,7 +140,7 @@ def run(compare: Callable, quick: bool, width: int, height: int, rounds: int, th
     """Print and return what ``compare`` tells of each scene."""
     rows = []
     for level in LEVELS[:2] if quick else (*LEVELS, None):
-        camera, shapes, _ = scene(level or 0, level is None, width, height)
+        camera, shapes = scene(level or 0, level is None, width, height)
         entries = {
             "ours, 4 passes": c.ours(PASSES, threads),
             "ours, depth + index": c.ours(("depth", "shape_index"), threads),
@@ -165,12 +161,16 @@ def run(compare: Callable, quick: bool, width: int, height: int, rounds: int, th
 
 
 def _by_model(width: int, height: int, rounds: int, threads: int) -> list[dict]:
-    """Print and return how long other models take, in turns with the perspective."""
+    """Print and return how long other models take, in turns with the perspective: as the contract test has them."""
+    sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+    from tests.core.cameras.model_examples import camera as camera_of
+
     print("\n  63k triangles, four passes, by camera model, over the perspective")
-    camera, shapes, _ = scene(MODELS_LEVEL, False, width, height)
+    camera, shapes = scene(MODELS_LEVEL, False, width, height)
     rows = []
     for key in MODELS:
-        other, _, _ = scene(MODELS_LEVEL, False, width, height, key)
+        size = {"resolution_x": width, "resolution_y": height, "matrix_world": np.eye(4)}
+        other = camera_of(key, size)
         times: tuple[list[float], list[float]] = [], []
         for _ in range(rounds + 1):
             for own, one in zip(times, (camera, other), strict=True):
