@@ -231,6 +231,10 @@ class Shapes:
     meshes: tuple[Mesh, ...] = ()
     mesh: np.ndarray = field(default_factory=lambda: np.zeros(0, np.int32))
     """(n,) int32 into ``meshes``, -1 for other shapes; empty where there are no meshes."""
+    shared: np.ndarray = field(default_factory=lambda: np.zeros(0, bool))
+    """(n,) bool: whether normals of the mesh are interpolated in its own frame, as Cycles does of one that several
+    objects show, not in the world; empty where there are no meshes.
+    """
     slots: Slots | None = None
     """None where no mesh has more than one material."""
     exact: tuple[tuple[str, float], ...] = ()

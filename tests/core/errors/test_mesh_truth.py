@@ -22,7 +22,7 @@ AXES = np.array([[1, 0.2, 0], [0, -0.5, 0.1], [0.3, 0, 2]])
 
 
 def corners_of(shapes, row, triangle):
-    """The corners in the world, and the normals there: of unit length in the world where one object shows the mesh."""
+    """The corners in the world, and the normals there: of unit length in the world unless the mesh is shared."""
     mesh = shapes.meshes[shapes.mesh[row]]
     axes, center, middle = exact(shapes.axes[row]), exact(shapes.center[row]), exact(mesh.middle)
     places = [exact(mesh.vertices[:, k]) for k in mesh.triangles[:, triangle]]
@@ -32,7 +32,7 @@ def corners_of(shapes, row, triangle):
     to_world = list(zip(*truth.inverse(axes), strict=True))
     normals = [exact(mesh.normals[:, k]) for k in mesh.loops[:, triangle]]
     normals = [[dot(line, normal) for line in to_world] for normal in normals]
-    if (shapes.mesh == shapes.mesh[row]).sum() == 1:
+    if not shapes.shared[row]:
         normals = [[x / norm(normal) for x in normal] for normal in normals]
     return places, normals
 
@@ -63,6 +63,7 @@ def test_no_bound_is_exceeded(key):
         (ball(7, 8), (1, 0, -5), AXES),
         (shared, (-2, 1, -3), AXES),
         (shared, (2, -1, -4), np.diag([1, 0.2, 1])),
+        shared=np.array([False, False, True, True]),
     )
     for settings in EXAMPLES[key]:
         raw = raw_of(key, settings | {"resolution_x": 40, "resolution_y": 30})

@@ -70,6 +70,7 @@ def shapes_of(*rows, **more) -> Shapes:
         names=tuple(f"mesh {k}" for k in range(n)),
         meshes=meshes,
         mesh=np.array([meshes.index(mesh) for mesh, _, _ in rows], np.int32),
+        shared=np.zeros(n, bool),
     )
     return Shapes(**(given | more))
 

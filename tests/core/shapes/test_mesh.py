@@ -162,9 +162,10 @@ def test_normals_of_a_shared_mesh_are_interpolated_in_its_own_frame():
     tilted = np.float32([[0, -0.6, 0.6], [0, 0, 0], [1, 0.8, 0.8]])
     quad = mesh_of([(-1, -1, 0), (1, -1, 0), (0, 1, 0)], [(0, 1, 2)], normals=tilted, loops=np.array([[0], [1], [2]]))
     scale = np.diag([1.0, 1.0, 4.0])
-    one = shapes_of((quad, (0, 0, -3), scale))
-    two = shapes_of((quad, (0, 0, -3), scale), (quad, (0, 9, -3), scale))
-    alone, shared = (cast(camera_at(), shapes, ("normal", "uv"), np.float64) for shapes in (one, two))
+    alone, shared = (
+        cast(camera_at(), shapes_of((quad, (0, 0, -3), scale), shared=np.array([both])), ("normal", "uv"), np.float64)
+        for both in (False, True)
+    )
     assert (alone["uv"] == 0).all()
     weights = np.array([0.25, 0.25, 0.5])  # of the middle of the picture
     local = (weights * tilted).sum(axis=1) * [1, 1, 0.25]

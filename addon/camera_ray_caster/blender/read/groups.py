@@ -1,7 +1,7 @@
 """Instances that have everything but their place in common, and the record that they make."""
 
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Hashable, Iterable, Iterator
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -33,6 +33,8 @@ class Group:
     is_sun: bool | None = None
     flattened: Callable[[], Found] | None = None
     """Returns the triangles that stand in for an exact shape where its matrix lies in one plane."""
+    geometry: Hashable | None = None
+    """Equal for groups whose geometry Cycles has once; None where it has none of a group."""
     matrices: list[tuple[float, ...]] = field(default_factory=list)
 
     def placings(self) -> np.ndarray:
@@ -67,6 +69,9 @@ def gathered(groups: list[Group], left_out: Counter, scene) -> Shapes:
     numbers = {key: number for number, key in enumerate(meshes)}
     rows = [numbers.get(id(group.primitive), -1) for group in cast]
     looks = [group.looks[0] for group in cast]
+    users: Counter[Hashable] = Counter()
+    for group in groups:
+        users[group.geometry] += len(group.matrices)
     return Shapes(
         kind=column([group.primitive.kind for group in cast], np.uint8),
         center=center,
@@ -81,6 +86,7 @@ def gathered(groups: list[Group], left_out: Counter, scene) -> Shapes:
         left_out=tuple((name, _counted(reason, count)) for (name, reason), count in left_out.items()),
         meshes=tuple(meshes.values()),
         mesh=column(rows, np.int32) if meshes else np.zeros(0, np.int32),
+        shared=column([users[group.geometry] > 1 for group in cast], bool) if meshes else np.zeros(0, bool),
         slots=_slots(cast, column),
         exact=tuple((group.name, group.primitive.apart) for group in cast if group.primitive.apart is not None),
     )

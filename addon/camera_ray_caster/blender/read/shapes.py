@@ -1,7 +1,7 @@
 """The shapes and lights that a depsgraph shows to a renderer; geometry that cannot be cast is named."""
 
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Hashable, Iterable
 from functools import partial
 
 from ...core.records import Mesh, Shapes
@@ -90,6 +90,8 @@ class _Scene:
     def fill(self, group: Group, instance) -> None:
         """Set what the geometry of an instance stands for, or why it cannot be cast."""
         item, source = instance.object, original_source(instance)
+        if self.visibility.is_met(instance):
+            group.geometry = self.geometry(instance)
         setting = own_value(source, PRIMITIVE)  # the file's own: setting it evaluates nothing anew
         group.reason = _refusal(setting) or self.visibility.objection(instance)
         if group.reason:
@@ -106,6 +108,14 @@ class _Scene:
         group.looks = tuple(self.looks.of_slot(item, slot) for slot in _slots(item, group.primitive.mesh))
         if self.visibility.is_holdout(instance):
             group.looks = tuple((index, (0.0,) * 4) for index, _ in group.looks)
+
+    def geometry(self, instance) -> Hashable:
+        """Return what Cycles knows the geometry of an instance by: its data, or its object where that has a material
+        slot of its own.
+        """
+        data, item = instance.object.data, instance.instance_object or instance.object
+        own = item.data == data and any(slot.link == "OBJECT" for slot in item.material_slots)
+        return item.original.session_uid if own else data.as_pointer()
 
     def record(self) -> Shapes:
         """Return all of it."""

@@ -7,6 +7,9 @@ collection that geometry nodes or particles instance count as shown, like the hi
 
 from collections.abc import Iterator
 
+RAYS = "camera", "diffuse", "glossy", "transmission", "volume_scatter", "shadow"
+"""The kinds in an object's Ray Visibility."""
+
 
 class Visibility:
     """The answers for one depsgraph. Every question is about an item of its ``object_instances``."""
@@ -40,6 +43,11 @@ class Visibility:
         if objects[-1].indirect_only_get(view_layer=self.layer):
             return "its collection is indirect only"
         return ""
+
+    def is_met(self, instance) -> bool:
+        """Return whether any kind of ray meets what a render shows: Cycles has no geometry of anything else."""
+        objects = _involved(instance)
+        return any(all(getattr(item, f"visible_{ray}") for item in objects) for ray in RAYS)
 
     def is_holdout(self, instance) -> bool:
         """Return whether it cuts a hole into the picture instead of showing itself."""

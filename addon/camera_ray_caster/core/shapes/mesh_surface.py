@@ -103,18 +103,17 @@ class HitTriangles:
     def corner_normals(self) -> np.ndarray:
         """The normals at the corners on the side of ``area``, (3, 3, k): corner, component; not of unit length.
 
-        Those of a mesh that one object shows are made unit in the world, those of a shared one in the mesh's frame, as
-        Cycles interpolates them. A triangle with a normal that a flattened object leaves no direction is flat.
+        They are made unit in the world, those of a shared mesh in its own frame: see ``Shapes.shared``. A triangle with
+        a normal that a flattened object leaves no direction is flat.
         """
         smooth = self._gather((), bool, lambda mesh, k: mesh.normals is not None)
         local = self._gather((3, 3), float, _normals)
-        shared = np.bincount(self.shapes.shapes.mesh + 1)[self._mesh + 1] > 1
         first, second, third = zip(*self.axes, strict=True)
         columns = [cross(second, third), cross(third, first), cross(first, second)]
         turned = np.array([matvec(tuple(zip(*columns, strict=True)), corner) for corner in local])
         for corner in turned:
             smooth &= norm(corner) > 0
-        turned = np.where(shared, turned, np.array([unit(corner) for corner in turned]))
+        turned = np.where(self.shapes.shapes.shared[self.at], turned, np.array([unit(corner) for corner in turned]))
         return np.where(smooth, turned, np.array(self.area))
 
     @lazy
