@@ -26,6 +26,20 @@ def cycles_surface(scene, output, reach):
     return _render(scene, output, reach, sky=False)
 
 
+def cycles_passes(scene):
+    """Return the combined pass, (h, w, 3), and the material index, (h, w), of the scene as it is."""
+    _prepare(scene)
+    layer, settings = scene.view_layers[0], scene.render.image_settings
+    layer.use_pass_material_index = True
+    if bpy.app.version >= (5, 0):
+        settings.media_type, settings.use_exr_interleave = "MULTI_LAYER_IMAGE", True
+    settings.file_format, settings.color_depth = "OPEN_EXR_MULTILAYER", "32"
+    bpy.ops.render.render(write_still=True, scene=scene.name)
+    channels = read_exr(Path(scene.render.filepath))
+    (index,) = (name for name in channels if "Index" in name)
+    return np.stack([channels[f"{layer.name}.Combined.{part}"] for part in "RGB"], axis=-1), channels[index]
+
+
 def _render(scene, output, reach, sky):
     _prepare(scene)
     scene.world = bpy.data.worlds.new("Witness")

@@ -10,7 +10,6 @@ from ...core.records import Shapes, Slots
 from ...core.shapes.instances import Primitive, castable, lights_in_world, put_in_world
 from ..terminal.signals import raise_if_stopping
 from .kept import Found
-from .lights import world_color
 from .materials import Look
 
 SINGULAR = "its size is zero in some direction, or not finite: clear its scale (Alt S) or apply it"
@@ -50,7 +49,7 @@ def heeding(items: Iterable) -> Iterator:
         yield item
 
 
-def gathered(groups: list[Group], left_out: Counter, scene) -> Shapes:
+def gathered(groups: list[Group], left_out: Counter, world: tuple[float, float, float, float]) -> Shapes:
     """Return the record of all groups: their instances placed in the world, one row a shape."""
     lights = [group for group in groups if group.is_sun is not None]
     parts = list(_castable([group for group in heeding(groups) if group.primitive is not None], left_out))
@@ -82,7 +81,7 @@ def gathered(groups: list[Group], left_out: Counter, scene) -> Shapes:
         name_index=column(range(len(cast)), np.int32),
         names=tuple(group.name for group in cast),
         lights=lights_in_world([(group.is_sun, group.looks[0][1], group.placings()) for group in lights]),
-        world_color=world_color(scene),
+        world_color=world,
         left_out=tuple((name, _counted(reason, count)) for (name, reason), count in left_out.items()),
         meshes=tuple(meshes.values()),
         mesh=column(rows, np.int32) if meshes else np.zeros(0, np.int32),

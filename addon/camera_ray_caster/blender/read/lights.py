@@ -16,16 +16,19 @@ def light_color(light) -> tuple[float, float, float]:
     return tuple(strength * a * b for a, b in zip(light.color, tint, strict=True))
 
 
-def world_color(scene) -> tuple[float, float, float, float]:
+def world_color(depsgraph) -> tuple[float, float, float, float]:
     """Return the color behind everything: (0, 0, 0, 0) under a transparent film, black without a world.
 
-    A world that is one Background of plain color and strength shows that; any other shows its viewport color.
+    A world that is one Background of plain color and strength shows that; any other shows its viewport color. The view
+    layer may have another one than the scene.
     """
+    scene = depsgraph.scene_eval
+    world = depsgraph.view_layer_eval.world_override or scene.world
     if scene.render.film_transparent:
         return 0.0, 0.0, 0.0, 0.0
-    if scene.world is None:
+    if world is None:
         return 0.0, 0.0, 0.0, 1.0
-    red, green, blue = shown(_background(scene.world) or scene.world.color)
+    red, green, blue = shown(_background(world) or world.color)
     return red, green, blue, 1.0
 
 

@@ -1,6 +1,7 @@
 """How materials look in the combined pass, and their pass indices."""
 
 import math
+from collections.abc import Iterable
 
 import bpy
 import numpy as np
@@ -16,20 +17,29 @@ Look = tuple[int, tuple[float, ...]]
 
 
 class Looks:
-    """The looks of objects, each material looked up once."""
+    """The looks of objects in a view layer, each material looked up once."""
 
-    def __init__(self):
+    def __init__(self, override=None):
+        """Take the material that stands in for all of a view layer, if there is one."""
+        self._override = override
         self._known: dict[object, Look] = {}
 
-    def of_slot(self, item, slot: int) -> Look:
-        """Return the look of what has an evaluated object's material slot; behind the last one it is the last one's.
+    def of_slots(self, item, slots: Iterable[int]) -> tuple[Look, ...]:
+        """Return the looks of what has an evaluated object's material slots; one where one stands in for all."""
+        if self._override is not None:
+            return (self._of(self._override),)
+        return tuple(self._of_slot(item, slot) for slot in slots)
+
+    def _of_slot(self, item, slot: int) -> Look:
+        """Return the look of a slot; behind the last one it is the last one's.
 
         Without a material it is the object's own color.
         """
         slots = item.material_slots
         material = slots[min(slot, len(slots) - 1)].material if len(slots) else None
-        if material is None:
-            return 0, shown(item.color)
+        return (0, shown(item.color)) if material is None else self._of(material)
+
+    def _of(self, material) -> Look:
         if material not in self._known:
             self._known[material] = _look(material)
         return self._known[material]

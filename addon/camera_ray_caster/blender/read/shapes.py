@@ -9,7 +9,7 @@ from ..properties.declared import EXACT_SHAPES, PRIMITIVE
 from .geometry import mesh_shapes, shapes_of
 from .groups import Group, gathered, heeding
 from .kept import Reading
-from .lights import USED, light_color
+from .lights import USED, light_color, world_color
 from .materials import Looks, first_slot, is_finite
 from .stored import own_value
 from .visibility import Visibility, original_source
@@ -42,11 +42,11 @@ class _Scene:
     """What is found while a depsgraph lists its instances."""
 
     def __init__(self, depsgraph):
-        self.scene = depsgraph.scene_eval
+        self.world = world_color(depsgraph)
         self.visibility = Visibility(depsgraph)
         self.reading = Reading(depsgraph)
-        self.looks = Looks()
-        self.exact = own_value(self.scene, EXACT_SHAPES)
+        self.looks = Looks(depsgraph.view_layer_eval.material_override)
+        self.exact = own_value(depsgraph.scene_eval, EXACT_SHAPES)
         self.groups: dict[tuple, Group] = {}
         self.left_out: Counter[tuple[str, str]] = Counter()
         self.listed = set()
@@ -105,7 +105,7 @@ class _Scene:
         if setting == "AUTOMATIC" and group.primitive.apart is not None:
             group.flattened = partial(find, "MESH", partial(mesh_shapes, item.data, "MESH"))
         group.object_index = item.pass_index
-        group.looks = tuple(self.looks.of_slot(item, slot) for slot in _slots(item, group.primitive.mesh))
+        group.looks = self.looks.of_slots(item, _slots(item, group.primitive.mesh))
         if self.visibility.is_holdout(instance):
             group.looks = tuple((index, (0.0,) * 4) for index, _ in group.looks)
 
@@ -125,7 +125,7 @@ class _Scene:
         for item in self.visibility.unlisted(self.listed):
             if _may_have_surface(item) or item.instance_type == "COLLECTION":
                 self.left_out[item.name, HIDDEN] += 1
-        return gathered(list(self.groups.values()), self.left_out, self.scene)
+        return gathered(list(self.groups.values()), self.left_out, self.world)
 
 
 def _may_have_surface(item) -> bool:
