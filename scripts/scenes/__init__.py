@@ -1,6 +1,6 @@
 """The example scenes by name: functions that fill an empty Blender scene. The docstring is the line in the README."""
 
-from . import cameras, contents, lenses, meshes, multiperspective, panoramas, showcase, time
+from . import calibrated, cameras, contents, lenses, meshes, multiperspective, panoramas, showcase, time
 
 
 def _by_name(*makers):
@@ -43,10 +43,15 @@ GALLERY = {
         lenses.thin_lens,
         lenses.fisheye_orthographic,
         lenses.fisheye_stereographic,
-        lenses.opencv_pinhole,
-        lenses.opencv_fisheye,
         lenses.omnimax,
         lenses.dome_master,
+    ),
+    "Calibrated lenses": _by_name(
+        calibrated.opencv_pinhole,
+        calibrated.opencv_fisheye,
+        calibrated.ucm,
+        calibrated.eucm,
+        calibrated.double_sphere,
     ),
     "Panoramas": _by_name(
         panoramas.equirectangular,

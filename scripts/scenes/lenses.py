@@ -1,4 +1,4 @@
-"""Lenses and holes: a pinhole to compare with, camera obscura, thin lens, fisheyes, calibrated and dome lenses."""
+"""Lenses and holes: a pinhole to compare with, camera obscura, thin lens, fisheyes and dome lenses."""
 
 from __future__ import annotations
 
@@ -45,20 +45,6 @@ def fisheye_stereographic(scene):
     photograph(scene, MIDDLE, FRONT, 360, 360, own={"model": "FISHEYE_STEREOGRAPHIC", "fov": radians(220)})
 
 
-def opencv_pinhole(scene):
-    """a calibrated lens with strong barrel distortion and a decentered axis: inverted without a formula."""
-    room(scene)
-    own = {"model": "OPENCV_PINHOLE", **calibrated(448, 280, 210), "k1": -0.24, "k2": 0.045, "p1": 0.004, "p2": -0.006}
-    photograph(scene, CORNER, AHEAD, 448, 280, own=own)
-
-
-def opencv_fisheye(scene):
-    """a calibrated fisheye (Kannala and Brandt): wider than a half sphere, no ray where its polynomial turns back."""
-    room(scene)
-    own = {"model": "OPENCV_FISHEYE", **calibrated(448, 280, 110), "k1": 0.03, "k2": -0.022, "k3": 0.0008}
-    photograph(scene, MIDDLE, FRONT, 448, 280, own=own)
-
-
 def omnimax(scene):
     """the film of IMAX domes, tilted by 20 degrees: the axis lies low in the frame, most of the picture is overhead."""
     meadow(scene)
@@ -71,9 +57,3 @@ def dome_master(scene):
     meadow(scene)
     own = {"model": "DOME_MASTER", "fov": pi, "tilt": radians(15)}
     photograph(scene, (0, 0, 1.8), (0, 6, 1.8), 400, 400, world="bcd7ea", own=own)
-
-
-def calibrated(width: int, height: int, focal: float) -> dict[str, float]:
-    """Return the settings of a calibrated picture of this size with its axis in the middle; focal in pixels."""
-    center = {"cx": (width - 1) / 2, "cy": (height - 1) / 2}
-    return {"calibration_width": width, "calibration_height": height, "fx": focal, "fy": focal, **center}

@@ -9,6 +9,7 @@ from .opening import FOLDER, opened
 
 TIMES = {"time_tolerance": 0.1, "time_evaluations": 256}
 CALIBRATED = {"calibration_file": "", "calibration_width": 448, "calibration_height": 280, "cx": 223.5, "cy": 139.5}
+SMALL = {"calibration_width": 312, "calibration_height": 208, "cx": 155.5, "cy": 103.5}
 K = "fisheye_polynomial_k"
 BEHIND = (0, -5.2, 2.5)
 STORED = {
@@ -46,6 +47,9 @@ STORED = {
     "opencv_fisheye": (
         "OPENCV_FISHEYE", {**CALIBRATED, "fx": 110, "fy": 110, "k1": 0.03, "k2": -0.022, "k3": 0.0008, "k4": 0},
     ),
+    "ucm": ("UCM", {**SMALL, "fx": 115, "unified_xi": 1.3, "k1": -0.05, "k2": 0.02, "p1": 0.003, "p2": -0.002}),
+    "eucm": ("EUCM", {**SMALL, "fx": 75, "skew": 0, "unified_alpha": 0.62, "unified_beta": 1.08}),
+    "double_sphere": ("DOUBLE_SPHERE", {**SMALL, "fx": 52, "unified_xi": -0.22, "unified_alpha": 0.57}),
     "omnimax": ("OMNIMAX", {"tilt": radians(20)}),
     "dome_master": ("DOME_MASTER", {"fov": pi, "tilt": radians(15)}),
     "equirectangular": ("EQUIRECTANGULAR", {"longitude_min": -pi, "latitude_max": pi / 2}),

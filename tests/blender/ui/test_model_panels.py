@@ -4,7 +4,8 @@ import pytest
 
 from camera_ray_caster.blender.ui.model_panels import ModelPanel, TimePanel
 
-CALIBRATION = ("calibration_file", "calibration_width", "calibration_height", "fx", "fy", "cx", "cy")
+MATRIX = ("calibration_width", "calibration_height", "fx", "fy", "cx", "cy", "skew")
+CALIBRATION = ("calibration_file", *MATRIX)
 SHOWN = {
     "BLENDER": (),
     "CAMERA_OBSCURA": ("obscura_depth", "obscura_width", "obscura_hole"),
@@ -12,6 +13,9 @@ SHOWN = {
     "FISHEYE_STEREOGRAPHIC": ("fov",),
     "OPENCV_PINHOLE": (*CALIBRATION, "k1", "k2", "p1", "p2", "k3", "k4", "k5", "k6", "s1", "s2", "s3", "s4"),
     "OPENCV_FISHEYE": (*CALIBRATION, "k1", "k2", "k3", "k4"),
+    "UCM": (*MATRIX, "unified_xi", "k1", "k2", "p1", "p2"),
+    "EUCM": (*MATRIX, "unified_alpha", "unified_beta"),
+    "DOUBLE_SPHERE": (*MATRIX, "unified_xi", "unified_alpha"),
     "OMNIMAX": ("tilt",),
     "DOME_MASTER": ("fov", "tilt"),
     "CYLINDRICAL": ("pan_min", "pan_max", "latitude_bottom", "latitude_top"),

@@ -24,8 +24,9 @@ ROUNDED = 8 * EPS
 """What polynomials and world coordinates add to a ray's own bound."""
 
 BY_POLYNOMIALS = {
-    "FISHEYE_EQUIDISTANT", "FISHEYE_LENS_POLYNOMIAL", "OPENCV_PINHOLE", "OPENCV_FISHEYE", "OMNIMAX", "DOME_MASTER",
-    "GENERAL_LINEAR", "CROSS_SLIT", "PUSHBROOM", "PENCIL", "TWISTED_ORTHOGRAPHIC",
+    "FISHEYE_EQUIDISTANT", "FISHEYE_LENS_POLYNOMIAL", "OPENCV_PINHOLE", "OPENCV_FISHEYE", "UCM", "EUCM",
+    "DOUBLE_SPHERE", "OMNIMAX", "DOME_MASTER", "GENERAL_LINEAR", "CROSS_SLIT", "PUSHBROOM", "PENCIL",
+    "TWISTED_ORTHOGRAPHIC",
 }  # fmt: skip
 """Models that give the rays of whole pictures by polynomials."""
 

@@ -2,9 +2,11 @@
 
 from math import pi, sqrt
 
+from . import calibrated_examples
 from .example_frames import BORDER, PORTRAIT, SHIFTED, TURNED
 
 ONLY_SOME = {
+    **calibrated_examples.ONLY_SOME,
     "fov": pi, "tilt": 0.0, "elevation": -pi / 2,
     "pan_min": -pi, "pan_max": pi, "latitude_bottom": -pi / 4, "latitude_top": pi / 4,
     "fx": 60.0, "fy": 61.0, "cx": 47.5, "cy": 26.5, "calibration_width": 0, "calibration_height": 0,
@@ -12,6 +14,7 @@ ONLY_SOME = {
 }  # fmt: skip
 
 EXAMPLES = {
+    **calibrated_examples.EXAMPLES,
     "FISHEYE_ORTHOGRAPHIC": [{}, SHIFTED, PORTRAIT | {"fov": 2.0}, BORDER | {"pixel_aspect_y": 2.0}],
     "FISHEYE_STEREOGRAPHIC": [{}, SHIFTED, PORTRAIT | {"fov": 6.0}, BORDER | {"pixel_aspect_y": 2.0}],
     "OPENCV_PINHOLE": [
@@ -33,6 +36,7 @@ EXAMPLES = {
 }
 
 FACTS = {
+    **calibrated_examples.FACTS,
     "FISHEYE_ORTHOGRAPHIC": [
         ({}, (48, 27), (0, 0, 0), (0, 0, -1)),
         ({}, (48 + 27 / 2, 27), (0, 0, 0), (1, 0, -sqrt(3))),  # half the radius: 30 degrees
@@ -84,6 +88,7 @@ FACTS = {
 }
 
 UNSEEN = {
+    **calibrated_examples.UNSEEN,
     "FISHEYE_ORTHOGRAPHIC": [(0, 0, 0), (0, 0, 1), (3, 0, 0.1), (1, 0, 2)],
     "FISHEYE_STEREOGRAPHIC": [(0, 0, 0), (0, 0, 1), (3, 0, 0.1)],
     "OPENCV_PINHOLE": [(0, 0, 0), (1, 2, 0), (0, 0, 1), (3, -1, 5)],
@@ -95,6 +100,7 @@ UNSEEN = {
 }
 
 REFUSED = {
+    **calibrated_examples.REFUSED,
     "FISHEYE_ORTHOGRAPHIC": [({"fov": 0.0}, "fov"), ({"fov": 3.2}, "fov")],
     "FISHEYE_STEREOGRAPHIC": [({"fov": 0.0}, "fov"), ({"fov": 2 * pi}, "fov")],
     "OPENCV_PINHOLE": [

@@ -9,7 +9,9 @@ from .cross_slit import CrossSlit
 from .cubemap_face import CubemapFace
 from .cylindrical import Cylindrical
 from .dome_master import DomeMaster
+from .double_sphere import DoubleSphere
 from .equirectangular import Equirectangular
+from .eucm import EnhancedUnifiedCamera
 from .fisheye_equidistant import FisheyeEquidistant
 from .fisheye_equisolid import FisheyeEquisolid
 from .fisheye_orthographic import FisheyeOrthographic
@@ -29,12 +31,14 @@ from .pushbroom import Pushbroom
 from .stereographic_panorama import StereographicPanorama
 from .strip import Strip
 from .twisted_orthographic import TwistedOrthographic
+from .ucm import UnifiedCamera
 
 MODELS: tuple[type[Model], ...] = (
     Perspective, Orthographic,
     Equirectangular, CubemapFace, Mirrorball, FisheyeEquidistant, FisheyeEquisolid, FisheyePolynomial,
     CentralCylindrical, CameraObscura,
-    FisheyeOrthographic, FisheyeStereographic, OpencvPinhole, OpencvFisheye, Omnimax, DomeMaster, Cylindrical,
+    FisheyeOrthographic, FisheyeStereographic, OpencvPinhole, OpencvFisheye,
+    UnifiedCamera, EnhancedUnifiedCamera, DoubleSphere, Omnimax, DomeMaster, Cylindrical,
     StereographicPanorama,
     GeneralLinear, CrossSlit, Pushbroom, Pencil, TwistedOrthographic, Strip, OmnidirectionalStereo,
 )  # fmt: skip

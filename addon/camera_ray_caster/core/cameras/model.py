@@ -167,11 +167,5 @@ class WindowModel(Model):
     window: Window
 
     def pixel_rounding(self, x, y) -> tuple[Any, Any]:
-        """Return the rounding of the few operations of a window; a center in the frame's middle is exact."""
-        window, (width, height) = self.window, self.frame
-        places = (x, window.center_x, width / 2), (y, window.center_y, height / 2)
-        across, up = (
-            gamma(6) * np.abs(place - center) + gamma(3) * (abs(center) if center != middle else 0.0)
-            for place, center, middle in places
-        )
-        return across, up
+        """See Model; only the few operations of the window count."""
+        return self.window.rounding(x, y, self.frame)

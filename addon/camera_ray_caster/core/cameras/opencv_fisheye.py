@@ -21,7 +21,7 @@ from ..maths.roots import positive_roots
 from ..records import BlenderCamera, Raster
 from .model import Step
 from .parts.calibration import CALIBRATION, FISHEYE, Calibration
-from .parts.radial import RADIUS, RAY, Radial, radii_of
+from .parts.radial import COORDINATES, RADIUS, RAY, Radial, radii_of
 
 
 @dataclass(frozen=True)
@@ -41,7 +41,7 @@ class OpencvFisheye(Radial):
     factors_by_polynomials = True
     SETTINGS = (*CALIBRATION, *FISHEYE)
     FORMULA = (
-        Step("Distorted coordinates, in focal lengths, y up", "a = (x - 1/2 - cx) / fx, b = (H - y - 1/2 - cy) / -fy"),
+        COORDINATES,
         RADIUS,
         Step("Angle, by Newton's method", "r = theta (1 + k1 theta² + k2 theta⁴ + k3 theta⁶ + k4 theta⁸)"),
         RAY,

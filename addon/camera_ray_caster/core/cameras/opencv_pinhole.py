@@ -39,7 +39,7 @@ class OpencvPinhole(WindowModel):
     planar = True
     SETTINGS = (*CALIBRATION, *RADIAL_TANGENTIAL)
     FORMULA = (
-        Step("Distorted coordinates, y down", "u = (x - 1/2 - cx) / fx, v = (H - y - 1/2 - cy) / fy"),
+        Step("Distorted coordinates, y down", "v = (H - y - 1/2 - cy) / fy, u = (x - 1/2 - cx - skew v) / fx"),
         Step("Undistorted, by Newton's method", "distort(X, Y) = (u, v)"),
         Step("Gain, r² = X² + Y²", "g = (1 + k1 r² + k2 r⁴ + k3 r⁶) / (1 + k4 r² + k5 r⁴ + k6 r⁶)"),
         Step("Distortion across", "X g + 2 p1 X Y + p2 (r² + 2 X²) + s1 r² + s2 r⁴"),

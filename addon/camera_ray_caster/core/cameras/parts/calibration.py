@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from reprlib import repr as shortened
 
 from ...records import BlenderCamera, InputError, Raster
+from .affine import AffineWindow
 from .filestorage import read_entries
 from .film import FARTHEST_PIXELS, Window
 from .settings import FilePath, Number, Setting, Whole
@@ -39,13 +40,24 @@ FILE = FilePath(
     "YAML or JSON as OpenCV writes it, with all its digits; empty: the numbers below",
     "",
 )
-CALIBRATION = (FILE, *SIZE, *FOCAL, *CENTER)
-"""The settings of the calibrated picture. Where there is a file, its numbers count."""
+SKEW = Number(
+    "skew", "Skew", "Of the camera matrix, its second number; in pixels of the calibrated picture", 0.0, unit="pixels",
+    digits=3,
+)  # fmt: skip
+PRINCIPAL_POINT = (*SIZE, *CENTER)
+MATRIX = (*SIZE, *FOCAL, *CENTER, SKEW)
+CALIBRATION = (FILE, *MATRIX)
+"""The settings of the calibrated picture: without a camera matrix, with one, and with a file. Where there is a file,
+its numbers count.
+"""
 
 
 def _coefficient(name: str, text: str) -> Number:
     return Number(name, name.upper(), text, 0.0, digits=6, step=0.1)
 
+
+Linear = tuple[tuple[float, float], tuple[float, float]]
+"""A matrix, its rows."""
 
 LARGEST = 1e30
 """Of a calibration's numbers: products of three of them have to be numbers, too."""
@@ -70,45 +82,53 @@ samples do not agree on them."""
 
 @dataclass(frozen=True)
 class Calibration:
-    """K, the size of its picture, and the coefficients by name."""
+    """K, the size of its picture, and the coefficients by name. Without focal lengths they are 1: pixels."""
 
     fx: float
     fy: float
     cx: float
     cy: float
+    skew: float
     width: float
     height: float
     coefficients: dict[str, float]
 
     @classmethod
-    def from_blender(cls, raw: BlenderCamera, raster: Raster, distortion: tuple[Number, ...]) -> Calibration:
+    def from_blender(
+        cls, raw: BlenderCamera, raster: Raster, distortion: tuple[Number, ...] = (), settings=CALIBRATION
+    ) -> Calibration:
         """Build it from the settings, or from the file that they name; ``distortion``: the model's coefficients.
 
         Raises InputError for a setting, a file or an entry of it that is missing or without meaning, by its name.
         """
-        path = FILE.read(raw)
-        values = (
+        path = FILE.read(raw) if FILE in settings else ""
+        values = {"fx": 1.0, "fy": 1.0, "skew": 0.0} | (
             _file_values(path, distortion) if path
-            else {setting.name: setting.read(raw) for setting in (*SIZE, *FOCAL)}
+            else {setting.name: setting.read(raw) for setting in (*SIZE, *FOCAL) if setting in settings}
             | {setting.name: setting.read(raw, high=FARTHEST_PIXELS) for setting in CENTER}
-            | {setting.name: setting.read(raw, -LARGEST, LARGEST) for setting in distortion}
+            | {setting.name: setting.read(raw, -LARGEST, LARGEST) for setting in (SKEW, *distortion)
+               if setting in (*settings, *distortion)}
         )  # fmt: skip
         return cls(
-            **{setting.name: values[setting.name] for setting in (*FOCAL, *CENTER)},
+            **{setting.name: values[setting.name] for setting in (*FOCAL, *CENTER, SKEW)},
             width=values["calibration_width"] or raster.width,
             height=values["calibration_height"] or raster.height,
             coefficients={setting.name: values[setting.name] for setting in distortion},
         )
 
-    def window(self, raster: Raster) -> Window:
-        """Return the window of (x, -y) of OpenCV's normalized, distorted image coordinates: y up."""
+    def window(self, raster: Raster, linear: Linear | None = None) -> Window:
+        """Return the window of (x, -y) of OpenCV's normalized, distorted image coordinates: y up.
+
+        linear: what brings these to the calibrated picture's pixels from its center, K's if it is not given.
+        """
         scale_x, scale_y = raster.width / self.width, raster.height / self.height
-        return Window(
-            (self.cx + 0.5) * scale_x,
-            (self.height - (self.cy + 0.5)) * scale_y,
-            1 / (self.fx * scale_x),
-            1 / (self.fy * scale_y),
-        )
+        center = (self.cx + 0.5) * scale_x, (self.height - (self.cy + 0.5)) * scale_y
+        (xx, xy), (yx, yy) = linear or ((self.fx, self.skew), (0.0, self.fy))
+        if xy == yx == 0:
+            return Window(*center, 1 / (xx * scale_x), 1 / (yy * scale_y))
+        volume = xx * yy - xy * yx
+        pitch, shear = (yy / volume / scale_x, xx / volume / scale_y), (xy / volume / scale_y, yx / volume / scale_x)
+        return AffineWindow(*center, *pitch, *shear)
 
 
 def _file_values(path: str, distortion: tuple[Setting, ...]) -> dict[str, float]:
@@ -117,11 +137,11 @@ def _file_values(path: str, distortion: tuple[Setting, ...]) -> dict[str, float]
     entries = {re.sub("[_-]", "", name).lower(): (name, value) for name, value in read_entries(path).items()}
     _check_model(entries, path, fisheye=distortion == FISHEYE)
     matrix = _numbers(entries, MATRIX_NAMES, path)
-    is_plain = len(matrix) == 9 and [matrix[1], matrix[3], *matrix[6:]] == [0, 0, 0, 0, 1]
+    is_plain = len(matrix) == 9 and [matrix[3], *matrix[6:]] == [0, 0, 0, 1]
     if not is_plain or min(matrix[0], matrix[4]) < 1 / LARGEST:
         raise InputError(
             f"the camera matrix in {path!r} is {shortened(matrix)}: "
-            "it must be fx 0 cx, 0 fy cy, 0 0 1, with fx and fy above 0"
+            "it must be fx skew cx, 0 fy cy, 0 0 1, with fx and fy above 0"
         )
     if max(map(abs, (matrix[2], matrix[5]))) > FARTHEST_PIXELS:
         raise InputError(
@@ -132,7 +152,7 @@ def _file_values(path: str, distortion: tuple[Setting, ...]) -> dict[str, float]
         raise InputError(
             f"{path!r} has {len(found)} distortion coefficients: only {', '.join(names)} may be other than 0"
         )
-    values = {"fx": matrix[0], "fy": matrix[4], "cx": matrix[2], "cy": matrix[5]}
+    values = {"fx": matrix[0], "skew": matrix[1], "fy": matrix[4], "cx": matrix[2], "cy": matrix[5]}
     values |= dict.fromkeys(names, 0.0) | dict(zip(names, found, strict=False))
     for setting, spellings in zip(SIZE, (WIDTH_NAMES, HEIGHT_NAMES), strict=True):
         size = values[setting.name] = _numbers(entries, spellings, path)[0]

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ...conventions import gamma
 from ...records import BlenderCamera, InputError, Raster
 from .settings import ABOVE_ZERO, CAMERA, RENDER, Choice, Item, Number, farthest_from_one
 
@@ -222,6 +223,17 @@ class Window:
             [0.0, 0.0, 1.0],
         ])  # fmt: skip
 
+    def rounding(self, x, y, frame: tuple[int, int]):
+        """Return the rounding of the few operations from a pixel to the plane, as moves of the pixel in x and in y; a
+        center in the middle of the frame is exact.
+        """
+        places = (x, self.center_x, frame[0] / 2), (y, self.center_y, frame[1] / 2)
+        across, up = (
+            gamma(6) * np.abs(place - center) + gamma(3) * (abs(center) if center != middle else 0.0)
+            for place, center, middle in places
+        )
+        return across, up
+
     def plane_from_pixels(self, x, y):
         """Return image-plane (X, Y) of pixel coordinates; arrays of any shapes, kept apart."""
         return (x - self.center_x) * self.pitch_x, (y - self.center_y) * self.pitch_y
@@ -229,3 +241,8 @@ class Window:
     def pixels_from_plane(self, plane_x, plane_y):
         """Return the pixel coordinates of image-plane points: the inverse."""
         return plane_x / self.pitch_x + self.center_x, plane_y / self.pitch_y + self.center_y
+
+    def pixel_intervals(self, interval_x, interval_y):
+        """Return the intervals in x and in y that hold the pixels of all points of the intervals on the plane."""
+        ends = zip(*(self.pixels_from_plane(*end) for end in zip(interval_x, interval_y, strict=True)), strict=True)
+        return tuple((np.minimum(one, other), np.maximum(one, other)) for one, other in ends)

@@ -18,6 +18,7 @@ import numpy as np
 from ...maths.chebyshev import Disc, is_raster, on_raster
 from ...maths.vector import components
 from ..model import Step, WindowModel
+from .affine import AffineWindow
 from .settings import ABOVE_ZERO, CAMERA, Number
 from .silhouette import pixel_bounds, radial_intervals
 
@@ -39,6 +40,9 @@ FISHEYE_LENS = Number(
 ROUND_PLANE = Step("Pixel on the plane, the nearer sides at 1", "a = (2 x/W - 1 + 2 shift_x) W / w, b likewise")
 WHOLE_PLANE = Step("Pixel on the plane, the frame's sides at 1", "a = 2 x/W - 1 + 2 shift_x, b = 2 y/H - 1 + 2 shift_y")
 SENSOR_PLANE = Step("Pixel on the sensor", "a = (x - W/2 + shift_x W) sensor / V, b likewise, in mm")
+COORDINATES = Step(
+    "Distorted coordinates, in focal lengths, y up", "b = (H - y - 1/2 - cy) / -fy, a = (x - 1/2 - cx + skew b) / fx"
+)
 RADIUS = Step("Radius", "r = sqrt(a² + b²); no ray beyond the rim")
 RAY = Step("Direction, azimuth kept", "d = (a/r sin(theta), b/r sin(theta), -cos(theta))")
 
@@ -82,9 +86,10 @@ class Radial(WindowModel):
 
     @property
     def disc(self) -> Disc | None:
-        """The part of the picture within the rim; None where it has none."""
-        middle = self.window.center_x, self.window.center_y
-        return Disc(middle, self._is_within) if self.rim < np.inf else None
+        """The part of the picture within the rim; None where it has none, or is no ellipse along the frame's sides."""
+        if self.rim == np.inf or isinstance(self.window, AffineWindow):
+            return None
+        return Disc((self.window.center_x, self.window.center_y), self._is_within)
 
     def rays(self, x, y):
         """Return origin and direction, each a tuple of three broadcastable arrays, camera frame, of unit length.
@@ -99,6 +104,9 @@ class Radial(WindowModel):
     def _plane(self, x, y):
         return self.window.plane_from_pixels(x, y)
 
+    def _pixels(self, a, b):
+        return self.window.pixels_from_plane(a, b)
+
     def _r_squared(self, x, y):
         a, b = self._plane(x, y)
         return a * a + b * b
@@ -107,9 +115,12 @@ class Radial(WindowModel):
         return self._r_squared(x, y) <= self.rim * self.rim
 
     def _factors_at(self, x, y):
-        if self.factors_by_polynomials and is_raster(x, y):
-            return on_raster(lambda x, y: self.factors(self._r_squared(x, y)), x, y, self.disc)
-        r_squared = self._r_squared(x, y)
+        if not (self.factors_by_polynomials and is_raster(x, y)):
+            return self._factors_within(self._r_squared(x, y))
+        factors = self._factors_within if self.disc is None else self.factors
+        return on_raster(lambda x, y: factors(self._r_squared(x, y)), x, y, self.disc)
+
+    def _factors_within(self, r_squared):
         if self.rim < np.inf:
             r_squared = np.where(r_squared > self.rim * self.rim, np.nan, r_squared)
         return self.factors(r_squared)
@@ -125,7 +136,7 @@ class Radial(WindowModel):
         r = np.minimum(self.radius(up_to(self.widest, np.arctan2(across, -z))), self.rim)
         defined = (across > 0) | ((z < 0) & (r == 0))
         scale = np.where(defined, r / np.where(across > 0, across, 1.0), np.nan)
-        return np.stack(self.window.pixels_from_plane(x * scale, y * scale), axis=-1)
+        return np.stack(self._pixels(x * scale, y * scale), axis=-1)
 
     def bounds(self, centers, radii):
         """Return (n, 4) pixel bounds x0, x1, y0, y1 outside of which no point of the spheres (camera frame) is seen."""

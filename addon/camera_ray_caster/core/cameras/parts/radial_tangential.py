@@ -14,7 +14,7 @@ A. Sanchez-Salmeron (2010), thin prism.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from functools import cached_property
 from math import atan, hypot, inf, radians, tan
 
@@ -53,17 +53,19 @@ class RadialTangential:
     s2: float = 0.0
     s3: float = 0.0
     s4: float = 0.0
+    r8: float = 0.0
+    """Of r^8 in the numerator, which OpenCV does not have."""
 
     @property
     def bends(self) -> bool:
         """Whether there is any distortion."""
-        return any(getattr(self, field.name) for field in fields(self))
+        return self != RadialTangential()
 
     def gain(self, r_squared):
         """Return g and its derivative by r^2."""
         s = r_squared
-        above = 1 + s * (self.k1 + s * (self.k2 + s * self.k3))
-        above_slope = self.k1 + s * (2 * self.k2 + s * (3 * self.k3))
+        above = 1 + s * (self.k1 + s * (self.k2 + s * (self.k3 + s * self.r8)))
+        above_slope = self.k1 + s * (2 * self.k2 + s * (3 * self.k3 + s * (4 * self.r8)))
         if not (self.k4 or self.k5 or self.k6):
             return above, above_slope
         below = 1 + s * (self.k4 + s * (self.k5 + s * self.k6))
@@ -74,7 +76,7 @@ class RadialTangential:
     def cancelled(self, r_squared):
         """Return how much larger the terms of g are than their sums: what its rounding is multiplied with."""
         s, k = r_squared, self
-        terms = ((k.k1, k.k2, k.k3), (k.k4, k.k5, k.k6))
+        terms = ((k.k1, k.k2, k.k3, k.r8), (k.k4, k.k5, k.k6))
         parts = (((1.0, *own), (1.0, *map(abs, own))) for own in terms)
         return sum(polyval(s, larger) / np.abs(polyval(s, own)) for own, larger in parts)
 
@@ -111,6 +113,10 @@ class RadialTangential:
         s = r * r
         return s * (3 * hypot(self.p1, self.p2) + hypot(self.s1, self.s3) + s * hypot(self.s2, self.s4))
 
+    def farthest(self, r):
+        """Return how far out a point at this radius, within the limit, is moved at most: grows with r."""
+        return r * self.gain(r * r)[0] + self.off_radius(r)
+
     @cached_property
     def limit(self) -> float:
         """Return the undistorted radius up to which the map is one-to-one, inf without one.
@@ -119,7 +125,7 @@ class RadialTangential:
         1e-9 of itself short, more than the roots' rounding.
         """
         r = np.polynomial.Polynomial([0.0, 1.0])
-        above = np.polynomial.Polynomial([1, 0, self.k1, 0, self.k2, 0, self.k3])
+        above = np.polynomial.Polynomial([1, 0, self.k1, 0, self.k2, 0, self.k3, 0, self.r8])
         below = np.polynomial.Polynomial([1, 0, self.k4, 0, self.k5, 0, self.k6])
         slope = (above.deriv() * below - above * below.deriv()) * r
         bend = r * (6 * hypot(self.p1, self.p2) + 2 * hypot(self.s1, self.s3)) + 4 * r**3 * hypot(self.s2, self.s4)
@@ -127,6 +133,11 @@ class RadialTangential:
         for polynomial in (below, above * below - bend * below**2, above * below + slope - bend * below**2):
             least = min(least, *positive_roots(polynomial).tolist(), inf)
         return least * (1 - 1e-9)
+
+    @cached_property
+    def _farthest(self) -> float:
+        """Return the distorted radius beyond which there is nothing for sure."""
+        return self.farthest(self.limit) * (1 + NEAR) if self.limit < inf else inf
 
     @cached_property
     def _radius(self):
@@ -152,6 +163,10 @@ class RadialTangential:
         if is_recorded(u, v) and not radial:
             return self._careful(u, v)
         rho = np.hypot(u, v)
+        if not (radial or (near := rho <= self._farthest).all()):  # Newton's method would search long
+            x, y = np.full((2, *rho.shape), np.nan)
+            x[near], y[near] = self.undistort(u[near], v[near])
+            return x, y
         r = self._radius(rho) if radial else self._radius.guess(rho)
         scale = np.where(rho > 0, r / np.where(rho > 0, rho, 1.0), 1.0)
         x, y = u * scale, v * scale
@@ -165,7 +180,7 @@ class RadialTangential:
                 slow = ~(np.abs(step_x) + np.abs(step_y) <= NEAR * r)
                 if not slow.any():
                     break
-        slow = (slow | (r > self.limit) | ~np.isfinite(r)) & ~np.isnan(u)
+        slow |= ~(np.hypot(x, y) <= self.limit)
         if slow.any():
             x, y = np.asarray(x), np.asarray(y)
             x[slow], y[slow] = self._careful(u[slow], v[slow])

@@ -123,7 +123,5 @@ def _mark(everywhere, nowhere, interval):
 
 def pixel_bounds(window, interval_x, interval_y):
     """Return (n, 4) pixel bounds x0, x1, y0, y1 of intervals on a window, with the margin; NaN: nowhere."""
-    x0, y0 = window.pixels_from_plane(interval_x[0], interval_y[0])
-    x1, y1 = window.pixels_from_plane(interval_x[1], interval_y[1])
-    low, high = (np.minimum(x0, x1), np.minimum(y0, y1)), (np.maximum(x0, x1), np.maximum(y0, y1))
-    return np.stack((low[0] - MARGIN, high[0] + MARGIN, low[1] - MARGIN, high[1] + MARGIN), axis=-1)
+    (x0, x1), (y0, y1) = window.pixel_intervals(interval_x, interval_y)
+    return np.stack((x0 - MARGIN, x1 + MARGIN, y0 - MARGIN, y1 + MARGIN), axis=-1)

@@ -1,0 +1,42 @@
+"""The double sphere camera: of fisheyes, with two parameters and without a distortion.
+
+Assumption: a point is brought to the unit sphere about the eye, from there to one about a center xi behind, and is seen
+from behind that; then K applies.
+Formula: see parts/unified.py with beta = 1.
+Singular: the edge of the picture, at r = 1 / sqrt(2 alpha - 1) from alpha = 1/2 on.
+Reference: V. Usenko, N. Demmel and D. Cremers, The Double Sphere Camera Model (2018).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ..records import BlenderCamera, Raster
+from .model import Step
+from .parts.calibration import MATRIX, Calibration
+from .parts.radial import COORDINATES
+from .parts.unified import ALPHA, XI, Unified
+
+
+@dataclass(frozen=True)
+class DoubleSphere(Unified):
+    """r = sin(theta) / (alpha sqrt(sin(theta)^2 + (xi + cos(theta))^2) + (1 - alpha) (xi + cos(theta)))."""
+
+    key = "DOUBLE_SPHERE"
+    label = "Double Sphere"
+    description = "A calibrated fisheye: two spheres, the second seen from behind its center"
+    number = 19
+    SETTINGS = (*MATRIX, XI, ALPHA)
+    FORMULA = (
+        COORDINATES,
+        Step("Lengths, r² = a² + b²", "D = alpha sqrt(1 + (1 - 2 alpha) r²) + 1 - alpha, N = 1 - alpha² r²"),
+        Step("On the second sphere", "(s, c) = (D r, N) / sqrt(D² r² + N²)"),
+        Step("From the eye", "t = xi c + sqrt(1 - xi² s²)"),
+        Step("Direction", "d = (a/r t s, b/r t s, xi - t c)"),
+    )
+
+    @classmethod
+    def from_blender(cls, raw: BlenderCamera, raster: Raster) -> DoubleSphere:
+        """Build it from the settings of the same names; InputError for one without meaning."""
+        calibration = Calibration.from_blender(raw, raster, settings=MATRIX)
+        return cls.of(raw, raster, calibration, xi=XI.read(raw, high=-XI.low), alpha=ALPHA.read(raw))

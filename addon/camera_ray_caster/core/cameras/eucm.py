@@ -1,0 +1,40 @@
+"""The enhanced unified camera: of fisheyes, with two parameters and without a distortion.
+
+Assumption: a point is brought to an ellipsoid about the eye and seen from behind it; then K applies.
+Formula: see parts/unified.py with xi = 0. beta = 1 is the unified camera with xi = alpha / (1 - alpha), its focal
+lengths divided by 1 - alpha.
+Singular: the edge of the picture, at r = 1 / sqrt(beta (2 alpha - 1)) from alpha = 1/2 on.
+Reference: B. Khomutenko, G. Garcia and P. Martinet, An Enhanced Unified Camera Model (2016).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ..records import BlenderCamera, Raster
+from .model import Step
+from .parts.calibration import MATRIX, Calibration
+from .parts.radial import COORDINATES
+from .parts.unified import ALPHA, BETA, Unified
+
+
+@dataclass(frozen=True)
+class EnhancedUnifiedCamera(Unified):
+    """r = sin(theta) / (alpha sqrt(beta sin(theta)^2 + cos(theta)^2) + (1 - alpha) cos(theta))."""
+
+    key = "EUCM"
+    label = "Enhanced Unified (EUCM)"
+    description = "A calibrated fisheye: an ellipsoid seen from behind its center"
+    number = 18
+    SETTINGS = (*MATRIX, ALPHA, BETA)
+    FORMULA = (
+        COORDINATES,
+        Step("Lengths, r² = a² + b²", "D = alpha sqrt(1 + (1 - 2 alpha) beta r²) + 1 - alpha, N = 1 - beta alpha² r²"),
+        Step("Direction", "d = (D a, D b, -N) / sqrt(D² r² + N²)"),
+    )
+
+    @classmethod
+    def from_blender(cls, raw: BlenderCamera, raster: Raster) -> EnhancedUnifiedCamera:
+        """Build it from the settings of the same names; InputError for one without meaning."""
+        calibration = Calibration.from_blender(raw, raster, settings=MATRIX)
+        return cls.of(raw, raster, calibration, alpha=ALPHA.read(raw), beta=BETA.read(raw))

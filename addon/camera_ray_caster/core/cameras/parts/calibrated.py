@@ -1,0 +1,80 @@
+"""What calibrated lenses share that look the same all around the axis, but for a distortion of the picture.
+
+A point at the angle theta from the axis lies at the radius r(theta) on the plane of a ``Radial``; there it is moved by
+the distortion of radial_tangential.py, and K brings it to the pixel. The way back undoes these in turn. The picture
+ends where the first of the two stops to grow.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from typing import Self
+
+import numpy as np
+
+from ...maths.chebyshev import on_raster
+from .film import FARTHEST_PIXELS
+from .radial import Radial
+from .radial_tangential import RadialTangential
+from .silhouette import angular_radius, pixel_bounds, radial_intervals
+
+
+@dataclass(frozen=True)
+class Calibrated(Radial):
+    """A ``Radial`` whose plane is distorted; its unit is the focal length."""
+
+    distortion: RadialTangential = field(default=RadialTangential(), kw_only=True)
+
+    group = "Calibrated"
+
+    def within(self, rim: float) -> Self:
+        """Return the lens with a rim at this radius, or nearer where the distortion folds the picture."""
+        return replace(self, rim=min(rim, self.distortion.limit))
+
+    @property
+    def K(self) -> np.ndarray | None:
+        """See Model."""
+        return self.window.matrix(self.frame[1])
+
+    @cached_property
+    def widest(self) -> float:
+        """See Radial; of an endless picture the angle of the farthest pixel that means something."""
+        r = min(self.rim, FARTHEST_PIXELS)
+        scale, cosine = self.factors(np.float64(r * r))
+        return float(np.arctan2(scale * r, cosine))
+
+    def rays(self, x, y):
+        """See Radial."""
+        if not self.distortion.bends:
+            return super().rays(x, y)
+        return (0.0, 0.0, 0.0), on_raster(self._directions, x, y, count=3)
+
+    def _directions(self, x, y):
+        a, b = self._plane(x, y)
+        scale, cosine = self._factors_within(a * a + b * b)
+        return a * scale, b * scale, -cosine
+
+    def _plane(self, x, y):
+        a, b = super()._plane(x, y)
+        if not self.distortion.bends:
+            return a, b
+        across, down = self.distortion.undistort(a, -b)
+        return across, -down
+
+    def _pixels(self, a, b):
+        across, down = self.distortion.distort(a, -b)
+        return super()._pixels(across, -down)
+
+    def bounds(self, centers, radii):
+        """See Radial."""
+        across = np.hypot(centers[:, 0], centers[:, 1])
+        far = np.arctan2(across, -centers[:, 2]) + angular_radius(np.hypot(across, centers[:, 2]), radii)
+        spread = self.distortion.off_radius(self.radius(np.minimum(far, self.widest)))
+
+        def radius(theta):
+            r = self.radius(theta)
+            return r * self.distortion.gain(r * r)[0]
+
+        intervals = radial_intervals(centers, radii, radius, self.widest)
+        return pixel_bounds(self.window, *((low - spread, high + spread) for low, high in intervals))

@@ -1,0 +1,82 @@
+"""The unified camera and its kin: a point is brought to a sphere about the eye, or an ellipsoid, and seen from behind.
+
+With (s, z) the sine and cosine of the angle theta from the axis, the radius in the picture is
+    r = s / (alpha sqrt(beta s^2 + (xi + z)^2) + (1 - alpha) (xi + z)).
+alpha = 0 is the unified camera (C. Geyer and K. Daniilidis, 2000), xi = 0 the enhanced one (B. Khomutenko and others,
+2016), beta = 1 the double sphere (V. Usenko and others, 2018). The way back has a closed form as well: with
+    D = alpha sqrt(1 + (1 - 2 alpha) beta r^2) + 1 - alpha,  N = 1 - beta alpha^2 r^2,
+(r D, N) points at the angle phi, as seen from xi behind the eye; theta = phi + asin(xi sin(phi)), of which the sine and
+the cosine are written without the angles.
+The picture ends where r stops to grow with theta, or r is endless.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import inf, sqrt
+from typing import Self
+
+import numpy as np
+
+from ...records import BlenderCamera, Raster
+from .calibrated import Calibrated
+from .calibration import Calibration
+from .radial_tangential import RadialTangential
+from .settings import Number
+
+XI = Number(
+    "unified_xi", "Xi", "How far behind the eye the sphere is seen from, in its radii", 0.0, -0.99, 1e3, digits=6,
+    step=0.1,
+)  # fmt: skip
+ALPHA = Number(
+    "unified_alpha", "Alpha", "From 0, a pinhole behind the sphere, to 1, parallel rays", 0.5, 0.0, 0.999, digits=6,
+    step=0.1,
+)  # fmt: skip
+BETA = Number("unified_beta", "Beta", "How flat the ellipsoid is; 1 is a sphere", 1.0, 1e-3, 1e3, digits=6, step=0.1)
+
+
+@dataclass(frozen=True)
+class Unified(Calibrated):
+    """See the module's page."""
+
+    xi: float = 0.0
+    alpha: float = 0.0
+    beta: float = 1.0
+
+    by_polynomials = True
+
+    @classmethod
+    def of(cls, raw: BlenderCamera, raster: Raster, calibration: Calibration, **shape: float) -> Self:
+        """Return the lens with this shape. The calibration's coefficients are those of its distortion."""
+        distortion = RadialTangential(**calibration.coefficients)
+        lens = cls(raster.size, calibration.window(raster), inf, **shape, distortion=distortion)
+        rims = [inf]
+        if lens.alpha > 0.5:
+            rims.append(1 / sqrt(lens.beta * (2 * lens.alpha - 1)))
+        if lens.xi > 1:  # alpha is 0 where xi may be so large
+            rims.append(1 / sqrt((lens.xi - 1) * (lens.xi + 1)))
+        return lens.within(min(rims))
+
+    def factors(self, r_squared):
+        """See Radial."""
+        s = r_squared
+        if self.alpha:
+            root = np.sqrt(np.maximum(1 + (1 - 2 * self.alpha) * self.beta * s, 0.0))
+            scale, ahead = self.alpha * root + (1 - self.alpha), 1 - self.beta * self.alpha**2 * s
+            length = np.sqrt(s * scale * scale + ahead * ahead)
+            scale, cosine = scale / length, ahead / length
+        else:
+            scale = cosine = 1 / np.sqrt(1 + s)
+        if not self.xi:
+            return scale, cosine
+        across = scale * scale * s
+        turn = np.sqrt(np.maximum(cosine * cosine + (1 - self.xi) * (1 + self.xi) * across, 0.0))
+        return scale * (turn + self.xi * cosine), cosine * turn - self.xi * across
+
+    def radius(self, theta):
+        """See Radial."""
+        across, ahead = np.sin(theta), np.cos(theta) + self.xi
+        if not self.alpha:
+            return across / ahead
+        length = np.sqrt(self.beta * across * across + ahead * ahead)
+        return across / (self.alpha * length + (1 - self.alpha) * ahead)

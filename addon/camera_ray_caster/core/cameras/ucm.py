@@ -1,0 +1,45 @@
+"""The unified camera: of lenses with mirrors and of fisheyes, as OpenCV's omnidir and Kalibr's omni calibrate them.
+
+Assumption: a point is brought to the unit sphere about the eye and seen from xi behind it; then the picture is
+distorted and K applies. xi = 0 is a pinhole, xi = 1 a stereographic fisheye.
+Formula: see parts/unified.py with alpha = 0, and parts/radial_tangential.py.
+Singular: the edge of the picture, where the angle from the axis is acos(-xi), from xi = 1 on acos(-1 / xi).
+References: C. Mei and P. Rives, Single View Point Omnidirectional Camera Calibration from Planar Grids (2007); OpenCV
+documentation, Omnidirectional Camera Calibration.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ..records import BlenderCamera, Raster
+from .model import Step
+from .parts.calibration import K1, K2, MATRIX, P1, P2, Calibration
+from .parts.radial import COORDINATES, RAY
+from .parts.unified import XI, Unified
+
+DISTORTION = K1, K2, P1, P2
+
+
+@dataclass(frozen=True)
+class UnifiedCamera(Unified):
+    """r = sin(theta) / (xi + cos(theta)), distorted."""
+
+    key = "UCM"
+    label = "Unified (UCM, Mei)"
+    description = "A calibrated mirror lens or fisheye: a sphere seen from behind its center"
+    number = 17
+    SETTINGS = (*MATRIX, XI, *DISTORTION)
+    FORMULA = (
+        COORDINATES,
+        Step("Undistorted, by Newton's method, y down", "distort(a, -b): a g + 2 p1 a b + p2 (r² + 2 a²), ..."),
+        Step("Gain, r² = a² + b²", "g = 1 + k1 r² + k2 r⁴"),
+        Step("Angle from the axis", "r = sin(theta) / (xi + cos(theta))"),
+        RAY,
+    )
+
+    @classmethod
+    def from_blender(cls, raw: BlenderCamera, raster: Raster) -> UnifiedCamera:
+        """Build it from the settings of the same names; InputError for one without meaning."""
+        calibration = Calibration.from_blender(raw, raster, DISTORTION, MATRIX)
+        return cls.of(raw, raster, calibration, xi=XI.read(raw))

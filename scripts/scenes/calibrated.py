@@ -1,0 +1,49 @@
+"""Calibrated lenses: each family with numbers such as a calibration gives."""
+
+from __future__ import annotations
+
+from .lenses import AHEAD, CORNER, FRONT, MIDDLE
+from .sets import photograph, room
+
+SMALL = 312, 208
+
+
+def opencv_pinhole(scene):
+    """a calibrated lens with strong barrel distortion and a decentered axis: inverted without a formula."""
+    room(scene)
+    own = {"model": "OPENCV_PINHOLE", **picture(448, 280, 210), "k1": -0.24, "k2": 0.045, "p1": 0.004, "p2": -0.006}
+    photograph(scene, CORNER, AHEAD, 448, 280, own=own)
+
+
+def opencv_fisheye(scene):
+    """a calibrated fisheye (Kannala and Brandt): wider than a half sphere, no ray where its polynomial turns back."""
+    room(scene)
+    own = {"model": "OPENCV_FISHEYE", **picture(448, 280, 110), "k1": 0.03, "k2": -0.022, "k3": 0.0008}
+    photograph(scene, MIDDLE, FRONT, 448, 280, own=own)
+
+
+def ucm(scene):
+    """a mirror lens (Mei): with xi = 1.3 it sees up to 140 degrees from the axis, the balls beside the camera, too."""
+    calibrated(scene, 115, model="UCM", unified_xi=1.3, k1=-0.05, k2=0.02, p1=0.003, p2=-0.002)
+
+
+def eucm(scene):
+    """the enhanced unified camera: two numbers for a fisheye, and a way back in closed form."""
+    calibrated(scene, 75, model="EUCM", unified_alpha=0.62, unified_beta=1.08)
+
+
+def double_sphere(scene):
+    """two spheres, of which the second is seen from behind: as wide, with straighter lines in the middle."""
+    calibrated(scene, 52, model="DOUBLE_SPHERE", unified_xi=-0.22, unified_alpha=0.57)
+
+
+def calibrated(scene, focal: float, **own):
+    """Show the room all around the axis through a lens with this focal length, in pixels of a small picture."""
+    room(scene)
+    photograph(scene, MIDDLE, FRONT, *SMALL, own=picture(*SMALL, focal) | own)
+
+
+def picture(width: int, height: int, focal: float) -> dict[str, float]:
+    """Return the settings of a calibrated picture of this size with its axis in the middle; focal in pixels."""
+    center = {"cx": (width - 1) / 2, "cy": (height - 1) / 2}
+    return {"calibration_width": width, "calibration_height": height, "fx": focal, "fy": focal, **center}

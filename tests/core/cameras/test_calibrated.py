@@ -1,0 +1,121 @@
+"""Calibrated lens families against the programs that calibrate with them: COLMAP and OpenCV; else their own formulas.
+
+Each lens projects 10,000 points, and the rays of 10,000 places in the picture are projected back to these.
+"""
+
+import cv2
+import numpy as np
+import pycolmap
+import pytest
+from mpmath import mp, mpf, sqrt
+
+from .model_examples import camera
+
+COUNT = 10_000
+WIDTH, HEIGHT = 640, 480
+K = {"fx": 250.0, "fy": 245.5, "cx": 331.7, "cy": 236.2}
+FRAME = {"resolution_x": WIDTH, "resolution_y": HEIGHT, **K}
+SAME = 1e-9
+FARTHEST = 2e3
+"""Pixels."""
+
+COLMAP = {
+    "EUCM": (
+        "EUCM",
+        ("unified_alpha", "unified_beta"),
+        [(0.0, 1.0), (0.3, 0.8), (0.6, 1.1), (0.8, 2.5), (0.95, 0.4)],
+    ),
+}
+"""COLMAP's name and the settings in the order of its parameters, and values of these."""
+
+OMNIDIR = [
+    {"unified_xi": 0.0},
+    {"unified_xi": 0.8, "k1": -0.05, "k2": 0.01, "p1": 2e-3, "p2": -1e-3},
+    {"unified_xi": 1.0, "skew": 1.7},
+    {"unified_xi": 1.9, "fx": 700.0, "fy": 690.0, "k1": -0.2, "k2": 0.3, "p1": -1e-3, "skew": -2.5},
+]
+SPHERES = [(0.0, 0.0), (-0.2, 0.55), (0.4, 0.3), (0.9, 0.7), (-0.9, 0.2)]
+"""xi and alpha of the double sphere."""
+
+
+def directions():
+    """Points all around, in the camera's frame, more of them ahead."""
+    random = np.random.default_rng(5)
+    theta, azimuth = np.pi * random.uniform(0, 1, COUNT) ** 1.5, random.uniform(-np.pi, np.pi, COUNT)
+    unit = (np.sin(theta) * np.cos(azimuth), np.sin(theta) * np.sin(azimuth), -np.cos(theta))
+    return np.stack(unit, axis=-1) * random.uniform(0.5, 50, (COUNT, 1))
+
+
+def agree(cam, project, fewest):
+    """Hold a camera's ``project`` and its rays against another program's ``project``: of our points, our pixels."""
+    for points, place in ((directions(), None), seen(cam)):
+        found, expected = cam.project(points) if place is None else place, project(points)
+        both = ~np.isnan(found[:, 0]) & ~np.isnan(expected[:, 0])
+        both[both] = np.abs(expected[both]).max(axis=1) <= FARTHEST
+        assert both.sum() >= fewest
+        assert np.abs(found - expected)[both].max() <= SAME
+
+
+def seen(cam):
+    """Points on the rays of places all over the picture, and these places."""
+    places = np.random.default_rng(6).uniform(0, (WIDTH, HEIGHT), (COUNT, 2))
+    rays = cam.rays_at(*places.T)
+    return rays.directions[rays.valid] * 3, places[rays.valid]
+
+
+def bottom_up(pixels, center):
+    """Pixels counted from the top left, whose first one's center is this, in ours."""
+    return np.stack((pixels[..., 0] + 0.5 - center, HEIGHT - (pixels[..., 1] + 0.5 - center)), axis=-1)
+
+
+ROWS = [(key, values) for key, (_, _, lenses) in COLMAP.items() for values in lenses]
+
+
+@pytest.mark.parametrize(("key", "values"), ROWS)
+def test_colmap_projects_points_to_our_pixels_and_our_rays_to_theirs(key, values):
+    model, names, _ = COLMAP[key]
+    cam = camera(key, FRAME | dict(zip(names, values, strict=True)))
+    matrix = [K["fx"], K["fy"], K["cx"] + 0.5, K["cy"] + 0.5]
+    other = pycolmap.Camera(model=model, width=WIDTH, height=HEIGHT, params=[*matrix, *values])
+
+    def project(points):
+        return bottom_up(np.asarray(other.img_from_cam(points * (1, -1, -1))), 0.5)
+
+    agree(cam, project, 3_000)
+
+
+@pytest.mark.parametrize("lens", OMNIDIR)
+def test_opencv_projects_points_to_the_pixels_of_the_unified_camera(lens):
+    cam, own = camera("UCM", FRAME | lens), K | {"skew": 0.0} | lens
+    matrix = np.array([[own["fx"], own["skew"], own["cx"]], [0, own["fy"], own["cy"]], [0, 0, 1]])
+    coefficients = np.array([[own.get(name, 0.0) for name in ("k1", "k2", "p1", "p2")]])
+
+    def project(points):
+        ahead, still = (points * (1, -1, -1))[None], np.zeros(3)
+        pixels, _ = cv2.omnidir.projectPoints(ahead, still, still, matrix, own["unified_xi"], coefficients)
+        return bottom_up(pixels[0], 0)
+
+    agree(cam, project, 3_000)
+
+
+@pytest.mark.parametrize(("xi", "alpha"), SPHERES)
+def test_the_double_sphere_is_the_one_of_its_paper(xi, alpha):
+    cam = camera("DOUBLE_SPHERE", FRAME | {"unified_xi": xi, "unified_alpha": alpha})
+
+    def project(points):
+        with mp.workdps(30):
+            return bottom_up(np.array([pixel(*map(mpf, point)) for point in points * (1, -1, -1)]), 0)
+
+    def pixel(x, y, z):
+        """Equations (40) to (45) of the paper."""
+        first = sqrt(x * x + y * y + z * z)
+        second = sqrt(x * x + y * y + (xi * first + z) ** 2)
+        below = alpha * second + (1 - mpf(alpha)) * (xi * first + z)
+        return float(K["fx"] * x / below + K["cx"]), float(K["fy"] * y / below + K["cy"])
+
+    agree(cam, project, 3_000)
+
+
+def test_a_skewed_matrix_is_given_back():
+    cam = camera("UCM", FRAME | {"skew": 1.7})
+    np.testing.assert_allclose(cam.K, [[250.0, 1.7, 331.7], [0, 245.5, 236.2], [0, 0, 1]], rtol=1e-15)
