@@ -30,6 +30,7 @@ MAY_IMPORT = {
     "core.errors": RAYS | {"core.shapes", "core.errors"},
     "core.casting": HITS,
     "core.cast": HITS,
+    "core.shaders": RAYS | {"core.shaders"},
     "core.motion": RAYS | {"core.motion"},
     # a witness that knew a camera model's formula would be no witness
     "core.report.sample": LOW,
@@ -42,11 +43,13 @@ MAY_IMPORT = {
     "": {"blender"},
 }
 BLENDER = {"bpy", "bpy_extras", "mathutils", "bl_math", "gpu", "gpu_extras", "blf", "bmesh", "imbuf", "addon_utils"}
-TESTS_OF_THEIR_OWN = {"core/truth", "blender/add_a_camera", "blender/cycles"}
-"""Rooms of tests that no room of the package has: the exact rays of 60 digits, a model that is added and taken away
-again, and Cycles as a witness.
+CYCLES = {"_cycles", "cycles"}
+"""Blender's Cycles, which is an add-on of its own."""
+TESTS_OF_THEIR_OWN = {"core/truth", "blender/add_a_camera"}
+"""Rooms of tests that no room of the package has: the exact rays of 60 digits, and a model that is added and taken away
+again.
 """
-OUTSIDE = {"core": {"numpy"}, "blender": {"numpy"} | BLENDER, "": set()}
+OUTSIDE = {"core": {"numpy"}, "blender": {"numpy"} | BLENDER, "blender.cycles": {"numpy"} | BLENDER | CYCLES, "": set()}
 
 
 def name_of(path):

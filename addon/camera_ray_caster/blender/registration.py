@@ -4,6 +4,7 @@ from contextlib import ExitStack, suppress
 
 import bpy
 
+from .cycles import follow
 from .engine import engine, viewport
 from .output import reports
 from .properties import groups
@@ -28,7 +29,7 @@ CLASSES = (
 )  # fmt: skip
 """Blender's types, in the order in which they are registered: a panel comes after the panel that it is in."""
 
-MODULES = (groups, kept, reports, scene_cache, viewport, cast_operator, overlay, render_panels, commands)
+MODULES = (groups, kept, follow, reports, scene_cache, viewport, cast_operator, overlay, render_panels, commands)
 """Modules that add more than classes. ``register(undo)`` adds it and gives ``undo`` the callbacks that remove it."""
 
 

@@ -12,6 +12,7 @@ from ...core.camera.stereo import camera_name
 from ...core.cameras import find_model
 from ...core.cameras.parts.settings import OWN, RECORD_FIELDS, Setting
 from ...core.records import BlenderCamera, InputError
+from ...core.shaders.camera_shader import Mark, read_mark
 from ..properties.declared import BLENDERS_OWN, MODEL
 from ..properties.owners import owner_of
 from .lines import line_record
@@ -63,11 +64,21 @@ def camera_record(camera_object, depsgraph) -> BlenderCamera:
         **copied(data, CAMERA),
         **copied(scene.render, RENDER),
     )
+    mark = shader_mark(data)
+    raw = raw if mark is None else replace(raw, type=mark.blender_type)
     chosen, mode = MODEL.read(raw), pixel_time.MODE.read(raw)
     raw = replace(raw, model="" if chosen == BLENDERS_OWN else chosen)
     read = (*find_model(raw).SETTINGS, *pixel_time.SETTINGS[mode])
     values = {one.name: _value(one, data, depsgraph) for one in read if one.name not in RECORD_FIELDS}
     return replace(raw, settings=MappingProxyType({**raw.settings, **values}))
+
+
+def shader_mark(camera) -> Mark | None:
+    """Return what the shader of a custom camera says of the camera that it stands for; None where it has none of ours.
+    """
+    if camera.type != "CUSTOM" or camera.custom_mode != "INTERNAL" or camera.custom_shader is None:
+        return None
+    return read_mark(camera.custom_shader.as_string())
 
 
 def has_pixel_times(camera_object, depsgraph) -> bool:

@@ -75,8 +75,8 @@ def shares(plan: Plan, threads: int, samples: int = 1) -> Iterator[Tile]:
     """
     height, width = plan.camera.raster.shape
     least, most = tuning.TILE_PIXELS
-    if samples > 1:
-        most //= 2  # their sum takes as much memory as all else
+    if samples > 1 or height * width > 8 * most:
+        most //= 2  # a sum takes as much memory as all else; of many tiles none has to be large, and stops are heard
     done = np.cumsum(plan.work)
     threads = sharing(threads, done[-1] / tuning.SERIAL_WORK)
     count = min(threads * -(-int(done[-1] * samples) // (threads * tuning.TILE_WORK)), -(-height * width // least))

@@ -5,10 +5,10 @@ number of digits, written in another language, or differentiated. ``record`` mak
 a formula iterates and reads tables, with arrays as with recorded numbers.
 """
 
-from .number import NotRecordable, Recorded, is_recorded, look_up, loop, record, roundoff
+from .number import NotRecordable, Parameter, Recorded, is_recorded, look_up, loop, record, roundoff
 from .record import DOMAIN, NUMPY, Record, Step
 
 __all__ = [
-    "DOMAIN", "NUMPY", "NotRecordable", "Record", "Recorded", "Step", "is_recorded", "look_up", "loop", "record",
-    "roundoff",
+    "DOMAIN", "NUMPY", "NotRecordable", "Parameter", "Record", "Recorded", "Step", "is_recorded", "look_up", "loop",
+    "record", "roundoff",
 ]  # fmt: skip

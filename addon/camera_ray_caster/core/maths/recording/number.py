@@ -13,6 +13,18 @@ from ...conventions import EPS
 from .record import COMPARISONS, LOGICAL, NUMERIC, Record, Step, repeat
 
 
+class Parameter(float):
+    """A constant that has a name in a record: a step ``parameter`` of its own, which no other constant shares."""
+
+    def __new__(cls, value: float, name: str):
+        """Return the number that is known by this name."""
+        number = super().__new__(cls, value)
+        number.name = name
+        return number
+
+    name: str
+
+
 class NotRecordable(TypeError):
     """What was done to a recorded number is none of the operations of a record; the message names it."""
 
@@ -81,6 +93,8 @@ class _Tape:
             if value.tape is not self:
                 raise NotRecordable(f"{operation} of a number that is not in the loop's state cannot be recorded")
             return value
+        if isinstance(value, Parameter):
+            return self.add("parameter", fixed=(float(value), value.name))
         if isinstance(value, bool | np.bool_):
             return self.add("constant", fixed=(bool(value),), truth=True)
         if np.ndim(value) or not isinstance(np.asarray(value).item(), Real):

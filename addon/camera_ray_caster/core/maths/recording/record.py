@@ -51,10 +51,11 @@ class Step:
     """One operation. Its operands are the values of earlier steps, by their places; ``fixed`` is what else it takes.
 
     Beside the operations above: ``input`` (fixed: its place among the inputs), ``constant`` (a float64, or a bool),
-    ``where``, ``roundoff`` (of the arithmetic it is evaluated with: 2**-53 in float64), ``searchsorted`` (of a number
-    in a table; fixed: the table, ascending, and numpy's side), ``take`` (a table's entry at a whole number; fixed: the
-    table), ``loop`` (of the values it starts from; fixed: its body and the most repetitions) and ``part`` (of a loop:
-    the value of its state that stands at the fixed place).
+    ``parameter`` (a float64 and its name; only where a formula was given a ``Parameter``), ``where``, ``roundoff`` (of
+    the arithmetic it is evaluated with: 2**-53 in float64), ``searchsorted`` (of a number in a table; fixed: the table,
+    ascending, and numpy's side), ``take`` (a table's entry at a whole number; fixed: the table), ``loop`` (of the
+    values it starts from; fixed: its body and the most repetitions) and ``part`` (of a loop: the value of its state
+    that stands at the fixed place).
     """
 
     operation: str
@@ -78,7 +79,8 @@ class Record:
         """Return the outputs at these inputs, numbers or arrays, as the functions of an arithmetic give them.
 
         The arithmetic has a function for each operation but ``input``, ``loop`` and ``part``, which takes the operands
-        and then what is fixed; and ``all``, which says of a loop's last truth whether it is settled.
+        and then what is fixed; and ``all``, which says of a loop's last truth whether it is settled. It may have
+        ``loop`` in place of ``repeat``.
         """
         values: list[Any] = []
         for step in self.steps:
@@ -89,7 +91,8 @@ class Record:
                 values.append(operands[0][step.fixed[0]])
             elif step.operation == "loop":
                 body, most = step.fixed
-                values.append(repeat(body.as_body(arithmetic), operands, most, arithmetic["all"]))
+                run = arithmetic.get("loop", repeat)
+                values.append(run(body.as_body(arithmetic), operands, most, arithmetic["all"]))
             else:
                 values.append(arithmetic[step.operation](*operands, *step.fixed))
         return tuple(values[place] for place in self.outputs)
@@ -122,6 +125,7 @@ def _take(places, table):
 NUMPY: Arithmetic = {
     **{name: getattr(np, name) for name in NUMERIC | COMPARISONS | LOGICAL | {"where", "all"}},
     "constant": lambda value: value,
+    "parameter": lambda value, name: value,
     "roundoff": lambda: EPS,
     "searchsorted": lambda number, table, side: np.searchsorted(table, number, side).astype(np.float64),
     "take": _take,

@@ -1,0 +1,99 @@
+"""From a camera to a custom one of Cycles with the same rays, and back."""
+
+from ...core.camera.camera import Camera
+from ...core.camera.pixel_time import ROLLING_SHUTTER
+from ...core.cameras import find_model
+from ...core.cameras.parts.settings import Line
+from ...core.records import BlenderCamera, InputError
+from ...core.shaders.camera_shader import CameraShader, camera_shader
+from ..read.camera import shader_mark
+from ..read.evaluated import camera_at
+from ..read.scene import evaluated_camera, go_to
+from .animation import insert_keyframes, is_animated
+from .shader import check_cycles, clear_shader, set_inputs, set_shader
+
+
+def to_cycles(scene, camera_object=None) -> list[str]:
+    """Make a camera a custom one of Cycles, with a shader whose rays are those that ``read_camera`` gives.
+
+    camera_object: default the scene's active camera. The shader is a text of the file, so that the file renders in a
+    Blender without this add-on; what is animated in the scene's frame range becomes keyframes of its inputs. The model,
+    its settings and its pose stay where they are, and ``read_camera`` gives the same camera afterwards; Cycles computes
+    the rays in float32. A camera that is one already gets its shader and its keyframes anew.
+    Returns what follows only where the add-on is enabled, and what was changed in the scene, in lines.
+    Raises InputError for what ``read_camera`` refuses, for a camera of a library, for spherical stereo, for pixel times
+    other than a rolling shutter, and where this Blender has no OSL. The camera is as it was then.
+    """
+    check_cycles()
+    with evaluated_camera(scene, camera_object) as (active, depsgraph):
+        raw, camera = camera_at(active, depsgraph)
+        _check(raw, camera, active)
+        at_frames = {scene.frame_current: (raw, camera)}
+        if _may_move(scene, active, raw):
+            frames = range(scene.frame_start, scene.frame_end + 1)
+            at_frames = {frame: camera_at(active, go_to(scene, frame)) for frame in frames} | at_frames
+    places = frozenset().union(*(shader_of(*both).places for both in at_frames.values()))
+    shader = shader_of(raw, camera, places)
+    shaders = {frame: shader_of(*both, places) for frame, both in sorted(at_frames.items())}
+    set_shader(active.data, shader)
+    if any(each.source != shader.source for each in shaders.values()):
+        said = ["The formula itself changes over time: that follows only where the add-on is enabled"]
+    else:
+        insert_keyframes(active.data, shaders)
+        said = _said_of_keyframes(active.data, shaders)
+    set_inputs(active.data, shader)
+    return said + _set_up_time(scene, raw)
+
+
+def from_cycles(camera_object) -> None:
+    """Give a camera that ``to_cycles`` has made a custom one its own type back. Raises InputError for any other."""
+    camera = camera_object.data
+    mark = shader_mark(camera)
+    if mark is None:
+        raise InputError(f"camera {camera_object.name!r} has no shader of this add-on: there is nothing to take back")
+    clear_shader(camera)
+    camera.type = mark.blender_type
+
+
+def shader_of(raw: BlenderCamera, camera: Camera, places: frozenset[int] = frozenset()) -> CameraShader:
+    """Return the shader of a camera that was made of a record."""
+    return camera_shader(camera, raw.type, (raw.shift_x, raw.shift_y), places)
+
+
+def _may_move(scene, camera_object, raw: BlenderCamera) -> bool:
+    """Whether the shader may be another one at another frame: settings are animated, or objects count for it."""
+    lines = any(isinstance(setting, Line) for setting in find_model(raw).SETTINGS)
+    focused = bool(raw.settings["use_dof"]) and raw.settings["focus_position"] is not None
+    return lines or focused or is_animated(camera_object.data) or is_animated(scene)
+
+
+def _said_of_keyframes(camera, shaders) -> list[str]:
+    moves = len({tuple(shader.values.items()) for shader in shaders.values()}) > 1
+    return [
+        f"Its inputs have keyframes at the frames {min(shaders)} to {max(shaders)}: other frames, and what is changed "
+        "from now on, follow only where the add-on is enabled"
+    ] * moves
+
+
+def _set_up_time(scene, raw: BlenderCamera) -> list[str]:
+    """Switch on Cycles' rolling shutter for a camera that has one; return what was changed."""
+    if raw.settings["time_mode"] != ROLLING_SHUTTER:
+        return []
+    scene.render.use_motion_blur, scene.cycles.rolling_shutter_type = True, "TOP"
+    return ["Motion Blur is switched on, with Cycles' Rolling Shutter from top to bottom"]
+
+
+def _check(raw: BlenderCamera, camera: Camera, camera_object) -> None:
+    """Raise InputError for a camera that cannot be a custom one."""
+    if not camera_object.data.is_editable:
+        raise InputError(f"camera {raw.name!r} is linked from a library: make it local first (Object > Relations)")
+    if raw.settings["use_spherical_stereo"] and raw.type in ("PERSP", "PANO") and not raw.model:
+        raise InputError(
+            f"camera {raw.name!r} has Spherical Stereo, which Cycles has for its own cameras only: leave it as it is, "
+            "and Cycles renders it"
+        )
+    if camera.pixel_time is not None and raw.settings["time_mode"] != ROLLING_SHUTTER:
+        raise InputError(
+            f"the pixels of camera {raw.name!r} have each their own time, which a shader cannot give a ray: render it "
+            "by cast.py --engine CYCLES, or set Time to One Time or Rolling Shutter"
+        )

@@ -1,0 +1,73 @@
+"""Shaders of cameras follow their settings: when lens, shift, a slit or the resolution change, so do the inputs."""
+
+import pickle
+
+import bpy
+from bpy.app.handlers import persistent
+
+from ...core.camera.build import camera_from
+from ...core.records import BlenderCamera, InputError
+from ..read.camera import camera_record, shader_mark
+from .convert import shader_of
+from .shader import CUSTOM, rewrite, set_inputs
+
+_known: dict[int, bytes] = {}
+"""What the shaders of camera objects were made of, by the objects' session_uid."""
+
+
+@persistent
+def follow(scene, depsgraph):
+    """Bring the shaders of a scene's custom cameras up to date; where there is no such camera nothing is done."""
+    customs = {camera.session_uid for camera in bpy.data.cameras if camera.type == CUSTOM}
+    if not customs:
+        return
+    for item in scene.objects:
+        if item.type == "CAMERA" and item.data.session_uid in customs:
+            update(item, depsgraph)
+
+
+def update(camera_object, depsgraph) -> None:
+    """Bring a camera's shader up to date, if it has one of ours. What cannot be cast keeps the shader that it has."""
+    camera = camera_object.data
+    try:
+        raw = camera_record(camera_object, depsgraph)
+        state = _state(raw)
+        if _known.get(camera_object.session_uid) == state:
+            return
+        mark = shader_mark(camera)
+        if mark is None:
+            return
+        shader = shader_of(raw, camera_from(raw), mark.places)
+    except InputError:  # the sidebar says why
+        return
+    _known[camera_object.session_uid] = state
+    if camera.custom_shader.as_string() == shader.source:
+        set_inputs(camera, shader)
+    else:
+        rewrite(camera, shader)
+
+
+def _state(raw: BlenderCamera) -> bytes:
+    settings = {name: value for name, value in raw.settings.items() if name != "frame"}
+    return pickle.dumps(vars(raw) | {"settings": settings})
+
+
+@persistent
+def forget(*_):
+    """Another file, or an undo: anything may be another one than it was."""
+    _known.clear()
+
+
+HANDLERS = (
+    ("depsgraph_update_post", follow),
+    ("frame_change_post", follow),
+    ("undo_post", forget),
+    ("redo_post", forget),
+    ("load_pre", forget),
+)
+
+
+def register(undo) -> None:
+    """See ``registration``."""
+    undo.callback(forget)
+    undo.add_handlers(HANDLERS)

@@ -1,0 +1,96 @@
+"""The shader of a custom camera: its text in the file, its compiled form and the values of its inputs.
+
+Blender keeps the inputs of a custom camera as ID properties of ``camera.cycles_custom``, which can be animated.
+"""
+
+import sys
+from pathlib import Path
+
+import bpy
+import numpy as np
+
+from ...core.records import InputError
+from ...core.shaders.camera_shader import CameraShader
+from ..read.camera import shader_mark
+from .animation import remove_keyframes
+
+CUSTOM = "CUSTOM"
+
+
+def check_cycles() -> None:
+    """Raise InputError where this Blender cannot compile shaders of cameras."""
+    if not hasattr(bpy.types.Camera, "cycles_custom"):
+        raise InputError("Cycles is disabled: enable Cycles Render Engine in the Preferences, Add-ons")
+    import _cycles
+
+    if not _cycles.with_osl:
+        raise InputError("this Blender was built without the Open Shading Language: take an official build")
+
+
+def set_shader(camera, shader: CameraShader) -> None:
+    """Make a camera a custom one with this shader, and give its inputs their values, without animation.
+
+    Raises InputError where Cycles does not compile it; the camera is as it was then.
+    """
+    remove_keyframes(camera)
+    if shader_mark(camera) is not None:
+        rewrite(camera, shader)
+        return
+    text, before = bpy.data.texts.new(f"{camera.name}.osl"), (camera.type, camera.custom_mode, camera.custom_shader)
+    text.from_string(shader.source)
+    camera.type, camera.custom_mode, camera.custom_shader = CUSTOM, "INTERNAL", text
+    if not _compile(camera):
+        camera.type, camera.custom_mode, camera.custom_shader = before
+        bpy.data.texts.remove(text)
+        raise InputError(f"Cycles cannot compile the shader of camera {camera.name!r}: the terminal says why")
+    text.use_fake_user = False
+    set_inputs(camera, shader)
+
+
+def clear_shader(camera) -> None:
+    """Take a camera's shader away: its inputs with their animation, and its text where nothing else uses it."""
+    text, camera.custom_shader = camera.custom_shader, None
+    camera.custom_bytecode = camera.custom_bytecode_hash = ""
+    remove_keyframes(camera)
+    for name in list(camera.cycles_custom.keys()):
+        del camera.cycles_custom[name]
+    if not text.users:
+        bpy.data.texts.remove(text)
+
+
+def rewrite(camera, shader: CameraShader) -> None:
+    """Give a camera's text another shader, and its inputs their values."""
+    camera.custom_shader.from_string(shader.source)
+    _compile(camera)
+    set_inputs(camera, shader)
+
+
+def set_inputs(camera, shader: CameraShader) -> None:
+    """Give the inputs of a camera's shader their values, where they have others."""
+    inputs, changed = camera.cycles_custom, False
+    for name, value in shader.values.items():
+        given = np.float32(value).tolist()
+        if plain(inputs.get(name)) != given:
+            inputs[name], changed = given, True
+    if changed:
+        camera.update_tag()
+
+
+def plain(value):
+    """Return the value of an input as a number or a list."""
+    return value if value is None or isinstance(value, float) else list(value)
+
+
+def _compile(camera) -> bool:
+    """Compile a camera's text with Cycles, under any engine; return whether it worked."""
+    _let_cycles_query()
+    from cycles import osl
+
+    return bool(osl.update_custom_camera_shader(camera, lambda kind, text: None))
+
+
+def _let_cycles_query() -> None:
+    """Let Cycles find the module that reads a shader's inputs: a Python that imports bpy does not know where it is."""
+    for folder in Path(bpy.utils.system_resource("PYTHON")).glob("lib/python*/site-packages"):
+        if str(folder) not in sys.path:
+            sys.path.append(str(folder))

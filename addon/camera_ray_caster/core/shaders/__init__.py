@@ -1,0 +1,1 @@
+"""Cameras as shaders: the rays of any model, recorded and written in the Open Shading Language."""

@@ -1,0 +1,166 @@
+"""A camera as a shader of Cycles: its own rays, recorded and written in OSL.
+
+Cycles gives such a shader the place on the raster, 0 .. 1 over the full frame from its bottom left, to which it has
+added the camera's shift in fractions of the frame; and a point of the aperture. It takes a ray in a camera space that
+looks along +Z, x right, y up. All else of the camera, its pose and the render border, is Cycles' as before.
+Reference: Blender manual, Cycles, Open Shading Language, Cameras.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, fields, is_dataclass, replace
+from typing import Any
+from zlib import crc32
+
+import numpy as np
+
+from ..camera.camera import Camera
+from ..cameras.parts.aperture import Aperture
+from ..conventions import EPS32
+from ..maths.recording import Parameter, Record, record
+from .osl import HELPERS, Inputs, Term, Writer
+
+MARK = "// Camera Ray Caster, from a {} camera. Inputs by place: {}. Checksum: {:08x}"
+MARKED = re.compile(r"// Camera Ray Caster, from a (\w+) camera\. Inputs by place: ([\d ]*)\. Checksum: (\w{8})")
+
+TEXT = """\
+// {label}: {description}
+// Written by the add-on, as are the values of the inputs: what is changed here does not last.
+
+{helpers}shader camera(
+    float frame_width = 0 [[ string help = "Pixels" ]],
+    float frame_height = 0 [[ string help = "Pixels" ]],
+    float frame_shift_x = 0 [[ string help = "What Cycles has moved the raster by, in widths of the frame" ]],
+    float frame_shift_y = 0 [[ string help = "What Cycles has moved the raster by, in heights of the frame" ]],
+{inputs}    output point position = 0,
+    output vector direction = 0,
+    output color throughput = 1)
+{{
+    point place = camera_shader_raster_position();
+    float x = (place[0] - frame_shift_x) * frame_width, y = (place[1] - frame_shift_y) * frame_height;
+{aperture}{lines}
+    if ({none}) {{
+        throughput = 0;
+    }} else {{
+        position = point({o[0]}, {o[1]}, -{o[2]});
+        direction = normalize(vector({d[0]}, {d[1]}, -{d[2]}));
+    }}
+}}
+"""
+
+APERTURE = """\
+    point opening = 0;
+    getattribute("cam:aperture_position", opening);
+    float across = opening[0], up = opening[1];
+"""
+HOLE = """\
+    float across = noise("hash", 1048576.0 * place[0], 1048576.0 * place[1]);
+    float up = noise("hash", 1048576.0 * place[1], 1048576.0 * place[0]);
+"""
+"""Cycles samples the aperture of its own depth of field alone: the hole of a camera obscura takes the noise of the
+place in the pixel.
+"""
+
+
+@dataclass(frozen=True)
+class CameraShader:
+    """The text of a shader, which is the same for all cameras with the same formula, and the values of its inputs."""
+
+    source: str
+    values: Mapping[str, float]
+    places: frozenset[int]
+    """The constants without a name that are inputs; see ``osl.Inputs``."""
+
+
+@dataclass(frozen=True)
+class Mark:
+    """What the first line of a shader says of it."""
+
+    blender_type: str
+    """Of the camera before it became a custom one: PERSP, ORTHO or PANO."""
+    places: frozenset[int]
+
+
+def read_mark(source: str) -> Mark | None:
+    """Return what the first line of a text says; None where it is no shader of ours, or was edited."""
+    line, _, rest = source.partition("\n")
+    found = MARKED.fullmatch(line)
+    if found is None or int(found[3], 16) != crc32(rest.encode()):
+        return None
+    return Mark(found[1], frozenset(map(int, found[2].split())))
+
+
+def camera_shader(
+    camera: Camera, blender_type: str, shift: tuple[float, float], places: frozenset[int] = frozenset()
+) -> CameraShader:
+    """Return the shader that gives Cycles the rays of a camera, all over its pixels and its aperture, at one time.
+
+    blender_type: what ``read_mark`` shall say. shift: what Cycles adds to the raster, in fractions of the frame.
+    places: constants that are inputs in any case, for cameras whose settings change. Its rays are those of
+    ``Camera.sample_rays`` in float32. Raises NotRecordable for a model that does what cannot be recorded.
+    """
+    model, inputs = camera.model, Inputs(places)
+    writer = Writer(inputs)
+    found = writer.write(ray_record(camera), [Term("x"), Term("y"), Term("across"), Term("up")])
+    none = writer.either(*(part.none for part in found))
+    texts = [part.text for part in found]
+    (width, height), opening = model.frame, camera.aperture
+    frame = {"frame_width": width, "frame_height": height, "frame_shift_x": shift[0], "frame_shift_y": shift[1]}
+    own = {name: value for name, value in inputs.values.items() if name not in frame}
+    rest = TEXT.format(
+        label=model.label,
+        description=model.description,
+        helpers="".join(f"{HELPERS[name]}\n\n" for name in sorted(writer.helpers)),
+        inputs="".join(f"    float {name} = 0,\n" for name in own),
+        aperture="" if opening is None else HOLE if _is_hole(opening) else APERTURE,
+        lines="\n".join((*writer.tables, *writer.lines)),
+        none=none,
+        o=texts[:3],
+        d=texts[3:],
+    )
+    said = " ".join(map(str, sorted(inputs.used)))
+    values = {**{name: float(value) for name, value in frame.items()}, **own}
+    source = f"{MARK.format(blender_type, said, crc32(rest.encode()))}\n{rest}"
+    return CameraShader(source, values, frozenset(inputs.used))
+
+
+def ray_record(camera: Camera) -> Record:
+    """Return the record of origin and direction in the camera's frame, of (x, y), pixel coordinates, and a point of the
+    aperture in Blender units; for a hole two numbers of [0, 1). The fields of the model are parameters.
+    """
+    width, height = camera.model.frame
+    frame = Parameter(width, "frame_width"), Parameter(height, "frame_height")
+    model = replace(_named(camera.model), frame=frame)
+    lens = replace(camera, model=model).camera_rays if _is_sheared(camera) else model.rays
+    opening = _named(camera.aperture, "aperture")
+
+    def ray(x, y, across, up):
+        origin, direction = lens(x, y)
+        if opening is not None:
+            point = opening.points(across, up) if _is_hole(opening) else (across, up)
+            origin, direction = opening.through(origin, direction, camera.model.planar, *point)
+        return *origin, *direction
+
+    return record(ray, 4)
+
+
+def _is_sheared(camera: Camera) -> bool:
+    """Whether float32 tells the camera's axes from perpendicular ones: lengths then depend on the direction."""
+    return bool(np.abs(camera.pose.basis.T @ camera.pose.basis - np.eye(3)).max() > 16 * EPS32)
+
+
+def _is_hole(aperture: Aperture) -> bool:
+    """Whether it is that of a camera obscura, which no depth of field of Cycles samples."""
+    return aperture.focus < 0
+
+
+def _named(item: Any, name: str = "") -> Any:
+    """Return a model, or a part of one, whose numbers tell a record which field they are."""
+    if is_dataclass(item) and not isinstance(item, type):
+        parts = {each.name: f"{name}_{each.name}".strip("_") for each in fields(item)}
+        return replace(item, **{part: _named(getattr(item, part), full) for part, full in parts.items()})
+    if isinstance(item, tuple):
+        return tuple(_named(part, f"{name}_{place}") for place, part in enumerate(item))
+    return Parameter(item, name) if isinstance(item, float) else item

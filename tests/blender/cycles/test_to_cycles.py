@@ -1,0 +1,190 @@
+"""A camera as a custom one of Cycles: made, followed, read, and taken back."""
+
+import bpy
+import numpy as np
+import pytest
+
+from camera_ray_caster.blender.cycles import from_cycles, to_cycles
+from camera_ray_caster.blender.read.scene import read_camera
+from camera_ray_caster.core.records import InputError
+
+from ..read.scene_parts import curves, new_object
+from .cycles import cycles_directions
+
+
+@pytest.fixture
+def scene(blender, camera_scene):
+    import addon_utils
+
+    addon_utils.enable("cycles", default_set=True)
+    render = camera_scene.render
+    render.resolution_x, render.resolution_y = 48, 32
+    return camera_scene
+
+
+def own(camera):
+    return camera.data.camera_ray_caster
+
+
+def same_rays(one, other):
+    return all(
+        np.array_equal(getattr(one, name), getattr(other, name), equal_nan=True) for name in ("origins", "directions")
+    )
+
+
+PORTRAIT = {"resolution_x": 32, "resolution_y": 48}
+SHIFT = {"shift_x": 0.3, "shift_y": -0.2}
+CAMERAS = {
+    "perspective": {"lens": 30.0} | SHIFT | PORTRAIT,
+    "perspective, fitted vertically": {"lens": 30.0, "sensor_fit": "VERTICAL", "pixel_aspect_x": 1.7} | SHIFT,
+    "orthographic": {"type": "ORTHO"} | SHIFT | PORTRAIT,
+    "panorama": {"type": "PANO", "panorama_type": "EQUIRECTANGULAR"} | SHIFT,
+    "border": {"use_border": True, "border_min_x": 0.2, "border_max_x": 0.7, "border_min_y": 0.1} | SHIFT,
+    "omnimax": {"model": "OMNIMAX"},
+    "pushbroom": {"model": "CYLINDRICAL", "resolution_percentage": 37},
+}
+FLOAT32 = 2e-6
+"""Radians: what float32 makes of rays that are nowhere singular; some ten operations, sine and cosine to 1e-6."""
+
+
+def set_up(scene, settings):
+    camera = scene.camera
+    camera.location, camera.rotation_euler, camera.scale = (1.5, -2, 0.7), (0.5, 0.2, 0.7), (-1, 2, 0.5)
+    for name, value in settings.items():
+        owner = next(one for one in (camera.data, scene.render, own(camera)) if hasattr(one, name))
+        setattr(owner, name, value)
+    return camera
+
+
+def check(scene):
+    rays, seen = read_camera(scene).rays(), cycles_directions(scene)
+    assert np.array_equal(~np.isnan(seen[..., 0]), rays.valid)
+    assert np.nanmax(np.linalg.norm(seen - rays.directions, axis=-1)) <= FLOAT32
+
+
+@pytest.mark.parametrize("name", CAMERAS)
+def test_cycles_renders_the_rays_that_are_read_before_and_after(scene, name):
+    camera = set_up(scene, CAMERAS[name])
+    before = read_camera(scene)
+    assert to_cycles(scene) == []
+    assert camera.data.type == "CUSTOM"
+    after = read_camera(scene)
+    assert type(after.model) is type(before.model)
+    assert same_rays(before.rays(), after.rays())
+    check(scene)
+
+
+def test_what_is_changed_afterwards_is_followed(scene):
+    camera = set_up(scene, {"lens": 30.0})
+    to_cycles(scene)
+    source = camera.data.custom_shader.as_string()
+    camera.data.lens, camera.data.shift_x, scene.render.resolution_x = 70.0, 0.4, 64
+    bpy.context.view_layer.update()
+    assert camera.data.custom_shader.as_string() == source
+    check(scene)
+    own(camera).model = "OMNIMAX"
+    bpy.context.view_layer.update()
+    check(scene)
+
+
+def test_a_shader_is_left_alone_while_nothing_changes(scene, monkeypatch):
+    from camera_ray_caster.blender.cycles import follow
+
+    set_up(scene, {"lens": 30.0})
+    to_cycles(scene)
+    new_object("Other").location.x = 1.0
+    bpy.context.view_layer.update()
+    monkeypatch.setattr(follow, "shader_of", None)  # it would be called
+    scene.objects["Other"].location.x = 2.0
+    bpy.context.view_layer.update()
+
+
+def test_animation_is_keyframes_that_need_no_add_on(scene, monkeypatch):
+    from camera_ray_caster.blender.cycles import follow
+
+    camera = set_up(scene, {"lens": 30.0})
+    for frame, lens in ((1, 30.0), (5, 60.0)):
+        camera.data.lens = lens
+        camera.data.keyframe_insert("lens", frame=frame)
+    scene.frame_start, scene.frame_end = 1, 5
+    scene.frame_set(1)
+    (said,) = to_cycles(scene)
+    assert "keyframes at the frames 1 to 5" in said
+    for handlers in (bpy.app.handlers.frame_change_post, bpy.app.handlers.depsgraph_update_post):
+        handlers.remove(follow.follow)
+    scene.frame_set(4)
+    assert 40 < camera.data.lens < 60
+    check(scene)
+    from_cycles(camera)
+    assert [curve.data_path for curve in curves(camera.data)] == ["lens"]
+
+
+def test_a_slit_that_moves_is_animation_too(scene):
+    camera = set_up(scene, {"model": "CROSS_SLIT"})
+    for name, turn in (("slit_1", 0.0), ("slit_2", 1.5)):
+        slit = new_object(name)
+        slit.location, slit.rotation_euler.z = (1.5, -2, 3.0 + turn), turn
+        setattr(own(camera), name, slit)
+    bpy.context.view_layer.update()
+    for frame, height in ((1, 3.0), (4, 3.5)):
+        slit.location.z = height
+        slit.keyframe_insert("location", frame=frame)
+    scene.frame_end = 4
+    assert to_cycles(scene)
+    scene.frame_set(3)
+    check(scene)
+
+
+def test_it_goes_back_and_leaves_nothing(scene):
+    camera = set_up(scene, {"type": "PANO", "panorama_type": "MIRRORBALL"})
+    texts = set(bpy.data.texts)
+    to_cycles(scene)
+    to_cycles(scene)  # it is made anew
+    from_cycles(camera)
+    assert (camera.data.type, camera.data.custom_shader) == ("PANO", None)
+    assert not camera.data.cycles_custom.keys()
+    assert set(bpy.data.texts) == texts
+    with pytest.raises(InputError, match="nothing to take back"):
+        from_cycles(camera)
+
+
+def test_a_shader_that_is_not_ours_is_refused_as_ever(scene):
+    camera = set_up(scene, {})
+    to_cycles(scene)
+    text = camera.data.custom_shader
+    text.from_string(text.as_string().replace("frame_width", "frame_size"))
+    with pytest.raises(InputError, match="OSL shader"):
+        read_camera(scene)
+
+
+def test_a_camera_of_a_deleted_slit_keeps_its_last_rays(scene):
+    camera = set_up(scene, {"model": "PENCIL"})
+    own(camera).slit_1 = slit = new_object("Slit")
+    slit.location = (1.5, -2, 3)
+    bpy.context.view_layer.update()
+    to_cycles(scene)
+    seen = cycles_directions(scene)
+    bpy.data.objects.remove(slit)
+    bpy.context.view_layer.update()
+    assert np.array_equal(cycles_directions(scene), seen, equal_nan=True)
+    with pytest.raises(InputError, match="slit_1"):
+        read_camera(scene)
+
+
+REFUSED = [
+    ({"time_mode": "COLUMNS"}, "cast.py --engine CYCLES"),
+    ({"type": "PANO", "panorama_type": "EQUIRECTANGULAR", "use_spherical_stereo": True}, "Spherical Stereo"),
+    ({"lens": float("nan")}, "lens"),
+]
+
+
+@pytest.mark.parametrize(("settings", "said"), REFUSED)
+def test_what_cannot_be_a_shader_is_refused_and_left_alone(scene, settings, said):
+    data = scene.camera.data
+    for name, value in settings.items():
+        setattr(data.stereo if "stereo" in name else own(scene.camera) if "time" in name else data, name, value)
+    kind = data.type
+    with pytest.raises(InputError, match=said):
+        to_cycles(scene)
+    assert data.type == kind
+    assert not bpy.data.texts
