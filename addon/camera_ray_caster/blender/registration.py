@@ -14,6 +14,7 @@ from .ui import (
     camera_panels,
     cast_operator,
     cast_panels,
+    cycles_operators,
     model_panels,
     object_panels,
     operators,
@@ -24,6 +25,7 @@ from .view3d import mouse_gizmo, overlay, scene_cache
 
 CLASSES = (
     *groups.CLASSES, *overlay.CLASSES, *engine.CLASSES, *operators.CLASSES, *cast_operator.CLASSES,
+    *cycles_operators.CLASSES,
     *mouse_gizmo.CLASSES, *render_panels.CLASSES, *model_panels.CLASSES, *camera_panels.CLASSES, *cast_panels.CLASSES,
     *object_panels.CLASSES, *overlay_panels.CLASSES,
 )  # fmt: skip

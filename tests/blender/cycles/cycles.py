@@ -13,9 +13,12 @@ import numpy as np
 from ...exr import read_exr
 
 
-def cycles_directions(scene):
-    """Return the world directions of the primary rays of the render window, (h, w, 3); NaN where there is no ray."""
-    return _render(scene, "Incoming", 1.0, sky=True) * -1
+def cycles_directions(scene, suffix=""):
+    """Return the world directions of the primary rays of the render window, (h, w, 3); NaN where there is no ray.
+
+    suffix: of a view's files, where there are several.
+    """
+    return _render(scene, "Incoming", 1.0, sky=True, suffix=suffix) * -1
 
 
 def cycles_surface(scene, output, reach):
@@ -40,7 +43,7 @@ def cycles_passes(scene):
     return np.stack([channels[f"{layer.name}.Combined.{part}"] for part in "RGB"], axis=-1), channels[index]
 
 
-def _render(scene, output, reach, sky):
+def _render(scene, output, reach, sky, suffix=""):
     _prepare(scene)
     scene.world = bpy.data.worlds.new("Witness")
     scene.world.cycles.sampling_method = "NONE"
@@ -53,7 +56,8 @@ def _render(scene, output, reach, sky):
     for layer in scene.view_layers:
         layer.material_override = material
     bpy.ops.render.render(write_still=True, scene=scene.name)
-    channels = read_exr(Path(scene.render.filepath))  # Blender 4.5 cannot read what it writes of one eye alone
+    path = Path(scene.render.filepath)
+    channels = read_exr(path.with_stem(path.stem + suffix))  # Blender 4.5 cannot read what it writes of one eye alone
     values = np.stack([channels[name] for name in "RGB"], axis=-1).astype(np.float64)
     values[(values == 0).all(axis=-1)] = np.nan
     return (values - 0.5) * (2 * reach)

@@ -18,7 +18,7 @@ def scene(blender, camera_scene):
 
     addon_utils.enable("cycles", default_set=True)
     render = camera_scene.render
-    render.resolution_x, render.resolution_y = 48, 32
+    render.engine, render.resolution_x, render.resolution_y = "CYCLES", 48, 32
     return camera_scene
 
 
@@ -188,3 +188,33 @@ def test_what_cannot_be_a_shader_is_refused_and_left_alone(scene, settings, said
         to_cycles(scene)
     assert data.type == kind
     assert not bpy.data.texts
+
+
+@pytest.mark.parametrize("mode", ["PARALLEL", "OFFAXIS", "TOE"])
+@pytest.mark.parametrize("model", ["BLENDER", "OMNIMAX"])
+def test_both_eyes_of_stereo_are_those_that_are_read(scene, mode, model):
+    camera = set_up(scene, {"model": model, "lens": 30.0} | SHIFT)
+    scene.render.use_multiview = True
+    camera.data.stereo.convergence_mode, camera.data.stereo.convergence_distance = mode, 2.5
+    camera.data.stereo.interocular_distance = 0.3
+    to_cycles(scene)
+    for view, suffix in (("left", "_L"), ("right", "_R")):
+        rays, seen = read_camera(scene, view=view).rays(), cycles_directions(scene, suffix)
+        assert np.array_equal(~np.isnan(seen[..., 0]), rays.valid)
+        assert np.nanmax(np.linalg.norm(seen - rays.directions, axis=-1)) <= FLOAT32
+
+
+def test_eyes_that_cycles_would_shift_otherwise_are_refused(scene):
+    set_up(scene, PORTRAIT)
+    scene.render.use_multiview = True
+    scene.camera.data.stereo.convergence_mode = "OFFAXIS"
+    with pytest.raises(InputError, match="Sensor Fit to the frame's width"):
+        to_cycles(scene)
+    scene.camera.data.sensor_fit = "HORIZONTAL"
+    to_cycles(scene)
+
+
+def test_an_engine_that_does_not_know_custom_cameras_is_named(scene):
+    scene.render.engine = "BLENDER_WORKBENCH"
+    (said,) = to_cycles(scene)
+    assert "choose Cycles" in said

@@ -1,7 +1,9 @@
 """The panel of the camera's model and its times: the settings that are read, in order, and no others."""
 
+import addon_utils
 import pytest
 
+from camera_ray_caster.blender.cycles import to_cycles
 from camera_ray_caster.blender.ui.model_panels import ModelPanel, TimePanel
 
 MATRIX = ("calibration_width", "calibration_height", "fx", "fy", "cx", "cy", "skew")
@@ -45,8 +47,9 @@ class Layout:
 
     use_property_split = True
 
-    def __init__(self, names=None, grayed=None):
+    def __init__(self, names=None, grayed=None, operators=None):
         self.names, self.grayed, self.active = [] if names is None else names, [] if grayed is None else grayed, True
+        self.operators = [] if operators is None else operators
 
     def prop(self, owner, name):
         assert name in owner.bl_rna.properties
@@ -57,7 +60,12 @@ class Layout:
         self.prop(owner, name)
 
     def column(self, align):
-        return Layout(self.names, self.grayed)
+        return Layout(self.names, self.grayed, self.operators)
+
+    row = column
+
+    def operator(self, name, text=None, icon="NONE"):
+        self.operators.append(name.partition(".")[2])
 
 
 @pytest.fixture
@@ -69,6 +77,7 @@ def drawn(bpy, panel, data):
     layout = Layout()
     context = type("Context", (), {"camera": data, "scene": bpy.context.scene})
     panel.draw(type("Panel", (), {"layout": layout}), context)
+    drawn.operators = layout.operators
     return tuple(layout.names), tuple(layout.grayed)
 
 
@@ -92,6 +101,31 @@ def test_a_calibration_file_grays_out_the_numbers_that_it_replaces(blender, data
     own.model, own.calibration_file = "OPENCV_FISHEYE", "//lens.yml"
     first, *rest = SHOWN["OPENCV_FISHEYE"]
     assert drawn(blender, ModelPanel, data) == (("model", first), tuple(rest))
+
+
+def test_a_camera_of_cycles_shows_the_settings_of_its_own_type_and_the_way_back(blender, camera_scene):
+    addon_utils.enable("cycles", default_set=True)
+    data = camera_scene.camera.data
+    assert drawn(blender, ModelPanel, data)[0] == ("model",)
+    assert drawn.operators == ["use_in_cycles"]
+    to_cycles(camera_scene)
+    assert drawn(blender, ModelPanel, data)[0] == ("model", "lens")
+    assert drawn.operators == ["back_to_blender", "use_in_cycles"]
+    data.camera_ray_caster.model = "PUSHBROOM"
+    assert drawn(blender, ModelPanel, data)[0] == ("model", "slit_1", "ortho_scale", "lens")
+
+
+def test_the_buttons_go_there_and_back(blender, camera_scene):
+    addon_utils.enable("cycles", default_set=True)
+    data, ops = camera_scene.camera.data, blender.ops.camera_ray_caster
+    assert not ops.back_to_blender.poll()
+    ops.use_in_cycles()
+    assert data.type == "CUSTOM"
+    ops.back_to_blender()
+    assert data.type == "PERSP"
+    data.camera_ray_caster.time_mode = "COLUMNS"
+    with pytest.raises(RuntimeError, match="which a shader cannot give a ray"):
+        ops.use_in_cycles()
 
 
 def test_the_settings_of_the_chosen_time_are_shown_in_order(blender, data):

@@ -1,16 +1,24 @@
 """From a camera to a custom one of Cycles with the same rays, and back."""
 
+import numpy as np
+
 from ...core.camera.camera import Camera
 from ...core.camera.pixel_time import ROLLING_SHUTTER
+from ...core.camera.stereo import SIDES, eye_record
 from ...core.cameras import find_model
 from ...core.cameras.parts.settings import Line
+from ...core.conventions import EPS32
 from ...core.records import BlenderCamera, InputError
 from ...core.shaders.camera_shader import CameraShader, camera_shader
+from ..engine.engine import CameraRayCaster
 from ..read.camera import shader_mark
 from ..read.evaluated import camera_at
 from ..read.scene import evaluated_camera, go_to
 from .animation import insert_keyframes, is_animated
 from .shader import check_cycles, clear_shader, set_inputs, set_shader
+
+GRID = 5
+"""Pixels a side at which an eye is compared with the camera."""
 
 
 def to_cycles(scene, camera_object=None) -> list[str]:
@@ -42,7 +50,7 @@ def to_cycles(scene, camera_object=None) -> list[str]:
         insert_keyframes(active.data, shaders)
         said = _said_of_keyframes(active.data, shaders)
     set_inputs(active.data, shader)
-    return said + _set_up_time(scene, raw)
+    return said + _set_up_time(scene, raw) + _engine_said(scene)
 
 
 def from_cycles(camera_object) -> None:
@@ -83,6 +91,14 @@ def _set_up_time(scene, raw: BlenderCamera) -> list[str]:
     return ["Motion Blur is switched on, with Cycles' Rolling Shutter from top to bottom"]
 
 
+def _engine_said(scene) -> list[str]:
+    """Return what other engines show of a custom camera; the add-on's own and Cycles know what it is."""
+    engine = scene.render.engine
+    if engine in ("CYCLES", CameraRayCaster.bl_idname):
+        return []
+    return [f"The render engine is {engine}, which shows a perspective camera: choose Cycles"]
+
+
 def _check(raw: BlenderCamera, camera: Camera, camera_object) -> None:
     """Raise InputError for a camera that cannot be a custom one."""
     if not camera_object.data.is_editable:
@@ -97,3 +113,24 @@ def _check(raw: BlenderCamera, camera: Camera, camera_object) -> None:
             f"the pixels of camera {raw.name!r} have each their own time, which a shader cannot give a ray: render it "
             "by cast.py --engine CYCLES, or set Time to One Time or Rolling Shutter"
         )
+    if raw.settings["use_multiview"] and raw.settings["views_format"] == "STEREO_3D":
+        for view in SIDES:
+            _check_eye(raw, camera, eye_record(raw, view))
+
+
+def _check_eye(raw: BlenderCamera, camera: Camera, eye: BlenderCamera) -> None:
+    """Raise InputError for an eye of Stereo 3D that is more than the camera moved, turned and shifted as Cycles does.
+
+    Cycles shifts an eye by fractions of the frame's width, whatever the sensor is fitted to.
+    """
+    width, height = camera.raster.size
+    x, y = np.linspace(0, width, GRID)[None, :], np.linspace(0, height, GRID)[:, None]
+    own = find_model(eye).from_blender(eye, camera.raster).rays(x, y)
+    moved = camera.model.rays(x + (eye.shift_x - raw.shift_x) * width, y)
+    for part, other in zip(own, moved, strict=True):
+        one, two = (np.stack(np.broadcast_arrays(*vector)) for vector in (part, other))
+        if not np.allclose(one, two, rtol=EPS32, atol=EPS32 * np.nanmax(np.abs(two)), equal_nan=True):
+            raise InputError(
+                f"the eyes of camera {raw.name!r} are not those that Cycles makes of a custom camera: switch "
+                "Stereoscopy off and render one eye at a time, or for Off-Axis set Sensor Fit to the frame's width"
+            )

@@ -74,8 +74,7 @@ def camera_record(camera_object, depsgraph) -> BlenderCamera:
 
 
 def shader_mark(camera) -> Mark | None:
-    """Return what the shader of a custom camera says of the camera that it stands for; None where it has none of ours.
-    """
+    """Return what the shader of a custom camera says of the camera that it was; None where it has none of ours."""
     if camera.type != "CUSTOM" or camera.custom_mode != "INTERNAL" or camera.custom_shader is None:
         return None
     return read_mark(camera.custom_shader.as_string())

@@ -4,9 +4,13 @@ import bpy
 
 from ...core.camera import pixel_time
 from ...core.cameras import MODELS
+from ...core.cameras.parts.film import FILM
 from ...core.cameras.parts.settings import CAMERA, OWN, STEREO, Setting
-from ..properties.declared import GROUP, MODEL
+from ..cycles.shader import CUSTOM
+from ..properties.declared import BLENDERS_OWN, GROUP, MODEL
 from ..properties.owners import owner_of
+from ..read.camera import shader_mark
+from .cycles_operators import BackToBlender, UseInCycles
 
 SETTINGS = {model.key: model.SETTINGS for model in MODELS}
 
@@ -17,8 +21,18 @@ SHOWN_FOR = {"lens": "PERSP", "ortho_scale": "ORTHO"}
 def shown(setting: Setting, camera) -> bool:
     """Return whether the panel shows a setting: the add-on's own, and Blender's that Blender's panel does not show."""
     if setting.owner == CAMERA:
+        if camera.type == CUSTOM:
+            return setting not in FILM
         return SHOWN_FOR.get(setting.name, camera.type) != camera.type
     return setting.owner in (OWN, STEREO)
+
+
+def settings_of(camera) -> tuple[Setting, ...]:
+    """Return the settings of a camera's model; of a custom one that was of a type of Blender's, those of that type."""
+    mark, own = shader_mark(camera), getattr(camera, GROUP)
+    if mark is None or own.model != BLENDERS_OWN:
+        return SETTINGS.get(own.model, ())
+    return SETTINGS[camera.panorama_type if mark.blender_type == "PANO" else mark.blender_type]
 
 
 class ModelPanel(bpy.types.Panel):
@@ -42,12 +56,23 @@ class ModelPanel(bpy.types.Panel):
         own = getattr(camera, GROUP)
         layout.prop(own, MODEL.name)
         column = layout.column(align=True)
-        for setting in SETTINGS.get(own.model, ()):
+        for setting in settings_of(camera):
             if shown(setting, camera):
                 draw_setting(column, setting, camera, context.scene)
             if setting.replaces_the_rest:
                 column = layout.column(align=True)
                 column.active = not getattr(own, setting.name)
+        draw_cycles(layout, camera)
+
+
+def draw_cycles(layout, camera) -> None:
+    """Draw what makes a camera one of Cycles; of one that it is already, what makes it anew and takes it back."""
+    if shader_mark(camera) is None:
+        layout.operator(UseInCycles.bl_idname, icon="SHADING_RENDERED")
+        return
+    row = layout.row(align=True)
+    row.operator(BackToBlender.bl_idname, icon="LOOP_BACK")
+    row.operator(UseInCycles.bl_idname, text="", icon="FILE_REFRESH")
 
 
 class TimePanel(bpy.types.Panel):

@@ -1,0 +1,66 @@
+"""The operators that make a camera one of Cycles, and take that back."""
+
+import bpy
+
+from ...core.records import InputError
+from ..cycles import from_cycles, to_cycles
+from ..read.camera import shader_mark
+
+
+class UseInCycles(bpy.types.Operator):
+    """Let Cycles render this camera's own rays: the camera becomes a custom one, with a shader that is stored in the
+    file"""
+
+    bl_idname = "camera_ray_caster.use_in_cycles"
+    bl_label = "Use in Cycles"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context):
+        """Grayed out without a camera in the context."""
+        cls.poll_message_set("Select a camera object first")
+        return camera_object_of(context) is not None
+
+    def execute(self, context):
+        """Do it, and say what will not follow by itself."""
+        try:
+            said = to_cycles(context.scene, camera_object_of(context))
+        except InputError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        for line in said:
+            self.report({"INFO"}, line)
+        return {"FINISHED"}
+
+
+class BackToBlender(bpy.types.Operator):
+    """Give the camera its own type back, and remove the shader that the add-on made"""
+
+    bl_idname = "camera_ray_caster.back_to_blender"
+    bl_label = "Back to Blender's Camera"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context):
+        """Grayed out where there is nothing to take back."""
+        cls.poll_message_set("The camera has no shader that the add-on made")
+        camera = camera_object_of(context)
+        return camera is not None and shader_mark(camera.data) is not None
+
+    def execute(self, context):
+        """Do it."""
+        try:
+            from_cycles(camera_object_of(context))
+        except InputError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        return {"FINISHED"}
+
+
+def camera_object_of(context):
+    """Return the camera object that a panel is about: the active object, or else the scene's camera."""
+    item = context.object
+    return item if item is not None and item.type == "CAMERA" else context.scene.camera
+
+
+CLASSES = (UseInCycles, BackToBlender)
