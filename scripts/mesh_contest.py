@@ -71,7 +71,7 @@ def triangles(shapes: Shapes) -> Iterator[tuple[np.ndarray, np.ndarray, np.ndarr
         normals = np.zeros_like(mesh.vertices)
         if mesh.normals is not None:
             for corner, loop in zip(mesh.triangles, mesh.loops, strict=True):
-                normals[:, corner] = mesh.normals[:, loop]
+                normals[:, corner] = mesh.normals[loop].T
         yield np.float32(places.T), mesh.triangles.T, np.float32((np.linalg.inv(axes).T @ normals).T)
 
 

@@ -120,7 +120,8 @@ SPHERE, PLANE, INFINITE_PLANE, MESH = 0, 1, 2, 3
 class Mesh:
     """The triangles of an evaluated mesh in its object's space; its instances share it. A loop is a corner of a face.
 
-    Components and corners are rows, so that one component of all lies in one piece.
+    Components of vertices and corners of triangles are rows, of which each lies in one piece; what loops have is read
+    here and there, so that it is the components of a loop that lie in one.
     """
 
     vertices: np.ndarray
@@ -132,9 +133,9 @@ class Mesh:
     loops: np.ndarray | None = None
     """(3, k) intp: the loops of each triangle; None where neither normals nor uv are asked for by loop."""
     normals: np.ndarray | None = None
-    """(3, l) float32: the unit normals at the loops; None where every face is flat, whose triangles' normals count."""
+    """(l, 3) float32: the unit normals at the loops; None where every face is flat, whose triangles' normals count."""
     uv: np.ndarray | None = None
-    """(2, l) float32: the render UV map at the loops; None without one."""
+    """(l, 2) float32: the render UV map at the loops; None without one."""
     slot: np.ndarray | None = None
     """(k,) int16: the material slot of each triangle; None where all have the first one."""
 

@@ -30,7 +30,7 @@ def corners_of(shapes, row, triangle):
     if mesh.normals is None:
         return places, None
     to_world = list(zip(*truth.inverse(axes), strict=True))
-    normals = [exact(mesh.normals[:, k]) for k in mesh.loops[:, triangle]]
+    normals = [exact(mesh.normals[k]) for k in mesh.loops[:, triangle]]
     normals = [[dot(line, normal) for line in to_world] for normal in normals]
     if not shapes.shared[row]:
         normals = [[x / norm(normal) for x in normal] for normal in normals]

@@ -41,10 +41,8 @@ def ball(rows: int, columns: int, radius: float = 1.0) -> Mesh:
     loops = np.arange(triangles.size, dtype=np.intp).reshape(-1, 3)
     corners = vertices.astype(np.float32)[triangles.ravel()]
     normals = (corners / np.linalg.norm(corners, axis=1, keepdims=True)).astype(np.float32)
-    uv = np.ascontiguousarray(corners[:, :2].T / 2 + 0.5)
-    return mesh_of(
-        vertices, triangles, loops=np.ascontiguousarray(loops.T), normals=np.ascontiguousarray(normals.T), uv=uv
-    )
+    uv = corners[:, :2] / 2 + 0.5
+    return mesh_of(vertices, triangles, loops=np.ascontiguousarray(loops.T), normals=normals, uv=uv)
 
 
 def soup(rng, count: int) -> Mesh:

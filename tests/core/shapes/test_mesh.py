@@ -135,7 +135,7 @@ def test_normals_are_of_the_side_that_is_hit_smooth_or_flat_and_right_to_their_b
         if mesh.normals is not None:
             to_world = np.linalg.inv(axes).T * np.sign(np.linalg.det(axes))
             parts = [
-                (mesh.normals[:, loop[images["face_index"][hit]]].T.astype(float) @ to_world.T) for loop in mesh.loops
+                (mesh.normals[loop[images["face_index"][hit]]].astype(float) @ to_world.T) for loop in mesh.loops
             ]
             parts = [part / np.linalg.norm(part, axis=1, keepdims=True) for part in parts]
             square = (area * area).sum(axis=1)
@@ -160,7 +160,7 @@ def test_a_smooth_ball_that_is_flattened_to_a_disc_has_its_normal():
 def test_normals_of_a_shared_mesh_are_interpolated_in_its_own_frame():
     """As Cycles does: under an uneven scale they differ from those of a mesh that one object shows."""
     tilted = np.float32([[0, -0.6, 0.6], [0, 0, 0], [1, 0.8, 0.8]])
-    quad = mesh_of([(-1, -1, 0), (1, -1, 0), (0, 1, 0)], [(0, 1, 2)], normals=tilted, loops=np.array([[0], [1], [2]]))
+    quad = mesh_of([(-1, -1, 0), (1, -1, 0), (0, 1, 0)], [(0, 1, 2)], normals=tilted.T, loops=np.array([[0], [1], [2]]))
     scale = np.diag([1.0, 1.0, 4.0])
     alone, shared = (
         cast(camera_at(), shapes_of((quad, (0, 0, -3), scale), shared=np.array([both])), ("normal", "uv"), np.float64)
@@ -181,7 +181,7 @@ def test_the_map_the_face_and_the_material_are_those_of_the_point():
     corners = mesh.vertices[:2, mesh.triangles].reshape(2, 3, 4)
     mesh = replace(
         mesh, polygon=np.array([7, 8, 7, 8], np.int32), slot=np.array([0, 1, 0, 1], np.int16),
-        uv=np.float32([0.25 * corners[0] + 3, -corners[1]]).reshape(2, -1), loops=np.arange(12).reshape(3, 4),
+        uv=np.float32([0.25 * corners[0] + 3, -corners[1]]).reshape(2, -1).T, loops=np.arange(12).reshape(3, 4),
     )  # fmt: skip
     slots = Slots(
         np.array([-1, 2]),
@@ -215,7 +215,7 @@ def test_the_grid_is_that_of_the_map_or_of_the_edges_of_faces():
     """Two squares of two triangles each, without the diagonals between these; with a map its lines, 24 and 12."""
     mesh = grid(1, 2, lambda u, v: (2 * u - 1, v - 0.5, 0 * u))
     faces = replace(mesh, polygon=np.array([0, 1, 0, 1], np.int32))
-    mapped = replace(mesh, uv=np.float32(mesh.vertices[:2] / 6), loops=mesh.triangles)
+    mapped = replace(mesh, uv=np.float32(mesh.vertices[:2].T / 6), loops=mesh.triangles)
     cam = camera_at(resolution_x=201, resolution_y=101)
     for shown in (faces, mapped):
         images = cast(

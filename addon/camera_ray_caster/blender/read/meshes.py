@@ -44,7 +44,7 @@ def mesh_record(mesh, arrays: MeshArrays) -> Mesh:
         polygon=polygon,
         loops=None if normals is None and uv is None else loops,
         normals=normals,
-        uv=None if uv is None else _rows(fetched(uv.uv, "vector", np.float32, 2).reshape(-1, 2)),
+        uv=None if uv is None else fetched(uv.uv, "vector", np.float32, 2).reshape(-1, 2),
         slot=None if slot is None else _slots(fetched(slot.data, "value", np.int32), polygon),
     )
 
@@ -64,7 +64,7 @@ def _triangle_loops(mesh) -> np.ndarray:
 
 
 def _normals(mesh, arrays: MeshArrays, by_vertex: bool) -> np.ndarray | None:
-    """Return the normals at the loops, (3, l) float32, or ``by_vertex``; None where all faces are flat.
+    """Return the normals at the loops, (l, 3) float32, or ``by_vertex``; None where all faces are flat.
 
     Where corners have no normal of their own, those of the vertices take Blender a tenth of the time.
     """
@@ -75,12 +75,12 @@ def _normals(mesh, arrays: MeshArrays, by_vertex: bool) -> np.ndarray | None:
         return None
     corners = mesh.vertex_normals if domain == "POINT" else mesh.corner_normals
     if free is None:
-        normals = _rows(copied(corners, "vector", np.float32, 3).reshape(-1, 3))
+        normals = copied(corners, "vector", np.float32, 3).reshape(-1, 3)
     else:  # of any length; as corners Blender 4.5 and 5.0 hand over what they have freed
-        normals = _rows(fetched(free.data, "vector", np.float32, 3).reshape(-1, 3))
-        lengths = np.sqrt((normals * normals).sum(axis=0))
+        normals = fetched(free.data, "vector", np.float32, 3).reshape(-1, 3)
+        lengths = np.sqrt((normals * normals).sum(axis=1, keepdims=True))
         normals /= np.where(lengths > 0, lengths, 1)
-    return normals[:, arrays.loop_vertices] if domain == "POINT" and not by_vertex else normals
+    return normals[arrays.loop_vertices] if domain == "POINT" and not by_vertex else normals
 
 
 def _slots(slots: np.ndarray, polygon: np.ndarray) -> np.ndarray | None:

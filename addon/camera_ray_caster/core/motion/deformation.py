@@ -33,7 +33,8 @@ def deformed(shapes: Shapes, evaluations: Sequence[Shapes], weights: Sequence[fl
         places = _mean([form.vertices - form.middle[:, None] for form in forms], weights)
         normals = None if forms[0].normals is None else _mean([form.normals for form in forms], weights)
         if normals is not None:
-            normals = normals / np.maximum(np.sqrt((normals * normals).sum(axis=0)), np.finfo(float).tiny)
+            lengths = np.sqrt((normals * normals).sum(axis=1, keepdims=True))
+            normals = normals / np.maximum(lengths, np.finfo(float).tiny)
         meshes[k] = replace(forms[0], vertices=places, normals=normals)
         rows = shapes.mesh == k
         center[rows] += shapes.axes[rows] @ meshes[k].middle  # a place is counted from the middle

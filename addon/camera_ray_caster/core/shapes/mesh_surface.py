@@ -69,7 +69,7 @@ class HitTriangles:
     def local(self) -> np.ndarray:
         """The corners in their meshes' frames from the middle, (3, 3, k): corner, component."""
         return self._gather(
-            (3, 3), float, lambda mesh, k: _corners(mesh.vertices, mesh.triangles[:, k]) - mesh.middle[:, None]
+            (3, 3), float, lambda mesh, k: _places(mesh, mesh.triangles.take(k, axis=1)) - mesh.middle[:, None]
         )
 
     @lazy
@@ -191,16 +191,21 @@ class HitTriangles:
         return result
 
 
-def _corners(values: np.ndarray, which: np.ndarray) -> np.ndarray:
-    """Return the columns (3, c, k) of values (c, n) that triangles (3, k) name."""
-    return values.take(which, axis=1).swapaxes(0, 1)
+def _places(mesh: Mesh, which: np.ndarray) -> np.ndarray:
+    """Return the vertices (3, 3, k) that triangles (3, k) name."""
+    return mesh.vertices.take(which, axis=1).swapaxes(0, 1)
+
+
+def _at_loops(values: np.ndarray, loops: Any, which: np.ndarray) -> np.ndarray:
+    """Return the values (l, c) at the loops of triangles, (3, c, k)."""
+    return values.take(loops.take(which, axis=1), axis=0).swapaxes(1, 2)
 
 
 def _normals(mesh: Mesh, which: np.ndarray) -> Any:
     """Return the normals of triangles at their corners, (3, 3, k); 0 where the mesh is flat."""
-    return 0.0 if mesh.normals is None or mesh.loops is None else _corners(mesh.normals, mesh.loops[:, which])
+    return 0.0 if mesh.normals is None else _at_loops(mesh.normals, mesh.loops, which)
 
 
 def _uv(mesh: Mesh, which: np.ndarray) -> Any:
     """Return the map of triangles at their corners, (3, 2, k); 0 where the mesh has none."""
-    return 0.0 if mesh.uv is None or mesh.loops is None else _corners(mesh.uv, mesh.loops[:, which])
+    return 0.0 if mesh.uv is None else _at_loops(mesh.uv, mesh.loops, which)
