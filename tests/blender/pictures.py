@@ -21,6 +21,8 @@ LABELS = {
     "valid": ("Valid", "X"),
     "ray_origin": ("Ray Origin", "XYZ"),
     "ray_direction": ("Ray Direction", "XYZ"),
+    "solid_angle": ("Solid Angle", "X"),
+    "footprint": ("Footprint", "X"),
     "distance_bound": ("Distance Bound", "X"),
     "position_bound": ("Position Bound", "X"),
     "normal_bound": ("Normal Bound", "X"),

@@ -112,6 +112,18 @@ class Rays:
     """(rows, columns) float64: the frame at which each ray is cast; None where the picture has one time."""
 
 
+@dataclass(frozen=True)
+class RaysJacobian:
+    """How the chief rays of a picture change from pixel to pixel, in the world: the last axis counts the derivatives by
+    the pixel's x and y.
+    """
+
+    origins: np.ndarray
+    """(rows, columns, 3, 2) float64; a read-only broadcast view of 0 where all rays leave one eye."""
+    directions: np.ndarray
+    """(rows, columns, 3, 2) float64, of the unit directions; NaN where there is no ray."""
+
+
 SPHERE, PLANE, INFINITE_PLANE, MESH = 0, 1, 2, 3
 """Values of ``Shapes.kind``."""
 

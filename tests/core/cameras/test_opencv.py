@@ -88,6 +88,36 @@ def test_a_point_is_where_opencv_s_fisheye_projects_it(lens):
     assert np.abs(found - opencv_fisheye(points, FISHEYES[lens])).max() < PROJECTION
 
 
+def by_camera_point(moved):
+    """OpenCV's derivatives of pixels by its translation, (2 n, 3), as ours by the point in the camera's frame."""
+    return moved.reshape(-1, 2, 3) * ((1,), (-1,)) * OPENCV_FROM_CAMERA
+
+
+def assert_same_derivatives(found, expected):
+    """Each pixel's to some dozen operations."""
+    size = np.linalg.norm(expected, axis=(1, 2), keepdims=True)
+    assert (np.abs(found - expected) / size).max() < 256 * EPS
+
+
+@pytest.mark.parametrize("lens", LENSES)
+def test_a_pixel_moves_with_its_point_as_opencv_says(lens):
+    points, no_turn = points_ahead(0.4), np.zeros(3)
+    _, found = pinhole(*LENSES[lens]).project(points, jacobian=True)
+    given = np.resize(np.array(LENSES[lens] or [0.0]), 12) * (np.arange(12) < len(LENSES[lens]))
+    _, by_all = cv2.projectPoints(points * OPENCV_FROM_CAMERA, no_turn, no_turn, K, given)
+    assert_same_derivatives(found, by_camera_point(by_all[:, 3:6]))
+
+
+@pytest.mark.parametrize("lens", FISHEYES)
+def test_a_fisheye_s_pixel_moves_with_its_point_as_opencv_says(lens):
+    points = points_ahead(2.0)
+    _, found = fisheye(*FISHEYES[lens]).project(points, jacobian=True)
+    matrix, given = np.array([[250.0, 0, 331.7], [0, 245.0, 236.2], [0, 0, 1]]), (*FISHEYES[lens], 0, 0, 0, 0)[:4]
+    ahead = (points * OPENCV_FROM_CAMERA)[:, None]
+    _, by_all = cv2.fisheye.projectPoints(ahead, np.zeros(3), np.zeros(3), matrix, np.array(given, float))
+    assert_same_derivatives(found, by_camera_point(by_all[:, 11:14]))
+
+
 @pytest.mark.parametrize("lens", LENSES)
 def test_every_pixel_s_ray_is_the_one_that_opencv_projects_there(lens):
     rays = pinhole(*LENSES[lens]).rays()

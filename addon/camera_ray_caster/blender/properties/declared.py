@@ -94,6 +94,8 @@ PASSES = tuple(
         ("valid", "Whether the pixel has a ray at all"),
         ("ray_origin", "Where the pixel's ray starts, in the world"),
         ("ray_direction", "The ray's unit direction in the world"),
+        ("solid_angle", "Solid angle of the pixel, in steradians, to first order"),
+        ("footprint", "Area of the surface that the pixel covers, in square Blender units, to first order"),
         ("distance_bound", "The most that rounding has moved distance and depth, in Blender units"),
         ("position_bound", "The most that rounding has moved the position, in Blender units"),
         ("normal_bound", "The most that rounding has moved the unit normal"),

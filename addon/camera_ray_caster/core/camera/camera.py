@@ -3,27 +3,26 @@
 from __future__ import annotations
 
 import math
-import os
-from collections.abc import Mapping
-from concurrent.futures import ThreadPoolExecutor
+from collections.abc import Callable, Mapping
 from contextlib import nullcontext
 from dataclasses import dataclass, field, replace
 from functools import partial
-from itertools import pairwise
-from typing import Any, Protocol
+from typing import Any, Literal, Protocol, overload
 
 import numpy as np
 
-from ..arguments import numbers
+from ..arguments import flag, numbers
 from ..cameras.model import Model
 from ..cameras.parts.aperture import Aperture
 from ..conventions import gamma
 from ..maths.chebyshev import ROWS, is_raster, on_raster
-from ..maths.speed import lazy, sharing, whole_rows
+from ..maths.speed import lazy, whole_rows
 from ..maths.vector import components, dot, inverse, is_grid, matvec, norm
 from ..memory import of_pixels, require
-from ..records import InputError, Pose, Raster, Rays
-from .pixel_time import PixelTime, groups, meeting
+from ..records import InputError, Pose, Raster, Rays, RaysJacobian
+from .jacobian import of_projection, of_rays
+from .pixel_time import PixelTime, meeting
+from .pixels import by_time, given, in_blocks
 from .sampling import in_opening, sub_pixel
 
 FARTHEST = 1e15
@@ -33,9 +32,6 @@ BLOCK_PIXELS = 1 << 17
 """Pixels whose rays are made at once, where a thread's share has as many: fewer, and threads would wait at each of
 numpy's calls.
 """
-
-SHARED_PIXELS = 1 << 17
-"""Pixels whose rays take as long as what threads do one at a time for a share: see ``sharing``."""
 
 
 class CameraMotion(Protocol):
@@ -152,15 +148,12 @@ class Camera:
         Pixel coordinates that are not finite have no ray. Raises InputError for what are no numbers, for shapes that do
         not go together, and for rays that take more memory than there is.
         """
-        x, y = numbers(x, "x"), numbers(y, "y")
-        try:
-            shape = np.broadcast_shapes(x.shape, y.shape)
-        except ValueError as error:
-            raise InputError(f"x and y have shapes {x.shape} and {y.shape}: give shapes that broadcast") from error
+        x, y, shape = given(x, y)
         timed = self.pixel_time is not None
         require((57 if timed else 25 if self.model.central else 49) * math.prod(shape), of_pixels("the rays", shape))
         if self.pixel_time is not None:
-            return self._timed_rays(self.pixel_time, x, y)
+            time, (origins, directions) = self._timed(Camera.rays_at, x, y, (3,))
+            return Rays(origins, directions, ~np.isnan(directions[..., 0]), time)
         directions = np.empty((*shape, 3))
         origins = np.broadcast_to(self.pose.eye, directions.shape) if self.model.central else np.empty((*shape, 3))
         valid = np.empty(shape, bool)
@@ -171,12 +164,7 @@ class Camera:
                 self._write(x, y[part], origins[part], directions[part], valid[part])
 
         if is_grid(x, y) and y.ndim == 2:
-            threads = sharing(os.cpu_count() or 1, valid.size / SHARED_PIXELS)
-            rows = min(BLOCK_PIXELS / max(x.size, 1), y.size / threads)
-            step = ROWS * max(1, round(rows / ROWS))  # whole panels
-            blocks = [slice(*ends) for ends in pairwise([*range(0, y.size, step), y.size])]
-            with ThreadPoolExecutor(threads) as pool:  # numpy releases the interpreter
-                list(pool.map(put, blocks))
+            in_blocks(put, valid.shape, BLOCK_PIXELS, ROWS)  # whole panels
         else:
             put(...)
         if not near:
@@ -210,22 +198,18 @@ class Camera:
         self._write_by_formula(x, y, origins, directions)
         return components((directions, origins)[part])
 
-    def _timed_rays(self, pixel_time: PixelTime, x, y) -> Rays:
-        """Return what ``rays_at`` does, of the camera at each pixel's own time."""
+    def _timed(self, ask: Callable, x, y, axes: tuple[int, ...]) -> tuple[np.ndarray, Any]:
+        """Return the times of pixels, and the origins and directions, (2, ..., *axes), that ``ask(camera, x, y)`` gives
+        of the camera at each pixel's own time.
+        """
+        pixel_time: Any = self.pixel_time
         time = np.broadcast_to(pixel_time.frame_at(x, y), np.broadcast_shapes(x.shape, y.shape))
-        origins, directions = np.full((2, *time.shape, 3), np.nan)
-        parts: Any
-        if is_grid(x, y):
-            parts = ((frame, x[:, columns], y[rows], np.s_[rows, columns], where)
-                     for frame, rows, columns, where in groups(pixel_time, x, y))  # fmt: skip
-        else:
-            x, y = np.broadcast_arrays(x, y)
-            parts = ((frame, x, y, np.s_[...], time == frame) for frame in np.unique(time))
-        for frame, part_x, part_y, place, where in parts:
-            part = self.at(frame).rays_at(part_x, part_y)
-            np.copyto(origins[place], part.origins, where=where[..., None])
-            np.copyto(directions[place], part.directions, where=where[..., None])
-        return Rays(origins, directions, ~np.isnan(directions[..., 0]), time)
+        found = np.full((2, *time.shape, *axes), np.nan)
+        for frame, part_x, part_y, place, where in by_time(pixel_time, time, x, y):
+            part, where = ask(self.at(frame), part_x, part_y), np.expand_dims(where, tuple(range(-len(axes), 0)))
+            for own, value in zip(found, (part.origins, part.directions), strict=True):
+                np.copyto(own[place], value, where=where)
+        return time, found
 
     def rays(self) -> Rays:
         """Return the chief rays of the render window: through its pixel centers, world frame, unit directions.
@@ -237,19 +221,58 @@ class Camera:
         """
         return self.rays_at(self.raster.columns(), self.raster.rows())
 
-    def project(self, points) -> np.ndarray:
-        """Return the pixel coordinates (..., 2) in the full frame of world points (..., 3); NaN where none sees it, and
-        for points that are not finite. Raises InputError for an array of another shape.
+    def rays_jacobian_at(self, x, y) -> RaysJacobian:
+        """Return how the world rays through pixel coordinates x, y change there; see ``rays_at`` and ``rays_jacobian``.
 
-        With pixel times and a moving camera each point, taken to stand still, is sought by itself: see ``meeting``.
+        The derivatives have the shape of x and y, and then 3 and 2.
+        """
+        x, y, shape = given(x, y)
+        moves = self.pixel_time is not None and self.motion is not None
+        size = (96 if moves or not self.model.central else 48) * math.prod(shape)
+        require(size, of_pixels("the derivatives of the rays", shape))
+        if moves:
+            return RaysJacobian(*self._timed(Camera.rays_jacobian_at, x, y, (3, 2))[1])
+        return of_rays(self.model, self.pose, x, y, shape)
+
+    def rays_jacobian(self) -> RaysJacobian:
+        """Return how the rays of ``rays`` change from pixel to pixel: the derivatives of the origins and of the unit
+        directions by the pixel's x and y, world frame.
+
+        They come from the model's own formula, for every model alike: see ``camera.jacobian``, also for how exact they
+        are. With pixel times they are those of the camera at the pixel's own time: a pixel has one time all over.
+        """
+        return self.rays_jacobian_at(self.raster.columns(), self.raster.rows())
+
+    @overload
+    def project(self, points, jacobian: Literal[False] = False) -> np.ndarray: ...
+    @overload
+    def project(self, points, jacobian: Literal[True]) -> tuple[np.ndarray, np.ndarray]: ...
+    def project(self, points, jacobian=False):
+        """Return the pixel coordinates (..., 2) in the full frame of world points (..., 3); NaN where none sees it, and
+        for points that are not finite. With ``jacobian`` return also their derivatives by the points, (..., 2, 3):
+        pixels per world unit, for every model alike; see ``camera.jacobian``.
+
+        With pixel times and a moving camera each point, taken to stand still, is sought by itself: see ``meeting``; its
+        derivatives are refused. Raises InputError for them, and for an array of another shape.
         """
         points = numbers(points, "points")
         if points.shape[-1:] != (3,):
             raise InputError(f"points of shape {points.shape} cannot be projected: give x, y, z, shape (..., 3)")
-        if self.pixel_time is not None and self.motion is not None:
-            time, each = self.pixel_time, points.reshape(-1, 3)
-            found = [meeting(time, lambda t, p=point: self.at(t).project(p)) for point in each]
-            return np.reshape(found, (*points.shape[:-1], 2))
+        each, moves = points.reshape(-1, 3), self.pixel_time is not None and self.motion is not None
+        if flag(jacobian, "jacobian"):
+            if moves:
+                raise InputError(
+                    f"camera {self.name!r} moves from pixel to pixel, and its speed is not known to rounding: ask the "
+                    "camera of one frame, camera.at(frame).project(points, jacobian=True)"
+                )
+            require(64 * len(each), "the derivatives of the pixels", "project fewer points at once")
+            pixels = self.project(points)
+            found = of_projection(self.model, self.pose, each, pixels.reshape(-1, 2))
+            return pixels, found.reshape(*points.shape[:-1], 2, 3)
+        if moves:
+            time: Any = self.pixel_time
+            sought = [meeting(time, lambda t, p=point: self.at(t).project(p)) for point in each]
+            return np.reshape(sought, (*points.shape[:-1], 2))
         near = _is_near(points)
         with _quiet(near):
             pixels = self.model.project((points - self.pose.eye) @ inverse(self.pose.basis).T)

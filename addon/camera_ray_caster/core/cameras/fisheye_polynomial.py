@@ -94,7 +94,7 @@ class FisheyePolynomial(Radial):
     def _plane(self, x, y):
         """At r = 0 with k0 not 0 the ray is turned up."""
         a, b = super()._plane(x, y)
-        return a, np.where(b == 0, TINY, b) if self.coefficients[0] else b
+        return a, b + np.where(b == 0, TINY, 0.0) if self.coefficients[0] else b
 
     def factors(self, r_squared):
         """See Radial."""

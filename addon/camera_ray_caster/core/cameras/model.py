@@ -22,6 +22,8 @@ from typing import Any, ClassVar, NamedTuple, Self
 import numpy as np
 
 from ..conventions import gamma
+from ..maths.recording import Record, record
+from ..maths.speed import lazy
 from ..records import BlenderCamera, Pose, Raster
 from .parts.aperture import Aperture, thin_lens
 from .parts.film import Window
@@ -96,6 +98,11 @@ class Model(ABC):
         broadcast to the shape of x and y. The direction has z = -1 (``planar``) or unit length. A pixel without a ray
         has NaN in the direction's x.
         """
+
+    @lazy
+    def recorded(self) -> Record:
+        """The record of ``rays``: from x and y to the components of the origin and of the direction."""
+        return record(lambda x, y: [component for vector in self.rays(x, y) for component in vector], 2)
 
     def project(self, points) -> np.ndarray:
         """Return the pixel coordinates (..., 2) of points (..., 3) in the camera's frame; NaN where no ray meets them.

@@ -10,6 +10,7 @@ from typing import Any, TypeVar
 
 import numpy as np
 
+from ..camera.jacobian import RayDerivatives
 from ..errors.hits import HitErrors
 from ..errors.rays import world_rays
 from ..maths.speed import Scratch, lazy
@@ -74,6 +75,11 @@ class HitValues:
             return np.full((1, 1), norm(self.direction))
         length, spare = self.array("length"), self.array("spare")
         return np.sqrt(inner(self.direction, self.direction, length, spare), out=length)
+
+    @property
+    def distance(self) -> np.ndarray:
+        """From the rays' origins to the hits; inf where nothing is hit."""
+        return self.hits.t * self.length
 
     @lazy
     def _lattice(self) -> tuple[np.ndarray, np.ndarray] | None:
@@ -140,6 +146,32 @@ class HitValues:
         """Return, for each kind that is seen, where it is, (rows, columns) bool, and what a function gives there."""
         kinds = self.look_up(self.plan.kinds, "kinds")
         return [(where, of(kind, self.pixels(where))) for kind, where in by_kind(kinds)]
+
+    @lazy
+    def cosine(self) -> np.ndarray:
+        """Of the angle between the ray and the normal of the surface itself, (rows, columns), not negative; no number
+        of meaning where nothing is hit.
+        """
+        cosine, spare = self.array("cosine"), self.array("spare")
+        np.divide(inner(self.normal, self.direction, cosine, spare), self.length, out=cosine)
+        for where, own in self.by_kind(self._surface_cosine):
+            if own is not None:
+                cosine[where] = own
+        return np.abs(cosine, out=cosine)
+
+    def _surface_cosine(self, kind: Kind, pixels: HitPixels) -> Any:
+        """Return the cosine of pixels of a kind whose ``normal`` is not the surface's own; None for others."""
+        normal = kind.surface_normals(self.plan.in_camera, pixels)
+        if normal is None:
+            return None
+        direction = pixels.of(self.direction)
+        return dot(normal, direction) / (norm(normal) * norm(direction))
+
+    @lazy
+    def derivatives(self) -> RayDerivatives:
+        """How the rays change from pixel to pixel."""
+        camera, rays = self.plan.camera, self.hits.rays
+        return RayDerivatives(camera.model, camera.pose, rays.x, rays.y)
 
     @lazy
     def uv(self) -> list[tuple[np.ndarray, tuple[np.ndarray, np.ndarray]]]:

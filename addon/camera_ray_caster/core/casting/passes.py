@@ -1,7 +1,8 @@
 """The passes of a picture: what each stores, for a tile of hits. A new pass is one function and one row in PASSES.
 
-Where a ray hits nothing depth and distance are inf, shape_index and face_index are -1, combined the world's color, all
-others 0; a pixel without a ray is the same with combined (0, 0, 0, 0) and valid False.
+Where a ray hits nothing depth, distance and footprint are inf, shape_index and face_index are -1, combined the world's
+color, all others but solid_angle 0; a pixel without a ray is the same with combined (0, 0, 0, 0), valid False and
+solid_angle 0.
 """
 
 from __future__ import annotations
@@ -111,6 +112,24 @@ def ray_direction(values: HitValues, out):
     _write(out, unit(values.direction), ZERO, values.hits.lost)
 
 
+def solid_angle(values: HitValues, out):
+    """The solid angle of the pixel, steradians, to first order: of the unit directions at its center the length of the
+    cross product of their derivatives by x and y. 0 for parallel rays; right to some EPS, see ``camera.jacobian``.
+    """
+    out[...] = values.derivatives.solid_angle
+    if values.hits.lost is not None:
+        out[values.hits.lost] = 0
+
+
+def footprint(values: HitValues, out):
+    """The area of the surface that the pixel covers, in the world, to first order: its rays, as they change at its
+    center, on the tangent plane at the hit. Right to some EPS over the cosine of the ray and the surface's normal.
+    """
+    out[...] = values.derivatives.area_at(values.distance) / values.cosine
+    if values.hits.missed is not None:
+        out[values.hits.missed] = np.inf
+
+
 def distance_bound(values: HitValues, out):
     """How far the stored distance, and the depth, are from the exact ones at most; world units."""
     _bound(values, out, lambda errors: (errors.distance, errors.t * errors.rays.length))
@@ -160,6 +179,8 @@ PASSES = {
     "valid": Pass(valid, 0, np.bool_),
     "ray_origin": Pass(ray_origin, 3),
     "ray_direction": Pass(ray_direction, 3),
+    "solid_angle": Pass(solid_angle),
+    "footprint": Pass(footprint),
     "distance_bound": Pass(distance_bound),
     "position_bound": Pass(position_bound),
     "normal_bound": Pass(normal_bound),

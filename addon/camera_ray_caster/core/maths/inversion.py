@@ -60,8 +60,9 @@ class Inverse:
         """Return the inverse of an array of targets, or of a recorded number."""
         knots, values = self._table
         if is_recorded(target):  # without the table, which has no more digits than float64
-            x = self._bracketed(np.clip(target, values[0], values[-1]), self.low, self.low, self.high)
-            return np.where(self._is_within(target), x, np.nan)
+            goal = np.where(self._is_within(target), np.clip(target, values[0], values[-1]), np.nan)
+            x = self._bracketed(goal, self.low, self.low, self.high)
+            return x - (self.function(x) - goal) / self.derivative(x)  # whose derivative is the inverse's own
         target = np.asarray(target, np.float64)
         within = self._is_within(target)
         x = np.interp(target, values, knots)
@@ -89,7 +90,7 @@ class Inverse:
             left, right = np.where(error < 0, x, left), np.where(error > 0, x, right)
             slope = self.derivative(x)
             guess = x - error / np.where(slope > 0, slope, 1.0)
-            is_good = ((slope > 0) | (error == 0)) & (guess >= left) & (guess <= right)
+            is_good = (error == 0) | ((slope > 0) & (guess > left) & (guess < right))  # an end was tried before
             guess = np.where(is_good, guess, (left + right) / 2)
             close = 2 * roundoff(x)
             goes_on = (np.abs(guess - x) > close * np.abs(guess)) & (right - left > close * right)

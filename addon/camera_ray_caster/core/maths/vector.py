@@ -36,9 +36,16 @@ def inverse(matrix) -> np.ndarray:
     Right to gamma(8) times the condition number. LAPACK is not asked: its threads go on spinning for a tenth of a
     second (OpenBLAS 0.3.23), on the core that the next tile of a picture needs.
     """
+    crossed = cofactors(matrix).T
+    return crossed / dot(crossed[0], np.asarray(matrix)[:, 0])
+
+
+def cofactors(matrix) -> np.ndarray:
+    """Return the cofactors of a (3, 3) matrix, which takes the cross product of two vectors to that of their images;
+    right to gamma(2) of the lengths of its columns.
+    """
     first, second, third = np.asarray(matrix, np.float64).T
-    crossed = np.array([cross(second, third), cross(third, first), cross(first, second)])
-    return crossed / dot(crossed[0], first)
+    return np.array([cross(second, third), cross(third, first), cross(first, second)]).T
 
 
 def is_one(components) -> bool:

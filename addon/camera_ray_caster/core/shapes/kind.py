@@ -222,6 +222,12 @@ class Kind(ABC):
         normals a function gives. It is None where there are none.
         """
 
+    def surface_normals(self, shapes: InCamera, pixels: HitPixels) -> Any:
+        """Return the normals of the surface itself, (m,) components of any length and either side, where ``normals``
+        gives others; None, as by default, where it gives these.
+        """
+        return None
+
     @abstractmethod
     def uv(self, shapes: InCamera, pixels: HitPixels, point: Any) -> tuple[np.ndarray, np.ndarray]:
         """Return u and v, (m,) each, of hit points given as components relative to the eye, world."""

@@ -43,6 +43,11 @@ class Meshes(Kind):
 
         return np.full((len(at), 4), np.nan), normals
 
+    def surface_normals(self, shapes: InCamera, pixels: HitPixels):
+        """See ``Kind``: those of the triangles, not the interpolated ones."""
+        triangles = HitTriangles.of(shapes, pixels)
+        return tuple(triangles.each(component) for component in triangles.area)
+
     def uv(self, shapes: InCamera, pixels: HitPixels, point) -> tuple[np.ndarray, np.ndarray]:
         """See ``Kind``: the render UV map, 0 where there is none."""
         return HitTriangles.of(shapes, pixels).uv(point)

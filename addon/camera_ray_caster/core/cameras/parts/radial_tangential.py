@@ -161,7 +161,9 @@ class RadialTangential:
         u, v = np.broadcast_arrays(u, v)
         radial = not any((self.p1, self.p2, self.s1, self.s2, self.s3, self.s4))
         if is_recorded(u, v) and not radial:
-            return self._careful(u, v)
+            x, y = self._careful(u, v)
+            step_x, step_y = self._step(x, y, u, v)
+            return x - step_x, y - step_y  # whose derivatives are the inverse's own
         rho = np.hypot(u, v)
         if not (radial or (near := rho <= self._farthest).all()):  # Newton's method would search long
             x, y = np.full((2, *rho.shape), np.nan)

@@ -5,10 +5,11 @@ number of digits, written in another language, or differentiated. ``record`` mak
 a formula iterates and reads tables, with arrays as with recorded numbers.
 """
 
+from .derivatives import Dual, differentiate
 from .number import NotRecordable, Parameter, Recorded, is_recorded, look_up, loop, record, roundoff
 from .record import DOMAIN, NUMPY, Record, Step
 
 __all__ = [
-    "DOMAIN", "NUMPY", "NotRecordable", "Parameter", "Record", "Recorded", "Step", "is_recorded", "look_up", "loop",
-    "record", "roundoff",
+    "DOMAIN", "NUMPY", "Dual", "NotRecordable", "Parameter", "Record", "Recorded", "Step", "differentiate",
+    "is_recorded", "look_up", "loop", "record", "roundoff",
 ]  # fmt: skip

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -83,8 +84,11 @@ class Record:
         ``loop`` in place of ``repeat``.
         """
         values: list[Any] = []
-        for step in self.steps:
+        for k, step in enumerate(self.steps):
             operands = [values[place] for place in step.operands]
+            for place in step.operands:
+                if self._last[place] == k:  # large arrays are soon used again
+                    values[place] = None
             if step.operation == "input":
                 values.append(inputs[step.fixed[0]])
             elif step.operation == "part":
@@ -95,7 +99,14 @@ class Record:
                 values.append(run(body.as_body(arithmetic), operands, most, arithmetic["all"]))
             else:
                 values.append(arithmetic[step.operation](*operands, *step.fixed))
+            del operands
         return tuple(values[place] for place in self.outputs)
+
+    @cached_property
+    def _last(self) -> dict[int, int]:
+        """The last step that needs each value; none does an output's."""
+        last = {place: k for k, step in enumerate(self.steps) for place in step.operands}
+        return last | dict.fromkeys(self.outputs, len(self.steps))
 
     def as_body(self, arithmetic: Arithmetic) -> Callable:
         """Return the function that ``repeat`` takes, of a loop's body."""

@@ -1,0 +1,117 @@
+"""The derivatives of a record by its inputs: an arithmetic of dual numbers, each a value with its partial derivatives.
+
+They are exact but for rounding: each operation adds its slopes times the partial derivatives of its operands. What is
+known to be 0 is None, and costs nothing. ``where``, minimum and maximum have the derivatives of what they take (of two
+that are equal, the first), tables and roundings those of constants. Loops carry derivatives from step to step: an
+iteration that ends near a root has to be followed by one more step of Newton's method, which makes them the root's own
+(see ``refined``). Where a formula has a kink or no finite slope, as sqrt at 0, there is no derivative: what is
+found there is that of one side, or no finite number.
+Reference: A. Griewank and A. Walther, Evaluating Derivatives, 2nd ed. (2008), chapters 3 (forward mode) and 15
+(fixed points).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from .record import NUMPY, Arithmetic, Record
+
+
+class Dual(NamedTuple):
+    """A number, or what is true or false, and its partial derivatives by each input; None for those that are 0."""
+
+    value: Any
+    partials: tuple[Any, ...]
+
+
+def differentiate(record: Record, inputs: Sequence) -> tuple[Dual, ...]:
+    """Return the outputs of a record at these inputs, numbers or arrays that broadcast, with their partial derivatives.
+
+    The values are those that NUMPY gives. A partial derivative broadcasts with its value, and may have fewer axes.
+    """
+    count = range(len(inputs))
+    duals = [Dual(value, tuple(1.0 if k == own else None for k in count)) for own, value in enumerate(inputs)]
+    return record.evaluate(_dual_arithmetic(len(inputs)), duals)
+
+
+def _dual_arithmetic(count: int) -> Arithmetic:
+    """Return the arithmetic of duals with so many partial derivatives."""
+    zero = (None,) * count
+    special: dict[str, Callable] = {
+        "where": lambda condition, yes, no: Dual(
+            np.where(condition.value, yes.value, no.value), _select(condition.value, yes, no)
+        ),
+        "minimum": lambda a, b: Dual(np.minimum(a.value, b.value), _select(a.value <= b.value, a, b)),
+        "maximum": lambda a, b: Dual(np.maximum(a.value, b.value), _select(a.value >= b.value, a, b)),
+        "all": lambda settled: NUMPY["all"](settled.value),
+    }
+
+    def flat(function: Callable) -> Callable:
+        return lambda *given: Dual(function(*(one.value if isinstance(one, Dual) else one for one in given)), zero)
+
+    rest = {name: _with_slopes(name) if name in SLOPES else flat(function) for name, function in NUMPY.items()}
+    return rest | special
+
+
+def _select(condition, yes: Dual, no: Dual) -> tuple[Any, ...]:
+    """Return the partial derivatives of the one that is taken."""
+    return tuple(
+        None if a is b is None else np.where(condition, 0.0 if a is None else a, 0.0 if b is None else b)
+        for a, b in zip(yes.partials, no.partials, strict=True)
+    )
+
+
+def _with_slopes(name: str) -> Callable:
+    """Return an operation on duals, by the chain rule."""
+    function, slopes = NUMPY[name], SLOPES[name]
+
+    def apply(*operands: Dual) -> Dual:
+        values = [operand.value for operand in operands]
+        result = function(*values)
+        partials: list[Any] = [None] * len(operands[0].partials)
+        for operand, slope in zip(operands, slopes, strict=True):
+            gain = None
+            for k, partial in enumerate(operand.partials):
+                if partial is None:
+                    continue
+                if gain is None:
+                    gain = slope(result, *values)
+                part = partial * gain
+                partials[k] = part if partials[k] is None else partials[k] + part
+        return Dual(result, tuple(partials))
+
+    return apply
+
+
+SLOPES: dict[str, tuple[Callable, ...]] = {
+    "add": (lambda f, a, b: 1.0, lambda f, a, b: 1.0),
+    "subtract": (lambda f, a, b: 1.0, lambda f, a, b: -1.0),
+    "multiply": (lambda f, a, b: b, lambda f, a, b: a),
+    "divide": (lambda f, a, b: 1 / b, lambda f, a, b: -f / b),
+    "remainder": (lambda f, a, b: 1.0, lambda f, a, b: -np.floor(a / b)),
+    "power": (lambda f, a, b: b * np.power(a, b - 1), lambda f, a, b: f * np.log(a)),
+    "negative": (lambda f, a: -1.0,),
+    "absolute": (lambda f, a: np.sign(a),),
+    "sqrt": (lambda f, a: 0.5 / f,),
+    "hypot": (lambda f, a, b: a / f, lambda f, a, b: b / f),
+    "exp": (lambda f, a: f,),
+    "expm1": (lambda f, a: np.exp(a),),
+    "log": (lambda f, a: 1 / a,),
+    "log1p": (lambda f, a: 1 / (1 + a),),
+    "sin": (lambda f, a: np.cos(a),),
+    "cos": (lambda f, a: -np.sin(a),),
+    "tan": (lambda f, a: 1 + f * f,),
+    "arcsin": (lambda f, a: 1 / np.sqrt((1 - a) * (1 + a)),),
+    "arccos": (lambda f, a: -1 / np.sqrt((1 - a) * (1 + a)),),
+    "arctan": (lambda f, a: 1 / (1 + a * a),),
+    "arctan2": (lambda f, a, b: b / (a * a + b * b), lambda f, a, b: -a / (a * a + b * b)),
+    "sinh": (lambda f, a: np.cosh(a),),
+    "cosh": (lambda f, a: np.sinh(a),),
+    "tanh": (lambda f, a: 1 / np.cosh(a) ** 2,),
+}
+"""By each operand, from the result and the operands. Operations that are not listed are constant between jumps, or
+select.
+"""
