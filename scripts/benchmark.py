@@ -4,7 +4,7 @@
     python scripts/benchmark.py --quick         the first two, fewer rounds
     python scripts/benchmark.py --meshes        triangle meshes, also beside Open3D
     python scripts/benchmark.py --models        rays and pictures of every camera model
-    python scripts/benchmark.py --scaling --picture FILE.png    cost against pixels and shapes
+    python scripts/benchmark.py --scaling --picture FILE.png    cost against pixels, shapes and triangles
 
 Contenders take turns, round by round, so that what else the machine does falls on all of them, with a pause before
 each, in which the threads of the one before it come to rest. Times are milliseconds:
@@ -46,7 +46,7 @@ def main() -> int:
     parser.add_argument("--size", type=arguments.size, default=(1920, 1080), help="default: 1920x1080")
     parser.add_argument("--meshes", action="store_true", help="triangle meshes of 1,000 to a million triangles")
     parser.add_argument("--models", action="store_true", help="ray generation and casting of every camera model")
-    parser.add_argument("--scaling", action="store_true", help="cost against pixels and shapes")
+    parser.add_argument("--scaling", action="store_true", help="cost against pixels, shapes and triangles")
     parser.add_argument("--picture", type=Path, metavar="FILE", help="with --scaling: draw a diagram")
     parser.add_argument("--json", type=Path, metavar="FILE", help="write the figures")
     options = parser.parse_args()

@@ -45,6 +45,7 @@ def test_every_model_is_timed(tmp_path):
 def test_scaling_is_measured_and_drawn(tmp_path):
     _, rows = figures(tmp_path, "--scaling", "--quick", "--picture", tmp_path / "scaling.png")
     assert [row["spheres"] for row in rows if row["against"] == "spheres"] == [10, 100, 1000]
+    assert [row["triangles"] for row in rows if row["against"] == "triangles"] == [1000, 4000, 16000]
     assert all(row["median_ms"] > 0 and 0 < row["beside_mb"] < 200 for row in rows)
     assert (tmp_path / "scaling.png").read_bytes().startswith(b"\x89PNG")
 

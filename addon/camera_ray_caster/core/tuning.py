@@ -46,7 +46,7 @@ CHUNK = 1 << 16
 """Vertices or triangles of meshes that are placed at once. Times as below: 2**14 within 6 %, 2**20 up to 1.1 times."""
 
 BOUNDED = 1 << 12
-"""Triangles whose balls are bounded at once: a strip's takes 8 microseconds each, and a stop is heard between them."""
+"""Triangles whose balls are bounded at once: a strip's takes some microseconds, and a stop is heard between them."""
 
 SLABS = 4
 """Parts in which triangles are tested, the nearest first: what they hide is not tested. Processor time of four passes

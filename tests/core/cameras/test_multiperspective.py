@@ -183,6 +183,18 @@ def test_a_strip_around_a_point_looks_inwards_when_it_goes_to_the_left():
     assert ((ahead * rays.origins[27]).sum(axis=1) < 0).all()
 
 
+def test_a_strip_around_a_point_has_what_is_beyond_in_few_columns():
+    """Columns with their backs to it do not count."""
+    angle = np.linspace(0, 2 * np.pi, 129)
+    path = np.stack((np.sin(angle), 0 * angle, np.cos(angle)), axis=1)
+    around, away = np.random.default_rng(3).uniform((-3, 3), (3, 9), (500, 2)).T
+    centers = np.stack((away * np.sin(around), 0 * around, away * np.cos(around)), axis=1)
+    bounds = camera("STRIP", {"path": path, "follow_path": True}).model.bounds(centers, np.full(500, 0.01))
+    column = 48 + 96 * around / (2 * np.pi)  # straight across the circle
+    assert (bounds[:, 1] - bounds[:, 0] <= 3).all()
+    assert ((bounds[:, 0] <= column) & (column <= bounds[:, 1])).all()
+
+
 @pytest.mark.parametrize("eye", ["LEFT", "RIGHT"])
 def test_omnistereo_rays_are_tangents_of_the_circle(eye):
     rays = camera("OMNIDIRECTIONAL_STEREO", {"eye": eye, "interocular_distance": 0.5}).rays()
