@@ -52,6 +52,8 @@ GALLERY = {
         calibrated.ucm,
         calibrated.eucm,
         calibrated.double_sphere,
+        calibrated.fisheye624,
+        calibrated.thin_prism_fisheye,
     ),
     "Panoramas": _by_name(
         panoramas.equirectangular,

@@ -37,6 +37,17 @@ def double_sphere(scene):
     calibrated(scene, 52, model="DOUBLE_SPHERE", unified_xi=-0.22, unified_alpha=0.57)
 
 
+def fisheye624(scene):
+    """a fisheye of Project Aria, with its radial terms, and tangential and thin prism ones ten times as strong."""
+    own = {"k1": 0.4, "k2": -0.5, "k3": 0.25, "k4": 1.2, "k5": -1.7, "k6": 0.6, "p1": 0.004, "p2": -0.002}
+    calibrated(scene, 95, model="FISHEYE624", **own, s1=-0.006, s2=-0.002, s3=0.009, s4=0.0001)
+
+
+def thin_prism_fisheye(scene):
+    """an equidistant fisheye behind a lens that is not square to it: the thin prism moves the rim to one side."""
+    calibrated(scene, 65, model="THIN_PRISM_FISHEYE", k1=-0.02, p1=0.004, p2=0.006, s1=0.03, s3=-0.02)
+
+
 def calibrated(scene, focal: float, **own):
     """Show the room all around the axis through a lens with this focal length, in pixels of a small picture."""
     room(scene)

@@ -31,7 +31,7 @@ SHARES = {
     "mirrorball": DISC, "fisheye_equidistant": DISC, "fisheye_orthographic": DISC, "fisheye_stereographic": DISC,
     "dome_master": DISC, "rotunda_fisheye": DISC,
     "omnimax": None, "fisheye_equisolid": None, "fisheye_polynomial": None, "opencv_fisheye": None,
-    "ucm": None, "eucm": None, "double_sphere": None,
+    "ucm": None, "eucm": None, "double_sphere": None, "thin_prism_fisheye": None,
 }  # fmt: skip
 """The part of the picture that has rays, where that is not all of it; None for a disc that the frame cuts."""
 TALLEST_ROWS = 30

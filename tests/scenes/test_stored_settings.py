@@ -50,6 +50,10 @@ STORED = {
     "ucm": ("UCM", {**SMALL, "fx": 115, "unified_xi": 1.3, "k1": -0.05, "k2": 0.02, "p1": 0.003, "p2": -0.002}),
     "eucm": ("EUCM", {**SMALL, "fx": 75, "skew": 0, "unified_alpha": 0.62, "unified_beta": 1.08}),
     "double_sphere": ("DOUBLE_SPHERE", {**SMALL, "fx": 52, "unified_xi": -0.22, "unified_alpha": 0.57}),
+    "fisheye624": ("FISHEYE624", {**SMALL, "fx": 95, "k1": 0.4, "k6": 0.6, "p1": 0.004, "s1": -0.006, "s4": 0.0001}),
+    "thin_prism_fisheye": (
+        "THIN_PRISM_FISHEYE", {**SMALL, "fx": 65, "k1": -0.02, "p1": 0.004, "p2": 0.006, "s1": 0.03, "s3": -0.02},
+    ),
     "omnimax": ("OMNIMAX", {"tilt": radians(20)}),
     "dome_master": ("DOME_MASTER", {"fov": pi, "tilt": radians(15)}),
     "equirectangular": ("EQUIRECTANGULAR", {"longitude_min": -pi, "latitude_max": pi / 2}),

@@ -1,9 +1,19 @@
 """Examples of the calibrated families beside OpenCV's two: see model_examples, which takes them in."""
 
+from math import cos, pi, sin
+
 from .example_frames import BORDER, TURNED
 
 SCALED = {"resolution_percentage": 37, "calibration_width": 96, "calibration_height": 54}
 NAN = float("nan")
+
+ARIA = {
+    "k1": 0.4, "k2": -0.5, "k3": 0.25, "k4": 1.2, "k5": -1.7, "k6": 0.6, "p1": 4e-4, "p2": -2e-4,
+    "s1": -6e-4, "s2": -2e-4, "s3": 9e-4, "s4": 1e-5,
+}  # fmt: skip
+"""Of the size that its cameras have."""
+HALF_A_RADIAN_UP = 0, sin(0.5), -cos(0.5)
+UP_A_HALF = 48 + 24 * 0.1 * 0.25, 27 + 24 * (0.5 - 0.15 * 0.25)
 
 ONLY_SOME = {"unified_xi": 0.0, "unified_alpha": 0.5, "unified_beta": 1.0}
 
@@ -28,6 +38,18 @@ EXAMPLES = {
         {"matrix_world": TURNED, "fx": 20.0, "fy": 19.0, "unified_alpha": 0.8, "unified_xi": 0.3, "skew": 1.0},
         SCALED | {"unified_xi": 0.9, "unified_alpha": 0.6},
     ],
+    "FISHEYE624": [
+        {"fx": 20.0, "fy": 20.0},
+        BORDER | {"cx": 30.0, **ARIA},
+        {"matrix_world": TURNED, "fx": 18.0, "fy": 17.0, **ARIA, "p1": 0.01, "p2": -0.02, "skew": 1.0},
+        SCALED | {"fx": 30.0, "k1": -0.02, "k6": -1e-6, "s1": 4e-3, "s2": -1e-3, "s3": 2e-3, "s4": 5e-4},
+    ],
+    "THIN_PRISM_FISHEYE": [
+        {"fx": 30.0, "fy": 31.0, "k1": -0.03, "k2": 0.01, "k3": 2e-3, "k4": -1e-3},
+        BORDER | {"cx": 30.0, "k1": 0.02, "p1": 1e-3, "p2": -2e-3, "s1": 4e-3, "s3": -3e-3},
+        {"matrix_world": TURNED, "fx": 18.0, "fy": 17.0, "k1": -0.02, "p1": -0.004, "s3": 0.002, "skew": 1.0},
+        SCALED | {"fx": 15.0, "s1": 1e-3},
+    ],
 }
 
 FACTS = {
@@ -47,6 +69,21 @@ FACTS = {
         ({"fx": 48.0, "unified_alpha": 0.0, "unified_beta": 7.0}, (96, 27), (0, 0, 0), (1, 0, -1)),
         ({"fx": 48.0, "unified_alpha": 0.5, "unified_beta": 4.0}, (96, 27), (0, 0, 0), (1, 0, 0)),  # 1 / (alpha 2)
     ],
+    "FISHEYE624": [
+        ({}, (48, 27), (0, 0, 0), (0, 0, -1)),
+        ({"fx": 96 / pi}, (96, 27), (0, 0, 0), (1, 0, 0)),
+        # at 45 degrees r = 1 + k6: the angles beyond are not asked, the polynomial grows up to 180 degrees
+        ({"fy": 27 / (pi / 4 * (1 + 0.01 * (pi / 4) ** 12)), "k6": 0.01}, (48, 54), (0, 0, 0), (0, 1, -1)),
+        # upwards b < 0: p1 r^2 + 2 p1 b^2 pushes it down by 3 p1 r^2, and p2 r^2 pushes it to the right
+        ({"fx": 24.0, "fy": 24.0, "p1": 0.05, "p2": 0.1}, UP_A_HALF, (0, 0, 0), HALF_A_RADIAN_UP),
+    ],
+    "THIN_PRISM_FISHEYE": [
+        ({}, (48, 27), (0, 0, 0), (0, 0, -1)),
+        ({"fx": 96 / pi}, (96, 27), (0, 0, 0), (1, 0, 0)),
+        ({"fx": 48 / (pi / 2 * (1 + 0.01 * (pi / 2) ** 8)), "k4": 0.01}, (96, 27), (0, 0, 0), (1, 0, 0)),
+        # s1 pushes half a radian up to the right by s1 r^2, s3 down
+        ({"fx": 24.0, "fy": 24.0, "s1": 0.1, "s3": 0.15}, UP_A_HALF, (0, 0, 0), HALF_A_RADIAN_UP),
+    ],
     "DOUBLE_SPHERE": [
         ({}, (48, 27), (0, 0, 0), (0, 0, -1)),
         ({"fx": 24.0}, (96, 27), (0, 0, 0), (1, 0, 0)),
@@ -60,10 +97,14 @@ UNSEEN = {
     "UCM": [(0, 0, 0), (0, 0, 1), (1, 2, 0)],
     "EUCM": [(0, 0, 0), (0, 0, 1)],
     "DOUBLE_SPHERE": [(0, 0, 0), (0, 0, 1)],
+    "FISHEYE624": [(0, 0, 0), (0, 0, 1)],
+    "THIN_PRISM_FISHEYE": [(0, 0, 0), (0, 0, 1)],
 }
 
 REFUSED = {
     "UCM": [({"unified_xi": -1.0}, "unified_xi"), ({"unified_xi": NAN}, "unified_xi"), ({"k2": NAN}, "k2")],
+    "FISHEYE624": [({"k6": NAN}, "k6"), ({"fx": 0.0}, "fx"), ({"s4": 1e31}, "s4")],
+    "THIN_PRISM_FISHEYE": [({"k4": NAN}, "k4"), ({"cx": 1e9}, "cx"), ({"skew": NAN}, "skew")],
     "EUCM": [({"unified_alpha": 1.0}, "unified_alpha"), ({"unified_beta": 0.0}, "unified_beta")],
     "DOUBLE_SPHERE": [({"unified_xi": 1.0}, "unified_xi"), ({"unified_alpha": -0.1}, "unified_alpha")],
 }

@@ -25,6 +25,20 @@ COLMAP = {
         ("unified_alpha", "unified_beta"),
         [(0.0, 1.0), (0.3, 0.8), (0.6, 1.1), (0.8, 2.5), (0.95, 0.4)],
     ),
+    "FISHEYE624": (
+        "RAD_TAN_THIN_PRISM_FISHEYE",
+        ("k1", "k2", "k3", "k4", "k5", "k6", "p2", "p1", "s1", "s2", "s3", "s4"),
+        [
+            (0.0,) * 12,
+            (0.4, -0.5, 0.25, 1.2, -1.7, 0.6, 4e-4, -2e-4, -6e-4, -2e-4, 9e-4, 1e-5),
+            (-0.03, 0.004, -0.002, 3e-4, 0, 0, 3e-3, -5e-3, 2e-3, -1e-3, -4e-3, 5e-4),
+        ],
+    ),
+    "THIN_PRISM_FISHEYE": (
+        "THIN_PRISM_FISHEYE",
+        ("k1", "k2", "p1", "p2", "k3", "k4", "s1", "s3"),
+        [(0.0,) * 8, (-0.04, 0.01, 1e-3, -2e-3, -1e-3, 1e-4, 3e-3, -2e-3), (0.1, 0, 3e-3, 0, 0, 1e-4, 0, 5e-3)],
+    ),
 }
 """COLMAP's name and the settings in the order of its parameters, and values of these."""
 

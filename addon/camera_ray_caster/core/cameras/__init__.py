@@ -12,6 +12,7 @@ from .dome_master import DomeMaster
 from .double_sphere import DoubleSphere
 from .equirectangular import Equirectangular
 from .eucm import EnhancedUnifiedCamera
+from .fisheye624 import Fisheye624
 from .fisheye_equidistant import FisheyeEquidistant
 from .fisheye_equisolid import FisheyeEquisolid
 from .fisheye_orthographic import FisheyeOrthographic
@@ -30,6 +31,7 @@ from .perspective import Perspective
 from .pushbroom import Pushbroom
 from .stereographic_panorama import StereographicPanorama
 from .strip import Strip
+from .thin_prism_fisheye import ThinPrismFisheye
 from .twisted_orthographic import TwistedOrthographic
 from .ucm import UnifiedCamera
 
@@ -38,7 +40,7 @@ MODELS: tuple[type[Model], ...] = (
     Equirectangular, CubemapFace, Mirrorball, FisheyeEquidistant, FisheyeEquisolid, FisheyePolynomial,
     CentralCylindrical, CameraObscura,
     FisheyeOrthographic, FisheyeStereographic, OpencvPinhole, OpencvFisheye,
-    UnifiedCamera, EnhancedUnifiedCamera, DoubleSphere, Omnimax, DomeMaster, Cylindrical,
+    UnifiedCamera, EnhancedUnifiedCamera, DoubleSphere, Fisheye624, ThinPrismFisheye, Omnimax, DomeMaster, Cylindrical,
     StereographicPanorama,
     GeneralLinear, CrossSlit, Pushbroom, Pencil, TwistedOrthographic, Strip, OmnidirectionalStereo,
 )  # fmt: skip

@@ -11,34 +11,23 @@ camera model.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-from functools import cached_property
+from dataclasses import dataclass
 
-import numpy as np
-
-from ..maths.inversion import Inverse
-from ..maths.roots import positive_roots
 from ..records import BlenderCamera, Raster
 from .model import Step
 from .parts.calibration import CALIBRATION, FISHEYE, Calibration
-from .parts.radial import COORDINATES, RADIUS, RAY, Radial, radii_of
+from .parts.kannala_brandt import KannalaBrandt
+from .parts.radial import COORDINATES, RADIUS, RAY
 
 
 @dataclass(frozen=True)
-class OpencvFisheye(Radial):
-    """r = polynomial(theta) up to ``limit``."""
-
-    coefficients: tuple[float, ...]
-    """k1 .. k4."""
-    limit: float
-    """Radians."""
+class OpencvFisheye(KannalaBrandt):
+    """Four coefficients and no other distortion."""
 
     key = "OPENCV_FISHEYE"
     label = "OpenCV Fisheye"
     description = "A calibrated fisheye, by Kannala and Brandt"
-    group = "Calibrated"
     number = 5
-    factors_by_polynomials = True
     SETTINGS = (*CALIBRATION, *FISHEYE)
     FORMULA = (
         COORDINATES,
@@ -51,45 +40,4 @@ class OpencvFisheye(Radial):
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> OpencvFisheye:
         """Build it from the settings of the same names or a calibration file; see Calibration for what is refused."""
         calibration = Calibration.from_blender(raw, raster, FISHEYE)
-        coefficients = tuple(calibration.coefficients[setting.name] for setting in FISHEYE)
-        slope = np.polynomial.Polynomial([1.0, *((2 * i + 3) * k for i, k in enumerate(coefficients))])
-        turns = positive_roots(slope)
-        limit = min(np.pi, *np.sqrt(turns).tolist(), np.pi)
-        lens = cls(raster.size, calibration.window(raster), np.inf, coefficients, limit)
-        return replace(lens, rim=lens.distorted(limit))
-
-    @property
-    def K(self) -> np.ndarray:
-        """See Model."""
-        return self.window.matrix(self.frame[1])
-
-    def distorted(self, theta):
-        """Return r of angles."""
-        k1, k2, k3, k4 = self.coefficients
-        s = theta * theta
-        return theta * (1 + s * (k1 + s * (k2 + s * (k3 + s * k4))))
-
-    def slope(self, theta):
-        """Return the derivative of r by theta."""
-        k1, k2, k3, k4 = self.coefficients
-        s = theta * theta
-        return 1 + s * (3 * k1 + s * (5 * k2 + s * (7 * k3 + s * 9 * k4)))
-
-    @cached_property
-    def _angle(self):
-        return Inverse(self.distorted, self.slope, 0.0, self.limit)
-
-    def factors(self, r_squared):
-        """See Radial."""
-        r = radii_of(r_squared)
-        theta = self._angle(r)
-        return np.sin(theta) / r, np.cos(theta)
-
-    def radius(self, theta):
-        """See Radial."""
-        return self.distorted(theta)
-
-    @property
-    def widest(self) -> float:
-        """See Radial."""
-        return self.limit
+        return cls.of(calibration, raster, [calibration.coefficients[setting.name] for setting in FISHEYE])

@@ -15,7 +15,7 @@ import numpy as np
 
 from ...maths.chebyshev import on_raster
 from .film import FARTHEST_PIXELS
-from .radial import Radial
+from .radial import RIM_SLACK, Radial
 from .radial_tangential import RadialTangential
 from .silhouette import angular_radius, pixel_bounds, radial_intervals
 
@@ -59,8 +59,15 @@ class Calibrated(Radial):
         a, b = super()._plane(x, y)
         if not self.distortion.bends:
             return a, b
+        if self._farthest < np.inf:
+            a = np.where(a * a + b * b > self._farthest**2, np.nan, a)
         across, down = self.distortion.undistort(a, -b)
         return across, -down
+
+    @cached_property
+    def _farthest(self) -> float:
+        """Return the radius in the distorted picture beyond which there is nothing for sure."""
+        return float(self.distortion.farthest(self.rim)) * (1 + RIM_SLACK) if self.rim < np.inf else np.inf
 
     def _pixels(self, a, b):
         across, down = self.distortion.distort(a, -b)

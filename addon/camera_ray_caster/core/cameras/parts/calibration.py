@@ -63,10 +63,10 @@ LARGEST = 1e30
 """Of a calibration's numbers: products of three of them have to be numbers, too."""
 
 K1, K2, K3 = (_coefficient(name, "Radial") for name in ("k1", "k2", "k3"))
-K4 = _coefficient("k4", "Radial: of the denominator, or the fisheye's last")
-K5, K6 = (_coefficient(name, "Radial, of the denominator") for name in ("k5", "k6"))
+K4, K5, K6 = (_coefficient(name, "Radial: of a pinhole's denominator, or a fisheye's") for name in ("k4", "k5", "k6"))
 P1, P2 = (_coefficient(name, "Tangential") for name in ("p1", "p2"))
-S1, S2, S3, S4 = (_coefficient(name, "Thin prism") for name in ("s1", "s2", "s3", "s4"))
+S1, S2 = (_coefficient(name, "Thin prism, across") for name in ("s1", "s2"))
+S3, S4 = (_coefficient(name, "Thin prism, down") for name in ("s3", "s4"))
 RADIAL_TANGENTIAL = K1, K2, P1, P2, K3, K4, K5, K6, S1, S2, S3, S4
 FISHEYE = K1, K2, K3, K4
 """The distortion, in the order of OpenCV's vector of coefficients; all without unit."""

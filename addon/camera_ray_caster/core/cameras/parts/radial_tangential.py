@@ -219,7 +219,8 @@ class RadialTangential:
             share = np.where(better, 1.0, share / 2)
             x, y = np.where(better, next_x, x), np.where(better, next_y, y)
             off_x, off_y = np.where(better, next_off_x, off_x), np.where(better, next_off_y, off_y)
-            return (x, y, share, off_x, off_y, u, v), ~(np.hypot(off_x, off_y) > goal(x, y, u, v))
+            is_there = ~(np.hypot(off_x, off_y) > goal(x, y, u, v))
+            return (x, y, share, off_x, off_y, u, v), is_there | (share < roundoff(u))
 
         x, y = np.zeros_like(u), np.zeros_like(v)
         x, y, _, *off, _, _ = loop(step, (x, y, np.ones_like(u), *self._off(x, y, u, v), u, v), STEPS)

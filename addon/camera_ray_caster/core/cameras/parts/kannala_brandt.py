@@ -1,0 +1,95 @@
+"""The fisheye of Kannala and Brandt: the radius is an odd polynomial of the angle from the axis, of any degree.
+
+r = theta (1 + k1 theta^2 + k2 theta^4 + ...), up to the angle where r stops to grow, or 180 degrees. The inverse is
+Newton's. What distorts the picture besides is applied to r, in the way of ``Calibrated``.
+Reference: J. Kannala and S. Brandt, A Generic Camera Model and Calibration Method (2006).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from math import inf, pi, sqrt
+from typing import Self
+
+import numpy as np
+
+from ...maths.inversion import Inverse
+from ...maths.roots import positive_roots
+from ...records import Raster
+from .calibrated import Calibrated
+from .calibration import Calibration
+from .radial import radii_of
+from .radial_tangential import RadialTangential
+
+
+@dataclass(frozen=True)
+class KannalaBrandt(Calibrated):
+    """r = polynomial(theta) up to ``limit``."""
+
+    coefficients: tuple[float, ...]
+    """k1, k2, ..."""
+    limit: float
+    """Radians."""
+
+    factors_by_polynomials = True
+    by_polynomials = True
+
+    @classmethod
+    def of(
+        cls,
+        calibration: Calibration,
+        raster: Raster,
+        coefficients: Sequence[float],
+        distortion: RadialTangential | None = None,
+    ) -> Self:
+        """Return the lens with these coefficients, up to where it, or its distortion, stops to be one-to-one."""
+        slope = np.polynomial.Polynomial([1.0, *((2 * i + 3) * k for i, k in enumerate(coefficients))])
+        limit = min([pi, *map(sqrt, positive_roots(slope).tolist())])
+        lens = cls(
+            raster.size,
+            calibration.window(raster),
+            inf,
+            tuple(coefficients),
+            limit,
+            distortion=distortion or RadialTangential(),
+        )
+        lens = lens.within(lens.distorted(limit))
+        return replace(lens, limit=float(np.fmin(lens.angle(np.float64(lens.rim)), limit)))
+
+    def distorted(self, theta):
+        """Return r of angles."""
+        return theta * self._polynomial(theta * theta, self.coefficients)
+
+    def slope(self, theta):
+        """Return the derivative of r by theta."""
+        return self._polynomial(theta * theta, [(2 * i + 3) * k for i, k in enumerate(self.coefficients)])
+
+    @staticmethod
+    def _polynomial(s, coefficients):
+        """Return 1 + k1 s + k2 s^2 + ..."""
+        value = 0.0
+        for k in reversed(coefficients):
+            value = s * (k + value)
+        return 1 + value
+
+    @cached_property
+    def angle(self):
+        """Return the inverse of r, a function."""
+        return Inverse(self.distorted, self.slope, 0.0, self.limit)
+
+    def factors(self, r_squared):
+        """See Radial."""
+        r = radii_of(r_squared)
+        theta = self.angle(r)
+        return np.sin(theta) / r, np.cos(theta)
+
+    def radius(self, theta):
+        """See Radial."""
+        return self.distorted(theta)
+
+    @property
+    def widest(self) -> float:
+        """See Radial."""
+        return self.limit
