@@ -15,6 +15,7 @@ from ..read.camera import shader_mark
 from ..read.evaluated import camera_at
 from ..read.scene import evaluated_camera, go_to
 from .animation import insert_keyframes, is_animated
+from .device import said_of_device
 from .shader import check_cycles, clear_shader, set_inputs, set_shader
 
 GRID = 5
@@ -28,7 +29,8 @@ def to_cycles(scene, camera_object=None) -> list[str]:
     Blender without this add-on; what is animated in the scene's frame range becomes keyframes of its inputs. The model,
     its settings and its pose stay where they are, and ``read_camera`` gives the same camera afterwards; Cycles computes
     the rays in float32. A camera that is one already gets its shader and its keyframes anew.
-    Returns what follows only where the add-on is enabled, and what was changed in the scene, in lines.
+    Returns what follows only where the add-on is enabled, what was changed in the scene, and where the engine or the
+    device will not show it, in lines.
     Raises InputError for what ``read_camera`` refuses, for a camera of a library, for spherical stereo, for pixel times
     other than a rolling shutter, and where this Blender has no OSL. The camera is as it was then.
     """
@@ -50,7 +52,7 @@ def to_cycles(scene, camera_object=None) -> list[str]:
         insert_keyframes(active.data, shaders)
         said = _said_of_keyframes(active.data, shaders)
     set_inputs(active.data, shader)
-    return said + _set_up_time(scene, raw) + _engine_said(scene)
+    return said + _set_up_time(scene, raw) + _engine_said(scene) + said_of_device(scene)
 
 
 def from_cycles(camera_object) -> None:

@@ -14,11 +14,11 @@ from textwrap import fill
 
 import bpy
 
-from ...core.camera.pixel_time import LAST_FRAME
 from ...core.casting.passes import PASSES
 from ...core.casting.request import PRECISIONS, SHADINGS
 from ...core.records import Cancelled, InputError
 from ...core.report.report import WIDTH, Report, as_json, as_lines
+from ..cycles import to_cycles as make_custom
 from ..engine.engine import CameraRayCaster
 from ..engine.passes import tick, ticked
 from ..output import files
@@ -26,19 +26,12 @@ from ..read.camera import find_camera
 from ..read.scene import read_camera
 from ..verification.check import verified
 from . import signals
-from .opening import not_run, open_file
+from .opening import not_run, open_file, save_copy
 from .standard_output import keep_output
+from .words import Parser, frame_number, frame_range, joined, pass_names
 
 DEFAULT_PASSES = ("combined", "depth", "normal", "position", "object_index")
 """What is cast of a view layer that ticks nothing beside combined."""
-
-
-class Parser(argparse.ArgumentParser):
-    """A parser that refuses in one line."""
-
-    def error(self, message):
-        """Raise InputError."""
-        raise InputError(f"{message} (--help shows what can be given)")
 
 
 def main(command: str, arguments: Sequence[str], prog: str) -> int:
@@ -77,7 +70,8 @@ def cast(arguments: Sequence[str], prog: str) -> int:
     parser.add_argument("--output", type=Path, default=Path("out"), metavar="FOLDER", help="default: %(default)s")
     parser.add_argument("--file-output", action="store_true",
                         help="let the compositor's File Output nodes write; default: they do not")  # fmt: skip
-    options = parser.parse_args(_joined(arguments, "--frames"))
+    _add_json(parser)
+    options = parser.parse_args(joined(arguments, "--frames"))
     scene = _open(options)
     for layer in scene.view_layers:
         if options.passes or [entry.key for entry in ticked(scene, layer)] == ["combined"]:
@@ -109,6 +103,7 @@ def verify(arguments: Sequence[str], prog: str) -> int:
         "prints the largest and the median error of the rays beside the bound that each witness can reach.",
     )
     _add_frame(parser)
+    _add_json(parser)
     options = parser.parse_args(arguments)
     scene = _open(options)
     _go_to(scene, options.frame)
@@ -120,7 +115,29 @@ def verify(arguments: Sequence[str], prog: str) -> int:
     return int(not report.passed)
 
 
-COMMANDS = {"cast": cast, "verify": verify}
+def to_cycles(arguments: Sequence[str], prog: str) -> int:
+    """Save a copy of a file whose camera is a custom one of Cycles."""
+    parser = _parser(
+        prog,
+        "Save a copy of a Blender file whose camera renders in Cycles with our rays, in a Blender without this add-on.",
+        f"{prog} blend_scenes/toys.blend --output toys_in_cycles.blend",
+        "prints what the copy cannot follow without the add-on, and what was changed in the scene.",
+        ends="exit status: 0 done; 2 bad input.",
+    )
+    parser.add_argument("--output", type=Path, required=True, metavar="COPY.blend", help="the file to write")
+    options = parser.parse_args(arguments)
+    scene = _open(options)
+    said = make_custom(scene)
+    scene.render.engine = "CYCLES"  # not before: it would compile what is half set up
+    for line in not_run():
+        _warn(prog, line)
+    signals.raise_if_stopping()
+    save_copy(options.output)
+    print("\n".join((*said, f"Wrote {options.output}")), flush=True)
+    return 0
+
+
+COMMANDS = {"cast": cast, "verify": verify, "to_cycles": to_cycles}
 
 
 def register(undo) -> None:
@@ -135,63 +152,33 @@ def _from_blender(arguments: Sequence[str]) -> int:
     return main(command, rest, f"camera_ray_caster {command}".strip())
 
 
-def _parser(prog: str, purpose: str, example: str, result: str) -> Parser:
-    ends = fill("exit status: 0 done; 1 done, but the camera's rays disagree with a witness; 2 bad input.", WIDTH)
+ENDS = "exit status: 0 done; 1 done, but the camera's rays disagree with a witness; 2 bad input."
+
+
+def _parser(prog: str, purpose: str, example: str, result: str, ends: str = ENDS) -> Parser:
     parser = Parser(
         prog=prog,
         description=purpose,
-        epilog=f"example:\n  {example}\n{fill(result, WIDTH)}\n\n{ends}",
+        epilog=f"example:\n  {example}\n{fill(result, WIDTH)}\n\n{fill(ends, WIDTH)}",
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument("file", nargs="?", type=Path, metavar="FILE.blend", help="default: the file that is open")
     parser.add_argument("--camera", metavar="NAME", help="default: the scene's active camera")
     parser.add_argument("--enable-autoexec", action="store_true",
                         help="run the Python scripts and drivers of FILE.blend; default: they do not run")  # fmt: skip
-    parser.add_argument("--json", action="store_true", help="print the report as JSON in place of the table")
     return parser
 
 
-def _joined(arguments: Sequence[str], option: str) -> list[str]:
-    """Return the arguments with an option and its value as one word: argparse would take -3:-1 for an option."""
-    words = list(arguments)
-    if option in words[:-1]:
-        at = words.index(option)
-        words[at : at + 2] = [f"{option}={words[at + 1]}"]
-    return words
+def _add_json(parser) -> None:
+    parser.add_argument("--json", action="store_true", help="print the report as JSON in place of the table")
 
 
 def _add_frame(parser) -> None:
     parser.add_argument("--frame", type=frame_number, help="default: the file's; a fraction is between frames")
 
 
-def frame_number(text: str) -> float:
-    """Return a frame; argparse names this function where the text is none."""
-    frame = float(text)
-    if not abs(frame) <= LAST_FRAME:
-        raise argparse.ArgumentTypeError(f"{text} is beyond Blender's last frame, {LAST_FRAME}")
-    return frame
-
-
-def frame_range(text: str) -> range:
-    """Return the frames of "A:B"."""
-    first, last = (int(part) for part in text.split(":"))
-    frame_number(str(first)), frame_number(str(last))
-    if first > last:
-        raise argparse.ArgumentTypeError(f"{text} holds no frame: give the first one first")
-    return range(first, last + 1)
-
-
-def pass_names(text: str) -> list[str]:
-    """Return the passes of "A,B,..."."""
-    names = text.split(",")
-    unknown = [name for name in names if name not in PASSES]
-    if unknown:
-        raise argparse.ArgumentTypeError(f"no pass is called {unknown[0]!r}: choose from {', '.join(PASSES)}")
-    return names
-
-
 def _open(options):
-    """Open the file that the options name, and return its scene with the engine and the camera that they ask for."""
+    """Open the file that the options name, and return its scene with our engine and the camera that they ask for."""
     path = options.file
     if path is not None:
         open_file(path, options.enable_autoexec)

@@ -1,4 +1,4 @@
-"""Opening a .blend without running what it brings along: its Python runs only where the user lets it."""
+"""Opening a .blend without running what it brings along, its Python only where the user lets it; and saving a copy."""
 
 from contextlib import redirect_stdout
 from pathlib import Path
@@ -32,7 +32,23 @@ def open_file(path: Path, enable_autoexec: bool = False) -> None:
         _withhold_style_modules()
 
 
-def reported(error: RuntimeError) -> str:
+def save_copy(path: Path) -> None:
+    """Save the open file under another name; Blender gives it that name when all of it is written.
+
+    Raises InputError for a name that is no .blend or the open file's own, and where it cannot be written.
+    """
+    if path.suffix != ".blend":
+        raise InputError(f"{str(path)!r} is no name of a Blender file: let it end in .blend")
+    if bpy.data.filepath and path.resolve() == Path(bpy.data.filepath).resolve():
+        raise InputError(f"{str(path)!r} is the file that is open: give its copy another name")
+    try:
+        with redirect_stdout(None):
+            bpy.ops.wm.save_as_mainfile(filepath=str(path.resolve()), copy=True, check_existing=False)
+    except (RuntimeError, OSError) as error:
+        raise InputError(f"cannot write {str(path)!r}: {reported(error)}; choose another place") from error
+
+
+def reported(error: Exception) -> str:
     """Return the first thing that an operator reported, without its label."""
     return str(error).strip().splitlines()[0].removeprefix("Error: ")
 

@@ -1,0 +1,51 @@
+"""The words of a command line: a parser that refuses in one line, and what turns words into values."""
+
+import argparse
+from collections.abc import Sequence
+
+from ...core.camera.pixel_time import LAST_FRAME
+from ...core.casting.passes import PASSES
+from ...core.records import InputError
+
+
+class Parser(argparse.ArgumentParser):
+    """A parser that refuses in one line."""
+
+    def error(self, message):
+        """Raise InputError."""
+        raise InputError(f"{message} (--help shows what can be given)")
+
+
+def joined(arguments: Sequence[str], option: str) -> list[str]:
+    """Return the arguments with an option and its value as one word: argparse would take -3:-1 for an option."""
+    words = list(arguments)
+    if option in words[:-1]:
+        at = words.index(option)
+        words[at : at + 2] = [f"{option}={words[at + 1]}"]
+    return words
+
+
+def frame_number(text: str) -> float:
+    """Return a frame; argparse names this function where the text is none."""
+    frame = float(text)
+    if not abs(frame) <= LAST_FRAME:
+        raise argparse.ArgumentTypeError(f"{text} is beyond Blender's last frame, {LAST_FRAME}")
+    return frame
+
+
+def frame_range(text: str) -> range:
+    """Return the frames of "A:B"."""
+    first, last = (int(part) for part in text.split(":"))
+    frame_number(str(first)), frame_number(str(last))
+    if first > last:
+        raise argparse.ArgumentTypeError(f"{text} holds no frame: give the first one first")
+    return range(first, last + 1)
+
+
+def pass_names(text: str) -> list[str]:
+    """Return the passes of "A,B,..."."""
+    names = text.split(",")
+    unknown = [name for name in names if name not in PASSES]
+    if unknown:
+        raise argparse.ArgumentTypeError(f"no pass is called {unknown[0]!r}: choose from {', '.join(PASSES)}")
+    return names
