@@ -54,6 +54,8 @@ GALLERY = {
         calibrated.double_sphere,
         calibrated.fisheye624,
         calibrated.thin_prism_fisheye,
+        calibrated.fov,
+        calibrated.division,
     ),
     "Panoramas": _by_name(
         panoramas.equirectangular,

@@ -48,6 +48,16 @@ def thin_prism_fisheye(scene):
     calibrated(scene, 65, model="THIN_PRISM_FISHEYE", k1=-0.02, p1=0.004, p2=0.006, s1=0.03, s3=-0.02)
 
 
+def fov(scene):
+    """the field-of-view camera (Devernay and Faugeras): one angle for a wide lens, up to 90 degrees from the axis."""
+    calibrated(scene, 138, model="FOV", fov_omega=1.1)
+
+
+def division(scene):
+    """the division model: one number, and below 0 it goes on behind the camera's sides."""
+    calibrated(scene, 75, model="DIVISION", division_lambda=-0.28)
+
+
 def calibrated(scene, focal: float, **own):
     """Show the room all around the axis through a lens with this focal length, in pixels of a small picture."""
     room(scene)

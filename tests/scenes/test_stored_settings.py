@@ -54,6 +54,8 @@ STORED = {
     "thin_prism_fisheye": (
         "THIN_PRISM_FISHEYE", {**SMALL, "fx": 65, "k1": -0.02, "p1": 0.004, "p2": 0.006, "s1": 0.03, "s3": -0.02},
     ),
+    "fov": ("FOV", {**SMALL, "fx": 138, "fov_omega": 1.1}),
+    "division": ("DIVISION", {**SMALL, "fx": 75, "division_lambda": -0.28}),
     "omnimax": ("OMNIMAX", {"tilt": radians(20)}),
     "dome_master": ("DOME_MASTER", {"fov": pi, "tilt": radians(15)}),
     "equirectangular": ("EQUIRECTANGULAR", {"longitude_min": -pi, "latitude_max": pi / 2}),

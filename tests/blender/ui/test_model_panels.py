@@ -20,6 +20,8 @@ SHOWN = {
     "DOUBLE_SPHERE": (*MATRIX, "unified_xi", "unified_alpha"),
     "FISHEYE624": (*MATRIX, "k1", "k2", "k3", "k4", "k5", "k6", "p1", "p2", "s1", "s2", "s3", "s4"),
     "THIN_PRISM_FISHEYE": (*MATRIX, "k1", "k2", "p1", "p2", "k3", "k4", "s1", "s3"),
+    "FOV": (*MATRIX, "fov_omega"),
+    "DIVISION": (*MATRIX, "division_lambda"),
     "OMNIMAX": ("tilt",),
     "DOME_MASTER": ("fov", "tilt"),
     "CYLINDRICAL": ("pan_min", "pan_max", "latitude_bottom", "latitude_top"),

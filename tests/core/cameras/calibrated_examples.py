@@ -44,6 +44,19 @@ EXAMPLES = {
         {"matrix_world": TURNED, "fx": 18.0, "fy": 17.0, **ARIA, "p1": 0.01, "p2": -0.02, "skew": 1.0},
         SCALED | {"fx": 30.0, "k1": -0.02, "k6": -1e-6, "s1": 4e-3, "s2": -1e-3, "s3": 2e-3, "s4": 5e-4},
     ],
+    "FOV": [
+        {"fx": 30.0, "fy": 31.0, "fov_omega": 0.9},
+        BORDER | {"cx": 30.0, "fov_omega": 1.4, "fx": 50.0},
+        {"matrix_world": TURNED, "fov_omega": 1e-6, "skew": 1.0},
+        SCALED | {"fx": 15.0, "fov_omega": 2.0},
+    ],
+    "DIVISION": [
+        {"division_lambda": -0.4},
+        BORDER | {"cx": 30.0, "division_lambda": 0.3},
+        {"matrix_world": TURNED, "fx": 18.0, "fy": 17.0, "division_lambda": -0.25, "skew": 1.0},
+        SCALED | {"division_lambda": 0.0},
+        {"fx": 20.0, "fy": 18.0, "division_lambda": 0.2},
+    ],
     "THIN_PRISM_FISHEYE": [
         {"fx": 30.0, "fy": 31.0, "k1": -0.03, "k2": 0.01, "k3": 2e-3, "k4": -1e-3},
         BORDER | {"cx": 30.0, "k1": 0.02, "p1": 1e-3, "p2": -2e-3, "s1": 4e-3, "s3": -3e-3},
@@ -77,6 +90,17 @@ FACTS = {
         # upwards b < 0: p1 r^2 + 2 p1 b^2 pushes it down by 3 p1 r^2, and p2 r^2 pushes it to the right
         ({"fx": 24.0, "fy": 24.0, "p1": 0.05, "p2": 0.1}, UP_A_HALF, (0, 0, 0), HALF_A_RADIAN_UP),
     ],
+    "FOV": [
+        ({}, (48, 27), (0, 0, 0), (0, 0, -1)),
+        ({"fx": 96.0, "fov_omega": pi / 2}, (96, 27), (0, 0, 0), (1, 0, -2)),  # tan 45 degrees, halved
+        ({"fx": 96.0, "fov_omega": pi / 3}, (96, 27), (0, 0, 0), (1, 0, -2)),  # tan 30 degrees over twice that
+    ],
+    "DIVISION": [
+        ({}, (48, 27), (0, 0, 0), (0, 0, -1)),
+        ({"fx": 48.0, "division_lambda": 1.0}, (96, 27), (0, 0, 0), (1, 0, -2)),
+        ({"fx": 48.0, "division_lambda": -1.0}, (96, 27), (0, 0, 0), (1, 0, 0)),
+        ({"fx": 24.0, "division_lambda": -1.0}, (96, 27), (0, 0, 0), (2, 0, 3)),
+    ],
     "THIN_PRISM_FISHEYE": [
         ({}, (48, 27), (0, 0, 0), (0, 0, -1)),
         ({"fx": 96 / pi}, (96, 27), (0, 0, 0), (1, 0, 0)),
@@ -98,6 +122,8 @@ UNSEEN = {
     "EUCM": [(0, 0, 0), (0, 0, 1)],
     "DOUBLE_SPHERE": [(0, 0, 0), (0, 0, 1)],
     "FISHEYE624": [(0, 0, 0), (0, 0, 1)],
+    "FOV": [(0, 0, 0), (0, 0, 1), (3, 0, 0.1)],
+    "DIVISION": [(0, 0, 0), (0, 0, 1), (3, 0, 0.1)],
     "THIN_PRISM_FISHEYE": [(0, 0, 0), (0, 0, 1)],
 }
 
@@ -105,6 +131,8 @@ REFUSED = {
     "UCM": [({"unified_xi": -1.0}, "unified_xi"), ({"unified_xi": NAN}, "unified_xi"), ({"k2": NAN}, "k2")],
     "FISHEYE624": [({"k6": NAN}, "k6"), ({"fx": 0.0}, "fx"), ({"s4": 1e31}, "s4")],
     "THIN_PRISM_FISHEYE": [({"k4": NAN}, "k4"), ({"cx": 1e9}, "cx"), ({"skew": NAN}, "skew")],
+    "FOV": [({"fov_omega": 0.0}, "fov_omega"), ({"fov_omega": pi}, "fov_omega"), ({"fov_omega": NAN}, "fov_omega")],
+    "DIVISION": [({"division_lambda": NAN}, "division_lambda"), ({"fy": NAN}, "fy")],
     "EUCM": [({"unified_alpha": 1.0}, "unified_alpha"), ({"unified_beta": 0.0}, "unified_beta")],
     "DOUBLE_SPHERE": [({"unified_xi": 1.0}, "unified_xi"), ({"unified_alpha": -0.1}, "unified_alpha")],
 }

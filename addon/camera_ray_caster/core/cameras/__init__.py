@@ -8,6 +8,7 @@ from .central_cylindrical import CentralCylindrical
 from .cross_slit import CrossSlit
 from .cubemap_face import CubemapFace
 from .cylindrical import Cylindrical
+from .division import Division
 from .dome_master import DomeMaster
 from .double_sphere import DoubleSphere
 from .equirectangular import Equirectangular
@@ -18,6 +19,7 @@ from .fisheye_equisolid import FisheyeEquisolid
 from .fisheye_orthographic import FisheyeOrthographic
 from .fisheye_polynomial import FisheyePolynomial
 from .fisheye_stereographic import FisheyeStereographic
+from .fov import FieldOfView
 from .general_linear import GeneralLinear
 from .mirrorball import Mirrorball
 from .model import Model
@@ -40,7 +42,8 @@ MODELS: tuple[type[Model], ...] = (
     Equirectangular, CubemapFace, Mirrorball, FisheyeEquidistant, FisheyeEquisolid, FisheyePolynomial,
     CentralCylindrical, CameraObscura,
     FisheyeOrthographic, FisheyeStereographic, OpencvPinhole, OpencvFisheye,
-    UnifiedCamera, EnhancedUnifiedCamera, DoubleSphere, Fisheye624, ThinPrismFisheye, Omnimax, DomeMaster, Cylindrical,
+    UnifiedCamera, EnhancedUnifiedCamera, DoubleSphere, Fisheye624, ThinPrismFisheye, FieldOfView, Division,
+    Omnimax, DomeMaster, Cylindrical,
     StereographicPanorama,
     GeneralLinear, CrossSlit, Pushbroom, Pencil, TwistedOrthographic, Strip, OmnidirectionalStereo,
 )  # fmt: skip

@@ -1,0 +1,69 @@
+"""The division model: the undistorted radius is the distorted one over a quadratic polynomial of it.
+
+Assumption: the ray of the distorted coordinates (a, b) is (a, b, -(1 + lambda r^2)). With lambda below 0 that goes on
+behind the eye; above 0 it turns back at r = 1 / sqrt(lambda), where the picture ends.
+Formula: tan(theta) = r / (1 + lambda r^2), in focal lengths, then K; the inverse is the root of a quadratic equation.
+Singular: where it turns back, and with lambda below 0 the point straight behind the eye.
+References: A. Fitzgibbon, Simultaneous Linear Estimation of Multiple View Geometry and Lens Distortion (2001); COLMAP
+documentation, Camera Models, where lambda is k.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import inf, sqrt
+
+import numpy as np
+
+from ..records import BlenderCamera, Raster
+from .model import Step
+from .parts.calibrated import Calibrated
+from .parts.calibration import MATRIX, Calibration
+from .parts.radial import COORDINATES
+from .parts.settings import Number
+
+LAMBDA = Number(
+    "division_lambda", "Lambda", "Of r^2 in the denominator: below 0 barrel, above 0 pincushion distortion", 0.0,
+    -1e6, 1e6, digits=6, step=0.1,
+)  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Division(Calibrated):
+    """See the module's page."""
+
+    bend: float
+    """Lambda."""
+
+    key = "DIVISION"
+    label = "Division"
+    description = "A calibrated lens: one number for its distortion, also of a fisheye"
+    number = 23
+    by_polynomials = True
+    SETTINGS = (*MATRIX, LAMBDA)
+    FORMULA = (
+        COORDINATES,
+        Step("Depth, r² = a² + b²", "n = 1 + lambda r²"),
+        Step("Direction", "d = (a, b, -n) / sqrt(r² + n²)"),
+    )
+
+    @classmethod
+    def from_blender(cls, raw: BlenderCamera, raster: Raster) -> Division:
+        """Build it from the settings of the same names; InputError for one without meaning."""
+        window, bend = Calibration.from_blender(raw, raster, settings=MATRIX).window(raster), LAMBDA.read(raw)
+        return cls(raster.size, window, 1 / sqrt(bend) if bend > 0 else inf, bend)
+
+    def factors(self, r_squared):
+        """See Radial."""
+        ahead = 1 + self.bend * r_squared
+        scale = 1 / np.sqrt(r_squared + ahead * ahead)
+        return scale, ahead * scale
+
+    def radius(self, theta):
+        """See Radial: the lesser root of lambda s r^2 - c r + s = 0, in the form that does not cancel."""
+        s, c = np.sin(theta), np.cos(theta)
+        root = np.sqrt(np.maximum(c * c - 4 * self.bend * s * s, 0.0))
+        ahead = 2 * s / np.where(c >= 0, c + root, 1.0)
+        if self.bend >= 0:
+            return ahead
+        return np.where(c >= 0, ahead, (c - root) / (2 * self.bend * np.where(s > 0, s, 1.0)))

@@ -1,0 +1,73 @@
+"""The field-of-view camera: one parameter, the angle of an ideal fisheye.
+
+Assumption: the radius grows with the angle that a pinhole's picture is seen under.
+Formula: r = atan(2 tan(omega / 2) tan(theta)) / omega, in focal lengths, then K; the inverse is closed. It ends 90
+degrees from the axis, where r = pi / (2 omega).
+Singular: that angle.
+References: F. Devernay and O. Faugeras, Straight Lines Have to Be Straight (2001); COLMAP documentation, Camera Models.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import pi, radians, tan
+
+import numpy as np
+
+from ..records import BlenderCamera, Raster
+from .model import Step
+from .parts.calibrated import Calibrated
+from .parts.calibration import MATRIX, Calibration
+from .parts.radial import COORDINATES, RADIUS, RAY, radii_of
+from .parts.settings import Number
+
+OMEGA = Number(
+    "fov_omega", "Omega", "The angle of the fisheye; the least is a pinhole", 1.0, 1e-6, radians(179), "angle", digits=4
+)
+
+
+@dataclass(frozen=True)
+class FieldOfView(Calibrated):
+    """See the module's page."""
+
+    omega: float
+
+    key = "FOV"
+    label = "Field of View (FOV)"
+    description = "A calibrated wide lens: one angle for its distortion"
+    number = 22
+    by_polynomials = True
+    SETTINGS = (*MATRIX, OMEGA)
+    FORMULA = (
+        COORDINATES,
+        RADIUS,
+        Step("Angle from the axis", "theta = atan(tan(r omega) / (2 tan(omega / 2)))"),
+        RAY,
+    )
+
+    @classmethod
+    def from_blender(cls, raw: BlenderCamera, raster: Raster) -> FieldOfView:
+        """Build it from the settings of the same names; InputError for one without meaning."""
+        window = Calibration.from_blender(raw, raster, settings=MATRIX).window(raster)
+        omega = OMEGA.read(raw)
+        return cls(raster.size, window, pi / (2 * omega), omega)
+
+    @property
+    def _stretch(self) -> float:
+        return 2 * tan(self.omega / 2)
+
+    def factors(self, r_squared):
+        """See Radial."""
+        r = radii_of(r_squared)
+        across, ahead = np.sin(r * self.omega), self._stretch * np.cos(r * self.omega)
+        length = np.sqrt(across * across + ahead * ahead)
+        return across / (r * length), ahead / length
+
+    def radius(self, theta):
+        """See Radial."""
+        return np.arctan2(self._stretch * np.sin(theta), np.cos(theta)) / self.omega
+
+    @property
+    def widest(self) -> float:
+        """See Radial."""
+        return pi / 2
