@@ -8,7 +8,7 @@ from mpmath import mp, mpf
 
 from camera_ray_caster.core.conventions import EPS
 from camera_ray_caster.core.maths.inversion import Inverse
-from camera_ray_caster.core.maths.recording import NUMPY, differentiate, look_up, loop, record, roundoff
+from camera_ray_caster.core.maths.recording import NUMPY, differentiate, look_up, loop, record, roundoff, stop_gradient
 from camera_ray_caster.core.maths.recording.record import COMPARISONS, NUMERIC
 
 from ..truth.recorded import MPMATH
@@ -103,6 +103,12 @@ def test_a_step_of_newton_after_a_loop_has_the_derivative_of_the_root():
 
     y = np.array([0.1, 1.0, 8.0, 1e6])
     np.testing.assert_allclose(partials(lambda y: root(y, True), y), [1 / (3 * np.cbrt(y) ** 2)], rtol=ROUNDED)
+
+
+def test_what_begins_an_iteration_may_carry_no_derivatives():
+    (found,) = differentiate(record(lambda x: [2 * stop_gradient(3 * x)], 1), [1.5])
+    assert found == (9.0, (None,))
+    assert stop_gradient(1.5) == 1.5
 
 
 def test_an_inverse_has_the_derivative_of_the_root_wherever_it_began():

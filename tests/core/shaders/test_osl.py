@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from camera_ray_caster.core.maths.recording import DOMAIN, Parameter, record
+from camera_ray_caster.core.maths.recording import DOMAIN, Parameter, record, stop_gradient
 from camera_ray_caster.core.maths.recording.record import COMPARISONS, LOGICAL, NUMERIC
 from camera_ray_caster.core.shaders.osl import ABSENT, FUNCTIONS, LEAST, MOST, Inputs, Term, Writer, literal
 
@@ -30,6 +30,11 @@ def test_a_constant_can_be_made_an_input():
     inputs, *_ = written(lambda x, y: (2.0 * x,), frozenset((1,)))
     assert inputs.values == {"c1": 2.0}
     assert inputs.used == {1}
+
+
+def test_where_derivatives_stop_nothing_is_written():
+    _, lines, (found,) = written(lambda x, y: (stop_gradient(x + y),))
+    assert (lines, found.text) == (["float v1 = x + y;"], "v1")
 
 
 def test_what_is_no_number_is_carried_beside_the_value():

@@ -39,6 +39,7 @@ MPMATH = {
     "where": lambda condition, a, b: a if condition else b,
     "constant": lambda value: value if isinstance(value, bool) else mpf(value),
     "roundoff": lambda: +mp.eps,
+    "stop_gradient": lambda a: a,
     "searchsorted": lambda a, table, side: mpf({"left": bisect_left, "right": bisect_right}[side](table, a)),
     "take": lambda place, table: NAN if mp.isnan(place) else mpf(table[int(place)]),
     "all": bool,

@@ -198,6 +198,11 @@ class Camera:
         self._write_by_formula(x, y, origins, directions)
         return components((directions, origins)[part])
 
+    @property
+    def _moves(self) -> bool:
+        """Whether pixels have cameras of their own."""
+        return self.pixel_time is not None and self.motion is not None
+
     def _timed(self, ask: Callable, x, y, axes: tuple[int, ...]) -> tuple[np.ndarray, Any]:
         """Return the times of pixels, and the origins and directions, (2, ..., *axes), that ``ask(camera, x, y)`` gives
         of the camera at each pixel's own time.
@@ -227,10 +232,9 @@ class Camera:
         The derivatives have the shape of x and y, and then 3 and 2.
         """
         x, y, shape = given(x, y)
-        moves = self.pixel_time is not None and self.motion is not None
-        size = (96 if moves or not self.model.central else 48) * math.prod(shape)
+        size = (96 if self._moves or not self.model.central else 48) * math.prod(shape)
         require(size, of_pixels("the derivatives of the rays", shape))
-        if moves:
+        if self._moves:
             return RaysJacobian(*self._timed(Camera.rays_jacobian_at, x, y, (3, 2))[1])
         return of_rays(self.model, self.pose, x, y, shape)
 
@@ -258,9 +262,9 @@ class Camera:
         points = numbers(points, "points")
         if points.shape[-1:] != (3,):
             raise InputError(f"points of shape {points.shape} cannot be projected: give x, y, z, shape (..., 3)")
-        each, moves = points.reshape(-1, 3), self.pixel_time is not None and self.motion is not None
+        each = points.reshape(-1, 3)
         if flag(jacobian, "jacobian"):
-            if moves:
+            if self._moves:
                 raise InputError(
                     f"camera {self.name!r} moves from pixel to pixel, and its speed is not known to rounding: ask the "
                     "camera of one frame, camera.at(frame).project(points, jacobian=True)"
@@ -269,7 +273,7 @@ class Camera:
             pixels = self.project(points)
             found = of_projection(self.model, self.pose, each, pixels.reshape(-1, 2))
             return pixels, found.reshape(*points.shape[:-1], 2, 3)
-        if moves:
+        if self._moves:
             time: Any = self.pixel_time
             sought = [meeting(time, lambda t, p=point: self.at(t).project(p)) for point in each]
             return np.reshape(sought, (*points.shape[:-1], 2))

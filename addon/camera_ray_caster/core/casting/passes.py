@@ -114,7 +114,8 @@ def ray_direction(values: HitValues, out):
 
 def solid_angle(values: HitValues, out):
     """The solid angle of the pixel, steradians, to first order: of the unit directions at its center the length of the
-    cross product of their derivatives by x and y. 0 for parallel rays; right to some EPS, see ``camera.jacobian``.
+    cross product of their derivatives by x and y. 0 for parallel rays. Right to 64 EPS, beside what rounding of the
+    pixel makes: see ``camera.jacobian``.
     """
     out[...] = values.derivatives.solid_angle
     if values.hits.lost is not None:
@@ -123,7 +124,8 @@ def solid_angle(values: HitValues, out):
 
 def footprint(values: HitValues, out):
     """The area of the surface that the pixel covers, in the world, to first order: its rays, as they change at its
-    center, on the tangent plane at the hit. Right to some EPS over the cosine of the ray and the surface's normal.
+    center, on the tangent plane at the hit. Right as ``solid_angle`` is, and as the hit's distance and normal are, over
+    the cosine between ray and normal.
     """
     out[...] = values.derivatives.area_at(values.distance) / values.cosine
     if values.hits.missed is not None:

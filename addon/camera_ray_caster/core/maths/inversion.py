@@ -12,7 +12,7 @@ from functools import cached_property
 import numpy as np
 
 from ..conventions import EPS
-from .recording import is_recorded, loop, roundoff
+from .recording import is_recorded, loop, roundoff, stop_gradient
 
 KNOTS = 16385
 """Points of the table: a guess from it is right to about 1e-9, and one Newton step to its square."""
@@ -61,7 +61,7 @@ class Inverse:
         knots, values = self._table
         if is_recorded(target):  # without the table, which has no more digits than float64
             goal = np.where(self._is_within(target), np.clip(target, values[0], values[-1]), np.nan)
-            x = self._bracketed(goal, self.low, self.low, self.high)
+            x = self._bracketed(stop_gradient(goal), self.low, self.low, self.high)
             return x - (self.function(x) - goal) / self.derivative(x)  # whose derivative is the inverse's own
         target = np.asarray(target, np.float64)
         within = self._is_within(target)

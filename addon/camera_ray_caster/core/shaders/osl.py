@@ -212,7 +212,7 @@ class Writer:
 STEPS: dict[str, Callable] = {
     "input": Writer._input, "constant": Writer._constant, "parameter": Writer._parameter, "where": Writer._where,
     "roundoff": Writer._roundoff, "searchsorted": Writer._searchsorted, "take": Writer._take, "loop": Writer._loop,
-    "part": Writer._part,
+    "part": Writer._part, "stop_gradient": lambda writer, step, operands, _: operands[0],
 }  # fmt: skip
 """How steps are written that are no plain functions."""
 

@@ -22,7 +22,7 @@ import numpy as np
 from numpy.polynomial.polynomial import polyval
 
 from ...maths.inversion import Inverse
-from ...maths.recording import is_recorded, loop, roundoff
+from ...maths.recording import is_recorded, loop, roundoff, stop_gradient
 from ...maths.roots import positive_roots
 
 STEEPEST = tan(radians(89.9))
@@ -161,7 +161,7 @@ class RadialTangential:
         u, v = np.broadcast_arrays(u, v)
         radial = not any((self.p1, self.p2, self.s1, self.s2, self.s3, self.s4))
         if is_recorded(u, v) and not radial:
-            x, y = self._careful(u, v)
+            x, y = self._careful(stop_gradient(u), stop_gradient(v))
             step_x, step_y = self._step(x, y, u, v)
             return x - step_x, y - step_y  # whose derivatives are the inverse's own
         rho = np.hypot(u, v)

@@ -6,10 +6,10 @@ a formula iterates and reads tables, with arrays as with recorded numbers.
 """
 
 from .derivatives import Dual, differentiate
-from .number import NotRecordable, Parameter, Recorded, is_recorded, look_up, loop, record, roundoff
+from .number import NotRecordable, Parameter, Recorded, is_recorded, look_up, loop, record, roundoff, stop_gradient
 from .record import DOMAIN, NUMPY, Record, Step
 
 __all__ = [
     "DOMAIN", "NUMPY", "Dual", "NotRecordable", "Parameter", "Record", "Recorded", "Step", "differentiate",
-    "is_recorded", "look_up", "loop", "record", "roundoff",
+    "is_recorded", "look_up", "loop", "record", "roundoff", "stop_gradient",
 ]  # fmt: skip

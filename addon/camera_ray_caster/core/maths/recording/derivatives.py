@@ -2,10 +2,10 @@
 
 They are exact but for rounding: each operation adds its slopes times the partial derivatives of its operands. What is
 known to be 0 is None, and costs nothing. ``where``, minimum and maximum have the derivatives of what they take (of two
-that are equal, the first), tables and roundings those of constants. Loops carry derivatives from step to step: an
-iteration that ends near a root has to be followed by one more step of Newton's method, which makes them the root's own
-(see ``refined``). Where a formula has a kink or no finite slope, as sqrt at 0, there is no derivative: what is
-found there is that of one side, or no finite number.
+that are equal, the first), tables and roundings those of constants. Loops carry derivatives from step to step. An
+iteration to a root has to be followed by one more step of Newton's method, whose derivatives are the root's own, and
+need not carry any: see ``stop_gradient``. Where a formula has a kink or no finite slope, as sqrt at 0, there is no
+derivative: what is found there is that of one side, or no finite number.
 Reference: A. Griewank and A. Walther, Evaluating Derivatives, 2nd ed. (2008), chapters 3 (forward mode) and 15
 (fixed points).
 """

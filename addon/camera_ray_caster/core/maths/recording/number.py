@@ -67,6 +67,13 @@ def look_up(table, place):
     return place.tape.add("take", [place], (_entries(table),)) if is_recorded(place) else table[place]
 
 
+def stop_gradient(number):
+    """Return a number whose derivatives do not count: what begins an iteration to a root, which the derivatives of one
+    more step of Newton's method after it make those of the root.
+    """
+    return number.tape.add("stop_gradient", [number]) if is_recorded(number) else number
+
+
 def roundoff(number):
     """Return the unit roundoff of the arithmetic in which a number is computed: EPS, unless it is recorded."""
     return number.tape.add("roundoff") if is_recorded(number) else EPS

@@ -52,11 +52,11 @@ class Step:
     """One operation. Its operands are the values of earlier steps, by their places; ``fixed`` is what else it takes.
 
     Beside the operations above: ``input`` (fixed: its place among the inputs), ``constant`` (a float64, or a bool),
-    ``parameter`` (a float64 and its name; only where a formula was given a ``Parameter``), ``where``, ``roundoff`` (of
-    the arithmetic it is evaluated with: 2**-53 in float64), ``searchsorted`` (of a number in a table; fixed: the table,
-    ascending, and numpy's side), ``take`` (a table's entry at a whole number; fixed: the table), ``loop`` (of the
-    values it starts from; fixed: its body and the most repetitions) and ``part`` (of a loop: the value of its state
-    that stands at the fixed place).
+    ``parameter`` (a float64 and its name; only where a formula was given a ``Parameter``), ``where``,
+    ``stop_gradient`` (its operand, without derivatives), ``roundoff`` (of the arithmetic it is evaluated with: 2**-53
+    in float64), ``searchsorted`` (of a number in a table; fixed: the table, ascending, and numpy's side), ``take`` (a
+    table's entry at a whole number; fixed: the table), ``loop`` (of the values it starts from; fixed: its body and the
+    most repetitions) and ``part`` (of a loop: the value of its state that stands at the fixed place).
     """
 
     operation: str
@@ -138,6 +138,7 @@ NUMPY: Arithmetic = {
     "constant": lambda value: value,
     "parameter": lambda value, name: value,
     "roundoff": lambda: EPS,
+    "stop_gradient": lambda a: a,
     "searchsorted": lambda number, table, side: np.searchsorted(table, number, side).astype(np.float64),
     "take": _take,
 }
