@@ -218,3 +218,4 @@ def test_an_engine_that_does_not_know_custom_cameras_is_named(scene):
     scene.render.engine = "BLENDER_WORKBENCH"
     (said,) = to_cycles(scene)
     assert "choose Cycles" in said
+

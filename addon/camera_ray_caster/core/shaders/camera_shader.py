@@ -17,7 +17,6 @@ from zlib import crc32
 import numpy as np
 
 from ..camera.camera import Camera
-from ..cameras.parts.aperture import Aperture
 from ..conventions import EPS32
 from ..maths.recording import Parameter, Record, record
 from .osl import HELPERS, Inputs, Term, Writer
@@ -52,15 +51,17 @@ TEXT = """\
 
 APERTURE = """\
     point opening = 0;
+    float size = 0;
     getattribute("cam:aperture_position", opening);
-    float across = opening[0], up = opening[1];
+    getattribute("cam:aperture_size", size);
+    float across = size > 0 ? opening[0] / size : 0, up = size > 0 ? opening[1] / size : 0;
 """
 HOLE = """\
     float across = noise("hash", 1048576.0 * place[0], 1048576.0 * place[1]);
     float up = noise("hash", 1048576.0 * place[1], 1048576.0 * place[0]);
 """
-"""Cycles samples the aperture of its own depth of field alone: the hole of a camera obscura takes the noise of the
-place in the pixel.
+"""Cycles samples the aperture of its own depth of field, of custom cameras in a size of its own. The hole of a camera
+obscura it does not know: that takes the noise of the place in the pixel.
 """
 
 
@@ -114,7 +115,7 @@ def camera_shader(
         description=model.description,
         helpers="".join(f"{HELPERS[name]}\n\n" for name in sorted(writer.helpers)),
         inputs="".join(f"    float {name} = 0,\n" for name in own),
-        aperture="" if opening is None else HOLE if _is_hole(opening) else APERTURE,
+        aperture="" if opening is None else HOLE if opening.is_hole else APERTURE,
         lines="\n".join((*writer.tables, *writer.lines)),
         none=none,
         o=texts[:3],
@@ -128,18 +129,19 @@ def camera_shader(
 
 def ray_record(camera: Camera) -> Record:
     """Return the record of origin and direction in the camera's frame, of (x, y), pixel coordinates, and a point of the
-    aperture in Blender units; for a hole two numbers of [0, 1). The fields of the model are parameters.
+    aperture in radii; for a hole two numbers of [0, 1). The fields of the model are parameters.
     """
     width, height = camera.model.frame
     frame = Parameter(width, "frame_width"), Parameter(height, "frame_height")
     model = replace(_named(camera.model), frame=frame)
-    lens = replace(camera, model=model).camera_rays if _is_sheared(camera) else model.rays
+    chief_ray = replace(camera, model=model).camera_rays if _is_sheared(camera) else model.rays
     opening = _named(camera.aperture, "aperture")
 
     def ray(x, y, across, up):
-        origin, direction = lens(x, y)
+        origin, direction = chief_ray(x, y)
         if opening is not None:
-            point = opening.points(across, up) if _is_hole(opening) else (across, up)
+            lens = opening.radius * across, opening.radius * (-up if opening.is_mirrored else up)
+            point = opening.points(across, up) if opening.is_hole else lens
             origin, direction = opening.through(origin, direction, camera.model.planar, *point)
         return *origin, *direction
 
@@ -149,11 +151,6 @@ def ray_record(camera: Camera) -> Record:
 def _is_sheared(camera: Camera) -> bool:
     """Whether float32 tells the camera's axes from perpendicular ones: lengths then depend on the direction."""
     return bool(np.abs(camera.pose.basis.T @ camera.pose.basis - np.eye(3)).max() > 16 * EPS32)
-
-
-def _is_hole(aperture: Aperture) -> bool:
-    """Whether it is that of a camera obscura, which no depth of field of Cycles samples."""
-    return aperture.focus < 0
 
 
 def _named(item: Any, name: str = "") -> Any:

@@ -42,6 +42,16 @@ class Aperture:
     axis: tuple[float, float, float] = FORWARD
     """What of the camera's space the x of a panorama's opening points to, as far as the chief ray allows."""
 
+    @property
+    def is_hole(self) -> bool:
+        """Whether it is that of a camera obscura."""
+        return self.focus < 0
+
+    @property
+    def is_mirrored(self) -> bool:
+        """Whether its shape is that of the lens mirrored up and down, as Cycles has it for the mirror ball."""
+        return self.axis == SIDEWAYS
+
     def points(self, u, v):
         """Return points (x, y) of the opening for u, v in [0, 1): area-uniform, in Blender units.
 
