@@ -10,7 +10,7 @@ from ...core.cameras.parts.settings import Line
 from ...core.conventions import EPS32
 from ...core.records import BlenderCamera, InputError
 from ...core.shaders.camera_shader import CameraShader, camera_shader
-from ..engine.engine import CameraRayCaster
+from ..properties.declared import ENGINE
 from ..read.camera import shader_mark
 from ..read.evaluated import camera_at
 from ..read.scene import evaluated_camera, go_to
@@ -96,7 +96,7 @@ def _set_up_time(scene, raw: BlenderCamera) -> list[str]:
 def _engine_said(scene) -> list[str]:
     """Return what other engines show of a custom camera; the add-on's own and Cycles know what it is."""
     engine = scene.render.engine
-    if engine in ("CYCLES", CameraRayCaster.bl_idname):
+    if engine in ("CYCLES", ENGINE):
         return []
     return [f"The render engine is {engine}, which shows a perspective camera: choose Cycles"]
 

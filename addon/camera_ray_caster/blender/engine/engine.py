@@ -14,6 +14,7 @@ from ...core.motion.evaluations import UNRESOLVED
 from ...core.records import BlenderCamera, Cancelled, InputError
 from ...core.report.report import Report
 from ..output import reports
+from ..properties.declared import ENGINE
 from ..terminal import signals
 from .job import run
 from .passes import stored, ticked
@@ -26,7 +27,7 @@ WARNINGS = 10
 class CameraRayCaster(Viewport, bpy.types.RenderEngine):
     """Rays of the scene's camera, cast at meshes, spheres and planes."""
 
-    bl_idname = "CAMERA_RAY_CASTER"
+    bl_idname = ENGINE
     bl_label = "Camera Ray Caster"
     bl_use_eevee_viewport = True
     done: Report | None = None

@@ -10,6 +10,9 @@ from ...core.cameras.parts.settings import OWN, Choice, Flag, Item, Whole
 GROUP = "camera_ray_caster"
 """The name of the property groups: ``camera.camera_ray_caster``, ``object.``, ``scene.`` likewise."""
 
+ENGINE = "CAMERA_RAY_CASTER"
+"""The identifier of the render engine."""
+
 BLENDERS_OWN = "BLENDER"
 """The item of MODEL for the model that Blender's camera type names."""
 

@@ -104,10 +104,11 @@ def verify(arguments: Sequence[str], prog: str) -> int:
     )
     _add_frame(parser)
     _add_json(parser)
+    parser.add_argument("--cycles", action="store_true", help="compare with what Cycles renders of the camera's shader")
     options = parser.parse_args(arguments)
     scene = _open(options)
     _go_to(scene, options.frame)
-    report = replace(verified(scene), warnings=not_run())
+    report = replace(verified(scene, options.cycles), warnings=not_run())
     signals.raise_if_stopping()
     for line in report.warnings:
         _warn(prog, line)

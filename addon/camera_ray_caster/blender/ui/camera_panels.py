@@ -140,7 +140,9 @@ class SidebarVerify(Sidebar, bpy.types.Panel):
     def draw(self, context):
         """The button, the verdict, and each witness's worst error beside its bound."""
         layout = self.layout
-        layout.operator("camera_ray_caster.verify", icon="CHECKMARK")
+        row = layout.row(align=True)
+        row.operator("camera_ray_caster.verify", icon="CHECKMARK")
+        row.operator("camera_ray_caster.verify", text="With Cycles").with_cycles = True
         report = reports.verified()
         if report is None:
             return

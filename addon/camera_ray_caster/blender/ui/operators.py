@@ -1,7 +1,7 @@
 """The operators: verify, copy, select, write."""
 
 import bpy
-from bpy.props import StringProperty
+from bpy.props import BoolProperty, StringProperty
 
 from ...core.records import InputError
 from ...core.report.facts import camera_facts
@@ -20,16 +20,27 @@ class Verify(bpy.types.Operator):
     bl_label = "Verify"
     bl_options = {"REGISTER"}
 
+    with_cycles: BoolProperty(
+        name="With Cycles",
+        description="Render a small picture of a box by Cycles with the camera's shader, and compare its rays too",
+        options={"SKIP_SAVE"},
+    )
+
     @classmethod
     def poll(cls, context):
         """Grayed out without a camera."""
         cls.poll_message_set(NO_CAMERA)
         return context.scene.camera is not None
 
+    @classmethod
+    def description(cls, context, properties):
+        """Say of the button with Cycles what that does."""
+        return cls.bl_rna.properties["with_cycles"].description if properties.with_cycles else cls.__doc__
+
     def execute(self, context):
         """Verify, keep what was found for the panel, and say it in one line."""
         try:
-            report = verified(context.scene)
+            report = verified(context.scene, self.with_cycles)
         except InputError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}

@@ -13,6 +13,7 @@ from ..read.evaluated import camera_at
 from ..read.motion import motion_of
 from ..read.scene import evaluated_camera, go_to
 from . import witness
+from .cycles_witness import cycles_finding
 
 MOVING_GRID = 2
 """Pixels a side at which a moving camera is asked: each answer is sought through all of its times."""
@@ -23,9 +24,13 @@ def verify_camera(scene, camera_object=None, frame=None, view="") -> list[Findin
     return _read_and_verified(scene, camera_object, frame, view)[1]
 
 
-def verified(scene) -> Report:
-    """Return the report on the scene's camera: what it is, and the findings. Raises what ``read_camera`` raises."""
+def verified(scene, with_cycles: bool = False) -> Report:
+    """Return the report on the scene's camera: what it is, and the findings; with what Cycles renders of its shader,
+    where that is asked for. Raises what ``read_camera`` raises, and ``cycles_finding``.
+    """
     camera, findings = _read_and_verified(scene)
+    if with_cycles:
+        findings.append(cycles_finding(camera))
     return Report(camera=camera_facts(camera), frame=scene.frame_current_final, findings=tuple(findings))
 
 

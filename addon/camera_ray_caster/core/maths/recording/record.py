@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 from typing import Any
 
 import numpy as np
@@ -80,8 +80,8 @@ class Record:
         """Return the outputs at these inputs, numbers or arrays, as the functions of an arithmetic give them.
 
         The arithmetic has a function for each operation but ``input``, ``loop`` and ``part``, which takes the operands
-        and then what is fixed; and ``all``, which says of a loop's last truth whether it is settled. It may have
-        ``loop`` in place of ``repeat``.
+        and then what is fixed; and ``all``, which says of a loop's last truth whether it is settled. It may have a
+        ``loop`` of its own, which takes the body, the most repetitions and the state.
         """
         values: list[Any] = []
         for k, step in enumerate(self.steps):
@@ -94,9 +94,7 @@ class Record:
             elif step.operation == "part":
                 values.append(operands[0][step.fixed[0]])
             elif step.operation == "loop":
-                body, most = step.fixed
-                run = arithmetic.get("loop", repeat)
-                values.append(run(body.as_body(arithmetic), operands, most, arithmetic["all"]))
+                values.append(arithmetic.get("loop", partial(_repeat, arithmetic))(*step.fixed, operands))
             else:
                 values.append(arithmetic[step.operation](*operands, *step.fixed))
             del operands
@@ -116,6 +114,10 @@ class Record:
             return tuple(after), settled
 
         return body
+
+
+def _repeat(arithmetic: Arithmetic, body: Record, most: int, state: Sequence) -> Sequence:
+    return repeat(body.as_body(arithmetic), state, most, arithmetic["all"])
 
 
 def repeat(body: Callable, state: Sequence, most: int, settled_all: Callable) -> Sequence:

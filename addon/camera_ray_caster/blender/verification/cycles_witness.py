@@ -1,0 +1,189 @@
+"""Cycles as a witness of any model: where the rays of a camera's shader end, on a box around it.
+
+A scene of its own has a custom camera with the shader, and a box whose faces emit where they are hit. One sample is
+taken in the middle of each pixel of a picture that is larger or smaller than the render: its rays lie between the
+render's pixels as well as on them.
+"""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import replace
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+import bpy
+import numpy as np
+from mathutils import Matrix
+
+from ...core.camera.camera import Camera
+from ...core.conventions import EPS32
+from ...core.records import Finding, InputError
+from ...core.report.sample import angles_between, finding, length_of, not_compared
+from ...core.shaders.accuracy import ray_bounds
+from ...core.shaders.camera_shader import CameraShader, camera_shader
+from ..cycles.shader import check_cycles, set_shader
+
+CYCLES = "Cycles, Position"
+
+LONGER_SIDE = 288
+"""Pixels of the picture."""
+
+ROOM = 64.0
+"""Half the side of the box, Blender units, or as many times as far as rays begin from the eye."""
+
+STORED = 4 * EPS32
+"""Of half the box's side: a place within it is stored in 24 bits of four times that, once rounded, twice computed."""
+
+STEP = 2.0**-4
+"""Pixels between neighboring rays, whose angle tells how an error in radians counts in pixels."""
+
+
+def cycles_finding(camera: Camera) -> Finding:
+    """Return what Cycles says of a camera's rays through its shader, all over the full frame, at one time.
+
+    Where float32 decides whether a pixel has a ray nothing is compared; anywhere else one that has a ray in one of both
+    only fails (NaN). Where a pixel exceeds its own bound, the worst one alone is told. Raises InputError where this
+    Blender has no Cycles or no OSL.
+    """
+    camera = replace(camera, pixel_time=None, motion=None, aperture=None)
+    shift = tuple(float(camera.settings.get(name, 0.0)) for name in ("shift_x", "shift_y"))
+    shader = camera_shader(camera, "PERSP", shift)
+    shader = replace(shader, source=shader.source.partition("\n")[2])  # without its mark it follows no settings
+    return compared(camera, shift, lambda center, half, size: _ends(camera, shader, shift, center, half, size))
+
+
+def compared(camera: Camera, shift: tuple[float, float], ends_of) -> Finding:
+    """Return the finding on a camera; ``ends_of(center, half, size)`` gives where its rays end on a box."""
+    frame = np.array(camera.model.frame)
+    size = np.maximum(np.rint(frame * (LONGER_SIDE / frame.max())), 1).astype(int)
+    x, y = ((np.arange(count) + 0.5) * (side / count) for count, side in zip(size, frame, strict=True))
+    x, y = x[None, :], y[:, None]
+    rays, bounds = camera.rays_at(x, y), ray_bounds(camera, x, y, shift)
+    eye = camera.pose.eye
+    half = ROOM * max(1.0, float(np.nanmax(np.abs(rays.origins - eye))))
+    ends = ends_of(eye, half, size.tolist())
+    decided = ~np.isinf(bounds.direction)
+    if not (decided & rays.valid).any():
+        return not_compared(CYCLES, "float32 does not carry these rays")
+    differs = decided & (rays.valid == np.isnan(ends[..., 0]))
+    both = decided & (rays.valid | differs)
+    pixels = np.stack(np.broadcast_arrays(x, y), axis=-1)[both]
+    path = (ends - rays.origins)[both]
+    distance = length_of(path)
+    angles = angles_between(path / distance[:, None], rays.directions[both])
+    bound = bounds.direction[both] + (bounds.origin[both] + STORED * half) / distance
+    turned = _turned(camera, pixels, rays.origins[both], rays.directions[both], distance)
+    worst = np.argmax(np.where(np.isnan(angles), np.inf, angles / bound))
+    told = slice(None) if angles[worst] <= bound[worst] else [worst]  # each has a bound of its own
+    errors = np.stack((angles / turned, np.zeros_like(angles)), axis=1)[told]
+    return finding(CYCLES, errors, angles[told], (bound / turned)[told], bound[told], (0.0, 0.0))
+
+
+def _turned(camera: Camera, pixels, origins, directions, distance) -> np.ndarray:
+    """Return by how many radians, as seen from where it begins, the end of a ray moves for a pixel, at least (n,)."""
+    moves = []
+    for step in STEP * np.concatenate((np.eye(2), -np.eye(2))):
+        near = camera.rays_at(*(pixels + step).T)
+        moves.append(length_of((near.origins - origins) / distance[:, None] + (near.directions - directions)) / STEP)
+    return np.fmin.reduce(moves)
+
+
+def _ends(camera: Camera, shader: CameraShader, shift, center, half: float, size) -> np.ndarray:
+    """Return where the rays of a shader meet a box, a cube along the world's axes, (height, width, 3) float64, world;
+    NaN where there is no ray.
+    """
+    check_cycles()
+    with _witness_scene(camera, shader, shift, center, half, size) as scene, TemporaryDirectory() as folder:
+        scene.render.filepath = str(Path(folder) / "witness.exr")
+        bpy.ops.render.render(write_still=True, scene=scene.name)
+        values = _pixels(Path(scene.render.filepath))
+    values[(values == 0).all(axis=-1)] = np.nan
+    return center + (values - 0.5) * (4 * half)
+
+
+@contextmanager
+def _witness_scene(camera: Camera, shader: CameraShader, shift, center, half: float, size) -> Iterator:
+    """Yield a scene with the camera and the box, and take all that was made away again."""
+    made = []
+
+    def new(collection, *given):
+        made.append((collection, item := collection.new(*given)))
+        return item
+
+    try:
+        scene = new(bpy.data.scenes, "Camera Ray Caster Witness")
+        data, parent = new(bpy.data.cameras, "Witness"), new(bpy.data.objects, "Witness", None)
+        item = new(bpy.data.objects, "Witness", data)
+        item.parent = parent
+        item.matrix_parent_inverse = Matrix(_matrix(camera).tolist())  # which may be sheared
+        mesh, material = new(bpy.data.meshes, "Witness"), new(bpy.data.materials, "Witness")
+        mesh.from_pydata((center + half * CORNERS).tolist(), [], FACES)
+        mesh.materials.append(material)
+        box = new(bpy.data.objects, "Witness", mesh)
+        for one in (item, parent, box):
+            scene.collection.objects.link(one)
+        scene.camera, scene.world = item, None
+        _emit_position(material, center, half)
+        data.shift_x, data.shift_y = shift
+        data.clip_start, data.clip_end = half / 1024, 8 * half
+        set_shader(data, shader)
+        made.insert(0, (bpy.data.texts, data.custom_shader))
+        _set_up(scene, size)
+        yield scene
+    finally:
+        for collection, item in reversed(made):
+            collection.remove(item)
+
+
+CORNERS = np.array([(x, y, z) for x in (-1.0, 1.0) for y in (-1.0, 1.0) for z in (-1.0, 1.0)])
+FACES = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))
+
+
+def _matrix(camera: Camera) -> np.ndarray:
+    matrix = np.eye(4)
+    matrix[:3, :3], matrix[:3, 3] = camera.pose.basis, camera.pose.eye
+    return matrix
+
+
+def _emit_position(material, center, half: float) -> None:
+    """Let a material emit the place that is hit, as fractions of four halves of the box about its middle."""
+    if bpy.app.version < (5, 0):
+        material.use_nodes = True  # from 5.0 on every material has nodes
+    nodes, links = material.node_tree.nodes, material.node_tree.links
+    nodes.clear()
+    names = "ShaderNodeNewGeometry", "ShaderNodeVectorMath", "ShaderNodeVectorMath"
+    place, beside, scaled = (nodes.new(name) for name in names)
+    shader, output = nodes.new("ShaderNodeEmission"), nodes.new("ShaderNodeOutputMaterial")
+    beside.operation, scaled.operation = "SUBTRACT", "MULTIPLY_ADD"
+    beside.inputs[1].default_value = center
+    scaled.inputs[1].default_value, scaled.inputs[2].default_value = [0.25 / half] * 3, [0.5] * 3
+    links.new(place.outputs["Position"], beside.inputs[0])
+    links.new(beside.outputs[0], scaled.inputs[0])
+    links.new(scaled.outputs[0], shader.inputs["Color"])
+    links.new(shader.outputs[0], output.inputs["Surface"])
+
+
+def _set_up(scene, size) -> None:
+    """Set a scene to one sample in the middle of each pixel, written as float32."""
+    render, cycles, image = scene.render, scene.cycles, scene.render.image_settings
+    render.engine = "CYCLES"
+    render.resolution_x, render.resolution_y = size
+    render.use_compositing = render.use_sequencer = False
+    image.file_format, image.color_depth, image.color_mode, image.exr_codec = "OPEN_EXR", "32", "RGB", "ZIP"
+    cycles.device = "CPU"
+    cycles.samples, cycles.max_bounces, cycles.filter_width = 1, 0, 0.01
+    cycles.use_adaptive_sampling = cycles.use_denoising = False
+
+
+def _pixels(path: Path) -> np.ndarray:
+    """Return the pixels of an EXR file, (height, width, 3) float64, the bottom row first."""
+    if not path.exists():
+        raise InputError("Cycles has rendered nothing: render the scene with Cycles to see why")
+    image = bpy.data.images.load(str(path))
+    try:
+        width, height = image.size
+        values = np.empty(width * height * image.channels, np.float32)
+        image.pixels.foreach_get(values)
+        return values.reshape(height, width, -1)[..., :3].astype(np.float64)
+    finally:
+        bpy.data.images.remove(image)

@@ -1,0 +1,48 @@
+"""How near the rays of a camera's shader are to the camera's own: what float32 makes of them in Cycles."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+
+from ..camera.camera import Camera
+from ..conventions import EPS32
+from ..maths.vector import norm
+from .camera_shader import ray_record
+from .rounding import Rounded, rounded
+
+RASTER = 4 * EPS32
+"""Of the frame: what Cycles rounds of a place on it, 0 .. 1 with the shift added."""
+WORLD = 16 * EPS32
+"""Of lengths: what it rounds when it normalizes a direction and brings a ray to the world by a float32 matrix."""
+
+
+class RayBounds(NamedTuple):
+    """Bounds for chief rays of a shader, arrays in the shape of the pixels."""
+
+    origin: np.ndarray
+    """How far the origin may be off, Blender units in the world."""
+    direction: np.ndarray
+    """How far the unit direction may be off, radians; infinite where float32 does not tell whether there is a ray, NaN
+    where there is none for sure.
+    """
+
+
+def ray_bounds(camera: Camera, x, y, shift: tuple[float, float]) -> RayBounds:
+    """Return how far Cycles' rays through pixel coordinates may be from those of ``camera.rays_at``.
+
+    shift: what Cycles adds to the raster; see ``camera_shader``. A bound of first order, for Cycles on a CPU.
+    """
+    frame, x, y = camera.model.frame, *np.broadcast_arrays(x, y)
+    places = [
+        Rounded(pixel, side * RASTER * (1 + np.abs(pixel / side + moved)) + 2 * EPS32 * np.abs(pixel))
+        for pixel, side, moved in zip((x, y), frame, shift, strict=True)
+    ]
+    found = rounded(ray_record(replace(camera, aperture=None)), (*places, Rounded(0.0), Rounded(0.0)))
+    origin, direction = found[:3], found[3:]
+    off, turn = (norm([np.broadcast_to(part.error, x.shape) for part in vector]) for vector in (origin, direction))
+    length = norm([part.value for part in direction])
+    reach = norm([part.value for part in origin]) + np.abs(camera.pose.eye).sum()
+    return RayBounds(off + WORLD * reach, np.where(np.isinf(off + turn), np.inf, turn / length + WORLD))
