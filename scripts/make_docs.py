@@ -109,6 +109,7 @@ KINDS = {
     "ENUM": choice,
     "BOOLEAN": lambda setting: ("", "on or off", "on" if setting.default else "off"),
     "VECTOR": lambda setting: ("", f"{len(setting.default)} numbers", str(setting.default)),
+    "TEXT": lambda setting: ("", "numbers", f"`{setting.default}`"),
     "FILE": lambda setting: ("", "a file or none", "none"),
     "OBJECT": lambda setting: ("", " or ".join(setting.types).lower(), "none"),
     "IMAGE": lambda setting: ("", "an image", "none"),

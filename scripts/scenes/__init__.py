@@ -56,6 +56,8 @@ GALLERY = {
         calibrated.thin_prism_fisheye,
         calibrated.fov,
         calibrated.division,
+        calibrated.ftheta,
+        calibrated.ocam,
     ),
     "Panoramas": _by_name(
         panoramas.equirectangular,

@@ -58,7 +58,18 @@ def division(scene):
     calibrated(scene, 75, model="DIVISION", division_lambda=-0.28)
 
 
-def calibrated(scene, focal: float, **own):
+def ftheta(scene):
+    """f-theta (NVIDIA): the angle is a polynomial of the radius, on a sensor that is not quite square to the lens."""
+    own = {"ftheta_reference": "RADIUS_TO_ANGLE", "ftheta_radius_to_angle": "0 0.0125 3e-6 -9e-8"}
+    calibrated(scene, model="FTHETA", **own, ftheta_c=1.01, ftheta_d=0.06, ftheta_e=-0.04)
+
+
+def ocam(scene):
+    """OCam (Scaramuzza) of a mirror lens: a polynomial says how far behind the picture a ray's point lies."""
+    calibrated(scene, model="OCAM", ocam_polynomial="-68 0 0.0045 1e-6 2.5e-8", ocam_c=0.999, ocam_d=0.002)
+
+
+def calibrated(scene, focal: float = 1.0, **own):
     """Show the room all around the axis through a lens with this focal length, in pixels of a small picture."""
     room(scene)
     photograph(scene, MIDDLE, FRONT, *SMALL, own=picture(*SMALL, focal) | own)

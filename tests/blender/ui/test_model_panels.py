@@ -8,6 +8,7 @@ from camera_ray_caster.blender.ui.model_panels import ModelPanel, TimePanel
 
 MATRIX = ("calibration_width", "calibration_height", "fx", "fy", "cx", "cy", "skew")
 CALIBRATION = ("calibration_file", *MATRIX)
+POINT = ("calibration_width", "calibration_height", "cx", "cy")
 SHOWN = {
     "BLENDER": (),
     "CAMERA_OBSCURA": ("obscura_depth", "obscura_width", "obscura_hole"),
@@ -22,6 +23,11 @@ SHOWN = {
     "THIN_PRISM_FISHEYE": (*MATRIX, "k1", "k2", "p1", "p2", "k3", "k4", "s1", "s3"),
     "FOV": (*MATRIX, "fov_omega"),
     "DIVISION": (*MATRIX, "division_lambda"),
+    "FTHETA": (
+        *POINT, "ftheta_reference", "ftheta_angle_to_radius", "ftheta_radius_to_angle",
+        "ftheta_c", "ftheta_d", "ftheta_e", "ftheta_max_angle",
+    ),
+    "OCAM": (*POINT, "ocam_polynomial", "ocam_c", "ocam_d", "ocam_e"),
     "OMNIMAX": ("tilt",),
     "DOME_MASTER": ("fov", "tilt"),
     "CYLINDRICAL": ("pan_min", "pan_max", "latitude_bottom", "latitude_top"),
@@ -33,7 +39,7 @@ SHOWN = {
     "TWISTED_ORTHOGRAPHIC": ("slit_1", "twist", "ortho_scale"),
     "STRIP": ("path", "follow_path"),
     "OMNIDIRECTIONAL_STEREO": ("eye", "interocular_distance"),
-}
+}  # fmt: skip
 """What the panel shows below the model of a perspective camera, of which Blender itself shows the focal length."""
 
 EFFORT = ("time_tolerance", "time_evaluations")

@@ -1,6 +1,6 @@
 """Examples of the calibrated families beside OpenCV's two: see model_examples, which takes them in."""
 
-from math import cos, pi, sin
+from math import cos, pi, sin, sqrt
 
 from .example_frames import BORDER, TURNED
 
@@ -15,7 +15,19 @@ ARIA = {
 HALF_A_RADIAN_UP = 0, sin(0.5), -cos(0.5)
 UP_A_HALF = 48 + 24 * 0.1 * 0.25, 27 + 24 * (0.5 - 0.15 * 0.25)
 
-ONLY_SOME = {"unified_xi": 0.0, "unified_alpha": 0.5, "unified_beta": 1.0}
+TWICE_AS_WIDE = {"cx": 95.5, "calibration_width": 192}
+LINEAR = {"ftheta_c": 1.05, "ftheta_d": 0.1, "ftheta_e": -0.2}
+BACKWARD = {"ftheta_reference": "RADIUS_TO_ANGLE"}
+QUARTER = BACKWARD | {"ftheta_radius_to_angle": f"[0, {pi / (54 * sqrt(2))!r}]"}
+"""90 degrees at 27 pixels to the right and up."""
+
+HOLE = {"ocam_polynomial": "-48"}
+"""A constant alone is a pinhole."""
+
+ONLY_SOME = {
+    "unified_xi": 0.0, "unified_alpha": 0.5, "unified_beta": 1.0,
+    "ftheta_angle_to_radius": "0 30", "ftheta_radius_to_angle": "0 0.03", "ocam_polynomial": "-48",
+}  # fmt: skip
 
 EXAMPLES = {
     "UCM": [
@@ -56,6 +68,20 @@ EXAMPLES = {
         {"matrix_world": TURNED, "fx": 18.0, "fy": 17.0, "division_lambda": -0.25, "skew": 1.0},
         SCALED | {"division_lambda": 0.0},
         {"fx": 20.0, "fy": 18.0, "division_lambda": 0.2},
+    ],
+    "FTHETA": [
+        {"ftheta_angle_to_radius": "0 28 0.5 -1.5 0.3 -0.02"},
+        BORDER | BACKWARD | {"cx": 30.0, "ftheta_radius_to_angle": "0 0.03 1e-5 -2e-7"},
+        {"matrix_world": TURNED, "ftheta_angle_to_radius": "0 20 0 1.5", "ftheta_max_angle": 2.0, **LINEAR},
+        SCALED | BACKWARD | LINEAR | {"ftheta_radius_to_angle": "0 0.02 0 1e-6 0 1e-10"},
+        BACKWARD | {"ftheta_radius_to_angle": "0 0.04", "ftheta_max_angle": 1.5},
+    ],
+    "OCAM": [
+        {"ocam_polynomial": "-30 0 0.01 1e-5 2e-7"},
+        BORDER | {"cx": 30.0, "ocam_polynomial": "(-60, 0, -0.002)"},
+        {"matrix_world": TURNED, "ocam_polynomial": "-25 0.1 0.005 1e-4", "ocam_c": 1.1, "ocam_d": -0.1, "ocam_e": 0.1},
+        SCALED | {"ocam_polynomial": "-20 0 0.02", "ocam_c": 0.9},
+        {"ocam_polynomial": "-20 0 -0.01"},
     ],
     "THIN_PRISM_FISHEYE": [
         {"fx": 30.0, "fy": 31.0, "k1": -0.03, "k2": 0.01, "k3": 2e-3, "k4": -1e-3},
@@ -101,6 +127,22 @@ FACTS = {
         ({"fx": 48.0, "division_lambda": -1.0}, (96, 27), (0, 0, 0), (1, 0, 0)),
         ({"fx": 24.0, "division_lambda": -1.0}, (96, 27), (0, 0, 0), (2, 0, 3)),
     ],
+    "FTHETA": [
+        ({}, (48, 27), (0, 0, 0), (0, 0, -1)),
+        ({"ftheta_angle_to_radius": f"0 {96 / pi!r}"}, (96, 27), (0, 0, 0), (1, 0, 0)),
+        ({"ftheta_angle_to_radius": f"0, {96 / pi!r}", "ftheta_c": 2.0}, (96, 27), (0, 0, 0), (1, 0, -1)),
+        (QUARTER | {"ftheta_d": 1.0}, (48, 54), (0, 0, 0), (1, 1, 0)),  # 27 right and 27 up: u = 27 - 27
+        (QUARTER | {"ftheta_e": 1.0}, (75, 27), (0, 0, 0), (1, 1, 0)),
+        ({"ftheta_angle_to_radius": f"0 {192 / pi!r}", **TWICE_AS_WIDE}, (96, 27), (0, 0, 0), (1, 0, 0)),
+    ],
+    "OCAM": [
+        (HOLE, (48, 27), (0, 0, 0), (0, 0, -1)),
+        (HOLE, (96, 27), (0, 0, 0), (1, 0, -1)),
+        ({"ocam_polynomial": f"-48 0 {1 / 48!r}"}, (96, 27), (0, 0, 0), (1, 0, 0)),
+        (HOLE | {"ocam_c": 27 / 48}, (48, 54), (0, 0, 0), (0, 1, -1)),
+        (HOLE | {"ocam_d": 1.0}, (96, 27), (0, 0, 0), (1, 1, -1)),  # what is 48 to the right moves down by as much
+        (HOLE | {"ocam_e": 1.0}, (48, 54), (0, 0, 0), (27, 27, -48)),  # what is 27 up moves to the left by as much
+    ],
     "THIN_PRISM_FISHEYE": [
         ({}, (48, 27), (0, 0, 0), (0, 0, -1)),
         ({"fx": 96 / pi}, (96, 27), (0, 0, 0), (1, 0, 0)),
@@ -122,6 +164,8 @@ UNSEEN = {
     "EUCM": [(0, 0, 0), (0, 0, 1)],
     "DOUBLE_SPHERE": [(0, 0, 0), (0, 0, 1)],
     "FISHEYE624": [(0, 0, 0), (0, 0, 1)],
+    "FTHETA": [(0, 0, 0), (0, 0, 1)],
+    "OCAM": [(0, 0, 0), (0, 0, 1), (3, 0, 0.1)],
     "FOV": [(0, 0, 0), (0, 0, 1), (3, 0, 0.1)],
     "DIVISION": [(0, 0, 0), (0, 0, 1), (3, 0, 0.1)],
     "THIN_PRISM_FISHEYE": [(0, 0, 0), (0, 0, 1)],
@@ -131,6 +175,23 @@ REFUSED = {
     "UCM": [({"unified_xi": -1.0}, "unified_xi"), ({"unified_xi": NAN}, "unified_xi"), ({"k2": NAN}, "k2")],
     "FISHEYE624": [({"k6": NAN}, "k6"), ({"fx": 0.0}, "fx"), ({"s4": 1e31}, "s4")],
     "THIN_PRISM_FISHEYE": [({"k4": NAN}, "k4"), ({"cx": 1e9}, "cx"), ({"skew": NAN}, "skew")],
+    "FTHETA": [
+        ({"ftheta_angle_to_radius": ""}, "ftheta_angle_to_radius .* finite numbers"),
+        ({"ftheta_angle_to_radius": "0 wide"}, "ftheta_angle_to_radius .*'0 wide'"),
+        ({"ftheta_angle_to_radius": "0 1000 nan"}, "ftheta_angle_to_radius"),
+        ({"ftheta_angle_to_radius": "1 1000"}, "it must be 0, a number above 0"),
+        (BACKWARD | {"ftheta_radius_to_angle": "0 -1"}, "ftheta_radius_to_angle"),
+        ({"ftheta_reference": "SIDEWAYS"}, "ftheta_reference"),
+        ({"ftheta_c": 0.5, "ftheta_d": 1.0, "ftheta_e": 1.0}, "ftheta_c .* above ftheta_d"),
+        ({"ftheta_max_angle": 4.0}, "ftheta_max_angle"),
+        ({"cy": NAN}, "cy"),
+    ],
+    "OCAM": [
+        ({"ocam_polynomial": "1 2"}, "ocam_polynomial .*: it must be a number below 0"),
+        ({"ocam_polynomial": "-1e300"}, "ocam_polynomial"),
+        ({"ocam_c": 0.0}, "ocam_c"),
+        ({"ocam_d": NAN}, "ocam_d"),
+    ],
     "FOV": [({"fov_omega": 0.0}, "fov_omega"), ({"fov_omega": pi}, "fov_omega"), ({"fov_omega": NAN}, "fov_omega")],
     "DIVISION": [({"division_lambda": NAN}, "division_lambda"), ({"fy": NAN}, "fy")],
     "EUCM": [({"unified_alpha": 1.0}, "unified_alpha"), ({"unified_beta": 0.0}, "unified_beta")],

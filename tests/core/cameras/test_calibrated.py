@@ -10,6 +10,8 @@ import numpy as np
 import pycolmap
 import pytest
 
+from camera_ray_caster.core.conventions import EPS
+
 from .model_examples import camera
 
 COUNT = 10_000
@@ -152,6 +154,45 @@ def test_the_formula_of_the_paper_gives_the_same(key, formula, settings):
         return bottom_up(np.stack((K["fx"] * u + K["cx"], K["fy"] * v + K["cy"]), axis=-1), 0)
 
     agree(cam, project, 2_000)
+
+
+@pytest.mark.parametrize("forward", [True, False])
+def test_f_theta_is_the_polynomial_that_is_declared(forward):
+    """The other one, which a file has too, does not count: its inverse is made from the one that does."""
+    coefficients = (0, 280.3, 4.1, -11.0, 0.7, -0.05) if forward else (0, 3.5e-3, 1e-7, -2e-10, 1e-13)
+    c, d, e = 1.02, 0.01, -0.02
+    text = " ".join(map(repr, coefficients))
+    names = ("ftheta_angle_to_radius", "ftheta_radius_to_angle")[:: 1 if forward else -1]
+    own = {"ftheta_reference": names[0][7:].upper(), names[0]: text, names[1]: "no numbers"}
+    cam = camera("FTHETA", FRAME | own | {"ftheta_c": c, "ftheta_d": d, "ftheta_e": e, "ftheta_max_angle": 2.0})
+    points, places = seen(cam)
+    assert len(points) > COUNT / 2
+    assert np.abs(cam.project(points) - places).max() <= SAME
+    x, y, z = (points * (1, -1, -1)).T
+    theta, across = np.arctan2(np.hypot(x, y), z), np.hypot(x, y)
+    u, v = places[:, 0] - 0.5 - K["cx"], HEIGHT - places[:, 1] - 0.5 - K["cy"]
+    square_x, square_y = (u - d * v) / (c - d * e), (c * v - e * u) / (c - d * e)
+    r = np.hypot(square_x, square_y)
+    one, other = (theta, r) if forward else (r, theta)
+    # a pixel is 1 / 280 rad
+    assert np.abs(np.polyval(coefficients[::-1], one) - other).max() <= (SAME if forward else SAME / 280)
+    assert np.abs(np.stack((square_x * y - square_y * x, square_x * x + square_y * y - r * across))).max() <= SAME
+
+
+def test_ocam_is_the_toolbox_s_cam2world():
+    """Whose x counts rows, whose y columns, and whose z is towards the back."""
+    polynomial, (c, d, e) = (-180.4, 0, 1.7e-3, -2e-7, 6e-9), (0.999, 0.003, -0.004)
+    own = {"ocam_polynomial": ", ".join(map(repr, polynomial)), "ocam_c": c, "ocam_d": d, "ocam_e": e}
+    cam = camera("OCAM", FRAME | own)
+    points, places = seen(cam)
+    assert len(points) > COUNT / 2
+    assert np.abs(cam.project(points) - places).max() <= SAME
+    pixel = np.stack((HEIGHT - places[:, 1] - 0.5 - K["cy"], places[:, 0] - 0.5 - K["cx"]))
+    x, y = np.linalg.inv([[c, d], [e, 1]]) @ pixel
+    z = np.polyval(polynomial[::-1], np.hypot(x, y))
+    expected = np.stack((y, -x, z), axis=1)
+    expected /= np.linalg.norm(expected, axis=1, keepdims=True)
+    np.testing.assert_allclose(points / 3, expected, rtol=0, atol=16 * EPS)
 
 
 def test_a_skewed_matrix_is_given_back():

@@ -24,6 +24,7 @@ VALUES = {
         1.0,
         "a word",
     ),
+    "TEXT": ("", "a word", "nan", "0 1e999", "1 2", "0 -1", "0 1e-300 1e300", "0" + " 1" * 999, "\udcff", 1.0),
     "FILE": ("", "/", "\n", "//" + "a" * 1000, "\udcff", "/dev/zero", 1.0),
     "OBJECT": ("camera", "ball", "empty", "a word", 5),
     "IMAGE": ("camera", 5),

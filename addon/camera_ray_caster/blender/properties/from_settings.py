@@ -52,6 +52,10 @@ def _vector(setting, named):
     return props.FloatVectorProperty(**named, default=setting.default, size=len(setting.default))
 
 
+def _text(setting, named):
+    return props.StringProperty(**named, default=setting.default)
+
+
 def _file(setting, named):
     shown = {"subtype": "FILE_PATH", "options": {"PATH_SUPPORTS_BLEND_RELATIVE"}}
     return props.StringProperty(**named, **shown, default=setting.default)
@@ -66,7 +70,7 @@ def _image(setting, named):
 
 
 KINDS = {
-    "FLOAT": _float, "INT": _int, "BOOLEAN": _boolean, "ENUM": _enum, "VECTOR": _vector, "FILE": _file,
-    "OBJECT": _object, "IMAGE": _image,
+    "FLOAT": _float, "INT": _int, "BOOLEAN": _boolean, "ENUM": _enum, "VECTOR": _vector, "TEXT": _text,
+    "FILE": _file, "OBJECT": _object, "IMAGE": _image,
 }  # fmt: skip
 """How the property of each kind of setting is made."""

@@ -20,9 +20,11 @@ from .fisheye_orthographic import FisheyeOrthographic
 from .fisheye_polynomial import FisheyePolynomial
 from .fisheye_stereographic import FisheyeStereographic
 from .fov import FieldOfView
+from .ftheta import FTheta
 from .general_linear import GeneralLinear
 from .mirrorball import Mirrorball
 from .model import Model
+from .ocam import OCam
 from .omnidirectional_stereo import OmnidirectionalStereo
 from .omnimax import Omnimax
 from .opencv_fisheye import OpencvFisheye
@@ -43,7 +45,7 @@ MODELS: tuple[type[Model], ...] = (
     CentralCylindrical, CameraObscura,
     FisheyeOrthographic, FisheyeStereographic, OpencvPinhole, OpencvFisheye,
     UnifiedCamera, EnhancedUnifiedCamera, DoubleSphere, Fisheye624, ThinPrismFisheye, FieldOfView, Division,
-    Omnimax, DomeMaster, Cylindrical,
+    FTheta, OCam, Omnimax, DomeMaster, Cylindrical,
     StereographicPanorama,
     GeneralLinear, CrossSlit, Pushbroom, Pencil, TwistedOrthographic, Strip, OmnidirectionalStereo,
 )  # fmt: skip

@@ -10,6 +10,7 @@ import math
 from abc import ABC
 from collections.abc import Iterable
 from dataclasses import dataclass, field, fields
+from reprlib import repr as shortened
 from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
@@ -186,6 +187,28 @@ class Numbers(Setting):
         if len(values) != count or not all(isinstance(part, int | float) and abs(part) <= LARGEST for part in values):
             raise self.refusal(raw, f"{values}", f"{count} finite numbers")
         return values
+
+
+@dataclass(frozen=True)
+class Coefficients(Setting):
+    """The coefficients of a polynomial, from the constant up, as many as it has: text, which keeps all their digits."""
+
+    kind = "TEXT"
+    most: ClassVar[int] = 64
+
+    def read(self, raw: BlenderCamera) -> tuple[float, ...]:
+        """Return the numbers, with commas or spaces between them, in brackets or not.
+
+        Raises InputError that names the setting and its value.
+        """
+        text = str(self.given(raw))
+        try:
+            numbers = tuple(map(float, text.strip(" []()").replace(",", " ").split()))
+        except ValueError:
+            numbers = ()
+        if not (0 < len(numbers) <= self.most and all(abs(number) <= LARGEST for number in numbers)):
+            raise self.refusal(raw, shortened(text), f"1 to {self.most} finite numbers, from the constant up")
+        return numbers
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,139 @@
+"""The f-theta camera of NVIDIA's simulators and recordings: a polynomial between the angle and the radius.
+
+Assumption: the azimuth is kept, but for a linear map of the picture, for a sensor that is not square to the lens.
+Formula: with (u, v) the pixels from the center, v down, (u, v) = ((c, d), (e, 1)) (u', v'), and r the length of
+(u', v'): r is a polynomial of the angle theta (angle to pixel distance, "forward"), or theta one of r (pixel distance
+to angle, "backward"), of any degree, without a constant. Files have both; the one that is the model is declared, and
+the other is its inverse here, by Newton's method to full precision, not the polynomial that approximates it.
+It ends where the polynomial stops to grow, at ``ftheta_max_angle``, or at 180 degrees.
+Singular: where it stops to grow, and the point straight behind the eye.
+References: NVIDIA DriveWorks SDK documentation, Camera Models (FTheta); NVIDIA Omniverse documentation, F-Theta camera.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+from math import inf, pi
+
+import numpy as np
+from numpy.polynomial import Polynomial
+
+from ..maths.inversion import Inverse
+from ..maths.roots import positive_roots
+from ..records import BlenderCamera, Raster
+from .model import Step
+from .parts.calibrated import Calibrated
+from .parts.calibration import PRINCIPAL_POINT, Calibration
+from .parts.radial import RAY, radii_of
+from .parts.settings import ABOVE_ZERO, Choice, Coefficients, Item, Number
+
+ANGLE_TO_RADIUS = "ANGLE_TO_RADIUS"
+REFERENCE = Choice(
+    "ftheta_reference", "Reference", "Which polynomial is the model; the other is made from it", ANGLE_TO_RADIUS,
+    (
+        Item(ANGLE_TO_RADIUS, "Angle to Radius", "Forward: the pixel distance is a polynomial of the angle", 0),
+        Item("RADIUS_TO_ANGLE", "Radius to Angle", "Backward: the angle is a polynomial of the pixel distance", 1),
+    ),
+)  # fmt: skip
+POLYNOMIALS = {
+    ANGLE_TO_RADIUS: Coefficients(
+        "ftheta_angle_to_radius", "Angle to Radius", "Pixels: 0, then the coefficients of theta, theta^2, ...", "0 1000"
+    ),
+    "RADIUS_TO_ANGLE": Coefficients(
+        "ftheta_radius_to_angle", "Radius to Angle", "Radians: 0, then the coefficients of r, r^2, ...", "0 0.001"
+    ),
+}
+MAX_ANGLE = Number(
+    "ftheta_max_angle", "Maximum Angle", "From the axis, where the picture ends", pi, ABOVE_ZERO, pi, "angle", digits=4
+)
+C, D, E = (
+    Number(f"ftheta_{name}", name.upper(), "Of ((c, d), (e, 1)), x right, y down", default, digits=6, step=0.1)
+    for name, default in (("c", 1.0), ("d", 0.0), ("e", 0.0))
+)
+
+
+@dataclass(frozen=True)
+class FTheta(Calibrated):
+    """See the module's page. The plane is in pixels of the calibrated picture."""
+
+    polynomial: tuple[float, ...]
+    """The coefficients, from the linear one up."""
+    forward: bool
+    """Whether it gives the radius of an angle."""
+    limit: float
+    """The angle, or the radius, up to which it counts."""
+
+    key = "FTHETA"
+    label = "F-Theta"
+    description = "A calibrated fisheye of NVIDIA: a polynomial of any degree between angle and radius"
+    number = 24
+    factors_by_polynomials = True
+    by_polynomials = True
+    SETTINGS = (*PRINCIPAL_POINT, REFERENCE, *POLYNOMIALS.values(), C, D, E, MAX_ANGLE)
+    FORMULA = (
+        Step("Pixels from the center, v down", "u = x - 1/2 - cx, v = H - y - 1/2 - cy"),
+        Step("On a sensor square to the lens", "(u', v') = ((c, d), (e, 1))⁻¹ (u, v), r² = u'² + v'², a = u', b = -v'"),
+        Step("Angle, forward, by Newton's method", "r = k1 theta + k2 theta² + ..."),
+        Step("Angle, backward", "theta = k1 r + k2 r² + ..."),
+        RAY,
+    )
+
+    @classmethod
+    def from_blender(cls, raw: BlenderCamera, raster: Raster) -> FTheta:
+        """Build it from the settings of the same names.
+
+        Raises InputError for one without meaning, and for a polynomial that does not grow from 0 on.
+        """
+        reference, (c, d, e) = REFERENCE.read(raw), (one.read(raw) for one in (C, D, E))
+        if not c - d * e > 0:
+            raise C.refusal(raw, f"{c:.6g}", f"above ftheta_d times ftheta_e, {d * e:.6g}")
+        setting = POLYNOMIALS[reference]
+        constant, *coefficients = setting.read(raw)
+        if constant != 0 or not coefficients or not coefficients[0] > 0:
+            raise setting.refusal(raw, repr(setting.given(raw)), "0, a number above 0, and more")
+        window = Calibration.from_blender(raw, raster, settings=PRINCIPAL_POINT).window(raster, ((c, d), (e, 1.0)))
+        forward, widest = reference == ANGLE_TO_RADIUS, MAX_ANGLE.read(raw)
+        polynomial = Polynomial((0.0, *coefficients))
+        end = [widest] if forward else positive_roots(polynomial - widest)
+        limit = float(min([*end, *positive_roots(polynomial.deriv())]))
+        lens = cls(raster.size, window, inf, tuple(coefficients), forward, limit)
+        return replace(lens, rim=lens.value(limit) if forward else limit)
+
+    @property
+    def K(self) -> None:
+        """None: see Model."""
+        return None
+
+    def value(self, x):
+        """Return the polynomial's."""
+        return x * self._horner(x, self.polynomial)
+
+    def _slope(self, x):
+        return self._horner(x, [i * k for i, k in enumerate(self.polynomial, 1)])
+
+    @staticmethod
+    def _horner(x, coefficients):
+        value = coefficients[-1]
+        for k in reversed(coefficients[:-1]):
+            value = k + x * value
+        return value
+
+    @cached_property
+    def _inverse(self):
+        return Inverse(self.value, self._slope, 0.0, self.limit)
+
+    def factors(self, r_squared):
+        """See Radial."""
+        r = radii_of(r_squared)
+        theta = self._inverse(r) if self.forward else self.value(r)
+        return np.sin(theta) / r, np.cos(theta)
+
+    def radius(self, theta):
+        """See Radial."""
+        return self.value(theta) if self.forward else self._inverse(theta)
+
+    @property
+    def widest(self) -> float:
+        """See Radial."""
+        return self.limit if self.forward else min(self.value(self.limit), pi)

@@ -1,0 +1,104 @@
+"""OCam of Scaramuzza: of mirror lenses and fisheyes, a polynomial of the radius for how far behind the picture lies.
+
+Assumption: the ray of the pixel at (u', v') from the center on a sensor square to the lens is (u', v', f(r)), with the
+third axis towards the back, so that f is below 0 on the axis.
+Formula: the toolbox counts x along the rows' number, down, and y to the right: with its c, d and e the pixels from the
+center are (right, down) = ((1, e), (d, c)) (u', v'), and f(r) = a0 + a1 r + a2 r^2 + ..., in pixels. The inverse is
+Newton's method, to full precision, not the polynomial that the toolbox fits to it.
+It ends where the angle from the axis stops to grow, or at the corner of the frame.
+Singular: where it stops to grow.
+Reference: D. Scaramuzza, A. Martinelli and R. Siegwart, A Toolbox for Easily Calibrating Omnidirectional Cameras
+(2006).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.polynomial import Polynomial
+from numpy.polynomial.polynomial import polyval
+
+from ..maths.inversion import Inverse
+from ..maths.roots import positive_roots
+from ..records import BlenderCamera, Raster
+from .model import Step
+from .parts.calibrated import Calibrated
+from .parts.calibration import PRINCIPAL_POINT, Calibration
+from .parts.settings import Coefficients, Number
+
+POLYNOMIAL = Coefficients(
+    "ocam_polynomial", "Polynomial", "Pixels: a0 (below 0), a1 (0 of most lenses), a2, ...", "-1000 0 0.0004"
+)
+C, D, E = (
+    Number(f"ocam_{name}", name.upper(), f"Affine: {text}", default, digits=6, step=0.1)
+    for name, text, default in (("c", "down by down", 1.0), ("d", "down by right", 0.0), ("e", "right by down", 0.0))
+)
+
+
+@dataclass(frozen=True)
+class OCam(Calibrated):
+    """See the module's page. The plane is in pixels of the calibrated picture."""
+
+    polynomial: tuple[float, ...]
+    """The coefficients, from the constant up."""
+
+    key = "OCAM"
+    label = "OCam (Scaramuzza)"
+    description = "A calibrated mirror lens or fisheye: a polynomial of the radius"
+    number = 25
+    by_polynomials = True
+    SETTINGS = (*PRINCIPAL_POINT, POLYNOMIAL, C, D, E)
+    FORMULA = (
+        Step("Pixels from the center, v down", "u = x - 1/2 - cx, v = H - y - 1/2 - cy"),
+        Step("On a sensor square to the lens", "(u', v') = ((1, e), (d, c))⁻¹ (u, v), r² = u'² + v'²"),
+        Step("Behind the picture", "f = a0 + a1 r + a2 r² + ..."),
+        Step("Direction", "d = (u', -v', f) / sqrt(r² + f²)"),
+    )
+
+    @classmethod
+    def from_blender(cls, raw: BlenderCamera, raster: Raster) -> OCam:
+        """Build it from the settings of the same names.
+
+        Raises InputError for one without meaning, and for a polynomial that is not below 0 on the axis.
+        """
+        c, d, e = (one.read(raw) for one in (C, D, E))
+        if not c - d * e > 0:
+            raise C.refusal(raw, f"{c:.6g}", f"above ocam_d times ocam_e, {d * e:.6g}")
+        coefficients = POLYNOMIAL.read(raw)
+        if not coefficients[0] < 0:
+            raise POLYNOMIAL.refusal(raw, repr(POLYNOMIAL.given(raw)), "a number below 0, and more")
+        window = Calibration.from_blender(raw, raster, settings=PRINCIPAL_POINT).window(raster, ((1.0, e), (d, c)))
+        turns = positive_roots(Polynomial([(i - 1) * a for i, a in enumerate(coefficients)]))  # of r f' - f
+        corner = np.hypot(*window.plane_from_pixels(*np.meshgrid(*((0.0, side) for side in raster.size)))).max()
+        return cls(raster.size, window, float(min([corner, *turns])), coefficients)
+
+    @property
+    def K(self) -> None:
+        """None: see Model."""
+        return None
+
+    def factors(self, r_squared):
+        """See Radial."""
+        r = np.sqrt(r_squared)
+        ahead = -self._behind(r)
+        scale = 1 / np.sqrt(r_squared + ahead * ahead)
+        return scale, ahead * scale
+
+    def _behind(self, r):
+        value = self.polynomial[-1]
+        for a in reversed(self.polynomial[:-1]):
+            value = a + r * value
+        return value
+
+    @cached_property
+    def radius(self):
+        """Return the inverse of the angle: see Radial."""
+        slopes = [(i - 1) * a for i, a in enumerate(self.polynomial)]
+
+        def slope(r):
+            behind = self._behind(r)
+            return polyval(r, slopes) / (r * r + behind * behind)
+
+        return Inverse(lambda r: np.arctan2(r, -self._behind(r)), slope, 0.0, self.rim)
