@@ -162,6 +162,7 @@ ARITHMETIC: Arithmetic = {
     "constant": lambda value: Rounded(value, 0.0 if isinstance(value, bool) or isnan(value) else EPS32 * abs(value)),
     "parameter": lambda value, name: Rounded(value, EPS32 * abs(value)),
     "roundoff": lambda: Rounded(NUMPY["roundoff"]()),
+    "stop_gradient": lambda a: a,
     "searchsorted": lambda a, table, side: Rounded(NUMPY["searchsorted"](a.value, table, side)),
     "take": lambda place, table: Rounded(value := NUMPY["take"](place.value, table), EPS32 * np.abs(value)),
     "loop": lambda body, most, state: [Rounded(found) for found in _repeated(body, most, [s.value for s in state])],
