@@ -58,3 +58,9 @@ def test_a_division_by_a_number_that_is_written_is_always_one():
 def test_numbers_are_written_to_the_last_digit_of_float32(value, text):
     assert literal(value) == text
     assert np.float32(text.strip("()")) == np.float32(np.clip(abs(value), LEAST, MOST) * np.sign(value))
+
+
+def test_a_helper_comes_with_the_one_that_it_calls():
+    writer = Writer(Inputs())
+    writer.write(record(lambda x: (np.cos(x) + np.rint(x),), 1), [Term("x")])
+    assert writer.helpers == {"sin", "cos", "rint"}

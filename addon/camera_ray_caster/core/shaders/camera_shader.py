@@ -113,7 +113,7 @@ def camera_shader(
     rest = TEXT.format(
         label=model.label,
         description=model.description,
-        helpers="".join(f"{HELPERS[name]}\n\n" for name in sorted(writer.helpers)),
+        helpers="".join(f"{text}\n" for name, text in HELPERS.items() if name in writer.helpers),
         inputs="".join(f"    float {name} = 0,\n" for name in own),
         aperture="" if opening is None else HOLE if opening.is_hole else APERTURE,
         lines="\n".join((*writer.tables, *writer.lines)),

@@ -19,7 +19,7 @@ FUNCTIONS = {
     "remainder": "{0} - {1} * floor({0} / {1})", "power": "pow({}, {})", "absolute": "fabs({})", "sign": "sign({})",
     "minimum": "min({}, {})", "maximum": "max({}, {})", "floor": "floor({})", "ceil": "ceil({})",
     "rint": "rint({})", "sqrt": "sqrt({})", "hypot": "hypot({}, {})", "exp": "exp({})", "expm1": "expm1({})",
-    "log": "log({})", "log1p": "log1p({})", "sin": "sin({})", "cos": "cos({})", "tan": "tan({})",
+    "log": "log({})", "log1p": "log1p({})", "sin": "sine({})", "cos": "cosine({})", "tan": "tan({})",
     "arcsin": "asin({})", "arccos": "acos({})", "arctan": "atan({})", "arctan2": "atan2({}, {})",
     "sinh": "sinh({})", "cosh": "cosh({})", "tanh": "tanh({})", "less": "{} < {}", "less_equal": "{} <= {}",
     "equal": "{} == {}", "logical_and": "{} && {}", "logical_or": "{} || {}", "logical_not": "!{}",
@@ -35,11 +35,43 @@ ABSENT = {
 """Where an operation gives no number: the opposite of ``recording.DOMAIN``."""
 
 HELPERS = {
-    "rint": "float rint(float x) { float f = floor(x), d = x - f, odd = f - 2.0 * floor(0.5 * f);"
-    " return d > 0.5 || (d == 0.5 && odd == 1.0) ? f + 1.0 : f; }",
-    "log1p": "float log1p(float x) { float y = 1.0 + x; return y == 1.0 ? x : log(y) * (x / (y - 1.0)); }",
+    "sin": """\
+float sine(float x)
+{
+    float turns = floor(x * 0.318309886 + 0.5);
+    float r = (x - turns * 3.140625) - turns * 0.000967653590, s = r * r;
+    float sum = -1.66666667e-1 + s * (8.33333333e-3 + s * (-1.98412698e-4 + s * (2.75573192e-6 - s * 2.50521084e-8)));
+    return (turns - 2.0 * floor(0.5 * turns) == 1.0 ? -1.0 : 1.0) * (r + r * (s * sum));
 }
-"""Functions that OSL does not have. The second is W. Kahan's: exact where 1 + x is rounded."""
+""",
+    "cos": """\
+float cosine(float x)
+{
+    return sine(1.57079633 - fabs(x));
+}
+""",
+    "rint": """\
+float rint(float x)
+{
+    float low = floor(x), part = x - low;
+    return part > 0.5 || (part == 0.5 && low - 2.0 * floor(0.5 * low) == 1.0) ? low + 1.0 : low;
+}
+""",
+    "log1p": """\
+float log1p(float x)
+{
+    float y = 1.0 + x;
+    return y == 1.0 ? x : log(y) * (x / (y - 1.0));
+}
+""",
+}
+"""Functions that OSL does not have, or not to float32's last digits: its sine is off by up to 1e-6. Half turns are taken
+away in two parts, of which the first times a small whole number is exact; the sum is Taylor's, to 6e-8. The last one
+is W. Kahan's: exact where 1 + x is rounded.
+"""
+
+NEEDED_BY = {"cos": "sin"}
+"""The helper that another one calls."""
 
 LITERALS = frozenset((0.0, 0.5, 1.0, 2.0, 3.0, 4.0, math.pi / 2, math.pi, 2 * math.pi, math.inf))
 """Constants that stand in the text, and their negatives: they are the formula's, and not settings."""
@@ -136,8 +168,7 @@ class Writer:
     def _function(self, step: Step, operands: list[Term], _) -> Term:
         texts, none = [operand.text for operand in operands], self.either(*(operand.none for operand in operands))
         operation = step.operation
-        if operation in HELPERS:
-            self.helpers.add(operation)
+        self.helpers |= {operation, NEEDED_BY.get(operation, operation)} & HELPERS.keys()
         if step.truth:
             value = self.put("int", FUNCTIONS[operation].format(*texts))
             return Term(value if none == NEVER else NEVER if none == ALWAYS else self.put("int", f"!{none} && {value}"))

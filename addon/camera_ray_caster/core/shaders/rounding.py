@@ -44,9 +44,14 @@ def _relative(times: float) -> Callable:
     return lambda value, *_: times * EPS32 * np.abs(value)
 
 
-def _of_angle(times: float) -> Callable:
-    """What reducing an angle by turns adds counts, too."""
-    return lambda value, angle: times * EPS32 * np.maximum(1.0, np.abs(angle))
+def _sine(value, angle):
+    """Half turns are taken away in parts that are right to 1e-9 of a turn."""
+    return EPS32 * (4 * np.abs(value) + np.abs(angle) / 16)
+
+
+def _cosine(value, angle):
+    """The angle is rounded where it is taken from a quarter turn."""
+    return EPS32 * (4 * np.abs(value) + 2 + 2 * np.abs(angle))
 
 
 def _absolute(error: float) -> Callable:
@@ -54,7 +59,7 @@ def _absolute(error: float) -> Callable:
 
 
 ROUNDING: dict[str, Callable] = {
-    "sin": _of_angle(8), "cos": _of_angle(8), "tan": _relative(32), "hypot": _relative(4), "divide": _relative(3),
+    "sin": _sine, "cos": _cosine, "tan": _relative(32), "hypot": _relative(4), "divide": _relative(3),
     "sqrt": _relative(3), "remainder": _relative(4), "exp": _relative(400), "expm1": _relative(4000),
     "log": _absolute(64 * EPS32), "log1p": _absolute(8 * EPS32), "power": _relative(500), "sinh": _relative(600),
     "cosh": _relative(400), "tanh": _relative(1000), "arcsin": _absolute(1e-4), "arccos": _absolute(1e-4),
