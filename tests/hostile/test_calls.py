@@ -90,8 +90,8 @@ def calls(bpy, count):
         *((function, read) for function in (crc.read_camera, crc.read_shapes, crc.read_scene)),
         (crc.cast, made),
         *((partial(crc.cast, **made), cast) for _ in range(4)),
-        (camera.rays_at, {"x": [0.5, 1.5], "y": 2.5}),
-        (camera.project, {"points": [[0.0, 0.0, -5.0]]}),
+        *((function, {"x": [0.5, 1.5], "y": 2.5}) for function in (camera.rays_at, camera.rays_jacobian_at)),
+        (camera.project, {"points": [[0.0, 0.0, -5.0]], "jacobian": True}),
     ]
     for _ in range(count):
         function, good = functions[random.integers(len(functions))]
