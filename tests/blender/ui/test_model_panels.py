@@ -14,7 +14,9 @@ SHOWN = {
     "CAMERA_OBSCURA": ("obscura_depth", "obscura_width", "obscura_hole"),
     "FISHEYE_ORTHOGRAPHIC": ("fov",),
     "FISHEYE_STEREOGRAPHIC": ("fov",),
-    "OPENCV_PINHOLE": (*CALIBRATION, "k1", "k2", "p1", "p2", "k3", "k4", "k5", "k6", "s1", "s2", "s3", "s4"),
+    "OPENCV_PINHOLE": (
+        *CALIBRATION, "k1", "k2", "p1", "p2", "k3", "k4", "k5", "k6", "s1", "s2", "s3", "s4", "tau_x", "tau_y",
+    ),
     "OPENCV_FISHEYE": (*CALIBRATION, "k1", "k2", "k3", "k4"),
     "UCM": (*MATRIX, "unified_xi", "k1", "k2", "p1", "p2"),
     "EUCM": (*MATRIX, "unified_alpha", "unified_beta"),

@@ -22,6 +22,8 @@ EXAMPLES = {
         BORDER | {"cx": 30.0, "k1": -0.1, "k2": 0.05, "p1": 1e-3, "p2": -2e-3},
         {"matrix_world": TURNED, "k1": 0.3, "k4": 0.5, "k5": 0.1, "k6": -0.01, "s1": 1e-3, "s4": -2e-3},
         {"k1": -0.3, "resolution_percentage": 37, "calibration_width": 96, "calibration_height": 54},
+        {"matrix_world": TURNED, "tau_x": 0.3, "tau_y": -0.2, "skew": -2.0},
+        {"tau_x": -0.1, "tau_y": 0.4, "k1": -0.1, "p2": 2e-3, "fx": 90.0},
     ],
     "OPENCV_FISHEYE": [
         {"fx": 20.0, "fy": 20.0},
@@ -50,6 +52,10 @@ FACTS = {
     "OPENCV_PINHOLE": [
         ({}, (48, 27), (0, 0, 0), (0, 0, -1)),  # (47.5, 26.5) from the top left pixel's center is the frame's middle
         ({"fx": 48.0}, (96, 27), (0, 0, 0), (1, 0, -1)),
+        ({"fx": 48.0, "fy": 27.0, "skew": 12.0}, (84, 54), (0, 0, 0), (1, 1, -1)),
+        # a sensor turned by 60 degrees about y has x at x / (sin(60) x + cos(60)): at x = 1 / sqrt(3) it is the same
+        ({"fx": 48.0, "tau_y": pi / 3}, (48 + 48 / sqrt(3), 27), (0, 0, 0), (1, 0, -sqrt(3))),
+        ({"fx": 48.0, "tau_y": pi / 3}, (48 + 48 / (sqrt(3) + 1) * 2, 27), (0, 0, 0), (1, 0, -1)),
         ({"cy": 10.0, "fy": 5.0}, (48, 54 - 15.5), (0, 0, 0), (0, -1, -1)),
         # x (1 + k1 x^2) with x = k1 = 1/2: a pincushion drives it out
         ({"fx": 48.0, "k1": 0.5}, (48 + 48 * 9 / 16, 27), (0, 0, 0), (1 / 2, 0, -1)),
@@ -107,6 +113,8 @@ REFUSED = {
         ({"fx": 0.0}, "fx"),
         ({"cy": float("nan")}, "cy"),
         ({"calibration_width": -1}, "calibration_width"),
+        ({"tau_x": 1.5}, "tau_x .* from -80 degrees"),
+        ({"skew": float("nan")}, "skew"),
     ],
     "OPENCV_FISHEYE": [({"fy": -1.0}, "fy"), ({"k4": float("inf")}, "k4")],
     "OMNIMAX": [({"tilt": -0.1}, "tilt"), ({"tilt": 2.0}, "tilt")],

@@ -2,8 +2,9 @@
 
 Assumption: the distortion of radial_tangential.py, inverted by Newton's method to full precision. Pixels and points
 beyond the radius up to which it is one-to-one have no ray and no pixel, instead of those of a folded picture.
-Formula: K in OpenCV's convention brings the pixel to distorted coordinates, undistorted they are (X, -Y) at unit depth.
-Singular: that radius.
+Formula: K in OpenCV's convention, skew included, brings the pixel to the sensor's coordinates, parts/tilt.py brings
+those to distorted ones; undistorted they are (X, -Y) at unit depth.
+Singular: that radius, and the line in which a tilted sensor meets the plane of the eye.
 Reference: OpenCV documentation, Camera Calibration and 3D Reconstruction (calibrateCamera, projectPoints).
 """
 
@@ -19,27 +20,30 @@ from ..maths.chebyshev import on_raster
 from ..maths.vector import components
 from ..records import BlenderCamera, Raster
 from .model import Step, WindowModel
-from .parts.calibration import CALIBRATION, RADIAL_TANGENTIAL, Calibration
+from .parts.calibration import CALIBRATION, PINHOLE, Calibration
 from .parts.radial import up_to
 from .parts.radial_tangential import RadialTangential
 from .parts.silhouette import angular_radius, pixel_bounds, radial_intervals
+from .parts.tilt import Tilt
 
 
 @dataclass(frozen=True)
 class OpencvPinhole(WindowModel):
-    """A pinhole behind a window of distorted coordinates, y up."""
+    """A pinhole behind a window of the sensor's coordinates, y up."""
 
     distortion: RadialTangential
+    tilt: Tilt
 
     key = "OPENCV_PINHOLE"
     label = "OpenCV Pinhole"
-    description = "A calibrated lens: radial, tangential and thin prism distortion"
+    description = "A calibrated lens: radial, tangential and thin prism distortion, a tilted sensor"
     group = "Calibrated"
     number = 4
     planar = True
-    SETTINGS = (*CALIBRATION, *RADIAL_TANGENTIAL)
+    SETTINGS = (*CALIBRATION, *PINHOLE)
     FORMULA = (
-        Step("Distorted coordinates, y down", "v = (H - y - 1/2 - cy) / fy, u = (x - 1/2 - cx - skew v) / fx"),
+        Step("On the sensor, y down", "v = (H - y - 1/2 - cy) / fy, u = (x - 1/2 - cx - skew v) / fx"),
+        Step("Distorted coordinates, T the tilt by tau_x and tau_y", "(u, v, 1) ~ T⁻¹ (u, v, 1)"),
         Step("Undistorted, by Newton's method", "distort(X, Y) = (u, v)"),
         Step("Gain, r² = X² + Y²", "g = (1 + k1 r² + k2 r⁴ + k3 r⁶) / (1 + k4 r² + k5 r⁴ + k6 r⁶)"),
         Step("Distortion across", "X g + 2 p1 X Y + p2 (r² + 2 X²) + s1 r² + s2 r⁴"),
@@ -50,7 +54,11 @@ class OpencvPinhole(WindowModel):
     @property
     def ray_rounding(self) -> float:
         """See Model; a window alone rounds twice."""
-        return gamma(16) if self.distortion.bends else gamma(2)
+        return gamma(16) if self._bends else gamma(2)
+
+    @property
+    def _bends(self) -> bool:
+        return self.distortion.bends or bool(self.tilt)
 
     @property
     def K(self) -> np.ndarray:
@@ -60,8 +68,10 @@ class OpencvPinhole(WindowModel):
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> OpencvPinhole:
         """Build it from the settings of the same names or a calibration file; see Calibration for what is refused."""
-        calibration = Calibration.from_blender(raw, raster, RADIAL_TANGENTIAL)
-        return cls(raster.size, calibration.window(raster), RadialTangential(**calibration.coefficients))
+        calibration = Calibration.from_blender(raw, raster, PINHOLE)
+        coefficients = dict(calibration.coefficients)
+        tilt = Tilt(coefficients.pop("tau_x"), coefficients.pop("tau_y"))
+        return cls(raster.size, calibration.window(raster), RadialTangential(**coefficients), tilt)
 
     def rays(self, x, y):
         """Return origin and direction, each a tuple of three broadcastable arrays, camera frame, direction_z = -1.
@@ -69,12 +79,13 @@ class OpencvPinhole(WindowModel):
         x and y are pixel coordinates of broadcastable shapes. x and y are NaN where there is no ray.
         """
         straight = self.window.plane_from_pixels
-        across, up = on_raster(self._undistorted, x, y) if self.distortion.bends else straight(x, y)
+        across, up = on_raster(self._undistorted, x, y) if self._bends else straight(x, y)
         return (0.0, 0.0, 0.0), (across, up, -1.0)
 
     def _undistorted(self, x, y):
         u, v = self.window.plane_from_pixels(x, y)
-        across, down = self.distortion.undistort(u, -v)
+        u, v = self.tilt.upright(u, -v) if self.tilt else (u, -v)
+        across, down = self.distortion.undistort(u, v) if self.distortion.bends else (u, v)
         return across, -down
 
     def project(self, points):
@@ -90,6 +101,7 @@ class OpencvPinhole(WindowModel):
         kept = np.where(r > 0, kept, 1.0)
         across, down = across * kept, down * kept
         u, v = self.distortion.distort(across, down)
+        u, v = self.tilt.onto_sensor(u, v) if self.tilt else (u, v)
         return np.stack(self.window.pixels_from_plane(u, -v), axis=-1)
 
     def bounds(self, centers, radii):
@@ -104,4 +116,8 @@ class OpencvPinhole(WindowModel):
         far = np.arctan2(across, -centers[:, 2]) + angular_radius(np.hypot(across, centers[:, 2]), radii)
         spread = self.distortion.off_radius(np.tan(np.minimum(far, widest)))
         intervals = radial_intervals(centers, radii, radius, widest)
-        return pixel_bounds(self.window, *((low - spread, high + spread) for low, high in intervals))
+        (left, right), (low, high) = ((low - spread, high + spread) for low, high in intervals)
+        if self.tilt:
+            (left, right), (low, high) = self.tilt.intervals((left, right), (-high, -low))
+            low, high = -high, -low
+        return pixel_bounds(self.window, (left, right), (low, high))

@@ -10,13 +10,14 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
+from math import radians
 from reprlib import repr as shortened
 
 from ...records import BlenderCamera, InputError, Raster
 from .affine import AffineWindow
 from .filestorage import read_entries
 from .film import FARTHEST_PIXELS, Window
-from .settings import FilePath, Number, Setting, Whole
+from .settings import FilePath, Number, Whole
 
 FOCAL = (
     Number("fx", "Focal Length X", "In pixels of the calibrated picture", 1500.0, 1e-3, unit="pixels", digits=3),
@@ -59,6 +60,9 @@ def _coefficient(name: str, text: str) -> Number:
 Linear = tuple[tuple[float, float], tuple[float, float]]
 """A matrix, its rows."""
 
+STEEPEST = radians(80)
+"""Beyond which a tilted sensor is no picture to calibrate with."""
+
 LARGEST = 1e30
 """Of a calibration's numbers: products of three of them have to be numbers, too."""
 
@@ -68,6 +72,11 @@ P1, P2 = (_coefficient(name, "Tangential") for name in ("p1", "p2"))
 S1, S2 = (_coefficient(name, "Thin prism, across") for name in ("s1", "s2"))
 S3, S4 = (_coefficient(name, "Thin prism, down") for name in ("s3", "s4"))
 RADIAL_TANGENTIAL = K1, K2, P1, P2, K3, K4, K5, K6, S1, S2, S3, S4
+TAU_X, TAU_Y = (
+    Number(f"tau_{axis}", f"Tau {axis.upper()}", text, 0.0, -STEEPEST, STEEPEST, "angle", digits=4)
+    for axis, text in (("x", "Of the sensor, about its x axis"), ("y", "Of the sensor, about its y axis"))
+)
+PINHOLE = (*RADIAL_TANGENTIAL, TAU_X, TAU_Y)
 FISHEYE = K1, K2, K3, K4
 """The distortion, in the order of OpenCV's vector of coefficients; all without unit."""
 
@@ -106,8 +115,8 @@ class Calibration:
             _file_values(path, distortion) if path
             else {setting.name: setting.read(raw) for setting in (*SIZE, *FOCAL) if setting in settings}
             | {setting.name: setting.read(raw, high=FARTHEST_PIXELS) for setting in CENTER}
-            | {setting.name: setting.read(raw, -LARGEST, LARGEST) for setting in (SKEW, *distortion)
-               if setting in (*settings, *distortion)}
+            | {setting.name: setting.read(raw, max(setting.low, -LARGEST), min(setting.high, LARGEST))
+               for setting in (SKEW, *distortion) if setting in (*settings, *distortion)}
         )  # fmt: skip
         return cls(
             **{setting.name: values[setting.name] for setting in (*FOCAL, *CENTER, SKEW)},
@@ -131,7 +140,7 @@ class Calibration:
         return AffineWindow(*center, *pitch, *shear)
 
 
-def _file_values(path: str, distortion: tuple[Setting, ...]) -> dict[str, float]:
+def _file_values(path: str, distortion: tuple[Number, ...]) -> dict[str, float]:
     """Return the settings that a file stands for."""
     names = [setting.name for setting in distortion]
     entries = {re.sub("[_-]", "", name).lower(): (name, value) for name, value in read_entries(path).items()}
@@ -154,6 +163,10 @@ def _file_values(path: str, distortion: tuple[Setting, ...]) -> dict[str, float]
         )
     values = {"fx": matrix[0], "skew": matrix[1], "fy": matrix[4], "cx": matrix[2], "cy": matrix[5]}
     values |= dict.fromkeys(names, 0.0) | dict(zip(names, found, strict=False))
+    for setting in distortion:
+        if not setting.low <= values[setting.name] <= setting.high:
+            said, allowed = setting.in_words(values[setting.name]), setting.range_in_words(setting.low, setting.high)
+            raise InputError(f"{setting.name} in {path!r} is {said}: it must be {allowed}")
     for setting, spellings in zip(SIZE, (WIDTH_NAMES, HEIGHT_NAMES), strict=True):
         size = values[setting.name] = _numbers(entries, spellings, path)[0]
         if size <= 0:

@@ -1,0 +1,67 @@
+"""A sensor that is tilted to the lens, as Scheimpflug's is: a projective map of the picture, and its inverse.
+
+With R = Ry(tau_y) Rx(tau_x), the rotation of the sensor about its x and then its y axis, the point (x, y, 1) of the
+upright picture lies at R (x, y, 1) as the sensor has it, and is projected onto it along the axis:
+    T = ((R33, 0, -R13), (0, R33, -R23), (0, 0, 1)) R,  (u, v) = (T1 . (x, y, 1), T2 . (x, y, 1)) / (T3 . (x, y, 1)).
+A point has a place on the sensor where that denominator is positive.
+Reference: OpenCV documentation, Camera Calibration and 3D Reconstruction (tau_x, tau_y).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import product
+from math import cos, sin
+
+import numpy as np
+
+from ...maths.vector import inverse
+
+
+@dataclass(frozen=True)
+class Tilt:
+    """Two angles, radians, up to less than a right one; coordinates are OpenCV's, y down."""
+
+    tau_x: float
+    tau_y: float
+
+    def __bool__(self) -> bool:
+        """Whether the sensor is tilted at all."""
+        return bool(self.tau_x or self.tau_y)
+
+    @cached_property
+    def _matrix(self) -> np.ndarray:
+        (cx, sx), (cy, sy) = ((cos(tau), sin(tau)) for tau in (self.tau_x, self.tau_y))
+        turn = np.array([[cy, 0, -sy], [0, 1, 0], [sy, 0, cy]]) @ [[1, 0, 0], [0, cx, sx], [0, -sx, cx]]
+        return np.array([[turn[2, 2], 0, -turn[0, 2]], [0, turn[2, 2], -turn[1, 2]], [0, 0, 1]]) @ turn
+
+    @cached_property
+    def _inverse(self) -> np.ndarray:
+        return inverse(self._matrix)
+
+    def onto_sensor(self, x, y):
+        """Return (u, v) of points of the upright picture; NaN where the sensor has none."""
+        return _mapped(self._matrix, x, y)
+
+    def upright(self, u, v):
+        """Return (x, y) of points of the sensor: the inverse."""
+        return _mapped(self._inverse, u, v)
+
+    def intervals(self, interval_x, interval_y):
+        """Return the intervals in u and v that hold the images of all points of the intervals, (n,) each.
+
+        They are those of the four corners, since the map keeps straight lines; endless where one has no image. NaN,
+        which is nowhere, stays.
+        """
+        with np.errstate(invalid="ignore"):
+            corners = np.array([self.onto_sensor(x, y) for x, y in product(interval_x, interval_y)])
+        endless = np.isnan(corners).any(axis=(0, 1)) & ~np.isnan(interval_x[0]) & ~np.isnan(interval_y[0])
+        low, high = np.where(endless, -np.inf, corners.min(axis=0)), np.where(endless, np.inf, corners.max(axis=0))
+        return (low[0], high[0]), (low[1], high[1])
+
+
+def _mapped(matrix, x, y):
+    first, second, below = (row[0] * x + row[1] * y + row[2] for row in matrix.tolist())
+    below = np.where(below > 0, below, np.nan)
+    return first / below, second / below
