@@ -134,6 +134,67 @@ def test_meshes_are_those_of_cycles(blender, scene, kind):
     assert np.abs(uv - ours["uv"])[mapped].max() <= MAPPED
 
 
+def modified(item, kind, **settings):
+    modifier = item.modifiers.new(kind, kind)
+    for name, value in settings.items():
+        setattr(modifier, name, value)
+
+
+def test_what_modifiers_and_keys_make_is_what_cycles_shows(blender):
+    """Keys, an armature, a boolean, an array, a wireframe, a NURBS surface, a mirrored scale, instances on faces."""
+    scene, data = blender.context.scene, blender.data
+    kinds = "monkey", "cylinder", "cube", "cone", "ico_sphere", "monkey", "monkey"
+    keyed, bent, cut, several, wires, mirrored, small = (
+        add(
+            blender,
+            f"{kind} {k}",
+            made(blender, kind),
+            k + 1,
+            (3 * (k % 4) - 4.5, 3 * (k // 4) - 1.5, 0),
+            (0.5, 0.3, 0.2),
+        )
+        for k, kind in enumerate(kinds)
+    )
+    keyed.shape_key_add(name="Basis")
+    key = keyed.shape_key_add(name="Wide")
+    for point in key.data:
+        point.co.x *= 1.5 + point.co.z
+    key.value = 0.6
+    blender.ops.object.armature_add(location=bent.location)
+    bones = blender.context.object
+    bones.pose.bones[0].rotation_mode, bones.pose.bones[0].rotation_euler = "XYZ", (0.5, 0.2, 0.3)
+    bent.vertex_groups.new(name="Bone").add(range(0, 64, 2), 1, "ADD")
+    modified(bent, "ARMATURE", object=bones)
+    ball = add(blender, "Cutter", made(blender, "uv_sphere"), 0, cut.location, scale=(1.3, 1.3, 1.3))
+    ball.hide_render = True
+    modified(cut, "BOOLEAN", object=ball)
+    several.scale = 0.4, 0.4, 0.4
+    modified(several, "ARRAY", count=3, relative_offset_displace=(0.6, 0.5, 0.4))
+    modified(wires, "WIREFRAME", thickness=0.1)
+    mirrored.scale = -1, 1.2, 0.7
+    shaded(mirrored.data, True)
+    blender.ops.surface.primitive_nurbs_surface_torus_add(location=(1.5, 1.5, 0))
+    blender.context.object.pass_index = 8
+    faces = add(blender, "Faces", made(blender, "cube"), 9, (4.5, 1.5, 0), (0.2, 0.1, 0.6))
+    small.parent, small.scale, faces.instance_type = faces, (0.6, 0.6, 0.6), "FACES"
+    scene.camera = add(blender, "Camera", data.cameras.new("Camera"), 0, (0, -5, 12), (0.4, 0, 0))
+    scene.camera.data.lens = 36
+    scene.render.resolution_x, scene.render.resolution_y = 144, 80
+    scene.camera_ray_caster.exact_shapes = False
+    sure = unambiguous(scene)
+    ours = seen(scene, ("position", "normal", "object_index"))
+    assert set(np.unique(ours["object_index"])) == set(range(10))
+    position, normal = cycles_surface(scene, "Position", REACH), cycles_surface(scene, "Normal", 1.0)
+    index = cycles_surface(scene, "Object Index", REACH)[..., 0]
+    hit = sure & (ours["object_index"] != 0)
+    np.testing.assert_array_equal(hit[sure], ~np.isnan(index)[sure])
+    np.testing.assert_array_equal(np.rint(index)[hit], ours["object_index"][hit])
+    away = np.linalg.norm(position - ours["position"], axis=-1)[hit]
+    assert away.max() <= THIN
+    assert np.median(away) <= POSITION
+    assert np.linalg.norm(normal - ours["normal"], axis=-1)[hit].max() <= TURNED
+
+
 def test_normals_are_interpolated_where_cycles_does(blender):
     """In the mesh's frame where objects share it; in the world where one alone shows it to any ray, or has a material
     slot of its own: under an uneven scale both differ by 0.1.

@@ -1,4 +1,6 @@
-"""Frames that no memory holds: F12, the sidebar and the files refuse them in one line; a border of them is rendered."""
+"""Frames and triangles that no memory holds: F12, the sidebar and the files refuse them in one line; a border of such a
+frame is rendered.
+"""
 
 import numpy as np
 import pytest
@@ -49,3 +51,23 @@ def test_a_cropped_border_of_such_a_frame_is_rendered(huge, render):
     assert expected["position"].shape == (32, 65, 3)
     for name, image in expected.items():
         np.testing.assert_array_equal(picture(found, name), image)
+
+
+def test_more_triangles_than_the_memory_holds_are_refused_in_one_line(blender, scene, monkeypatch, tmp_path):
+    """A hundred million: instances of a mesh of 62,976."""
+    blender.ops.mesh.primitive_monkey_add()
+    monkey = blender.context.object
+    monkey.modifiers.new("Subdivision", "SUBSURF").levels = monkey.modifiers[0].render_levels = 3
+    cloud = blender.data.meshes.new("Points")
+    cloud.from_pydata(np.random.default_rng(0).uniform(-1, 1, (1_600, 3)).tolist(), [], [])
+    points = blender.data.objects.new("Points", cloud)
+    scene.collection.objects.link(points)
+    points.instance_type, monkey.parent = "VERTS", points
+    monkeypatch.setattr(memory, "available", lambda: 8 << 30)
+    said = r"100,\d\d\d,\d\d\d triangles in view take [\d.]+ GiB of memory and 8 GiB are there: show "
+    with pytest.raises(InputError, match=said):
+        files.render(scene, tmp_path / "out", "frame")
+    with pytest.raises(RuntimeError, match=said) as refused:
+        blender.ops.render.render()
+    assert str(refused.value).strip().count("\n") == 0
+    assert not list(tmp_path.rglob("*"))

@@ -55,10 +55,12 @@ def test_a_corrupt_mesh_is_left_out_by_name(scene, name, index):
     mesh.loops.foreach_get(name, values)
     values[3] = index
     mesh.loops.foreach_set(name, values)
-    (left,) = read_shapes(scene).left_out
-    assert left[0] == bpy.context.object.name
-    assert "corrupt" in left[1]
-    assert "mesh.validate()" in left[1]
+    for setting in ("AUTOMATIC", "MESH"):
+        bpy.context.object.camera_ray_caster.primitive = setting
+        (left,) = read_shapes(scene).left_out
+        assert left[0] == bpy.context.object.name
+        assert "corrupt" in left[1]
+        assert "mesh.validate()" in left[1]
     mesh.validate()
     assert "corrupt" not in str(read_shapes(scene).left_out)
 
