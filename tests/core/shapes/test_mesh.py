@@ -96,6 +96,14 @@ def test_triangles_through_the_clip_start_and_the_eye_plane_are_cut_there(kind):
     np.testing.assert_allclose(images["distance"].ravel(), nearest.astype(float), rtol=1e-12)
 
 
+def test_a_triangle_that_reaches_behind_the_eye_is_seen_where_it_is():
+    """One by one: in some rows of some of them all three edges leave the triangle on the same side."""
+    cam, rng = camera_at(lens=15.0, clip_start=0.0, **SMALL), np.random.default_rng(5)
+    for corners in rng.normal(size=(60, 3, 3)) * 4:
+        triangle = mesh_of(corners, [(0, 1, 2)])
+        assert_nearest(cam, shapes_of((triangle, triangle.middle, 1.0)))
+
+
 def test_what_has_no_area_or_is_seen_edge_on_is_invisible_and_duplicates_are_the_first():
     """A point, a line, a triangle in a plane with the eye, and one that is there twice."""
     corners = [(0, 0, -1), (1, 0, -2), (0, 0, -3), (-1, -1, -5), (1, -1, -5), (0, 1, -5), (0, 0, -4)]

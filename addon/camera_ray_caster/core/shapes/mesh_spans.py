@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import reduce
 from typing import Any
 
 import numpy as np
@@ -111,8 +112,8 @@ def spans(lattice: Lattice, corners: Any, bounds: np.ndarray, width: int) -> Spa
         at, row, is_open = _level(lattice, edges, is_level, scale, bounds, at, row)
     start = -(edges[:, 0] * lattice.first[0] + (edges[:, 1] * lattice.first[1] + edges[:, 2])) * inverse
     change = -edges[:, 1] * lattice.step[1] * inverse
-    low = np.maximum(*_at_rows(start, change, ~is_level & (inverse > 0), -np.inf, at, row))
-    high = np.minimum(*_at_rows(start, change, ~is_level & (inverse < 0), np.inf, at, row))
+    low = reduce(np.maximum, _at_rows(start, change, ~is_level & (inverse > 0), -np.inf, at, row))
+    high = reduce(np.minimum, _at_rows(start, change, ~is_level & (inverse < 0), np.inf, at, row))
     doubt = np.where(is_level, 0, doubt).max(axis=0)[at]
     first = np.maximum(np.ceil(low - doubt), x0[at]).astype(np.intp)
     last = np.minimum(np.floor(high + doubt), x1[at] - 1).astype(np.intp)
@@ -154,8 +155,11 @@ def _level(lattice: Lattice, edges: np.ndarray, is_level: np.ndarray, scale, bou
 
 
 def _at_rows(start, change, meant: np.ndarray, without: float, at: np.ndarray, row: np.ndarray) -> Iterator[np.ndarray]:
-    """Yield the columns of the first and the last of the edges that are meant, (3, k), at rows of triangles."""
-    for a, b, c in ((0, 1, 2), (2, 1, 0)):
+    """Yield the columns of the first and the last of the edges that are meant, (3, k), at rows of triangles; and of the
+    one between, where some triangle, of which a part is behind the eye, is on one side of all three.
+    """
+    orders = (0, 1, 2), (2, 1, 0), (1, 0, 2)
+    for a, b, c in orders if meant.all(axis=0).any() else orders[:2]:
         place, slope = np.full(meant.shape[1], without), np.zeros(meant.shape[1])
         for edge in (c, b, a):
             place, slope = (np.where(meant[edge], v[edge], w) for v, w in ((start, place), (change, slope)))
