@@ -48,15 +48,23 @@ CHUNK = 1 << 16
 BOUNDED = 1 << 12
 """Triangles whose balls are bounded at once: a strip's takes some microseconds, and a stop is heard between them."""
 
-SLABS = 4
-"""Parts in which triangles are tested, the nearest first: what they hide is not tested. Processor time of four passes
-of a ball of a thousand, 63,000 and a million triangles before a wall: one part 1.02, 1.07 and 1.33 times; two 1.0, 1.0
-and 1.16; eight within 8 %.
+SURFACES = 1 << 12
+"""Triangles whose normals are made constants at once. 2**10 to 2**18: within the noise, but memory without limit."""
+
+SLABS, MOST_SLABS = 2, 32
+"""Parts in which triangles are tested, the nearest first: what they hide is not tested. They are SLABS times the root
+of the triangles' work over the tile's pixels, since before each the whole tile is asked what is hidden. Processor time
+of depth and shape index of a monkey of 1,000, 63,000 and a million triangles before a wall, and of a thousand monkeys:
+SLABS 1: 0.95, 1.04, 1.24 and 1.19 times; 3: 1.04, 1.05, 1.01 and 1.09. Always four parts, and what is larger than a
+cell never hidden: 1.1 to 1.4 times, of the thousand 3 times.
 """
 
+TRIANGLE_PIXELS = 16
+"""Pixels whose test takes as long as what a triangle takes beside them: 300 ns and 20 ns."""
+
 CELL = 8
-"""Pixels of the sides of cells, each with the farthest t of its pixels: a triangle no larger lies in four at most. To
-ask larger cells, too, for larger triangles gains nothing.
+"""Pixels of the sides of the smallest cells whose farthest t is asked for. 4: 1.2 to 1.3 times the time of one monkey,
+0.9 of a thousand; 16: 0.95 of these.
 """
 
 SPANNED, SPANNED_PIXELS = 1 << 12, 1 << 17

@@ -127,7 +127,7 @@ class HitValues:
                 np.multiply(-np.sign(dot(normal, self.direction)), normal, out=normal)
         for mask, normals in others:
             pixels = self.pixels(mask)
-            if not pixels.at.size:
+            if not pixels.places.size:
                 continue
             direction = None if faces_eye else pixels.of(self.direction)
             for component, own in zip(normal, normals(pixels, pixels.of(self.point), direction), strict=True):
@@ -208,4 +208,4 @@ class HitValues:
     def pixels(self, where: np.ndarray) -> HitPixels:
         """Return pixels that hit something."""
         hits = self.hits
-        return HitPixels(where, self.index[where], hits.t[where], hits.first_row, hits.rays.from_eye, self.scratch)
+        return HitPixels(where, (self.index, hits.t), hits.first_row, hits.rays.from_eye, self.scratch)

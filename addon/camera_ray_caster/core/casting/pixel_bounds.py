@@ -4,6 +4,7 @@ away at least.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -13,13 +14,11 @@ from ..camera.camera import Camera
 SAMPLE_MARGIN = 0.5
 """Pixels by which bounds widen when samples lie all over the pixels."""
 
-CORNER_MARGIN = 2.0**-20
-"""Pixels by which the bounds of corners widen: rounding moves a corner's image by 1e-9 pixels at most where FARTHEST
-holds.
-"""
+POINT_MARGIN = 2.0**-20
+"""Pixels by which the bounds of points widen: rounding moves an image by 1e-9 pixels at most where FARTHEST holds."""
 
 FARTHEST = 1e6
-"""Pixels from the picture within which the images of corners count; a corner beyond has its triangle bounded as a ball.
+"""Pixels from the picture within which the images of points count; a corner beyond has its triangle bounded as a ball.
 """
 
 
@@ -60,7 +59,9 @@ class PixelBounds:
                 radii = radii + self.camera.aperture.blur(away, radii)
             frame = self.camera.model.bounds(centers, radii)
         frame[endless] = (-np.inf, np.inf, -np.inf, np.inf)
-        return self._in_plan(frame)
+        seen = ~np.isnan(frame).any(axis=1)
+        bounds = self._in_plan(np.where(seen[:, None], frame, 0.0).T)
+        return bounds, seen & (bounds[:, 0] < bounds[:, 1]) & (bounds[:, 2] < bounds[:, 3])
 
     def within(self, bounds: np.ndarray) -> np.ndarray:
         """See ``shapes.kind.PixelBounds``."""
@@ -81,28 +82,23 @@ class PixelBounds:
         """See ``shapes.kind.PixelBounds``."""
         return self.cull and self.camera.model.straight and not (self.sampled and self.camera.aperture)
 
-    def images(self, points: np.ndarray) -> np.ndarray:
+    def of_points(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """See ``shapes.kind.PixelBounds``."""
         with np.errstate(all="ignore"):
-            found = self.camera.model.project(points)
-            found[~(np.abs(found).max(axis=1) <= FARTHEST)] = np.nan
-        return found
+            x, y = self.camera.model.project(points).T
+            counts = (np.abs(x) <= FARTHEST) & (np.abs(y) <= FARTHEST)
+        if not counts.all():
+            x, y = np.where(counts, (x, y), 0.0)
+        m = POINT_MARGIN
+        return self._in_plan((x - m, x + m, y - m, y + m)), counts
 
-    def of_corners(self, low: np.ndarray, high: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """See ``shapes.kind.PixelBounds``."""
-        frame = np.stack((low[:, 0], high[:, 0], low[:, 1], high[:, 1]), axis=1)
-        return self._in_plan(frame + CORNER_MARGIN * np.array([-1, 1, -1, 1]))
-
-    def _in_plan(self, frame: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return what bounds in the full frame are in the pixels of the plan; NaN where nothing is seen."""
-        raster = self.camera.raster
-        if self.sampled:
-            frame = frame + SAMPLE_MARGIN * np.array([-1, 1, -1, 1])
-        seen = ~np.isnan(frame).any(axis=1)
-        corner, size = np.array([raster.x0, raster.y0]), raster.shape[::-1]
-        frame = np.where(seen[:, None], frame, 0.0)
-        first = np.clip(np.ceil(frame[:, 0::2] - 0.5) - corner, 0, size)  # pixel centers, not pixels
-        last = np.clip(np.floor(frame[:, 1::2] + 0.5) - corner, 0, size)
-        bounds = np.stack((first[:, 0], last[:, 0], first[:, 1], last[:, 1]), axis=1).astype(np.int64)
-        bounds = self.within(bounds)
-        return bounds, seen & (bounds[:, 0] < bounds[:, 1]) & (bounds[:, 2] < bounds[:, 3])
+    def _in_plan(self, frame: Iterable[np.ndarray]) -> np.ndarray:
+        """Return what bounds x0, x1, y0, y1 in the full frame, (n,) each, are in the pixels of the plan."""
+        raster, margin = self.camera.raster, SAMPLE_MARGIN if self.sampled else 0.0
+        x0, x1, y0, y1 = frame
+        edges = []
+        for low, high, corner, size in ((x0, x1, raster.x0, raster.shape[1]), (y0, y1, raster.y0, raster.shape[0])):
+            first = np.ceil(low - (margin + 0.5)) - corner  # pixel centers, not pixels
+            last = np.floor(high + (margin + 0.5)) - corner
+            edges += [np.clip(first, 0, size, out=first), np.clip(last, 0, size, out=last)]
+        return self.within(np.stack(edges, axis=1).astype(np.int64))

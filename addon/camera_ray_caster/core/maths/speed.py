@@ -35,6 +35,11 @@ def sharing(threads: int, work: float) -> int:
     return max(1, min(threads, round(sqrt(work))))
 
 
+def taken(values: np.ndarray, which: np.ndarray) -> np.ndarray:
+    """Return ``values[..., which]`` of indices that are there: numpy's check of them would be 0.4 of the time."""
+    return values.take(which, axis=-1, mode="wrap")
+
+
 @contextmanager
 def whole_rows(width: int) -> Iterator[None]:
     """Let this thread's ufuncs take rows of ``width`` at once, where that helps."""
@@ -62,6 +67,8 @@ class Scratch:
     def __init__(self, real=np.float64):
         self._real = real
         self._arrays: dict[tuple, np.ndarray] = {}
+        self.noted: dict[str, Any] = {}
+        """What the search of a tile notes for its passes, by name, until that of the next one does."""
 
     def __call__(self, name: str, shape, dtype=None) -> np.ndarray:
         """Return the array of this name and dtype in this shape; it holds what was last written to it, or anything."""

@@ -7,7 +7,7 @@ A kind is one object of a class under ``Kind`` and stands in ``KINDS``. These us
 Shapes that are affine images of one surface, each a row of constants, are kinds under ``AffineKind``, which does most
 of it. What is no such row, as the triangles of a mesh, is a kind of its own: it implements ``ShapeSet.rest`` and not
 ``ShapeSet.large``, and keeps what else it has to know of a hit (which triangle) in an array of ``SearchRays.scratch``,
-from which ``HitPixels.kept`` takes it again when normals, uv and errors are asked for.
+from which ``HitPixels.kept`` takes it again when normals, uv and errors are asked for, or in what the scratch notes.
 """
 
 from __future__ import annotations
@@ -41,17 +41,15 @@ class PixelBounds(Protocol):
 
     @property
     def has_straight_lines(self) -> bool:
-        """Whether what lies between corners is seen between their images, so that ``of_corners`` may be asked."""
+        """Whether what lies between points is seen between their images, so that ``of_points`` may be asked."""
 
-    def images(self, points: np.ndarray) -> np.ndarray:
-        """Return the pixel coordinates (n, 2) in the full frame of points (n, 3) in the camera's frame; NaN for those
-        that have none, or one that is too far away to count.
-        """
+    @property
+    def whole(self) -> np.ndarray:
+        """(4,) int: all pixels of the plan."""
 
-    def of_corners(self, low: np.ndarray, high: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return the bounds of what lies between pixel coordinates (n, 2) each, and which of them hold a pixel center.
-
-        NaN is seen nowhere.
+    def of_points(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return the bounds of points (n, 3) in the camera's frame, most of which hold no pixel center, and which have
+        an image that counts. What lies between some of them is seen from the least x0 and y0 to the largest x1 and y1.
         """
 
 
@@ -124,10 +122,8 @@ class HitPixels:
 
     where: np.ndarray
     """(rows, columns) of the block, bool: the pixels that are meant."""
-    at: np.ndarray
-    """(m,) indices into ``Shapes``."""
-    t: np.ndarray
-    """(m,)."""
+    hits: tuple[np.ndarray, np.ndarray]
+    """Of the whole block, (rows, columns) each: indices into ``Shapes`` and t."""
     first_row: int
     """Of the block, in the tile."""
     from_eye: bool
@@ -138,6 +134,16 @@ class HitPixels:
     def places(self) -> np.ndarray:
         """(m,): where they are in the block, its rows one after the other."""
         return np.flatnonzero(self.where)
+
+    @lazy
+    def at(self) -> np.ndarray:
+        """(m,) indices into ``Shapes``."""
+        return self.hits[0].reshape(-1).take(self.places)
+
+    @lazy
+    def t(self) -> np.ndarray:
+        """(m,)."""
+        return self.hits[1].reshape(-1).take(self.places)
 
     def of(self, vector: Any) -> tuple[np.ndarray, ...]:
         """Return the components of the block, which broadcast, at these pixels, (m,) each."""

@@ -9,6 +9,7 @@ from .frames import InCamera, WorldRays
 from .kind import HitPixels, Kind, PixelNormals, Visible
 from .mesh_errors import TriangleErrors, decide
 from .mesh_in_camera import MeshesInView
+from .mesh_normals import TriangleNormals
 from .mesh_search import MeshSet
 from .mesh_surface import HitTriangles
 
@@ -39,7 +40,7 @@ class Meshes(Kind):
         """See ``Kind``; each pixel's comes from its triangle."""
 
         def normals(pixels: HitPixels, point, direction):
-            return HitTriangles.of(shapes, pixels).normals(point, direction)
+            return TriangleNormals.of(shapes, pixels).at(pixels, point, direction)
 
         return np.full((len(at), 4), np.nan), normals
 

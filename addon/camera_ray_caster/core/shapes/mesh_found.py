@@ -7,13 +7,21 @@ from dataclasses import dataclass
 import numpy as np
 
 from .. import tuning
+from ..maths.speed import taken
 from .kind import SearchRays
 
-NONE = np.iinfo(np.int32).max
-"""In place of a triangle where none is met."""
+SEEN = "triangles seen"
+"""What the scratch notes of a tile: ``SeenTriangles``; its array of the same name has each pixel's."""
 
-FOUND, NUMBER = "triangle found", "triangle"
-"""Arrays of the scratch that keep each pixel's triangle: among those in view, and among those of its mesh."""
+
+@dataclass(frozen=True, eq=False)
+class SeenTriangles:
+    """The triangles that some pixel of a tile sees, (k,) each."""
+
+    at: np.ndarray
+    """Indices into ``Shapes``."""
+    number: np.ndarray
+    """Indices into the triangles of the mesh."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -23,34 +31,44 @@ class Found:
     t: np.ndarray
     """inf, or that of another shape, where none is met."""
     which: np.ndarray
-    """int32; NONE where none is met."""
+    """int32; ``count`` where none is met."""
+    count: int
+    """Of triangles that there are."""
 
     @classmethod
-    def of(cls, nearest: np.ndarray, rays: SearchRays) -> Found:
+    def of(cls, nearest: np.ndarray, rays: SearchRays, count: int) -> Found:
         """Begin with what was found before; nothing behind that is kept."""
         t = rays.scratch("triangle t", rays.shape, np.float64)
-        which = rays.scratch(FOUND, rays.shape, np.int32)
+        which = rays.scratch("triangle found", rays.shape, np.int32)
         np.copyto(t, nearest)
-        which.fill(NONE)
-        return cls(t, which)
+        which.fill(count)
+        return cls(t, which, count)
+
+    def seen(self, out: np.ndarray) -> np.ndarray:
+        """Return the triangles that pixels see, ascending, and in ``out`` which of them each pixel does, 0 for none."""
+        place = np.zeros(self.count + 1, np.int32)
+        place[self.which] = 1
+        place[self.count] = 0
+        seen = np.flatnonzero(place)
+        place[seen] = np.arange(len(seen))
+        np.take(place, self.which, out=out, mode="wrap")
+        return seen
 
     def keep(self, pixel: np.ndarray, t: np.ndarray, which: np.ndarray) -> None:
         """Note those that are the nearest so far; a pixel may have several."""
         nearest, first = self.t.reshape(-1), self.which.reshape(-1)
-        before = nearest.take(pixel)
-        closer = np.less(t, before)
-        tied = np.flatnonzero(t == before)
-        if tied.size:
-            closer[tied] = which[tied] < first[pixel[tied]]
-        if not closer.all():
-            pixel, t, which = pixel[closer], t[closer], which[closer]
         while pixel.size:
+            before = taken(nearest, pixel)
+            closer = t < before
+            tied = np.flatnonzero(t == before)
+            if tied.size:
+                closer[tied] = which[tied] < first[pixel[tied]]
+            some = np.flatnonzero(closer)
+            if len(some) < len(pixel):
+                pixel, t, which = taken(pixel, some), taken(t, some), taken(which, some)
             nearest[pixel], first[pixel] = t, which  # of several hits in one pixel the last stays: others try again
-            lost = np.flatnonzero(first.take(pixel) != which)
+            lost = np.flatnonzero(taken(first, pixel) != which)
             pixel, t, which = pixel[lost], t[lost], which[lost]
-            now = nearest.take(pixel)
-            nearer = (t < now) | ((t == now) & (which < first.take(pixel)))
-            pixel, t, which = pixel[nearer], t[nearer], which[nearer]
 
     def fill(self, window: tuple[slice, slice], met: np.ndarray, t: np.ndarray, which: int) -> None:
         """Note one triangle in a window where it is met and is the nearest so far."""
@@ -61,23 +79,32 @@ class Found:
         np.copyto(first, which, where=closer)
 
     def may_show(self, bounds: np.ndarray, near: np.ndarray) -> np.ndarray:
-        """Return which triangles may be seen, indices: all but small ones that lie behind what was found, whose least t
-        are given, (k,), with their bounds in the tile, (k, 4).
+        """Return which triangles may be seen, indices: all but those that lie behind what was found, whose least t are
+        given, (k,), with their bounds in the tile, (k, 4).
         """
-        wide, high = bounds[:, 1] - bounds[:, 0], bounds[:, 3] - bounds[:, 2]
-        shows = np.maximum(wide, high) > tuning.CELL
-        small = np.flatnonzero(~shows)
-        x, y = (bounds[small, i] // tuning.CELL for i in (0, 2))
-        shows[small] = near[small] <= _farthest(self.t, tuning.CELL)[y, x]
-        return np.flatnonzero(shows)
+        x0, x1, y0, y1 = bounds.T
+        column, row = x0 // tuning.CELL, y0 // tuning.CELL
+        cells = np.maximum((x1 - 1) // tuning.CELL - column, (y1 - 1) // tuning.CELL - row) + 1
+        farthest = _farthest(self.t, tuning.CELL, int(cells.max(initial=1)))
+        _, high, wide = farthest.shape
+        level = np.ceil(np.log2(np.arange(1, cells.max(initial=1) + 1))).astype(np.intp)
+        place = taken(level * (high * wide), cells - 1)
+        place += row * np.intp(wide)
+        place += column
+        return np.flatnonzero(near <= taken(farthest.reshape(-1), place))
 
 
-def _farthest(t: np.ndarray, cell: int) -> np.ndarray:
-    """Return the largest t of each cell and the next ones to the right and above."""
-    height, width = (-(-size // cell) for size in t.shape)
-    padded = np.full((height * cell, width * cell), -np.inf)
-    padded[: t.shape[0], : t.shape[1]] = t
-    cells = padded.reshape(height, cell, width * cell).max(axis=1).reshape(height, width, cell).max(axis=2)
-    cells[:-1] = np.maximum(cells[:-1], cells[1:])
-    cells[:, :-1] = np.maximum(cells[:, :-1], cells[:, 1:])
-    return cells
+def _farthest(t: np.ndarray, cell: int, most: int) -> np.ndarray:
+    """Return the largest t of 1, 2, 4 ... cells to the right and upwards from each, until ``most`` are reached:
+    (levels, rows, columns).
+    """
+    rows = np.stack([t[first : first + cell].max(axis=0) for first in range(0, len(t), cell)])
+    levels = [np.maximum.reduceat(rows, np.arange(0, t.shape[1], cell), axis=1)]
+    size = 1
+    while size < most:
+        cells = levels[-1].copy()
+        np.maximum(cells[:-size], cells[size:], out=cells[:-size])
+        np.maximum(cells[:, :-size], cells[:, size:], out=cells[:, :-size])
+        levels.append(cells)
+        size *= 2
+    return np.array(levels)

@@ -19,7 +19,7 @@ from .frames import MARGIN, InCamera
 from .kind import Visible
 from .triangles import side
 
-VERTEX_BYTES, TRIANGLE_BYTES = 40, 104
+VERTEX_BYTES, TRIANGLE_BYTES = 40, 80
 """Of memory that each in view takes at most."""
 
 FEWER = "show fewer instances, or subdivide them less"
@@ -30,13 +30,13 @@ class Triangles:
     """The triangles of the meshes in view that some pixel may see, in the order of their shapes."""
 
     corners: np.ndarray
-    """(3, k) intp into the vertices; turned so that volumes of rays from the eye are positive, where all leave it."""
+    """(3, k) indices into the vertices."""
     shape: np.ndarray
     """(k,) int32 indices into ``Shapes``."""
     number: np.ndarray
     """(k,) int32 indices into the triangles of its mesh."""
     bounds: np.ndarray
-    """(k, 4) int32: x0, x1, y0, y1 in the pixels of the plan."""
+    """(k, 4) int16, or int32 in large pictures: x0, x1, y0, y1 in the pixels of the plan."""
     near: np.ndarray
     """(k,) float32: no triangle has a lesser t; -inf where none is known."""
 
@@ -66,7 +66,9 @@ class MeshesInView:
         total, count = (sum(len(group.rows) * n(group.mesh) for group in groups) for n in (_vertex_count, len))
         require(VERTEX_BYTES * total + TRIANGLE_BYTES * count, f"{count:,} triangles in view", FEWER)
         self._vertices = np.empty((3, total))
-        self._images = np.empty((2, total)) if visible.pixels.has_straight_lines else None
+        self._index = np.int32 if total < 2**31 else np.int64
+        self._pixel = np.int16 if visible.pixels.whole.max() < 2**15 else np.int32
+        self._images = np.empty((total, 4), self._pixel) if visible.pixels.has_straight_lines else None
         self._placing = Shared([
             partial(self._place, group, part)
             for group in groups
@@ -82,6 +84,7 @@ class MeshesInView:
             for group in groups
             for part in _parts(len(group.mesh), chunk)
         ])  # fmt: skip
+        self._joining = Shared([self._join])
 
     def prepare(self) -> Iterator[None]:
         """Work on all that is still to do, in small steps."""
@@ -94,17 +97,33 @@ class MeshesInView:
         """Those that some pixel may see."""
         for _ in self.prepare():
             pass
-        parts = self._seeing.results()
-        whole = {field.name: [getattr(part, field.name) for part in parts] for field in fields(Triangles)}
-        bounds = np.concatenate([part.T for part in whole.pop("bounds")], axis=1).T  # a column in one piece
-        return Triangles(bounds=bounds, **{name: np.concatenate(own, axis=-1) for name, own in whole.items()})
+        return self._joining.results()[0]
 
     def corners(self, some: np.ndarray) -> np.ndarray:
         """Return the corners of triangles, (3, 3, m): corner, component."""
         return self._at(self.triangles.corners.take(some, axis=1))
 
+    def facing(self, some: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return which of some triangles a ray may meet, indices, and their corners as ``corners`` does: where all rays
+        leave the eye, turned so that the volumes of a ray that meets one are positive.
+        """
+        corners = self.corners(some)
+        turn = side(corners) if self._from_eye else np.ones(len(some))
+        meets = np.flatnonzero(turn)
+        if len(meets) < len(some):
+            corners, turn = corners[:, :, meets], turn[meets]
+        corners[1:] = np.where(turn > 0, corners[1:], corners[:0:-1])
+        return meets, corners
+
     def _at(self, corners: np.ndarray) -> np.ndarray:
         return self._vertices.take(corners, axis=1).swapaxes(0, 1)
+
+    def _join(self) -> Triangles:
+        parts = self._seeing.results()
+        whole = {name: [getattr(part, name) for part in parts] for name in (field.name for field in fields(Triangles))}
+        parts.clear()
+        bounds = np.concatenate(whole.pop("bounds"))
+        return Triangles(bounds=bounds, **{name: np.concatenate(own, axis=-1) for name, own in whole.items()})
 
     def _place(self, group: Instances, some: slice) -> None:
         """Transform some vertices of a mesh, for all its instances."""
@@ -119,54 +138,68 @@ class MeshesInView:
             place += self._shapes.center[rows, i, None]
 
     def _image(self, images: np.ndarray, some: slice) -> None:
-        """Find the pixels in which some vertices are seen."""
-        images[:, some] = self._pixels.images(self._vertices[:, some].T).T
+        """Find the pixels that some vertices bound: x0, -x1, y0, -y1, so that all that counts is the least of each;
+        what has no image bounds nothing.
+        """
+        bounds, counts = self._pixels.of_points(self._vertices[:, some].T)
+        bounds[~counts] = self._pixels.whole
+        images[some] = bounds
+        _turn_ends(images[some])
+        images[some][~counts, 0] = np.iinfo(self._pixel).min
 
     def _see(self, group: Instances, some: slice) -> Triangles:
         """Return which of some triangles of a mesh may be seen by some pixel, of all its instances."""
         own = group.mesh.triangles[:, None, some]
         starts = group.start + _vertex_count(group.mesh) * np.arange(len(group.rows))
         corners = (own + starts[:, None]).reshape(3, -1)
-        bounds, near, seen = self._bounds(corners)
-        number = np.flatnonzero(seen)
-        bounds, near, corners = bounds[number], near[number], corners[:, number]
-        if self._from_eye:
-            turn = side(self._at(corners))
-            corners = np.where(turn > 0, corners, corners[[0, 2, 1]])
-            if not turn.all():
-                area = turn != 0
-                number, bounds, near, corners = number[area], bounds[area], near[area], corners[:, area]
-        instance, number = np.divmod(number, own.shape[2])
+        if self._images is None:
+            bounds, near, seen = self._in_balls(corners)
+        else:
+            bounds, near, seen = self._between(self._images, corners)
+        instance, number = np.divmod(seen, own.shape[2])
         return Triangles(
-            corners=corners,
+            corners=corners.take(seen, axis=1).astype(self._index),
             shape=group.rows[instance].astype(np.int32),
             number=(number + some.start).astype(np.int32),
-            bounds=bounds.astype(np.int32),
+            bounds=bounds.astype(self._pixel, copy=False),
             near=np.nextafter(near.astype(np.float32), np.float32(-np.inf)),
         )
 
-    def _bounds(self, corners: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Return in which pixels triangles may be seen, (k, 4), the least t they may have, and which are in any pixel:
-        between the images of their corners where lines stay straight, otherwise where their balls are.
+    def _between(self, images: np.ndarray, corners: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Return in which pixels triangles may be seen, (k, 4), the least t that they may have, (k,), and which are in
+        any, indices: between the images of their corners.
         """
-        if self._images is None:
-            return self._ball_bounds(corners)
-        a, b, c = self._images.take(corners, axis=1).swapaxes(0, 1)
-        low, high = np.minimum(np.minimum(a, b), c), np.maximum(np.maximum(a, b), c)
-        bounds, seen = self._pixels.of_corners(low.T, high.T)
+        a, b, c = (images.take(corner, axis=0) for corner in corners)
+        least = np.minimum(np.minimum(a, b, out=a), c, out=a)
+        seen = np.flatnonzero((least[:, 0] < -least[:, 1]) & (least[:, 2] < -least[:, 3]))
+        bounds, corners = least.take(seen, axis=0), corners.take(seen, axis=1)
+        _turn_ends(bounds)
         near = -np.maximum.reduce([self._vertices[2].take(corner) for corner in corners])
-        behind = np.flatnonzero(np.isnan(low).any(axis=0))
-        if behind.size:
-            bounds[behind], near[behind], seen[behind] = self._ball_bounds(corners[:, behind])
-        return bounds, near, seen
+        unknown = bounds[:, 0] == np.iinfo(self._pixel).min
+        if not unknown.any():
+            return bounds, near, seen
+        known, unknown = np.flatnonzero(~unknown), np.flatnonzero(unknown)
+        own_bounds, own_near, own = self._in_balls(corners[:, unknown])
+        place = np.concatenate((known, unknown[own]))
+        order = np.argsort(place)
+        bounds, near = np.concatenate((bounds[known], own_bounds)), np.concatenate((near[known], own_near))
+        return bounds[order], near[order], seen[place[order]]
 
-    def _ball_bounds(self, corners: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    def _in_balls(self, corners: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Return what ``_between`` does: where the balls around triangles are."""
         a, b, c = self._at(corners)
         low, high = np.minimum(np.minimum(a, b), c), np.maximum(np.maximum(a, b), c)
         middle = low / 2 + high / 2
         radius = MARGIN * np.sqrt(np.maximum.reduce([((corner - middle) ** 2).sum(axis=0) for corner in (a, b, c)]))
         bounds, seen = self._pixels.of_balls(middle.T, radius)
-        return bounds, self._pixels.least_t(middle.T, radius), seen
+        at = np.flatnonzero(seen)
+        return bounds[at], self._pixels.least_t(middle.T, radius)[at], at
+
+
+def _turn_ends(bounds: np.ndarray) -> None:
+    """Turn x0, x1, y0, y1 into x0, -x1, y0, -y1 or back, in place."""
+    for column in bounds.T[1::2]:
+        np.negative(column, out=column)
 
 
 def _vertex_count(mesh: Mesh) -> int:

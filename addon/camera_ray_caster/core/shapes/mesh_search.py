@@ -10,10 +10,10 @@ from typing import Any
 import numpy as np
 
 from .. import tuning
-from ..maths.speed import lazy
+from ..maths.speed import lazy, taken
 from ..maths.vector import cut, difference, dot, norm
 from .kind import Candidates, PixelBounds, SearchRays, ShapeSet
-from .mesh_found import NONE, NUMBER, Found
+from .mesh_found import SEEN, Found, SeenTriangles
 from .mesh_in_camera import MeshesInView, Triangles
 from .mesh_spans import Lattice, spans
 from .triangles import ROUNDING, STEEP, crossing, plane, signs, volumes
@@ -31,7 +31,7 @@ class MeshSet(ShapeSet):
     clip_start: float
     pixels: PixelBounds | None = None
     """The columns and rows of the picture that are meant; None for all."""
-    faces_eye = False
+    faces_eye = True
 
     def at(self, pixels: PixelBounds) -> MeshSet:
         """Return that of some columns and rows of the picture."""
@@ -51,21 +51,27 @@ class MeshSet(ShapeSet):
         here, bounds = in_tile(triangles.bounds, rays.corner, rays.shape)
         if not here.size:
             return
-        found = Found.of(nearest, rays)
+        found = Found.of(nearest, rays, len(triangles.shape))
         lattice = Lattice.of(rays)
         reach = _longest(rays.direction), _longest(rays.origin or (0.0,))
-        for slab in _slabs(triangles.near.take(here)):
-            slab = slab.take(found.may_show(bounds[slab], triangles.near.take(here.take(slab))))
+        near = triangles.near.take(here)
+        for slab in _slabs(near, bounds, found.t.size):
+            slab = slab.take(found.may_show(bounds.take(slab, axis=0), near.take(slab)))
+            own = here.take(slab), bounds.take(slab, axis=0).astype(np.intp)
             if lattice is not None:
-                steps = self._in_spans(rays, lattice, reach, here[slab], bounds[slab], found)
+                steps = self._in_spans(rays, lattice, reach, *own, found)
             else:
-                steps = self._in_windows(rays, reach, here[slab], bounds[slab], found)
+                steps = self._in_windows(rays, reach, *own, found)
             for _ in steps:
                 yield None
-        met = found.which != NONE
-        which = np.where(met, found.which, 0)
-        np.take(triangles.number, which, out=rays.scratch(NUMBER, rays.shape, np.int32))
-        yield Candidates(triangles.shape[which][None], (np.zeros(1, int), np.zeros(1, int)), found.t[None], met[None])
+        of_pixel = rays.scratch(SEEN, rays.shape, np.int32)
+        seen = found.seen(of_pixel)
+        if not seen.size:
+            return
+        noted = SeenTriangles(triangles.shape[seen], triangles.number[seen])
+        rays.scratch.noted[SEEN] = noted
+        met = found.which != found.count
+        yield Candidates(noted.at.take(of_pixel)[None], (np.zeros(1, int), np.zeros(1, int)), found.t[None], met[None])
 
     def _in_spans(self, rays, lattice: Lattice, reach: Reach, here, bounds, found: Found) -> Iterator[None]:
         """Keep what is met of triangles under a lattice of rays, in small steps."""
@@ -96,7 +102,11 @@ class MeshSet(ShapeSet):
         """
         x0, x1, y0, y1 = bounds
         window = slice(y0, y1), slice(x0, x1)
-        corners: Any = self.meshes.corners(np.array([which]))[..., None]
+        corners: Any
+        meets, corners = self.meshes.facing(np.array([which]))
+        if not meets.size:
+            return meets, meets
+        corners = corners[..., None]
         direction = tuple(cut(component, window) for component in rays.direction)
         doubt = _doubt(corners, reach).item()
         if rays.origin is not None:
@@ -117,9 +127,11 @@ class MeshSet(ShapeSet):
         self, rays: SearchRays, lattice: Lattice, reach: Reach, here: np.ndarray, bounds: np.ndarray, found: Found
     ) -> None:
         """Keep what is met of triangles in spans, and of those that have none pixel by pixel."""
-        seen = spans(lattice, self.meshes.corners(here), bounds, rays.shape[1])
+        meets, corners = self.meshes.facing(here)
+        here, bounds = here[meets], bounds[meets]
+        seen = spans(lattice, corners, bounds, rays.shape[1])
         at, pixel = seen.met
-        self._keep(found, pixel, seen.t, here.take(at))
+        self._keep(found, pixel, seen.t, taken(here, at))
         at, pixel = seen.open
         self._test(rays, here[at], pixel, found)
         if not seen.clear.all():
@@ -132,11 +144,15 @@ class MeshSet(ShapeSet):
 
         The windows are as large as the largest bounds, and moved until they lie in the tile.
         """
-        x0, x1, y0, y1 = bounds.T
+        corners: Any
+        meets, corners = self.meshes.facing(here)
+        if not meets.size:
+            return
+        here, corners = here[meets], corners[..., None, None]
+        x0, x1, y0, y1 = bounds[meets].T
         wide, high = int((x1 - x0).max()), int((y1 - y0).max())
         x0, y0 = np.minimum(x0, rays.shape[1] - wide), np.minimum(y0, rays.shape[0] - high)
         x, y = x0[:, None, None] + np.arange(wide), y0[:, None, None] + np.arange(high)[:, None]
-        corners: Any = self.meshes.corners(here)[..., None, None]
         doubt = _doubt(corners, reach)
         direction = tuple(gather(component, y, x) for component in rays.direction)
         if rays.origin is not None:
@@ -207,11 +223,16 @@ def _longest(vectors: Any) -> float:
     return math.sqrt(sum(float(np.fmax.reduce(np.square(component), axis=None, initial=0.0)) for component in vectors))
 
 
-def _slabs(near: np.ndarray) -> Iterator[np.ndarray]:
-    """Yield triangles in parts of about the same number, those with the least t first."""
-    cuts = np.quantile(near[:: max(1, len(near) >> 12)], np.arange(1, tuning.SLABS) / tuning.SLABS)
+def _slabs(near: np.ndarray, bounds: np.ndarray, pixels: int) -> Iterator[np.ndarray]:
+    """Yield triangles in parts of about the same number, those with the least t first: in the more parts, the more work
+    they are beside the pixels of their tile, whose farthest t are asked for before each.
+    """
+    x0, x1, y0, y1 = bounds.T
+    work = tuning.TRIANGLE_PIXELS * len(near) + np.dot((x1 - x0).astype(float), y1 - y0)
+    count = int(np.clip(np.rint(tuning.SLABS * math.sqrt(work / pixels)), 1, tuning.MOST_SLABS))
+    cuts = np.quantile(near[:: max(1, len(near) >> 12)], np.arange(1, count) / count)
     slab = np.searchsorted(cuts, near)
-    for k in range(tuning.SLABS):
+    for k in range(count):
         yield np.flatnonzero(slab == k)
 
 

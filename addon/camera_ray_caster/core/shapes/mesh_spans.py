@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 
 from ..conventions import EPS
+from ..maths.speed import taken
 from ..maths.vector import cross, dot, is_grid, is_lattice, is_one, norm
 from .kind import SearchRays
 from .triangles import EDGES, ROUNDING, STEEP, plane
@@ -114,9 +115,9 @@ def spans(lattice: Lattice, corners: Any, bounds: np.ndarray, width: int) -> Spa
     change = -edges[:, 1] * lattice.step[1] * inverse
     low = reduce(np.maximum, _at_rows(start, change, ~is_level & (inverse > 0), -np.inf, at, row))
     high = reduce(np.minimum, _at_rows(start, change, ~is_level & (inverse < 0), np.inf, at, row))
-    doubt = np.where(is_level, 0, doubt).max(axis=0)[at]
-    first = np.maximum(np.ceil(low - doubt), x0[at]).astype(np.intp)
-    last = np.minimum(np.floor(high + doubt), x1[at] - 1).astype(np.intp)
+    doubt = taken(np.where(is_level, 0, doubt).max(axis=0), at)
+    first = np.maximum(np.ceil(low - doubt), taken(x0, at)).astype(np.intp)
+    last = np.minimum(np.floor(high + doubt), taken(x1, at) - 1).astype(np.intp)
     left = (first <= last) & (first < low + doubt) & ~is_open
     right = (first + left <= last) & (last > high - doubt) & ~is_open
     place = row * width
@@ -124,16 +125,17 @@ def spans(lattice: Lattice, corners: Any, bounds: np.ndarray, width: int) -> Spa
     rest = [(at[span], place[span] + column)]
     rest += [(at[some], place[some] + end[some]) for some, end in ((left, first), (right, last))]
     first += left
-    span, column = _counted(np.where(is_open, 0, np.maximum(last - right + 1 - first, 0)), first)
+    count = np.where(is_open, 0, np.maximum(last - right + 1 - first, 0))
+    span, column = _counted(count, first)
     x, y, z = t_terms
-    at_row = (x * lattice.first[0] + z).take(at) + y.take(at) * (lattice.first[1] + row * lattice.step[1])
-    t = (x * lattice.step[0]).take(at).take(span)
+    at_row = taken(x * lattice.first[0] + z, at) + taken(y, at) * (lattice.first[1] + row * lattice.step[1])
+    t = taken(taken(x * lattice.step[0], at), span)
     t *= column
-    t += at_row.take(span)
-    column += place.take(span)
+    t += taken(at_row, span)
+    column += taken(place, span)
     return Spans(
         clear=np.broadcast_to(clear, len(bounds)),
-        met=(at.take(span), column),
+        met=(taken(at, span), column),
         t=t if lattice.is_parallel else np.reciprocal(t, out=t),
         open=(np.concatenate([one for one, _ in rest]), np.concatenate([one for _, one in rest])),
     )
@@ -155,20 +157,14 @@ def _level(lattice: Lattice, edges: np.ndarray, is_level: np.ndarray, scale, bou
 
 
 def _at_rows(start, change, meant: np.ndarray, without: float, at: np.ndarray, row: np.ndarray) -> Iterator[np.ndarray]:
-    """Yield the columns of the first and the last of the edges that are meant, (3, k), at rows of triangles; and of the
-    one between, where some triangle, of which a part is behind the eye, is on one side of all three.
-    """
-    orders = (0, 1, 2), (2, 1, 0), (1, 0, 2)
-    for a, b, c in orders if meant.all(axis=0).any() else orders[:2]:
-        place, slope = np.full(meant.shape[1], without), np.zeros(meant.shape[1])
-        for edge in (c, b, a):
-            place, slope = (np.where(meant[edge], v[edge], w) for v, w in ((start, place), (change, slope)))
-        yield place[at] + slope[at] * row
+    """Yield the columns of each edge at rows of triangles, (m,), of those that are meant, (3, k)."""
+    for own_start, own_change in zip(np.where(meant, start, without), np.where(meant, change, 0.0), strict=True):
+        yield taken(own_start, at) + taken(own_change, at) * row
 
 
 def _counted(count: np.ndarray, first: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Return, for each of some runs of numbers, its index and the number, one after the other."""
     at = np.repeat(np.arange(len(count)), count)
     number = np.arange(len(at))
-    number += (first - (np.cumsum(count) - count)).take(at)
+    number += taken(first - (np.cumsum(count) - count), at)
     return at, number

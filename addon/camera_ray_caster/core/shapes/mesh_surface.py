@@ -18,7 +18,7 @@ from ..maths.vector import components, cross, difference, dot, matrix_rows, matv
 from ..records import Mesh
 from .frames import InCamera
 from .kind import HitPixels
-from .mesh_found import FOUND, NUMBER
+from .mesh_found import SEEN
 
 LOST = 1 / 16
 """A triangle so thin that rounding of its points moves a barycentric coordinate by this much has one value all over."""
@@ -41,15 +41,12 @@ class HitTriangles:
     @classmethod
     def of(cls, shapes: InCamera, pixels: HitPixels) -> HitTriangles:
         """Return those of pixels that see meshes, one at least."""
-        found = pixels.kept(FOUND, np.int32)
-        found -= found.min()
-        place = np.full(found.max() + 1, -1, np.int32)
-        place[found] = np.arange(len(found))
-        seen = np.flatnonzero(place >= 0)
-        example = place[seen]
-        place[seen] = np.arange(len(seen))
-        number = pixels.kept(NUMBER, np.int32)[example]
-        return cls(shapes, place.take(found), pixels.at[example], number, pixels.from_eye)
+        of_tile, which = pixels.scratch.noted[SEEN], pixels.kept(SEEN, np.int32)
+        place = np.zeros(len(of_tile.at), np.int32)
+        place[which] = 1
+        some = np.flatnonzero(place)
+        place[some] = np.arange(len(some))
+        return cls(shapes, place.take(which), of_tile.at[some], of_tile.number[some], pixels.from_eye)
 
     def each(self, values: Any) -> np.ndarray:
         """Return the values of triangles (..., k) for the pixels that see them, (..., m)."""
@@ -129,36 +126,21 @@ class HitTriangles:
         second, third = (tuple(np.where(lost, 0.0, component) for component in vector) for vector in both)
         return second, third
 
-    def interpolated(self, values: np.ndarray, point: Any) -> Iterator[np.ndarray]:
-        """Yield each component of values at the corners, (3, c, k), at hit points relative to the eye: (m,)."""
+    def affine(self, values: np.ndarray) -> Iterator[tuple[np.ndarray, Any]]:
+        """Yield, for each component of values at the corners, (3, c, k), the constant and the slope of which it is the
+        constant plus slope . p at hit points relative to the eye: (k,) and three (k,).
+        """
         second, third = self.gradients
         for at_corners in np.swapaxes(values, 0, 1):
             first = at_corners[0]
             to_second, to_third = at_corners[1] - first, at_corners[2] - first
             slope = [to_second * g + to_third * h for g, h in zip(second, third, strict=True)]
-            total = self.each(first - dot(slope, self.corners[0]))
-            for along, component in zip(slope, point, strict=True):
-                part = self.each(along)
-                part *= component
-                total += part
-            yield total
+            yield first - dot(slope, self.corners[0]), slope
 
-    def normals(self, point: Any, direction: Any) -> Any:
-        """Return the unit normals turned towards the rays, as Blender's Normal pass has them; (m,) components.
-
-        The side of the face that is hit gives the sign, not the interpolated normal; 0 where the corners' cancel.
-        """
-        area, smooth = np.array(self.area), any(self.shapes.shapes.meshes[k].normals is not None for k in self._meshes)
-        corner_normals = self.corner_normals if smooth else area[None]
-        if self.from_eye:
-            corner_normals = -np.sign(dot(area, self.corners[0])) * corner_normals
-        normal = list(self.interpolated(corner_normals, point)) if smooth else list(self.each(corner_normals[0]))
-        scale = 1 / np.maximum(norm(normal), np.finfo(float).tiny)
-        if not self.from_eye:
-            scale *= -np.sign(dot(self.each(area), direction))
-        for component in normal:
-            component *= scale
-        return normal
+    def interpolated(self, values: np.ndarray, point: Any) -> Iterator[np.ndarray]:
+        """Yield each component of values at the corners, (3, c, k), at hit points relative to the eye: (m,)."""
+        for constant, slope in self.affine(values):
+            yield affine_at(self.which, constant, slope, point)
 
     def uv(self, point: Any) -> tuple[np.ndarray, np.ndarray]:
         """Return u and v, (m,) each; 0 where the mesh has no map."""
@@ -189,6 +171,17 @@ class HitTriangles:
             some = self._mesh == k if len(self._meshes) > 1 else slice(None)
             result[..., some] = of(self.shapes.shapes.meshes[k], self.number[some])
         return result
+
+
+def affine_at(which: np.ndarray, constant: np.ndarray, slope: Any, point: Any) -> np.ndarray:
+    """Return constant + slope . point, (m,), of which constants and slopes (k,) are taken."""
+    total, part = np.empty((2, len(which)))
+    np.take(constant, which, out=total, mode="wrap")
+    for along, component in zip(slope, point, strict=True):
+        np.take(along, which, out=part, mode="wrap")
+        part *= component
+        total += part
+    return total
 
 
 def _places(mesh: Mesh, which: np.ndarray) -> np.ndarray:

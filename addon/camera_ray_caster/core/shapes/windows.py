@@ -17,11 +17,13 @@ def pixels_in(bounds: np.ndarray) -> np.ndarray:
 def in_tile(bounds: np.ndarray, corner: tuple[int, int], shape: tuple[int, int]) -> tuple[np.ndarray, np.ndarray]:
     """Return which of some bounds (n, 4) have a part in a tile, (k,), and these parts in the tile's pixels, (k, 4)."""
     (left, low), (high, wide) = corner, shape
-    x0, x1, y0, y1 = bounds.T
-    across, up = (x1 > np.maximum(x0, left)) & (x0 < left + wide), (y1 > np.maximum(y0, low)) & (y0 < low + high)
-    here = np.flatnonzero(across & up)
-    edges = np.maximum(bounds[here] - np.array((left, left, low, low), bounds.dtype), 0)
-    return here, np.minimum(edges, np.array((wide, wide, high, high), bounds.dtype), out=edges)
+    here = np.flatnonzero((bounds[:, 3] > low) & (bounds[:, 2] < low + high))  # most others lie below or above
+    parts = bounds.take(here, axis=0)
+    for column, first, size in zip(parts.T, (left, left, low, low), (wide, wide, high, high), strict=True):
+        np.clip(column, first, first + size, out=column)  # column by column: rows of four are short loops
+        column -= first
+    some = np.flatnonzero((parts[:, 0] < parts[:, 1]) & (parts[:, 2] < parts[:, 3]))
+    return (here, parts) if len(some) == len(here) else (here[some], parts[some])
 
 
 def banded(bounds: np.ndarray, most: int) -> tuple[np.ndarray, np.ndarray]:

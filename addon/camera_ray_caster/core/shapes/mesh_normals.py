@@ -1,0 +1,79 @@
+"""The normals of a tile's triangles as constants, worked out once for all of its pixels."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from .. import tuning
+from ..maths.vector import dot, norm
+from .frames import InCamera
+from .kind import HitPixels
+from .mesh_found import SEEN
+from .mesh_surface import HitTriangles, affine_at
+
+NORMALS = "normals of triangles"
+"""Under which the scratch notes them."""
+
+
+@dataclass(frozen=True, eq=False)
+class TriangleNormals:
+    """The normals of the k triangles that a tile sees: constant + slope . p at hit points p relative to the eye, of
+    any length.
+    """
+
+    seen: Any
+    """The triangles, as the search noted them."""
+    constant: np.ndarray
+    """(3, k)."""
+    slope: np.ndarray | None
+    """(3, 3, k): component, axis of p; None where all are flat."""
+    area: np.ndarray | None
+    """(3, k): the normals of the side on which these are; None where that is the eye's."""
+
+    @classmethod
+    def of(cls, shapes: InCamera, pixels: HitPixels) -> TriangleNormals:
+        """Return those of the pixels' tile."""
+        noted = pixels.scratch.noted
+        if NORMALS not in noted or noted[NORMALS].seen is not noted[SEEN]:
+            noted[NORMALS] = cls._of_tile(shapes, noted[SEEN], pixels.from_eye)
+        return noted[NORMALS]
+
+    @classmethod
+    def _of_tile(cls, shapes: InCamera, seen: Any, from_eye: bool) -> TriangleNormals:
+        count, step = len(seen.at), tuning.SURFACES
+        meshes = np.flatnonzero(np.bincount(shapes.shapes.mesh[seen.at]))
+        are_flat = all(shapes.shapes.meshes[k].normals is None for k in meshes.tolist())
+        constant = np.empty((3, count))
+        slope = None if are_flat else np.empty((3, 3, count))
+        area = None if from_eye else np.empty((3, count))
+        for own in (slice(first, first + step) for first in range(0, count, step)):
+            some = HitTriangles(shapes, seen.at[:0], seen.at[own], seen.number[own], from_eye)
+            turn = -np.sign(dot(some.area, some.corners[0])) if from_eye else 1.0
+            if area is not None:
+                area[:, own] = some.area
+            if slope is None:
+                constant[:, own] = turn * np.array(some.area)
+                continue
+            for i, (at_eye, along) in enumerate(some.affine(turn * some.corner_normals)):
+                constant[i, own], slope[i, :, own] = at_eye, along
+        return cls(seen, constant, slope, area)
+
+    def at(self, pixels: HitPixels, point: Any, direction: Any) -> Any:
+        """Return the unit normals turned towards the rays, as Blender's Normal pass has them; (m,) components.
+
+        The side of the face that is hit gives the sign, not the interpolated normal; 0 where the corners' cancel.
+        """
+        which = pixels.kept(SEEN, np.int32).astype(np.intp)
+        if self.slope is None:
+            normal = list(self.constant.take(which, axis=1))
+        else:
+            normal = [affine_at(which, *own, point) for own in zip(self.constant, self.slope, strict=True)]
+        scale = 1 / np.maximum(norm(normal), np.finfo(float).tiny)
+        if self.area is not None:
+            scale *= -np.sign(dot(self.area.take(which, axis=1), direction))
+        for component in normal:
+            component *= scale
+        return normal
