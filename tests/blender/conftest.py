@@ -22,6 +22,18 @@ def camera_scene(blender):
     return scene
 
 
+@pytest.fixture
+def osl(blender):
+    """Cycles with the Open Shading Language, which not every build has."""
+    import addon_utils
+
+    addon_utils.enable("cycles", default_set=True)
+    import _cycles
+
+    if not _cycles.with_osl:
+        pytest.skip("this Blender was built without OSL")
+
+
 @pytest.fixture(scope="session")
 def archive(tmp_path_factory):
     """The extension as a zip."""

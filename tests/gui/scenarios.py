@@ -3,6 +3,7 @@
 import sys
 import time
 
+import _cycles
 import bpy
 import numpy as np
 from user import pixels_of
@@ -262,6 +263,40 @@ def viewport(user, scenes):
     space.shading.type = "SOLID"
 
 
+def cycles(user, scenes):
+    """A camera of a model that Blender does not have is made one of Cycles, and seen in the viewport."""
+    yield from load(user, scenes, "toys")
+    scene, view = bpy.context.scene, user.area()
+    camera = scene.camera
+    bpy.context.view_layer.objects.active = camera
+    camera.data.camera_ray_caster.model = "OMNIMAX"
+    scene.render.engine = "CYCLES"
+    scene.cycles.samples = scene.cycles.preview_samples = 8
+    view.ui_type = "PROPERTIES"
+    view.spaces.active.context = "DATA"
+    yield from user.wait(1)
+    user.picture("cycles_button")
+    properties = next(region for region in view.regions if region.type == "WINDOW")
+    yield from user.press(f"{BUTTON}use_in_cycles(", properties)
+    yield from user.wait(2)
+    user.picture("cycles_way_back")
+    if not _cycles.with_osl:  # as Debian builds it: the button says so, and the camera is as it was
+        assert (camera.data.type, len(bpy.data.texts)) == ("PERSP", 0)
+        view.ui_type = "VIEW_3D"
+        return
+    assert camera.data.type == "CUSTOM"
+    view.ui_type = "VIEW_3D"
+    yield from user.wait(0.5)
+    space = view.spaces.active
+    space.region_3d.view_perspective, space.overlay.show_overlays = "CAMERA", False
+    space.shading.type = "RENDERED"
+    yield from user.wait(15)
+    shown = user.cut(user.picture("cycles_omnimax"), user.region("WINDOW"))
+    assert shown[..., :3].std() > 0.05  # a picture, and not one color
+    space.shading.type = "SOLID"
+    space.overlay.show_overlays = True
+
+
 def disable(user, scenes):
     """Disabled with everything on, it leaves no drawing, no timer and no panel."""
     yield from load(user, scenes, "spheres_and_planes")
@@ -290,6 +325,6 @@ SCENARIOS = {
     scenario.__name__: scenario
     for scenario in (
         panel, no_camera, left_out, stop, stop_samples, load_while_casting, overlay, ray_under_mouse, viewport,
-        disable,
+        cycles, disable,
     )
 }  # fmt: skip

@@ -19,7 +19,7 @@ OUTPUT = ROOT / "out" / "gui"
 
 SCENARIOS = (
     "panel", "no_camera", "left_out", "stop", "stop_samples", "load_while_casting", "overlay", "ray_under_mouse",
-    "viewport", "disable",
+    "viewport", "cycles", "disable",
 )  # fmt: skip
 SIZE = "1400x900"
 LIMIT = 1200

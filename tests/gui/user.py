@@ -99,12 +99,13 @@ class User:
             yield from self.click(region.x + region.width - 12, y)
         raise AssertionError(f"the sidebar has no tab {name!r}")
 
-    def press(self, command):
-        """Press the sidebar's button of an operator: the one of which Ctrl+C copies that Python command.
+    def press(self, command, region=None):
+        """Press the button of an operator in a region, the sidebar's by default: the one of which Ctrl+C copies that
+        Python command.
 
         Where it was the last time is tried first, then every 17 pixels: less than a button's height.
         """
-        wm, region = bpy.context.window_manager, self.region()
+        wm, region = bpy.context.window_manager, region or self.region()
         x, top = region.x + region.width // 3, region.y + region.height - 34
         for y in (self.known.get(command, top), *range(top, region.y, -17)):
             wm.clipboard = ""
@@ -116,7 +117,7 @@ class User:
                 self.known[command] = y
                 yield from self.click(x, y)
                 return
-        raise AssertionError(f"the sidebar has no button for {command}")
+        raise AssertionError(f"no button for {command}")
 
 
 def pixels_of(image):

@@ -1,6 +1,5 @@
 """Depth of field: the ray that Cycles sends through each pixel belongs to our chief ray, and its lens is ours."""
 
-import addon_utils
 import numpy as np
 import pytest
 
@@ -94,10 +93,10 @@ def outline(aperture):
 
 
 @pytest.mark.parametrize(("case", "custom"), [*((case, False) for case in CASES), *((case, True) for case in OURS)])
-def test_rays_pass_through_the_focus_and_fill_the_opening(blender, case, custom):
+def test_rays_pass_through_the_focus_and_fill_the_opening(blender, case, custom, request):
     scene = set_up(blender, (OURS if custom else CASES)[case])
     if custom:
-        addon_utils.enable("cycles", default_set=True)
+        request.getfixturevalue("osl")
         to_cycles(scene)
     camera = read_camera(scene)
     aperture, basis, eye = camera.aperture, camera.pose.basis, camera.pose.eye

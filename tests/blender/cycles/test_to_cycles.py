@@ -13,10 +13,7 @@ from .cycles import cycles_directions
 
 
 @pytest.fixture
-def scene(blender, camera_scene):
-    import addon_utils
-
-    addon_utils.enable("cycles", default_set=True)
+def scene(osl, camera_scene):
     render = camera_scene.render
     render.engine, render.resolution_x, render.resolution_y = "CYCLES", 48, 32
     return camera_scene
@@ -219,3 +216,39 @@ def test_an_engine_that_does_not_know_custom_cameras_is_named(scene):
     (said,) = to_cycles(scene)
     assert "choose Cycles" in said
 
+
+
+def test_the_file_renders_the_same_without_the_add_on(scene, tmp_path):
+    import camera_ray_caster as crc
+
+    set_up(scene, {"model": "OMNIMAX", "lens": 30.0} | SHIFT)
+    to_cycles(scene)
+    rays = read_camera(scene).rays()
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "camera.blend"))
+    crc.unregister()
+    try:
+        bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "camera.blend"))
+        seen = cycles_directions(bpy.context.scene)
+    finally:
+        crc.register()
+    assert np.array_equal(~np.isnan(seen[..., 0]), rays.valid)
+    assert np.nanmax(np.linalg.norm(seen - rays.directions, axis=-1)) <= FLOAT32
+
+
+def test_a_blender_without_osl_is_refused_in_one_line(scene, monkeypatch):
+    import _cycles
+
+    monkeypatch.setattr(_cycles, "with_osl", False)
+    with pytest.raises(InputError, match="without the Open Shading Language"):
+        to_cycles(scene)
+    assert scene.camera.data.type == "PERSP"
+
+
+def test_a_camera_of_a_library_is_refused(scene, tmp_path):
+    path = str(tmp_path / "library.blend")
+    bpy.data.libraries.write(path, {scene.camera.data})
+    with bpy.data.libraries.load(path, link=True) as (there, here):
+        here.cameras = there.cameras
+    scene.camera.data = here.cameras[0]
+    with pytest.raises(InputError, match="library"):
+        to_cycles(scene)

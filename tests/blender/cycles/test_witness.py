@@ -2,7 +2,6 @@
 
 from dataclasses import replace
 
-import addon_utils
 import numpy as np
 import pytest
 
@@ -18,9 +17,7 @@ ORDINARY = 2e-6
 """Radians: what float32 makes of rays where no number is lost, with sines and cosines of Cycles' own precision."""
 
 
-@pytest.fixture(autouse=True)
-def cycles(blender):
-    addon_utils.enable("cycles", default_set=True)
+pytestmark = pytest.mark.usefixtures("osl")
 
 
 @pytest.mark.parametrize(("key", "settings"), CASES)

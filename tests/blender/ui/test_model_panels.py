@@ -1,6 +1,5 @@
 """The panel of the camera's model and its times: the settings that are read, in order, and no others."""
 
-import addon_utils
 import pytest
 
 from camera_ray_caster.blender.cycles import to_cycles
@@ -115,8 +114,7 @@ def test_a_calibration_file_grays_out_the_numbers_that_it_replaces(blender, data
     assert drawn(blender, ModelPanel, data) == (("model", first), tuple(rest))
 
 
-def test_a_camera_of_cycles_shows_the_settings_of_its_own_type_and_the_way_back(blender, camera_scene):
-    addon_utils.enable("cycles", default_set=True)
+def test_a_camera_of_cycles_shows_the_settings_of_its_own_type_and_the_way_back(osl, blender, camera_scene):
     data = camera_scene.camera.data
     assert drawn(blender, ModelPanel, data)[0] == ("model",)
     assert drawn.operators == ["use_in_cycles"]
@@ -127,8 +125,7 @@ def test_a_camera_of_cycles_shows_the_settings_of_its_own_type_and_the_way_back(
     assert drawn(blender, ModelPanel, data)[0] == ("model", "slit_1", "ortho_scale", "lens")
 
 
-def test_the_buttons_go_there_and_back(blender, camera_scene):
-    addon_utils.enable("cycles", default_set=True)
+def test_the_buttons_go_there_and_back(osl, blender, camera_scene):
     data, ops = camera_scene.camera.data, blender.ops.camera_ray_caster
     assert not ops.back_to_blender.poll()
     ops.use_in_cycles()

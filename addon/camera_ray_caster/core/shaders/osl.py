@@ -65,8 +65,8 @@ float log1p(float x)
 }
 """,
 }
-"""Functions that OSL does not have, or not to float32's last digits: its sine is off by up to 1e-6. Half turns are taken
-away in two parts, of which the first times a small whole number is exact; the sum is Taylor's, to 6e-8. The last one
+"""Functions that OSL does not have, or not to float32's last digits: its sine is off by up to 1e-6. Half turns go
+away in two parts, of which the first times a small whole number is exact; the sum is Taylor's, to 6e-8. The last
 is W. Kahan's: exact where 1 + x is rounded.
 """
 
