@@ -1,48 +1,18 @@
 """What a user does in the window, one scenario a function: steps, and what must then hold."""
 
-import sys
 import time
 
 import _cycles
 import bpy
 import numpy as np
+from parts import BUTTON, MODULE, addon, load, timed
 from user import pixels_of
 
-MODULE = "bl_ext.user_default.camera_ray_caster"
-BUTTON = "bpy.ops.camera_ray_caster."
-
 DRAWN = 0.002
-"""Seconds that the drawing of a panel may take: a redraw must not be felt."""
+"""Seconds of a processor that the drawing of a panel may take: a redraw must not be felt."""
 
 PAUSE = 2.0
 """Seconds that the window may stand still beside a cast that takes many times as long, on busy cores."""
-
-
-def addon(name):
-    """A module of the installed add-on's ``blender`` package, by its dotted name."""
-    return sys.modules[f"{MODULE}.blender.{name}"]
-
-
-def load(user, scenes, name):
-    """Open an example scene in the window as it is, with the sidebar on our tab."""
-    bpy.ops.wm.open_mainfile(filepath=str(scenes / f"{name}.blend"), load_ui=False)
-    view = user.area().spaces.active
-    view.shading.type = "SOLID"
-    view.region_3d.view_perspective = "PERSP"
-    yield from user.wait(0.5)
-    yield from user.open_tab("Ray Caster")
-
-
-def timed(panel, seconds):
-    """Have the drawing of a panel timed."""
-    draw = panel.draw
-
-    def measured(self, context):
-        started = time.perf_counter()
-        draw(self, context)
-        seconds.append(time.perf_counter() - started)
-
-    panel.draw = measured
 
 
 def panel(user, scenes):
