@@ -27,8 +27,10 @@ EXAMPLES = _by_name(
 GALLERY = {
     "Meshes": _by_name(
         meshes.toys,
+        meshes.toys_cross_slit,
         meshes.living_room,
         meshes.living_room_equirectangular,
+        meshes.living_room_omnimax,
         meshes.rotunda_fisheye,
         meshes.rotunda_panorama,
         meshes.street,
@@ -36,6 +38,7 @@ GALLERY = {
         meshes.sculpture_garden,
         meshes.propeller,
         meshes.twisted_monkey,
+        meshes.unrolled_monkey,
     ),
     "Lenses": _by_name(
         lenses.pinhole,

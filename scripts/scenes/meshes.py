@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from functools import partial
-from math import pi, radians
+from math import cos, pi, radians, sin
 
-from .multiperspective import slit
-from .parts import add
+from .multiperspective import circle, slit
+from .parts import add, square, sun
 from .places.airfield import airfield
 from .places.living_room import living_room as furnish
 from .places.rotunda import rotunda
@@ -14,7 +14,7 @@ from .places.sculpture_garden import sculpture_garden as garden
 from .places.street import street as houses
 from .places.toy_table import backdrop, toy_table
 from .sets import photograph
-from .solids import block, monkey
+from .solids import block, monkey, turned
 from .time import driven
 
 SKY, DAYLIGHT, STUDIO = "86aed0", "9ca8ae", "848f9c"
@@ -30,6 +30,14 @@ def toys(scene):
     picture(scene, (0.3, -9.6, 4.2), (0.1, 0, 0.75), 800, 450, world=STUDIO, lens=43)
 
 
+def toys_cross_slit(scene):
+    """the same toys through an upright slit behind them all: what is far is wide, and blocks show both their sides."""
+    toy_table(scene)
+    upright, level = slit(scene, "Upright slit", (0, 8.8, 0), (0, -90, 0)), slit(scene, "Level slit", (0, -18, 8.0))
+    own = {"model": "CROSS_SLIT", "slit_1": upright, "slit_2": level}
+    picture(scene, (0, -4.4, 2.5), (0, 9, 2.5), 800, 360, world=STUDIO, own=own, lens=18 / 5.8)
+
+
 def living_room(scene):
     """two hundred meshes by arrays, bevels, lathes and cushions: pass indices tell kinds of furniture apart."""
     furnish(scene)
@@ -41,6 +49,13 @@ def living_room_equirectangular(scene):
     furnish(scene)
     kind = {"type": "PANO", "panorama_type": "EQUIRECTANGULAR"}
     picture(scene, (0.95, -1.1, 1.45), (0.5, 2.2, 1.45), 720, 360, world=DAYLIGHT, **kind)
+
+
+def living_room_omnimax(scene):
+    """and as a dome's film has it: tilted, most of the picture overhead; the table's far edge and the beams bend."""
+    furnish(scene)
+    own = {"model": "OMNIMAX", "tilt": radians(15)}
+    picture(scene, (-0.25, -1.55, 1.3), (-0.25, 2.2, 1.3), 480, 374, world=DAYLIGHT, own=own)
 
 
 def rotunda_fisheye(scene):
@@ -95,3 +110,22 @@ def twisted_monkey(scene):
     driven(axis, "rotation_euler", 2, f"(frame - 13) * {pi / 36:.6f}")
     own = {"time_mode": "ROWS", "time_start": 1, "time_end": 25}
     picture(scene, (0, -8, 2.6), (0, 0, 1.7), 440, 400, world=STUDIO, own=own, lens=60)
+
+
+def unrolled_monkey(scene):
+    """a strip from a path around a bust: face, ears and the back of the head side by side, pillars swept past them."""
+    add(scene, "Lawn", square(), (0, 0, -0.02), scale=60, color="9ab97b", index=1)
+    turned(scene, "Plaza", [(0, 0), (6, 0), (6, -0.02)], steps=64, color="d8ccb4", index=1)
+    monkey(scene, (0, 0, 2.35), (-14, 0, 0), 1.0, levels=1, color="e2674a", index=2)
+    block(scene, "Column", (0.9, 0.9, 1.4), (0, 0, 0.7), edge=0.04, color="3f7cc0", index=3)
+    shaft = [(0, 3.9), (0.5, 3.9), (0.5, 3.7), (0.33, 3.5), (0.38, 0.3), (0.5, 0.15), (0.5, 0)]
+    for k, color in enumerate(("eae1d0", "f0b941", "eae1d0", "2a9d8f", "eae1d0", "8a63b8", "eae1d0", "d9809a")):
+        angle = 2 * pi * (k + 0.5) / 8
+        place = 5 * cos(angle), 5 * sin(angle), 0
+        turned(scene, "Pillar", shaft, place, steps=32, color=color, index=4)
+    sun(scene, (48, 0, -46), 2.2, "fff0d8")
+    sun(scene, (70, 0, 130), 1.0, "ffe6cc")
+    path = circle(scene, (0, 0, 2.1), 2.6)
+    path.rotation_euler.z = pi  # it begins behind the head
+    own = {"model": "STRIP", "path": path, "follow_path": True}
+    picture(scene, (0, 2.6, 2.1), (0, 0, 2.1), 720, 280, world=SKY, own=own, lens=11, shift_y=0.045)

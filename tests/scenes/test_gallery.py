@@ -15,9 +15,12 @@ from .opening import FOLDER, README, look, opened, rendered
 PAGE = Path(cameras.__file__).with_name("README.md")
 """The table of the models that ship."""
 NAMES = re.findall(r'^\| <img src="pictures/(\w+)\.png" .*> \| `\1\.blend`: \S', README, re.MULTILINE)
-STUDIO = {"toys", "twisted_monkey"}
-UNDER_THE_SKY = {"street", "street_pushbroom", "sculpture_garden", "rotunda_fisheye", "rotunda_panorama", "propeller"}
-WITH_A_WINDOW = {"living_room", "living_room_equirectangular"}
+STUDIO = {"toys", "toys_cross_slit", "twisted_monkey"}
+UNDER_THE_SKY = {
+    "street", "street_pushbroom", "sculpture_garden", "rotunda_fisheye", "rotunda_panorama", "propeller",
+    "unrolled_monkey",
+}  # fmt: skip
+WITH_A_WINDOW = {"living_room", "living_room_equirectangular", "living_room_omnimax"}
 MESHES = STUDIO | UNDER_THE_SKY | WITH_A_WINDOW
 """Shaded by their materials; all others have the grid."""
 OPEN = {"little_planet", "cylindrical", "omnimax", "dome_master"} | UNDER_THE_SKY | WITH_A_WINDOW
@@ -30,8 +33,8 @@ DISC = pi / 4
 SHARES = {
     "mirrorball": DISC, "fisheye_equidistant": DISC, "fisheye_orthographic": DISC, "fisheye_stereographic": DISC,
     "dome_master": DISC, "rotunda_fisheye": DISC,
-    "omnimax": None, "fisheye_equisolid": None, "fisheye_polynomial": None, "opencv_fisheye": None,
-    "ucm": None, "eucm": None, "double_sphere": None, "thin_prism_fisheye": None,
+    "omnimax": None, "living_room_omnimax": None, "fisheye_equisolid": None, "fisheye_polynomial": None,
+    "opencv_fisheye": None, "ucm": None, "eucm": None, "double_sphere": None, "thin_prism_fisheye": None,
 }  # fmt: skip
 """The part of the picture that has rays, where that is not all of it; None for a disc that the frame cuts."""
 TALLEST_ROWS = 30

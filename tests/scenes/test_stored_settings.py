@@ -18,8 +18,12 @@ STORED = {
     "vertical_fit": ("PERSP", {"lens": 28, "sensor_fit": "VERTICAL", "sensor_width": 50, "sensor_height": 18}),
     "orthographic": ("ORTHO", {"ortho_scale": 6.5, "shift_x": 0.05, "shift_y": 0.08}),
     "toys": ("PERSP", {"lens": 43}),
+    "toys_cross_slit": (
+        "CROSS_SLIT", {"slit_1": ((0, 8.8, 0), (0, 8.8, 1)), "slit_2": ((0, -18, 8), (1, -18, 8)), "lens": 18 / 5.8},
+    ),
     "living_room": ("PERSP", {"lens": 18.5}),
     "living_room_equirectangular": ("EQUIRECTANGULAR", {"longitude_min": -pi, "latitude_max": pi / 2}),
+    "living_room_omnimax": ("OMNIMAX", {"tilt": radians(15)}),
     "rotunda_fisheye": ("FISHEYE_EQUIDISTANT", {"fisheye_fov": radians(190)}),
     "rotunda_panorama": (
         "CYLINDRICAL",
@@ -35,6 +39,7 @@ STORED = {
         {"time_mode": "ROLLING_SHUTTER", "motion_blur_shutter": 1, "rolling_shutter_duration": 0, **TIMES},
     ),
     "twisted_monkey": ("PERSP", {"time_mode": "ROWS", "time_start": 1, "time_end": 25, **TIMES}),
+    "unrolled_monkey": ("STRIP", {"follow_path": True, "lens": 11, "shift_y": 0.045}),
     "pinhole": ("PERSP", {"lens": 22}),
     "thin_lens": ("PERSP", {"lens": 22}),
     "camera_obscura": ("CAMERA_OBSCURA", {"obscura_depth": 2, "obscura_width": 3.27, "obscura_hole": 0.03}),
