@@ -22,7 +22,19 @@ FRAME = {"calibration_width": 96, "calibration_height": 54}
 LENSES = {
     "OPENCV_PINHOLE": {"k1": -0.28, "k2": 0.07, "p1": 1e-3, "p2": -5e-4, "k3": 0.01, **FRAME},
     "OPENCV_FISHEYE": {"k1": 0.05, "k2": 0.01, "k3": -0.003, "k4": -1e-4, **FRAME},
-}
+    "UCM": {"unified_xi": 0.9, "k1": -0.05, "k2": 0.01, "p1": 1e-3, "p2": -5e-4, **FRAME},
+    "EUCM": {"unified_alpha": 0.6, "unified_beta": 1.1, **FRAME},
+    "DOUBLE_SPHERE": {"unified_xi": -0.2, "unified_alpha": 0.57, **FRAME},
+    "FISHEYE624": {
+        "k1": 0.4, "k2": -0.5, "k3": 0.25, "k4": 1.2, "k5": -1.7, "k6": 0.6, "p1": 4e-4, "p2": -2e-4,
+        "s1": -6e-4, "s2": -2e-4, "s3": 9e-4, "s4": 1e-5, **FRAME,
+    },
+    "THIN_PRISM_FISHEYE": {"k1": -0.03, "k2": 0.01, "p1": 1e-3, "p2": -5e-4, "s1": 2e-3, "s3": -1e-3, **FRAME},
+    "FOV": {"fov_omega": 0.9, **FRAME},
+    "DIVISION": {"division_lambda": -0.3, **FRAME},
+    "FTHETA": {"ftheta_angle_to_radius": "0 58 0.5 -1.5 0.3", "ftheta_c": 1.001, "ftheta_d": 1e-3, **FRAME},
+    "OCAM": {"ocam_polynomial": "-40 0 0.008 1e-5 2e-7", "ocam_c": 0.999, "ocam_d": 1e-3, **FRAME},
+}  # fmt: skip
 """Distortions such as real lenses have."""
 
 
