@@ -13,6 +13,10 @@ import numpy as np
 from ...exr import read_exr
 
 
+WIRE = 4.0
+"""Pixels."""
+
+
 def cycles_directions(scene, suffix=""):
     """Return the world directions of the primary rays of the render window, (h, w, 3); NaN where there is no ray.
 
@@ -43,6 +47,11 @@ def cycles_passes(scene):
     return np.stack([channels[f"{layer.name}.Combined.{part}"] for part in "RGB"], axis=-1), channels[index]
 
 
+def cycles_wires(scene):
+    """Return which pixels show an edge of a triangle, drawn WIRE pixels wide, (h, w) bool."""
+    return _render(scene, "Fac", 1.0, sky=False)[..., 0] > 0.5
+
+
 def _render(scene, output, reach, sky, suffix=""):
     _prepare(scene)
     scene.world = bpy.data.worlds.new("Witness")
@@ -67,11 +76,14 @@ def _emit(block, shader, target, output, reach):
     """Give a world or material the shader that emits what a node puts out, brought to 0 .. 1."""
     others = {
         "View Z Depth": "ShaderNodeCameraData", "UV": "ShaderNodeTexCoord", "Object Index": "ShaderNodeObjectInfo",
+        "Fac": "ShaderNodeWireframe",
     }  # fmt: skip
     source = others.get(output, "ShaderNodeNewGeometry")
     nodes, links = _nodes(block), block.node_tree.links
     nodes.clear()
     source, scaled, shader, target = (nodes.new(name) for name in (source, "ShaderNodeVectorMath", shader, target))
+    if output == "Fac":
+        source.use_pixel_size, source.inputs[0].default_value = True, WIRE
     scaled.operation = "MULTIPLY_ADD"
     scaled.inputs[1].default_value = [0.5 / reach] * 3
     scaled.inputs[2].default_value = [0.5] * 3

@@ -9,7 +9,7 @@ from camera_ray_caster.blender.read.scene import read_camera
 from camera_ray_caster.core.records import InputError
 
 from ..read.scene_parts import curves, new_object
-from .cycles import cycles_directions
+from .cycles import cycles_directions, cycles_wires
 
 
 @pytest.fixture
@@ -252,3 +252,20 @@ def test_a_camera_of_a_library_is_refused(scene, tmp_path):
     scene.camera.data = here.cameras[0]
     with pytest.raises(InputError, match="library"):
         to_cycles(scene)
+
+
+def test_rays_have_the_derivatives_of_cycles_own_camera(scene):
+    """Lines of a width in pixels are as wide: they ask how far the rays of neighboring pixels are apart."""
+    camera = set_up(scene, {"lens": 30.0})
+    camera.scale = (1, 1, 1)
+    read = read_camera(scene)
+    corners = read.pose.eye + np.array([(-6, -6, -3), (7, -6, -4), (7, 6, -6), (-6, 6, -9)]) @ read.pose.basis.T
+    mesh = bpy.data.meshes.new("Grid")
+    mesh.from_pydata(corners.tolist(), [], [range(4)])
+    new_object("Grid", mesh).modifiers.new("Grid", "SUBSURF").subdivision_type = "SIMPLE"
+    scene.objects["Grid"].modifiers[0].render_levels = 3
+    theirs = cycles_wires(scene)
+    to_cycles(scene)
+    ours = cycles_wires(scene)
+    assert 0.2 < theirs.mean() < 0.8
+    assert np.count_nonzero(ours != theirs) <= 2  # at the very edge of a line

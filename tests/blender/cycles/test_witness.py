@@ -68,3 +68,12 @@ def test_the_bound_is_float32s_own():
     assert 8 * EPS32 < middle.direction < 40 * EPS32
     rim = cycles_witness.ray_bounds(camera("FISHEYE_ORTHOGRAPHIC"), np.array(48 + 26.99), np.array(27.0), (0.0, 0.0))
     assert rim.direction > 10 * middle.direction
+
+
+SHEARED = [[0.5, 0.2, -0.1, 1.0], [0.1, -1.5, 0.3, 2.0], [0.0, 0.4, 2.0, -3.0], [0, 0, 0, 1]]
+
+
+@pytest.mark.parametrize("key", ["PERSP", "OMNIMAX", "EQUIRECTANGULAR", "CROSS_SLIT"])
+def test_a_sheared_and_mirrored_camera_is_what_cycles_renders(key):
+    found = cycles_witness.cycles_finding(camera(key, EXAMPLES[key][0] | {"matrix_world": SHEARED}))
+    assert found.passed, found

@@ -21,6 +21,7 @@ WITNESSES = {
     "calc_matrix_camera": "Camera Matrix",
     "world_to_camera_view": "View Position",
     "round trip": "Round Trip",
+    "Cycles": "Cycles",
 }
 """What the panel calls a witness, by its name in the report."""
 

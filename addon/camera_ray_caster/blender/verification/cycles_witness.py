@@ -23,7 +23,7 @@ from ...core.shaders.accuracy import ray_bounds
 from ...core.shaders.camera_shader import CameraShader, camera_shader
 from ..cycles.shader import check_cycles, set_shader
 
-CYCLES = "Cycles, Position"
+CYCLES = "Cycles"
 
 LONGER_SIDE = 288
 """Pixels of the picture."""
