@@ -12,7 +12,6 @@ import numpy as np
 
 from ...exr import read_exr
 
-
 WIRE = 4.0
 """Pixels."""
 
