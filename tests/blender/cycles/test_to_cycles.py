@@ -96,6 +96,27 @@ def test_a_shader_is_left_alone_while_nothing_changes(scene, monkeypatch):
     bpy.context.view_layer.update()
 
 
+def test_inputs_are_the_settings_whatever_is_typed_into_them(scene):
+    camera = set_up(scene, {"lens": 30.0})
+    to_cycles(scene)
+    camera.data.cycles_custom["window_pitch_x"] = 1.0
+    camera.data.update_tag()
+    bpy.context.view_layer.update()
+    check(scene)
+
+
+def test_of_cameras_with_the_same_data_the_active_one_counts(scene):
+    camera = set_up(scene, {"model": "PENCIL"})
+    own(camera).slit_1 = slit = new_object("Slit")
+    slit.location = (1.5, -2, 3)
+    new_object("Other", camera.data).location = (5, 5, 5)
+    bpy.context.view_layer.update()
+    to_cycles(scene)
+    slit.location.z = 3.5
+    bpy.context.view_layer.update()
+    check(scene)
+
+
 def test_animation_is_keyframes_that_need_no_add_on(scene, monkeypatch):
     from camera_ray_caster.blender.cycles import follow
 

@@ -7,12 +7,13 @@ from bpy.app.handlers import persistent
 
 from ...core.camera.build import camera_from
 from ...core.records import BlenderCamera, InputError
+from ...core.shaders.camera_shader import CameraShader
 from ..read.camera import camera_record, shader_mark
 from .convert import shader_of
 from .shader import CUSTOM, rewrite, set_inputs
 
-_known: dict[int, bytes] = {}
-"""What the shaders of camera objects were made of, by the objects' session_uid."""
+_known: dict[int, tuple[bytes, CameraShader]] = {}
+"""The shaders of camera objects and what they were made of, by the objects' session_uid."""
 
 
 @persistent
@@ -22,27 +23,32 @@ def follow(scene, depsgraph):
     if not customs:
         return
     for item in scene.objects:
-        if item.type == "CAMERA" and item.data.session_uid in customs:
+        if item.type == "CAMERA" and item.data.session_uid in customs and not _is_shared(item, scene.camera):
             update(item, depsgraph)
+
+
+def _is_shared(item, active) -> bool:
+    """Whether the active camera has the same data, whose shader is then that of the active one."""
+    return active is not None and item != active and item.data == active.data
 
 
 def update(camera_object, depsgraph) -> None:
     """Bring a camera's shader up to date, if it has one of ours. What cannot be cast keeps the shader that it has."""
     camera = camera_object.data
+    mark, known = shader_mark(camera), _known.get(camera_object.session_uid)
+    if mark is None:
+        return
     try:
         raw = camera_record(camera_object, depsgraph)
         state = _state(raw)
-        if _known.get(camera_object.session_uid) == state:
-            return
-        mark = shader_mark(camera)
-        if mark is None:
-            return
-        shader = shader_of(raw, camera_from(raw), mark.places)
+        if known is None or known[0] != state:
+            known = state, shader_of(raw, camera_from(raw), mark.places)
     except InputError:  # the sidebar says why
         return
-    _known[camera_object.session_uid] = state
+    _known[camera_object.session_uid] = known
+    _, shader = known
     if camera.custom_shader.as_string() == shader.source:
-        set_inputs(camera, shader)
+        set_inputs(camera, shader)  # which a user may have changed
     else:
         rewrite(camera, shader)
 
