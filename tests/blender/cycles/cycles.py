@@ -52,6 +52,22 @@ def cycles_wires(scene):
 
 
 def _render(scene, output, reach, sky, suffix=""):
+    show(scene, output, reach, sky)
+    bpy.ops.render.render(write_still=True, scene=scene.name)
+    path = Path(scene.render.filepath)
+    channels = read_exr(path.with_stem(path.stem + suffix))  # Blender 4.5 cannot read what it writes of one eye alone
+    return shown(np.stack([channels[name] for name in "RGB"], axis=-1), reach)
+
+
+def shown(colors, reach):
+    """Return what was emitted, from the colors of a picture of ``show``; NaN where nothing is seen."""
+    values = colors.astype(np.float64)
+    values[(values == 0).all(axis=-1)] = np.nan
+    return (values - 0.5) * (2 * reach)
+
+
+def show(scene, output, reach, sky=False):
+    """Let surfaces, or surfaces and sky, emit what a shader node puts out, and let Cycles render pixel centers."""
     _prepare(scene)
     scene.world = bpy.data.worlds.new("Witness")
     scene.world.cycles.sampling_method = "NONE"
@@ -63,12 +79,6 @@ def _render(scene, output, reach, sky, suffix=""):
     _emit(material, "ShaderNodeEmission", "ShaderNodeOutputMaterial", output, reach)
     for layer in scene.view_layers:
         layer.material_override = material
-    bpy.ops.render.render(write_still=True, scene=scene.name)
-    path = Path(scene.render.filepath)
-    channels = read_exr(path.with_stem(path.stem + suffix))  # Blender 4.5 cannot read what it writes of one eye alone
-    values = np.stack([channels[name] for name in "RGB"], axis=-1).astype(np.float64)
-    values[(values == 0).all(axis=-1)] = np.nan
-    return (values - 0.5) * (2 * reach)
 
 
 def _emit(block, shader, target, output, reach):

@@ -29,6 +29,8 @@ def to_cycles(scene, camera_object=None) -> list[str]:
     Blender without this add-on; what is animated in the scene's frame range becomes keyframes of its inputs. The model,
     its settings and its pose stay where they are, and ``read_camera`` gives the same camera afterwards; Cycles computes
     the rays in float32. A camera that is one already gets its shader and its keyframes anew.
+    A rolling shutter is Cycles' own. A slit scan cannot be a camera of a timeline: it shows the same frames whatever
+    the current one is, and Cycles' shutter is open about the current one; ``picture_of`` renders it.
     Returns what follows only where the add-on is enabled, what was changed in the scene, and where the engine or the
     device will not show it, in lines.
     Raises InputError for what ``read_camera`` refuses, for a camera of a library, for spherical stereo, for pixel times

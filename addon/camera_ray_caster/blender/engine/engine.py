@@ -13,6 +13,7 @@ from ...core.camera.stereo import eye_record
 from ...core.motion.evaluations import UNRESOLVED
 from ...core.records import BlenderCamera, Cancelled, InputError
 from ...core.report.report import Report
+from ..cycles.picture import Picture
 from ..output import reports
 from ..properties.declared import ENGINE
 from ..terminal import signals
@@ -33,6 +34,8 @@ class CameraRayCaster(Viewport, bpy.types.RenderEngine):
     done: Report | None = None
     stopped = False
     """Whether a render was stopped since whoever asks has set it False."""
+    picture: Picture | None = None
+    """Another engine's picture, which takes the place of the combined pass; None for our own."""
 
     def update_render_passes(self, scene=None, renderlayer=None):
         """Tell the compositor which sockets a view layer has."""
@@ -67,10 +70,15 @@ class CameraRayCaster(Viewport, bpy.types.RenderEngine):
         self.active_view_set(view)
         self.update_stats(layer, f"Casting rays {view}".rstrip())
         keys = [entry.key for entry in wanted]
+        given, made_by = {}, {"engine": self.bl_idname, "samples": depsgraph.scene_eval.camera_ray_caster.samples}
+        if self.picture is not None and "combined" in keys:
+            given, made_by = {"combined": self.picture.pixels[layer, view]}, self.picture.made_by
         images, report = run(
-            depsgraph, self.camera_override, keys, self.advance,
+            depsgraph, self.camera_override, [key for key in keys if key not in given], self.advance,
             visit=partial(self.visit, depsgraph), view=view, eye=partial(self.eye, view=view),
         )  # fmt: skip
+        images |= given
+        report = replace(report, passes=tuple(keys), combined=made_by)
         started = perf_counter()
         height, width = next(iter(images.values())).shape[:2]
         result = self.begin_result(0, 0, width, height, layer=layer, view=view)

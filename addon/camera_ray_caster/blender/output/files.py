@@ -1,7 +1,8 @@
 """A rendered frame as files: a picture, an EXR with all passes, and the report. They appear whole or not at all."""
 
 import os
-from contextlib import redirect_stdout
+from collections.abc import Iterator
+from contextlib import contextmanager, redirect_stdout
 from dataclasses import replace
 from math import ceil
 from pathlib import Path
@@ -14,6 +15,7 @@ from ...core.casting.passes import image_bytes
 from ...core.memory import of_pixels, require
 from ...core.records import Cancelled, InputError
 from ...core.report.report import Report, as_json
+from ..cycles.picture import Picture
 from ..engine.engine import CameraRayCaster
 from ..engine.passes import ticked
 from ..terminal import signals
@@ -41,18 +43,21 @@ LAYERS = {
 NOT_WRITTEN = "the compositor's File Output nodes have written nothing: --file-output lets them write where they say"
 
 
-def render(scene, folder: Path, name: str, number: str = "", file_output: bool = False) -> tuple[Report, list[Path]]:
+def render(
+    scene, folder: Path, name: str, number: str = "", file_output: bool = False, picture: Picture | None = None
+) -> tuple[Report, list[Path]]:
     """Render the scene's current frame into ``folder`` and return the report and the files.
 
     They are NAME.png, NAME.exr and report.json, ``number`` before each dot; of several views NAME_L.png, NAME_R.png and
     so on, by the views' suffixes. The compositor's File Output nodes write, where they say, only with ``file_output``.
+    ``picture`` takes the place of the combined pass.
     Leaves all as it was and raises InputError where Blender cannot render or the folder
     cannot be written, Cancelled where it is stopped.
     """
-    _check_suffixes(scene.render)
-    _check_memory(scene)
-    with appearing(folder) as temporary:
+    check(scene)
+    with _shown(picture), appearing(folder) as temporary:
         report = _composited(scene, file_output)
+        report = report if picture is None else report.with_seconds(cycles=picture.seconds)
         started = perf_counter()
         _save(scene, temporary / f"{name}{number}.png", PICTURE)
         _save(scene, temporary / f"{name}{number}.exr", LAYERS)
@@ -61,6 +66,23 @@ def render(scene, folder: Path, name: str, number: str = "", file_output: bool =
         names = sorted(os.listdir(temporary))
         signals.raise_if_stopping()
     return report, [folder / name for name in names]
+
+
+def check(scene) -> None:
+    """Raise InputError for what ``render`` refuses before it begins."""
+    _check_layers(scene)
+    _check_suffixes(scene.render)
+    _check_memory(scene)
+
+
+@contextmanager
+def _shown(picture: Picture | None) -> Iterator[None]:
+    """Let our engine show another one's picture."""
+    CameraRayCaster.picture = picture
+    try:
+        yield
+    finally:
+        CameraRayCaster.picture = None
 
 
 def _composited(scene, file_output: bool) -> Report:
@@ -78,8 +100,6 @@ def _composited(scene, file_output: bool) -> Report:
 
 def _rendered(scene) -> Report:
     """Render the current frame and return its report, with Blender's share of the time; Cancelled where it stopped."""
-    if not any(layer.use for layer in scene.view_layers):
-        raise InputError(f"no view layer of scene {scene.name!r} is used for rendering: enable one")
     reports.forget()
     CameraRayCaster.stopped = False
     scene.render.use_sequencer = False  # a strip would be shown in place of the cast
@@ -111,6 +131,12 @@ def _save(scene, path: Path, settings) -> None:
     except RuntimeError as error:
         if not _views_written(scene.render, path):
             raise OSError(0, str(error).strip()) from error
+
+
+def _check_layers(scene) -> None:
+    """Raise InputError where there is nothing to render."""
+    if not any(layer.use for layer in scene.view_layers):
+        raise InputError(f"no view layer of scene {scene.name!r} is used for rendering: enable one")
 
 
 def _check_memory(scene) -> None:

@@ -19,6 +19,9 @@ from ...core.casting.request import PRECISIONS, SHADINGS
 from ...core.records import Cancelled, InputError
 from ...core.report.report import WIDTH, Report, as_json, as_lines
 from ..cycles import to_cycles as make_custom
+from ..cycles.device import said_of_device
+from ..cycles.picture import Picture, picture_of
+from ..cycles.shader import check_cycles
 from ..engine.engine import CameraRayCaster
 from ..engine.passes import tick, ticked
 from ..output import files
@@ -28,7 +31,12 @@ from ..verification.check import verified
 from . import signals
 from .opening import not_run, open_file, save_copy
 from .standard_output import keep_output
-from .words import Parser, frame_number, frame_range, joined, pass_names
+from .words import Parser, frame_number, frame_range, joined, pass_names, sample_count
+
+STOPPED = "stopped; what was under way has left nothing"
+
+CYCLES = "CYCLES"
+ENGINES = CameraRayCaster.bl_idname, CYCLES
 
 DEFAULT_PASSES = ("combined", "depth", "normal", "position", "object_index")
 """What is cast of a view layer that ticks nothing beside combined."""
@@ -44,7 +52,7 @@ def main(command: str, arguments: Sequence[str], prog: str) -> int:
         print(f"{prog}: {error}", file=sys.stderr)
         return 2
     except (Cancelled, KeyboardInterrupt):
-        print(f"{prog}: stopped; what was under way has left nothing", file=sys.stderr)
+        print(f"{prog}: {STOPPED}", file=sys.stderr)
         return 130
     finally:
         signals.reset()
@@ -67,12 +75,24 @@ def cast(arguments: Sequence[str], prog: str) -> int:
     parser.add_argument("--shading", type=str.upper, choices=SHADINGS, help="of the combined pass; default: the file's")
     parser.add_argument("--precision", type=str.upper, choices=PRECISIONS,
                         help="what hits are searched with; default: the file's")  # fmt: skip
+    parser.add_argument("--engine", type=str.upper, choices=ENGINES, default=ENGINES[0],
+                        help="of the combined pass; our passes stand beside it; default: %(default)s")  # fmt: skip
+    parser.add_argument("--samples", type=sample_count, metavar="N", help="of Cycles, a pixel; default: the file's")
     parser.add_argument("--output", type=Path, default=Path("out"), metavar="FOLDER", help="default: %(default)s")
     parser.add_argument("--file-output", action="store_true",
                         help="let the compositor's File Output nodes write; default: they do not")  # fmt: skip
     _add_json(parser)
     options = parser.parse_args(joined(arguments, "--frames"))
+    by_cycles = options.engine == CYCLES
+    if options.samples and not by_cycles:
+        raise InputError(f"--samples is for --engine {CYCLES}: the file has our own samples")
+    if by_cycles:
+        check_cycles()
     scene = _open(options)
+    if by_cycles:
+        scene.cycles.samples = options.samples or scene.cycles.samples
+        for line in said_of_device(scene):
+            _warn(prog, line)
     for layer in scene.view_layers:
         if options.passes or [entry.key for entry in ticked(scene, layer)] == ["combined"]:
             tick(scene, layer, options.passes or DEFAULT_PASSES)
@@ -84,7 +104,8 @@ def cast(arguments: Sequence[str], prog: str) -> int:
         _go_to(scene, frame)
         read_camera(scene)  # a camera that cannot be cast is refused before anything is made
         number = f"_{frame:04d}" if options.frames else ""
-        report, paths = files.render(scene, options.output, _stem(), number, options.file_output)
+        picture = _by_cycles(scene, prog) if by_cycles else None
+        report, paths = files.render(scene, options.output, _stem(), number, options.file_output, picture)
         for line in report.warnings:
             if line not in warned:
                 _warn(prog, line)
@@ -92,6 +113,13 @@ def cast(arguments: Sequence[str], prog: str) -> int:
         _show(report, options.json, f"Wrote {', '.join(map(str, paths))}")
         passed &= report.passed
     return int(not passed)
+
+
+def _by_cycles(scene, prog: str) -> Picture:
+    """Render the current frame with Cycles, whose work no signal's handler can end."""
+    files.check(scene)
+    with signals.leaving(f"{prog}: {STOPPED}"):
+        return picture_of(scene)
 
 
 def verify(arguments: Sequence[str], prog: str) -> int:

@@ -4,6 +4,7 @@ import argparse
 from collections.abc import Sequence
 
 from ...core.camera.pixel_time import LAST_FRAME
+from ...core.cast import MOST_SAMPLES
 from ...core.casting.passes import PASSES
 from ...core.records import InputError
 
@@ -40,6 +41,14 @@ def frame_range(text: str) -> range:
     if first > last:
         raise argparse.ArgumentTypeError(f"{text} holds no frame: give the first one first")
     return range(first, last + 1)
+
+
+def sample_count(text: str) -> int:
+    """Return samples a pixel; argparse names this function where the text is none."""
+    samples = int(text)
+    if not 1 <= samples <= MOST_SAMPLES:
+        raise argparse.ArgumentTypeError(f"{text} is no number of samples from 1 to {MOST_SAMPLES}")
+    return samples
 
 
 def pass_names(text: str) -> list[str]:

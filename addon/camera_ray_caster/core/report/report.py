@@ -36,6 +36,8 @@ class Report:
     frame: float
     layers: tuple[str, ...] = ()
     passes: tuple[str, ...] = ()
+    combined: Mapping[str, Any] = field(default_factory=dict)
+    """What has made the combined pass: the engine, its samples a pixel, the device if it is not ours."""
     shapes: int = 0
     pixels: int = 0
     seconds: Mapping[str, float] = field(default_factory=dict)

@@ -20,6 +20,7 @@ from ..camera.camera import Camera
 from ..conventions import EPS32
 from ..maths.recording import Parameter, Record, record
 from .osl import HELPERS, Inputs, Term, Writer
+from .turn import UPRIGHT, Turn
 
 MARK = "// Camera Ray Caster, from a {} camera. Inputs by place: {}. Checksum: {:08x}"
 MARKED = re.compile(r"// Camera Ray Caster, from a (\w+) camera\. Inputs by place: ([\d ]*)\. Checksum: (\w{8})")
@@ -37,8 +38,8 @@ TEXT = """\
     output vector direction = 0,
     output color throughput = 1)
 {{
-    point place = camera_shader_raster_position();
-    float x = (place[0] - frame_shift_x) * frame_width, y = (place[1] - frame_shift_y) * frame_height;
+    point place = camera_shader_raster_position() - point(frame_shift_x, frame_shift_y, 0);
+    float x = ({x}) * frame_width, y = ({y}) * frame_height;
 {aperture}{lines}
     if ({none}) {{
         throughput = 0;
@@ -94,13 +95,18 @@ def read_mark(source: str) -> Mark | None:
 
 
 def camera_shader(
-    camera: Camera, blender_type: str, shift: tuple[float, float], places: frozenset[int] = frozenset()
+    camera: Camera,
+    blender_type: str,
+    shift: tuple[float, float],
+    places: frozenset[int] = frozenset(),
+    turn: Turn = UPRIGHT,
 ) -> CameraShader:
     """Return the shader that gives Cycles the rays of a camera, all over its pixels and its aperture, at one time.
 
     blender_type: what ``read_mark`` shall say. shift: what Cycles adds to the raster, in fractions of the frame.
-    places: constants that are inputs in any case, for cameras whose settings change. Its rays are those of
-    ``Camera.sample_rays`` in float32. Raises NotRecordable for a model that does what cannot be recorded.
+    places: constants that are inputs in any case, for cameras whose settings change. turn: how Cycles' raster lies in
+    the camera's. Its rays are those of ``Camera.sample_rays`` in float32. Raises NotRecordable for a model that does
+    what cannot be recorded.
     """
     model, inputs = camera.model, Inputs(places)
     writer = Writer(inputs)
@@ -110,6 +116,7 @@ def camera_shader(
     (width, height), opening = model.frame, camera.aperture
     frame = {"frame_width": width, "frame_height": height, "frame_shift_x": shift[0], "frame_shift_y": shift[1]}
     own = {name: value for name, value in inputs.values.items() if name not in frame}
+    x, y = turn.places
     rest = TEXT.format(
         label=model.label,
         description=model.description,
@@ -118,6 +125,8 @@ def camera_shader(
         aperture="" if opening is None else HOLE if opening.is_hole else APERTURE,
         lines="\n".join((*writer.tables, *writer.lines)),
         none=none,
+        x=x,
+        y=y,
         o=texts[:3],
         d=texts[3:],
     )

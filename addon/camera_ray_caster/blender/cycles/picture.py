@@ -1,0 +1,178 @@
+"""Cycles' picture of a scene through its camera: float pixels, which lie on those of a cast.
+
+The camera is a custom one only for as long as Cycles renders, and the scene is as it was afterwards. Pixels that have
+each their own time: a rolling shutter is Cycles' own; so is a slit scan, by rows or by columns, whose picture may be
+rendered turned; the times of an image are rendered one by one, each only where it is seen. A model's settings count as
+they are at the current frame, or at each time of an image: Cycles' shutter sees poses and shapes move, not lenses.
+Adaptive subdivision, which depends on the engine that renders, is left out, as it is in a cast.
+"""
+
+from collections.abc import Iterator, Mapping
+from contextlib import ExitStack, contextmanager
+from dataclasses import dataclass, replace
+from functools import partial
+from time import perf_counter
+
+import bpy
+import numpy as np
+
+from ...core.camera.build import camera_from
+from ...core.camera.camera import Camera
+from ...core.camera.pixel_time import ROLLING_SHUTTER, LinearTime, groups
+from ...core.camera.stereo import eye_record
+from ...core.casting.passes import image_bytes
+from ...core.memory import of_pixels, require
+from ...core.records import BlenderCamera, InputError
+from ...core.shaders.camera_shader import camera_shader
+from ...core.shaders.turn import UPRIGHT, Turn, shutter_of
+from ..read.camera import camera_record, shader_mark
+from ..read.scene import evaluated, evaluated_camera
+from ..terminal.signals import raise_if_stopping
+from .device import device_of
+from .renderer import Render, border, changed, cycles_engine
+from .shader import check_cycles, set_shader
+
+MOTION_STEPS = 7
+"""Of every object in a slit scan: 2^7 + 1 places over its frames, the most that Cycles takes."""
+
+
+@dataclass(frozen=True)
+class Picture:
+    """The combined pass of every view layer and view."""
+
+    pixels: Mapping[tuple[str, str], np.ndarray]
+    """(rows, columns, 4) float32 of the render window, row 0 at the bottom, by the names of view layer and view."""
+    made_by: Mapping[str, object]
+    """The engine, its device and its samples, for the report."""
+    seconds: float
+
+
+@dataclass(frozen=True)
+class Eye:
+    """A camera object for one view, at one frame."""
+
+    camera_object: bpy.types.Object
+    raw: BlenderCamera
+    camera: Camera
+    moved: bool
+    """Whether it is one of Blender's Stereo 3D, which moves and shifts the camera object for it."""
+    shift_x: float
+    """What Cycles adds to the raster, in widths of the frame; not all models take the shift of an eye."""
+
+
+def picture_of(scene) -> Picture:
+    """Render a scene's current frame with Cycles, by the file's settings, with the rays of its camera.
+
+    Raises InputError where Cycles is disabled or has no OSL, for what ``read_camera`` refuses, for a camera object of a
+    library, where Blender cannot render, and Cancelled where it is stopped between two renders.
+    """
+    check_cycles()
+    started, pixels = perf_counter(), {}
+    render = scene.render
+    views = [view.name for view in render.views if view.use] if render.use_multiview else [""]
+    with cycles_engine(scene) as run:
+        for view in views:
+            pixels |= {(layer, view): found for layer, found in _of_view(scene, view, run).items()}
+    made_by = {"engine": "CYCLES", "device": device_of(scene), "samples": scene.cycles.samples}
+    return Picture(pixels, made_by, perf_counter() - started)
+
+
+def _of_view(scene, view: str, render: Render) -> Mapping[str, np.ndarray]:
+    eye = _eye(scene, view)
+    shape = eye.camera.raster.shape
+    require(2 * image_bytes(shape, ["combined"], np.float32), of_pixels("Cycles' picture", shape))
+    time = eye.camera.pixel_time
+    with _only(scene, eye, view):
+        if isinstance(time, LinearTime):
+            return _rolled(scene, eye, time, render)
+        if time is not None:
+            return _one_by_one(scene, eye, time, view, render)
+        with _custom(eye):
+            return render()
+
+
+def _eye(scene, view: str, frame: float | None = None) -> Eye:
+    with evaluated_camera(scene, frame=frame, view=view) as (active, depsgraph):
+        plain = camera_record(active, depsgraph)
+        raw = eye_record(plain, view)
+        moved = raw.matrix_world is not plain.matrix_world
+        shifted = eye_record(replace(plain, type="ORTHO", model=""), view) if moved else raw
+        return Eye(active, raw, camera_from(raw), moved, shifted.shift_x)
+
+
+def _rolled(scene, eye: Eye, time: LinearTime, render: Render) -> Mapping[str, np.ndarray]:
+    """Render through Cycles' rolling shutter: the scene's own, or one that takes the time of a slit scan."""
+    blur = {"use_motion_blur": True}
+    with ExitStack() as stack:
+        change = partial(changed, stack)
+        change(scene.cycles, rolling_shutter_type="TOP")
+        if eye.raw.settings["time_mode"] == ROLLING_SHUTTER:
+            change(scene.render, **blur)
+            stack.enter_context(_custom(eye))
+            return render()
+        turn = Turn.of(time)
+        begin, frames = shutter_of(time, eye.camera.raster)
+        change(scene.render, **blur, motion_blur_position="START", motion_blur_shutter=frames)
+        change(scene.cycles, rolling_shutter_duration=0.0)
+        for item in bpy.data.objects:
+            change(item.cycles, use_motion_blur=True, use_deform_motion=True, motion_steps=MOTION_STEPS)
+        if turn.transposed:
+            size = scene.render.resolution_y, scene.render.resolution_x
+            change(scene.render, resolution_x=size[0], resolution_y=size[1])
+        change(scene.render, **border(turn.raster(eye.camera.raster)))
+        stack.enter_context(_custom(eye, turn))
+        stack.enter_context(evaluated(scene, begin))
+        return {layer: turn.back(found) for layer, found in render().items()}
+
+
+def _one_by_one(scene, eye: Eye, time, view: str, render: Render) -> Mapping[str, np.ndarray]:
+    """Render each time in the box of the pixels that have it."""
+    raster, pixels = eye.camera.raster, {}
+    for frame, rows, columns, where in groups(time, raster.columns(), raster.rows()):
+        raise_if_stopping()
+        box = replace(raster, x0=raster.x0 + columns.start, x1=raster.x0 + columns.stop,
+                      y0=raster.y0 + rows.start, y1=raster.y0 + rows.stop)  # fmt: skip
+        with ExitStack() as stack:
+            then = _eye(scene, view, frame)
+            changed(stack, scene.render, **border(box))
+            stack.enter_context(_custom(then))
+            stack.enter_context(evaluated(scene, frame))
+            for layer, found in render().items():
+                into = pixels.setdefault(layer, np.empty((*raster.shape, 4), np.float32))
+                into[rows, columns][where] = found[where]
+    return pixels
+
+
+@contextmanager
+def _only(scene, eye: Eye, view: str) -> Iterator[None]:
+    """Let a render show one view alone: an eye of Blender's as such, any other as if there were no views."""
+    with ExitStack() as stack:
+        if eye.moved:
+            for other in scene.render.views:
+                changed(stack, other, use=other.name == view)
+        else:
+            changed(stack, scene, camera=eye.camera_object)
+            changed(stack, scene.render, use_multiview=False)
+        yield
+
+
+@contextmanager
+def _custom(eye: Eye, turn: Turn = UPRIGHT) -> Iterator[None]:
+    """Let a camera object be a custom camera, by a copy of its data, whose shader nothing that follows ours knows."""
+    shader = camera_shader(eye.camera, eye.raw.type, (eye.shift_x, eye.raw.shift_y), turn=turn)
+    item = eye.camera_object
+    if not item.is_editable:
+        raise InputError(f"camera {item.name!r} is linked from a library: make it local first (Object > Relations)")
+    own, copy, text = item.data, item.data.copy(), None
+    try:
+        copy.animation_data_clear()
+        if shader_mark(copy) is not None:
+            copy.custom_shader, copy.type = None, "PERSP"
+        set_shader(copy, replace(shader, source=shader.source.partition("\n")[2]))
+        text, item.data = copy.custom_shader, copy
+        yield
+    finally:
+        item.data = own
+        bpy.data.cameras.remove(copy)
+        if text is not None:
+            bpy.data.texts.remove(text)

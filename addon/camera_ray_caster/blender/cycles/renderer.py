@@ -1,0 +1,89 @@
+"""Cycles as a function: a render whose float pixels are taken before anything else is done with them."""
+
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import ExitStack, contextmanager, redirect_stdout
+
+import bpy
+import numpy as np
+
+from ...core.records import InputError, Raster
+from ..terminal.opening import reported
+from ..terminal.signals import raise_if_stopping
+
+INSIDE = 0.25
+"""Of a pixel: a border that far behind a pixel's edge begins with this pixel, however its product is rounded."""
+
+Render = Callable[[], Mapping[str, np.ndarray]]
+"""Renders the scene with Cycles: the pixels by view layer."""
+
+
+@contextmanager
+def cycles_engine(scene) -> Iterator[Render]:
+    """Yield what renders the scene with Cycles, once or several times, without compositor, sequencer and Freestyle.
+
+    What it yields raises InputError where Blender cannot render, and Cancelled where a stop was asked for.
+    """
+    from cycles import CyclesRender, engine
+
+    found: dict[str, np.ndarray] = {}
+
+    class Pixels(CyclesRender):
+        bl_idname = "CAMERA_RAY_CASTER_CYCLES"
+        bl_label = "Cycles for Camera Ray Caster"
+
+        def render(self, depsgraph):
+            layer = depsgraph.view_layer_eval.name  # Cycles frees the depsgraph
+            super().render(depsgraph)
+            result = self.get_result()
+            (view,) = result.views
+            rect = result.layers[layer].passes.find_by_name("Combined", view.name).rect
+            found[layer] = np.empty((result.resolution_y, result.resolution_x, 4), np.float32)
+            rect.foreach_get(found[layer].reshape(-1))
+
+        def render_frame_finish(self):
+            super().render_frame_finish()
+            engine.free(self)
+
+        def __del__(self):
+            """Do nothing: here Cycles would ask for its session, when Blender has taken the engine away already."""
+
+    def render() -> Mapping[str, np.ndarray]:
+        found.clear()
+        try:
+            with redirect_stdout(None), ExitStack() as stack:
+                changed(stack, scene.render, engine=Pixels.bl_idname)  # not before: it would compile shaders, too
+                bpy.ops.render.render(scene=scene.name)
+        except RuntimeError as error:
+            raise InputError(reported(error)) from error
+        raise_if_stopping()
+        if not found:
+            raise RuntimeError("Cycles has failed: what went wrong stands above")
+        return dict(found)
+
+    with ExitStack() as stack:
+        bpy.utils.register_class(Pixels)
+        stack.callback(bpy.utils.unregister_class, Pixels)
+        off = ("use_compositing", "use_sequencer", "use_freestyle", "use_persistent_data", "use_render_cache")
+        off = {name: False for name in off if hasattr(scene.render, name)}  # use_render_cache: before 5.2
+        changed(stack, scene.render, **off)
+        yield render
+
+
+def border(window: Raster) -> dict[str, object]:
+    """Return the render settings that let Blender render a window of the frame and nothing else."""
+    (width, height), within = window.size, INSIDE
+    return {
+        "use_border": True,
+        "use_crop_to_border": True,
+        "border_min_x": (window.x0 + within) / width,
+        "border_max_x": (window.x1 + within) / width,
+        "border_min_y": (window.y0 + within) / height,
+        "border_max_y": (window.y1 + within) / height,
+    }
+
+
+def changed(stack: ExitStack, owner, **values) -> None:
+    """Give a struct of Blender's other values until a stack is left."""
+    for name, value in values.items():
+        stack.callback(setattr, owner, name, getattr(owner, name))
+        setattr(owner, name, value)
