@@ -33,7 +33,6 @@ def test_cycles_picture_stands_beside_our_passes(blender, tmp_path):
     lit = channels["ViewLayer.Combined.R"] > 0
     hit = np.isfinite(channels["ViewLayer.Distance.X"])
     assert hit.any()
-    assert not lit[~hit & (channels["ViewLayer.Valid.X"] == 0)].any()
     assert lit[hit].mean() > 0.9
 
 
