@@ -139,11 +139,11 @@ class Mesh:
     vertices: np.ndarray
     """(3, v) float32."""
     triangles: np.ndarray
-    """(3, k) intp: the vertices of each triangle, in the order that turns to the left as seen from its front."""
+    """(3, k) int32: the vertices of each triangle, in the order that turns to the left as seen from its front."""
     polygon: np.ndarray
     """(k,) int32: the face that each triangle is a part of."""
     loops: np.ndarray | None = None
-    """(3, k) intp: the loops of each triangle; None where neither normals nor uv are asked for by loop."""
+    """(3, k) int32: the loops of each triangle; None where neither normals nor uv are asked for by loop."""
     normals: np.ndarray | None = None
     """(l, 3) float32: the unit normals at the loops; None where every face is flat, whose triangles' normals count."""
     uv: np.ndarray | None = None

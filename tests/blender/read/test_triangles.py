@@ -53,7 +53,7 @@ def test_triangles_and_polygons_are_blenders(scene, levels, triangulated):
     np.testing.assert_array_equal(found.loops.T, [triangle.loops for triangle in truth.loop_triangles])
     for array in (found.vertices, found.triangles, found.loops, found.uv):
         assert array.flags.c_contiguous
-    assert (found.triangles.dtype, found.polygon.dtype) == (np.intp, np.int32)
+    assert (found.triangles.dtype, found.polygon.dtype) == (np.int32, np.int32)
 
 
 @pytest.mark.parametrize("name", ["loop_start", "loop_total", "material_index"])

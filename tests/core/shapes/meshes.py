@@ -11,7 +11,7 @@ LONG = np.longdouble
 
 def mesh_of(vertices, triangles, **more) -> Mesh:
     """A mesh from vertices (v, 3) and triangles (k, 3), each a face of its own unless ``polygon`` says else."""
-    triangles = np.ascontiguousarray(np.transpose(triangles), np.intp)
+    triangles = np.ascontiguousarray(np.transpose(triangles), np.int32)
     more.setdefault("polygon", np.arange(triangles.shape[1], dtype=np.int32))
     return Mesh(np.ascontiguousarray(np.transpose(vertices), np.float32), triangles, **more)
 
@@ -38,7 +38,7 @@ def ball(rows: int, columns: int, radius: float = 1.0) -> Mesh:
         np.stack(three, axis=1)
         for three in ((a, b, c), (a, c, d), (north, at[0], beside[0]), (south, beside[-1], at[-1]))
     ])  # fmt: skip
-    loops = np.arange(triangles.size, dtype=np.intp).reshape(-1, 3)
+    loops = np.arange(triangles.size, dtype=np.int32).reshape(-1, 3)
     corners = vertices.astype(np.float32)[triangles.ravel()]
     normals = (corners / np.linalg.norm(corners, axis=1, keepdims=True)).astype(np.float32)
     uv = corners[:, :2] / 2 + 0.5

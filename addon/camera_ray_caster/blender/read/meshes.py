@@ -33,7 +33,7 @@ def mesh_record(mesh, arrays: MeshArrays) -> Mesh:
     uv = next((layer for layer in mesh.uv_layers if layer.active_render), None)
     slot = mesh.attributes.get("material_index")
     polygon = fetched(mesh.loop_triangle_polygons, "value", np.int32)
-    triangles = arrays.loop_vertices[loops].astype(np.intp)
+    triangles = arrays.loop_vertices[loops]
     by_vertex = uv is None and mesh.normals_domain == "POINT"
     normals = _normals(mesh, arrays, by_vertex)
     if by_vertex:
@@ -56,11 +56,11 @@ def is_smooth(mesh) -> bool:
 
 
 def _triangle_loops(mesh) -> np.ndarray:
-    """Return the loops of each triangle, (3, k) intp."""
+    """Return the loops of each triangle, (3, k) int32."""
     if len(mesh.loops) == 3 * len(mesh.polygons):
-        return np.arange(len(mesh.loops)).reshape(-1, 3).T.copy()
+        return np.arange(len(mesh.loops), dtype=np.int32).reshape(-1, 3).T.copy()
     mesh.calc_loop_triangles()
-    return _rows(copied(mesh.loop_triangles, "loops", np.int32, 3).reshape(-1, 3), np.intp)
+    return _rows(copied(mesh.loop_triangles, "loops", np.int32, 3).reshape(-1, 3))
 
 
 def _normals(mesh, arrays: MeshArrays, by_vertex: bool) -> np.ndarray | None:
@@ -89,9 +89,9 @@ def _slots(slots: np.ndarray, polygon: np.ndarray) -> np.ndarray | None:
     return slots[polygon] if slots.any() else None
 
 
-def _rows(values: np.ndarray, dtype=None) -> np.ndarray:
+def _rows(values: np.ndarray) -> np.ndarray:
     """Return (n, m) values as m contiguous rows."""
-    return np.ascontiguousarray(values.T, dtype)
+    return np.ascontiguousarray(values.T)
 
 
 def fetched(collection, name: str, dtype, width: int = 1) -> np.ndarray:

@@ -46,12 +46,12 @@ class Found:
 
     def seen(self, out: np.ndarray) -> np.ndarray:
         """Return the triangles that pixels see, ascending, and in ``out`` which of them each pixel does, 0 for none."""
-        place = np.zeros(self.count + 1, np.int32)
-        place[self.which] = 1
+        place, which = np.zeros(self.count + 1, np.int32), self.which.reshape(-1)
+        place[which] = 1
         place[self.count] = 0
         seen = np.flatnonzero(place)
         place[seen] = np.arange(len(seen))
-        np.take(place, self.which, out=out, mode="wrap")
+        np.take(place, which, out=out.reshape(-1), mode="wrap")
         return seen
 
     def keep(self, pixel: np.ndarray, t: np.ndarray, which: np.ndarray) -> None:

@@ -76,9 +76,11 @@ class MeshSet(ShapeSet):
     def _in_spans(self, rays, lattice: Lattice, reach: Reach, here, bounds, found: Found) -> Iterator[None]:
         """Keep what is met of triangles under a lattice of rays, in small steps."""
         at, bands = banded(bounds, tuning.SPANNED_PIXELS)
+        rest = []
         for some in _pieces(bands):
-            self._span(rays, lattice, reach, here[at[some]], bands[some], found)
+            rest.append(self._span(rays, lattice, reach, here[at[some]], bands[some], found))
             yield
+        self._test_all(rays, rest, found)
 
     def _in_windows(self, rays, reach: Reach, here, bounds, found: Found) -> Iterator[None]:
         """Keep what is met of triangles under any rays, in small steps: the large ones one by one."""
@@ -88,9 +90,7 @@ class MeshSet(ShapeSet):
         for one, band in zip(here[is_large][at].tolist(), bands.tolist(), strict=True):
             rest.append(self._fill(rays, reach, one, band, found))
             yield
-        if rest:
-            which, pixel = (np.concatenate(part) for part in zip(*rest, strict=True))
-            self._test(rays, which, pixel, found)
+        self._test_all(rays, rest, found)
         here, bounds = here[~is_large], bounds[~is_large]
         for batch in batches(bounds):
             self._cast(rays, reach, here[batch], bounds[batch], found)
@@ -125,19 +125,21 @@ class MeshSet(ShapeSet):
 
     def _span(
         self, rays: SearchRays, lattice: Lattice, reach: Reach, here: np.ndarray, bounds: np.ndarray, found: Found
-    ) -> None:
-        """Keep what is met of triangles in spans, and of those that have none pixel by pixel."""
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """Keep what is met of triangles in spans, and of those that have none pixel by pixel. Return triangles that are
+        still to be tested, and the pixels in which they are.
+        """
         meets, corners = self.meshes.facing(here)
         here, bounds = here[meets], bounds[meets]
         seen = spans(lattice, corners, bounds, rays.shape[1])
         at, pixel = seen.met
         self._keep(found, pixel, seen.t, taken(here, at))
-        at, pixel = seen.open
-        self._test(rays, here[at], pixel, found)
         if not seen.clear.all():
             others = np.flatnonzero(~seen.clear)
             for batch in batches(bounds[others]):
                 self._cast(rays, reach, here[others[batch]], bounds[others[batch]], found)
+        at, pixel = seen.open
+        return here[at], pixel
 
     def _cast(self, rays: SearchRays, reach: Reach, here: np.ndarray, bounds: np.ndarray, found: Found) -> None:
         """Keep what is met of triangles that are tested pixel by pixel, in windows.
@@ -167,6 +169,12 @@ class MeshSet(ShapeSet):
         self._test(rays, which[~sure], pixel[~sure], found)
         pixel, which = pixel[sure], which[sure]
         self._keep(found, pixel, crossing(*self._meeting(rays, which, pixel)), which)
+
+    def _test_all(self, rays: SearchRays, rest: list[tuple[np.ndarray, np.ndarray]], found: Found) -> None:
+        """Keep what is met of triangles and pixels in lists, all at once: a call of exact signs costs a millisecond."""
+        if rest:
+            which, pixel = (np.concatenate(part) for part in zip(*rest, strict=True))
+            self._test(rays, which, pixel, found)
 
     def _test(self, rays: SearchRays, which: np.ndarray, pixel: np.ndarray, found: Found) -> None:
         """Keep what is met of one triangle a pixel, by exact signs where rounding could decide."""

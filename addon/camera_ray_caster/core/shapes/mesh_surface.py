@@ -14,7 +14,7 @@ import numpy as np
 
 from ..conventions import EPS
 from ..maths.speed import lazy
-from ..maths.vector import components, cross, difference, dot, matrix_rows, matvec, norm, unit
+from ..maths.vector import components, cross, difference, dot, matrix_rows, matvec, norm
 from ..records import Mesh
 from .frames import InCamera
 from .kind import HitPixels
@@ -71,13 +71,13 @@ class HitTriangles:
 
     @lazy
     def axes(self) -> tuple[Any, ...]:
-        """The rows of the shapes' axes, three of three (k,)."""
-        return matrix_rows(self.shapes.shapes.axes[self.at])
+        """The rows of the shapes' axes, three of three (k,), or (1,) where all are of one shape."""
+        return matrix_rows(self.shapes.shapes.axes[self._places])
 
     @lazy
     def center(self) -> tuple[np.ndarray, ...]:
-        """The shapes' centers relative to the eye, three (k,)."""
-        return components((self.shapes.shapes.center - self.shapes.pose.eye)[self.at])
+        """The shapes' centers relative to the eye, three (k,), or (1,) where all are of one shape."""
+        return components(self.shapes.shapes.center[self._places] - self.shapes.pose.eye)
 
     @lazy
     def corners(self) -> list[tuple[np.ndarray, ...]]:
@@ -108,9 +108,9 @@ class HitTriangles:
         first, second, third = zip(*self.axes, strict=True)
         columns = [cross(second, third), cross(third, first), cross(first, second)]
         turned = np.array([matvec(tuple(zip(*columns, strict=True)), corner) for corner in local])
-        for corner in turned:
-            smooth &= norm(corner) > 0
-        turned = np.where(self.shapes.shapes.shared[self.at], turned, np.array([unit(corner) for corner in turned]))
+        lengths = np.array([norm(corner) for corner in turned])
+        smooth &= (lengths > 0).all(axis=0)
+        turned /= np.where(self.shapes.shapes.shared[self.at], 1.0, lengths)[:, None]
         return np.where(smooth, turned, np.array(self.area))
 
     @lazy
@@ -153,6 +153,11 @@ class HitTriangles:
         corners = np.broadcast_to(np.eye(3)[..., None], (3, 3, len(self.at)))
         heights = np.array(list(self.interpolated(corners, point)))
         return np.where(self.each(outer), heights, np.inf).min(axis=0)
+
+    @lazy
+    def _places(self) -> np.ndarray:
+        """Where what is asked of shapes stands in ``Shapes``: (k,), or (1,) where it is one."""
+        return self.at[:1] if (self.at == self.at[0]).all() else self.at
 
     @lazy
     def _mesh(self) -> np.ndarray:

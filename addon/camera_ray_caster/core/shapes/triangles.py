@@ -56,7 +56,8 @@ def volumes(corners: Any, d: Any) -> tuple[Any, Any, Any]:
 
 def signs(corners: np.ndarray, d: np.ndarray) -> np.ndarray:
     """Return the exact signs of ``volumes``, (3, m), of corners (3, 3, m) and directions (3, m)."""
-    return np.array([volume_sign(d, corners[i], corners[j]) for i, j in EDGES]).reshape(3, -1)
+    first, second = (np.concatenate([corners[edge[k]] for edge in EDGES], axis=1) for k in (0, 1))
+    return volume_sign(np.tile(d, 3), first, second).reshape(3, -1)
 
 
 def plane(corners: Any) -> tuple[Any, Any]:
