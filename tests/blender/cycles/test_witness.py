@@ -29,10 +29,10 @@ def test_every_example_is_what_cycles_renders(key, settings):
 
 
 FAULTS = {
-    "rows from the top": ("place[1] - frame_shift_y", "1 - place[1] + frame_shift_y"),
-    "half a pixel": ("frame_shift_x) * frame_width,", "frame_shift_x) * frame_width + 0.5,"),
-    "a thousandth of a pixel": ("frame_shift_x) * frame_width,", "frame_shift_x) * frame_width + 0.001,"),
-    "shift twice": ("place[0] - frame_shift_x", "place[0] - 2 * frame_shift_x"),
+    "rows from the top": ("(place[1]) * frame_height", "(1 - place[1]) * frame_height"),
+    "half a pixel": ("* frame_width,", "* frame_width + 0.5,"),
+    "a thousandth of a pixel": ("* frame_width,", "* frame_width + 0.001,"),
+    "shift twice": ("point(frame_shift_x,", "point(2 * frame_shift_x,"),
     "no end of the picture": ("throughput = 0;", "direction = vector(0, 0, 1);"),
     "a mirrored direction": ("normalize(vector(", "normalize(vector(-"),
     "an origin that is off": ("position = point(", "position = point(0.001 + "),
