@@ -1,5 +1,5 @@
 """The properties that are made from declarations: those of version 0.1 are what they were, down to the tooltips (but
-where what an item does has become more).
+where what an item, a coefficient or a file does has become more).
 """
 
 import json

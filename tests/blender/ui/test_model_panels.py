@@ -6,7 +6,7 @@ from camera_ray_caster.blender.cycles import to_cycles
 from camera_ray_caster.blender.ui.model_panels import ModelPanel, TimePanel
 
 MATRIX = ("calibration_width", "calibration_height", "fx", "fy", "cx", "cy", "skew")
-CALIBRATION = ("calibration_file", *MATRIX)
+CALIBRATION = ("calibration_camera", "calibration_file", *MATRIX)
 POINT = ("calibration_width", "calibration_height", "cx", "cy")
 SHOWN = {
     "BLENDER": (),
@@ -17,13 +17,13 @@ SHOWN = {
         *CALIBRATION, "k1", "k2", "p1", "p2", "k3", "k4", "k5", "k6", "s1", "s2", "s3", "s4", "tau_x", "tau_y",
     ),
     "OPENCV_FISHEYE": (*CALIBRATION, "k1", "k2", "k3", "k4"),
-    "UCM": (*MATRIX, "unified_xi", "k1", "k2", "p1", "p2"),
-    "EUCM": (*MATRIX, "unified_alpha", "unified_beta"),
-    "DOUBLE_SPHERE": (*MATRIX, "unified_xi", "unified_alpha"),
-    "FISHEYE624": (*MATRIX, "k1", "k2", "k3", "k4", "k5", "k6", "p1", "p2", "s1", "s2", "s3", "s4"),
-    "THIN_PRISM_FISHEYE": (*MATRIX, "k1", "k2", "p1", "p2", "k3", "k4", "s1", "s3"),
-    "FOV": (*MATRIX, "fov_omega"),
-    "DIVISION": (*MATRIX, "division_lambda"),
+    "UCM": (*CALIBRATION, "unified_xi", "k1", "k2", "p1", "p2"),
+    "EUCM": (*CALIBRATION, "unified_alpha", "unified_beta"),
+    "DOUBLE_SPHERE": (*CALIBRATION, "unified_xi", "unified_alpha"),
+    "FISHEYE624": (*CALIBRATION, "k1", "k2", "k3", "k4", "k5", "k6", "p1", "p2", "s1", "s2", "s3", "s4"),
+    "THIN_PRISM_FISHEYE": (*CALIBRATION, "k1", "k2", "p1", "p2", "k3", "k4", "s1", "s3"),
+    "FOV": (*CALIBRATION, "fov_omega"),
+    "DIVISION": (*CALIBRATION, "division_lambda"),
     "FTHETA": (
         *POINT, "ftheta_reference", "ftheta_angle_to_radius", "ftheta_radius_to_angle",
         "ftheta_c", "ftheta_d", "ftheta_e", "ftheta_max_angle",
@@ -110,8 +110,8 @@ def test_what_blender_shows_for_another_type_of_camera_is_shown(blender, data):
 def test_a_calibration_file_grays_out_the_numbers_that_it_replaces(blender, data):
     own = data.camera_ray_caster
     own.model, own.calibration_file = "OPENCV_FISHEYE", "//lens.yml"
-    first, *rest = SHOWN["OPENCV_FISHEYE"]
-    assert drawn(blender, ModelPanel, data) == (("model", first), tuple(rest))
+    camera, file, *rest = SHOWN["OPENCV_FISHEYE"]
+    assert drawn(blender, ModelPanel, data) == (("model", camera, file), tuple(rest))
 
 
 def test_a_camera_of_cycles_shows_the_settings_of_its_own_type_and_the_way_back(osl, blender, camera_scene):

@@ -6,10 +6,12 @@ import numpy as np
 
 from ..cameras import find_model
 from ..cameras.model import Model
+from ..cameras.parts.calibration import FILE
 from ..cameras.parts.film import raster_from
 from ..cameras.parts.pose import pose_from
 from ..cameras.parts.settings import Number, farthest_from_one, values_of
 from ..records import BlenderCamera, InputError, Pose
+from .calibration_file import with_file
 from .camera import Camera
 from .pixel_time import pixel_time_from
 
@@ -28,7 +30,11 @@ def camera_from(raw: BlenderCamera) -> Camera:
     kind, raster = find_model(raw), raster_from(raw)
     if not 0 <= raw.clip_start < raw.clip_end:
         raise InputError(f"clip start {raw.clip_start}, clip end {raw.clip_end} of camera {raw.name!r} leave no depth")
-    model, pose = kind.from_blender(raw, raster), pose_from(raw)
+    given, raw = raw, with_file(raw, kind)
+    try:
+        model, pose = kind.from_blender(raw, raster), pose_from(raw)
+    except InputError as error:
+        raise error if raw is given else InputError(f"{error}; calibration file {FILE.read(raw)!r}") from error
     _check_apart(raw, model, pose)
     return Camera(
         name=raw.name,

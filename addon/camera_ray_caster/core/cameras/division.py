@@ -18,7 +18,7 @@ import numpy as np
 from ..records import BlenderCamera, Raster
 from .model import Step
 from .parts.calibrated import Calibrated
-from .parts.calibration import MATRIX, Calibration
+from .parts.calibration import CALIBRATION, Calibration
 from .parts.radial import COORDINATES
 from .parts.settings import Number
 
@@ -40,7 +40,7 @@ class Division(Calibrated):
     description = "A calibrated lens: one number for its distortion, also of a fisheye"
     number = 23
     by_polynomials = True
-    SETTINGS = (*MATRIX, LAMBDA)
+    SETTINGS = (*CALIBRATION, LAMBDA)
     FORMULA = (
         COORDINATES,
         Step("Depth, r² = a² + b²", "n = 1 + lambda r²"),
@@ -50,7 +50,7 @@ class Division(Calibrated):
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> Division:
         """Build it from the settings of the same names; InputError for one without meaning."""
-        window, bend = Calibration.from_blender(raw, raster, settings=MATRIX).window(raster), LAMBDA.read(raw)
+        window, bend = Calibration.from_blender(raw, raster).window(raster), LAMBDA.read(raw)
         return cls(raster.size, window, 1 / sqrt(bend) if bend > 0 else inf, bend)
 
     def factors(self, r_squared):

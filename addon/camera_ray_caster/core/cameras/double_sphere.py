@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 from ..records import BlenderCamera, Raster
 from .model import Step
-from .parts.calibration import MATRIX, Calibration
+from .parts.calibration import CALIBRATION, Calibration
 from .parts.radial import COORDINATES
 from .parts.unified import ALPHA, XI, Unified
 
@@ -26,7 +26,7 @@ class DoubleSphere(Unified):
     label = "Double Sphere"
     description = "A calibrated fisheye: two spheres, the second seen from behind its center"
     number = 19
-    SETTINGS = (*MATRIX, XI, ALPHA)
+    SETTINGS = (*CALIBRATION, XI, ALPHA)
     FORMULA = (
         COORDINATES,
         Step("Lengths, r² = a² + b²", "D = alpha sqrt(1 + (1 - 2 alpha) r²) + 1 - alpha, N = 1 - alpha² r²"),
@@ -38,5 +38,5 @@ class DoubleSphere(Unified):
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> DoubleSphere:
         """Build it from the settings of the same names; InputError for one without meaning."""
-        calibration = Calibration.from_blender(raw, raster, settings=MATRIX)
+        calibration = Calibration.from_blender(raw, raster)
         return cls.of(raw, raster, calibration, xi=XI.read(raw, high=-XI.low), alpha=ALPHA.read(raw))

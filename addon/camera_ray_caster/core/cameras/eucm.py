@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 from ..records import BlenderCamera, Raster
 from .model import Step
-from .parts.calibration import MATRIX, Calibration
+from .parts.calibration import CALIBRATION, Calibration
 from .parts.radial import COORDINATES
 from .parts.unified import ALPHA, BETA, Unified
 
@@ -26,7 +26,7 @@ class EnhancedUnifiedCamera(Unified):
     label = "Enhanced Unified (EUCM)"
     description = "A calibrated fisheye: an ellipsoid seen from behind its center"
     number = 18
-    SETTINGS = (*MATRIX, ALPHA, BETA)
+    SETTINGS = (*CALIBRATION, ALPHA, BETA)
     FORMULA = (
         COORDINATES,
         Step("Lengths, r² = a² + b²", "D = alpha sqrt(1 + (1 - 2 alpha) beta r²) + 1 - alpha, N = 1 - beta alpha² r²"),
@@ -36,5 +36,5 @@ class EnhancedUnifiedCamera(Unified):
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> EnhancedUnifiedCamera:
         """Build it from the settings of the same names; InputError for one without meaning."""
-        calibration = Calibration.from_blender(raw, raster, settings=MATRIX)
+        calibration = Calibration.from_blender(raw, raster)
         return cls.of(raw, raster, calibration, alpha=ALPHA.read(raw), beta=BETA.read(raw))

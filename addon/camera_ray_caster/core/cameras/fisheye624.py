@@ -16,7 +16,7 @@ from dataclasses import dataclass
 
 from ..records import BlenderCamera, Raster
 from .model import Step
-from .parts.calibration import K1, K2, K3, K4, K5, K6, MATRIX, P1, P2, S1, S2, S3, S4, Calibration
+from .parts.calibration import CALIBRATION, K1, K2, K3, K4, K5, K6, P1, P2, S1, S2, S3, S4, Calibration
 from .parts.kannala_brandt import KannalaBrandt
 from .parts.radial import COORDINATES, RAY
 from .parts.radial_tangential import RadialTangential
@@ -33,7 +33,7 @@ class Fisheye624(KannalaBrandt):
     label = "Fisheye624"
     description = "A calibrated fisheye of Project Aria: radial, tangential and thin prism distortion"
     number = 20
-    SETTINGS = (*MATRIX, *RADIAL, *REST)
+    SETTINGS = (*CALIBRATION, *RADIAL, *REST)
     FORMULA = (
         COORDINATES,
         Step("Undistorted across, by Newton's method", "a + 2 p1 a b + p2 (r² + 2 a²) + s1 r² + s2 r⁴, r² = a² + b²"),
@@ -45,6 +45,6 @@ class Fisheye624(KannalaBrandt):
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> Fisheye624:
         """Build it from the settings of the same names; InputError for one without meaning."""
-        calibration = Calibration.from_blender(raw, raster, (*RADIAL, *REST), MATRIX)
+        calibration = Calibration.from_blender(raw, raster, (*RADIAL, *REST))
         radial, rest = ({one.name: calibration.coefficients[one.name] for one in part} for part in (RADIAL, REST))
         return cls.of(calibration, raster, list(radial.values()), RadialTangential(**rest))

@@ -17,7 +17,7 @@ import numpy as np
 from ..records import BlenderCamera, Raster
 from .model import Step
 from .parts.calibrated import Calibrated
-from .parts.calibration import MATRIX, Calibration
+from .parts.calibration import CALIBRATION, Calibration
 from .parts.radial import COORDINATES, RADIUS, RAY, radii_of
 from .parts.settings import Number
 
@@ -37,7 +37,7 @@ class FieldOfView(Calibrated):
     description = "A calibrated wide lens: one angle for its distortion"
     number = 22
     by_polynomials = True
-    SETTINGS = (*MATRIX, OMEGA)
+    SETTINGS = (*CALIBRATION, OMEGA)
     FORMULA = (
         COORDINATES,
         RADIUS,
@@ -48,7 +48,7 @@ class FieldOfView(Calibrated):
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> FieldOfView:
         """Build it from the settings of the same names; InputError for one without meaning."""
-        window = Calibration.from_blender(raw, raster, settings=MATRIX).window(raster)
+        window = Calibration.from_blender(raw, raster).window(raster)
         omega = OMEGA.read(raw)
         return cls(raster.size, window, pi / (2 * omega), omega)
 

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 
 from ..records import BlenderCamera, Raster
 from .model import Step
-from .parts.calibration import K1, K2, K3, K4, MATRIX, P1, P2, S1, S3, Calibration
+from .parts.calibration import CALIBRATION, K1, K2, K3, K4, P1, P2, S1, S3, Calibration
 from .parts.kannala_brandt import KannalaBrandt
 from .parts.radial import COORDINATES, RAY
 from .parts.radial_tangential import RadialTangential
@@ -31,7 +31,7 @@ class ThinPrismFisheye(KannalaBrandt):
     label = "Thin Prism Fisheye"
     description = "A calibrated fisheye: equidistant, with radial, tangential and thin prism distortion"
     number = 21
-    SETTINGS = (*MATRIX, *DISTORTION)
+    SETTINGS = (*CALIBRATION, *DISTORTION)
     FORMULA = (
         COORDINATES,
         Step("Undistorted across, by Newton's method", "a g + 2 p1 a b + p2 (r² + 2 a²) + s1 r², r² = a² + b²"),
@@ -44,7 +44,7 @@ class ThinPrismFisheye(KannalaBrandt):
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> ThinPrismFisheye:
         """Build it from the settings of the same names; InputError for one without meaning."""
-        calibration = Calibration.from_blender(raw, raster, DISTORTION, MATRIX)
+        calibration = Calibration.from_blender(raw, raster, DISTORTION)
         coefficients = dict(calibration.coefficients)
         eighth = coefficients.pop(K4.name)
         return cls.of(calibration, raster, (), RadialTangential(**coefficients, r8=eighth))

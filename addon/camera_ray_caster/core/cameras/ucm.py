@@ -14,7 +14,7 @@ from dataclasses import dataclass
 
 from ..records import BlenderCamera, Raster
 from .model import Step
-from .parts.calibration import K1, K2, MATRIX, P1, P2, Calibration
+from .parts.calibration import CALIBRATION, K1, K2, P1, P2, Calibration
 from .parts.radial import COORDINATES, RAY
 from .parts.unified import XI, Unified
 
@@ -29,7 +29,7 @@ class UnifiedCamera(Unified):
     label = "Unified (UCM, Mei)"
     description = "A calibrated mirror lens or fisheye: a sphere seen from behind its center"
     number = 17
-    SETTINGS = (*MATRIX, XI, *DISTORTION)
+    SETTINGS = (*CALIBRATION, XI, *DISTORTION)
     FORMULA = (
         COORDINATES,
         Step("Undistorted, by Newton's method, y down", "distort(a, -b): a g + 2 p1 a b + p2 (r² + 2 a²), ..."),
@@ -41,5 +41,5 @@ class UnifiedCamera(Unified):
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> UnifiedCamera:
         """Build it from the settings of the same names; InputError for one without meaning."""
-        calibration = Calibration.from_blender(raw, raster, DISTORTION, MATRIX)
+        calibration = Calibration.from_blender(raw, raster, DISTORTION)
         return cls.of(raw, raster, calibration, xi=XI.read(raw))

@@ -2,7 +2,7 @@
 
 import pytest
 
-from camera_ray_caster.core.cameras.parts.filestorage import LARGEST, read_entries
+from camera_ray_caster.core.cameras.parts.filestorage import LARGEST, entries_of, text_of
 from camera_ray_caster.core.cameras.parts.yaml_subset import DEEPEST, YamlError, parse
 from camera_ray_caster.core.records import InputError
 
@@ -96,7 +96,7 @@ def test_no_text_takes_more_than_linear_time(tmp_path, piece, begin):
     path.write_text((begin + piece * LARGEST)[:LARGEST])
     said = ""
     try:
-        read_entries(str(path))
+        entries_of(text_of(str(path)), "lens")
     except InputError as error:
         said = str(error)
     assert "\n" not in said
@@ -118,14 +118,14 @@ def test_files_that_break_careless_readers(tmp_path, text, says):
     path = tmp_path / "lens.json"
     path.write_bytes(text)
     if says is None:
-        assert read_entries(str(path)) == {"K": float("inf")}
+        assert entries_of(text_of(str(path)), "lens") == {"K": float("inf")}
     else:
         with pytest.raises(InputError, match=says):
-            read_entries(str(path))
+            entries_of(text_of(str(path)), "lens")
 
 
 def test_what_is_no_file_is_not_waited_for():
     with pytest.raises(InputError, match="it is a device, not a file"):
-        read_entries("/dev/zero")
+        entries_of(text_of("/dev/zero"), "lens")
     with pytest.raises(InputError, match="cannot be read"):
-        read_entries("a\0b")
+        entries_of(text_of("a\0b"), "lens")

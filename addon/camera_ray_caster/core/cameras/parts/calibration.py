@@ -1,4 +1,4 @@
-"""A calibrated lens: K and the distortion's coefficients, from the camera's settings or from a file of OpenCV's.
+"""A calibrated lens: K and the distortion's coefficients. ``files`` reads them from calibration files.
 
 K is in OpenCV's convention: y down, (0, 0) the center of the top left pixel, focal lengths in pixels of the calibrated
 picture. A frame of another size is that picture scaled to it, each axis for itself: pixel coordinates grow in
@@ -8,16 +8,13 @@ Reference: OpenCV documentation, Camera Calibration and 3D Reconstruction; Fishe
 
 from __future__ import annotations
 
-import re
 from dataclasses import dataclass
 from math import radians
-from reprlib import repr as shortened
 
-from ...records import BlenderCamera, InputError, Raster
+from ...records import BlenderCamera, Raster
 from .affine import AffineWindow
-from .filestorage import read_entries
 from .film import FARTHEST_PIXELS, Window
-from .settings import FilePath, Number, Whole
+from .settings import FilePath, Number, Text, Whole
 
 FOCAL = (
     Number("fx", "Focal Length X", "In pixels of the calibrated picture", 1500.0, 1e-3, unit="pixels", digits=3),
@@ -35,10 +32,11 @@ SIZE = (
         "calibration_height", "Height", "Of the calibrated picture, pixels; 0 is the frame's", 1080, 0, unit="pixels"
     ),
 )
+FILE_CAMERA = Text("calibration_camera", "Camera in File", "Of a calibration file with several: its name there", "")
 FILE = FilePath(
     "calibration_file",
     "Calibration",
-    "YAML or JSON as OpenCV writes it, with all its digits; empty: the numbers below",
+    "As OpenCV, ROS, COLMAP, nerfstudio, Kalibr, mrcal or Project Aria write it; empty: the numbers below",
     "",
 )
 SKEW = Number(
@@ -47,7 +45,7 @@ SKEW = Number(
 )  # fmt: skip
 PRINCIPAL_POINT = (*SIZE, *CENTER)
 MATRIX = (*SIZE, *FOCAL, *CENTER, SKEW)
-CALIBRATION = (FILE, *MATRIX)
+CALIBRATION = (FILE_CAMERA, FILE, *MATRIX)
 """The settings of the calibrated picture: without a camera matrix, with one, and with a file. Where there is a file,
 its numbers count.
 """
@@ -69,8 +67,7 @@ LARGEST = 1e30
 K1, K2, K3 = (_coefficient(name, "Radial") for name in ("k1", "k2", "k3"))
 K4, K5, K6 = (_coefficient(name, "Radial: of a pinhole's denominator, or a fisheye's") for name in ("k4", "k5", "k6"))
 P1, P2 = (_coefficient(name, "Tangential") for name in ("p1", "p2"))
-S1, S2 = (_coefficient(name, "Thin prism, across") for name in ("s1", "s2"))
-S3, S4 = (_coefficient(name, "Thin prism, down") for name in ("s3", "s4"))
+S1, S2, S3, S4 = (_coefficient(name, "Thin prism") for name in ("s1", "s2", "s3", "s4"))
 RADIAL_TANGENTIAL = K1, K2, P1, P2, K3, K4, K5, K6, S1, S2, S3, S4
 TAU_X, TAU_Y = (
     Number(f"tau_{axis}", f"Tau {axis.upper()}", text, 0.0, -STEEPEST, STEEPEST, "angle", digits=4)
@@ -79,14 +76,6 @@ TAU_X, TAU_Y = (
 PINHOLE = (*RADIAL_TANGENTIAL, TAU_X, TAU_Y)
 FISHEYE = K1, K2, K3, K4
 """The distortion, in the order of OpenCV's vector of coefficients; all without unit."""
-
-MATRIX_NAMES = ("cameramatrix", "k", "m1", "intrinsicmatrix")
-DISTORTION_NAMES = ("distortioncoefficients", "distcoeffs", "distortion", "d", "d1")
-WIDTH_NAMES, HEIGHT_NAMES = ("imagewidth", "width"), ("imageheight", "height")
-FISHEYE_NAMES, MODEL_NAMES = ("fisheyemodel", "fisheye", "usefisheye"), ("distortionmodel", "cameramodel", "model")
-FISHEYE_MODELS = ("fisheye", "equidistant", "kannala_brandt", "opencv_fisheye")
-"""Names of entries in a file, without underscores, and what they say of a fisheye; small letters. OpenCV's own
-samples do not agree on them."""
 
 
 @dataclass(frozen=True)
@@ -106,18 +95,15 @@ class Calibration:
     def from_blender(
         cls, raw: BlenderCamera, raster: Raster, distortion: tuple[Number, ...] = (), settings=CALIBRATION
     ) -> Calibration:
-        """Build it from the settings, or from the file that they name; ``distortion``: the model's coefficients.
+        """Build it from those of the settings that it has; ``distortion``: the model's coefficients.
 
-        Raises InputError for a setting, a file or an entry of it that is missing or without meaning, by its name.
+        Raises InputError for a setting without meaning, by its name.
         """
-        path = FILE.read(raw) if FILE in settings else ""
-        values = {"fx": 1.0, "fy": 1.0, "skew": 0.0} | (
-            _file_values(path, distortion) if path
-            else {setting.name: setting.read(raw) for setting in (*SIZE, *FOCAL) if setting in settings}
-            | {setting.name: setting.read(raw, high=FARTHEST_PIXELS) for setting in CENTER}
-            | {setting.name: setting.read(raw, max(setting.low, -LARGEST), min(setting.high, LARGEST))
-               for setting in (SKEW, *distortion) if setting in (*settings, *distortion)}
-        )  # fmt: skip
+        values = {"fx": 1.0, "fy": 1.0, "skew": 0.0}
+        values |= {setting.name: setting.read(raw) for setting in (*SIZE, *FOCAL) if setting in settings}
+        values |= {setting.name: setting.read(raw, high=FARTHEST_PIXELS) for setting in CENTER}
+        for setting in (SKEW, *distortion) if SKEW in settings else distortion:
+            values[setting.name] = setting.read(raw, max(setting.low, -LARGEST), min(setting.high, LARGEST))
         return cls(
             **{setting.name: values[setting.name] for setting in (*FOCAL, *CENTER, SKEW)},
             width=values["calibration_width"] or raster.width,
@@ -138,61 +124,3 @@ class Calibration:
         volume = xx * yy - xy * yx
         pitch, shear = (yy / volume / scale_x, xx / volume / scale_y), (xy / volume / scale_y, yx / volume / scale_x)
         return AffineWindow(*center, *pitch, *shear)
-
-
-def _file_values(path: str, distortion: tuple[Number, ...]) -> dict[str, float]:
-    """Return the settings that a file stands for."""
-    names = [setting.name for setting in distortion]
-    entries = {re.sub("[_-]", "", name).lower(): (name, value) for name, value in read_entries(path).items()}
-    _check_model(entries, path, fisheye=distortion == FISHEYE)
-    matrix = _numbers(entries, MATRIX_NAMES, path)
-    is_plain = len(matrix) == 9 and [matrix[3], *matrix[6:]] == [0, 0, 0, 1]
-    if not is_plain or min(matrix[0], matrix[4]) < 1 / LARGEST:
-        raise InputError(
-            f"the camera matrix in {path!r} is {shortened(matrix)}: "
-            "it must be fx skew cx, 0 fy cy, 0 0 1, with fx and fy above 0"
-        )
-    if max(map(abs, (matrix[2], matrix[5]))) > FARTHEST_PIXELS:
-        raise InputError(
-            f"the camera matrix in {path!r} is {shortened(matrix)}: cx and cy must be up to {FARTHEST_PIXELS:.0f}"
-        )
-    found = _numbers(entries, DISTORTION_NAMES, path)
-    if any(found[len(names) :]):
-        raise InputError(
-            f"{path!r} has {len(found)} distortion coefficients: only {', '.join(names)} may be other than 0"
-        )
-    values = {"fx": matrix[0], "skew": matrix[1], "fy": matrix[4], "cx": matrix[2], "cy": matrix[5]}
-    values |= dict.fromkeys(names, 0.0) | dict(zip(names, found, strict=False))
-    for setting in distortion:
-        if not setting.low <= values[setting.name] <= setting.high:
-            said, allowed = setting.in_words(values[setting.name]), setting.range_in_words(setting.low, setting.high)
-            raise InputError(f"{setting.name} in {path!r} is {said}: it must be {allowed}")
-    for setting, spellings in zip(SIZE, (WIDTH_NAMES, HEIGHT_NAMES), strict=True):
-        size = values[setting.name] = _numbers(entries, spellings, path)[0]
-        if size <= 0:
-            raise InputError(f"{spellings[0]} in {path!r} is {size}: it must be above 0")
-    return values
-
-
-def _numbers(entries, spellings, path: str) -> list[float]:
-    """Return the numbers of the first entry of these names; InputError where it is missing or not of finite numbers."""
-    for name, value in (entries[spelling] for spelling in spellings if spelling in entries):
-        items = value if isinstance(value, list) else [value]
-        try:
-            numbers = [float(item) for item in items]
-        except (TypeError, ValueError) as error:
-            raise InputError(f"{name} in {path!r} is {shortened(value)}: it must be of numbers") from error
-        if not numbers or not all(abs(one) <= LARGEST for one in numbers):
-            limits = f"finite numbers, up to {LARGEST:g}"
-            raise InputError(f"{name} in {path!r} is {shortened(value)}: it must be of {limits}")
-        return numbers
-    raise InputError(f"{path!r} has no {spellings[0]} (known names, in any case: {', '.join(spellings)})")
-
-
-def _check_model(entries, path: str, fisheye: bool) -> None:
-    """Raise InputError where the file says that it is for the other of OpenCV's models."""
-    told = [_numbers(entries, FISHEYE_NAMES, path)[0] != 0] if set(FISHEYE_NAMES) & set(entries) else []
-    told += [str(entries[name][1]).lower() in FISHEYE_MODELS for name in MODEL_NAMES if name in entries]
-    if told and fisheye not in told:
-        right, wrong = ("Pinhole", "Fisheye") if fisheye else ("Fisheye", "Pinhole")
-        raise InputError(f"{path!r} is a calibration for OpenCV {right}, not OpenCV {wrong}: choose that model")

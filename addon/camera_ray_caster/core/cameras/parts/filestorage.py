@@ -20,12 +20,12 @@ JSON_TOKEN = re.compile(r'"(?:\\.|[^"\\])*"?|//[^\n]*|-?\.(?:Nan|Inf)')
 JSON_WORDS = {"//": "", ".N": "NaN", ".I": "Infinity", "-.": "-Infinity"}
 
 
-def read_entries(path: str) -> dict[str, object]:
-    """Return the entries of a file by name: texts and numbers as they stand, matrices as flat lists, mappings as such.
+def entries_of(text: str, path: str) -> dict:
+    """Return the entries of a text by name: JSON's values, and YAML's scalars as they stand.
 
-    Raises InputError, in one line, where the file cannot be read, is larger than LARGEST or neither YAML nor JSON.
+    Raises InputError, in one line, where it is neither YAML nor JSON, or empty; ``path`` is named.
     """
-    text = _text(Path(path), path)
+    entries: dict
     if text.lstrip().startswith("{"):
         plain = JSON_TOKEN.sub(lambda token: JSON_WORDS.get(token[0][:2], token[0]), text)
         try:
@@ -40,12 +40,13 @@ def read_entries(path: str) -> dict[str, object]:
             reason = f"neither YAML nor JSON as OpenCV writes it: {error}"
             raise InputError(f"calibration file {path!r} is {reason}") from error
     if not entries:
-        raise InputError(f"calibration file {path!r} is empty: choose one that OpenCV has written")
-    return {name: _flat(value) for name, value in entries.items()}
+        raise InputError(f"calibration file {path!r} is empty")
+    return entries
 
 
-def _text(file: Path, path: str) -> str:
-    """Return the text of a file."""
+def text_of(path: str) -> str:
+    """Return the text of a file. Raises InputError where it cannot be read, or is larger than LARGEST."""
+    file = Path(path)
     refusal = f"calibration file {path!r} cannot be read"
     try:
         if file.exists() and not file.is_file():
@@ -60,7 +61,7 @@ def _text(file: Path, path: str) -> str:
         raise InputError(f"{refusal}: {reason}") from error
 
 
-def _flat(value):
+def flat(value):
     """Return a matrix, as OpenCV or as nested lists, as a flat list; anything else as it is."""
     if isinstance(value, dict) and "data" in value:
         value = value["data"]

@@ -190,10 +190,20 @@ class Numbers(Setting):
 
 
 @dataclass(frozen=True)
-class Coefficients(Setting):
-    """The coefficients of a polynomial, from the constant up, as many as it has: text, which keeps all their digits."""
+class Text(Setting):
+    """A line of text."""
 
     kind = "TEXT"
+
+    def read(self, raw: BlenderCamera) -> Any:
+        """Return the text."""
+        return str(self.given(raw) or "")
+
+
+@dataclass(frozen=True)
+class Coefficients(Text):
+    """The coefficients of a polynomial, from the constant up, as many as it has: text, which keeps all their digits."""
+
     most: ClassVar[int] = 64
 
     def read(self, raw: BlenderCamera) -> tuple[float, ...]:

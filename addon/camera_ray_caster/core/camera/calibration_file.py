@@ -1,0 +1,34 @@
+"""The calibration file that a camera names: its numbers take the place of the settings, with all their digits."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from ..cameras import MODELS
+from ..cameras.files import lenses_of
+from ..cameras.model import Model
+from ..cameras.parts.calibration import FILE, FILE_CAMERA
+from ..records import BlenderCamera, InputError
+
+
+def with_file(raw: BlenderCamera, model: type[Model]) -> BlenderCamera:
+    """Return the record with the settings of the file that it names; itself where it names none.
+
+    Raises InputError for a file that cannot be read, that is for another model, or has several cameras of which none
+    is chosen.
+    """
+    path = FILE.read(raw) if FILE in model.SETTINGS else ""
+    if not path:
+        return raw
+    lenses, name = lenses_of(path, model.key), FILE_CAMERA.read(raw)
+    chosen = [lens for lens in lenses if name in ("", lens.name)]
+    if len(chosen) != 1:
+        names = ", ".join(lens.name for lens in lenses)
+        said = f"no camera {name!r}" if name and not chosen else f"{len(chosen)} cameras"
+        raise InputError(f"calibration file {path!r} has {said}: set {FILE_CAMERA.name} to one of {names}")
+    (lens,) = chosen
+    if lens.model != model.key:
+        label = next(other.label for other in MODELS if other.key == lens.model)
+        raise InputError(f"{path!r} is a calibration for {label}, not {model.label}: choose that model")
+    given = model.SETTINGS[model.SETTINGS.index(FILE) + 1 :]
+    return replace(raw, settings={**raw.settings, **{one.name: one.default for one in given}, **lens.settings})

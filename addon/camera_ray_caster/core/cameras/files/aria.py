@@ -1,0 +1,39 @@
+"""The calibration of Project Aria's glasses, as JSON: cameras by their labels.
+
+The center of its first pixel is (0, 0). The file does not say how large the pictures are: it has to be the frame.
+Reference: Project Aria documentation, Camera Intrinsic Models for Project Aria devices.
+"""
+
+from __future__ import annotations
+
+from .document import Document, Lens, matrix, size
+
+MODELS = {
+    "FisheyeRadTanThinPrism": (
+        "FISHEYE624", ("k1", "k2", "k3", "k4", "k5", "k6", "p2", "p1", "s1", "s2", "s3", "s4"), 1
+    ),
+    "KannalaBrandtK3": ("OPENCV_FISHEYE", ("k1", "k2", "k3", "k4"), 2),
+    "Linear": ("OPENCV_PINHOLE", (), 2),
+}  # fmt: skip
+"""Our model, the settings that follow the center, and how many focal lengths stand before it."""
+
+
+def read(document: Document, key: str) -> list[Lens] | None:
+    """See the package."""
+    cameras = document.entries.get("CameraCalibrations")
+    if not isinstance(cameras, list):
+        return None
+    return [_lens(document, camera) for camera in cameras]
+
+
+def _lens(document: Document, camera) -> Lens:
+    camera = camera if isinstance(camera, dict) else {}
+    name, projection = str(camera.get("Label", "")), camera.get("Projection")
+    projection = projection if isinstance(projection, dict) else {}
+    kind = projection.get("Name")
+    if kind not in MODELS:
+        raise document.refusal(f"Projection of {name!r} is {kind!r}: it must be one of {', '.join(MODELS)}")
+    model, terms, count = MODELS[kind]
+    given = document.numbers(projection.get("Params"), f"Params of {name!r}", count + 2 + len(terms))
+    focal, center, rest = given[:count], given[count : count + 2], given[count + 2 :]
+    return Lens(name, model, size(0, 0) | matrix(focal[0], focal[-1], *center) | dict(zip(terms, rest, strict=True)))

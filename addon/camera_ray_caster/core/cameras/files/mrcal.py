@@ -1,0 +1,39 @@
+"""mrcal's .cameramodel: a Python dictionary with the lens model, its intrinsics and the imager's size.
+
+The center of its first pixel is (0, 0). Its stereographic lens is the unified camera with xi = 1, whose focal length is
+twice as long.
+Reference: mrcal documentation, Lens models; The .cameramodel file format.
+"""
+
+from __future__ import annotations
+
+import ast
+
+from .document import Document, Lens, matrix, size
+
+TERMS = ("k1", "k2", "p1", "p2", "k3", "k4", "k5", "k6", "s1", "s2", "s3", "s4")
+MODELS = {
+    "LENSMODEL_PINHOLE": ("OPENCV_PINHOLE", ()),
+    **{f"LENSMODEL_OPENCV{count}": ("OPENCV_PINHOLE", TERMS[:count]) for count in (4, 5, 8, 12)},
+    "LENSMODEL_STEREOGRAPHIC": ("UCM", ()),
+}
+
+
+def read(document: Document, key: str) -> list[Lens] | None:
+    """See the package."""
+    if "LENSMODEL_" not in document.text:
+        return None
+    try:
+        entries = ast.literal_eval(document.text)
+    except (ValueError, SyntaxError, RecursionError, MemoryError) as error:
+        raise document.refusal("it names a lens model of mrcal and is none of its files") from error
+    kind = entries.get("lensmodel") if isinstance(entries, dict) else None
+    if kind not in MODELS:
+        raise document.refusal(f"lensmodel is {kind!r}: it must be one of {', '.join(MODELS)}")
+    model, terms = MODELS[kind]
+    fx, fy, cx, cy, *rest = document.numbers(entries.get("intrinsics"), "intrinsics", len(terms) + 4)
+    settings = dict(zip(terms, rest, strict=True))
+    if model == "UCM":
+        fx, fy, settings = 2 * fx, 2 * fy, {"unified_xi": 1.0}
+    width, height = document.numbers(entries.get("imagersize"), "imagersize", 2)
+    return [Lens("", model, size(width, height) | matrix(fx, fy, cx, cy) | settings)]

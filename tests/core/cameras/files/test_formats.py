@@ -1,0 +1,197 @@
+"""Calibration files of each format: the camera that they make, against the format's own reader where there is one."""
+
+import json
+from math import atan
+
+import numpy as np
+import pycolmap
+import pytest
+
+from camera_ray_caster.core.cameras import MODELS
+from camera_ray_caster.core.cameras.files.colmap import MODELS as COLMAP
+from camera_ray_caster.core.records import InputError
+
+from ..model_examples import camera
+
+FRAME = {"resolution_x": 640, "resolution_y": 480}
+PARAMETERS = {
+    "f": 301.25, "fx": 301.25, "fy": 299.5, "cx": 322.125, "cy": 238.75,
+    "k1": -0.03, "k2": 0.004, "k3": -1e-3, "k4": 2e-4, "k5": 1e-4, "k6": -1e-5, "p1": 1e-3, "p2": -2e-3,
+    "s1": 3e-3, "s2": -1e-3, "s3": -2e-3, "s4": 5e-4,
+    "fov_omega": 0.9, "division_lambda": -0.2, "unified_alpha": 0.6, "unified_beta": 1.1,
+}  # fmt: skip
+KEYS = [model.key for model in MODELS]
+
+
+def of_file(path, text, key, **settings):
+    path.write_text(text)
+    return camera(key, FRAME | {"calibration_file": str(path)} | settings)
+
+
+@pytest.mark.parametrize("kind", COLMAP)
+def test_cameras_txt_projects_as_colmap_does(tmp_path, kind):
+    key, names = COLMAP[kind]
+    values = [PARAMETERS[name] for name in names.split()]
+    (tmp_path / "cameras.txt").write_text(
+        "# Camera list with one line of data per camera:\n"
+        f"7 PINHOLE 640 480 500 500 320 240\n12 {kind} 640 480 {' '.join(map(repr, values))}\n"
+    )
+    named = {"calibration_file": str(tmp_path / "cameras.txt"), "calibration_camera": "12"}
+    cam = camera(key, FRAME | named)
+    points = np.random.default_rng(3).uniform((-1, -1, -3), (1, 1, -1), (1000, 3))
+    other = pycolmap.Camera(model=kind, width=640, height=480, params=values)
+    expected = np.asarray(other.img_from_cam(points * (1, -1, -1)))
+    assert np.abs(cam.project(points) - np.stack((expected[:, 0], 480 - expected[:, 1]), axis=1)).max() < 1e-9
+    assert cam.settings["fy"] == values[names.split().index("f" if names.startswith("f ") else "fy")]
+
+
+SIZE = {"calibration_width": 640.0, "calibration_height": 480.0}
+K = {"fx": 300.0, "fy": 301.0, "cx": 320.5, "cy": 239.25}
+NUMBERS = "300.0, 301.0, 320.5, 239.25"
+RADTAN = {"k1": -0.1, "k2": 0.02, "p1": 1e-3, "p2": -2e-3}
+EQUIDISTANT = {"k1": -0.1, "k2": 0.02, "k3": 1e-3, "k4": -2e-3}
+FOUR = "-0.1, 0.02, 0.001, -0.002"
+
+
+def camchain(model, intrinsics, bend, coefficients):
+    return (
+        f"cam0:\n  cam_overlaps: [1]\n  camera_model: {model}\n  distortion_coeffs: [{coefficients}]\n"
+        f"  distortion_model: {bend}\n  intrinsics: [{intrinsics}]\n  resolution: [640, 480]\n"
+        "  rostopic: /cam0/image_raw\n  T_cam_imu:\n  - [1.0, 0.0, 0.0, 0.0]\n  - [0.0, 1.0, 0.0, 0.0]\n"
+    )
+
+
+def mrcal(model, intrinsics):
+    return (
+        f"# made by a test\n{{\n  'lensmodel':  'LENSMODEL_{model}',\n\n  'intrinsics': [ {intrinsics},],\n"
+        "  'extrinsics': [ 0, 0, 0, 0, 0, 0,],\n  'imagersize': [ 640, 480,]\n}\n"
+    )
+
+
+def aria(kind, parameters):
+    projection = {"Description": "", "Name": kind, "Params": parameters}
+    return json.dumps(
+        {"CameraCalibrations": [{"Label": "camera-rgb", "Projection": projection}], "ImuCalibrations": []}
+    )
+
+
+def transforms(**entries):
+    frames = [{"file_path": f"images/{i}.png", "transform_matrix": np.eye(4).tolist()} for i in range(2)]
+    return json.dumps({"w": 640, "h": 480, "cx": 321.0, "cy": 239.75} | entries | {"frames": frames})
+
+
+ROS = """image_width: 640
+image_height: 480
+camera_name: narrow
+camera_matrix:
+  rows: 3
+  cols: 3
+  data: [300, 0, 320.5, 0, 301, 239.25, 0, 0, 1]
+distortion_model: {}
+distortion_coefficients:
+  rows: 1
+  cols: {}
+  data: [{}]
+projection_matrix:
+  rows: 3
+  cols: 4
+  data: [300, 0, 320.5, 0, 0, 301, 239.25, 0, 0, 0, 1, 0]
+"""
+OMNIDIR = """%YAML:1.0
+---
+image_width: 640
+image_height: 480
+K: !!opencv-matrix
+   rows: 3
+   cols: 3
+   dt: d
+   data: [ 300., 1.5, 320.5, 0., 301., 239.25, 0., 0., 1. ]
+D: !!opencv-matrix
+   rows: 1
+   cols: 4
+   dt: d
+   data: [ -0.1, 0.02, 0.001, -0.002 ]
+xi: 1.25
+"""
+K_TERMS, S_TERMS = dict(zip(("k1", "k2", "k3", "k4", "k5", "k6"), (1e-2, 2e-2, 3e-3, 4e-4, 5e-5, 6e-6), strict=True)), {
+    "s1": 3e-3, "s2": -1e-3, "s3": -2e-3, "s4": 5e-4,
+}  # fmt: skip
+SAID = [
+    ("camchain.yaml", camchain("pinhole", NUMBERS, "radtan", FOUR), "OPENCV_PINHOLE", RADTAN),
+    ("camchain.yaml", camchain("pinhole", NUMBERS, "equidistant", FOUR), "OPENCV_FISHEYE", EQUIDISTANT),
+    ("camchain.yaml", camchain("pinhole", NUMBERS, "fov", "0.9"), "FOV", {"fov_omega": 0.9}),
+    ("camchain.yaml", camchain("omni", f"1.25, {NUMBERS}", "radtan", FOUR), "UCM", RADTAN | {"unified_xi": 1.25}),
+    ("camchain.yaml", camchain("eucm", f"0.6, 1.1, {NUMBERS}", "none", ""), "EUCM",
+     {"unified_alpha": 0.6, "unified_beta": 1.1}),
+    ("camchain.yaml", camchain("ds", f"-0.2, 0.6, {NUMBERS}", "none", ""), "DOUBLE_SPHERE",
+     {"unified_xi": -0.2, "unified_alpha": 0.6}),
+    ("a.cameramodel", mrcal("OPENCV4", f"{NUMBERS}, {FOUR}"), "OPENCV_PINHOLE", RADTAN),
+    ("a.cameramodel", mrcal("OPENCV12", f"{NUMBERS}, {FOUR}, 3e-3, 4e-4, 5e-5, 6e-6, 3e-3, -1e-3, -2e-3, 5e-4"),
+     "OPENCV_PINHOLE", RADTAN | S_TERMS | {"k3": 3e-3, "k4": 4e-4, "k5": 5e-5, "k6": 6e-6}),
+    # 2 tan(theta / 2) in focal lengths
+    ("a.cameramodel", mrcal("STEREOGRAPHIC", NUMBERS), "UCM", {"fx": 600.0, "fy": 602.0, "unified_xi": 1.0}),
+    ("aria.json",
+     aria("FisheyeRadTanThinPrism", [300.0, 320.5, 239.25, *K_TERMS.values(), -2e-3, 1e-3, *S_TERMS.values()]),
+     "FISHEYE624", {**K_TERMS, **S_TERMS, "p1": 1e-3, "p2": -2e-3, "fy": 300.0,
+                    "calibration_width": 0.0, "calibration_height": 0.0}),
+    ("aria.json", aria("KannalaBrandtK3", [300.0, 301.0, 320.5, 239.25, *EQUIDISTANT.values()]), "OPENCV_FISHEYE",
+     EQUIDISTANT | {"calibration_width": 0.0, "calibration_height": 0.0}),
+    ("transforms.json", transforms(fl_x=300, fl_y=301, camera_model="OPENCV", **RADTAN), "OPENCV_PINHOLE", RADTAN),
+    ("transforms.json", transforms(fl_x=300, fl_y=301, camera_model="OPENCV_FISHEYE", **EQUIDISTANT), "OPENCV_FISHEYE",
+     EQUIDISTANT),
+    ("transforms.json", transforms(camera_angle_x=2 * atan(320 / 300), fl_y=301), "OPENCV_PINHOLE", {}),
+    ("ros.yaml", ROS.format("plumb_bob", 5, FOUR + ", 0.003"), "OPENCV_PINHOLE", RADTAN | {"k3": 0.003}),
+    ("ros.yaml", ROS.format("equidistant", 4, FOUR), "OPENCV_FISHEYE", EQUIDISTANT),
+    ("omnidir.yml", OMNIDIR, "UCM", RADTAN | {"unified_xi": 1.25, "skew": 1.5}),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("name", "text", "key", "settings"), SAID)
+def test_a_file_is_the_camera_of_its_numbers(tmp_path, name, text, key, settings):
+    found = of_file(tmp_path / name, text, key)
+    expected = camera(key, FRAME | SIZE | K | settings)
+    for setting, value in expected.settings.items():
+        assert isinstance(value, str) or found.settings[setting] == pytest.approx(value, rel=1e-15), setting
+    assert found.model == expected.model or "camera_angle_x" in text
+    wrong = "FOV" if key != "FOV" else "EUCM"
+    with pytest.raises(InputError, match=f"{name}.* is a calibration for .*: choose that model"):
+        of_file(tmp_path / name, text, wrong)
+
+
+GOOD = camchain("pinhole", NUMBERS, "radtan", FOUR)
+
+
+@pytest.mark.parametrize(
+    ("text", "says"),
+    [
+        (GOOD + GOOD.replace("cam0:", "cam1:"), "2 cameras: set calibration_camera to one of cam0, cam1"),
+        (
+            GOOD.replace("radtan", "spline"),
+            "distortion_model of cam0, pinhole, is 'spline'.* none, radtan, equidistant, fov",
+        ),
+        (GOOD.replace(": pinhole", ": periscope"), "camera_model of cam0 is 'periscope'"),
+        (GOOD.replace("resolution:", "size:"), "resolution of cam0 is None: it must be 2 finite numbers"),
+        (GOOD.replace("320.5", ".nan"), "intrinsics of cam0 .* finite numbers"),
+        (GOOD.replace("300.0", "-300.0"), "fx of camera .* is -300: .*; calibration file .*lens"),
+        (mrcal("OPENCV4", NUMBERS), "intrinsics .* 8 finite numbers"),
+        (mrcal("CAHVOR", NUMBERS), "lensmodel is 'LENSMODEL_CAHVOR'"),
+        (mrcal("OPENCV4", NUMBERS)[:-3], "none of its files"),
+        ("1 PINHOLE 640 480 500 500 320\n", "camera 1 .* 6 finite numbers"),
+        ("1 PERISCOPE 640 480 500 500 320 240\n", "'PERISCOPE': it must be one of SIMPLE_PINHOLE"),
+        (aria("Spherical", [1.0]), "Projection of 'camera-rgb' is 'Spherical'"),
+        (aria("Linear", [1.0]), "Params of 'camera-rgb' .* 4 finite numbers"),
+        (transforms(fl_x=300, camera_model="EQUIRECTANGULAR"), "camera_model is 'EQUIRECTANGULAR'"),
+        (transforms(fl_x=300, k4=0.1), "k4 of an OPENCV camera"),
+        (transforms(fl_x="wide"), "fl_x is .*'wide'.* finite number"),
+    ],
+)
+def test_a_file_without_meaning_is_refused_by_its_field(tmp_path, text, says):
+    with pytest.raises(InputError, match=says) as refusal:
+        of_file(tmp_path / "lens", text, "OPENCV_PINHOLE")
+    assert "\n" not in str(refusal.value)
+    assert "lens" in str(refusal.value)
+
+
+def test_a_camera_that_is_not_in_the_file_is_refused_with_those_that_are(tmp_path):
+    with pytest.raises(InputError, match="no camera 'cam7': set calibration_camera to one of cam0"):
+        of_file(tmp_path / "camchain.yaml", GOOD, "OPENCV_PINHOLE", calibration_camera="cam7")
