@@ -85,9 +85,10 @@ class Found:
         x0, x1, y0, y1 = bounds.T
         column, row = x0 // tuning.CELL, y0 // tuning.CELL
         cells = np.maximum((x1 - 1) // tuning.CELL - column, (y1 - 1) // tuning.CELL - row) + 1
-        farthest = _farthest(self.t, tuning.CELL, int(cells.max(initial=1)))
+        most = int(cells.max(initial=1))
+        farthest = _farthest(self.t, tuning.CELL, most)
         _, high, wide = farthest.shape
-        level = np.ceil(np.log2(np.arange(1, cells.max(initial=1) + 1))).astype(np.intp)
+        level = np.frexp(np.arange(most) + 0.5)[1].astype(np.intp)  # exactly: of 1, 2, 3 and 4, 5 to 8 cells ...
         place = taken(level * (high * wide), cells - 1)
         place += row * np.intp(wide)
         place += column

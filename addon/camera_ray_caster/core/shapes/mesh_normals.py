@@ -11,7 +11,7 @@ from .. import tuning
 from ..maths.vector import dot, norm
 from .frames import InCamera
 from .kind import HitPixels
-from .mesh_found import SEEN
+from .mesh_found import SEEN, SeenTriangles
 from .mesh_surface import HitTriangles, affine_at
 
 NORMALS = "normals of triangles"
@@ -24,7 +24,7 @@ class TriangleNormals:
     any length.
     """
 
-    seen: Any
+    seen: SeenTriangles
     """The triangles, as the search noted them."""
     constant: np.ndarray
     """(3, k)."""
@@ -42,7 +42,7 @@ class TriangleNormals:
         return noted[NORMALS]
 
     @classmethod
-    def _of_tile(cls, shapes: InCamera, seen: Any, from_eye: bool) -> TriangleNormals:
+    def _of_tile(cls, shapes: InCamera, seen: SeenTriangles, from_eye: bool) -> TriangleNormals:
         count, step = len(seen.at), tuning.SURFACES
         meshes = np.flatnonzero(np.bincount(shapes.shapes.mesh[seen.at]))
         are_flat = all(shapes.shapes.meshes[k].normals is None for k in meshes.tolist())

@@ -80,7 +80,7 @@ class MeshSet(ShapeSet):
         for some in _pieces(bands):
             rest.append(self._span(rays, lattice, reach, here[at[some]], bands[some], found))
             yield
-        self._test_all(rays, rest, found)
+        self._test(rays, rest, found)
 
     def _in_windows(self, rays, reach: Reach, here, bounds, found: Found) -> Iterator[None]:
         """Keep what is met of triangles under any rays, in small steps: the large ones one by one."""
@@ -90,7 +90,7 @@ class MeshSet(ShapeSet):
         for one, band in zip(here[is_large][at].tolist(), bands.tolist(), strict=True):
             rest.append(self._fill(rays, reach, one, band, found))
             yield
-        self._test_all(rays, rest, found)
+        self._test(rays, rest, found)
         here, bounds = here[~is_large], bounds[~is_large]
         for batch in batches(bounds):
             self._cast(rays, reach, here[batch], bounds[batch], found)
@@ -166,20 +166,17 @@ class MeshSet(ShapeSet):
         k, place = np.divmod(hit, high * wide)
         row, column = np.divmod(place, wide)
         pixel, which = (y0[k] + row) * rays.shape[1] + x0[k] + column, here[k]
-        self._test(rays, which[~sure], pixel[~sure], found)
+        self._test(rays, [(which[~sure], pixel[~sure])], found)
         pixel, which = pixel[sure], which[sure]
         self._keep(found, pixel, crossing(*self._meeting(rays, which, pixel)), which)
 
-    def _test_all(self, rays: SearchRays, rest: list[tuple[np.ndarray, np.ndarray]], found: Found) -> None:
-        """Keep what is met of triangles and pixels in lists, all at once: a call of exact signs costs a millisecond."""
-        if rest:
-            which, pixel = (np.concatenate(part) for part in zip(*rest, strict=True))
-            self._test(rays, which, pixel, found)
-
-    def _test(self, rays: SearchRays, which: np.ndarray, pixel: np.ndarray, found: Found) -> None:
-        """Keep what is met of one triangle a pixel, by exact signs where rounding could decide."""
-        if not len(which):
+    def _test(self, rays: SearchRays, rest: list[tuple[np.ndarray, np.ndarray]], found: Found) -> None:
+        """Keep what is met of lists of triangles and the pixels in which to test them, by exact signs where rounding
+        could decide: all at once, since a call of these takes a millisecond.
+        """
+        if not any(len(which) for which, _ in rest):
             return
+        which, pixel = (np.concatenate(part) for part in zip(*rest, strict=True))
         corners, direction = self._meeting(rays, which, pixel)
         doubt = ROUNDING * np.maximum.reduce([norm(corner) for corner in corners]) ** 2 * norm(direction)
         inner = _inside(corners, direction, is_turned=False)
