@@ -7,7 +7,7 @@ drops it. It remembers that it was called, and work that takes long asks. A seco
 import os
 import signal
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from threading import Thread, local
 
 from ...core.records import Cancelled
@@ -52,7 +52,8 @@ def leaving(words: str) -> Iterator[None]:
 
     def leave() -> None:
         if os.read(reading, 1):
-            os.write(2, f"{words}\n".encode())
+            with suppress(OSError):  # nobody reads it any more
+                os.write(2, f"{words}\n".encode())
             os._exit(130)
 
     watching = Thread(target=leave, daemon=True)
