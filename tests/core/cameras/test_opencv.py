@@ -265,3 +265,10 @@ def test_skew_is_that_of_the_matrix():
     cam = pinhole(*lens, skew=7.5)
     assert np.abs(cam.project(points) - expected).max() < PROJECTION
     np.testing.assert_allclose(cam.K, matrix, rtol=1e-15)
+
+
+@pytest.mark.parametrize("key", ["OPENCV_PINHOLE", "UCM"])
+def test_one_pixel_alone_beyond_the_fold_has_no_ray(key):
+    cam = camera(key, SIZE | {"fx": 200.0, "fy": 200.0, "k1": -0.3, "p1": 1e-3})
+    assert not cam.rays_at(0.5, 0.5).valid
+    assert cam.rays_at(320.5, 240.5).valid

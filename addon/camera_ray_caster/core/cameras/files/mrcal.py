@@ -8,6 +8,7 @@ Reference: mrcal documentation, Lens models; The .cameramodel file format.
 from __future__ import annotations
 
 import ast
+from warnings import catch_warnings
 
 from .document import Document, Lens, matrix, size
 
@@ -24,7 +25,8 @@ def read(document: Document, key: str) -> list[Lens] | None:
     if "LENSMODEL_" not in document.text:
         return None
     try:
-        entries = ast.literal_eval(document.text)
+        with catch_warnings(action="ignore", category=SyntaxWarning):  # of a text that is none of its files
+            entries = ast.literal_eval(document.text)
     except (ValueError, SyntaxError, RecursionError, MemoryError) as error:
         raise document.refusal("it names a lens model of mrcal and is none of its files") from error
     kind = entries.get("lensmodel") if isinstance(entries, dict) else None

@@ -166,7 +166,7 @@ class RadialTangential:
             return x - step_x, y - step_y  # whose derivatives are the inverse's own
         rho = np.hypot(u, v)
         if not (radial or (near := rho <= self._farthest).all()):  # Newton's method would search long
-            x, y = np.full((2, *rho.shape), np.nan)
+            x, y = np.full(rho.shape, np.nan), np.full(rho.shape, np.nan)  # arrays, of one pixel too
             x[near], y[near] = self.undistort(u[near], v[near])
             return x, y
         r = self._radius(rho) if radial else self._radius.guess(rho)
