@@ -3,6 +3,8 @@
     python scripts/make_pictures.py            all of them
     python scripts/make_pictures.py NAME ...   only these, for example fisheye_stereographic
 
+A name that ends in _by_cycles is that of Cycles' picture of the same scene through the same camera, with its light.
+
 Needs pip's bpy.
 """
 
@@ -24,18 +26,24 @@ import bpy  # noqa: F401  (first: bmesh, which the scenes use, comes with it)
 from arguments import Parser
 from door import through
 from ends import listen
-from scenes import PICTURES
+from scenes import BY_CYCLES, PICTURES
 
 FOLDER = Path(__file__).resolve().parents[1] / "blend_scenes"
 
 
+CYCLES = "_by_cycles"
+NAMES = [*PICTURES, *(name + CYCLES for name in BY_CYCLES)]
+
+
 def make_picture(name: str) -> int:
-    """Cast blend_scenes/NAME.blend, put its picture into blend_scenes/pictures, and return the exit status."""
+    """Cast a scene of blend_scenes, put its picture into blend_scenes/pictures, and return the exit status."""
+    scene = name.removesuffix(CYCLES)
+    by_cycles = ["--engine", "CYCLES", "--samples", "12"] if name != scene else []
     with tempfile.TemporaryDirectory(dir=FOLDER) as folder:
-        sys.argv[1:] = [str(FOLDER / f"{name}.blend"), "--passes", "combined", "--output", folder]
+        sys.argv[1:] = [str(FOLDER / f"{scene}.blend"), "--passes", "combined", "--output", folder, *by_cycles]
         status = through("cast")
         if status == 0:
-            picture = Path(folder) / f"{name}.png"
+            picture = Path(folder) / f"{scene}.png"
             picture.write_bytes(without_text(picture.read_bytes()))
             os.replace(picture, FOLDER / "pictures" / f"{name}.png")
     return status
@@ -58,10 +66,10 @@ def without_text(png: bytes) -> bytes:
 def main() -> int:
     """Make the pictures that are named, or all; stop at the first that fails."""
     parser = Parser(prog="make_pictures.py", description=__doc__, formatter_class=RawDescriptionHelpFormatter)
-    parser.add_argument("names", metavar="NAME", nargs="*", help=", ".join(PICTURES))
-    names = parser.parse_args().names or list(PICTURES)
-    if unknown := [name for name in names if name not in PICTURES]:
-        parser.error(f"no picture is called {', '.join(unknown)}: choose from {', '.join(PICTURES)}")
+    parser.add_argument("names", metavar="NAME", nargs="*", help=", ".join(NAMES))
+    names = parser.parse_args().names or NAMES
+    if unknown := [name for name in names if name not in NAMES]:
+        parser.error(f"no picture is called {', '.join(unknown)}: choose from {', '.join(NAMES)}")
     listen(signal.default_int_handler)  # there will be a folder to clear up
     return next((status for status in map(make_picture, names) if status), 0)
 

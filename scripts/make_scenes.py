@@ -23,7 +23,7 @@ from pathlib import Path
 import bpy
 from arguments import Parser
 from ends import listen
-from scenes import EXAMPLES, GALLERY, SCENES
+from scenes import BY_CYCLES, EXAMPLES, GALLERY, SCENES
 
 ROOT = Path(__file__).resolve().parents[1]
 FOLDER = ROOT / "blend_scenes"
@@ -42,6 +42,15 @@ What each camera does, in the program's own pictures: places full of meshes in t
 the grid shading, mostly one room, six meters high with cells of half a meter, so that cameras can be compared. Where a
 camera has no ray, a picture is transparent.
 {gallery}
+### By Cycles, through the same cameras
+
+Ours on the left, one ray to the nearest surface; on the right Cycles' picture of the same rays, with shadows and
+reflected light: `python scripts/cast.py blend_scenes/NAME.blend --engine CYCLES --samples 12`
+
+| | |
+|---|---|
+{by_cycles}
+
 ## Small scenes, each hard for a ray caster in one way
 
 <img src="pictures/spheres_and_planes.png" width="480" alt="spheres, ellipsoids, a ring of points and walls">
@@ -63,6 +72,12 @@ GROUP = """
 ROW = '| <img src="pictures/{name}.png" width="360" alt="{name}"> | `{name}.blend`: {line} |'
 
 
+BOTH = (
+    '| <img src="pictures/{name}.png" width="360" alt="{name}"> '
+    '| <img src="pictures/{name}_by_cycles.png" width="360" alt="{name} by Cycles"> |'
+)
+
+
 def readme() -> str:
     """Return the page that lists the scenes, each by its docstring."""
     examples = "\n".join(f"* `{name}.blend`: {make.__doc__}" for name, make in EXAMPLES.items())
@@ -72,7 +87,8 @@ def readme() -> str:
         )
         for title, group in GALLERY.items()
     )
-    return README.format(gallery=gallery, examples=examples)
+    by_cycles = "\n".join(BOTH.format(name=name) for name in BY_CYCLES)
+    return README.format(gallery=gallery, by_cycles=by_cycles, examples=examples)
 
 
 def write_scene(name: str) -> None:

@@ -92,4 +92,13 @@ GALLERY = {
 """The scenes that show what a camera does, by the heading under which the README has their pictures."""
 
 PICTURES = {name: make for group in GALLERY.values() for name, make in group.items()}
+BY_CYCLES = (
+    "toys_cross_slit",
+    "living_room_omnimax",
+    "living_room_equirectangular",
+    "rotunda_panorama",
+    "rotunda_fisheye",
+    "street_pushbroom",
+)
+"""Of these, those that Cycles shows through the same camera, too."""
 SCENES = EXAMPLES | PICTURES

@@ -62,6 +62,15 @@ def test_pictures_are_there_and_small():
         assert (FOLDER / "pictures" / f"{name}.png").stat().st_size <= 120_000, name
 
 
+def test_six_models_are_shown_by_cycles_too():
+    row = r'^\| <img src="pictures/(\w+)\.png" .*> \| <img src="pictures/\1_by_cycles\.png" .*> \|$'
+    names = re.findall(row, README, re.MULTILINE)
+    assert len(names) >= 6
+    assert set(names) <= set(NAMES)
+    for name in names:
+        assert (FOLDER / "pictures" / f"{name}_by_cycles.png").stat().st_size <= 320_000, name
+
+
 def test_every_model_on_the_page_and_every_time_has_a_scene(blender):
     from camera_ray_caster.blender.read.scene import read_camera
 
