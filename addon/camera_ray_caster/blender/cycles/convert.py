@@ -16,7 +16,10 @@ from ..read.evaluated import camera_at
 from ..read.scene import evaluated_camera, go_to
 from .animation import insert_keyframes, is_animated
 from .device import said_of_device
-from .shader import check_cycles, clear_shader, set_inputs, set_shader
+from .shader import check_cycles, check_enabled, clear_shader, set_inputs, set_shader
+
+MOST_FRAMES = 10_000
+"""Almost seven minutes of a film, in about 20 s: each frame is evaluated for its keyframes."""
 
 GRID = 5
 """Pixels a side at which an eye is compared with the camera."""
@@ -40,13 +43,13 @@ def to_cycles(scene, camera_object=None) -> list[str]:
     with evaluated_camera(scene, camera_object) as (active, depsgraph):
         raw, camera = camera_at(active, depsgraph)
         _check(raw, camera, active)
-        at_frames = {scene.frame_current: (raw, camera)}
+        now = scene.frame_current_final
+        at_frames = {now: (raw, camera)}
         if _may_move(scene, active, raw):
-            frames = range(scene.frame_start, scene.frame_end + 1)
-            at_frames = {frame: camera_at(active, go_to(scene, frame)) for frame in frames} | at_frames
+            at_frames = {frame: camera_at(active, go_to(scene, frame)) for frame in (*_frames(scene), now)}
     places = frozenset().union(*(shader_of(*both).places for both in at_frames.values()))
-    shader = shader_of(raw, camera, places)
     shaders = {frame: shader_of(*both, places) for frame, both in sorted(at_frames.items())}
+    shader = shaders[now]
     set_shader(active.data, shader)
     if any(each.source != shader.source for each in shaders.values()):
         said = ["The formula itself changes over time: that follows only where the add-on is enabled"]
@@ -58,11 +61,16 @@ def to_cycles(scene, camera_object=None) -> list[str]:
 
 
 def from_cycles(camera_object) -> None:
-    """Give a camera that ``to_cycles`` has made a custom one its own type back. Raises InputError for any other."""
+    """Give a camera that ``to_cycles`` has made a custom one its own type back.
+
+    Raises InputError for any other, and for one of a library, and where Cycles is disabled.
+    """
+    check_enabled()
     camera = camera_object.data
     mark = shader_mark(camera)
     if mark is None:
         raise InputError(f"camera {camera_object.name!r} has no shader of this add-on: there is nothing to take back")
+    _check_editable(camera_object)
     clear_shader(camera)
     camera.type = mark.blender_type
 
@@ -70,6 +78,17 @@ def from_cycles(camera_object) -> None:
 def shader_of(raw: BlenderCamera, camera: Camera, places: frozenset[int] = frozenset()) -> CameraShader:
     """Return the shader of a camera that was made of a record."""
     return camera_shader(camera, raw.type, (raw.shift_x, raw.shift_y), places)
+
+
+def _frames(scene) -> range:
+    """Return the frames that get keyframes. Raises InputError for too many."""
+    frames = range(scene.frame_start, scene.frame_end + 1)
+    if len(frames) > MOST_FRAMES:
+        raise InputError(
+            f"the camera may change in each of the scene's {len(frames)} frames, and at most {MOST_FRAMES} get "
+            "keyframes: set a shorter frame range (Output properties)"
+        )
+    return frames
 
 
 def _may_move(scene, camera_object, raw: BlenderCamera) -> bool:
@@ -82,8 +101,8 @@ def _may_move(scene, camera_object, raw: BlenderCamera) -> bool:
 def _said_of_keyframes(camera, shaders) -> list[str]:
     moves = len({tuple(shader.values.items()) for shader in shaders.values()}) > 1
     return [
-        f"Its inputs have keyframes at the frames {min(shaders)} to {max(shaders)}: other frames, and what is changed "
-        "from now on, follow only where the add-on is enabled"
+        f"Its inputs have keyframes at the frames {min(shaders):.9g} to {max(shaders):.9g}: other frames, and what is "
+        "changed from now on, follow only where the add-on is enabled"
     ] * moves
 
 
@@ -105,8 +124,7 @@ def _engine_said(scene) -> list[str]:
 
 def _check(raw: BlenderCamera, camera: Camera, camera_object) -> None:
     """Raise InputError for a camera that cannot be a custom one."""
-    if not camera_object.data.is_editable:
-        raise InputError(f"camera {raw.name!r} is linked from a library: make it local first (Object > Relations)")
+    _check_editable(camera_object)
     if raw.settings["use_spherical_stereo"] and raw.type in ("PERSP", "PANO") and not raw.model:
         raise InputError(
             f"camera {raw.name!r} has Spherical Stereo, which Cycles has for its own cameras only: leave it as it is, "
@@ -120,6 +138,13 @@ def _check(raw: BlenderCamera, camera: Camera, camera_object) -> None:
     if raw.settings["use_multiview"] and raw.settings["views_format"] == "STEREO_3D":
         for view in SIDES:
             _check_eye(raw, camera, eye_record(raw, view))
+
+
+def _check_editable(camera_object) -> None:
+    if not camera_object.data.is_editable:
+        raise InputError(
+            f"camera {camera_object.name!r} is linked from a library: make it local first (Object > Relations)"
+        )
 
 
 def _check_eye(raw: BlenderCamera, camera: Camera, eye: BlenderCamera) -> None:

@@ -10,7 +10,7 @@ from ...core.records import BlenderCamera, InputError
 from ...core.shaders.camera_shader import CameraShader
 from ..read.camera import camera_record, shader_mark
 from .convert import shader_of
-from .shader import CUSTOM, rewrite, set_inputs
+from .shader import CUSTOM, is_enabled, rewrite, set_inputs
 
 _known: dict[int, tuple[bytes, CameraShader]] = {}
 """The shaders of camera objects and what they were made of, by the objects' session_uid."""
@@ -20,9 +20,9 @@ _known: dict[int, tuple[bytes, CameraShader]] = {}
 def follow(scene, depsgraph):
     """Bring the shaders of a scene's custom cameras up to date; where there is no such camera nothing is done."""
     customs = {camera.session_uid for camera in bpy.data.cameras if camera.type == CUSTOM}
-    if not customs:
+    if not customs or not is_enabled():
         return
-    for item in scene.objects:
+    for item in {item.session_uid: item for item in (*scene.objects, scene.camera) if item is not None}.values():
         if item.type == "CAMERA" and item.data.session_uid in customs and not _is_shared(item, scene.camera):
             update(item, depsgraph)
 

@@ -17,10 +17,20 @@ from .animation import remove_keyframes
 CUSTOM = "CUSTOM"
 
 
+def is_enabled() -> bool:
+    """Whether Cycles is: cameras have inputs then."""
+    return hasattr(bpy.types.Camera, "cycles_custom")
+
+
+def check_enabled() -> None:
+    """Raise InputError where Cycles is disabled."""
+    if not is_enabled():
+        raise InputError("Cycles is disabled: enable Cycles Render Engine in the Preferences, Add-ons")
+
+
 def check_cycles() -> None:
     """Raise InputError where this Blender cannot compile shaders of cameras."""
-    if not hasattr(bpy.types.Camera, "cycles_custom"):
-        raise InputError("Cycles is disabled: enable Cycles Render Engine in the Preferences, Add-ons")
+    check_enabled()
     import _cycles
 
     if not _cycles.with_osl:
@@ -59,7 +69,9 @@ def clear_shader(camera) -> None:
 
 
 def rewrite(camera, shader: CameraShader) -> None:
-    """Give a camera's text another shader, and its inputs their values."""
+    """Give a camera's text another shader, and its inputs their values. A text of several cameras is copied first."""
+    if any(other != camera and other.custom_shader == camera.custom_shader for other in bpy.data.cameras):
+        camera.custom_shader = camera.custom_shader.copy()
     camera.custom_shader.from_string(shader.source)
     _compile(camera)
     set_inputs(camera, shader)
@@ -77,8 +89,8 @@ def set_inputs(camera, shader: CameraShader) -> None:
 
 
 def plain(value):
-    """Return the value of an input as a number or a list."""
-    return value if value is None or isinstance(value, float) else list(value)
+    """Return the value of an input, an array as a list."""
+    return value.to_list() if hasattr(value, "to_list") else value
 
 
 def _compile(camera) -> bool:
