@@ -44,7 +44,7 @@ def test_an_active_camera_outside_of_the_scene_is_followed(scene):
     check(scene)
 
 
-@pytest.mark.parametrize("value", [3, "three", [1.0, 2.0], None])
+@pytest.mark.parametrize("value", [3, 48, "three", [1.0, 2.0], None])
 def test_inputs_of_another_type_are_set_right(scene, value):
     camera = set_up(scene, {"lens": 30.0})
     to_cycles(scene)
@@ -116,3 +116,22 @@ def test_a_custom_camera_of_a_library_is_not_taken_back(scene, tmp_path):
     with pytest.raises(InputError, match="library"):
         from_cycles(here.objects[0])
     assert here.objects[0].data.type == "CUSTOM"
+
+
+def test_keyframes_do_not_hold_what_is_followed(scene, monkeypatch):
+    """Between keyframes, and where the animation is edited afterwards."""
+    camera = set_up(scene, {})
+    animate_lens(camera)
+    scene.frame_end = 9
+    to_cycles(scene)
+    scene.frame_set(3, subframe=0.5)
+    check(scene)
+    scene.frame_set(5)
+    camera.data.lens = 100.0
+    camera.data.keyframe_insert("lens", frame=5)
+    scene.frame_set(4)
+    check(scene)
+    update()
+    monkeypatch.setattr(bpy.types.Camera, "update_tag", None, raising=False)  # it would go on for ever
+    update()
+    update()

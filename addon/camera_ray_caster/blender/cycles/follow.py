@@ -10,7 +10,7 @@ from ...core.records import BlenderCamera, InputError
 from ...core.shaders.camera_shader import CameraShader
 from ..read.camera import camera_record, shader_mark
 from .convert import shader_of
-from .shader import CUSTOM, is_enabled, rewrite, set_inputs
+from .shader import CUSTOM, has_inputs, is_enabled, rewrite, set_inputs
 
 _known: dict[int, tuple[bytes, CameraShader]] = {}
 """The shaders of camera objects and what they were made of, by the objects' session_uid."""
@@ -49,6 +49,8 @@ def update(camera_object, depsgraph) -> None:
     _, shader = known
     if camera.custom_shader.as_string() == shader.source:
         set_inputs(camera, shader)  # which a user may have changed
+        if not has_inputs(camera_object.evaluated_get(depsgraph).data, shader):  # keyframes of other settings
+            camera.update_tag()
     else:
         rewrite(camera, shader)
 

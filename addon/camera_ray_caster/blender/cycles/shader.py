@@ -79,18 +79,21 @@ def rewrite(camera, shader: CameraShader) -> None:
 
 def set_inputs(camera, shader: CameraShader) -> None:
     """Give the inputs of a camera's shader their values, where they have others."""
-    inputs, changed = camera.cycles_custom, False
-    for name, value in shader.values.items():
-        given = np.float32(value).tolist()
-        if plain(inputs.get(name)) != given:
-            inputs[name], changed = given, True
-    if changed:
+    if not has_inputs(camera, shader):
+        for name, value in stored(shader).items():
+            camera.cycles_custom[name] = value
         camera.update_tag()
 
 
-def plain(value):
-    """Return the value of an input, an array as a list."""
-    return value.to_list() if hasattr(value, "to_list") else value
+def has_inputs(camera, shader: CameraShader) -> bool:
+    """Whether the inputs of a camera, or of an evaluated one, have the values of a shader. Integers do not count."""
+    inputs = camera.cycles_custom
+    return all(isinstance(inputs.get(name), float) and inputs[name] == value for name, value in stored(shader).items())
+
+
+def stored(shader: CameraShader) -> dict[str, float]:
+    """Return the values of a shader's inputs as Blender stores them."""
+    return {name: float(np.float32(value)) for name, value in shader.values.items()}
 
 
 def _compile(camera) -> bool:
