@@ -129,6 +129,17 @@ def test_each_eye_has_its_picture(scene, name, kind):
         check(scene, view)
 
 
+@pytest.mark.parametrize("kind", ["shifted", "panorama"])
+def test_each_eye_of_spherical_stereo_has_its_picture(scene, kind):
+    CAMERAS[kind](scene)
+    scene.render.use_multiview = True
+    stereo = scene.camera.data.stereo
+    stereo.use_spherical_stereo = stereo.use_pole_merge = True
+    stereo.interocular_distance, stereo.convergence_distance = 0.5, 3.0
+    for view in ("left", "right"):
+        check(scene, view)
+
+
 def test_a_model_with_eyes_of_its_own_shows_each(scene):
     own(scene.camera).model = "OMNIDIRECTIONAL_STEREO"
     scene.render.use_multiview = True

@@ -209,8 +209,23 @@ def test_what_is_no_eye_is_refused(scene):
         read_camera(scene, view="middle")
 
 
-def test_spherical_stereo_is_refused_by_name(blender, scene):
+@pytest.mark.parametrize("kind", ["perspective", "panorama"])
+def test_both_eyes_of_spherical_stereo_are_rendered(blender, scene, tmp_path, kind):
+    set_up(scene, kind, "TOE", "LEFT")
     scene.camera.data.stereo.use_spherical_stereo = True
+    render_position(blender, scene, tmp_path)
+    eyes = [read_camera(scene, view=view) for view in VIEWS]
+    left, right = (cast(eye, read_shapes(scene), ["position"])["position"] for eye in eyes)
+    assert_same_position(tmp_path, "left", left)
+    assert_same_position(tmp_path, "right", right)
+    assert all((eye.pose.eye == (0.5, -1, 6)).all() for eye in eyes)
+    assert np.abs(left - right).max() > 0.1
+    assert all(finding.passed for view in VIEWS for finding in verify_camera(scene, view=view))
+
+
+def test_spherical_stereo_of_a_model_that_blender_does_not_have_is_refused_by_name(blender, scene):
+    scene.camera.data.stereo.use_spherical_stereo = True
+    scene.camera.data.camera_ray_caster.model = "OMNIMAX"
     with pytest.raises(InputError, match="Spherical Stereo"):
         read_camera(scene, view="left")
     scene.render.engine = "CAMERA_RAY_CASTER"

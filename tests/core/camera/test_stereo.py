@@ -89,8 +89,6 @@ def test_the_camera_itself_is_the_empty_view():
     ("view", "settings", "said"),
     [
         ("middle", {}, "choose one of left, right"),
-        ("left", {"use_spherical_stereo": True}, "Spherical Stereo.*: switch it off"),
-        ("left", {"use_spherical_stereo": True, "type": "PANO"}, "Spherical Stereo.*: take the model Omnidirectional"),
     ],
 )
 def test_what_is_no_eye_is_refused(view, settings, said):

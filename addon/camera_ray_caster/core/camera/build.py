@@ -14,6 +14,7 @@ from ..records import BlenderCamera, InputError, Pose
 from .calibration_file import with_file
 from .camera import Camera
 from .pixel_time import pixel_time_from
+from .spherical_stereo import with_eye
 
 APART = 2.0**-40
 """Of a coordinate: what lies nearer together is told apart by few of float64's digits, and by none of float32's, which
@@ -32,10 +33,11 @@ def camera_from(raw: BlenderCamera) -> Camera:
         raise InputError(f"clip start {raw.clip_start}, clip end {raw.clip_end} of camera {raw.name!r} leave no depth")
     given, raw = raw, with_file(raw, kind)
     try:
-        model, pose = kind.from_blender(raw, raster), pose_from(raw)
+        lens, pose = kind.from_blender(raw, raster), pose_from(raw)
     except InputError as error:
         raise error if raw is given else InputError(f"{error}; calibration file {FILE.read(raw)!r}") from error
-    _check_apart(raw, model, pose)
+    _check_apart(raw, lens, pose)
+    model = with_eye(lens, raw, pose)
     return Camera(
         name=raw.name,
         model=model,

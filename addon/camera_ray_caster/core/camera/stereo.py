@@ -8,6 +8,7 @@ the camera's axes normalized each for itself:
     TOE       alpha = atan(iod / (2 cv)). CENTER: the eye moves as above and turns by alpha about its Y, inwards. LEFT
               and RIGHT: the other eye stands at (-s iod cos alpha, 0, -iod sin alpha) and turns by 2 alpha.
 Orthographic cameras take the off-axis shift with their lens, which they do not use otherwise; panoramas take none.
+Spherical stereo moves no camera: its eyes turn with every ray (see ``spherical_stereo``).
 A model that has eyes of its own (omnidirectional stereo) stays where it is, and the view tells which eye it is.
 Source: Blender manual, Stereoscopy; measured against RenderEngine.camera_model_matrix and camera_shift_x.
 """
@@ -22,6 +23,7 @@ import numpy as np
 from ..arguments import shown
 from ..cameras import find_model
 from ..records import BlenderCamera, InputError
+from .spherical_stereo import EYE
 
 SIDES = {"left": 1.0, "right": -1.0}
 """The views of Blender's Stereo 3D, each with the sign of its convergence."""
@@ -31,7 +33,8 @@ def eye_record(raw: BlenderCamera, view: str) -> BlenderCamera:
     """Return the record of an eye; the empty view is the camera itself, and so are those of the Multi-View format.
 
     In Multi-View each view is a camera object of its own: the record is already that object's. Raises InputError for
-    another view, for spherical stereo and for a model that shows both eyes in one picture.
+    another view, for spherical stereo of a model that Blender does not have, and for one that shows both eyes in one
+    picture.
     """
     settings = raw.settings
     if not view or settings["views_format"] == "MULTIVIEW":
@@ -42,8 +45,10 @@ def eye_record(raw: BlenderCamera, view: str) -> BlenderCamera:
     if own is not None:
         return own
     if settings["use_spherical_stereo"] and raw.type in ("PERSP", "PANO"):
-        cure = "take the model Omnidirectional Stereo" if raw.type == "PANO" else "switch it off"
-        raise InputError(f"camera {raw.name!r} has Spherical Stereo, whose eyes turn with every ray: {cure}")
+        if raw.model:
+            spherical = f"camera {raw.name!r} has Spherical Stereo, which only Blender's own cameras have"
+            raise InputError(f"{spherical}: switch it off, or take Blender's Own model or Omnidirectional Stereo")
+        return replace(raw, settings={**settings, EYE: -SIDES[view]})
     side, mode, pivot = SIDES[view], settings["convergence_mode"], settings["pivot"]
     distance, convergence = float(settings["interocular_distance"]), float(settings["convergence_distance"])
     share = {"CENTER": 0.5, view.upper(): 0.0}.get(pivot, 1.0)

@@ -135,6 +135,10 @@ class Model(ABC):
         """
         return None
 
+    def posed(self, pose: Pose) -> Model:
+        """Return the model of a camera that stands there: itself, unless its rays depend on where the world's up is."""
+        return self
+
     @property
     def K(self) -> np.ndarray | None:
         """The camera matrix, (3, 3) float64 in OpenCV's convention: y down, the origin in the center of the top left

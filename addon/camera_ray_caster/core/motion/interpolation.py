@@ -39,7 +39,7 @@ class TimeInterval:
         model, aperture = _mixed([(camera.model, camera.aperture) for camera in cameras], weights)
         basis = self._camera_axes.at(weights)[0]
         pose = Pose(_sum([camera.pose.eye for camera in cameras], weights), basis / np.linalg.norm(basis, axis=0))
-        return replace(cameras[0], pose=pose, model=model, aperture=aperture)
+        return replace(cameras[0], pose=pose, model=model.posed(pose), aperture=aperture)
 
     def shapes_at(self, frame: float) -> Shapes:
         """Return the shapes at a frame. Where shapes come or go, those of the evaluation before it stand still."""

@@ -1,0 +1,81 @@
+"""Blender's spherical stereo: rays begin and go where those of Cycles do, and the same pixels have none."""
+
+import numpy as np
+import pytest
+
+from camera_ray_caster.blender.read.scene import read_camera
+from camera_ray_caster.core.conventions import EPS32
+
+from .cycles import cycles_surface
+from .test_panoramas import TYPES
+
+MERGED = {"use_pole_merge": True, "pole_merge_angle_from": 0.2, "pole_merge_angle_to": 0.7}
+MODES = {
+    "toe-in, left": {"convergence_mode": "TOE", "pivot": "LEFT"},
+    "off-axis, merged": {"convergence_mode": "OFFAXIS", "pivot": "RIGHT"} | MERGED,
+    "parallel, merged": {"convergence_mode": "PARALLEL", "pivot": "CENTER"} | MERGED,
+    "parallel": {"convergence_mode": "PARALLEL", "pivot": "CENTER"},
+}
+SIDES = 9.0, 24.0
+"""Of the boxes around the camera on which a ray is seen twice."""
+
+
+@pytest.fixture(params=["PERSP", *TYPES])
+def scene(blender, request):
+    """A turned, scaled and shifted camera of each type."""
+    bpy = blender
+    bpy.ops.object.camera_add(location=(0.5, -1, 6), rotation=(0.9, 0.2, 0.3), scale=(2, 1, 0.5))
+    scene = bpy.context.scene
+    scene.camera = bpy.context.object
+    data = scene.camera.data
+    data.type = "PERSP" if request.param == "PERSP" else "PANO"
+    if data.type == "PANO":
+        (data if hasattr(data, "panorama_type") else data.cycles).panorama_type = request.param
+    data.lens, data.shift_x = 14.0, 0.1
+    data.stereo.use_spherical_stereo = True
+    data.stereo.interocular_distance, data.stereo.convergence_distance = 0.6, 3.5
+    scene.render.resolution_x, scene.render.resolution_y = 25, 18
+    scene.render.use_multiview = True
+    return scene
+
+
+@pytest.mark.parametrize("mode", MODES)
+def test_rays_are_those_of_cycles(blender, scene, mode):
+    """What Cycles meets of two boxes, one in the other, lies on our rays."""
+    for name, value in MODES[mode].items():
+        setattr(scene.camera.data.stereo, name, value)
+    cameras = {view: read_camera(scene, view=view) for view in ("left", "right")}
+    for side in SIDES:
+        blender.ops.mesh.primitive_cube_add(size=side, location=(1, -1, 5.5), rotation=(0.1, 0.2, 0.3))
+        for view, camera in cameras.items():
+            for one in scene.render.views:
+                one.use, one.file_suffix = one.name == view, ""
+            found = cycles_surface(scene, "Position", 32.0)
+            rays = camera.rays()
+            assert (rays.valid == ~np.isnan(found[..., 0])).all()
+            found, rays = found[rays.valid], camera.rays_at(*pixels_of(camera))
+            beside = np.linalg.norm(np.cross(found - rays.origins, rays.directions), axis=-1)
+            assert (beside <= bound(camera, found)).all()
+            far = np.cross(found - camera.pose.eye, rays.directions)
+            assert np.quantile(np.linalg.norm(far, axis=-1), 0.6) > 0.05  # the eye is 0.3 beside: the test would see it
+            back = camera.project(found)
+            assert np.abs(back - np.stack(pixels_of(camera), axis=-1)).max() <= 3e-4
+        blender.data.objects.remove(blender.context.object)
+
+
+def pixels_of(camera):
+    """The x and y of the pixel centers that have a ray."""
+    valid = camera.rays().valid
+    x, y = np.broadcast_arrays(camera.raster.columns(), camera.raster.rows())
+    return x[valid], y[valid]
+
+
+def bound(camera, found):
+    """How far beside a ray Cycles may meet something: 32 operations of the origin, of places of 16 and of a witness of
+    64, and for the direction 1e-4 pixels: what float32 takes from a place in the picture.
+    """
+    x, y = pixels_of(camera)
+    here = camera.rays_at(x, y).directions
+    turned = [np.linalg.norm(camera.rays_at(x + u, y + v).directions - here, axis=-1) for u, v in np.eye(2) * 2.0**-8]
+    distance = np.linalg.norm(found - camera.pose.eye, axis=-1)
+    return (32 * 16 + 64) * EPS32 + distance * 1e-4 * 2.0**8 * np.nan_to_num(np.maximum(*turned), nan=1.0)
