@@ -21,6 +21,7 @@ WORDS = {
     "make_pictures": ["--help"],
     "make_scenes": ["--help"],
     "side_by_side": ["--help"],
+    "to_cycles": ["--help"],
     "verify": [SCENE],
     "work_precision": ["--help"],
 }
