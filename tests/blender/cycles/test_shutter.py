@@ -3,8 +3,10 @@
 import numpy as np
 import pytest
 
+from camera_ray_caster.blender.cycles import to_cycles
 from camera_ray_caster.blender.read.scene import read_camera, read_shapes
 from camera_ray_caster.core.cast import cast
+from camera_ray_caster.core.records import InputError
 
 from ..read.scene_parts import curves
 from .cycles import cycles_surface
@@ -112,3 +114,27 @@ def test_a_sphere_that_moves_is_the_same_picture(blender, scene):
     steep = 2.0 / np.maximum(ours["position"][..., 2], 1e-3)  # how much height changes where the side is off
     apart = np.linalg.norm(theirs - ours["position"], axis=-1)
     assert (apart <= ROUNDING * (1 + steep))[hit & seen].all()
+
+
+@pytest.mark.parametrize("moving", ["camera", "thing"])
+def test_a_slit_scan_by_rows_is_the_rolling_shutter_of_a_custom_camera(osl, blender, scene, moving):
+    """From frame 8 at the bottom to frame 2 at the top, seen of a wall in a slant, which tells where its camera was."""
+    blender.ops.mesh.primitive_plane_add(size=100, rotation=(0, -np.pi / 4, 0))
+    move(scene, scene.camera if moving == "camera" else blender.context.object, 1.0)
+    own = scene.camera.data.camera_ray_caster
+    own.time_mode, own.time_start, own.time_end = "ROWS", 8.0, 2.0
+    rows = read_camera(scene).rays().time[:, :1]
+    (said,) = [line for line in to_cycles(scene) if "slit scan" in line]
+    assert "from frame" in said
+    seen = cycles_surface(scene, "Position", REACH)
+    centers = (np.arange(SIZE) + 0.5 - SIZE / 2) / 2
+    moved = seen[..., 0] - (centers if moving == "camera" else seen[..., 2])
+    assert np.abs(5 + moved - rows).max() <= 2 * ROUNDING
+    assert np.array_equal(read_camera(scene).rays().time[:, :1], rows)
+
+
+def test_rows_from_the_bottom_up_are_not_cycles_order(osl, scene):
+    scene.camera.data.camera_ray_caster.time_mode = "ROWS"
+    with pytest.raises(InputError, match="end at an earlier frame"):
+        to_cycles(scene)
+    assert scene.camera.data.type == "ORTHO"

@@ -3,7 +3,6 @@
 import numpy as np
 
 from ...core.camera.camera import Camera
-from ...core.camera.pixel_time import ROLLING_SHUTTER
 from ...core.camera.stereo import SIDES, eye_record
 from ...core.cameras import find_model
 from ...core.cameras.parts.settings import Line
@@ -16,6 +15,7 @@ from ..read.evaluated import camera_at
 from ..read.scene import evaluated_camera, go_to
 from .animation import insert_keyframes, is_animated
 from .device import said_of_device
+from .rolling import check_time, set_up_time
 from .shader import check_cycles, check_enabled, clear_shader, set_inputs, set_shader
 
 MOST_FRAMES = 10_000
@@ -32,12 +32,12 @@ def to_cycles(scene, camera_object=None) -> list[str]:
     Blender without this add-on; what is animated in the scene's frame range becomes keyframes of its inputs. The model,
     its settings and its pose stay where they are, and ``read_camera`` gives the same camera afterwards; Cycles computes
     the rays in float32. A camera that is one already gets its shader and its keyframes anew.
-    A rolling shutter is Cycles' own. A slit scan cannot be a camera of a timeline: it shows the same frames whatever
-    the current one is, and Cycles' shutter is open about the current one; ``picture_of`` renders it.
+    Rows that are exposed one after another from the top down are Cycles' own rolling shutter; a slit scan, which shows
+    the same frames whatever the current one is, at one frame, to which the scene goes. ``picture_of`` renders others.
     Returns what follows only where the add-on is enabled, what was changed in the scene, and where the engine or the
     device will not show it, in lines.
     Raises InputError for what ``read_camera`` refuses, for a camera of a library, for spherical stereo, for pixel times
-    other than a rolling shutter, and where this Blender has no OSL. The camera is as it was then.
+    in another order than Cycles', and where this Blender has no OSL. The camera is as it was then.
     """
     check_cycles()
     with evaluated_camera(scene, camera_object) as (active, depsgraph):
@@ -57,7 +57,7 @@ def to_cycles(scene, camera_object=None) -> list[str]:
         insert_keyframes(active.data, shaders)
         said = _said_of_keyframes(active.data, shaders)
     set_inputs(active.data, shader)
-    return said + _set_up_time(scene, raw) + _engine_said(scene) + said_of_device(scene)
+    return said + set_up_time(scene, raw, camera) + _engine_said(scene) + said_of_device(scene)
 
 
 def from_cycles(camera_object) -> None:
@@ -106,14 +106,6 @@ def _said_of_keyframes(camera, shaders) -> list[str]:
     ] * moves
 
 
-def _set_up_time(scene, raw: BlenderCamera) -> list[str]:
-    """Switch on Cycles' rolling shutter for a camera that has one; return what was changed."""
-    if raw.settings["time_mode"] != ROLLING_SHUTTER:
-        return []
-    scene.render.use_motion_blur, scene.cycles.rolling_shutter_type = True, "TOP"
-    return ["Motion Blur is switched on, with Cycles' Rolling Shutter from top to bottom"]
-
-
 def _engine_said(scene) -> list[str]:
     """Return what other engines show of a custom camera; the add-on's own and Cycles know what it is."""
     engine = scene.render.engine
@@ -130,11 +122,7 @@ def _check(raw: BlenderCamera, camera: Camera, camera_object) -> None:
             f"camera {raw.name!r} has Spherical Stereo, which Cycles has for its own cameras only: leave it as it is, "
             "and Cycles renders it"
         )
-    if camera.pixel_time is not None and raw.settings["time_mode"] != ROLLING_SHUTTER:
-        raise InputError(
-            f"the pixels of camera {raw.name!r} have each their own time, which a shader cannot give a ray: render it "
-            "by cast.py --engine CYCLES, or set Time to One Time or Rolling Shutter"
-        )
+    check_time(raw, camera)
     if raw.settings["use_multiview"] and raw.settings["views_format"] == "STEREO_3D":
         for view in SIDES:
             _check_eye(raw, camera, eye_record(raw, view))

@@ -30,10 +30,8 @@ from ..read.scene import evaluated, evaluated_camera
 from ..terminal.signals import raise_if_stopping
 from .device import device_of
 from .renderer import Render, border, changed, cycles_engine
+from .rolling import MOTION_STEPS
 from .shader import check_cycles, set_shader
-
-MOTION_STEPS = 7
-"""Of every object in a slit scan: 2^7 + 1 places over its frames, the most that Cycles takes."""
 
 
 @dataclass(frozen=True)

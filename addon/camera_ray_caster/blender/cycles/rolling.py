@@ -1,0 +1,47 @@
+"""Cameras of Cycles whose rows are exposed one after another: by Cycles' own rolling shutter, from the top row down."""
+
+from ...core.camera.camera import Camera
+from ...core.camera.pixel_time import ROLLING_SHUTTER, LinearTime
+from ...core.records import BlenderCamera, InputError
+from ...core.shaders.turn import UPRIGHT, Turn, shutter_of
+from ..read.scene import go_to
+
+MOTION_STEPS = 7
+"""Of every object in a slit scan: 2^7 + 1 places over its frames, the most that Cycles takes."""
+
+
+def check_time(raw: BlenderCamera, camera: Camera) -> None:
+    """Raise InputError for pixel times in another order than Cycles exposes rows."""
+    time = camera.pixel_time
+    if time is None or raw.settings["time_mode"] == ROLLING_SHUTTER:
+        return
+    if not isinstance(time, LinearTime) or Turn.of(time) != UPRIGHT:
+        raise InputError(
+            f"the pixels of camera {raw.name!r} have each their own time, and Cycles exposes rows from the top down: "
+            "render it by cast.py --engine CYCLES, or let Rows end at an earlier frame than they start"
+        )
+
+
+def set_up_time(scene, raw: BlenderCamera, camera: Camera) -> list[str]:
+    """Set Cycles' rolling shutter to the times of a camera's rows; return what was changed, in lines.
+
+    A slit scan shows the same frames whatever the current frame is, and Cycles' shutter opens at the current one: the
+    scene goes to the frame at which both are the same.
+    """
+    if camera.pixel_time is None:
+        return []
+    render, cycles = scene.render, scene.cycles
+    render.use_motion_blur, cycles.rolling_shutter_type = True, "TOP"
+    if raw.settings["time_mode"] == ROLLING_SHUTTER:
+        return ["Motion Blur is switched on, with Cycles' Rolling Shutter from top to bottom"]
+    begin, frames = shutter_of(camera.pixel_time, camera.raster)
+    render.motion_blur_position, render.motion_blur_shutter, cycles.rolling_shutter_duration = "START", frames, 0.0
+    for item in scene.objects:
+        item.cycles.use_motion_blur, item.cycles.use_deform_motion = True, True
+        item.cycles.motion_steps = MOTION_STEPS
+    go_to(scene, begin)
+    return [
+        f"The slit scan is Cycles' Rolling Shutter, open for {frames:g} frames from frame {begin:g} on, where the "
+        "scene is now: at any other frame Cycles shows other times",
+        "Motion Blur is switched on, and all objects have 7 Motion Steps",
+    ]
