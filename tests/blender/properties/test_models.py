@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from camera_ray_caster.blender.properties.calibration import set_calibration
 from camera_ray_caster.blender.properties.groups import CameraProperties
 from camera_ray_caster.blender.read.scene import read_camera
 from camera_ray_caster.core.cameras import MODELS
@@ -83,3 +84,31 @@ def test_a_calibration_file_beside_the_blend_is_found_and_a_missing_one_named(bl
     own.calibration_file = "//lost.yml"
     with pytest.raises(InputError, match="lost"):
         read_camera(blender.context.scene)
+
+
+CAMERAS = "1 PINHOLE 640 480 500 501 320 240\n2 OPENCV_FISHEYE 640 480 300 301 320 240 0.01 0 0 0\n"
+
+
+def test_the_model_follows_from_a_calibration_file(blender, scene, tmp_path):
+    path = tmp_path / "cameras.txt"
+    path.write_text(CAMERAS)
+    own = scene.camera.data.camera_ray_caster
+    with pytest.raises(RuntimeError, match="set calibration_camera to one of 1, 2"):
+        blender.ops.camera_ray_caster.load_calibration(filepath=str(path))
+    assert (own.model, own.calibration_file) == ("BLENDER", "")
+    for name, model in (("2", "OPENCV_FISHEYE"), ("1", "OPENCV_PINHOLE")):
+        blender.ops.camera_ray_caster.load_calibration(filepath=str(path), camera=name)
+        assert own.model == model
+        assert read_camera(scene).model.key == model
+    path.write_text("nothing\n")
+    with pytest.raises(RuntimeError, match="cameras"):
+        blender.ops.camera_ray_caster.load_calibration(filepath=str(path))
+    assert own.model == "OPENCV_PINHOLE"
+
+
+def test_what_was_read_is_said(scene, tmp_path):
+    path = tmp_path / "cameras.txt"
+    path.write_text(CAMERAS)
+    said = set_calibration(scene.camera.data, str(path), "2")
+    assert said.startswith("Camera 2: OpenCV Fisheye, ")
+    assert "fx 300, fy 301" in said

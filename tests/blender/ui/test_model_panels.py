@@ -117,10 +117,10 @@ def test_a_calibration_file_grays_out_the_numbers_that_it_replaces(blender, data
 def test_a_camera_of_cycles_shows_the_settings_of_its_own_type_and_the_way_back(osl, blender, camera_scene):
     data = camera_scene.camera.data
     assert drawn(blender, ModelPanel, data)[0] == ("model",)
-    assert drawn.operators == ["use_in_cycles"]
+    assert drawn.operators == ["load_calibration", "use_in_cycles"]
     to_cycles(camera_scene)
     assert drawn(blender, ModelPanel, data)[0] == ("model", "lens")
-    assert drawn.operators == ["back_to_blender", "use_in_cycles"]
+    assert drawn.operators == ["load_calibration", "back_to_blender", "use_in_cycles"]
     data.camera_ray_caster.model = "PUSHBROOM"
     assert drawn(blender, ModelPanel, data)[0] == ("model", "slit_1", "ortho_scale", "lens")
 

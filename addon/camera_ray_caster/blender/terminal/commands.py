@@ -25,7 +25,8 @@ from ..cycles.shader import check_cycles
 from ..engine.engine import CameraRayCaster
 from ..engine.passes import tick, ticked
 from ..output import files
-from ..read.camera import find_camera
+from ..properties.calibration import set_calibration
+from ..read.camera import check_camera, find_camera
 from ..read.scene import read_camera
 from ..verification.check import verified
 from . import signals
@@ -193,6 +194,9 @@ def _parser(prog: str, purpose: str, example: str, result: str, ends: str = ENDS
     )
     parser.add_argument("file", nargs="?", type=Path, metavar="FILE.blend", help="default: the file that is open")
     parser.add_argument("--camera", metavar="NAME", help="default: the scene's active camera")
+    parser.add_argument("--calibration", type=Path, metavar="FILE", help="of OpenCV, ROS, COLMAP, nerfstudio, Kalibr, "
+                        "mrcal or Project Aria: the camera's model follows from it")  # fmt: skip
+    parser.add_argument("--calibration-camera", default="", metavar="NAME", help="of a file with several cameras")
     parser.add_argument("--enable-autoexec", action="store_true",
                         help="run the Python scripts and drivers of FILE.blend; default: they do not run")  # fmt: skip
     return parser
@@ -221,6 +225,11 @@ def _open(options):
         for marker in scene.timeline_markers:
             marker.camera = None  # it would take the camera's place at its frame
         scene.camera = camera
+    if options.calibration is not None:
+        check_camera(scene, scene.camera)
+        set_calibration(scene.camera.data, str(options.calibration.absolute()), options.calibration_camera)
+    elif options.calibration_camera:
+        raise InputError("--calibration-camera names one of --calibration FILE: give that, too")
     return scene
 
 

@@ -5,6 +5,7 @@ import bpy
 from ...core.records import InputError
 from ..cycles import from_cycles, to_cycles
 from ..read.camera import shader_mark
+from .operators import camera_object_of
 
 
 class UseInCycles(bpy.types.Operator):
@@ -55,12 +56,6 @@ class BackToBlender(bpy.types.Operator):
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
         return {"FINISHED"}
-
-
-def camera_object_of(context):
-    """Return the camera object that a panel is about: the active object, or else the scene's camera."""
-    item = context.object
-    return item if item is not None and item.type == "CAMERA" else context.scene.camera
 
 
 CLASSES = (UseInCycles, BackToBlender)

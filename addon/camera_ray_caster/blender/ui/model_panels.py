@@ -11,6 +11,7 @@ from ..properties.declared import BLENDERS_OWN, GROUP, MODEL
 from ..properties.owners import owner_of
 from ..read.camera import shader_mark
 from .cycles_operators import BackToBlender, UseInCycles
+from .operators import LoadCalibration
 
 SETTINGS = {model.key: model.SETTINGS for model in MODELS}
 
@@ -54,7 +55,9 @@ class ModelPanel(bpy.types.Panel):
         layout, camera = self.layout, context.camera
         layout.use_property_split = True
         own = getattr(camera, GROUP)
-        layout.prop(own, MODEL.name)
+        row = layout.row(align=True)
+        row.prop(own, MODEL.name)
+        row.operator(LoadCalibration.bl_idname, text="", icon="FILEBROWSER")
         column = layout.column(align=True)
         for setting in settings_of(camera):
             if shown(setting, camera):

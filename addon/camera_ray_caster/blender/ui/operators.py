@@ -7,10 +7,17 @@ from ...core.records import InputError
 from ...core.report.facts import camera_facts
 from ...core.report.report import Report, as_json
 from ..output import reports
+from ..properties.calibration import set_calibration
 from ..read.scene import read_camera
 from ..verification.check import verified
 
 NO_CAMERA = "The scene has no active camera: add one, or set one in the Scene properties"
+
+
+def camera_object_of(context):
+    """Return the camera object that a panel is about: the active object, or else the scene's camera."""
+    item = context.object
+    return item if item is not None and item.type == "CAMERA" else context.scene.camera
 
 
 class Verify(bpy.types.Operator):
@@ -76,6 +83,39 @@ class CopyFacts(bpy.types.Operator):
         return {"FINISHED"}
 
 
+class LoadCalibration(bpy.types.Operator):
+    """Choose a calibration file of OpenCV, ROS, COLMAP, nerfstudio, Kalibr, mrcal or Project Aria: the camera model
+    follows from it"""
+
+    bl_idname = "camera_ray_caster.load_calibration"
+    bl_label = "Load Calibration"
+    bl_options = {"REGISTER", "UNDO"}
+
+    filepath: StringProperty(name="File", description="The calibration file", subtype="FILE_PATH")
+    camera: StringProperty(name="Camera in File", description="Of a file with several: its name there")
+
+    @classmethod
+    def poll(cls, context):
+        """Grayed out without a camera."""
+        cls.poll_message_set("Select a camera object first")
+        return camera_object_of(context) is not None
+
+    def invoke(self, context, event):
+        """Ask for the file."""
+        context.window_manager.fileselect_add(self)
+        return {"RUNNING_MODAL"}
+
+    def execute(self, context):
+        """Read it, and say what was read."""
+        try:
+            said = set_calibration(camera_object_of(context).data, bpy.path.abspath(self.filepath), self.camera)
+        except InputError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        self.report({"INFO"}, said)
+        return {"FINISHED"}
+
+
 class SelectLeftOut(bpy.types.Operator):
     """Select this object and make it active"""
 
@@ -118,4 +158,4 @@ class WriteReport(bpy.types.Operator):
         return {"FINISHED"}
 
 
-CLASSES = (Verify, CopyFacts, SelectLeftOut, WriteReport)
+CLASSES = (Verify, CopyFacts, LoadCalibration, SelectLeftOut, WriteReport)

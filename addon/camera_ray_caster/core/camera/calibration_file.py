@@ -6,6 +6,7 @@ from dataclasses import replace
 
 from ..cameras import MODELS
 from ..cameras.files import lenses_of
+from ..cameras.files.document import Lens
 from ..cameras.model import Model
 from ..cameras.parts.calibration import FILE, FILE_CAMERA
 from ..records import BlenderCamera, InputError
@@ -20,15 +21,22 @@ def with_file(raw: BlenderCamera, model: type[Model]) -> BlenderCamera:
     path = FILE.read(raw) if FILE in model.SETTINGS else ""
     if not path:
         return raw
-    lenses, name = lenses_of(path, model.key), FILE_CAMERA.read(raw)
-    chosen = [lens for lens in lenses if name in ("", lens.name)]
-    if len(chosen) != 1:
-        names = ", ".join(lens.name for lens in lenses)
-        said = f"no camera {name!r}" if name and not chosen else f"{len(chosen)} cameras"
-        raise InputError(f"calibration file {path!r} has {said}: set {FILE_CAMERA.name} to one of {names}")
-    (lens,) = chosen
+    lens = chosen_lens(path, model.key, FILE_CAMERA.read(raw))
     if lens.model != model.key:
         label = next(other.label for other in MODELS if other.key == lens.model)
         raise InputError(f"{path!r} is a calibration for {label}, not {model.label}: choose that model")
     given = model.SETTINGS[model.SETTINGS.index(FILE) + 1 :]
     return replace(raw, settings={**raw.settings, **{one.name: one.default for one in given}, **lens.settings})
+
+
+def chosen_lens(path: str, key: str, name: str = "") -> Lens:
+    """Return the lens of this name in a calibration file, or the only one; ``key``: the model's, for formats that do
+    not say theirs. Raises InputError for a file that cannot be read, and where none is chosen: it says which there are.
+    """
+    lenses = lenses_of(path, key)
+    chosen = [lens for lens in lenses if name in ("", lens.name)]
+    if len(chosen) != 1:
+        names = ", ".join(lens.name for lens in lenses)
+        said = f"no camera {name!r}" if name and not chosen else f"{len(chosen)} cameras"
+        raise InputError(f"calibration file {path!r} has {said}: set {FILE_CAMERA.name} to one of {names}")
+    return chosen[0]
