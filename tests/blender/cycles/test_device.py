@@ -8,7 +8,7 @@ from camera_ray_caster.blender.cycles import device, to_cycles
 
 
 @pytest.mark.parametrize(("kind", "works"), [("NONE", True), ("CUDA", False), ("HIP", False), ("OPTIX", True)])
-def test_a_device_that_runs_no_shaders_of_cameras_is_named(camera_scene, monkeypatch, kind, works):
+def test_a_device_that_runs_no_shaders_of_cameras_is_named(osl, camera_scene, monkeypatch, kind, works):
     chosen = {"cycles": SimpleNamespace(preferences=SimpleNamespace(compute_device_type=kind))}
     context = SimpleNamespace(context=SimpleNamespace(preferences=SimpleNamespace(addons=chosen)))
     monkeypatch.setattr(device, "bpy", context)

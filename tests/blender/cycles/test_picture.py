@@ -11,6 +11,8 @@ from camera_ray_caster.core.cast import cast
 from ..read.scene_parts import curves, new_object
 from .cycles import cycles_passes, show, shown
 
+pytestmark = pytest.mark.usefixtures("osl")
+
 REACH = 32.0
 """More than any coordinate in these scenes."""
 FLOAT32 = 2e-6
