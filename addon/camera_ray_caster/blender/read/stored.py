@@ -25,7 +25,10 @@ def own_value(owner, setting: Setting):
     """
     group = getattr(owner, GROUP, None)
     if group is not None:
-        value = getattr(group, setting.name)
+        try:
+            value = getattr(group, setting.name)
+        except UnicodeDecodeError as error:
+            raise InputError(f"{setting.name} of {owner.name!r} is no text in UTF-8: type it anew") from error
         return _stored(owner, setting) if setting.kind == "ENUM" and not value else value
     if f"{GROUP}.{setting.name}" in _animated(owner):
         raise InputError(

@@ -11,7 +11,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import radians
 
-from ...records import BlenderCamera, Raster
+from ...records import BlenderCamera, InputError, Raster
 from .affine import AffineWindow
 from .film import FARTHEST_PIXELS, Window
 from .settings import FilePath, Number, Text, Whole
@@ -61,6 +61,10 @@ Linear = tuple[tuple[float, float], tuple[float, float]]
 STEEPEST = radians(80)
 """Beyond which a tilted sensor is no picture to calibrate with."""
 
+FLATTEST = 1e-7
+"""Of a determinant over the square of the largest entry: less is no picture, and for float32 as good as 0.
+"""
+
 LARGEST = 1e30
 """Of a calibration's numbers: products of three of them have to be numbers, too."""
 
@@ -100,8 +104,8 @@ class Calibration:
         Raises InputError for a setting without meaning, by its name.
         """
         values = {"fx": 1.0, "fy": 1.0, "skew": 0.0}
-        values |= {setting.name: setting.read(raw) for setting in (*SIZE, *FOCAL) if setting in settings}
-        values |= {setting.name: setting.read(raw, high=FARTHEST_PIXELS) for setting in CENTER}
+        values |= {setting.name: setting.read(raw) for setting in FOCAL if setting in settings}
+        values |= {setting.name: setting.read(raw, high=FARTHEST_PIXELS) for setting in (*SIZE, *CENTER)}
         for setting in (SKEW, *distortion) if SKEW in settings else distortion:
             values[setting.name] = setting.read(raw, max(setting.low, -LARGEST), min(setting.high, LARGEST))
         return cls(
@@ -114,13 +118,19 @@ class Calibration:
     def window(self, raster: Raster, linear: Linear | None = None) -> Window:
         """Return the window of (x, -y) of OpenCV's normalized, distorted image coordinates: y up.
 
-        linear: what brings these to the calibrated picture's pixels from its center, K's if it is not given.
+        linear: what brings these to the calibrated picture's pixels from its center, K's if it is not given. Raises
+        InputError where it brings them all to about one line.
         """
         scale_x, scale_y = raster.width / self.width, raster.height / self.height
         center = (self.cx + 0.5) * scale_x, (self.height - (self.cy + 0.5)) * scale_y
         (xx, xy), (yx, yy) = linear or ((self.fx, self.skew), (0.0, self.fy))
+        volume, size = xx * yy - xy * yx, max(map(abs, (xx, xy, yx, yy)))
+        if (linear or self.skew) and not abs(volume) > FLATTEST * size * size:
+            raise InputError(
+                f"the calibration's matrix, {xx:.6g}, {xy:.6g}; {yx:.6g}, {yy:.6g}, brings all directions to about one "
+                "line of the picture: check skew and affine terms"
+            )
         if xy == yx == 0:
             return Window(*center, 1 / (xx * scale_x), 1 / (yy * scale_y))
-        volume = xx * yy - xy * yx
         pitch, shear = (yy / volume / scale_x, xx / volume / scale_y), (xy / volume / scale_y, yx / volume / scale_x)
         return AffineWindow(*center, *pitch, *shear)
