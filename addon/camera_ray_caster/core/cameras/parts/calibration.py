@@ -61,7 +61,7 @@ Linear = tuple[tuple[float, float], tuple[float, float]]
 STEEPEST = radians(80)
 """Beyond which a tilted sensor is no picture to calibrate with."""
 
-FLATTEST = 1e-7
+FLATTEST = 1e-6
 """Of a determinant over the square of the largest entry: less is no picture, and for float32 as good as 0.
 """
 
