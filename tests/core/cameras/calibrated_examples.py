@@ -172,7 +172,12 @@ UNSEEN = {
 }
 
 REFUSED = {
-    "UCM": [({"unified_xi": -1.0}, "unified_xi"), ({"unified_xi": NAN}, "unified_xi"), ({"k2": NAN}, "k2")],
+    "UCM": [
+        ({"skew": 1e20}, "skew"),
+        ({"unified_xi": -1.0}, "unified_xi"),
+        ({"unified_xi": NAN}, "unified_xi"),
+        ({"k2": NAN}, "k2"),
+    ],
     "FISHEYE624": [({"k6": NAN}, "k6"), ({"fx": 0.0}, "fx"), ({"s4": 1e31}, "s4")],
     "THIN_PRISM_FISHEYE": [({"k4": NAN}, "k4"), ({"cx": 1e9}, "cx"), ({"skew": NAN}, "skew")],
     "FTHETA": [
