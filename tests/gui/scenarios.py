@@ -9,7 +9,7 @@ from parts import BUTTON, MODULE, addon, load, timed
 from user import pixels_of
 
 DRAWN = 0.002
-"""Seconds of a processor that the drawing of a panel may take: a redraw must not be felt."""
+"""Seconds that the drawing of a panel may take: a redraw must not be felt."""
 
 PAUSE = 2.0
 """Seconds that the window may stand still beside a cast that takes many times as long, on busy cores."""

@@ -101,8 +101,9 @@ def test_rays_pass_through_the_focus_and_fill_the_opening(blender, case, custom,
     camera = read_camera(scene)
     aperture, basis, eye = camera.aperture, camera.pose.basis, camera.pose.eye
     chief, (end, direction) = camera.rays(), cycles_rays(scene)
-    seen = chief.valid & ~np.isnan(end[..., 0])
-    assert np.count_nonzero(seen) > 0.4 * PIXELS**2
+    seen = ~np.isnan(end[..., 0])
+    assert np.array_equal(seen, chief.valid)
+    assert np.count_nonzero(seen) > 0.6 * PIXELS**2  # a dome of the omnimax's film is 0.6006 of it
     # all in the camera's frame from here on
     origins, chief, end, direction = (
         (vectors[seen] - offset) @ basis

@@ -14,7 +14,7 @@ from ...core.report.report import Report
 from ..engine.job import Job
 from ..engine.passes import ticked
 from ..output import images, reports
-from .operators import NO_CAMERA
+from .needs import NO_CAMERA, reporting
 
 INTERVAL = 0.1
 """Seconds between two updates of the progress."""
@@ -48,13 +48,10 @@ class Cast(bpy.types.Operator):
         cls.poll_message_set("A cast is running: Esc stops it" if _running else NO_CAMERA)
         return context.scene.camera is not None and not _running
 
+    @reporting
     def execute(self, context):
         """Cast at once and wait for it."""
-        try:
-            return self.finish(context, *self.read(context).cast())
-        except InputError as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
+        return self.finish(context, *self.read(context).cast())
 
     def invoke(self, context, event):
         """Read the scene, then cast on a thread; Blender calls ``modal`` until that has ended."""

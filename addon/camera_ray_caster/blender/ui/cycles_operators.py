@@ -2,13 +2,12 @@
 
 import bpy
 
-from ...core.records import InputError
 from ..cycles import from_cycles, to_cycles
 from ..read.camera import shader_mark
-from .operators import camera_object_of
+from .needs import OfCamera, camera_object_of, reporting
 
 
-class UseInCycles(bpy.types.Operator):
+class UseInCycles(OfCamera, bpy.types.Operator):
     """Let Cycles render this camera's own rays: the camera becomes a custom one, with a shader that is stored in the
     file"""
 
@@ -16,19 +15,10 @@ class UseInCycles(bpy.types.Operator):
     bl_label = "Use in Cycles"
     bl_options = {"REGISTER", "UNDO"}
 
-    @classmethod
-    def poll(cls, context):
-        """Grayed out without a camera in the context."""
-        cls.poll_message_set("Select a camera object first")
-        return camera_object_of(context) is not None
-
+    @reporting
     def execute(self, context):
         """Do it, and say what will not follow by itself."""
-        try:
-            said = to_cycles(context.scene, camera_object_of(context))
-        except InputError as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
+        said = to_cycles(context.scene, camera_object_of(context))
         for line in said:
             self.report({"INFO"}, line)
         return {"FINISHED"}
@@ -48,13 +38,10 @@ class BackToBlender(bpy.types.Operator):
         camera = camera_object_of(context)
         return camera is not None and shader_mark(camera.data) is not None
 
+    @reporting
     def execute(self, context):
         """Do it."""
-        try:
-            from_cycles(camera_object_of(context))
-        except InputError as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
+        from_cycles(camera_object_of(context))
         return {"FINISHED"}
 
 

@@ -3,24 +3,16 @@
 import bpy
 from bpy.props import BoolProperty, StringProperty
 
-from ...core.records import InputError
 from ...core.report.facts import camera_facts
 from ...core.report.report import Report, as_json
 from ..output import reports
 from ..properties.calibration import set_calibration
 from ..read.scene import read_camera
 from ..verification.check import verified
-
-NO_CAMERA = "The scene has no active camera: add one, or set one in the Scene properties"
-
-
-def camera_object_of(context):
-    """Return the camera object that a panel is about: the active object, or else the scene's camera."""
-    item = context.object
-    return item if item is not None and item.type == "CAMERA" else context.scene.camera
+from .needs import OfCamera, OfScene, camera_object_of, reporting
 
 
-class Verify(bpy.types.Operator):
+class Verify(OfScene, bpy.types.Operator):
     """Compare the rays of the active camera with Blender's own view frame, camera matrix and projection"""
 
     bl_idname = "camera_ray_caster.verify"
@@ -34,23 +26,14 @@ class Verify(bpy.types.Operator):
     )
 
     @classmethod
-    def poll(cls, context):
-        """Grayed out without a camera."""
-        cls.poll_message_set(NO_CAMERA)
-        return context.scene.camera is not None
-
-    @classmethod
     def description(cls, context, properties):
         """Say of the button with Cycles what that does."""
         return cls.bl_rna.properties["with_cycles"].description if properties.with_cycles else cls.__doc__
 
+    @reporting
     def execute(self, context):
         """Verify, keep what was found for the panel, and say it in one line."""
-        try:
-            report = verified(context.scene, self.with_cycles)
-        except InputError as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
+        report = verified(context.scene, self.with_cycles)
         reports.keep_verified(report)
         if report.passed:
             self.report({"INFO"}, "The rays agree with every witness")
@@ -59,31 +42,22 @@ class Verify(bpy.types.Operator):
         return {"FINISHED"}
 
 
-class CopyFacts(bpy.types.Operator):
+class CopyFacts(OfScene, bpy.types.Operator):
     """Copy what the active camera is to the clipboard, as JSON with all digits"""
 
     bl_idname = "camera_ray_caster.copy_facts"
     bl_label = "Copy Camera"
     bl_options = {"INTERNAL"}
 
-    @classmethod
-    def poll(cls, context):
-        """Grayed out without a camera."""
-        cls.poll_message_set(NO_CAMERA)
-        return context.scene.camera is not None
-
+    @reporting
     def execute(self, context):
         """Copy it."""
-        try:
-            facts = camera_facts(read_camera(context.scene))
-        except InputError as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
+        facts = camera_facts(read_camera(context.scene))
         context.window_manager.clipboard = as_json(Report(camera=facts, frame=context.scene.frame_current_final))
         return {"FINISHED"}
 
 
-class LoadCalibration(bpy.types.Operator):
+class LoadCalibration(OfCamera, bpy.types.Operator):
     """Choose a calibration file of OpenCV, ROS, COLMAP, nerfstudio, Kalibr, mrcal or Project Aria: the camera model
     follows from it"""
 
@@ -94,24 +68,15 @@ class LoadCalibration(bpy.types.Operator):
     filepath: StringProperty(name="File", description="The calibration file", subtype="FILE_PATH")
     camera: StringProperty(name="Camera in File", description="Of a file with several: its name there")
 
-    @classmethod
-    def poll(cls, context):
-        """Grayed out without a camera."""
-        cls.poll_message_set("Select a camera object first")
-        return camera_object_of(context) is not None
-
     def invoke(self, context, event):
         """Ask for the file."""
         context.window_manager.fileselect_add(self)
         return {"RUNNING_MODAL"}
 
+    @reporting
     def execute(self, context):
         """Read it, and say what was read."""
-        try:
-            said = set_calibration(camera_object_of(context).data, bpy.path.abspath(self.filepath), self.camera)
-        except InputError as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
+        said = set_calibration(camera_object_of(context).data, bpy.path.abspath(self.filepath), self.camera)
         self.report({"INFO"}, said)
         return {"FINISHED"}
 
