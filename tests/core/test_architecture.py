@@ -23,6 +23,7 @@ MAY_IMPORT = {
     "core.records": {"core.conventions"},
     "core.arguments": {"core.records"},
     "core.memory": {"core.records"},
+    "core.names": {"core.records"},
     "core.maths": {"core.conventions", "core.maths"},
     "core.cameras": LOW | {"core.cameras"},
     "core.camera": RAYS,

@@ -25,6 +25,7 @@ WRONG_FOR_CAST = {
     "no such shading": (["small.blend", "--shading", "toon"], "MATERIAL"),
     "no such precision": (["small.blend", "--precision", "double"], "AUTOMATIC"),
     "frames backwards": (["small.blend", "--frames", "2:1"], "2:1 holds no frame"),
+    "frames without a step": (["small.blend", "--frames", "1:2:0"], "1:2:0 has the step 0"),
     "one frame for frames": (["small.blend", "--frames", "2"], "'2'"),
     "frame and frames": (["small.blend", "--frame", "1", "--frames", "1:2"], "not allowed with"),
     "a file for a folder": (["small.blend", "--output", "text.blend"], "cannot write into 'text.blend'"),

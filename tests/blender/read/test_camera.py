@@ -235,3 +235,19 @@ def test_a_frame_beyond_the_scene_is_as_blender_has_it(scene):
     key(scene.camera, "location", (1, (0, 0, 0)), (11, (10, 0, 0)))
     assert read_camera(scene, frame=-100).pose.eye[0] == 0
     assert read_camera(scene, frame=5000).pose.eye[0] == 10
+
+
+def test_cameras_by_their_names_are_each_found_once(blender, camera_scene):
+    from camera_ray_caster.blender.read.camera import find_cameras
+
+    camera_scene.camera.name = "Right"
+    blender.ops.object.camera_add()
+    blender.context.object.name = "Left"
+    assert [item.name for item in find_cameras(camera_scene, ["ALL"])] == ["Left", "Right"]
+    assert [item.name for item in find_cameras(camera_scene, ["Right", "Left", "Right"])] == ["Right", "Left"]
+    with pytest.raises(InputError, match="no camera 'Up'; its cameras are: 'Left', 'Right'"):
+        find_cameras(camera_scene, ["Left", "Up"])
+    for name in ("Left", "Right"):
+        blender.data.objects.remove(blender.data.objects[name])
+    with pytest.raises(InputError, match="its cameras are: none at all"):
+        find_cameras(camera_scene, ["ALL"])

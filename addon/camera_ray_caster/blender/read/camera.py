@@ -1,5 +1,6 @@
 """A camera and its render settings as Blender has them: copied by their names, nothing computed."""
 
+from collections.abc import Sequence
 from dataclasses import replace
 from types import MappingProxyType
 
@@ -118,6 +119,20 @@ def find_camera(scene, name):
         known = ", ".join(repr(known) for known in sorted(cameras)) or "none at all"
         raise InputError(f"scene {scene.name!r} has no camera {name!r}; its cameras are: {known}")
     return cameras[name]
+
+
+ALL = "ALL"
+"""In place of names: every camera of a scene."""
+
+
+def find_cameras(scene, names: Sequence[str]) -> list:
+    """Return the scene's camera objects of these names, each once, or with ALL every one, by name.
+
+    Raises InputError for a name that is none's, and where there is no camera.
+    """
+    if ALL in names:
+        names = sorted(item.name for item in scene.objects if item.type == "CAMERA") or [ALL]
+    return [find_camera(scene, name) for name in dict.fromkeys(names)]
 
 
 def eye_object(scene, view: str):

@@ -32,7 +32,7 @@ from ..verification.check import verified
 from . import signals
 from .opening import not_run, open_file, save_copy
 from .standard_output import keep_output
-from .words import Parser, frame_number, frame_range, joined, pass_names, sample_count
+from .words import Parser, add_frames, frame_number, joined, pass_names, sample_count
 
 STOPPED = "stopped; what was under way has left nothing"
 
@@ -70,7 +70,7 @@ def cast(arguments: Sequence[str], prog: str) -> int:
     )
     frames = parser.add_mutually_exclusive_group()
     _add_frame(frames)
-    frames.add_argument("--frames", type=frame_range, metavar="A:B", help="every whole frame from A to B")
+    add_frames(frames)
     parser.add_argument("--passes", type=pass_names, metavar="A,B,...", help=f"of {', '.join(PASSES)}; default: what "
                         f"the file ticks, or {', '.join(DEFAULT_PASSES)} where it ticks only combined")  # fmt: skip
     parser.add_argument("--shading", type=str.upper, choices=SHADINGS, help="of the combined pass; default: the file's")

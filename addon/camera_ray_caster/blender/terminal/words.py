@@ -7,6 +7,7 @@ from ...core.camera.pixel_time import LAST_FRAME
 from ...core.cast import MOST_SAMPLES
 from ...core.casting.passes import PASSES
 from ...core.records import InputError
+from ..read.camera import ALL
 
 
 class Parser(argparse.ArgumentParser):
@@ -35,12 +36,25 @@ def frame_number(text: str) -> float:
 
 
 def frame_range(text: str) -> range:
-    """Return the frames of "A:B"."""
-    first, last = (int(part) for part in text.split(":"))
+    """Return the frames of "A:B" or "A:B:S", each S-th from A on."""
+    first, last, step = (int(part) for part in (text if text.count(":") > 1 else f"{text}:1").split(":"))
     frame_number(str(first)), frame_number(str(last))
     if first > last:
         raise argparse.ArgumentTypeError(f"{text} holds no frame: give the first one first")
-    return range(first, last + 1)
+    if step < 1:
+        raise argparse.ArgumentTypeError(f"{text} has the step {step}: it must be 1 or more")
+    return range(first, last + 1, step)
+
+
+def add_frames(parser) -> None:
+    """Add --frames A:B[:S]."""
+    parser.add_argument("--frames", type=frame_range, metavar="A:B[:S]", help="every whole frame from A to B, or each "
+                        "S-th of them")  # fmt: skip
+
+
+def add_cameras(parser) -> None:
+    """Add --cameras NAME ...; see ``find_cameras``."""
+    parser.add_argument("--cameras", nargs="+", metavar="NAME", help=f"several of the scene's cameras, or {ALL}")
 
 
 def sample_count(text: str) -> int:

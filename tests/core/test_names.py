@@ -1,0 +1,32 @@
+"""Names of files: of each camera and frame its own, and none that leads elsewhere."""
+
+import pytest
+
+from camera_ray_caster.core.names import file_names, frame_digits
+from camera_ray_caster.core.records import InputError
+
+
+def test_what_no_file_may_be_called_is_replaced():
+    names = ["Camera", "Über 3.001", "../up", "a/b\\c:d", ".", "con\n", "end. "]
+    assert file_names(names) == {
+        "Camera": "Camera", "Über 3.001": "Über 3.001", "../up": "_._up", "a/b\\c:d": "a_b_c_d", ".": "_",
+        "con\n": "con_", "end. ": "end",
+    }  # fmt: skip
+
+
+@pytest.mark.parametrize("names", [("a/b", "a_b"), ("Left", "left"), ("x", "x ")])
+def test_two_cameras_never_have_one_file(names):
+    with pytest.raises(InputError, match=r"would have the same name.*: rename one of them"):
+        file_names(names)
+
+
+def test_a_name_that_is_given_twice_is_one():
+    assert file_names(["Camera", "Camera"]) == {"Camera": "Camera"}
+
+
+@pytest.mark.parametrize(
+    ("frame", "digits"),
+    [(1, "0001"), (12345, "12345"), (-3, "-003"), (12.5, "0012.5"), (-0.25, "-000.25"), (10, "0010"), (0, "0000")],
+)
+def test_frames_have_four_digits_or_more(frame, digits):
+    assert frame_digits(frame) == digits
