@@ -12,6 +12,8 @@ from threading import Thread, local
 
 from ...core.records import Cancelled
 
+STOPPED = "stopped; what was under way has left nothing"
+
 _stopping = False
 _others = local()
 """``asks``: who is asked beside the signals in a thread; a render has one of its own."""

@@ -1,0 +1,31 @@
+"""The command that saves a copy of a file whose camera is a custom one of Cycles."""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from ..cycles import to_cycles
+from . import signals
+from .opening import not_run, save_copy
+from .options import command_parser, open_scene, warn
+
+
+def run(arguments: Sequence[str], prog: str) -> int:
+    """Save a copy of a file whose camera is a custom one of Cycles."""
+    parser = command_parser(
+        prog,
+        "Save a copy of a Blender file whose camera renders in Cycles with our rays, in a Blender without this add-on.",
+        f"{prog} blend_scenes/toys.blend --output toys_in_cycles.blend",
+        "prints what the copy cannot follow without the add-on, and what was changed in the scene.",
+        ends="exit status: 0 done; 2 bad input.",
+    )
+    parser.add_argument("--output", type=Path, required=True, metavar="COPY.blend", help="the file to write")
+    options = parser.parse_args(arguments)
+    scene = open_scene(options)
+    said = to_cycles(scene)
+    scene.render.engine = "CYCLES"  # not before: it would compile what is half set up
+    for line in not_run():
+        warn(prog, line)
+    signals.raise_if_stopping()
+    save_copy(options.output)
+    print("\n".join((*said, f"Wrote {options.output}")), flush=True)
+    return 0
