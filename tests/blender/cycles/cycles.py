@@ -51,17 +51,30 @@ def cycles_wires(scene):
     return _render(scene, "Fac", 1.0, sky=False)[..., 0] > 0.5
 
 
+def cycles_colors(scene):
+    """Return what the camera's shader lets through of a white world, (h, w, 3) float64."""
+    _prepare(scene)
+    scene.world = bpy.data.worlds.new("White")
+    nodes = _nodes(scene.world)
+    next(node for node in nodes if node.type == "BACKGROUND").inputs["Color"].default_value = (1, 1, 1, 1)
+    return _colors(scene)
+
+
 def _render(scene, output, reach, sky, suffix=""):
     show(scene, output, reach, sky)
+    return shown(_colors(scene, suffix), reach)
+
+
+def _colors(scene, suffix=""):
     bpy.ops.render.render(write_still=True, scene=scene.name)
     path = Path(scene.render.filepath)
     channels = read_exr(path.with_stem(path.stem + suffix))  # Blender 4.5 cannot read what it writes of one eye alone
-    return shown(np.stack([channels[name] for name in "RGB"], axis=-1), reach)
+    return np.stack([channels[name] for name in "RGB"], axis=-1).astype(np.float64)
 
 
 def shown(colors, reach):
     """Return what was emitted, from the colors of a picture of ``show``; NaN where nothing is seen."""
-    values = colors.astype(np.float64)
+    values = colors.copy()
     values[(values == 0).all(axis=-1)] = np.nan
     return (values - 0.5) * (2 * reach)
 

@@ -30,7 +30,7 @@ from ..read.scene import evaluated, evaluated_camera
 from ..terminal.signals import raise_if_stopping
 from .device import device_of
 from .renderer import Render, border, changed, cycles_engine
-from .rolling import MOTION_STEPS
+from .rolling import blur_settings
 from .shader import check_cycles, set_shader
 
 
@@ -100,20 +100,14 @@ def _eye(scene, view: str, frame: float | None = None) -> Eye:
 
 def _rolled(scene, eye: Eye, time: LinearTime, render: Render) -> Mapping[str, np.ndarray]:
     """Render through Cycles' rolling shutter: the scene's own, or one that takes the time of a slit scan."""
-    blur = {"use_motion_blur": True}
     with ExitStack() as stack:
         change = partial(changed, stack)
-        change(scene.cycles, rolling_shutter_type="TOP")
+        for owner, values in blur_settings(scene, eye.raw, eye.camera, bpy.data.objects):
+            change(owner, **values)
         if eye.raw.settings["time_mode"] == ROLLING_SHUTTER:
-            change(scene.render, **blur)
             stack.enter_context(_custom(eye))
             return render()
-        turn = Turn.of(time)
-        begin, frames = shutter_of(time, eye.camera.raster)
-        change(scene.render, **blur, motion_blur_position="START", motion_blur_shutter=frames)
-        change(scene.cycles, rolling_shutter_duration=0.0)
-        for item in bpy.data.objects:
-            change(item.cycles, use_motion_blur=True, use_deform_motion=True, motion_steps=MOTION_STEPS)
+        turn, (begin, _) = Turn.of(time), shutter_of(time, eye.camera.raster)
         if turn.transposed:
             size = scene.render.resolution_y, scene.render.resolution_x
             change(scene.render, resolution_x=size[0], resolution_y=size[1])

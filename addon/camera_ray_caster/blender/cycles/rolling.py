@@ -1,5 +1,7 @@
 """Cameras of Cycles whose rows are exposed one after another: by Cycles' own rolling shutter, from the top row down."""
 
+from typing import Any
+
 from ...core.camera.camera import Camera
 from ...core.camera.pixel_time import ROLLING_SHUTTER, LinearTime
 from ...core.records import BlenderCamera, InputError
@@ -22,6 +24,24 @@ def check_time(raw: BlenderCamera, camera: Camera) -> None:
         )
 
 
+def blur_settings(scene, raw: BlenderCamera, camera: Camera, objects) -> list[tuple[Any, dict[str, Any]]]:
+    """Return the settings with which Cycles' rolling shutter takes the times of a camera's rows: owners and values.
+
+    objects: those that may move in a slit scan.
+    """
+    settings = [(scene.cycles, {"rolling_shutter_type": "TOP"}), (scene.render, {"use_motion_blur": True})]
+    if raw.settings["time_mode"] == ROLLING_SHUTTER:
+        return settings
+    _, frames = shutter_of(camera.pixel_time, camera.raster)
+    moving = {"use_motion_blur": True, "use_deform_motion": True, "motion_steps": MOTION_STEPS}
+    return [
+        *settings,
+        (scene.render, {"motion_blur_position": "START", "motion_blur_shutter": frames}),
+        (scene.cycles, {"rolling_shutter_duration": 0.0}),
+        *((item.cycles, moving) for item in objects),
+    ]
+
+
 def set_up_time(scene, raw: BlenderCamera, camera: Camera) -> list[str]:
     """Set Cycles' rolling shutter to the times of a camera's rows; return what was changed, in lines.
 
@@ -30,15 +50,12 @@ def set_up_time(scene, raw: BlenderCamera, camera: Camera) -> list[str]:
     """
     if camera.pixel_time is None:
         return []
-    render, cycles = scene.render, scene.cycles
-    render.use_motion_blur, cycles.rolling_shutter_type = True, "TOP"
+    for owner, values in blur_settings(scene, raw, camera, scene.objects):
+        for name, value in values.items():
+            setattr(owner, name, value)
     if raw.settings["time_mode"] == ROLLING_SHUTTER:
         return ["Motion Blur is switched on, with Cycles' Rolling Shutter from top to bottom"]
     begin, frames = shutter_of(camera.pixel_time, camera.raster)
-    render.motion_blur_position, render.motion_blur_shutter, cycles.rolling_shutter_duration = "START", frames, 0.0
-    for item in scene.objects:
-        item.cycles.use_motion_blur, item.cycles.use_deform_motion = True, True
-        item.cycles.motion_steps = MOTION_STEPS
     go_to(scene, begin)
     return [
         f"The slit scan is Cycles' Rolling Shutter, open for {frames:g} frames from frame {begin:g} on, where the "

@@ -20,7 +20,7 @@ import numpy as np
 
 from ..conventions import gamma
 from ..maths.inversion import Inverse
-from ..maths.roots import positive_roots
+from ..maths.polynomials import positive_roots
 from ..records import BlenderCamera, InputError, Raster
 from .model import Step
 from .parts.film import FILM, Film, Window

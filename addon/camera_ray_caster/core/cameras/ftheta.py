@@ -20,7 +20,7 @@ import numpy as np
 from numpy.polynomial import Polynomial
 
 from ..maths.inversion import Inverse
-from ..maths.roots import positive_roots
+from ..maths.polynomials import horner, positive_roots
 from ..records import BlenderCamera, Raster
 from .model import Step
 from .parts.calibrated import Calibrated
@@ -107,17 +107,10 @@ class FTheta(Calibrated):
 
     def value(self, x):
         """Return the polynomial's."""
-        return x * self._horner(x, self.polynomial)
+        return x * horner(x, self.polynomial)
 
     def _slope(self, x):
-        return self._horner(x, [i * k for i, k in enumerate(self.polynomial, 1)])
-
-    @staticmethod
-    def _horner(x, coefficients):
-        value = coefficients[-1]
-        for k in reversed(coefficients[:-1]):
-            value = k + x * value
-        return value
+        return horner(x, [i * k for i, k in enumerate(self.polynomial, 1)])
 
     @cached_property
     def _inverse(self):

@@ -21,7 +21,7 @@ from numpy.polynomial import Polynomial
 from numpy.polynomial.polynomial import polyval
 
 from ..maths.inversion import Inverse
-from ..maths.roots import positive_roots
+from ..maths.polynomials import horner, positive_roots
 from ..records import BlenderCamera, Raster
 from .model import Step
 from .parts.calibrated import Calibrated
@@ -82,15 +82,9 @@ class OCam(Calibrated):
     def factors(self, r_squared):
         """See Radial."""
         r = np.sqrt(r_squared)
-        ahead = -self._behind(r)
+        ahead = -horner(r, self.polynomial)
         scale = 1 / np.sqrt(r_squared + ahead * ahead)
         return scale, ahead * scale
-
-    def _behind(self, r):
-        value = self.polynomial[-1]
-        for a in reversed(self.polynomial[:-1]):
-            value = a + r * value
-        return value
 
     @cached_property
     def radius(self):
@@ -98,7 +92,7 @@ class OCam(Calibrated):
         slopes = [(i - 1) * a for i, a in enumerate(self.polynomial)]
 
         def slope(r):
-            behind = self._behind(r)
+            behind = horner(r, self.polynomial)
             return polyval(r, slopes) / (r * r + behind * behind)
 
-        return Inverse(lambda r: np.arctan2(r, -self._behind(r)), slope, 0.0, self.rim)
+        return Inverse(lambda r: np.arctan2(r, -horner(r, self.polynomial)), slope, 0.0, self.rim)

@@ -77,7 +77,7 @@ LITERALS = frozenset((0.0, 0.5, 1.0, 2.0, 3.0, 4.0, math.pi / 2, math.pi, 2 * ma
 """Constants that stand in the text, and their negatives: they are the formula's, and not settings."""
 
 LEAST, MOST = 1e-30, 3e38
-"""Magnitudes that float32 has: constants beyond take these in their place."""
+"""Magnitudes of constants, which float32 has with all its digits: those beyond take these in their place."""
 
 NEVER, ALWAYS = "0", "1"
 

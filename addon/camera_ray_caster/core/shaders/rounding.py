@@ -17,10 +17,8 @@ import numpy as np
 from ..conventions import EPS32
 from ..maths.recording import NUMPY, Record
 from ..maths.recording.derivatives import SLOPES
-from ..maths.recording.record import COMPARISONS, LOGICAL, NUMERIC, Arithmetic, repeat
-
-LEAST = 2.0**-100
-"""Below it float32 has fewer digits, and Cycles takes it for 0: no error is told to be smaller."""
+from ..maths.recording.record import COMPARISONS, LOGICAL, NUMERIC, Arithmetic, repeat_body
+from .osl import LEAST
 
 
 class Rounded(NamedTuple):
@@ -40,8 +38,9 @@ def rounded(record: Record, inputs: Sequence[Rounded]) -> tuple[Rounded, ...]:
         return record.evaluate(ARITHMETIC, inputs)
 
 
-def _relative(times: float) -> Callable:
-    return lambda value, *_: times * EPS32 * np.abs(value)
+def _some(relative: float, absolute: float = 0.0) -> Callable:
+    """So many EPS32 of the result, and of 1."""
+    return lambda value, *_: EPS32 * (relative * np.abs(value) + absolute)
 
 
 def _sine(value, angle):
@@ -54,19 +53,15 @@ def _cosine(value, angle):
     return EPS32 * (4 * np.abs(value) + 2 + 2 * np.abs(angle))
 
 
-def _absolute(error: float) -> Callable:
-    return lambda value, *_: error
-
-
 ROUNDING: dict[str, Callable] = {
-    "sin": _sine, "cos": _cosine, "tan": _relative(32), "hypot": _relative(4), "divide": _relative(3),
-    "sqrt": _relative(3), "remainder": _relative(4), "exp": _relative(400), "expm1": _relative(4000),
-    "log": _absolute(64 * EPS32), "log1p": _absolute(8 * EPS32), "power": _relative(500), "sinh": _relative(600),
-    "cosh": _relative(400), "tanh": _relative(1000), "arcsin": _absolute(1e-4), "arccos": _absolute(1e-4),
-    "arctan": _absolute(2e-5), "arctan2": _absolute(2e-5),
+    "sin": _sine, "cos": _cosine, "tan": _some(12, 1), "hypot": _some(3), "divide": _some(2), "sqrt": _some(2),
+    "remainder": lambda value, a, b: 2 * EPS32 * np.abs(a), "exp": _some(600), "expm1": _some(5000, 2),
+    "log": _some(4, 6), "log1p": _some(4, 6), "power": _some(600), "sinh": _some(300), "cosh": _some(300),
+    "tanh": _some(600, 4), "arcsin": _some(0, 1600), "arccos": _some(0, 1600), "arctan": _some(0, 320),
+    "arctan2": _some(0, 320),
 }  # fmt: skip
 """What an operation itself rounds, from its result and its operands; 1 EPS32 of the result where it is not listed.
-About twice what was measured in Cycles 5.0 on a CPU, whose functions are fast ones; 4.5 and 5.2 have the same.
+About twice what Cycles 4.5, 5.0 and 5.2 round on a CPU, whose functions are fast ones: a test measures each.
 """
 
 
@@ -81,8 +76,8 @@ def _bounded(value, error, *operands: Rounded, lost=False) -> Rounded:
 
 
 def _operation(name: str) -> Callable[..., Rounded]:
-    """Return an operation that is smooth, or constant between jumps."""
-    function, rounding, slopes = NUMPY[name], ROUNDING.get(name, _relative(1)), SLOPES.get(name, ())
+    """Return an operation that is smooth."""
+    function, rounding, slopes = NUMPY[name], ROUNDING.get(name, _some(1)), SLOPES.get(name, ())
 
     def apply(*operands: Rounded) -> Rounded:
         given = [operand.value for operand in operands]
@@ -111,13 +106,30 @@ def _quotient(a: Rounded, b: Rounded) -> Rounded:
 def _root(a: Rounded) -> Rounded:
     """It moves by the root of the error at most, and may be none where float32 gives less than 0."""
     value, most = np.sqrt(a.value), np.sqrt(a.error)
-    error = np.fmin(0.5 * a.error / value, most) + 3 * EPS32 * value
+    error = np.fmin(0.5 * a.error / value, most) + 2 * EPS32 * value
     return _bounded(value, error, a, lost=(a.value != 0) & (np.abs(a.value) <= a.error))
 
 
 def _longer(a: Rounded, b: Rounded) -> Rounded:
     value = np.hypot(a.value, b.value)
     return _bounded(value, a.error + b.error + 4 * EPS32 * value, a, b)
+
+
+def _stepped(name: str) -> Callable[..., Rounded]:
+    """Return an operation that is constant between jumps."""
+    function = NUMPY[name]
+
+    def apply(a: Rounded) -> Rounded:
+        return _bounded(function(a.value), 0.0, a, lost=function(a.value - a.error) != function(a.value + a.error))
+
+    return apply
+
+
+def _remainder(a: Rounded, b: Rounded) -> Rounded:
+    value, error = _operation("remainder")(a, b)
+    times = a.value / b.value
+    near = (a.error + np.abs(times) * b.error) / np.abs(b.value) + 2 * EPS32 * np.abs(times)
+    return _bounded(value, error, a, b, lost=np.floor(times - near) != np.floor(times + near))
 
 
 def _larger_error(name: str) -> Callable[..., Rounded]:
@@ -150,10 +162,6 @@ def _chosen(condition: Rounded, yes: Rounded, no: Rounded) -> Rounded:
     return Rounded(np.where(condition.value, yes.value, no.value), error)
 
 
-def _repeated(body: Record, most: int, state: Sequence) -> Sequence:
-    return repeat(body.as_body(NUMPY), state, most, NUMPY["all"])
-
-
 ARITHMETIC: Arithmetic = {
     **{name: _operation(name) for name in NUMERIC},
     **{name: _compared(name) for name in COMPARISONS},
@@ -162,6 +170,8 @@ ARITHMETIC: Arithmetic = {
     "divide": _quotient,
     "sqrt": _root,
     "hypot": _longer,
+    "remainder": _remainder,
+    **{name: _stepped(name) for name in ("floor", "ceil", "rint", "sign")},
     **{name: _larger_error(name) for name in ("absolute", "minimum", "maximum")},
     "where": _chosen,
     "constant": lambda value: Rounded(value, 0.0 if isinstance(value, bool) or isnan(value) else EPS32 * abs(value)),
@@ -170,5 +180,7 @@ ARITHMETIC: Arithmetic = {
     "stop_gradient": lambda a: a,
     "searchsorted": lambda a, table, side: Rounded(NUMPY["searchsorted"](a.value, table, side)),
     "take": lambda place, table: Rounded(value := NUMPY["take"](place.value, table), EPS32 * np.abs(value)),
-    "loop": lambda body, most, state: [Rounded(found) for found in _repeated(body, most, [s.value for s in state])],
+    "loop": lambda body, most, state: [
+        Rounded(found) for found in repeat_body(NUMPY, body, most, [start.value for start in state])
+    ],
 }

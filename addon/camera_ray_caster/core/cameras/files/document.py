@@ -7,10 +7,8 @@ from reprlib import repr as shortened
 from typing import NamedTuple
 
 from ...records import InputError
+from ..parts.calibration import LARGEST
 from ..parts.filestorage import entries_of, text_of
-
-LARGEST = 1e30
-"""Of a calibration's numbers: products of three of them have to be numbers, too."""
 
 
 class Lens(NamedTuple):

@@ -12,9 +12,10 @@ import re
 from reprlib import repr as shortened
 
 from ...records import InputError
+from ..parts.calibration import LARGEST
 from ..parts.filestorage import flat
 from ..parts.film import FARTHEST_PIXELS
-from .document import LARGEST, Document, Lens, matrix, size
+from .document import Document, Lens, matrix, size
 
 TERMS = {
     "OPENCV_PINHOLE": ("k1", "k2", "p1", "p2", "k3", "k4", "k5", "k6", "s1", "s2", "s3", "s4", "tau_x", "tau_y"),

@@ -16,7 +16,7 @@ from typing import Self
 import numpy as np
 
 from ...maths.inversion import Inverse
-from ...maths.roots import positive_roots
+from ...maths.polynomials import horner, positive_roots
 from ...records import Raster
 from .calibrated import Calibrated
 from .calibration import Calibration
@@ -60,19 +60,11 @@ class KannalaBrandt(Calibrated):
 
     def distorted(self, theta):
         """Return r of angles."""
-        return theta * self._polynomial(theta * theta, self.coefficients)
+        return theta * horner(theta * theta, (1.0, *self.coefficients))
 
     def slope(self, theta):
         """Return the derivative of r by theta."""
-        return self._polynomial(theta * theta, [(2 * i + 3) * k for i, k in enumerate(self.coefficients)])
-
-    @staticmethod
-    def _polynomial(s, coefficients):
-        """Return 1 + k1 s + k2 s^2 + ..."""
-        value = 0.0
-        for k in reversed(coefficients):
-            value = s * (k + value)
-        return 1 + value
+        return horner(theta * theta, [1.0, *((2 * i + 3) * k for i, k in enumerate(self.coefficients))])
 
     @cached_property
     def angle(self):

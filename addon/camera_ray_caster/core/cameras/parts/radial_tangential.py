@@ -22,8 +22,8 @@ import numpy as np
 from numpy.polynomial.polynomial import polyval
 
 from ...maths.inversion import Inverse
+from ...maths.polynomials import positive_roots
 from ...maths.recording import is_recorded, loop, roundoff, stop_gradient
-from ...maths.roots import positive_roots
 
 STEEPEST = tan(radians(89.9))
 """The largest undistorted radius that an endless picture is given."""

@@ -94,7 +94,7 @@ class Record:
             elif step.operation == "part":
                 values.append(operands[0][step.fixed[0]])
             elif step.operation == "loop":
-                values.append(arithmetic.get("loop", partial(_repeat, arithmetic))(*step.fixed, operands))
+                values.append(arithmetic.get("loop", partial(repeat_body, arithmetic))(*step.fixed, operands))
             else:
                 values.append(arithmetic[step.operation](*operands, *step.fixed))
             del operands
@@ -116,7 +116,8 @@ class Record:
         return body
 
 
-def _repeat(arithmetic: Arithmetic, body: Record, most: int, state: Sequence) -> Sequence:
+def repeat_body(arithmetic: Arithmetic, body: Record, most: int, state: Sequence) -> Sequence:
+    """Return what a loop gives, whose body is a record; see ``repeat``."""
     return repeat(body.as_body(arithmetic), state, most, arithmetic["all"])
 
 

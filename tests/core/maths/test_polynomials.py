@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from numpy.polynomial import Polynomial
 
-from camera_ray_caster.core.maths.roots import positive_roots
+from camera_ray_caster.core.maths.polynomials import positive_roots
 
 
 @pytest.mark.parametrize("roots", [(2.0,), (0.5, 3.0), (-1.0, 0.25, 7.0), (0.0, 1.0), (-2.0,), (1j, -1j, 4.0)])
