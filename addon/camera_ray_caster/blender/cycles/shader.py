@@ -42,6 +42,7 @@ def set_shader(camera, shader: CameraShader) -> None:
 
     Raises InputError where Cycles does not compile it; the camera is as it was then.
     """
+    _let_cycles_query()  # Blender compiles, too, as soon as a camera has another text, where Cycles is the engine
     remove_keyframes(camera)
     if shader_mark(camera) is not None:
         rewrite(camera, shader)
@@ -70,6 +71,7 @@ def clear_shader(camera) -> None:
 
 def rewrite(camera, shader: CameraShader) -> None:
     """Give a camera's text another shader, and its inputs their values. A text of several cameras is copied first."""
+    _let_cycles_query()
     if any(other != camera and other.custom_shader == camera.custom_shader for other in bpy.data.cameras):
         camera.custom_shader = camera.custom_shader.copy()
     camera.custom_shader.from_string(shader.source)
@@ -98,7 +100,6 @@ def stored(shader: CameraShader) -> dict[str, float]:
 
 def _compile(camera) -> bool:
     """Compile a camera's text with Cycles, under any engine; return whether it worked."""
-    _let_cycles_query()
     from cycles import osl
 
     return bool(osl.update_custom_camera_shader(camera, lambda kind, text: None))
