@@ -6,8 +6,9 @@ from camera_ray_caster.blender.cycles import to_cycles
 from camera_ray_caster.blender.ui.model_panels import ModelPanel, TimePanel
 
 MATRIX = ("calibration_width", "calibration_height", "fx", "fy", "cx", "cy", "skew")
-CALIBRATION = ("calibration_camera", "calibration_file", *MATRIX)
-POINT = ("calibration_width", "calibration_height", "cx", "cy")
+FILE = ("calibration_camera", "calibration_file", "calibration_unit")
+CALIBRATION = (*FILE, *MATRIX)
+POINT = (*FILE, "calibration_width", "calibration_height", "cx", "cy")
 SHOWN = {
     "BLENDER": (),
     "CAMERA_OBSCURA": ("obscura_depth", "obscura_width", "obscura_hole"),
@@ -61,6 +62,10 @@ class Layout:
     def __init__(self, names=None, grayed=None, operators=None):
         self.names, self.grayed, self.active = [] if names is None else names, [] if grayed is None else grayed, True
         self.operators = [] if operators is None else operators
+        self.labels = []
+
+    def label(self, text):
+        self.labels.append(text)
 
     def prop(self, owner, name):
         assert name in owner.bl_rna.properties
@@ -88,7 +93,7 @@ def drawn(bpy, panel, data):
     layout = Layout()
     context = type("Context", (), {"camera": data, "scene": bpy.context.scene})
     panel.draw(type("Panel", (), {"layout": layout}), context)
-    drawn.operators = layout.operators
+    drawn.operators, drawn.labels = layout.operators, layout.labels
     return tuple(layout.names), tuple(layout.grayed)
 
 
@@ -112,6 +117,19 @@ def test_a_calibration_file_grays_out_the_numbers_that_it_replaces(blender, data
     own.model, own.calibration_file = "OPENCV_FISHEYE", "//lens.yml"
     camera, file, *rest = SHOWN["OPENCV_FISHEYE"]
     assert drawn(blender, ModelPanel, data) == (("model", camera, file), tuple(rest))
+
+
+def test_lengths_in_millimeters_are_blender_s_own_and_the_panel_says_so(blender, data):
+    own = data.camera_ray_caster
+    data.type, own.model = "PANO", "DIVISION"
+    drawn(blender, ModelPanel, data)
+    assert drawn.labels == ["Pixels of a picture of 1920 × 1080, scaled to the frame"]
+    own.calibration_unit = "MILLIMETERS"
+    assert drawn(blender, ModelPanel, data)[0] == ("model", *FILE, "lens", "division_lambda")
+    assert drawn.labels == ["Millimeters on Blender's sensor, the center by its Shift"]
+    own.calibration_file = "//lens.yml"
+    assert drawn(blender, ModelPanel, data)[1] == ("calibration_unit", *MATRIX, "division_lambda")
+    assert drawn.labels == ["Pixels of the file's picture, scaled to the frame"]
 
 
 def test_a_camera_of_cycles_shows_the_settings_of_its_own_type_and_the_way_back(osl, blender, camera_scene):

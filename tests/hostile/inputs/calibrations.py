@@ -2,10 +2,11 @@
 
 import json
 import random
+import re
 
 from .parts import Hostile
 
-COUNT = 160
+COUNT = 320
 
 YAML = """%YAML:1.0
 ---
@@ -34,23 +35,61 @@ NUMBERS = (
 )  # fmt: skip
 
 
+F_THETA = {
+    "resolution": [640, 480],
+    "principal_point": [321.25, 238.5],
+    "reference_poly": "ANGLE_TO_PIXELDIST",
+    "pixeldist_to_angle_poly": [0.0, 0.0033, 1e-7],
+    "angle_to_pixeldist_poly": [0.0, 301.5, 2.25, -7.5],
+    "max_angle": 1.25,
+    "linear_cde": [1.0005, 0.0002, -0.0001],
+}
+RIG = {
+    "Model": "ftheta", "width": "640", "height": "480", "cx": "321.25", "cy": "238.5",
+    "polynomial-type": "pixeldistance-to-angle", "polynomial": "0 0.0033 1e-7", "linear-c": "1.0005",
+}  # fmt: skip
+OCAM = """#polynomial coefficients for the DIRECT mapping function (ocam_model.ss in MATLAB)
+
+5 -231.5226 0.0 0.0017 -2e-07 6e-09
+
+#polynomial coefficients for the inverse mapping function
+
+3 271.591627 73.232250 -23.495515
+
+#center
+238.5 321.25
+#affine parameters
+0.9991 0.0003 -0.0004
+#image size
+480 640
+"""
+OPENCV = "OPENCV_PINHOLE", "OPENCV_FISHEYE"
+FILES = (
+    ("lens.yml", YAML, OPENCV),
+    ("lens.json", json.dumps(PLAIN), OPENCV),
+    ("ncore.json", json.dumps(F_THETA), ("FTHETA",)),
+    ("rig.json", json.dumps({"rig": {"sensors": [{"name": "camera", "properties": RIG}]}}), ("FTHETA",)),
+    ("calib_results.txt", OCAM, ("OCAM",)),
+)
+
+
 def make(chance, number, folder):
     """Write one, and let the camera read it."""
     import bpy
 
     way = WAYS[number % len(WAYS)]
-    is_yaml = chance.random() < 0.5
-    said, content = way(chance, YAML if is_yaml else json.dumps(PLAIN), is_yaml)
-    path = folder / ("lens.yml" if is_yaml else "lens.json")
+    name, text, models = chance.choice(FILES)
+    said, content = way(chance, text, name.endswith(".yml"))
+    path = folder / name
     path.write_bytes(content)
     own = bpy.context.scene.camera.data.camera_ray_caster
-    own.model = chance.choice(("OPENCV_PINHOLE", "OPENCV_FISHEYE"))
+    own.model = chance.choice(models)
     own.calibration_file = str(path)
     return Hostile(f"{own.model}, {path.name}: {way.__name__[1:]} {said}")
 
 
 def _number(chance, text, is_yaml):
-    old = chance.choice(("500.", "320", "240", "640", "480", "-0.2", "0.1", "0.001"))
+    old = chance.choice(re.findall(r"-?\d+\.?\d*(?:e-?\d+)?", text))
     new = chance.choice(NUMBERS)
     return f"{new[:20]} for {old}", text.replace(old, new, chance.choice((1, 2))).encode()
 

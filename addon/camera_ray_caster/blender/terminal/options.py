@@ -8,6 +8,7 @@ from textwrap import fill
 
 import bpy
 
+from ...core.cameras.parts.calibration import FILE_WRITERS
 from ...core.records import InputError
 from ...core.report.report import WIDTH, Report, as_json, as_lines
 from ..engine.engine import CameraRayCaster
@@ -30,8 +31,8 @@ def command_parser(prog: str, purpose: str, example: str, result: str, ends: str
     )
     parser.add_argument("file", nargs="?", type=Path, metavar="FILE.blend", help="default: the file that is open")
     parser.add_argument("--camera", metavar="NAME", help="default: the scene's active camera")
-    parser.add_argument("--calibration", type=Path, metavar="FILE", help="of OpenCV, ROS, COLMAP, nerfstudio, Kalibr, "
-                        "mrcal or Project Aria: the camera's model follows from it")  # fmt: skip
+    parser.add_argument("--calibration", type=Path, metavar="FILE",
+                        help=f"of {FILE_WRITERS}: the camera's model follows from it")  # fmt: skip
     parser.add_argument("--calibration-camera", default="", metavar="NAME", help="of a file with several cameras")
     parser.add_argument("--enable-autoexec", action="store_true",
                         help="run the Python scripts and drivers of FILE.blend; default: they do not run")  # fmt: skip

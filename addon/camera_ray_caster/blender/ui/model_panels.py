@@ -4,7 +4,8 @@ import bpy
 
 from ...core.camera import pixel_time
 from ...core.cameras import MODELS
-from ...core.cameras.parts.film import FILM
+from ...core.cameras.parts.calibration import IN_PIXELS, MILLIMETERS, SIZE, UNIT
+from ...core.cameras.parts.film import FILM, LENS
 from ...core.cameras.parts.settings import CAMERA, OWN, STEREO, Setting
 from ..cycles.shader import CUSTOM
 from ..properties.declared import BLENDERS_OWN, GROUP, MODEL
@@ -36,6 +37,28 @@ def settings_of(camera) -> tuple[Setting, ...]:
     return SETTINGS[camera.panorama_type if mark.blender_type == "PANO" else mark.blender_type]
 
 
+def not_counted(settings, own) -> tuple[Setting, ...]:
+    """Return what does not count of a model's settings, by the unit of its lengths where it has one."""
+    if UNIT not in settings:
+        return ()
+    return IN_PIXELS if in_millimeters(own) else (LENS,)
+
+
+def in_millimeters(own) -> bool:
+    """Whether the lengths of a calibrated model are: a calibration file's are in pixels."""
+    return own.calibration_unit == MILLIMETERS and not own.calibration_file
+
+
+def lengths_in_words(own) -> str:
+    """Return what the lengths of a calibrated model are measured in."""
+    if own.calibration_file:
+        return "Pixels of the file's picture, scaled to the frame"
+    if in_millimeters(own):
+        return "Millimeters on Blender's sensor, the center by its Shift"
+    sides = [str(getattr(own, side.name) or "the frame's") for side in SIZE]
+    return f"Pixels of a picture of {' × '.join(sides)}, scaled to the frame"
+
+
 class ModelPanel(bpy.types.Panel):
     """Camera properties: the model and its settings."""
 
@@ -58,13 +81,16 @@ class ModelPanel(bpy.types.Panel):
         row = layout.row(align=True)
         row.prop(own, MODEL.name)
         row.operator(LoadCalibration.bl_idname, text="", icon="FILEBROWSER")
-        column = layout.column(align=True)
-        for setting in settings_of(camera):
-            if shown(setting, camera):
+        column, settings = layout.column(align=True), settings_of(camera)
+        hidden = not_counted(settings, own)
+        for setting in settings:
+            if shown(setting, camera) and setting not in hidden:
                 draw_setting(column, setting, camera, context.scene)
             if setting.replaces_the_rest:
                 column = layout.column(align=True)
                 column.active = not getattr(own, setting.name)
+        if UNIT in settings:
+            layout.label(text=lengths_in_words(own))
         draw_cycles(layout, camera)
 
 

@@ -3,6 +3,7 @@
 import bpy
 from bpy.props import BoolProperty, StringProperty
 
+from ...core.cameras.parts.calibration import FILE_WRITERS
 from ...core.report.facts import camera_facts
 from ...core.report.report import Report, as_json
 from ..output import reports
@@ -58,11 +59,11 @@ class CopyFacts(OfScene, bpy.types.Operator):
 
 
 class LoadCalibration(OfCamera, bpy.types.Operator):
-    """Choose a calibration file of OpenCV, ROS, COLMAP, nerfstudio, Kalibr, mrcal or Project Aria: the camera model
-    follows from it"""
+    """The camera model follows from a calibration file"""
 
     bl_idname = "camera_ray_caster.load_calibration"
     bl_label = "Load Calibration"
+    bl_description = f"Choose a calibration file of {FILE_WRITERS}: the camera model follows from it"
     bl_options = {"REGISTER", "UNDO"}
 
     filepath: StringProperty(name="File", description="The calibration file", subtype="FILE_PATH")

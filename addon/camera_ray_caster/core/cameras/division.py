@@ -50,7 +50,7 @@ class Division(Calibrated):
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> Division:
         """Build it from the settings of the same names; InputError for one without meaning."""
-        window, bend = Calibration.from_blender(raw, raster).window(raster), LAMBDA.read(raw)
+        window, bend = Calibration.from_blender(raw, raster).window(), LAMBDA.read(raw)
         return cls(raster.size, window, 1 / sqrt(bend) if bend > 0 else inf, bend)
 
     def factors(self, r_squared):

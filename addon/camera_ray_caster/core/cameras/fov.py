@@ -48,7 +48,7 @@ class FieldOfView(Calibrated):
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> FieldOfView:
         """Build it from the settings of the same names; InputError for one without meaning."""
-        window = Calibration.from_blender(raw, raster).window(raster)
+        window = Calibration.from_blender(raw, raster).window()
         omega = OMEGA.read(raw)
         return cls(raster.size, window, pi / (2 * omega), omega)
 

@@ -32,13 +32,16 @@ ANGLE_TO_RADIUS = "ANGLE_TO_RADIUS"
 REFERENCE = Choice(
     "ftheta_reference", "Reference", "Which polynomial is the model; the other is made from it", ANGLE_TO_RADIUS,
     (
-        Item(ANGLE_TO_RADIUS, "Angle to Radius", "Forward: the pixel distance is a polynomial of the angle", 0),
-        Item("RADIUS_TO_ANGLE", "Radius to Angle", "Backward: the angle is a polynomial of the pixel distance", 1),
+        Item(ANGLE_TO_RADIUS, "Angle to Radius", "Forward: the radius is a polynomial of the angle", 0),
+        Item("RADIUS_TO_ANGLE", "Radius to Angle", "Backward: the angle is a polynomial of the radius", 1),
     ),
 )  # fmt: skip
 POLYNOMIALS = {
     ANGLE_TO_RADIUS: Coefficients(
-        "ftheta_angle_to_radius", "Angle to Radius", "Pixels: 0, then the coefficients of theta, theta^2, ...", "0 1000"
+        "ftheta_angle_to_radius",
+        "Angle to Radius",
+        "Pixels or mm: 0, then the coefficients of theta, theta^2, ...",
+        "0 1000",
     ),
     "RADIUS_TO_ANGLE": Coefficients(
         "ftheta_radius_to_angle", "Radius to Angle", "Radians: 0, then the coefficients of r, r^2, ...", "0 0.001"
@@ -55,7 +58,7 @@ C, D, E = (
 
 @dataclass(frozen=True)
 class FTheta(Calibrated):
-    """See the module's page. The plane is in pixels of the calibrated picture."""
+    """See the module's page. The plane is in pixels of the calibrated picture, or in millimeters."""
 
     polynomial: tuple[float, ...]
     """The coefficients, from the linear one up."""
@@ -72,7 +75,7 @@ class FTheta(Calibrated):
     by_polynomials = True
     SETTINGS = (*PRINCIPAL_POINT, REFERENCE, *POLYNOMIALS.values(), C, D, E, MAX_ANGLE)
     FORMULA = (
-        Step("Pixels from the center, v down", "u = x - 1/2 - cx, v = H - y - 1/2 - cy"),
+        Step("Pixels, or mm, from the center, v down", "u = x - 1/2 - cx, v = H - y - 1/2 - cy"),
         Step("On a sensor square to the lens", "(u', v') = ((c, d), (e, 1))⁻¹ (u, v), r² = u'² + v'², a = u', b = -v'"),
         Step("Angle, forward, by Newton's method", "r = k1 theta + k2 theta² + ..."),
         Step("Angle, backward", "theta = k1 r + k2 r² + ..."),
@@ -92,7 +95,7 @@ class FTheta(Calibrated):
         constant, *coefficients = setting.read(raw)
         if constant != 0 or not coefficients or not coefficients[0] > 0:
             raise setting.refusal(raw, repr(setting.given(raw)), "0, a number above 0, and more")
-        window = Calibration.from_blender(raw, raster, settings=PRINCIPAL_POINT).window(raster, ((c, d), (e, 1.0)))
+        window = Calibration.from_blender(raw, raster, settings=PRINCIPAL_POINT).window(((c, d), (e, 1.0)))
         forward, widest = reference == ANGLE_TO_RADIUS, MAX_ANGLE.read(raw)
         polynomial = Polynomial((0.0, *coefficients))
         end = [widest] if forward else positive_roots(polynomial - widest)

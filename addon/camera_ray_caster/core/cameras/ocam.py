@@ -29,7 +29,7 @@ from .parts.calibration import PRINCIPAL_POINT, Calibration
 from .parts.settings import Coefficients, Number
 
 POLYNOMIAL = Coefficients(
-    "ocam_polynomial", "Polynomial", "Pixels: a0 (below 0), a1 (0 of most lenses), a2, ...", "-1000 0 0.0004"
+    "ocam_polynomial", "Polynomial", "Pixels or mm: a0 (below 0), a1 (0 of most lenses), a2, ...", "-1000 0 0.0004"
 )
 C, D, E = (
     Number(f"ocam_{name}", name.upper(), f"Affine: {text}", default, digits=6, step=0.1)
@@ -39,7 +39,7 @@ C, D, E = (
 
 @dataclass(frozen=True)
 class OCam(Calibrated):
-    """See the module's page. The plane is in pixels of the calibrated picture."""
+    """See the module's page. The plane is in pixels of the calibrated picture, or in millimeters."""
 
     polynomial: tuple[float, ...]
     """The coefficients, from the constant up."""
@@ -51,7 +51,7 @@ class OCam(Calibrated):
     by_polynomials = True
     SETTINGS = (*PRINCIPAL_POINT, POLYNOMIAL, C, D, E)
     FORMULA = (
-        Step("Pixels from the center, v down", "u = x - 1/2 - cx, v = H - y - 1/2 - cy"),
+        Step("Pixels, or mm, from the center, v down", "u = x - 1/2 - cx, v = H - y - 1/2 - cy"),
         Step("On a sensor square to the lens", "(u', v') = ((1, e), (d, c))⁻¹ (u, v), r² = u'² + v'²"),
         Step("Behind the picture", "f = a0 + a1 r + a2 r² + ..."),
         Step("Direction", "d = (u', -v', f) / sqrt(r² + f²)"),
@@ -69,7 +69,7 @@ class OCam(Calibrated):
         coefficients = POLYNOMIAL.read(raw)
         if not coefficients[0] < 0:
             raise POLYNOMIAL.refusal(raw, repr(POLYNOMIAL.given(raw)), "a number below 0, and more")
-        window = Calibration.from_blender(raw, raster, settings=PRINCIPAL_POINT).window(raster, ((1.0, e), (d, c)))
+        window = Calibration.from_blender(raw, raster, settings=PRINCIPAL_POINT).window(((1.0, e), (d, c)))
         turns = positive_roots(Polynomial([(i - 1) * a for i, a in enumerate(coefficients)]))  # of r f' - f
         corner = np.hypot(*window.plane_from_pixels(*np.meshgrid(*((0.0, side) for side in raster.size)))).max()
         return cls(raster.size, window, float(min([corner, *turns])), coefficients)

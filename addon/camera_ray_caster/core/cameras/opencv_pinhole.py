@@ -71,7 +71,7 @@ class OpencvPinhole(WindowModel):
         calibration = Calibration.from_blender(raw, raster, PINHOLE)
         coefficients = dict(calibration.coefficients)
         tilt = Tilt(coefficients.pop("tau_x"), coefficients.pop("tau_y"))
-        return cls(raster.size, calibration.window(raster), RadialTangential(**coefficients), tilt)
+        return cls(raster.size, calibration.window(), RadialTangential(**coefficients), tilt)
 
     def rays(self, x, y):
         """Return origin and direction, each a tuple of three broadcastable arrays, camera frame, direction_z = -1.

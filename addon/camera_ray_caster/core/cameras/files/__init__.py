@@ -4,10 +4,12 @@ The contract is ``read(document, key)``: the lenses of a document, None where it
 chosen model's, for formats that do not say theirs. Pixel conventions are converted there: see parts/calibration.py.
 """
 
-from . import aria, colmap, kalibr, mrcal, nerfstudio, opencv
+from . import aria, colmap, ftheta, kalibr, mrcal, nerfstudio, ocam, opencv
 from .document import Document, Lens
 
-FORMATS = colmap.read, mrcal.read, aria.read, nerfstudio.read, kalibr.read, opencv.read
+FORMATS = (
+    colmap.read, mrcal.read, ocam.read, aria.read, nerfstudio.read, ftheta.read, kalibr.read, opencv.read,
+)  # fmt: skip
 """The last one is asked for what is none of the others'."""
 
 

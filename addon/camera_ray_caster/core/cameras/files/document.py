@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from functools import cached_property
 from reprlib import repr as shortened
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from ...records import InputError
 from ..parts.calibration import LARGEST
@@ -16,7 +16,7 @@ class Lens(NamedTuple):
 
     name: str
     model: str
-    settings: dict[str, float]
+    settings: dict[str, Any]
 
 
 class Document:
@@ -53,11 +53,11 @@ class Document:
         return self.numbers(owner.get(name, default), name, 1)[0]
 
 
-def size(width: float, height: float) -> dict[str, float]:
+def size(width: float, height: float) -> dict[str, Any]:
     """Return the settings of a calibrated picture's size."""
     return {"calibration_width": width, "calibration_height": height}
 
 
-def matrix(fx: float, fy: float, cx: float, cy: float, first: float = 0.0) -> dict[str, float]:
+def matrix(fx: float, fy: float, cx: float, cy: float, first: float = 0.0) -> dict[str, Any]:
     """Return the settings of a camera matrix in which the center of the top left pixel is at (first, first)."""
     return {"fx": fx, "fy": fy, "cx": cx - first, "cy": cy - first}

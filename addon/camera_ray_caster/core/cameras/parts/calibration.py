@@ -1,8 +1,10 @@
 """A calibrated lens: K and the distortion's coefficients. ``files`` reads them from calibration files.
 
-K is in OpenCV's convention: y down, (0, 0) the center of the top left pixel, focal lengths in pixels of the calibrated
-picture. A frame of another size is that picture scaled to it, each axis for itself: pixel coordinates grow in
-proportion, measured from the corner of the frame. Blender's lens, sensor and shift do not count.
+In pixels, K is in OpenCV's convention: y down, (0, 0) the center of the top left pixel, focal lengths in pixels of the
+calibrated picture. A frame of another size is that picture scaled to it, each axis for itself: pixel coordinates grow
+in proportion, measured from the corner of the frame. Blender's lens, sensor and shift do not count.
+In millimeters, Blender's lens, sensor and shift take the place of K: the lens on any sensor, at any resolution.
+Polynomials of a radius are in the same unit; the distortion's coefficients have none.
 Reference: OpenCV documentation, Camera Calibration and 3D Reconstruction; Fisheye camera model.
 """
 
@@ -13,9 +15,18 @@ from math import radians
 
 from ...records import BlenderCamera, InputError, Raster
 from .affine import AffineWindow
-from .film import FARTHEST_PIXELS, Window
-from .settings import FilePath, Number, Text, Whole
+from .film import FARTHEST_PIXELS, FILM, LENS, Film, Window
+from .settings import Choice, FilePath, Item, Number, Text, Whole
 
+MILLIMETERS = "MILLIMETERS"
+UNIT = Choice(
+    "calibration_unit", "Lengths In", "What focal lengths, the center and polynomials of a radius are measured in",
+    "PIXELS",
+    (
+        Item("PIXELS", "Pixels", "Of the calibrated picture, which is scaled to the frame", 0),
+        Item(MILLIMETERS, "Millimeters", "On the sensor: Blender's focal length, sensor and shift count", 1),
+    ),
+)  # fmt: skip
 FOCAL = (
     Number("fx", "Focal Length X", "In pixels of the calibrated picture", 1500.0, 1e-3, unit="pixels", digits=3),
     Number("fy", "Y", "In pixels of the calibrated picture", 1500.0, 1e-3, unit="pixels", digits=3),
@@ -33,21 +44,17 @@ SIZE = (
     ),
 )
 FILE_CAMERA = Text("calibration_camera", "Camera in File", "Of a calibration file with several: its name there", "")
-FILE = FilePath(
-    "calibration_file",
-    "Calibration",
-    "As OpenCV, ROS, COLMAP, nerfstudio, Kalibr, mrcal or Project Aria write it; empty: the numbers below",
-    "",
-)
+FILE_WRITERS = "OpenCV, ROS, COLMAP, nerfstudio, Kalibr, mrcal, Project Aria, NVIDIA (f-theta) or OCamCalib"
+FILE = FilePath("calibration_file", "Calibration", f"A file of {FILE_WRITERS}; empty: the numbers below", "")
 SKEW = Number(
     "skew", "Skew", "Of the camera matrix, its second number; in pixels of the calibrated picture", 0.0, unit="pixels",
     digits=3,
 )  # fmt: skip
-PRINCIPAL_POINT = (*SIZE, *CENTER)
-MATRIX = (*SIZE, *FOCAL, *CENTER, SKEW)
-CALIBRATION = (FILE_CAMERA, FILE, *MATRIX)
-"""The settings of the calibrated picture: without a camera matrix, with one, and with a file. Where there is a file,
-its numbers count.
+IN_PIXELS = (*SIZE, *FOCAL, *CENTER, SKEW)
+PRINCIPAL_POINT = (FILE_CAMERA, FILE, UNIT, *SIZE, *CENTER, *FILM)
+CALIBRATION = (FILE_CAMERA, FILE, UNIT, *IN_PIXELS, LENS, *FILM)
+"""The settings of the calibrated picture, or of the lens and its sensor: without a camera matrix, and with one. Where
+there is a file, its numbers count, in pixels.
 """
 
 
@@ -84,15 +91,15 @@ FISHEYE = K1, K2, K3, K4
 
 @dataclass(frozen=True)
 class Calibration:
-    """K, the size of its picture, and the coefficients by name. Without focal lengths they are 1: pixels."""
+    """K, where its picture lies in the frame, and the coefficients by name. Without focal lengths they are 1."""
 
     fx: float
     fy: float
-    cx: float
-    cy: float
     skew: float
-    width: float
-    height: float
+    center: tuple[float, float]
+    """Pixel coordinates in the frame, y up."""
+    scale: tuple[float, float]
+    """Pixels of the frame in a pixel of the calibrated picture, or in a millimeter of the sensor, along x and y."""
     coefficients: dict[str, float]
 
     @classmethod
@@ -103,26 +110,30 @@ class Calibration:
 
         Raises InputError for a setting without meaning, by its name.
         """
-        values = {"fx": 1.0, "fy": 1.0, "skew": 0.0}
-        values |= {setting.name: setting.read(raw) for setting in FOCAL if setting in settings}
-        values |= {setting.name: setting.read(raw, high=FARTHEST_PIXELS) for setting in (*SIZE, *CENTER)}
-        for setting in (SKEW, *distortion) if SKEW in settings else distortion:
-            values[setting.name] = setting.read(raw, max(setting.low, -LARGEST), min(setting.high, LARGEST))
-        return cls(
-            **{setting.name: values[setting.name] for setting in (*FOCAL, *CENTER, SKEW)},
-            width=values["calibration_width"] or raster.width,
-            height=values["calibration_height"] or raster.height,
-            coefficients={setting.name: values[setting.name] for setting in distortion},
-        )
+        coefficients = {setting.name: _within_largest(setting, raw) for setting in distortion}
+        fx = fy = 1.0
+        skew = 0.0
+        if UNIT.read(raw) == MILLIMETERS:
+            sensor = Window.from_blender(raw, raster, Film.from_blender(raw, raster).size)
+            center, scale = (sensor.center_x, sensor.center_y), (1 / sensor.pitch_x, 1 / sensor.pitch_y)
+            if LENS in settings:
+                fx = fy = LENS.read(raw)
+        else:
+            width, height, cx, cy = (setting.read(raw, high=FARTHEST_PIXELS) for setting in (*SIZE, *CENTER))
+            width, height = width or raster.width, height or raster.height
+            scale = raster.width / width, raster.height / height
+            center = (cx + 0.5) * scale[0], (height - (cy + 0.5)) * scale[1]
+            if SKEW in settings:
+                (fx, fy), skew = (setting.read(raw) for setting in FOCAL), _within_largest(SKEW, raw)
+        return cls(fx, fy, skew, center, scale, coefficients)
 
-    def window(self, raster: Raster, linear: Linear | None = None) -> Window:
+    def window(self, linear: Linear | None = None) -> Window:
         """Return the window of (x, -y) of OpenCV's normalized, distorted image coordinates: y up.
 
-        linear: what brings these to the calibrated picture's pixels from its center, K's if it is not given. Raises
-        InputError where it brings them all to about one line.
+        linear: what brings these to pixels of the calibrated picture, or millimeters, from its center; K's if it is not
+        given. Raises InputError where it brings them all to about one line.
         """
-        scale_x, scale_y = raster.width / self.width, raster.height / self.height
-        center = (self.cx + 0.5) * scale_x, (self.height - (self.cy + 0.5)) * scale_y
+        scale_x, scale_y = self.scale
         (xx, xy), (yx, yy) = linear or ((self.fx, self.skew), (0.0, self.fy))
         volume, size = xx * yy - xy * yx, max(map(abs, (xx, xy, yx, yy)))
         if (linear or self.skew) and not abs(volume) > FLATTEST * size * size:
@@ -131,6 +142,10 @@ class Calibration:
                 "line of the picture: check skew and affine terms"
             )
         if xy == yx == 0:
-            return Window(*center, 1 / (xx * scale_x), 1 / (yy * scale_y))
+            return Window(*self.center, 1 / (xx * scale_x), 1 / (yy * scale_y))
         pitch, shear = (yy / volume / scale_x, xx / volume / scale_y), (xy / volume / scale_y, yx / volume / scale_x)
-        return AffineWindow(*center, *pitch, *shear)
+        return AffineWindow(*self.center, *pitch, *shear)
+
+
+def _within_largest(setting: Number, raw: BlenderCamera) -> float:
+    return setting.read(raw, max(setting.low, -LARGEST), min(setting.high, LARGEST))

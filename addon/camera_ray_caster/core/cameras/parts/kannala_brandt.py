@@ -49,7 +49,7 @@ class KannalaBrandt(Calibrated):
         limit = min([pi, *map(sqrt, positive_roots(slope).tolist())])
         lens = cls(
             raster.size,
-            calibration.window(raster),
+            calibration.window(),
             inf,
             tuple(coefficients),
             limit,

@@ -49,7 +49,7 @@ class Unified(Calibrated):
     def of(cls, raw: BlenderCamera, raster: Raster, calibration: Calibration, **shape: float) -> Self:
         """Return the lens with this shape. The calibration's coefficients are those of its distortion."""
         distortion = RadialTangential(**calibration.coefficients)
-        lens = cls(raster.size, calibration.window(raster), inf, **shape, distortion=distortion)
+        lens = cls(raster.size, calibration.window(), inf, **shape, distortion=distortion)
         rims = [inf]
         if lens.alpha > 0.5:
             rims.append(1 / sqrt(lens.beta * (2 * lens.alpha - 1)))
