@@ -170,7 +170,10 @@ def move(item, *places):
 
 
 CLOCKS = [
-    ("ROLLING_SHUTTER", 0, 0),
+    ("TOP_TO_BOTTOM", 0, 0),
+    ("BOTTOM_TO_TOP", 0, 0),
+    ("LEFT_TO_RIGHT", 0, 0),
+    ("RIGHT_TO_LEFT", 0, 0),
     ("ROWS", 1, 9),
     ("ROWS", 9, 1),
     ("COLUMNS", 1, 9),
@@ -185,6 +188,8 @@ def test_what_moves_is_seen_at_each_pixels_time(scene, mode, start, end, border)
     """A camera and the cubes move evenly: between two places Cycles is as exact as we are."""
     panorama(scene)
     settings = own(scene.camera)
+    if "_TO_" in mode:
+        settings.readout, mode = mode, "ROLLING_SHUTTER"
     settings.time_mode, settings.time_start, settings.time_end = mode, start, end
     if mode == "IMAGE":
         settings.time_image = bpy.data.images.new("Times", 3, 2, float_buffer=True)

@@ -161,7 +161,7 @@ def test_a_record_has_what_its_model_and_its_time_read_and_no_more(scene):
         own.model = model
         assert set(raw(scene).settings) - every == settings
     own.time_mode = "ROLLING_SHUTTER"
-    shutter = {"motion_blur_shutter", "motion_blur_position", "rolling_shutter_duration"}
+    shutter = {"readout", "motion_blur_shutter", "motion_blur_position", "rolling_shutter_duration"}
     assert set(raw(scene).settings) - every == shutter | {"time_tolerance", "time_evaluations"}
     data.type, data.panorama_type, own.time_mode = "PANO", "FISHEYE_EQUIDISTANT", "NONE"
     assert set(raw(scene).settings) - every == {"fisheye_fov"}

@@ -50,7 +50,9 @@ TIMES = {
     "ROWS": ("time_start", "time_end", *EFFORT),
     "COLUMNS": ("time_start", "time_end", *EFFORT),
     "IMAGE": ("time_image", "time_start", "time_end", *EFFORT),
-    "ROLLING_SHUTTER": ("motion_blur_position", "motion_blur_shutter", "rolling_shutter_duration", *EFFORT),
+    "ROLLING_SHUTTER": (
+        "readout", "motion_blur_position", "motion_blur_shutter", "rolling_shutter_duration", *EFFORT,
+    ),
 }
 
 

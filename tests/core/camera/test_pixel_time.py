@@ -15,7 +15,7 @@ EFFORT = {"time_tolerance": 0.1, "time_evaluations": 256}
 ROWS = EFFORT | {"time_mode": "ROWS", "time_start": 10.0, "time_end": 20.0}
 SHUTTER = EFFORT | {
     "time_mode": "ROLLING_SHUTTER", "frame": 5.0, "motion_blur_shutter": 0.5, "motion_blur_position": "CENTER",
-    "rolling_shutter_duration": 0.0,
+    "rolling_shutter_duration": 0.0, "readout": "TOP_TO_BOTTOM",
 }  # fmt: skip
 
 

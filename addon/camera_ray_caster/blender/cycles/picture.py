@@ -18,7 +18,7 @@ import numpy as np
 
 from ...core.camera.build import camera_from
 from ...core.camera.camera import Camera
-from ...core.camera.pixel_time import ROLLING_SHUTTER, LinearTime, groups
+from ...core.camera.pixel_time import LinearTime, groups
 from ...core.camera.stereo import eye_record
 from ...core.casting.passes import image_bytes
 from ...core.memory import of_pixels, require
@@ -30,7 +30,7 @@ from ..read.scene import evaluated, evaluated_camera
 from ..terminal.signals import raise_if_stopping
 from .device import device_of
 from .renderer import Render, border, changed, cycles_engine
-from .rolling import blur_settings
+from .rolling import blur_settings, is_shutter
 from .shader import check_cycles, set_shader
 
 
@@ -104,16 +104,15 @@ def _rolled(scene, eye: Eye, time: LinearTime, render: Render) -> Mapping[str, n
         change = partial(changed, stack)
         for owner, values in blur_settings(scene, eye.raw, eye.camera, bpy.data.objects):
             change(owner, **values)
-        if eye.raw.settings["time_mode"] == ROLLING_SHUTTER:
-            stack.enter_context(_custom(eye))
-            return render()
-        turn, (begin, _) = Turn.of(time), shutter_of(time, eye.camera.raster)
+        turn = Turn.of(time)
         if turn.transposed:
             size = scene.render.resolution_y, scene.render.resolution_x
             change(scene.render, resolution_x=size[0], resolution_y=size[1])
         change(scene.render, **border(turn.raster(eye.camera.raster)))
         stack.enter_context(_custom(eye, turn))
-        stack.enter_context(evaluated(scene, begin))
+        if not is_shutter(eye.raw):
+            begin, _ = shutter_of(time, eye.camera.raster)
+            stack.enter_context(evaluated(scene, begin))
         return {layer: turn.back(found) for layer, found in render().items()}
 
 

@@ -15,13 +15,18 @@ MOTION_STEPS = 7
 def check_time(raw: BlenderCamera, camera: Camera) -> None:
     """Raise InputError for pixel times in another order than Cycles exposes rows."""
     time = camera.pixel_time
-    if time is None or raw.settings["time_mode"] == ROLLING_SHUTTER:
+    if time is None or (isinstance(time, LinearTime) and Turn.of(time) == UPRIGHT):
         return
-    if not isinstance(time, LinearTime) or Turn.of(time) != UPRIGHT:
-        raise InputError(
-            f"the pixels of camera {raw.name!r} have each their own time, and Cycles exposes rows from the top down: "
-            "render it by cast.py --engine CYCLES, or let Rows end at an earlier frame than they start"
-        )
+    other = "read them from Top to Bottom" if is_shutter(raw) else "let Rows end at an earlier frame than they start"
+    raise InputError(
+        f"the pixels of camera {raw.name!r} have each their own time, and Cycles exposes rows from the top down: "
+        f"render it by cast.py --engine CYCLES, or {other}"
+    )
+
+
+def is_shutter(raw: BlenderCamera) -> bool:
+    """Whether a camera's pixel times are those of the scene's own shutter."""
+    return bool(raw.settings["time_mode"] == ROLLING_SHUTTER)
 
 
 def blur_settings(scene, raw: BlenderCamera, camera: Camera, objects) -> list[tuple[Any, dict[str, Any]]]:
@@ -30,7 +35,7 @@ def blur_settings(scene, raw: BlenderCamera, camera: Camera, objects) -> list[tu
     objects: those that may move in a slit scan.
     """
     settings = [(scene.cycles, {"rolling_shutter_type": "TOP"}), (scene.render, {"use_motion_blur": True})]
-    if raw.settings["time_mode"] == ROLLING_SHUTTER:
+    if is_shutter(raw):
         return settings
     _, frames = shutter_of(camera.pixel_time, camera.raster)
     moving = {"use_motion_blur": True, "use_deform_motion": True, "motion_steps": MOTION_STEPS}
@@ -53,7 +58,7 @@ def set_up_time(scene, raw: BlenderCamera, camera: Camera) -> list[str]:
     for owner, values in blur_settings(scene, raw, camera, scene.objects):
         for name, value in values.items():
             setattr(owner, name, value)
-    if raw.settings["time_mode"] == ROLLING_SHUTTER:
+    if is_shutter(raw):
         return ["Motion Blur is switched on, with Cycles' Rolling Shutter from top to bottom"]
     begin, frames = shutter_of(camera.pixel_time, camera.raster)
     go_to(scene, begin)

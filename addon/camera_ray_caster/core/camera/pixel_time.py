@@ -1,11 +1,12 @@
 """Time as a dimension of the picture: the frame at which each pixel's ray is cast.
 
 Slit scan: the time is a linear function of the row or the column; time displacement: it is read from a gray image;
-a rolling shutter is the slit scan of the rows that a sensor reads one after another.
+a rolling shutter is the slit scan of the rows, or columns, that a sensor reads one after another.
 Sources: the lecture; G. Levin, An Informal Catalogue of Slit-Scan Video Artworks (2005); the rolling shutter as
-Cycles has it (type Top-Bottom): row j of H, counted from the bottom, is cast at the fraction (H - j) / H of the shutter
-interval, by row index and not by row center; with a duration d the rows share d of the interval, and the chief
-ray is in the middle of its row's.
+Cycles has it (type Top-Bottom): the row that is read as number k of H, from 1 on, is cast at the fraction k / H of the
+shutter interval, by row index and not by row center; with a duration d each row is exposed for d of the interval, all
+are read within the rest, and the chief ray is in the middle of its row's. Other orders of reading are the same picture
+turned.
 """
 
 from __future__ import annotations
@@ -30,7 +31,8 @@ MODE = Choice(
         Item(COLUMNS, "Columns", "Slit scan: from the left column to the right one", 2),
         Item(IMAGE, "Image", "Time displacement: black pixels of an image show the start, white ones the end", 3),
         Item(
-            ROLLING_SHUTTER, "Rolling Shutter", "Rows from top to bottom, in the shutter of Cycles' motion blur", 4
+            ROLLING_SHUTTER, "Rolling Shutter",
+            "Rows or columns as a sensor reads them, in the shutter of motion blur", 4,
         ),
     ),
 )  # fmt: skip
@@ -60,13 +62,23 @@ DURATION = Number(
     "rolling_shutter_duration", "Rolling Shutter Duration",
     "Of a row's exposure, in parts of the shutter interval; 0 without Cycles", 0.0, 0.0, 1.0, owner=CYCLES,
 )  # fmt: skip
+READOUT = Choice(
+    "readout", "Readout", "Order of the rows or columns, which are read within the shutter",
+    "TOP_TO_BOTTOM",
+    (
+        Item("TOP_TO_BOTTOM", "Top to Bottom", "Rows, as Cycles has it", 0),
+        Item("BOTTOM_TO_TOP", "Bottom to Top", "Rows", 1),
+        Item("LEFT_TO_RIGHT", "Left to Right", "Columns", 2),
+        Item("RIGHT_TO_LEFT", "Right to Left", "Columns", 3),
+    ),
+)  # fmt: skip
 
 SETTINGS: dict[str, tuple[Setting, ...]] = {
     NONE: (),
     ROWS: (START, END, TOLERANCE, EVALUATIONS),
     COLUMNS: (START, END, TOLERANCE, EVALUATIONS),
     IMAGE: (GRAY, START, END, TOLERANCE, EVALUATIONS),
-    ROLLING_SHUTTER: (POSITION, SHUTTER, DURATION, TOLERANCE, EVALUATIONS),
+    ROLLING_SHUTTER: (READOUT, POSITION, SHUTTER, DURATION, TOLERANCE, EVALUATIONS),
 }
 """The settings that each item of MODE reads, in the order of the panel."""
 
@@ -212,12 +224,17 @@ def _image(raw: BlenderCamera, raster: Raster) -> ImageTime:
 
 
 def _rolling_shutter(raw: BlenderCamera, raster: Raster) -> LinearTime:
-    shutter, duration = SHUTTER.read(raw), DURATION.read(raw)
-    begin = SHUTTER_STARTS[POSITION.read(raw)]
-    per_row = -shutter * (1 - duration) / raster.height
-    # row j has its center at y = j + 1/2 and its time at H - j: half a row on
-    top = raw.settings["frame"] + (begin + duration / 2) * shutter - per_row * (raster.height + 0.5)
-    return _linear(raw, top, 0.0, per_row, raster)
+    shutter, duration, readout = SHUTTER.read(raw), DURATION.read(raw), READOUT.read(raw)
+    opened = raw.settings["frame"] + (SHUTTER_STARTS[POSITION.read(raw)] + duration / 2) * shutter
+    by_rows = readout in ("TOP_TO_BOTTOM", "BOTTOM_TO_TOP")
+    count = raster.height if by_rows else raster.width
+    step = shutter * (1 - duration) / count
+    # the row or column that is read as number k has its center k - 1/2 from the edge that is read first
+    if readout in ("TOP_TO_BOTTOM", "RIGHT_TO_LEFT"):
+        origin, step = opened + step * (count + 0.5), -step
+    else:
+        origin = opened + step / 2
+    return _linear(raw, origin, 0.0, step, raster) if by_rows else _linear(raw, origin, step, 0.0, raster)
 
 
 MAKERS: dict[str, Callable[[BlenderCamera, Raster], PixelTime]] = {
