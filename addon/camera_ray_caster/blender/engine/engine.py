@@ -10,6 +10,7 @@ import bpy
 import numpy as np
 
 from ...core.camera.stereo import eye_record
+from ...core.cast import Images
 from ...core.motion.evaluations import UNRESOLVED
 from ...core.records import BlenderCamera, Cancelled, InputError
 from ...core.report.report import Report
@@ -36,6 +37,8 @@ class CameraRayCaster(Viewport, bpy.types.RenderEngine):
     """Whether a render was stopped since whoever asks has set it False."""
     picture: Picture | None = None
     """Another engine's picture, which takes the place of the combined pass; None for our own."""
+    images: dict[tuple[str, str], Images] | None = None
+    """Keeps what a render casts, by layer and view; None keeps nothing."""
 
     def update_render_passes(self, scene=None, renderlayer=None):
         """Tell the compositor which sockets a view layer has."""
@@ -78,6 +81,8 @@ class CameraRayCaster(Viewport, bpy.types.RenderEngine):
             visit=partial(self.visit, depsgraph), view=view, eye=partial(self.eye, view=view),
         )  # fmt: skip
         images |= given
+        if self.images is not None:
+            self.images[layer, view] = images
         report = replace(report, passes=tuple(keys), combined=made_by)
         started = perf_counter()
         height, width = next(iter(images.values())).shape[:2]

@@ -51,9 +51,23 @@ def appearing(folder: Path) -> Iterator[Path]:
             with suppress(OSError):  # another run has begun to use it
                 path.rmdir()
         if isinstance(error, OSError):
-            reason = error.strerror or type(error).__name__
-            raise InputError(f"cannot write into {str(folder)!r}: {reason}; choose another folder") from error
+            raise InputError(_refusal(folder, error)) from error
         raise
+
+
+def clear_up(folder: Path) -> None:
+    """Complete or undo what runs that were killed have left in a folder. Raises InputError where that cannot be."""
+    try:
+        if folder.is_dir():
+            with _locked(folder):
+                _recover(folder)
+    except OSError as error:
+        raise InputError(_refusal(folder, error)) from error
+
+
+def _refusal(folder: Path, error: OSError) -> str:
+    reason = error.strerror or type(error).__name__
+    return f"cannot write into {str(folder)!r}: {reason}; choose another folder"
 
 
 @contextmanager

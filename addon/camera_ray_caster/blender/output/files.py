@@ -1,12 +1,13 @@
-"""A rendered frame as files: a picture, an EXR with all passes, and the report. They appear whole or not at all."""
+"""A rendered frame as files: a picture, its passes as EXR or NPZ, and the report. They appear whole or not at all."""
 
 import os
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, redirect_stdout
 from dataclasses import replace
 from math import ceil
 from pathlib import Path
 from time import perf_counter
+from typing import Any
 
 import bpy
 import numpy as np
@@ -20,8 +21,9 @@ from ..engine.engine import CameraRayCaster
 from ..engine.passes import ticked
 from ..terminal import signals
 from ..terminal.opening import not_run, reported
-from . import file_outputs, reports
+from . import arrays, file_outputs, reports
 from .file_set import appearing
+from .stamps import made
 
 PICTURE = {
     "media_type": "IMAGE",
@@ -40,29 +42,49 @@ LAYERS = {
 }
 """Image settings by Blender's names, in the order in which they have to be set."""
 
+EXR, NPZ = "EXR", "NPZ"
+FORMATS = EXR, NPZ
+"""What passes are written as: a multilayer EXR, or NumPy's arrays."""
+
 NOT_WRITTEN = "the compositor's File Output nodes have written nothing: --file-output lets them write where they say"
 
 
 def render(
-    scene, folder: Path, name: str, number: str = "", file_output: bool = False, picture: Picture | None = None
+    scene,
+    folder: Path,
+    name: str,
+    report_name: str = "report",
+    *,
+    layers: str = EXR,
+    half: bool = False,
+    file_output: bool = False,
+    picture: Picture | None = None,
+    stamp: Mapping[str, Any] | None = None,
 ) -> tuple[Report, list[Path]]:
     """Render the scene's current frame into ``folder`` and return the report and the files.
 
-    They are NAME.png, NAME.exr and report.json, ``number`` before each dot; of several views NAME_L.png, NAME_R.png and
-    so on, by the views' suffixes. The compositor's File Output nodes write, where they say, only with ``file_output``.
-    ``picture`` takes the place of the combined pass.
+    They are NAME.png, NAME.exr (or .npz, as ``layers`` says) and REPORT_NAME.json; of several views NAME_L.png,
+    NAME_R.png and so on, by the views' suffixes. ``half`` stores real numbers of passes with 16 bits.
+    The compositor's File Output nodes write, where they say, only with ``file_output``.
+    ``picture`` takes the place of the combined pass. ``stamp`` stands in the report: see ``stamps``.
     Leaves all as it was and raises InputError where Blender cannot render or the folder
     cannot be written, Cancelled where it is stopped.
     """
     check(scene)
-    with _shown(picture), appearing(folder) as temporary:
+    with _engine_has(picture, {} if layers == NPZ else None) as images, appearing(folder) as temporary:
         report = _composited(scene, file_output)
         report = report if picture is None else report.with_seconds(cycles=picture.seconds)
         started = perf_counter()
-        _save(scene, temporary / f"{name}{number}.png", PICTURE)
-        _save(scene, temporary / f"{name}{number}.exr", LAYERS)
+        _save(scene, temporary / f"{name}.png", PICTURE)
+        if images is None:
+            _save(scene, temporary / f"{name}.exr", LAYERS | ({"color_depth": "16"} if half else {}))
+        else:
+            suffixes = {view.name: view.file_suffix for view in scene.render.views}
+            arrays.save(temporary / f"{name}.npz", images, suffixes, half)
         report = report.with_seconds(files=perf_counter() - started)
-        (temporary / f"report{number}.json").write_text(as_json(report), encoding="utf-8")
+        if stamp is not None:
+            report = replace(report, made=made(stamp, temporary))
+        (temporary / f"{report_name}.json").write_text(as_json(report), encoding="utf-8")
         names = sorted(os.listdir(temporary))
         signals.raise_if_stopping()
     return report, [folder / name for name in names]
@@ -76,13 +98,13 @@ def check(scene) -> None:
 
 
 @contextmanager
-def _shown(picture: Picture | None) -> Iterator[None]:
-    """Let our engine show another one's picture."""
-    CameraRayCaster.picture = picture
+def _engine_has(picture: Picture | None, images: dict | None) -> Iterator[dict | None]:
+    """Let our engine show another one's picture, and keep the images that it casts in a dict; yield that."""
+    CameraRayCaster.picture, CameraRayCaster.images = picture, images
     try:
-        yield
+        yield images
     finally:
-        CameraRayCaster.picture = None
+        CameraRayCaster.picture = CameraRayCaster.images = None
 
 
 def _composited(scene, file_output: bool) -> Report:

@@ -8,7 +8,7 @@ import os
 import signal
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
-from threading import Thread, local
+from threading import Thread, current_thread, local, main_thread
 
 from ...core.records import Cancelled
 
@@ -47,8 +47,12 @@ def heard(ask: Callable[[], bool]) -> Iterator[None]:
 def leaving(words: str) -> Iterator[None]:
     """End the process at once, with these words and status 130, where a signal arrives that it handles.
 
-    For long work in C that asks nobody, and lets no handler run in the meantime. Only the main thread may.
+    For long work in C that asks nobody, and lets no handler run in the meantime. In other threads than the main one,
+    which hear no signals, it does nothing.
     """
+    if current_thread() is not main_thread():
+        yield
+        return
     reading, writing = os.pipe()
     os.set_blocking(writing, False)
 

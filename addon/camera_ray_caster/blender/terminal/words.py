@@ -9,6 +9,9 @@ from ...core.casting.passes import PASSES
 from ...core.records import InputError
 from ..read.camera import ALL
 
+LEAST_SIDE, LARGEST_SIDE = 4, 65536
+"""Pixels of a picture's width and height in Blender."""
+
 
 class Parser(argparse.ArgumentParser):
     """A parser that refuses in one line."""
@@ -55,6 +58,22 @@ def add_frames(parser) -> None:
 def add_cameras(parser) -> None:
     """Add --cameras NAME ...; see ``find_cameras``."""
     parser.add_argument("--cameras", nargs="+", metavar="NAME", help=f"several of the scene's cameras, or {ALL}")
+
+
+def share(text: str) -> tuple[int, int]:
+    """Return K and N of "K/N"; argparse names this function where the text is none."""
+    number, of = (int(part) for part in text.split("/"))
+    if not 1 <= number <= of:
+        raise argparse.ArgumentTypeError(f"{text} is no share: shares of {of} are 1/{of} to {of}/{of}")
+    return number, of
+
+
+def picture_size(text: str) -> tuple[int, int]:
+    """Return width and height of "WxH"; argparse names this function where the text is none."""
+    width, height = (int(part) for part in text.split("x"))
+    if not all(LEAST_SIDE <= side <= LARGEST_SIDE for side in (width, height)):
+        raise argparse.ArgumentTypeError(f"{text} has a side beyond Blender's {LEAST_SIDE} to {LARGEST_SIDE} pixels")
+    return width, height
 
 
 def sample_count(text: str) -> int:

@@ -59,6 +59,8 @@ class Report:
     """The paths of what the compositor's File Output nodes wrote."""
     warnings: tuple[str, ...] = ()
     """What the file asked for and was not done; a terminal shows them apart."""
+    made: Mapping[str, Any] = field(default_factory=dict)
+    """``of``: what the frame was made of; ``files``: the files beside the report, and their bytes."""
 
     @property
     def rays_per_second(self) -> float | None:

@@ -1,0 +1,179 @@
+"""The pictures that a command line asks for: of each camera and frame one, made, or taken where it is finished."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from ...core.casting.passes import PASSES
+from ...core.casting.request import PRECISIONS, SHADINGS
+from ...core.names import file_names, frame_digits
+from ...core.records import InputError
+from ...core.report.report import Report
+from ..cycles.device import said_of_device
+from ..cycles.picture import Picture, picture_of
+from ..cycles.shader import check_cycles
+from ..engine.engine import CameraRayCaster
+from ..engine.passes import tick, ticked
+from ..output import files
+from ..output.stamps import file_hash, finished, stamp_of
+from ..read.camera import find_camera, find_cameras
+from ..read.scene import read_camera
+from . import signals
+from .options import go_to, open_scene, stem, use_camera, warn
+from .progress import Progress
+from .words import add_cameras, pass_names, picture_size, sample_count
+
+CYCLES = "CYCLES"
+ENGINES = CameraRayCaster.bl_idname, CYCLES
+
+DEFAULT_PASSES = ("combined", "depth", "normal", "position", "object_index")
+"""What is cast of a view layer that ticks nothing beside combined."""
+
+SETTINGS = (
+    "passes", "shading", "precision", "engine", "samples", "resolution", "format", "half", "calibration_camera",
+    "enable_autoexec",
+)  # fmt: skip
+"""The options that pictures depend on, beside the file, camera and frame."""
+
+
+def add_words(parser) -> None:
+    """Add the options that say what pictures are made of, and where they go."""
+    add_cameras(parser)
+    parser.add_argument("--resolution", type=picture_size, metavar="WxH", help="default: the file's")
+    parser.add_argument("--passes", type=pass_names, metavar="A,B,...", help=f"of {', '.join(PASSES)}; default: what "
+                        f"the file ticks, or {', '.join(DEFAULT_PASSES)} where it ticks only combined")  # fmt: skip
+    parser.add_argument("--shading", type=str.upper, choices=SHADINGS, help="of the combined pass; default: the file's")
+    parser.add_argument("--precision", type=str.upper, choices=PRECISIONS,
+                        help="what hits are searched with; default: the file's")  # fmt: skip
+    parser.add_argument("--engine", type=str.upper, choices=ENGINES, default=ENGINES[0],
+                        help="of the combined pass; our passes stand beside it; default: %(default)s")  # fmt: skip
+    parser.add_argument("--samples", type=sample_count, metavar="N", help="of Cycles, a pixel; default: the file's")
+    parser.add_argument("--format", type=str.upper, choices=files.FORMATS, default=files.EXR,
+                        help="of the passes: a multilayer EXR, or NumPy's arrays; default: %(default)s")  # fmt: skip
+    parser.add_argument("--half", action="store_true", help="16 bits: real numbers of arrays, colors of EXR files")
+    parser.add_argument("--output", type=Path, default=Path("out"), metavar="FOLDER", help="default: %(default)s")
+
+
+@dataclass(frozen=True)
+class Job:
+    """One picture: a camera, None for the scene's own; a frame, None for the file's; the names of its files."""
+
+    camera: str | None
+    frame: float | None
+    name: str
+    report: str
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What came of a job: whether no witness disagrees, and whether it was made, not finished before. Then it has the
+    report, and the paths of the files.
+    """
+
+    passed: bool
+    made: bool = False
+    warnings: tuple[str, ...] = ()
+    report: Report | None = None
+    paths: Sequence[Path] = ()
+
+
+class Pictures:
+    """Opens a file and sets it up as a command line asks; then makes its pictures."""
+
+    def __init__(self, options):
+        """Raise InputError for what cannot be cast."""
+        by_cycles = options.engine == CYCLES
+        if options.samples and not by_cycles:
+            raise InputError(f"--samples is for --engine {CYCLES}: the file has our own samples")
+        if by_cycles:
+            check_cycles()
+        if options.cameras and options.calibration:
+            raise InputError("--calibration is of one camera: name it with --camera, in place of --cameras")
+        if options.cameras and options.camera:
+            raise InputError("--cameras names several in place of one: leave out --camera")
+        self.options = options
+        self.scene = scene = open_scene(options)
+        self.warnings: list[str] = []
+        if by_cycles:
+            scene.cycles.samples = options.samples or scene.cycles.samples
+            self.warnings += said_of_device(scene)
+        if options.resolution:
+            scene.render.resolution_x, scene.render.resolution_y = options.resolution
+            scene.render.resolution_percentage = 100
+        for layer in scene.view_layers:
+            if options.passes or [entry.key for entry in ticked(scene, layer)] == ["combined"]:
+                tick(scene, layer, options.passes or DEFAULT_PASSES)
+        for setting in ("shading", "precision"):
+            if getattr(options, setting):
+                setattr(scene.camera_ray_caster, setting, getattr(options, setting))
+
+    def stamp(self) -> dict[str, Any]:
+        """Return what every picture is made of; see ``stamps``."""
+        settings = {name: getattr(self.options, name) for name in SETTINGS}
+        calibration = self.options.calibration
+        return stamp_of(settings | {"calibration": calibration and file_hash(calibration)})
+
+    def jobs(self) -> list[Job]:
+        """Return a job for each camera and frame that is asked for; cameras of --cameras give files their names."""
+        asked, shard, scene = self.options, self.options.shard, self.scene
+        if shard and asked.frames is None:
+            raise InputError("--shard is a share of the frames of --frames: give that, too")
+        frames = asked.frames if shard is None else asked.frames[shard[0] - 1 :: shard[1]]
+        if asked.cameras is None:
+            numbers = {asked.frame: ""} if frames is None else {frame: f"_{frame_digits(frame)}" for frame in frames}
+            return [Job(asked.camera, frame, stem() + end, f"report{end}") for frame, end in numbers.items()]
+        names = file_names(camera.name for camera in find_cameras(scene, asked.cameras))
+        own = scene.frame_current_final if asked.frame is None else asked.frame
+        return [
+            Job(camera, frame, *2 * (f"{name}_{frame_digits(frame)}",))
+            for frame in ([own] if frames is None else frames)
+            for camera, name in names.items()
+        ]
+
+    def make(self, job: Job, stamp: dict[str, Any], prog: str) -> Outcome:
+        """Make a picture, or take it where --skip-existing lets it and it is finished."""
+        scene, options = self.scene, self.options
+        stamp = {**stamp, "camera": job.camera, "frame": job.frame}
+        if options.skip_existing:
+            found = finished(options.output / f"{job.report}.json", stamp)
+            if found is not None:
+                return Outcome(found["passed"])
+        if job.camera is not None:
+            use_camera(scene, find_camera(scene, job.camera))
+        go_to(scene, job.frame)
+        read_camera(scene)  # a camera that cannot be cast is refused before anything is made
+        picture = self._by_cycles(prog) if options.engine == CYCLES else None
+        report, paths = files.render(
+            scene, options.output, job.name, job.report, layers=options.format, half=options.half,
+            file_output=options.file_output, picture=picture, stamp=stamp,
+        )  # fmt: skip
+        return Outcome(report.passed, True, report.warnings, report, paths)
+
+    def _by_cycles(self, prog: str) -> Picture:
+        """Render the current frame with Cycles, whose work no signal's handler can end."""
+        files.check(self.scene)
+        with signals.leaving(f"{prog}: {signals.STOPPED}"):
+            return picture_of(self.scene)
+
+
+def follow(outcomes: Iterable[Outcome], count: int, prog: str) -> Iterator[Outcome]:
+    """Yield outcomes as they come, show how far they are where there are several, and warn once of each warning."""
+    progress, warned = Progress(count, prog), set()
+    for outcome in outcomes:
+        for line in outcome.warnings:
+            if line not in warned:
+                warn(prog, line)
+                warned.add(line)
+        if count > 1:
+            progress.add(outcome.made)
+        yield outcome
+
+
+def summary(made: int, count: int, folder: Path) -> str:
+    """Return in words what was made of so many pictures."""
+    if made == count:
+        return f"Wrote {made} pictures into {folder}"
+    return f"Wrote {made} of {count} pictures into {folder}; the others were finished"

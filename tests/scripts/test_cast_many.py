@@ -1,0 +1,189 @@
+"""What cast.py writes of many cameras and frames, what of it a second run takes, and how it tells how far it is."""
+
+import json
+
+import numpy as np
+import pytest
+
+from ..exr import read_exr
+from .running import left, refused, small
+
+WORDS = "--cameras", "ALL", "--frames", "1:3:2", "--passes", "ray_origin"
+
+
+def states(folder):
+    """Of each file what changes where it is written."""
+    return {path.name: (path.stat().st_ino, path.stat().st_mtime_ns) for path in folder.iterdir()}
+
+
+def origin(path):
+    """The one place that all rays of a picture come from."""
+    with np.load(path) as file:
+        origins = file["ray_origin"].reshape(-1, 3)
+    assert (origins == origins[0]).all()
+    return origins[0].tolist()
+
+
+def test_each_camera_and_frame_has_its_files(command, scene, tmp_path):
+    done = command("cast", scene, *WORDS, "--format", "npz", "--output", tmp_path / "out")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert done.stdout == f"Wrote 4 pictures into {tmp_path / 'out'}\n"
+    stems = [f"{camera}_{frame}" for camera in ("Side", "Top") for frame in ("0001", "0003")]
+    assert left(tmp_path / "out") == [f"{stem}.{kind}" for stem in stems for kind in ("json", "npz", "png")]
+    assert origin(tmp_path / "out" / "Side_0003.npz") == [0, 0.5, 5]
+    assert origin(tmp_path / "out" / "Top_0003.npz") == [1, 0, 5]
+    report = json.loads((tmp_path / "out" / "Top_0003.json").read_text())
+    assert (report["camera"]["name"], report["frame"]) == ("Top", 3)
+    assert report["made"]["files"].keys() == {"Top_0003.npz", "Top_0003.png"}
+
+
+def test_arrays_are_the_passes_that_the_exr_has(command, scene, tmp_path):
+    words = ("--passes", "combined,depth,normal,shape_index,valid", "--output", tmp_path / "out")
+    for kind in "npz", "exr":
+        assert command("cast", scene, *words, "--format", kind).returncode == 0
+    arrays = dict(np.load(tmp_path / "out" / "small.npz"))
+    layers = read_exr(tmp_path / "out" / "small.exr")
+    assert arrays.keys() == {"combined", "depth", "normal", "shape_index", "valid"}
+    assert {key: array.dtype for key, array in arrays.items()} == {
+        "combined": np.float32, "depth": np.float32, "normal": np.float32, "shape_index": np.int32, "valid": np.bool_,
+    }  # fmt: skip
+    far = np.isinf(arrays["depth"])
+    assert 0 < np.count_nonzero(far) < far.size
+    assert (np.where(far, np.float32(1e10), arrays["depth"]) == layers["ViewLayer.Depth.Z"]).all()
+    for axis, letter in enumerate("XYZ"):
+        assert (arrays["normal"][..., axis] == layers[f"ViewLayer.Normal.{letter}"]).all()
+    assert (arrays["shape_index"] == layers["ViewLayer.Shape Index.X"]).all()
+
+
+def test_arrays_of_layers_and_eyes(command, blender, tmp_path):
+    path = small(blender, tmp_path / "stereo.blend", use_multiview=True)
+    blender.context.scene.view_layers.new("Second")
+    blender.data.objects["Top"].data.stereo.pivot = "CENTER"
+    blender.ops.wm.save_as_mainfile(filepath=str(path))
+    done = command("cast", path, "--passes", "ray_origin", "--format", "npz", "--output", tmp_path / "out")
+    assert (done.returncode, done.stderr) == (0, "")
+    for eye, side in ("L", -1), ("R", 1):
+        with np.load(tmp_path / "out" / f"stereo_{eye}.npz") as file:
+            assert set(file) == {"ViewLayer.ray_origin", "Second.ray_origin"}
+            assert (np.sign(file["Second.ray_origin"][..., 0]) == side).all()
+
+
+@pytest.mark.parametrize("kind", ["npz", "exr"])
+def test_16_bits_only_where_they_are_asked_for(command, scene, tmp_path, kind):
+    words = ("--passes", "combined,depth,shape_index", "--format", kind, "--half", "--output", tmp_path / "out")
+    assert command("cast", scene, *words).returncode == 0
+    if kind == "npz":
+        with np.load(tmp_path / "out" / "small.npz") as file:
+            assert (file["depth"].dtype, file["shape_index"].dtype) == (np.float16, np.int32)
+    else:  # Blender keeps what is no color
+        layers = read_exr(tmp_path / "out" / "small.exr")
+        assert [layers[f"ViewLayer.{name}"].dtype for name in ("Combined.R", "Depth.Z")] == [np.float16, np.float32]
+
+
+def test_the_resolution_is_the_whole_picture_s(command, blender, tmp_path):
+    path = small(blender, tmp_path / "small.blend", resolution_percentage=50)
+    assert command("cast", path, "--resolution", "20x10", "--output", tmp_path / "out").returncode == 0
+    assert json.loads((tmp_path / "out" / "report.json").read_text())["pixels"] == 200
+
+
+def test_shards_are_together_all_frames_once(command, scene, tmp_path):
+    found = {}
+    for number in range(1, 4):
+        out = tmp_path / f"{number}"
+        words = ("--frames", "2:9", "--passes", "depth", "--shard", f"{number}/3", "--output", out)
+        assert command("cast", scene, *words).returncode == 0
+        found[number] = [int(path.stem[-4:]) for path in sorted(out.glob("*.png"))]
+    assert found == {1: [2, 5, 8], 2: [3, 6, 9], 3: [4, 7]}
+
+
+def test_finished_files_are_taken(command, scene, tmp_path):
+    out = tmp_path / "out"
+    assert command("cast", scene, *WORDS, "--output", out).returncode == 0
+    before = states(out)
+    (out / "Side_0001.exr").write_bytes(b"cut off")
+    (out / "Top_0003.png").unlink()
+    (out / "Top_0001.json").write_text('{"made": [')
+    done = command("cast", scene, *WORDS, "--skip-existing", "--output", out)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert done.stdout == f"Wrote 3 of 4 pictures into {out}; the others were finished\n"
+    after = states(out)
+    assert after.keys() == before.keys()
+    kept = {name for name in after if after[name] == before[name]}
+    assert kept == {f"Side_0003.{kind}" for kind in ("exr", "json", "png")}
+
+
+OTHERS = {
+    "passes": ("--passes", "depth"),
+    "shading": ("--shading", "grid"),
+    "resolution": ("--resolution", "16x12"),
+    "format": ("--format", "npz"),
+    "bits": ("--half",),
+    "precision": ("--precision", "fast"),
+}
+
+
+@pytest.mark.parametrize("case", ["nothing", *OTHERS, "file", "a file that it uses", "camera", "frame"])
+def test_what_was_made_of_something_else_is_made_again(command, blender, scene, tmp_path, case):
+    words, other = ("--camera", "Side", "--frame", "1"), OTHERS.get(case, ())
+    image = blender.data.images.new("image", 4, 4)
+    image.filepath_raw, image.file_format = str(tmp_path / "image.png"), "PNG"
+    image.save()
+    image.use_fake_user = True
+    blender.ops.wm.save_as_mainfile(filepath=str(scene))
+    command("cast", scene, *words, "--output", tmp_path / "out")
+    if case == "file":
+        blender.data.objects["Sphere"].location.x = 0.25
+        blender.ops.wm.save_as_mainfile(filepath=str(scene))
+    elif case == "a file that it uses":
+        with (tmp_path / "image.png").open("ab") as file:
+            file.write(b"more")
+    elif case == "camera":
+        words = ("--camera", "Top", "--frame", "1")
+    elif case == "frame":
+        words = ("--camera", "Side", "--frame", "2")
+    done = command("cast", scene, *words, *other, "--skip-existing", "--output", tmp_path / "out")
+    assert done.returncode == 0
+    assert ("Wrote 0 of 1 pictures" in done.stdout) == (case == "nothing")
+
+
+def test_a_witness_that_disagreed_still_does(command, scene, tmp_path):
+    command("cast", scene, "--output", tmp_path / "out")
+    report = json.loads((tmp_path / "out" / "report.json").read_text())
+    (tmp_path / "out" / "report.json").write_text(json.dumps(report | {"passed": False}))
+    assert command("cast", scene, "--skip-existing", "--output", tmp_path / "out").returncode == 1
+
+
+def test_what_a_kill_has_left_is_cleared_up_where_all_is_finished(command, scene, tmp_path):
+    command("cast", scene, "--output", tmp_path / "out")
+    (tmp_path / "out" / ".writing_x").mkdir()
+    assert command("cast", scene, "--skip-existing", "--output", tmp_path / "out").returncode == 0
+    assert left(tmp_path / "out") == ["report.json", "small.exr", "small.png"]
+
+
+def test_cameras_whose_files_would_have_the_same_name_are_refused(command, blender, scene, tmp_path):
+    for name in "A/B", "a:b":
+        blender.ops.object.camera_add()
+        blender.context.object.name = name
+    blender.ops.wm.save_as_mainfile(filepath=str(scene))
+    assert "would have the same name" in refused(command("cast", scene, *WORDS, "--output", tmp_path / "out"))
+    assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize("is_terminal", [True, False])
+def test_progress_has_the_time_that_is_left(blender, capsys, monkeypatch, is_terminal):
+    from camera_ray_caster.blender.terminal import progress
+
+    clock = iter([0.0, 1.0, 30.0, 35.0, 60.0])
+    monkeypatch.setattr(progress, "monotonic", lambda: next(clock))
+    monkeypatch.setattr("sys.stderr.isatty", lambda: is_terminal)
+    shown = progress.Progress(4, "it")
+    for made in False, True, True, True:
+        shown.add(made)
+    said = capsys.readouterr().err
+    if is_terminal:
+        assert [line.split("] ")[1].removesuffix("\033[K") for line in said.strip().split("\r")] == [
+            "1 of 4", "2 of 4, 0:01:00 left", "3 of 4, 0:00:18 left", "4 of 4, 0:00:00 left",
+        ]  # fmt: skip
+        assert said.split("\r")[3].startswith(f"[{'#' * 22:30}]")
+    else:
+        assert said == "it: 2 of 4, 0:01:00 left\nit: 4 of 4, 0:00:00 left\n"
