@@ -15,6 +15,7 @@ pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="Windows ends a 
 SCENE = str(ROOT / "blend_scenes" / "empty.blend")
 WORDS = {
     "benchmark": ["--help"],
+    "calibration_readers": ["--help"],
     "cast": [SCENE, "--passes", "depth"],
     "environment": [],
     "make_docs": ["--help"],

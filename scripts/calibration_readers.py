@@ -1,0 +1,133 @@
+"""Calibration files against the programs that they are of: the largest distance in pixels of 10,000 projected points.
+
+    python scripts/calibration_readers.py
+
+Each file is read here and by its format's own reader, and points all over the picture are projected by both; COLMAP's
+and OpenCV's readers are in the tests. A reader that is not installed is named: mrcal needs numpysane and SciPy,
+nerfbaselines OpenCV and Pillow, both install with --no-deps; image_geometry is Debian's python3-image-geometry, which
+has no raw pixels of points: it rectifies ours.
+"""
+
+if __name__ == "__main__":
+    import ends  # it lies beside this file
+
+    ends.begin(__file__)
+
+import json
+import sys
+import tempfile
+from pathlib import Path
+from types import SimpleNamespace
+
+import numpy as np
+from arguments import Parser
+
+ROOT = Path(__file__).resolve().parents[1]
+sys.path[:0] = [str(ROOT / "addon"), str(ROOT)]
+
+COUNT = 10_000
+WIDTH, HEIGHT = 640, 480
+FRAME = {"resolution_x": WIDTH, "resolution_y": HEIGHT}
+K = 401.25, 398.5, 322.75, 238.25
+BROWN = -0.12, 0.03, 1e-3, -2e-3, 4e-3, 0.01, -2e-3, 3e-4, 1e-3, -5e-4, -2e-3, 3e-4
+EQUIDISTANT = -0.03, 4e-3, -1e-3, 2e-4
+
+
+def mrcal_files():
+    """Yield the name of each lens model, our model, the file's text, and mrcal's projection."""
+    import mrcal
+
+    for name, key, terms in (
+        *((f"OPENCV{count}", "OPENCV_PINHOLE", BROWN[:count]) for count in (4, 5, 8, 12)),
+        ("PINHOLE", "OPENCV_PINHOLE", ()),
+        ("STEREOGRAPHIC", "UCM", ()),
+    ):
+        text = f"{{'lensmodel': 'LENSMODEL_{name}', 'intrinsics': {[*K, *terms]}, "
+        text += f"'extrinsics': [0,0,0,0,0,0], 'imagersize': [{WIDTH}, {HEIGHT}]}}"
+
+        def project(points, path):
+            return mrcal.project(points, *mrcal.cameramodel(path).intrinsics()) + 0.5
+
+        yield f"mrcal {name}", key, ".cameramodel", text, project
+
+
+def nerfstudio_files():
+    """The same of transforms.json, by nerfbaselines."""
+    from nerfbaselines import cameras
+    from nerfbaselines.datasets.nerfstudio import load_nerfstudio_dataset
+    from PIL import Image
+
+    for name, key, terms in (
+        ("OPENCV", "OPENCV_PINHOLE", dict(zip(("k1", "k2", "p1", "p2"), BROWN, strict=False))),
+        ("OPENCV_FISHEYE", "OPENCV_FISHEYE", dict(zip(("k1", "k2", "k3", "k4"), EQUIDISTANT, strict=True))),
+    ):
+        lens = dict(zip(("fl_x", "fl_y", "cx", "cy"), K, strict=True)) | {"w": WIDTH, "h": HEIGHT, **terms}
+        frame = {"file_path": "a.png", "transform_matrix": np.eye(4).tolist(), **lens}
+        text = json.dumps({"camera_model": name, "frames": [frame, frame | {"file_path": "b.png"}]})
+
+        def project(points, path):
+            for image in ("a.png", "b.png"):  # which it opens
+                Image.new("L", (WIDTH, HEIGHT)).save(Path(path).parent / image)
+            found = load_nerfstudio_dataset(str(Path(path).parent), "train", train_split_fraction=1.0)["cameras"][0]
+            still = found.replace(poses=np.eye(4)[:3].astype(np.float64))
+            return cameras.project(still[None], points[None])[0]
+
+        yield f"nerfbaselines {name}", key, "transforms.json", text, project
+
+
+def ros_files():
+    """The same of ROS' CameraInfo, by image_geometry: its rectification undone by our distortion."""
+    from image_geometry import PinholeCameraModel
+
+    for name, terms in (("plumb_bob", BROWN[:5]), ("rational_polynomial", BROWN[:8])):
+        fx, fy, cx, cy = K
+        matrix = [fx, 0, cx, 0, fy, cy, 0, 0, 1]
+        text = f"image_width: {WIDTH}\nimage_height: {HEIGHT}\ndistortion_model: {name}\n"
+        text += f"camera_matrix:\n  rows: 3\n  cols: 3\n  data: {matrix}\n"
+        text += f"distortion_coefficients:\n  rows: 1\n  cols: {len(terms)}\n  data: {list(terms)}\n"
+        own = PinholeCameraModel()
+        own.fromCameraInfo(SimpleNamespace(
+            K=matrix, D=list(terms), R=np.eye(3).ravel(), P=[fx, 0, cx, 0, 0, fy, cy, 0, 0, 0, 1, 0], width=WIDTH,
+            height=HEIGHT, binning_x=0, binning_y=0, header=SimpleNamespace(frame_id="", stamp=0),
+            roi=SimpleNamespace(x_offset=0, y_offset=0, height=0, width=0, do_rectify=False),
+        ))  # fmt: skip
+        yield f"image_geometry {name}", "OPENCV_PINHOLE", "ros.yaml", text, own
+
+
+def points_before(cam) -> np.ndarray:
+    """Points of OpenCV's frame on rays through random places of the picture."""
+    random = np.random.default_rng(1)
+    directions = cam.rays_at(*random.uniform((0, 0), (WIDTH, HEIGHT), (COUNT, 2)).T).directions
+    return directions * random.uniform(0.5, 50, (COUNT, 1)) * (1, -1, -1)
+
+
+def worst(key: str, suffix: str, text: str, other) -> float:
+    """Return the largest distance in pixels between another program's projections and ours."""
+    from tests.core.cameras.model_examples import camera
+
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / (suffix if suffix[0] != "." else f"lens{suffix}")
+        path.write_text(text)
+        cam = camera(key, FRAME | {"calibration_file": str(path)})
+        points = points_before(cam)
+        ours = cam.project(points * (1, -1, -1)) * (1, -1) + (0, HEIGHT)
+        if callable(other):
+            return float(np.abs(other(points, str(path)) - ours).max())
+        rectified = np.array([other.rectifyPoint(pixel - 0.5) for pixel in ours])
+        return float(np.abs(rectified - [other.project3dToPixel(point) for point in points]).max())
+
+
+def main() -> int:
+    """Print a line for each reader and lens model; return the exit status."""
+    Parser(prog="calibration_readers.py", description=__doc__.splitlines()[0]).parse_args()
+    for files in (mrcal_files, nerfstudio_files, ros_files):
+        try:
+            for name, *rest in files():
+                print(f"{name:36} {worst(*rest):.1e}", flush=True)
+        except ModuleNotFoundError as missing:
+            print(f"{files.__name__}: {missing}")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(ends.run(__file__, main))
