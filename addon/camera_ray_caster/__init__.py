@@ -11,10 +11,12 @@ asked for, so that ``core`` runs where no Blender is installed.
 
 from importlib import import_module
 
-__all__ = ["InputError", "cast", "read_camera", "read_scene", "read_shapes", "register", "unregister"]
+__all__ = ["InputError", "camera_from_json", "camera_to_json", "cast", "read_camera", "read_scene", "read_shapes", "register", "unregister"]
 
 _MODULES = {
     "InputError": ".core.records",
+    "camera_from_json": ".core.exports.camera_json",
+    "camera_to_json": ".core.exports.camera_json",
     "cast": ".core.cast",
     "read_camera": ".blender.read",
     "read_scene": ".blender.read",

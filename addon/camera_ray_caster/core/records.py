@@ -259,6 +259,13 @@ class Shapes:
         return len(self.kind)
 
 
+def no_shapes() -> Shapes:
+    """Return the shapes of an empty scene."""
+    none = np.zeros(0, np.int32)
+    return Shapes(none.astype(np.uint8), np.zeros((0, 3)), np.zeros((0, 3, 3)), none, none, np.zeros((0, 4), np.float32),
+                  none)  # fmt: skip
+
+
 @dataclass(frozen=True)
 class Finding:
     """What one witness says of a camera's rays: the errors beside the bound that the witness itself can reach."""

@@ -2,7 +2,6 @@
 
 from collections.abc import Sequence
 from dataclasses import replace
-from types import MappingProxyType
 
 import bpy
 import numpy as np
@@ -71,7 +70,7 @@ def camera_record(camera_object, depsgraph) -> BlenderCamera:
     raw = replace(raw, model="" if chosen == BLENDERS_OWN else chosen)
     read = (*find_model(raw).SETTINGS, *pixel_time.SETTINGS[mode])
     values = {one.name: _value(one, data, depsgraph) for one in read if one.name not in RECORD_FIELDS}
-    return replace(raw, settings=MappingProxyType({**raw.settings, **values}))
+    return replace(raw, settings={**raw.settings, **values})
 
 
 def shader_mark(camera) -> Mark | None:

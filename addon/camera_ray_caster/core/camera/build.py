@@ -9,7 +9,7 @@ from ..cameras.model import Model
 from ..cameras.parts.calibration import FILE
 from ..cameras.parts.film import raster_from
 from ..cameras.parts.pose import pose_from
-from ..cameras.parts.settings import Number, farthest_from_one, values_of
+from ..cameras.parts.settings import Number, farthest_from_one
 from ..records import BlenderCamera, InputError, Pose
 from .calibration_file import with_file
 from .camera import Camera
@@ -45,9 +45,9 @@ def camera_from(raw: BlenderCamera) -> Camera:
         raster=raster,
         clip_start=raw.clip_start,
         clip_end=raw.clip_end,
+        record=raw,
         aperture=model.aperture(raw, pose),
         pixel_time=pixel_time_from(raw, raster),
-        settings=values_of(kind.SETTINGS, raw),
     )
 
 

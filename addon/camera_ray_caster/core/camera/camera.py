@@ -3,23 +3,25 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from contextlib import nullcontext
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any, Literal, Protocol, overload
 
 import numpy as np
 
 from ..arguments import flag, numbers
+from ..cameras import find_model
 from ..cameras.model import Model
 from ..cameras.parts.aperture import Aperture
+from ..cameras.parts.settings import values_of
 from ..conventions import gamma
 from ..maths.chebyshev import ROWS, is_raster, on_raster
 from ..maths.speed import lazy, whole_rows
 from ..maths.vector import components, dot, inverse, is_grid, matvec, norm
 from ..memory import of_pixels, require
-from ..records import InputError, Pose, Raster, Rays, RaysJacobian
+from ..records import BlenderCamera, InputError, Pose, Raster, Rays, RaysJacobian
 from .jacobian import of_projection, of_rays
 from .pixel_time import PixelTime, meeting
 from .pixels import by_time, given, in_blocks
@@ -54,14 +56,19 @@ class Camera:
     raster: Raster
     clip_start: float
     clip_end: float
+    record: BlenderCamera
+    """What it was made of; of a calibration file, with the file's numbers."""
     aperture: Aperture | None = None
     """What lets rays beside the chief ray in; None for a pinhole."""
     pixel_time: PixelTime | None = None
     """The frame of each pixel; None where the picture has one time."""
     motion: CameraMotion | None = None
     """With pixel times, what knows the camera at other frames; None for a camera that stands still."""
-    settings: Mapping[str, Any] = field(default_factory=dict)
-    """The values of the model's SETTINGS, by name, as plain numbers, words and lists."""
+
+    @property
+    def settings(self) -> dict[str, Any]:
+        """The values of the model's SETTINGS, by name, as plain numbers, words and lists."""
+        return values_of(find_model(self.record).SETTINGS, self.record)
 
     @property
     def K(self) -> np.ndarray | None:

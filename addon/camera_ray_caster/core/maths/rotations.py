@@ -1,4 +1,5 @@
-"""Rotations of many things at once: matrices into rotation and stretch, rotations into vectors, and back.
+"""Rotations of many things at once: matrices into rotation and stretch, rotations into vectors and
+quaternions, and back.
 
 References: K. Shoemake, T. Duff, Matrix Animation and Polar Decomposition (1992); O. Rodrigues (1840).
 """
@@ -33,6 +34,20 @@ def sine_and_angle(rotation):
     ) / 2  # fmt: skip
     sine = np.linalg.norm(skew, axis=1)
     return skew, sine, np.arctan2(sine, (np.trace(rotation, axis1=1, axis2=2) - 1) / 2)
+
+
+def quaternion(rotation) -> np.ndarray:
+    """Return w, x, y, z of one rotation (3, 3), w not negative, to some EPS at any angle: half turns have either sign.
+
+    Of the products of its components with each other the row of the largest component is taken (S. Shepperd, 1978).
+    """
+    products = np.empty((4, 4))
+    trace = np.trace(rotation)
+    products[0, 0] = 1 + trace
+    products[0, 1:] = products[1:, 0] = [rotation[i][j] - rotation[j][i] for i, j in ((2, 1), (0, 2), (1, 0))]
+    products[1:, 1:] = rotation + rotation.T + (1 - trace) * np.eye(3)
+    row = products[np.argmax(np.diag(products))]
+    return row / np.linalg.norm(row) * np.copysign(1.0, row[0])
 
 
 def rotation(vector) -> np.ndarray:

@@ -2,7 +2,21 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from ..camera.camera import Camera
+from ..cameras.model import WindowModel
+
+CONVENTIONS = {
+    "lengths": "Blender units, but millimeters for lenses, sensors and film; meters: how long a Blender unit is",
+    "angles": "radians, but degrees for field_of_view",
+    "pixels": "(0, 0) is the bottom left corner of the full frame, the center of pixel (i, j) is (i + 1/2, j + 1/2), y up",
+    "camera": "x right, y up, it looks along -z; u, v and -w are these axes in the world, eye is the origin",
+    "K": "as OpenCV: y down, (0, 0) is the center of the top left pixel; of the full frame",
+    "world_to_opencv": "rows; from the world to x right, y down, z ahead",
+    "plane_from_pixels": "rows; from (x, y, 1) of a pixel to the image plane that the formula begins with",
+}
+"""What the numbers of files mean; ``core.conventions`` has the reasons."""
 
 
 def camera_facts(camera: Camera) -> dict[str, object]:
@@ -11,7 +25,7 @@ def camera_facts(camera: Camera) -> dict[str, object]:
     Every camera: its model, eye (world), orthobasis u, v and w = -Z (world, unit), raster (pixels), window (the columns
     x0 .. x1 and rows y0 .. y1 that are rendered), pixel aspect, clip range. Then what the model says of itself
     (``Model.facts``): a pinhole its field of view, d and aspect, an orthographic camera its frame, a general linear one
-    its kind; and K, of models that have one. Last the model's settings by name (``Camera.settings``) and its formula,
+    its kind; K, of models that have one; of those that begin with an affine map to an image plane, that. Last the model's settings by name (``Camera.settings``) and its formula,
     step by step.
     """
     raster, basis = camera.raster, camera.pose.basis
@@ -29,6 +43,15 @@ def camera_facts(camera: Camera) -> dict[str, object]:
         "clip": [camera.clip_start, camera.clip_end],
         **camera.model.facts(),
         **({} if camera.K is None else {"K": camera.K.tolist()}),
+        **({"plane_from_pixels": _plane(camera.model)} if isinstance(camera.model, WindowModel) else {}),
+        "world_to_opencv": camera.world_to_opencv.tolist(),
         "settings": dict(camera.settings),
         "formula": [step._asdict() for step in camera.model.FORMULA],
     }
+
+
+def _plane(model: WindowModel) -> list[list[float]]:
+    """Return the window's affine map, (2, 3)."""
+    K = model.window.matrix(model.frame[1])
+    opencv_from_pixels = np.array([[1.0, 0.0, -0.5], [0.0, -1.0, model.frame[1] - 0.5], [0.0, 0.0, 1.0]])
+    return (np.diag([1.0, -1.0]) @ (np.linalg.inv(K) @ opencv_from_pixels)[:2]).tolist()

@@ -163,7 +163,8 @@ def _camera_lines(report: Report) -> list[str]:
     title = f"Camera {facts.pop('name')!r}, {facts.pop('model')}, frame {report.frame:g}"
     formula = [f"{step['words']}: {step['symbols']}" for step in facts.pop("formula")]
     settings = ", ".join(f"{name} {_numbers(value)}" for name, value in facts.pop("settings").items())
-    del facts["key"]
+    for name in ("key", "plane_from_pixels", "world_to_opencv"):  # they follow from what the table has
+        facts.pop(name, None)
     if settings and len(settings) <= WIDTH - MARGIN:  # where they are few
         facts["settings"] = settings
     lines = [f"  {name.replace('_', ' '):{MARGIN - 3}} {_numbers(value)}" for name, value in facts.items()]

@@ -58,6 +58,13 @@ def size(width: float, height: float) -> dict[str, Any]:
     return {"calibration_width": width, "calibration_height": height}
 
 
+def matrix_of(settings: dict[str, Any], first: float = 0.0) -> list[float]:
+    """Return fx, fy, cx and cy of settings, for a format in which the center of the top left pixel is at (first, first):
+    the inverse of ``matrix``.
+    """
+    return [settings["fx"], settings["fy"], settings["cx"] + first, settings["cy"] + first]
+
+
 def matrix(fx: float, fy: float, cx: float, cy: float, first: float = 0.0) -> dict[str, Any]:
     """Return the settings of a camera matrix in which the center of the top left pixel is at (first, first)."""
     return {"fx": fx, "fy": fy, "cx": cx - first, "cy": cy - first}

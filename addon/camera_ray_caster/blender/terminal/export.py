@@ -1,0 +1,41 @@
+"""The command that writes cameras, by frame, as other programs' files."""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from ...core.exports import FORMATS
+from ..output import exports
+from ..read.camera import check_camera, find_camera, find_cameras
+from .opening import not_run
+from .options import command_parser, open_scene, warn
+from .words import add_cameras, add_frames, joined
+
+
+def run(arguments: Sequence[str], prog: str) -> int:
+    """Export cameras of a file."""
+    parser = command_parser(
+        prog,
+        "Write the cameras of a Blender file, by frame, for other programs.",
+        f"{prog} blend_scenes/toys.blend --format colmap --cameras ALL --frames 1:100:10 --output out",
+        "writes cameras.txt, images.txt and points3D.txt; cameras that COLMAP cannot say are refused.",
+        ends="exit status: 0 done; 2 bad input.",
+    )
+    formats = {one.key: one for one in FORMATS}
+    parser.add_argument("--format", type=str.lower, choices=formats, required=True,
+                        help="; ".join(f"{key}: {one.description}" for key, one in formats.items()))  # fmt: skip
+    add_cameras(parser)
+    add_frames(parser)
+    parser.add_argument("--to", metavar="NAME", help="of stmap: the camera to which the maps lead; default: the "
+                        "perspective of the same lens")  # fmt: skip
+    parser.add_argument("--output", type=Path, default=Path("out"), metavar="FOLDER", help="default: %(default)s")
+    options = parser.parse_args(joined(arguments, "--frames"))
+    scene = open_scene(options)
+    check_camera(scene, scene.camera) if not options.cameras else None
+    cameras = find_cameras(scene, options.cameras) if options.cameras else [scene.camera]
+    target = find_camera(scene, options.to) if options.to is not None else None
+    frames = options.frames or [scene.frame_current_final]
+    said, paths = exports.write(scene, options.format, cameras, frames, options.output, target)
+    for line in not_run():
+        warn(prog, line)
+    print("\n".join((*said, f"Wrote {', '.join(map(str, paths))}")), flush=True)
+    return 0

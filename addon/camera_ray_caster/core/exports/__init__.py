@@ -1,0 +1,46 @@
+"""Exports: cameras, by frame, as other programs' files. One module a format; a new one is its file and one word here."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+
+from ..arguments import word
+from ..records import InputError
+from . import rigid
+from .camera_json import CameraJson
+from .colmap import Colmap
+from .format import Content, Format, Shot
+
+FORMATS: tuple[Format, ...] = (Colmap(), CameraJson())
+"""Every format, in the order of menus."""
+
+
+def export(key: str, shots: Sequence[Shot]) -> tuple[Iterator[tuple[str, Content]], list[str]]:
+    """Return the files of an export, each its name and its content, made when it is asked for, and what is to be said
+    of it, in lines.
+
+    Raises InputError, in one line, for a format that there is not, and for a camera that it cannot say, with the
+    formats that can.
+    """
+    formats = {one.key: one for one in FORMATS}
+    chosen = formats[word(key, "format", formats)]
+    for shot in shots:
+        reason = _refusal(chosen, shot)
+        if reason is not None:
+            able = ", ".join(one.key for one in FORMATS if _refusal(one, shot) is None)
+            what = f"{shot.camera.model.label} of camera {shot.camera.name!r}"
+            raise InputError(f"{chosen.label} cannot say the {what}{reason and ', '}{reason}: choose one of {able}")
+    said = list(dict.fromkeys(line for shot in shots for line in chosen.unsaid(shot.camera)))
+    if not chosen.rigid:
+        return chosen.files(shots), said
+    cameras, moves = zip(*(rigid.with_rotation(shot.camera) for shot in shots), strict=True)
+    rotated = [replace(shot, camera=camera) for shot, camera in zip(shots, cameras, strict=True)]
+    moved = f"poses are the nearest rotations to Blender's matrices, which moves pixels by up to {max(moves):.1e}"
+    return chosen.files(rotated), [moved, *said]
+
+
+def _refusal(chosen: Format, shot: Shot) -> str | None:
+    reason = chosen.refusal(shot)
+    return rigid.refusal(shot.camera) if reason is None and chosen.rigid else reason
+

@@ -1,0 +1,167 @@
+"""Our own file, camera.json: all that a camera is, by frame, in plain words and numbers with all their bits.
+
+Its heart is the record that a camera is made of, in Blender's own names, for each frame; of a camera whose pixels have
+each their own time the records at the times between which it is interpolated. ``camera_from_json`` makes the camera of
+them, by the same steps as ``read_camera``: the same rays, bit for bit. Beside the records stands what follows from
+them: K, pose, the image plane, the formula. What all frames share is said once.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, replace
+from pathlib import Path
+from typing import Any
+
+from ..arguments import number, shown, word
+from ..camera.build import camera_from
+from ..camera.camera import Camera
+from ..camera.pixel_time import LAST_FRAME
+from ..cameras.parts.calibration import FILE
+from ..motion.evaluations import Motion
+from ..motion.interpolation import TimeInterval
+from ..records import BlenderCamera, InputError, no_shapes
+from ..report.facts import CONVENTIONS, camera_facts
+from ..version import VERSION
+from .format import Format, Shot
+from .plain import merged, plain, restored, shared, without
+
+FORMAT = "camera_ray_caster camera"
+NUMBER = 1
+"""Of the format: a reader refuses a larger one."""
+
+FRAME = "frame"
+"""The setting of a record that says at which frame it was read."""
+
+
+class CameraJson(Format):
+    """One file with all cameras and frames."""
+
+    key = "json"
+    label = "Camera JSON"
+    description = "camera.json: every model with all its settings and poses; crc.camera_from_json makes the rays of it"
+
+    def refusal(self, shot):
+        """See Format."""
+        return None
+
+    def unsaid(self, camera):
+        """See Format."""
+        return []
+
+    def files(self, shots):
+        """See Format."""
+        yield "camera.json", _text(shots)
+
+
+def camera_to_json(camera: Camera) -> str:
+    """Return a camera as the text of a camera.json with one frame, the one at which it was read."""
+    return _text([Shot(camera.name, float(camera.record.settings.get(FRAME, 0.0)), camera)])
+
+
+def camera_from_json(path_or_text: str | Path, frame: float | None = None, camera: str | None = None) -> Camera:
+    """Return a camera of a camera.json, from its path or its text: its rays are those of the camera that was written,
+    bit for bit, on the same machine and numpy. Needs no Blender.
+
+    ``frame``: one of those in the file; default the first. ``camera``: its name there; needed where there are several.
+    Raises InputError, in one line, for what cannot be read, is no such file, or has no such camera or frame.
+    """
+    text = path_or_text if isinstance(path_or_text, str) and path_or_text.lstrip()[:1] == "{" else _read(path_or_text)
+    try:
+        document = restored(json.loads(text))
+        if document.get("format") != FORMAT:
+            raise InputError("this is no camera.json of the Camera Ray Caster: export one with the format json")
+        if document["format_version"] > NUMBER:
+            raise InputError(f"this camera.json is of version {document['format_version']}: update the add-on")
+        return _camera(_frame(_chosen(document["cameras"], camera), frame))
+    except InputError:
+        raise
+    except (ValueError, TypeError, LookupError, AttributeError, ArithmeticError, RecursionError) as error:
+        raise InputError(f"this camera.json is damaged ({type(error).__name__}: {error}): export it again") from error
+
+
+def _text(shots: Sequence[Shot]) -> str:
+    cameras = []
+    for name in dict.fromkeys(shot.name for shot in shots):
+        own = {shot.frame: plain(_said(shot)) for shot in shots if shot.name == name}
+        common = shared(list(own.values()))
+        frames = [{FRAME: frame, **without(said, common)} for frame, said in own.items()]
+        cameras.append({"name": name, "all_frames": common, "frames": frames})
+    document = {"format": FORMAT, "format_version": NUMBER, "version": VERSION, "conventions": CONVENTIONS}
+    return json.dumps(document | {"cameras": cameras}, indent=1, allow_nan=False, ensure_ascii=False) + "\n"
+
+
+def _said(shot: Shot) -> dict[str, Any]:
+    """Return what is said of a camera at a frame."""
+    camera = shot.camera
+    said = {"meters": shot.meters, "camera": camera_facts(camera), "record": _record(camera)}
+    motion = camera.motion
+    if isinstance(motion, Motion):
+        said["evaluations"] = [
+            {FRAME: frame, "record": without(plain(_record(state)), plain(said["record"]))}
+            for frame, (state, _) in sorted(motion.states.items())
+        ]
+        said["intervals"] = [interval.frames for interval in motion.intervals]
+        said["motion"] = {name: getattr(motion, name) for name in ("tolerance", "estimated", "unresolved", "measured")}
+    return said
+
+
+def _record(camera: Camera) -> dict[str, Any]:
+    """Return the record of a camera; the numbers of a calibration file stand in it, not its path."""
+    record = asdict(replace(camera.record, settings={}))
+    settings = dict(camera.record.settings)
+    return record | {"settings": settings | ({FILE.name: ""} if FILE.name in settings else {})}
+
+
+def _camera(said: Mapping[str, Any]) -> Camera:
+    """Return the camera of what is said of it."""
+    camera = camera_from(_restored_record(said["record"]))
+    if "evaluations" not in said:
+        return camera
+    states = {}
+    for evaluation in said["evaluations"]:
+        record = _restored_record(merged(said["record"], evaluation["record"]))
+        states[evaluation[FRAME]] = replace(camera_from(record), pixel_time=camera.pixel_time), no_shapes()
+    motion = said["motion"]
+    return replace(
+        camera,
+        motion=Motion(
+            tuple(TimeInterval.of(states, tuple(frames)) for frames in said["intervals"]),
+            states,
+            motion["tolerance"],
+            motion["estimated"],
+            tuple(map(tuple, motion["unresolved"])),
+            motion["measured"],
+        ),
+    )
+
+
+def _restored_record(record: Mapping[str, Any]) -> BlenderCamera:
+    return BlenderCamera(**record)
+
+
+def _chosen(cameras: Sequence[Mapping[str, Any]], name: str | None) -> Mapping[str, Any]:
+    name = None if name is None else word(name, "camera")
+    chosen = [camera for camera in cameras if name in (None, camera["name"])]
+    if len(chosen) != 1:
+        known = ", ".join(repr(camera["name"]) for camera in cameras)
+        raise InputError(f"this camera.json has the cameras {known}: set camera to one of them")
+    return chosen[0]
+
+
+def _frame(camera: Mapping[str, Any], frame: float | None) -> dict[str, Any]:
+    frames = {own[FRAME]: own for own in camera["frames"]}
+    chosen = next(iter(frames)) if frame is None else number(frame, "frame", LAST_FRAME)
+    if chosen not in frames:
+        ends = f"{len(frames)} frames from {min(frames):g} to {max(frames):g}"
+        raise InputError(f"camera {camera['name']!r} has no frame {shown(frame)} in this camera.json: it has {ends}")
+    return merged(camera["all_frames"], frames[chosen])
+
+
+def _read(path) -> str:
+    try:
+        return Path(path).read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError, ValueError, TypeError) as error:
+        reason = getattr(error, "strerror", None) or "it is no text"
+        raise InputError(f"cannot read {shown(str(path))}: {reason}; give the path of a camera.json, or its text") from error

@@ -1,0 +1,90 @@
+"""COLMAP's text model: cameras.txt, images.txt, and a points3D.txt without points.
+
+Poses are from the world to OpenCV's camera frame; the center of the first pixel is (0.5, 0.5). Its equirectangular
+panorama is the whole sphere. Names end at a space.
+Reference: COLMAP documentation, Output Format; Camera Models.
+"""
+
+from __future__ import annotations
+
+from math import pi
+
+import numpy as np
+
+from ..cameras.files.colmap import MODELS
+from ..cameras.files.document import Lens, matrix_of
+from ..conventions import gamma
+from ..maths.rotations import quaternion
+from . import lenses
+from .format import OWN_TIMES, Format, Shot
+
+SPHERE = "EQUIRECTANGULAR"
+TABLE = {
+    kind: (key, tuple(name for name in names.split() if name not in lenses.MATRIX))
+    for kind, (key, names) in MODELS.items()
+    if names.startswith("fx")
+} | {SPHERE: (SPHERE, ())}
+
+CAMERAS = """# Camera list with one line of data per camera:
+#   CAMERA_ID, MODEL, WIDTH, HEIGHT, PARAMS[]
+"""
+IMAGES = """# Image list with two lines of data per image:
+#   IMAGE_ID, QW, QX, QY, QZ, TX, TY, TZ, CAMERA_ID, NAME
+#   POINTS2D[] as (X, Y, POINT3D_ID)
+"""
+POINTS = """# 3D point list with one line of data per point:
+#   POINT3D_ID, X, Y, Z, R, G, B, ERROR, TRACK[] as (IMAGE_ID, POINT2D_IDX)
+"""
+
+
+class Colmap(Format):
+    """A camera a line for each lens of each camera, an image for each frame."""
+
+    key = "colmap"
+    label = "COLMAP"
+    description = "cameras.txt, images.txt and points3D.txt: calibrated lenses and poses"
+    rigid = True
+
+    def refusal(self, shot):
+        """See Format."""
+        if shot.camera.pixel_time is not None:
+            return OWN_TIMES
+        if " " in shot.image:
+            return "whose name has a space"
+        said = lenses.spoken(TABLE, shot.camera)
+        if said is not None and said[0] == SPHERE and not _is_whole(said[1], shot.camera.raster.size):
+            return "which is not the whole sphere"
+        return lenses.refusal(TABLE, shot.camera)
+
+    def files(self, shots):
+        """See Format."""
+        ids: dict[tuple[str, str], int] = {}
+        images = []
+        for number, shot in enumerate(shots, 1):
+            camera = ids.setdefault((shot.name, _line(shot)), len(ids) + 1)
+            pose = shot.camera.world_to_opencv
+            numbers = " ".join(map(repr, (*quaternion(pose[:3, :3]).tolist(), *pose[:3, 3].tolist())))
+            images.append(f"{number} {numbers} {camera} {shot.image}\n\n")
+        yield "cameras.txt", CAMERAS + "".join(f"{number} {line}\n" for (_, line), number in ids.items())
+        yield "images.txt", IMAGES + "".join(images)
+        yield "points3D.txt", POINTS
+
+
+def _line(shot: Shot) -> str:
+    """Return what cameras.txt says of a camera, without its number."""
+    said = lenses.spoken(TABLE, shot.camera)
+    assert said is not None
+    kind, lens = said
+    width, height = shot.camera.raster.size
+    if kind == SPHERE:
+        return f"{kind} {width} {height} {width} {height}"
+    own = dict(zip(lenses.MATRIX, matrix_of(lens.settings, 0.5), strict=True))
+    values = [{**lens.settings, **own}.get(name, 0.0) for name in MODELS[kind][1].split()]
+    return f"{kind} {width} {height} {' '.join(map(repr, values))}"
+
+
+def _is_whole(lens: Lens, size: tuple[int, int]) -> bool:
+    """Whether a panorama is the whole sphere, the viewing direction in the middle."""
+    (width, height), near = size, gamma(16)
+    found = matrix_of(lens.settings, 0.5)
+    return bool(np.allclose(found, (width / (2 * pi), height / pi, width / 2, height / 2), near, near * max(size)))

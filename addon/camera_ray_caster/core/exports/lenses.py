@@ -1,0 +1,95 @@
+"""A camera's lens as calibrations say it: the same record that is read from calibration files.
+
+Formats have tables of the models that they know, each with the settings of ours that stand in it (``cameras.files``).
+A lens is said by the first entry of such a table that has a place for every setting of it that is not 0.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping, Sequence
+from math import pi
+
+from ..camera.camera import Camera
+from ..cameras import find_model
+from ..cameras.equirectangular import Equirectangular
+from ..cameras.files.document import Lens
+from ..cameras.fisheye_equidistant import FisheyeEquidistant
+from ..cameras.fisheye_stereographic import FisheyeStereographic
+from ..cameras.model import WindowModel
+from ..cameras.opencv_pinhole import OpencvPinhole
+from ..cameras.parts.calibrated import Calibrated
+from ..cameras.parts.calibration import CALIBRATION
+from ..cameras.perspective import Perspective
+
+MATRIX = "fx", "fy", "cx", "cy"
+
+
+def calibrations(camera: Camera) -> list[Lens]:
+    """Return the calibrations that have a camera's rays, in pixels of its full frame; the nearest to its model first.
+
+    Each has the key of its model, fx, fy, cx, cy, skew (as settings have them: from the center of the top left pixel)
+    and the model's other settings. An equirectangular panorama is one, with pixels per radian, and (cx, cy) where it
+    looks ahead. Beyond the rim of a fisheye of Blender's a calibration goes on.
+    """
+    model = camera.model
+    if isinstance(model, Perspective):
+        return [_lens(model, "OPENCV_PINHOLE")]
+    if isinstance(model, Equirectangular):
+        return [_lens(model, model.key)]
+    if isinstance(model, FisheyeEquidistant) and model.half_fov <= pi:
+        return [_lens(model, "OPENCV_FISHEYE", 1 / model.half_fov)]
+    if isinstance(model, FisheyeStereographic):
+        return _unified(model, {"unified_xi": 1.0})
+    if isinstance(model, Calibrated | OpencvPinhole) and model.K is not None:
+        own = {one.name: camera.settings[one.name] for one in model.SETTINGS if one not in CALIBRATION}
+        return _unified(model, own) if model.key == "UCM" else [_lens(model, model.key, 1.0, own)]
+    return []
+
+
+def _unified(model: WindowModel, settings: Mapping[str, float]) -> list[Lens]:
+    """Return the unified camera with these settings, and the enhanced one that it is, if it is one."""
+    lenses, xi = [_lens(model, "UCM", 1.0, settings)], settings["unified_xi"]
+    if xi >= 0 and not any(value for name, value in settings.items() if name != "unified_xi"):
+        alpha = xi / (1 + xi)
+        lenses.append(_lens(model, "EUCM", 1 / (1 + xi), {"unified_alpha": alpha, "unified_beta": 1.0}))
+    return lenses
+
+
+def _lens(model: WindowModel, key: str, focal: float = 1.0, settings: Mapping[str, float] | None = None) -> Lens:
+    """Return a lens whose focal lengths are ``focal`` units of the model's image plane."""
+    (fx, skew, cx), (_, fy, cy), _ = model.window.matrix(model.frame[1]).tolist()
+    matrix = {"fx": fx * focal, "fy": fy * focal, "cx": cx, "cy": cy, "skew": skew * focal}
+    return Lens("", key, matrix | dict(settings or {}))
+
+
+def spoken(table: Mapping[str, tuple[str, Sequence[str]]], camera: Camera) -> tuple[str, Lens] | None:
+    """Return the first of a format's models (our key, and the settings that it has beside the matrix) that says the
+    lens of a camera, and the lens; None where none does.
+    """
+    return next(
+        (
+            (kind, lens)
+            for lens in calibrations(camera)
+            for kind, (key, terms) in table.items()
+            if key == lens.model and not _beyond(lens, terms)
+        ),
+        None,
+    )
+
+
+def refusal(table: Mapping[str, tuple[str, Sequence[str]]], camera: Camera) -> str | None:
+    """Return what a format with this table cannot say of a camera; see ``Format.refusal``."""
+    if spoken(table, camera) is not None:
+        return None
+    known = {key for key, _ in table.values()}
+    for lens in calibrations(camera):
+        if lens.model in known:
+            lacking = [_beyond(lens, terms) for key, terms in table.values() if key == lens.model]
+            names = min(lacking, key=len)
+            return f"whose {', '.join(names)} {'is' if len(names) == 1 else 'are'} not 0"
+    return ""
+
+
+def _beyond(lens: Lens, terms: Collection[str]) -> list[str]:
+    """Return the settings of a lens that are not 0 and have no place among terms."""
+    return [name for name, value in lens.settings.items() if value and name not in (*MATRIX, *terms)]

@@ -1,0 +1,73 @@
+"""Values as JSON has them, with all their bits, and what several mappings share.
+
+Numbers that JSON has no words for are {"float": "nan"}, "inf" or "-inf". Python writes the shortest decimals that are
+read back as the same float64.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+
+def plain(value) -> Any:
+    """Return JSON's kind of value: dicts, lists, strings, numbers, True, False and None."""
+    if isinstance(value, Mapping):
+        return {str(key): plain(entry) for key, entry in value.items()}
+    if isinstance(value, np.ndarray | np.generic):
+        return plain(value.tolist())
+    if isinstance(value, list | tuple):
+        return [plain(entry) for entry in value]
+    return {"float": str(value)} if isinstance(value, float) and not math.isfinite(value) else value
+
+
+def restored(value) -> Any:
+    """Return values as they were before ``plain``, arrays and tuples as lists."""
+    if isinstance(value, dict):
+        if list(value) == ["float"]:
+            return float(value["float"])
+        return {key: restored(entry) for key, entry in value.items()}
+    return [restored(entry) for entry in value] if isinstance(value, list) else value
+
+
+def shared(mappings: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
+    """Return the entries, also of mappings within, that plain mappings have alike."""
+    first, found = mappings[0], {}
+    for key, value in first.items():
+        others = [other[key] for other in mappings if key in other]
+        if len(others) < len(mappings):
+            continue
+        if all(_same(value, other) for other in others):
+            found[key] = value
+        elif all(isinstance(other, dict) for other in others):
+            found[key] = shared(others)
+    return found
+
+
+def without(mapping: Mapping[str, Any], base: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the entries of a plain mapping, also of mappings within, that another does not have alike."""
+    found = {}
+    for key, value in mapping.items():
+        if key in base and isinstance(value, dict) and isinstance(base[key], dict):
+            found[key] = without(value, base[key])
+        elif key not in base or not _same(value, base[key]):
+            found[key] = value
+    return {key: value for key, value in found.items() if value != {} or key not in base}
+
+
+def merged(base: Mapping[str, Any], own: Mapping[str, Any]) -> dict[str, Any]:
+    """Return a mapping with the entries of another, also of mappings within, over its own: undoes ``without``."""
+    found = dict(base)
+    for key, value in own.items():
+        both = isinstance(value, dict) and isinstance(base.get(key), dict)
+        found[key] = merged(base[key], value) if both else value
+    return found
+
+
+def _same(left, right) -> bool:
+    """Whether two plain values are the same: 0 and -0 are not."""
+    return left is right or (type(left) is type(right) and json.dumps(left) == json.dumps(right))
