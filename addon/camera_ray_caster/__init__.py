@@ -11,7 +11,17 @@ asked for, so that ``core`` runs where no Blender is installed.
 
 from importlib import import_module
 
-__all__ = ["InputError", "camera_from_json", "camera_to_json", "cast", "read_camera", "read_scene", "read_shapes", "register", "unregister"]
+__all__ = [
+    "InputError",
+    "camera_from_json",
+    "camera_to_json",
+    "cast",
+    "read_camera",
+    "read_scene",
+    "read_shapes",
+    "register",
+    "unregister",
+]
 
 _MODULES = {
     "InputError": ".core.records",

@@ -262,8 +262,8 @@ class Shapes:
 def no_shapes() -> Shapes:
     """Return the shapes of an empty scene."""
     none = np.zeros(0, np.int32)
-    return Shapes(none.astype(np.uint8), np.zeros((0, 3)), np.zeros((0, 3, 3)), none, none, np.zeros((0, 4), np.float32),
-                  none)  # fmt: skip
+    places, colors = np.zeros((0, 3)), np.zeros((0, 4), np.float32)
+    return Shapes(none.astype(np.uint8), places, np.zeros((0, 3, 3)), none, none, colors, none)
 
 
 @dataclass(frozen=True)

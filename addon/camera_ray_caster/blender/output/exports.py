@@ -7,11 +7,13 @@ from pathlib import Path
 import bpy
 import numpy as np
 
-from ...core.exports import check_target, export
+from ...core.exports import export, find_format
 from ...core.exports.format import Content, Shot
 from ...core.names import file_names
+from ...core.records import InputError
 from ..read.scene import evaluated, go_to, read_camera
 from ..terminal import signals
+from .file_set import appearing
 
 
 def write(scene, key: str, cameras: Sequence, frames: Iterable[float], folder: Path, target=None):
@@ -22,9 +24,8 @@ def write(scene, key: str, cameras: Sequence, frames: Iterable[float], folder: P
     the camera object to which maps lead. The scene is as it was afterwards. Raises InputError for what cannot be read
     or said, and for a folder that cannot be written, Cancelled where it is stopped: nothing is left behind then.
     """
-    from .file_set import appearing
-
-    check_target(key, target is not None)
+    if target is not None and not find_format(key).takes_target:
+        raise InputError(f"a camera to lead to is for maps: format {key} has none")
     files, said = export(key, shots(scene, cameras, frames, target))
     with appearing(folder) as temporary:
         for name, content in files:

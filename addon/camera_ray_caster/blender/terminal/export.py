@@ -30,7 +30,8 @@ def run(arguments: Sequence[str], prog: str) -> int:
     parser.add_argument("--output", type=Path, default=Path("out"), metavar="FOLDER", help="default: %(default)s")
     options = parser.parse_args(joined(arguments, "--frames"))
     scene = open_scene(options)
-    check_camera(scene, scene.camera) if not options.cameras else None
+    if not options.cameras:
+        check_camera(scene, scene.camera)
     cameras = find_cameras(scene, options.cameras) if options.cameras else [scene.camera]
     target = find_camera(scene, options.to) if options.to is not None else None
     frames = options.frames or [scene.frame_current_final]

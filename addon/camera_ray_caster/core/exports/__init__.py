@@ -1,4 +1,6 @@
-"""Exports: cameras, by frame, as other programs' files. One module a format; a new one is its file and one word here."""
+"""Exports: cameras, by frame, as other programs' files, one module a format. A new one is its file and one word in
+FORMATS.
+"""
 
 from __future__ import annotations
 
@@ -16,6 +18,12 @@ FORMATS: tuple[Format, ...] = (Colmap(), CameraJson())
 """Every format, in the order of menus."""
 
 
+def find_format(key: str) -> Format:
+    """Return the format of a key. Raises InputError that names those that there are."""
+    formats = {one.key: one for one in FORMATS}
+    return formats[word(key, "format", formats)]
+
+
 def export(key: str, shots: Sequence[Shot]) -> tuple[Iterator[tuple[str, Content]], list[str]]:
     """Return the files of an export, each its name and its content, made when it is asked for, and what is to be said
     of it, in lines.
@@ -23,8 +31,7 @@ def export(key: str, shots: Sequence[Shot]) -> tuple[Iterator[tuple[str, Content
     Raises InputError, in one line, for a format that there is not, and for a camera that it cannot say, with the
     formats that can.
     """
-    formats = {one.key: one for one in FORMATS}
-    chosen = formats[word(key, "format", formats)]
+    chosen = find_format(key)
     for shot in shots:
         reason = _refusal(chosen, shot)
         if reason is not None:
@@ -43,4 +50,3 @@ def export(key: str, shots: Sequence[Shot]) -> tuple[Iterator[tuple[str, Content
 def _refusal(chosen: Format, shot: Shot) -> str | None:
     reason = chosen.refusal(shot)
     return rigid.refusal(shot.camera) if reason is None and chosen.rigid else reason
-

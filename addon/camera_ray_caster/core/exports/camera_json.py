@@ -25,7 +25,7 @@ from ..records import BlenderCamera, InputError, no_shapes
 from ..report.facts import CONVENTIONS, camera_facts
 from ..version import VERSION
 from .format import Format, Shot
-from .plain import merged, plain, restored, shared, without
+from .plain import as_text, merged, plain, restored, shared, without
 
 FORMAT = "camera_ray_caster camera"
 NUMBER = 1
@@ -64,7 +64,7 @@ def camera_from_json(path_or_text: str | Path, frame: float | None = None, camer
     """Return a camera of a camera.json, from its path or its text: its rays are those of the camera that was written,
     bit for bit, on the same machine and numpy. Needs no Blender.
 
-    ``frame``: one of those in the file; default the first. ``camera``: its name there; needed where there are several.
+    ``frame``: one of those in the file; default the first. ``camera``: its name there; default the only one.
     Raises InputError, in one line, for what cannot be read, is no such file, or has no such camera or frame.
     """
     text = path_or_text if isinstance(path_or_text, str) and path_or_text.lstrip()[:1] == "{" else _read(path_or_text)
@@ -89,7 +89,7 @@ def _text(shots: Sequence[Shot]) -> str:
         frames = [{FRAME: frame, **without(said, common)} for frame, said in own.items()]
         cameras.append({"name": name, "all_frames": common, "frames": frames})
     document = {"format": FORMAT, "format_version": NUMBER, "version": VERSION, "conventions": CONVENTIONS}
-    return json.dumps(document | {"cameras": cameras}, indent=1, allow_nan=False, ensure_ascii=False) + "\n"
+    return as_text(document | {"cameras": cameras})
 
 
 def _said(shot: Shot) -> dict[str, Any]:
@@ -154,8 +154,8 @@ def _frame(camera: Mapping[str, Any], frame: float | None) -> dict[str, Any]:
     frames = {own[FRAME]: own for own in camera["frames"]}
     chosen = next(iter(frames)) if frame is None else number(frame, "frame", LAST_FRAME)
     if chosen not in frames:
-        ends = f"{len(frames)} frames from {min(frames):g} to {max(frames):g}"
-        raise InputError(f"camera {camera['name']!r} has no frame {shown(frame)} in this camera.json: it has {ends}")
+        ends = f"{min(frames):g} to {max(frames):g}"
+        raise InputError(f"camera {camera['name']!r} has no frame {shown(frame)} here: its frames go from {ends}")
     return merged(camera["all_frames"], frames[chosen])
 
 
@@ -164,4 +164,6 @@ def _read(path) -> str:
         return Path(path).read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError, ValueError, TypeError) as error:
         reason = getattr(error, "strerror", None) or "it is no text"
-        raise InputError(f"cannot read {shown(str(path))}: {reason}; give the path of a camera.json, or its text") from error
+        raise InputError(
+            f"cannot read {shown(str(path))}: {reason}; give the path of a camera.json, or its text"
+        ) from error

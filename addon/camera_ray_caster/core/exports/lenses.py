@@ -10,7 +10,6 @@ from collections.abc import Collection, Mapping, Sequence
 from math import pi
 
 from ..camera.camera import Camera
-from ..cameras import find_model
 from ..cameras.equirectangular import Equirectangular
 from ..cameras.files.document import Lens
 from ..cameras.fisheye_equidistant import FisheyeEquidistant

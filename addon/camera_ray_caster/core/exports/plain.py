@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import json
 import math
+import re
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -23,6 +24,12 @@ def plain(value) -> Any:
     if isinstance(value, list | tuple):
         return [plain(entry) for entry in value]
     return {"float": str(value)} if isinstance(value, float) and not math.isfinite(value) else value
+
+
+def as_text(value) -> str:
+    """Return plain values as strict JSON: a line an entry, but lists of numbers on one."""
+    text = json.dumps(value, indent=1, allow_nan=False, ensure_ascii=False) + "\n"
+    return re.sub(r"\[\n[-+.,\deE\s]+\]", lambda found: f"[{' '.join(found[0][1:-1].split())}]", text)
 
 
 def restored(value) -> Any:

@@ -10,7 +10,7 @@ from ..cameras.model import WindowModel
 CONVENTIONS = {
     "lengths": "Blender units, but millimeters for lenses, sensors and film; meters: how long a Blender unit is",
     "angles": "radians, but degrees for field_of_view",
-    "pixels": "(0, 0) is the bottom left corner of the full frame, the center of pixel (i, j) is (i + 1/2, j + 1/2), y up",
+    "pixels": "(0, 0) is the bottom left corner of the full frame, y up; pixels have their centers at + 1/2",
     "camera": "x right, y up, it looks along -z; u, v and -w are these axes in the world, eye is the origin",
     "K": "as OpenCV: y down, (0, 0) is the center of the top left pixel; of the full frame",
     "world_to_opencv": "rows; from the world to x right, y down, z ahead",
@@ -25,8 +25,8 @@ def camera_facts(camera: Camera) -> dict[str, object]:
     Every camera: its model, eye (world), orthobasis u, v and w = -Z (world, unit), raster (pixels), window (the columns
     x0 .. x1 and rows y0 .. y1 that are rendered), pixel aspect, clip range. Then what the model says of itself
     (``Model.facts``): a pinhole its field of view, d and aspect, an orthographic camera its frame, a general linear one
-    its kind; K, of models that have one; of those that begin with an affine map to an image plane, that. Last the model's settings by name (``Camera.settings``) and its formula,
-    step by step.
+    its kind; K, of models that have one; the affine map from the pixel to the image plane, of those that begin with
+    one. Last the model's settings by name (``Camera.settings``) and its formula, step by step.
     """
     raster, basis = camera.raster, camera.pose.basis
     return {

@@ -59,8 +59,8 @@ def size(width: float, height: float) -> dict[str, Any]:
 
 
 def matrix_of(settings: dict[str, Any], first: float = 0.0) -> list[float]:
-    """Return fx, fy, cx and cy of settings, for a format in which the center of the top left pixel is at (first, first):
-    the inverse of ``matrix``.
+    """Return fx, fy, cx and cy of settings, where the center of the top left pixel is at (first, first): the inverse
+    of ``matrix``.
     """
     return [settings["fx"], settings["fy"], settings["cx"] + first, settings["cy"] + first]
 

@@ -1,0 +1,93 @@
+"""Exports of a scene: which cameras and frames, and files that appear together or not at all."""
+
+import bpy
+import numpy as np
+import pytest
+
+from camera_ray_caster.blender.output import exports
+from camera_ray_caster.blender.read.camera import find_cameras
+from camera_ray_caster.blender.read.scene import read_camera
+from camera_ray_caster.core.exports.camera_json import camera_from_json
+from camera_ray_caster.core.records import InputError
+
+
+@pytest.fixture
+def scene(camera_scene):
+    """Two cameras, of which one moves."""
+    camera_scene.camera.name = "Moving"
+    for frame in (1, 11):
+        camera_scene.camera.location.x = frame
+        camera_scene.camera.keyframe_insert("location", frame=frame)
+    bpy.ops.object.camera_add(location=(0, 0, 5), rotation=(0.1, 0.2, 0.3))
+    bpy.context.object.name = "Still/one"
+    camera_scene.frame_set(5)
+    return camera_scene
+
+
+def names(folder):
+    return sorted(path.name for path in folder.iterdir()) if folder.exists() else []
+
+
+def same(one, other):
+    return (
+        one.rays().directions.tobytes() == other.rays().directions.tobytes() and (one.pose.eye == other.pose.eye).all()
+    )
+
+
+def test_cameras_at_frames_are_those_that_are_read(scene, tmp_path):
+    cameras = find_cameras(scene, ["ALL"])
+    said, paths = exports.write(scene, "json", cameras, range(1, 12, 5), tmp_path / "out")
+    assert (said, paths, names(tmp_path / "out")) == ([], [tmp_path / "out" / "camera.json"], ["camera.json"])
+    for name, camera in zip(("Moving", "Still_one"), cameras, strict=True):
+        for frame in (1, 6, 11):
+            assert same(camera_from_json(paths[0], frame, name), read_camera(scene, camera, frame))
+    assert (scene.frame_current, scene.camera.name) == (5, "Moving")
+
+
+def test_a_stereo_scene_has_the_eyes_of_each_camera(scene, tmp_path):
+    scene.render.use_multiview = True
+    scene.render.views["left"].file_suffix = "_LEFT"
+    _, (path,) = exports.write(scene, "json", [scene.camera], [5], tmp_path)
+    eyes = {
+        side: camera_from_json(path, camera=name) for side, name in (("left", "Moving_LEFT"), ("right", "Moving_R"))
+    }
+    for side, eye in eyes.items():
+        assert same(eye, read_camera(scene, view=side))
+    assert not same(eyes["left"], eyes["right"])
+
+
+def test_slits_paths_and_times_come_back_from_a_file(scene, tmp_path):
+    own = scene.camera.data.camera_ray_caster
+    bpy.ops.curve.primitive_bezier_curve_add(location=(1, 2, 3), rotation=(0.3, 0, 0))
+    own.model, own.path = "STRIP", bpy.context.object
+    own.time_mode, own.time_start, own.time_end = "COLUMNS", 1, 11
+    _, (path,) = exports.write(scene, "json", [scene.camera], [5], tmp_path)
+    there, back = read_camera(scene), camera_from_json(path)
+    assert same(there, back)
+    assert there.rays().origins.tobytes() == back.rays().origins.tobytes()
+    assert np.array_equal(there.rays().time, back.rays().time)
+
+
+def test_what_cannot_be_said_or_written_leaves_nothing(scene, tmp_path):
+    scene.camera.data.type = "ORTHO"
+    out = tmp_path / "new" / "out"
+    with pytest.raises(InputError, match="COLMAP cannot say the Orthographic of camera 'Moving': choose one of"):
+        exports.write(scene, "colmap", find_cameras(scene, ["ALL"]), [1, 2], out)
+    with pytest.raises(InputError, match="format is 'fbx'"):
+        exports.write(scene, "fbx", [scene.camera], [1], out)
+    with pytest.raises(InputError, match="a camera to lead to is for maps"):
+        exports.write(scene, "json", [scene.camera], [1], out, scene.camera)
+    scene.camera.data.type = "PERSP"
+    scene.camera.scale.x = -1
+    with pytest.raises(InputError, match=r"whose axes are mirrored.*choose one of"):
+        exports.write(scene, "colmap", [scene.camera], [1], out)
+    (tmp_path / "new").write_text("a file")
+    with pytest.raises(InputError, match=r"cannot write into .*out'"):
+        exports.write(scene, "json", [scene.camera], [1], out)
+    assert names(tmp_path) == ["new"]
+
+
+def test_two_cameras_with_one_file_name_are_refused(scene, tmp_path):
+    scene.camera.name = "Still_one"
+    with pytest.raises(InputError, match="would have the same name, 'Still_one': rename one"):
+        exports.write(scene, "colmap", find_cameras(scene, ["ALL"]), [1], tmp_path)

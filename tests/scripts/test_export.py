@@ -1,0 +1,57 @@
+"""What export.py writes, prints and refuses."""
+
+import subprocess
+import sys
+
+import pytest
+
+from .running import ROOT, left, refused, script
+
+WITHOUT_BLENDER = """
+import sys
+import camera_ray_caster as crc
+camera = crc.camera_from_json(sys.argv[1], frame=2, camera="Top")
+sys.stdout.buffer.write(camera.rays().directions.tobytes())
+assert "bpy" not in sys.modules
+"""
+
+
+def test_export_writes_cameras_that_are_read_without_blender(blender, scene, tmp_path):
+    from camera_ray_caster.blender.read.scene import read_camera
+
+    out = tmp_path / "out"
+    done = script("export", scene, "--format", "json", "--cameras", "ALL", "--frames", "1:2", "--output", out)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert done.stdout == f"Wrote {out / 'camera.json'}\n"
+    there = read_camera(blender.context.scene, blender.data.objects["Top"], frame=2)
+    words = [sys.executable, "-c", WITHOUT_BLENDER, str(out / "camera.json")]
+    read = subprocess.run(words, capture_output=True, timeout=60, cwd=ROOT / "addon")
+    assert read.stdout == there.rays().directions.tobytes(), read.stderr
+
+
+def test_the_active_camera_at_the_files_frame_is_the_default(command, scene, tmp_path):
+    done = command("export", scene, "--format", "COLMAP", "--output", tmp_path / "out")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert left(tmp_path / "out") == ["cameras.txt", "images.txt", "points3D.txt"]
+    assert "Top_0001.png" in (tmp_path / "out" / "images.txt").read_text()
+    moved, wrote = done.stdout.splitlines()
+    assert moved.startswith("poses are the nearest rotations to Blender's matrices, which moves pixels by up to ")
+    assert wrote.startswith("Wrote ")
+
+
+WRONG = {
+    "no format": ([], "--format"),
+    "no such format": (["--format", "fbx"], "'fbx'"),
+    "no such camera": (["--format", "json", "--cameras", "Top", "Front"], "no camera 'Front'"),
+    "a target for no map": (["--format", "json", "--to", "Side"], "a camera to lead to is for maps"),
+    "a file for a folder": (["--format", "json", "--output", "small.blend"], "cannot write into 'small.blend'"),
+}
+
+
+@pytest.mark.parametrize("case", WRONG)
+def test_bad_input_is_refused_and_leaves_nothing(command, scene, monkeypatch, case):
+    words, said = WRONG[case]
+    monkeypatch.chdir(scene.parent)
+    before = left(scene.parent)
+    assert said in refused(command("export", "small.blend", *words))
+    assert left(scene.parent) == before
