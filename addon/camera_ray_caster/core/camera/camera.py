@@ -31,9 +31,7 @@ FARTHEST = 1e15
 """Pixels, or Blender units, within which no length or polynomial overflows."""
 
 BLOCK_PIXELS = 1 << 17
-"""Pixels whose rays are made at once, where a thread's share has as many: fewer, and threads would wait at each of
-numpy's calls.
-"""
+"""Pixels whose rays are made at once where a thread's share has as many: of fewer, threads wait at numpy's calls."""
 
 
 class CameraMotion(Protocol):
@@ -57,7 +55,7 @@ class Camera:
     clip_start: float
     clip_end: float
     record: BlenderCamera
-    """What it was made of; of a calibration file, with the file's numbers."""
+    """What it was made of; the numbers of a calibration file are in it."""
     aperture: Aperture | None = None
     """What lets rays beside the chief ray in; None for a pinhole."""
     pixel_time: PixelTime | None = None
@@ -84,9 +82,8 @@ class Camera:
         It is a rigid transform to the rounding of the matrix that Blender stores (float32, 1e-7), unless the camera is
         sheared. Each entry is right to gamma(8) of the sum of the magnitudes times the condition of the basis.
         """
-        opencv_from_camera = np.diag([1.0, -1.0, -1.0])
-        result = np.eye(4)
-        result[:3, :3] = opencv_from_camera @ inverse(self.pose.basis)
+        result = np.diag([1.0, -1.0, -1.0, 1.0])  # from the camera
+        result[:3, :3] = result[:3, :3] @ inverse(self.pose.basis)
         result[:3, 3] = -result[:3, :3] @ self.pose.eye
         return result
 
