@@ -14,7 +14,6 @@ VENV := .venv/none
 endif
 
 SCENE := blend_scenes/spheres_and_planes.blend
-EXTENSION_TOOL = $(VENV)/lib/python3*/site-packages/bpy/*/scripts/addons_core/bl_pkg/cli/blender_ext.py
 
 .PHONY: cast test test-hostile test-all test-blender lint zip clean help
 
@@ -46,8 +45,7 @@ lint: $(VENV)/ready  ## check style, types and the table of models
 	$(VENV)/bin/python scripts/make_docs.py --check
 
 zip: $(VENV)/ready  ## build the extension for Blender in dist/
-	@mkdir -p dist
-	$(VENV)/bin/python $(EXTENSION_TOOL) build --source-dir addon/camera_ray_caster --output-dir dist
+	$(VENV)/bin/python scripts/make_zip.py dist
 
 clean:  ## remove everything that these commands made
 	rm -rf out dist .venv addon/*.egg-info .hypothesis .mypy_cache .pytest_cache .ruff_cache

@@ -1,9 +1,15 @@
 """Every test in this folder starts from an empty file with the extension registered."""
 
+import sys
+from pathlib import Path
+
 import pytest
 
+sys.path.append(str(Path(__file__).resolve().parents[2] / "scripts"))
+import make_zip
+
 from ..exr import read_exr
-from .processes import SOURCE, extension_tool
+from .processes import extension_tool
 
 
 @pytest.fixture(autouse=True)
@@ -37,8 +43,9 @@ def osl(blender):
 @pytest.fixture(scope="session")
 def archive(tmp_path_factory):
     """The extension as a zip."""
-    path = tmp_path_factory.mktemp("dist") / "camera_ray_caster.zip"
-    extension_tool("build", "--source-dir", SOURCE, "--output-filepath", path)
+    folder = tmp_path_factory.mktemp("dist")
+    path = folder / "camera_ray_caster.zip"
+    extension_tool("build", "--source-dir", make_zip.stage(folder / "extension"), "--output-filepath", path)
     return path
 
 

@@ -68,7 +68,9 @@ def traces():
         # engines and preferences are not in bpy.types: Python knows every subclass
         "classes": sorted(f"{kind.__module__}.{kind.__name__}" for kind in subclasses(bpy.types.bpy_struct)),
         "properties": {name: kind.bl_rna.properties.keys() for name, kind in kinds.items() if hasattr(kind, "bl_rna")},
-        "drawn by others": {name: len(added) for name, kind in kinds.items() if (added := appended(kind))},
+        "drawn by others": {
+            name: len(added) for name, kind in kinds.items() if len(added := appended(kind)) > 1
+        },  # the first is Blender's own
         "panels of the engine": [name for name, kind in kinds.items() if ENGINE in getattr(kind, "COMPAT_ENGINES", ())],
         "counted": {key: count for key, count in LEDGER.items() if count},
         "keys": keys(),

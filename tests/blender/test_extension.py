@@ -10,6 +10,7 @@ import pytest
 
 from .processes import SOURCE, blender_command, extension_tool, run
 
+SCENES = SOURCE.parents[1] / "blend_scenes"
 INSTALL_AND_RENDER = Path(__file__).parent / "install_and_render.py"
 
 
@@ -31,10 +32,27 @@ def test_source_and_zip_are_valid(archive):
         assert "error" not in extension_tool("validate", path).lower()
 
 
-def test_the_zip_holds_the_package_and_nothing_else(archive):
+def test_the_zip_holds_the_package_its_license_and_the_gallery(archive):
     held = {name for name in zipfile.ZipFile(archive).namelist() if not name.endswith("/")}
     files = [path for path in SOURCE.rglob("*") if path.is_file() and path.parent.name != "__pycache__"]
-    assert held == {path.relative_to(SOURCE).as_posix() for path in files}
+    scenes = {path.stem for path in SCENES.glob("*.blend")}
+    pictures = scenes & {path.stem for path in (SCENES / "pictures").glob("*.png")}
+    assert held == {
+        "LICENSE",
+        *(path.relative_to(SOURCE).as_posix() for path in files),
+        *(f"gallery/{name}.blend" for name in scenes),
+        *(f"gallery/pictures/{name}.png" for name in pictures),
+    }
+
+
+def test_every_model_of_the_menu_has_a_picture_and_a_scene(blender):
+    from camera_ray_caster.blender import gallery
+    from camera_ray_caster.blender.properties.declared import MODEL
+
+    for item in MODEL.items:
+        name = gallery.scene_name(item.key)
+        assert (gallery.folder() / f"{name}.blend").is_file()
+        assert (gallery.folder() / "pictures" / f"{name}.png").is_file()
 
 
 def test_the_installed_engine_shows_the_sphere(installed):

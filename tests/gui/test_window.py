@@ -19,7 +19,7 @@ OUTPUT = ROOT / "out" / "gui"
 
 SCENARIOS = (
     "panel", "no_camera", "left_out", "stop", "stop_samples", "load_while_casting", "overlay", "ray_under_mouse",
-    "viewport", "cycles", "disable",
+    "viewport", "cycles", "camera_settings", "model_gallery", "search", "told", "disable",
 )  # fmt: skip
 SIZE = "1400x900"
 LIMIT = 1200
@@ -47,7 +47,7 @@ def results():
         pytest.skip(missing)
     shutil.rmtree(OUTPUT, ignore_errors=True)
     OUTPUT.mkdir(parents=True)
-    walk = ["--factory-startup", "--python", "tests/gui/walk.py", "--", "addon/camera_ray_caster", "blend_scenes"]
+    walk = ["--factory-startup", "--python", "tests/gui/walk.py", "--", "blend_scenes"]
     environment = {"BLENDER_USER_RESOURCES": str(OUTPUT / "profile"), "LIBGL_ALWAYS_SOFTWARE": "1"}
     with (OUTPUT / "log.txt").open("w") as log:
         subprocess.run(

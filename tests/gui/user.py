@@ -12,7 +12,7 @@ import numpy as np
 TICK = 0.05
 """Seconds between two steps."""
 
-KEYCODES = {"F12": 96}
+KEYCODES = {"F3": 69, "F12": 96}
 """Keys whose name gives xdotool the wrong level."""
 
 

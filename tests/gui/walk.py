@@ -1,6 +1,6 @@
 """A user's walk through the add-on in a window: run by a Blender, told in scenarios. See test_window.py.
 
-Arguments: the add-on's source, the folder of the example scenes, a folder for screenshots and for result.json; then
+Arguments: the folder of the example scenes, a folder for screenshots and for result.json; then
 the names of scenarios, all without.
 """
 
@@ -13,18 +13,21 @@ from pathlib import Path
 
 import bpy
 
-sys.path.append(os.path.dirname(__file__))
-from scenarios import MODULE, SCENARIOS
-from user import TICK, User
+HERE = Path(__file__).resolve().parent
+sys.path += [str(HERE), str(HERE.parents[1] / "scripts")]
+import make_zip  # noqa: E402
+from scenarios import MODULE, SCENARIOS  # noqa: E402
+from user import TICK, User  # noqa: E402
 
 FAILURES = (AssertionError, ArithmeticError, AttributeError, LookupError, OSError, RuntimeError, TypeError, ValueError)
 """What ends a scenario, but not the walk."""
 
 
-def install(source, folder):
+def install(folder):
     """Build the zip with Blender's own command and install it as a user does."""
     archive = folder / "camera_ray_caster.zip"
-    build = ["--command", "extension", "build", "--source-dir", source, "--output-filepath", archive]
+    staged = make_zip.stage(folder / "extension")
+    build = ["--command", "extension", "build", "--source-dir", staged, "--output-filepath", archive]
     subprocess.run([bpy.app.binary_path, *map(str, build)], check=True, timeout=60, stdout=subprocess.DEVNULL)
     bpy.ops.extensions.package_install_files(filepath=str(archive), repo="user_default", enable_on_install=True)
     assert MODULE in bpy.context.preferences.addons
@@ -49,11 +52,11 @@ def tell(user, scenes, results, wanted):
             user.picture(f"failure_{name}")
 
 
-def main(source, scenes, folder, *wanted):
+def main(scenes, folder, *wanted):
     """Install, then tell the scenarios from a timer; Blender ends with the last."""
     folder = Path(folder).resolve()
     prepare()
-    install(source, folder)
+    install(folder)
     results = {}
     steps = tell(User(folder), Path(scenes).resolve(), results, wanted)
 

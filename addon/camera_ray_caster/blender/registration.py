@@ -4,6 +4,7 @@ from contextlib import ExitStack, suppress
 
 import bpy
 
+from . import gallery
 from .cycles import follow
 from .engine import engine, viewport
 from .output import reports
@@ -11,10 +12,13 @@ from .properties import groups
 from .read import kept
 from .terminal import commands
 from .ui import (
+    add_line,
     camera_panels,
     cast_operator,
     cast_panels,
     cycles_operators,
+    gallery_panels,
+    menus,
     model_panels,
     object_panels,
     operators,
@@ -25,13 +29,16 @@ from .view3d import mouse_gizmo, overlay, scene_cache
 
 CLASSES = (
     *groups.CLASSES, *overlay.CLASSES, *engine.CLASSES, *operators.CLASSES, *cast_operator.CLASSES,
-    *cycles_operators.CLASSES,
-    *mouse_gizmo.CLASSES, *render_panels.CLASSES, *model_panels.CLASSES, *camera_panels.CLASSES, *cast_panels.CLASSES,
-    *object_panels.CLASSES, *overlay_panels.CLASSES,
+    *cycles_operators.CLASSES, *add_line.CLASSES,
+    *mouse_gizmo.CLASSES, *render_panels.CLASSES, *gallery_panels.CLASSES, *menus.CLASSES, *model_panels.CLASSES,
+    *camera_panels.CLASSES, *cast_panels.CLASSES, *object_panels.CLASSES, *overlay_panels.CLASSES,
 )  # fmt: skip
 """Blender's types, in the order in which they are registered: a panel comes after the panel that it is in."""
 
-MODULES = (groups, kept, follow, reports, scene_cache, viewport, cast_operator, overlay, render_panels, commands)
+MODULES = (
+    groups, kept, follow, reports, gallery, scene_cache, viewport, cast_operator, overlay, render_panels, menus,
+    commands,
+)  # fmt: skip
 """Modules that add more than classes. ``register(undo)`` adds it and gives ``undo`` the callbacks that remove it."""
 
 

@@ -3,7 +3,8 @@
 import pytest
 
 from camera_ray_caster.blender.cycles import to_cycles
-from camera_ray_caster.blender.ui.model_panels import ModelPanel, TimePanel
+from camera_ray_caster.blender.ui.model_panels import LensPanel, ModelPanel, TimePanel
+from camera_ray_caster.core.records import InputError
 
 MATRIX = ("calibration_width", "calibration_height", "fx", "fy", "cx", "cy", "skew")
 FILE = ("calibration_camera", "calibration_file", "calibration_unit")
@@ -69,21 +70,34 @@ class Layout:
     def label(self, text):
         self.labels.append(text)
 
-    def prop(self, owner, name):
+    def prop(self, owner, name, index=0, text=None):
         assert name in owner.bl_rna.properties
-        (self.names if self.active else self.grayed).append(name)
+        if index == 0:
+            (self.names if self.active else self.grayed).append(name)
 
     def template_ID(self, owner, name, open):
         assert owner.bl_rna.properties[name].fixed_type.identifier == "Image"
         self.prop(owner, name)
 
-    def column(self, align):
-        return Layout(self.names, self.grayed, self.operators)
+    def column(self, align=False):
+        inside = Layout(self.names, self.grayed, self.operators)
+        inside.active = self.active
+        return inside
 
     row = column
 
+    def label(self, text, icon="NONE"):
+        """Words are no settings."""
+
+    def context_pointer_set(self, name, data):
+        """For the popover."""
+
+    def popover(self, panel, text, icon):
+        """The gallery is drawn in a window."""
+
     def operator(self, name, text=None, icon="NONE"):
         self.operators.append(name.partition(".")[2])
+        return self
 
 
 @pytest.fixture
@@ -91,9 +105,11 @@ def data(blender):
     return blender.data.cameras.new("Camera")
 
 
-def drawn(bpy, panel, data):
+def drawn(bpy, panel, data, engine="CYCLES"):
     layout = Layout()
-    context = type("Context", (), {"camera": data, "scene": bpy.context.scene})
+    region = type("Region", (), {"width": 300})
+    context = {"camera": data, "scene": bpy.context.scene, "engine": engine, "region": region}
+    context = type("Context", (), {**context, "preferences": bpy.context.preferences})
     panel.draw(type("Panel", (), {"layout": layout}), context)
     drawn.operators, drawn.labels = layout.operators, layout.labels
     return tuple(layout.names), tuple(layout.grayed)
@@ -112,6 +128,58 @@ def test_what_blender_shows_for_another_type_of_camera_is_shown(blender, data):
     assert drawn(blender, ModelPanel, data)[0] == ("model", "slit_1", "lens")
     data.type = "PANO"
     assert drawn(blender, ModelPanel, data)[0] == ("model", "slit_1", "ortho_scale", "lens")
+
+
+def test_with_our_engine_the_lens_panel_has_what_blenders_shows_for_cycles_only(blender, data):
+    def lens():
+        return drawn(blender, LensPanel, data, "CAMERA_RAY_CASTER")
+
+    frame = ("shift_x", "shift_y", "clip_start", "clip_end")
+    assert lens() == (("type", "lens", "lens_unit", *frame), ())
+    data.lens_unit = "FOV"
+    assert lens()[0][1] == "angle"
+    data.type = "ORTHO"
+    assert lens() == (("type", "ortho_scale", *frame), ())
+    data.type, data.panorama_type = "PANO", "EQUIRECTANGULAR"
+    corners = ("longitude_min", "longitude_max", "latitude_min", "latitude_max")
+    assert lens() == (("type", "panorama_type", *corners, *frame), ())
+    data.panorama_type = "FISHEYE_EQUISOLID"
+    assert lens()[0][2:4] == ("fisheye_lens", "fisheye_fov")
+
+
+def test_what_the_model_does_not_read_of_the_lens_is_gray(blender, data):
+    own, ours = data.camera_ray_caster, "CAMERA_RAY_CASTER"
+    own.model = "OMNIMAX"
+    assert drawn(blender, LensPanel, data, ours) == (
+        ("shift_x", "shift_y", "clip_start", "clip_end"),
+        ("type", "lens", "lens_unit"),
+    )
+    own.model = "GENERAL_LINEAR"
+    assert drawn(blender, LensPanel, data, ours)[1][-2:] == ("shift_x", "shift_y")
+    own.model = "PUSHBROOM"
+    assert drawn(blender, LensPanel, data, ours)[1] == ("type",)
+    assert drawn(blender, ModelPanel, data, ours)[0] == ("model", "slit_1")
+
+
+def test_a_missing_slit_or_path_is_added_where_the_camera_sees_something(blender, camera_scene):
+    from camera_ray_caster.blender.read import read_camera
+
+    data = camera_scene.camera.data
+    for model, settings in (
+        ("CROSS_SLIT", ["slit_1", "slit_2"]), ("PUSHBROOM", ["slit_1"]), ("PENCIL", ["slit_1"]),
+        ("TWISTED_ORTHOGRAPHIC", ["slit_1"]), ("STRIP", ["path"]),
+    ):  # fmt: skip
+        data.camera_ray_caster.model = model
+        for setting in settings:
+            setattr(data.camera_ray_caster, setting, None)
+        assert len(settings) == [drawn(blender, ModelPanel, data), drawn.operators][1].count("add_line")
+        with pytest.raises(InputError, match="is not set"):
+            read_camera(camera_scene)
+        for setting in settings:
+            assert blender.ops.camera_ray_caster.add_line(setting=setting) == {"FINISHED"}
+            assert getattr(data.camera_ray_caster, setting).parent == camera_scene.camera
+        assert "add_line" not in [drawn(blender, ModelPanel, data), drawn.operators][1]
+        assert read_camera(camera_scene).rays().valid.all()
 
 
 def test_a_calibration_file_grays_out_the_numbers_that_it_replaces(blender, data):

@@ -2,9 +2,10 @@
 
 
 def test_blenders_panels_know_the_engine(blender):
-    for name in ("RENDER_PT_format", "RENDER_PT_output", "VIEWLAYER_PT_layer", "DATA_PT_lens", "OBJECT_PT_visibility"):
+    for name in ("RENDER_PT_output", "VIEWLAYER_PT_layer", "DATA_PT_camera_dof", "OBJECT_PT_visibility"):
         assert "CAMERA_RAY_CASTER" in getattr(blender.types, name).COMPAT_ENGINES
-    assert "CAMERA_RAY_CASTER" not in blender.types.RENDER_PT_eevee_performance.COMPAT_ENGINES
+    for name in ("RENDER_PT_eevee_performance", "DATA_PT_lens"):  # for the latter there is a panel of our own
+        assert "CAMERA_RAY_CASTER" not in getattr(blender.types, name).COMPAT_ENGINES
 
 
 def test_the_compositor_is_offered_the_ticked_passes(blender):

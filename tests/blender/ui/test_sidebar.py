@@ -91,12 +91,29 @@ def test_cast_and_verify_keep_what_the_panel_shows(blender, scene):
     assert (reports.latest(), reports.verified()) == (None, None)
 
 
-def test_select_what_was_left_out(blender, scene):
-    assert blender.ops.camera_ray_caster.select(name="Suzanne") == {"FINISHED"}
-    assert [item.name for item in blender.context.selected_objects] == ["Suzanne"]
-    assert blender.context.view_layer.objects.active.name == "Suzanne"
-    with pytest.raises(RuntimeError, match="'Nobody' is not in this view layer"):
-        blender.ops.camera_ray_caster.select(name="Nobody")
+def test_select_what_was_left_out_for_one_reason(blender, scene):
+    for _ in range(3):
+        blender.ops.mesh.primitive_monkey_add()
+        blender.context.object.camera_ray_caster.primitive = "IGNORE"
+    blender.ops.camera_ray_caster.cast()
+    ((reason, names),) = reports.by_reason(reports.latest()).items()
+    assert blender.ops.camera_ray_caster.select(reason=reason) == {"FINISHED"}
+    assert {item.name for item in blender.context.selected_objects} == set(names)
+    assert len(names) == 4
+    assert blender.context.view_layer.objects.active.name == names[0]
+    with pytest.raises(RuntimeError, match="None of them is in this view layer"):
+        blender.ops.camera_ray_caster.select(reason="another")
+
+
+def test_left_out_is_one_line_that_counts():
+    assert reports.left_out_count(()) == ""
+    assert reports.left_out_line(()) == ""
+    assert reports.left_out_line((("Hair", "a reason"), ("Hair", "another"))) == "1 object left out: Hair"
+    many = [(f"Object number {i}", "a reason") for i in range(300)]
+    said = reports.left_out_line(many)
+    assert said.startswith("300 objects left out: Object number 0, ")
+    assert said.endswith(" ...")
+    assert len(said) < 100
 
 
 def test_the_cast_is_undone_with_its_images(blender, scene):

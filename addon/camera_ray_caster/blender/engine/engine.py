@@ -22,9 +22,6 @@ from .job import run
 from .passes import stored, ticked
 from .viewport import Viewport
 
-WARNINGS = 10
-"""Objects that are warned of by name; the report has them all."""
-
 
 class CameraRayCaster(Viewport, bpy.types.RenderEngine):
     """Rays of the scene's camera, cast at meshes, spheres and planes."""
@@ -109,10 +106,8 @@ class CameraRayCaster(Viewport, bpy.types.RenderEngine):
 
     def keep(self, report: Report) -> None:
         """Warn of what was left out, and add the report to those of this frame's other view layers."""
-        for name, reason in report.left_out[:WARNINGS]:
-            self.report({"WARNING"}, f"{name!r} is left out: {reason}")
-        if len(report.left_out) > WARNINGS:
-            self.report({"WARNING"}, f"{len(report.left_out) - WARNINGS} more objects are left out: see the report")
+        if report.left_out:
+            self.report({"WARNING"}, f"{reports.left_out_line(report.left_out)}; the report says why")
         for line in report.motion:
             if line.startswith(UNRESOLVED):
                 self.report({"WARNING"}, line)

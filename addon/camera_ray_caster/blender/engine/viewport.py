@@ -17,6 +17,7 @@ from ...core.camera.view_records import frame_record, view_record
 from ...core.cast import cast
 from ...core.casting.worker import BESIDE, Worker
 from ...core.records import BlenderCamera, InputError
+from ..output.reports import left_out_count
 from ..view3d.camera_frame import camera_frame
 from ..view3d.scene_cache import CachedScene, cached_scene
 
@@ -75,6 +76,7 @@ class Viewport:
         shown = {"shading": settings.shading, "precision": settings.precision}
         matrices = [tuple(row) for row in (*region_data.view_matrix, *region_data.window_matrix)]
         key = scene, matrices, context.region.width, context.region.height, shown
+        self.update_stats("", "; ".join(filter(None, (*scene.differences, left_out_count(scene.shapes.left_out)))))
         if self._key != key:
             self._key, self._step, self._picture = key, 0, None
             self._abandon()

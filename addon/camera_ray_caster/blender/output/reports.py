@@ -1,11 +1,15 @@
 """The reports of the latest render and of the latest verification, and the text datablock that shows one."""
 
+from textwrap import shorten
+
 import bpy
 from bpy.app.handlers import persistent
 
 from ...core.report.report import Report, as_lines
 
 TEXT = "Camera Ray Caster Report"
+NAMES_WIDTH = 60
+"""Letters that the names of what was left out may take in a line."""
 
 _latest: list[Report] = []
 _verified: list[Report] = []
@@ -36,6 +40,26 @@ def relative_error(report: Report, which: str) -> str:
     """Return in words the "median" or the "worst" bound of the distances' errors, in parts of the distance."""
     bound = getattr(report.accuracy, which)("relative_distance")
     return "nothing hit" if bound is None else f"≤ {bound:.0e}"
+
+
+def by_reason(report: Report) -> dict[str, list[str]]:
+    """Return the names of the objects that were left out, by the reason."""
+    names: dict[str, list[str]] = {}
+    for name, reason in report.left_out:
+        names.setdefault(reason, []).append(name)
+    return names
+
+
+def left_out_count(left_out) -> str:
+    """Return in words how many objects were left out; empty where none was."""
+    count = len({name for name, _ in left_out})
+    return f"{count} {'object' if count == 1 else 'objects'} left out" if count else ""
+
+
+def left_out_line(left_out) -> str:
+    """Return the same with their names, as far as a line has room."""
+    names = shorten(", ".join(dict.fromkeys(name for name, _ in left_out)), NAMES_WIDTH, placeholder=" ...")
+    return f"{left_out_count(left_out)}: {names}" if names else ""
 
 
 def write_text(report: Report):

@@ -5,6 +5,7 @@ Each item of a choice has its number in files: it is never changed and never use
 
 from ...core.camera import pixel_time
 from ...core.cameras import MODELS
+from ...core.cameras.model import GROUPS
 from ...core.cameras.parts.settings import OWN, Choice, Flag, Item, Whole
 
 GROUP = "camera_ray_caster"
@@ -20,8 +21,12 @@ MODEL = Choice(
     "model", "Model", "How the camera maps rays to pixels",
     BLENDERS_OWN,
     (
-        Item(BLENDERS_OWN, "Blender's Own", "The camera's type, as Blender and Cycles have it", 0),
-        *(Item(it.key, it.label, it.description, it.number) for it in MODELS if it.number is not None),
+        Item(BLENDERS_OWN, "Blender's Own", "The camera's type, as Blender and Cycles have it", 0, GROUPS[0]),
+        *(
+            Item(it.key, it.label, it.description, it.number, it.group)
+            for it in sorted(MODELS, key=lambda it: GROUPS.index(it.group))
+            if it.number is not None
+        ),
     ),
 )  # fmt: skip
 

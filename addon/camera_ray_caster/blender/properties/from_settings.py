@@ -1,5 +1,7 @@
 """Blender's properties, made from declared settings."""
 
+from itertools import groupby
+
 import bpy
 import numpy as np
 from bpy import props
@@ -44,7 +46,10 @@ def _boolean(setting, named):
 
 
 def _enum(setting, named):
-    items = [(item.key, item.label, item.text, item.number) for item in setting.items]
+    items = []
+    for group, members in groupby(setting.items, lambda item: item.group):
+        items += [("", group, "", 0)] if group else []  # an item without a key is a heading
+        items += [(item.key, item.label, item.text, item.number) for item in members]
     return props.EnumProperty(**named, default=setting.default, items=items)
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from re import sub
 from textwrap import wrap
 
 import bpy
@@ -10,7 +9,9 @@ import bpy
 from ...core.records import InputError
 from ...core.report.facts import camera_facts
 from ..output import reports
+from ..properties.declared import GROUP
 from ..read.evaluated import camera_at
+from .gallery_panels import draw_model
 
 LETTER = 6.0
 """About the width of a letter in a panel, in units of the interface's scale."""
@@ -55,26 +56,30 @@ def draw_message(layout, context, text: str, icon: str = "INFO") -> None:
         column.label(text=line, icon="BLANK1" if i else icon)
 
 
-def draw_facts(layout, context, facts) -> None:
-    """Draw the facts of a camera: one table, lengths and angles in the scene's units."""
+def draw_facts(layout, context, facts, camera) -> None:
+    """Draw the facts of a camera object: one table, lengths and angles in the scene's units."""
     box = layout.box().column(align=True)
     vectors = [("Eye", [length(context, value) for value in facts["eye"]])]
     vectors += [(name, [f"{value:.4f}" for value in facts[name]]) for name in "uvw"]
     for name, cells in vectors:
         draw_row(box, name, cells, 0.16)
     box = layout.box().column(align=True)
-    for name, text in scalars(context, facts):
+    for name, text in scalars(context, facts, camera):
         draw_row(box, name, [text], 0.5)
     if "K" in facts:
         box = layout.box().column(align=True)
+        box.label(text="K from the top left, y down")
         for name, row in zip(("K", "", ""), facts["K"], strict=True):
             draw_row(box, name, [f"{value:.6g}" for value in row], 0.16)
 
 
-def scalars(context, facts):
+def scalars(context, facts, camera):
     """Yield the facts beside vectors and K, by Blender's names for them."""
     across, up = facts["raster"]
-    yield "Model", sub("(?<=[a-z])(?=[A-Z])", " ", facts["model"])
+    yield "Model", facts["model"]
+    own = getattr(camera.data, GROUP)
+    if own.time_mode != "NONE":
+        yield "Time of Pixels", own.bl_rna.properties["time_mode"].enum_items[own.time_mode].name
     yield "Raster", f"{across} × {up} px"
     x0, x1, y0, y1 = facts["window"]
     if (x0, x1, y0, y1) != (0, across, 0, up):
@@ -83,8 +88,9 @@ def scalars(context, facts):
         yield "Pixel Aspect", f"{facts['pixel_aspect']:.6g}"
     if "field_of_view" in facts:
         yield "Field of View", " × ".join(f"{angle:.4g}°" for angle in facts["field_of_view"])
-        yield "Plane Distance d", f"{facts['d']:.6g}"
-        yield "Aspect", f"{facts['aspect']:.6g}"
+    if "d" in facts:
+        yield "Distance d", f"{facts['d']:.6g}"
+        yield "Height / Width", f"{facts['aspect']:.6g}"
     if "kind" in facts:
         yield "Kind", facts["kind"]
     if "frame" in facts:
@@ -124,12 +130,15 @@ class SidebarCamera(Sidebar, bpy.types.Panel):
     def draw(self, context):
         """Which camera, and what it is, or why it is none."""
         layout = self.layout
+        camera = context.scene.camera
         layout.prop(context.scene, "camera", text="")
-        facts, reason = facts_of(context, context.scene.camera)
+        if camera is not None and camera.type == "CAMERA":
+            draw_model(layout, camera.data)
+        facts, reason = facts_of(context, camera)
         if facts is None:
             draw_message(layout, context, reason, "ERROR")
         else:
-            draw_facts(layout, context, facts)
+            draw_facts(layout, context, facts, camera)
 
 
 class SidebarVerify(Sidebar, bpy.types.Panel):
@@ -185,7 +194,7 @@ class CameraData(bpy.types.Panel):
         if facts is None:
             draw_message(self.layout, context, reason, "ERROR")
         else:
-            draw_facts(self.layout, context, facts)
+            draw_facts(self.layout, context, facts, context.object)
 
 
 CLASSES = (SidebarCamera, SidebarVerify, CameraData)

@@ -10,8 +10,8 @@ from . import cast_operator
 from .camera_panels import Sidebar, draw_message, draw_row
 from .object_panels import draw_cast_as
 
-LISTED = 20
-"""Objects that the panel names; the report has them all."""
+LISTED = 6
+"""Objects that the panel names for each reason; the report has them all."""
 
 
 class SidebarCast(Sidebar, bpy.types.Panel):
@@ -55,7 +55,7 @@ class SidebarPasses(Sidebar, bpy.types.Panel):
 
 
 class SidebarReport(Sidebar, bpy.types.Panel):
-    """What the latest cast or render took."""
+    """What the latest cast or render took, in one line."""
 
     bl_idname = "CAMERA_RAY_CASTER_PT_report"
     bl_label = "Report"
@@ -70,21 +70,35 @@ class SidebarReport(Sidebar, bpy.types.Panel):
         self.layout.operator("camera_ray_caster.write_report", text="", icon="TEXT", emboss=False)
 
     def draw(self, context):
+        """How many rays in how many seconds, and how exact."""
+        report = reports.latest()
+        text = f"{report.pixels:,} rays at {report.shapes:,} shapes in {sum(report.seconds.values()):.3g} s"
+        draw_message(self.layout, context, text, "TIME")
+
+
+class SidebarDetails(Sidebar, bpy.types.Panel):
+    """The numbers of the report."""
+
+    bl_idname = "CAMERA_RAY_CASTER_PT_report_details"
+    bl_label = "Details"
+    bl_parent_id = SidebarReport.bl_idname
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context):
         """Seconds a step, rays a second, and the error bounds of the distances, in parts of these."""
         report = reports.latest()
         box = self.layout.box().column(align=True)
         for step, seconds in report.seconds.items():
             draw_row(box, step.capitalize(), [f"{seconds:.4f} s"], 0.5)
-        draw_row(box, "Rays", [f"{report.pixels:,}"], 0.5)
-        draw_row(box, "Shapes", [f"{report.shapes:,}"], 0.5)
         if report.rays_per_second is not None:
             draw_row(box, "Rays per Second", [f"{report.rays_per_second / 1e6:.3g} million"], 0.5)
+        box.label(text="Error of the distances, relative")
         for name in ("median", "worst"):
-            draw_row(box, f"Distance Error, {name.capitalize()}", [reports.relative_error(report, name)], 0.5)
+            draw_row(box, name.capitalize(), [reports.relative_error(report, name)], 0.5)
 
 
 class SidebarLeftOut(Sidebar, bpy.types.Panel):
-    """What the latest cast left out of the scene."""
+    """What the latest cast left out of the scene, by reason."""
 
     bl_idname = "CAMERA_RAY_CASTER_PT_left_out"
     bl_label = "Left Out"
@@ -100,16 +114,20 @@ class SidebarLeftOut(Sidebar, bpy.types.Panel):
         self.layout.label(text=str(len(reports.latest().left_out)))
 
     def draw(self, context):
-        """Each object with a button that selects it and what it is cast as, and the reason."""
-        left_out = reports.latest().left_out
-        for name, reason in left_out[:LISTED]:
+        """Each reason once, with a button that selects its objects; below it their names, and what each is cast as."""
+        for reason, names in reports.by_reason(reports.latest()).items():
             column = self.layout.column(align=True)
-            row = column.row(align=True)
-            row.operator("camera_ray_caster.select", text=name, icon="RESTRICT_SELECT_OFF").name = name
-            draw_cast_as(row, context.view_layer.objects.get(name), text="")
-            draw_message(column, context, reason, "BLANK1")
-        if len(left_out) > LISTED:
-            draw_message(self.layout, context, f"and {len(left_out) - LISTED} more: see the report")
+            draw_message(column, context, reason, "DOT")
+            count = f"{len(names)} {'Object' if len(names) == 1 else 'Objects'}"
+            select = column.operator("camera_ray_caster.select", text=f"Select {count}", icon="RESTRICT_SELECT_OFF")
+            select.reason = reason
+            for name in names[:LISTED]:
+                item = context.view_layer.objects.get(name)
+                row = column.split(factor=0.5, align=True)
+                row.label(text=name, icon="BLANK1")
+                draw_cast_as(row, item, text="")
+            if len(names) > LISTED:
+                draw_message(column, context, f"and {len(names) - LISTED} more", "BLANK1")
 
 
 class SidebarNotDone(Sidebar, bpy.types.Panel):
@@ -126,4 +144,4 @@ class SidebarNotDone(Sidebar, bpy.types.Panel):
             draw_message(self.layout, context, line.replace("_", " "), "DOT")
 
 
-CLASSES = (SidebarCast, SidebarPasses, SidebarReport, SidebarLeftOut, SidebarNotDone)
+CLASSES = (SidebarCast, SidebarPasses, SidebarReport, SidebarLeftOut, SidebarDetails, SidebarNotDone)

@@ -12,6 +12,8 @@ from ..read.scene import read_camera
 from ..verification.check import verified
 from .needs import OfCamera, OfScene, camera_object_of, reporting
 
+NO_REPORT = "Render with the Camera Ray Caster first (F12), or cast from the sidebar"
+
 
 class Verify(OfScene, bpy.types.Operator):
     """Compare the rays of the active camera with Blender's own view frame, camera matrix and projection"""
@@ -83,24 +85,32 @@ class LoadCalibration(OfCamera, bpy.types.Operator):
 
 
 class SelectLeftOut(bpy.types.Operator):
-    """Select this object and make it active"""
+    """Select the objects that the latest cast left out for this reason, and make the first one active"""
 
     bl_idname = "camera_ray_caster.select"
     bl_label = "Select"
     bl_options = {"REGISTER", "UNDO"}
 
-    name: StringProperty(name="Name", description="The object's name", options={"SKIP_SAVE"})
+    reason: StringProperty(name="Reason", description="As the report says it", options={"SKIP_SAVE"})
+
+    @classmethod
+    def poll(cls, context):
+        """Grayed out before the first cast."""
+        cls.poll_message_set(NO_REPORT)
+        return reports.latest() is not None
 
     def execute(self, context):
-        """Select it alone, where the view layer has it and it can be selected."""
-        found = context.view_layer.objects.get(self.name)
-        if found is None:
-            self.report({"ERROR"}, f"{self.name!r} is not in this view layer: it was renamed, removed or excluded")
+        """Select them alone, where the view layer has them and they can be selected."""
+        names = reports.by_reason(reports.latest()).get(self.reason, ())
+        found = [context.view_layer.objects[name] for name in names if name in context.view_layer.objects]
+        if not found:
+            self.report({"ERROR"}, "None of them is in this view layer: they were renamed, removed or excluded")
             return {"CANCELLED"}
         for item in context.selected_objects:
             item.select_set(False)
-        found.select_set(True)
-        context.view_layer.objects.active = found
+        for item in found:
+            item.select_set(True)
+        context.view_layer.objects.active = found[0]
         return {"FINISHED"}
 
 
@@ -114,7 +124,7 @@ class WriteReport(bpy.types.Operator):
     @classmethod
     def poll(cls, context):
         """Grayed out before the first render."""
-        cls.poll_message_set("Render with the Camera Ray Caster first (F12)")
+        cls.poll_message_set(NO_REPORT)
         return reports.latest() is not None
 
     def execute(self, context):

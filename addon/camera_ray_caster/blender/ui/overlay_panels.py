@@ -2,7 +2,8 @@
 
 import bpy
 
-from .camera_panels import Sidebar
+from ..view3d.scene_cache import cached_scene
+from .camera_panels import Sidebar, draw_message
 
 
 class SidebarOverlay(Sidebar, bpy.types.Panel):
@@ -24,6 +25,8 @@ class SidebarOverlay(Sidebar, bpy.types.Panel):
             grid.prop(settings, name)
         layout.prop(settings, "show_ray")
         layout.prop(settings, "rays")
+        for text in cached_scene(context).differences if settings.show else ():
+            draw_message(layout, context, text)
 
 
 CLASSES = (SidebarOverlay,)

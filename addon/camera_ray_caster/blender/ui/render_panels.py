@@ -65,13 +65,21 @@ class PassesPanel(EnginePanel, bpy.types.Panel):
 
 CLASSES = (RenderPanel, PassesPanel)
 
-BORROWED = {"EEVEE_MATERIAL_PT_context_material", "DATA_PT_EEVEE_light", "EEVEE_WORLD_PT_surface"}
-"""Panels of Blender's engines that are shown here too: material slots, a light's strength, the world's color."""
+BORROWED = {
+    "EEVEE_MATERIAL_PT_context_material", "DATA_PT_EEVEE_light", "EEVEE_WORLD_PT_surface",
+    "DATA_PT_camera_dof", "DATA_PT_camera_dof_aperture",
+}  # fmt: skip
+"""Panels of Blender's engines that are shown here too: material slots, a light's strength, the world's color, depth of
+field.
+"""
+
+REPLACED = {"DATA_PT_lens"}
+"""Panels of Blender's in whose place this engine has its own."""
 
 
 def compatible() -> Iterator[set[str]]:
     """Yield the engines of each panel that is for every engine (those name BLENDER_RENDER) or BORROWED."""
-    for name in dir(bpy.types):
+    for name in set(dir(bpy.types)) - REPLACED:
         engines = getattr(getattr(bpy.types, name), "COMPAT_ENGINES", ())
         if "BLENDER_RENDER" in engines or name in BORROWED:
             yield engines

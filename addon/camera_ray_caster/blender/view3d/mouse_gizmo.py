@@ -42,7 +42,7 @@ class RayUnderMouse(bpy.types.Gizmo):
             return
         raster = scene.camera.raster
         found = probe(scene.camera, scene.shapes, int(x * raster.width), int(y * raster.height))
-        _write(context, self.mouse, _lines(context, found))
+        _write(context, self.mouse, [*_lines(context, found), *(("", text) for text in scene.differences)])
 
 
 class RayUnderMouseGroup(bpy.types.GizmoGroup):
@@ -68,7 +68,7 @@ class RayUnderMouseGroup(bpy.types.GizmoGroup):
 
 def _lines(context, found: Probe) -> list[tuple[str, str]]:
     lines = [
-        ("Pixel", f"{found.pixel[0]}, {found.pixel[1]}"),
+        ("Pixel", f"{found.pixel[0]}, {found.pixel[1]} from the bottom left"),
         ("View", f"{found.view[0]:.4f}, {found.view[1]:.4f}"),
     ]
     if math.isnan(found.direction[0]):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 import bpy
@@ -24,6 +25,8 @@ class CachedScene:
     camera: Camera | None
     """At the current frame, without pixel times; None where there is no camera that can be cast."""
     shapes: Shapes
+    differences: tuple[str, ...] = ()
+    """What a render shows otherwise than the window."""
 
 
 _read: list[CachedScene] = []
@@ -39,17 +42,29 @@ def cached_scene(context) -> CachedScene:
     depsgraph = context.evaluated_depsgraph_get()
     known = _read[0].shapes if _read and _read[0].key[:2] == key[:2] and "shapes" not in _stale else None
     shapes = shapes_record(depsgraph) if known is None else known
-    _read[:] = [CachedScene(key, *_camera(scene.camera, depsgraph), shapes)]
+    raw, camera = _camera(scene.camera, depsgraph)
+    differences = tuple(_differences(camera, scene))
+    camera = camera and replace(camera, pixel_time=None)
+    _read[:] = [CachedScene(key, raw, camera, shapes, differences)]
     _stale.clear()
     return _read[0]
 
 
 def _camera(camera_object, depsgraph) -> tuple[BlenderCamera | None, Camera | None]:
     try:
-        raw, camera = camera_at(camera_object, depsgraph)
+        return camera_at(camera_object, depsgraph)
     except InputError:
         return None, None  # the sidebar says why
-    return raw, replace(camera, pixel_time=None)
+
+
+def _differences(camera: Camera | None, scene) -> Iterator[str]:
+    """Yield in what a render differs from what the window shows."""
+    if camera is None:
+        return
+    if camera.pixel_time is not None:
+        yield f"All at frame {scene.frame_current_final:g}: a render has a time for each pixel"
+    if camera.aperture is not None:
+        yield "Without blur: a render has it" if scene.camera_ray_caster.samples > 1 else "No blur with 1 sample"
 
 
 @persistent

@@ -34,6 +34,7 @@ RAYS = tuple(
     Numbers(
         f"ray_{k}", f"Ray {k}",
         f"The ray at the {corner} of the frame: x and y on the camera's plane, x and y at depth 1", (0.0, 0.0, u, v),
+        ("s, X on the plane", "t, Y on the plane", "u, X at depth 1", "v, Y at depth 1"),
     )
     for k, corner, u, v in (
         (1, "bottom left", -0.36, -0.2), (2, "bottom right", 0.36, -0.2), (3, "top left", -0.36, 0.2),

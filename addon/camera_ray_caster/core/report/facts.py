@@ -23,10 +23,11 @@ def camera_facts(camera: Camera) -> dict[str, object]:
     """Return names, numbers and lists of numbers, in the order in which they are shown.
 
     Every camera: its model, eye (world), orthobasis u, v and w = -Z (world, unit), raster (pixels), window (the columns
-    x0 .. x1 and rows y0 .. y1 that are rendered), pixel aspect, clip range. Then what the model says of itself
-    (``Model.facts``): a pinhole its field of view, d and aspect, an orthographic camera its frame, a general linear one
-    its kind; K, of models that have one; the affine map from the pixel to the image plane, of those that begin with
-    one. Last the model's settings by name (``Camera.settings``) and its formula, step by step.
+    x0 .. x1 and rows y0 .. y1 that are rendered), pixel aspect, clip range. A central camera with rays at the middles
+    of the frame's edges: the field of view across and up, in degrees, from edge to middle to edge. Then what the model
+    says of itself (``Model.facts``): a pinhole its field of view, d and aspect, an orthographic camera its frame, a
+    general linear one its kind; K, of models that have one; the affine map from the pixel to the image plane, of those
+    that begin with one. Last the model's settings by name (``Camera.settings``) and its formula, step by step.
     """
     raster, basis = camera.raster, camera.pose.basis
     return {
@@ -41,6 +42,7 @@ def camera_facts(camera: Camera) -> dict[str, object]:
         "window": [raster.x0, raster.x1, raster.y0, raster.y1],
         "pixel_aspect": raster.pixel_aspect,
         "clip": [camera.clip_start, camera.clip_end],
+        **_field_of_view(camera),
         **camera.model.facts(),
         **({} if camera.K is None else {"K": camera.K.tolist()}),
         **({"plane_from_pixels": _plane(camera.model)} if isinstance(camera.model, WindowModel) else {}),
@@ -55,3 +57,19 @@ def _plane(model: WindowModel) -> list[list[float]]:
     K = model.window.matrix(model.frame[1])
     opencv_from_pixels = np.array([[1.0, 0.0, -0.5], [0.0, -1.0, model.frame[1] - 0.5], [0.0, 0.0, 1.0]])
     return (np.diag([1.0, -1.0]) @ (np.linalg.inv(K) @ opencv_from_pixels)[:2]).tolist()
+
+
+def _field_of_view(camera: Camera) -> dict[str, object]:
+    """Return the field of view, (across, up) in degrees, as a fact; nothing where there is none."""
+    if not camera.model.central:
+        return {}
+    x, y = np.array([0.0, 0.5, 1.0, 0.5, 0.5]), np.array([0.5, 0.5, 0.5, 0.0, 1.0])
+    direction = np.broadcast_arrays(*camera.camera_rays(x * camera.raster.width, y * camera.raster.height)[1])
+    left, middle, right, bottom, top = np.stack(direction, axis=-1)
+    angles = [_angle(left, middle) + _angle(middle, right), _angle(bottom, middle) + _angle(middle, top)]
+    return {"field_of_view": angles} if np.isfinite(angles).all() else {}
+
+
+def _angle(a, b) -> float:
+    """Return the angle between two directions in degrees, exact to rounding for all of them."""
+    return float(np.degrees(np.arctan2(np.linalg.norm(np.cross(a, b)), a @ b)))

@@ -157,6 +157,8 @@ class Item(NamedTuple):
     text: str
     number: int
     """What a .blend stores: never changed, never used again."""
+    group: str = ""
+    """The heading that a menu shows above it and those of the same group that follow."""
 
 
 @dataclass(frozen=True)
@@ -177,7 +179,9 @@ class Choice(Setting):
 
 @dataclass(frozen=True)
 class Numbers(Setting):
-    """As many finite numbers as the default has."""
+    """As many finite numbers as the default has. ``components``: their names in the panel."""
+
+    components: tuple[str, ...]
 
     kind = "VECTOR"
 

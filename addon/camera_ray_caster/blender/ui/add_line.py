@@ -1,0 +1,61 @@
+"""The operator that adds a slit or a path for a camera that has none, where it gives a full picture at once."""
+
+import bpy
+from bpy.props import EnumProperty
+from mathutils import Euler, Matrix, Vector
+
+from ...core.cameras.parts.lines import SECOND_SLIT, SLIT
+from ...core.cameras.strip import PATH
+from ..properties.declared import GROUP
+from .needs import OfCamera, camera_object_of
+
+QUARTER = 1.5707963267948966
+PATH_HALF = 5.0
+"""Blender units that an added path reaches to either side of the eye."""
+
+PLACES = {
+    SLIT.name: Matrix(),
+    SECOND_SLIT.name: Matrix.LocRotScale(Vector((0, 0, -0.5)), Euler((0, 0, QUARTER)), None),
+    PATH.name: Matrix(),
+}
+"""Where each line is added, in the camera's frame, its X axis along the line: level through the eye, or upright,
+halfway to the window of a cross-slit camera, which then sees about twice as wide.
+"""
+SETTINGS = {setting.name: setting for setting in (SLIT, SECOND_SLIT, PATH)}
+
+
+class AddLine(OfCamera, bpy.types.Operator):
+    """Add this line to the scene, parented to the camera, and choose it"""
+
+    bl_idname = "camera_ray_caster.add_line"
+    bl_label = "Add Slit or Path"
+    bl_options = {"REGISTER", "UNDO"}
+
+    setting: EnumProperty(name="Line", items=[(it.name, it.label, it.text) for it in SETTINGS.values()])
+
+    def execute(self, context):
+        """Add it beside the camera, in the same collection."""
+        camera = camera_object_of(context)
+        name = f"{camera.name} {SETTINGS[self.setting].label}"
+        line = bpy.data.objects.new(name, _path(name) if self.setting == PATH.name else None)
+        line.empty_display_type = "ARROWS"
+        line.show_name = True
+        for collection in camera.users_collection or (context.scene.collection,):
+            collection.objects.link(line)
+        line.parent, line.matrix_local = camera, PLACES[self.setting]
+        setattr(getattr(camera.data, GROUP), self.setting, line)
+        return {"FINISHED"}
+
+
+def _path(name: str):
+    """Return a straight curve along X."""
+    curve = bpy.data.curves.new(name, "CURVE")
+    curve.dimensions = "3D"
+    spline = curve.splines.new("POLY")
+    spline.points.add(1)
+    for point, x in zip(spline.points, (-PATH_HALF, PATH_HALF), strict=True):
+        point.co = (x, 0.0, 0.0, 1.0)
+    return curve
+
+
+CLASSES = (AddLine,)

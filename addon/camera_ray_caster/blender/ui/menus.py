@@ -1,0 +1,36 @@
+"""The menu in Blender's Render menu, through which a search (F3) finds the operators."""
+
+import bpy
+
+from .cast_operator import Cast
+from .cycles_operators import UseInCycles
+from .operators import CopyFacts, LoadCalibration, Verify, WriteReport
+
+LISTED = (Cast, Verify, LoadCalibration, UseInCycles, CopyFacts, WriteReport)
+
+
+class RayCasterMenu(bpy.types.Menu):
+    """What the sidebar's buttons do."""
+
+    bl_idname = "CAMERA_RAY_CASTER_MT_render"
+    bl_label = "Camera Ray Caster"
+
+    def draw(self, context):
+        """A line each."""
+        for operator in LISTED:
+            self.layout.operator(operator.bl_idname)
+
+
+def draw_menu(self, context) -> None:
+    """Draw our menu in Blender's."""
+    self.layout.separator()
+    self.layout.menu(RayCasterMenu.bl_idname)
+
+
+CLASSES = (RayCasterMenu,)
+
+
+def register(undo) -> None:
+    """See ``registration``."""
+    bpy.types.TOPBAR_MT_render.append(draw_menu)
+    undo.callback(bpy.types.TOPBAR_MT_render.remove, draw_menu)

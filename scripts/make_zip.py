@@ -1,0 +1,46 @@
+"""Build the extension: the add-on, its license, and the gallery with a picture of each scene.
+
+    python scripts/make_zip.py            into dist/
+    python scripts/make_zip.py FOLDER
+
+Needs pip's bpy, which brings Blender's own builder of extensions.
+"""
+
+import shutil
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[1]
+SCENES = ROOT / "blend_scenes"
+
+
+def stage(folder: Path) -> Path:
+    """Put what the extension holds into a folder that is not there yet, and return it."""
+    shutil.copytree(ROOT / "addon" / "camera_ray_caster", folder, ignore=shutil.ignore_patterns("__pycache__"))
+    shutil.copy(ROOT / "LICENSE", folder)
+    pictures = folder / "gallery" / "pictures"
+    pictures.mkdir(parents=True)
+    for scene in SCENES.glob("*.blend"):
+        shutil.copy(scene, pictures.parent)
+        picture = SCENES / "pictures" / f"{scene.stem}.png"
+        if picture.is_file():
+            shutil.copy(picture, pictures)
+    return folder
+
+
+def main() -> int:
+    """Build it, and return the exit status of Blender's builder."""
+    import bpy
+
+    output = Path(sys.argv[1] if len(sys.argv) > 1 else ROOT / "dist")
+    output.mkdir(parents=True, exist_ok=True)
+    (tools,) = bpy.utils.script_paths(subdir="addons_core/bl_pkg/cli")
+    with tempfile.TemporaryDirectory() as folder:
+        words = ["build", "--source-dir", stage(Path(folder) / "extension"), "--output-dir", output]
+        return subprocess.run([sys.executable, Path(tools) / "blender_ext.py", *words], check=False).returncode
+
+
+if __name__ == "__main__":
+    sys.exit(main())
