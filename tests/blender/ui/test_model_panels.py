@@ -67,7 +67,7 @@ class Layout:
         self.operators = [] if operators is None else operators
         self.labels = []
 
-    def label(self, text):
+    def label(self, text, icon="NONE"):
         self.labels.append(text)
 
     def prop(self, owner, name, index=0, text=None):
@@ -85,9 +85,6 @@ class Layout:
         return inside
 
     row = column
-
-    def label(self, text, icon="NONE"):
-        """Words are no settings."""
 
     def context_pointer_set(self, name, data):
         """For the popover."""

@@ -40,7 +40,7 @@ def settings_of(camera) -> tuple[Setting, ...]:
     """
     mark, own = shader_mark(camera), getattr(camera, GROUP)
     if own.model != BLENDERS_OWN:
-        return SETTINGS[own.model]
+        return SETTINGS.get(own.model, ())
     kind = camera.type if mark is None else mark.blender_type
     return SETTINGS.get(camera.panorama_type if kind == "PANO" else kind, ())
 
