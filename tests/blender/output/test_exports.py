@@ -7,8 +7,12 @@ import pytest
 from camera_ray_caster.blender.output import exports
 from camera_ray_caster.blender.read.camera import find_cameras
 from camera_ray_caster.blender.read.scene import read_camera
+from camera_ray_caster.core.exports import FORMATS
 from camera_ray_caster.core.exports.camera_json import camera_from_json
+from camera_ray_caster.core.exports.stmap import perspective_of, places
 from camera_ray_caster.core.records import InputError
+
+from ...exr import read_exr
 
 
 @pytest.fixture
@@ -71,7 +75,7 @@ def test_slits_paths_and_times_come_back_from_a_file(scene, tmp_path):
 def test_what_cannot_be_said_or_written_leaves_nothing(scene, tmp_path):
     scene.camera.data.type = "ORTHO"
     out = tmp_path / "new" / "out"
-    with pytest.raises(InputError, match="COLMAP cannot say the Orthographic of camera 'Moving': choose one of"):
+    with pytest.raises(InputError, match="COLMAP cannot represent the Orthographic of camera 'Moving': choose one of"):
         exports.write(scene, "colmap", find_cameras(scene, ["ALL"]), [1, 2], out)
     with pytest.raises(InputError, match="format is 'fbx'"):
         exports.write(scene, "fbx", [scene.camera], [1], out)
@@ -91,3 +95,33 @@ def test_two_cameras_with_one_file_name_are_refused(scene, tmp_path):
     scene.camera.name = "Still_one"
     with pytest.raises(InputError, match="would have the same name, 'Still_one': rename one"):
         exports.write(scene, "colmap", find_cameras(scene, ["ALL"]), [1], tmp_path)
+
+
+@pytest.mark.parametrize("target", [None, "Still/one"])
+def test_maps_are_written_as_they_are_computed(scene, tmp_path, target):
+    scene.camera.data.type = "PANO"
+    scene.render.resolution_y = 6
+    to = bpy.data.objects[target] if target else None
+    before = set(bpy.data.images)
+    _, paths = exports.write(scene, "stmap", [scene.camera], [3], tmp_path, to)
+    assert names(tmp_path) == ["Moving_0003_distort.exr", "Moving_0003_undistort.exr"] == [path.name for path in paths]
+    assert set(bpy.data.images) == before
+    one, other = (read_camera(scene, camera, 3) for camera in (scene.camera, to or scene.camera))
+    other = other if target else perspective_of(one)
+    for path, (here, there) in zip(paths, ((one, other), (other, one)), strict=True):
+        channels = read_exr(path)
+        assert sorted(channels) == ["B", "G", "R"]
+        pixels = np.stack([channels[channel] for channel in "RGB"], axis=-1)
+        assert pixels.dtype == np.float32
+        assert np.array_equal(pixels, places(here, there))
+        assert 0 < pixels[..., 2].mean() <= 1
+
+
+@pytest.mark.parametrize("key", [one.key for one in FORMATS])
+def test_every_format_of_a_scene_appears_whole(scene, tmp_path, key):
+    _, paths = exports.write(scene, key, find_cameras(scene, ["ALL"]), [1, 2], tmp_path)
+    assert names(tmp_path) == sorted(path.name for path in paths) != []
+    assert all(path.stat().st_size > 0 for path in paths)
+    if key in ("npz", "mrcal"):
+        assert names(tmp_path) == [f"{name}_000{frame}.{paths[0].suffix[1:]}" for name in ("Moving", "Still_one")
+                                   for frame in (1, 2)]  # fmt: skip

@@ -71,13 +71,15 @@ def exported(key, name, folder, frames=FRAMES):
     return said
 
 
+def nearest(name, frames=FRAMES):
+    """The camera of each frame with the rotation nearest to its matrix, as formats with poses have it."""
+    return [with_rotation(shot.camera)[0] for shot in shots(name, frames)]
+
+
 def views(name, count=200, frames=FRAMES):
-    """For each frame: points that the camera sees, (count, 3), and where from the top left corner of its frame, with
-    the rotation nearest to its matrix.
-    """
+    """For each of ``nearest``: points that it sees, (count, 3), and where, from the top left corner of its frame."""
     found = []
-    for shot in shots(name, frames):
-        near, _ = with_rotation(shot.camera)
+    for near in nearest(name, frames):
         width, height = near.raster.size
         random = np.random.default_rng(7)
         rays = near.rays_at(random.uniform(0, width, 2 * count), random.uniform(0, height, 2 * count))

@@ -34,7 +34,9 @@ def test_colmap_sees_points_where_we_do(tmp_path, name):
 
 @pytest.mark.parametrize("name", REFUSED)
 def test_what_colmap_cannot_say_is_refused_with_the_formats_that_can(name):
-    with pytest.raises(InputError, match=rf"^COLMAP cannot say the .* of camera 'Camera'.*{REFUSED[name]}.*: choose"):
+    with pytest.raises(
+        InputError, match=rf"^COLMAP cannot represent the .* of camera 'Camera'.*{REFUSED[name]}.*: choose"
+    ):
         export("colmap", shots(name))
 
 

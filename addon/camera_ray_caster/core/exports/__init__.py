@@ -10,11 +10,20 @@ from dataclasses import replace
 from ..arguments import word
 from ..records import InputError
 from . import rigid
+from .bop import Bop
 from .camera_json import CameraJson
 from .colmap import Colmap
 from .format import Content, Format, Shot
+from .mrcal import Mrcal
+from .nerfstudio import Nerfstudio
+from .npz import Npz
+from .opencv import Opencv
+from .ros import Ros
+from .stmap import Stmap
 
-FORMATS: tuple[Format, ...] = (Colmap(), CameraJson())
+FORMATS: tuple[Format, ...] = (
+    Colmap(), Nerfstudio(), Opencv(), Ros(), Mrcal(), Bop(), Stmap(), Npz(), CameraJson(),
+)  # fmt: skip
 """Every format, in the order of menus."""
 
 
@@ -37,7 +46,9 @@ def export(key: str, shots: Sequence[Shot]) -> tuple[Iterator[tuple[str, Content
         if reason is not None:
             able = ", ".join(one.key for one in FORMATS if _refusal(one, shot) is None)
             what = f"{shot.camera.model.label} of camera {shot.camera.name!r}"
-            raise InputError(f"{chosen.label} cannot say the {what}{reason and ', '}{reason}: choose one of {able}")
+            raise InputError(
+                f"{chosen.label} cannot represent the {what}{reason and ', '}{reason}: choose one of {able}"
+            )
     said = list(dict.fromkeys(line for shot in shots for line in chosen.unsaid(shot.camera)))
     if not chosen.rigid:
         return chosen.files(shots), said

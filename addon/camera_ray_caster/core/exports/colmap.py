@@ -72,14 +72,11 @@ class Colmap(Format):
 
 def _line(shot: Shot) -> str:
     """Return what cameras.txt says of a camera, without its number."""
-    said = lenses.spoken(TABLE, shot.camera)
-    assert said is not None
-    kind, lens = said
+    kind, lens = lenses.said(TABLE, shot.camera)
     width, height = shot.camera.raster.size
     if kind == SPHERE:
         return f"{kind} {width} {height} {width} {height}"
-    own = dict(zip(lenses.MATRIX, matrix_of(lens.settings, 0.5), strict=True))
-    values = [{**lens.settings, **own}.get(name, 0.0) for name in MODELS[kind][1].split()]
+    values = matrix_of(lens.settings, 0.5) + lenses.values(lens, TABLE[kind][1])
     return f"{kind} {width} {height} {' '.join(map(repr, values))}"
 
 

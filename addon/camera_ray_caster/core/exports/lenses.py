@@ -6,7 +6,7 @@ A lens is said by the first entry of such a table that has a place for every set
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from math import pi
 
 from ..camera.camera import Camera
@@ -19,6 +19,7 @@ from ..cameras.opencv_pinhole import OpencvPinhole
 from ..cameras.parts.calibrated import Calibrated
 from ..cameras.parts.calibration import CALIBRATION
 from ..cameras.perspective import Perspective
+from .format import Shot
 
 MATRIX = "fx", "fy", "cx", "cy"
 
@@ -74,6 +75,30 @@ def spoken(table: Mapping[str, tuple[str, Sequence[str]]], camera: Camera) -> tu
         ),
         None,
     )
+
+
+def said(table: Mapping[str, tuple[str, Sequence[str]]], camera: Camera) -> tuple[str, Lens]:
+    """Return ``spoken`` of a camera that is not refused."""
+    found = spoken(table, camera)
+    assert found is not None
+    return found
+
+
+def values(lens: Lens, names: Iterable[str]) -> list[float]:
+    """Return the values of settings of a lens; 0 for those that it does not have."""
+    return [float(lens.settings.get(name, 0.0)) for name in names]
+
+
+def by_lens(shots: Sequence[Shot], told: Callable[[Shot], str]) -> Iterator[tuple[str, str, list[Shot]]]:
+    """Yield what is told of the lens of each camera, with a file's name without its ending and the shots that have it:
+    the camera's name, or where the lens changes from frame to frame the name of each shot.
+    """
+    for name in dict.fromkeys(shot.name for shot in shots):
+        own = [(shot, told(shot)) for shot in shots if shot.name == name]
+        if len({text for _, text in own}) == 1:
+            yield name, own[0][1], [shot for shot, _ in own]
+        else:
+            yield from ((shot.stem, text, [shot]) for shot, text in own)
 
 
 def refusal(table: Mapping[str, tuple[str, Sequence[str]]], camera: Camera) -> str | None:

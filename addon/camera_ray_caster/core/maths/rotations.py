@@ -50,6 +50,13 @@ def quaternion(rotation) -> np.ndarray:
     return row / np.linalg.norm(row) * np.copysign(1.0, row[0])
 
 
+def half_turn_vector(rotation) -> np.ndarray:
+    """Return axis times angle, (3,), of one rotation (3, 3), to some EPS at any angle up to a half turn."""
+    w, *axis = quaternion(rotation)
+    sine = np.linalg.norm(axis)
+    return np.asarray(axis) * (2 * np.arctan2(sine, w) / sine if sine > 0 else 2.0)
+
+
 def rotation(vector) -> np.ndarray:
     """Return the rotations (n, 3, 3) of rotation vectors (Rodrigues)."""
     angle = np.linalg.norm(vector, axis=1)[:, None, None]

@@ -13,10 +13,11 @@ from warnings import catch_warnings
 from .document import Document, Lens, matrix, size
 
 TERMS = ("k1", "k2", "p1", "p2", "k3", "k4", "k5", "k6", "s1", "s2", "s3", "s4")
+STEREOGRAPHIC = "LENSMODEL_STEREOGRAPHIC"
 MODELS = {
     "LENSMODEL_PINHOLE": ("OPENCV_PINHOLE", ()),
     **{f"LENSMODEL_OPENCV{count}": ("OPENCV_PINHOLE", TERMS[:count]) for count in (4, 5, 8, 12)},
-    "LENSMODEL_STEREOGRAPHIC": ("UCM", ()),
+    STEREOGRAPHIC: ("UCM", ()),
 }
 
 

@@ -1,0 +1,48 @@
+"""BOP's scene_camera.json: K and the pose of each image, by its number, which is the frame's.
+
+The translation is in millimeters, by the scene's unit scale; depth_scale brings depths in Blender units to these. The
+center of the first pixel is (0, 0). Several cameras have a file each, as in data sets with several sensors.
+Reference: BOP toolkit documentation, BOP dataset format.
+"""
+
+from __future__ import annotations
+
+from ..cameras.files.document import matrix_of
+from . import lenses
+from .format import OWN_TIMES, Format, Shot
+from .plain import as_text
+
+TABLE = {"pinhole": ("OPENCV_PINHOLE", ())}
+
+
+class Bop(Format):
+    """A file a camera."""
+
+    key = "bop"
+    label = "BOP"
+    description = "scene_camera.json: pinholes and poses in millimeters; of several cameras scene_camera_<camera>.json"
+    rigid = True
+
+    def refusal(self, shot):
+        """See Format."""
+        if shot.frame != int(shot.frame):
+            return "whose frame is no whole number"
+        return OWN_TIMES if shot.camera.pixel_time is not None else lenses.refusal(TABLE, shot.camera)
+
+    def files(self, shots):
+        """See Format."""
+        names = list(dict.fromkeys(shot.name for shot in shots))
+        for name in names:
+            images = {str(int(shot.frame)): _image(shot) for shot in shots if shot.name == name}
+            yield f"scene_camera{'' if len(names) == 1 else f'_{name}'}.json", as_text(images)
+
+
+def _image(shot: Shot) -> dict:
+    fx, fy, cx, cy = matrix_of(lenses.said(TABLE, shot.camera)[1].settings)
+    pose, millimeters = shot.camera.world_to_opencv, 1000.0 * shot.meters
+    return {
+        "cam_K": [fx, 0.0, cx, 0.0, fy, cy, 0.0, 0.0, 1.0],
+        "cam_R_w2c": pose[:3, :3].ravel().tolist(),
+        "cam_t_w2c": (pose[:3, 3] * millimeters).tolist(),
+        "depth_scale": millimeters,
+    }

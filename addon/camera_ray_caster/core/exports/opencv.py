@@ -1,0 +1,71 @@
+"""OpenCV's YAML: the lens as OpenCV's calibration samples write it, and the poses of all frames.
+
+The pinhole has as few of OpenCV's 14 coefficients as it needs; fisheye_model is 1 for cv2.fisheye, and a file with xi
+is of cv2.omnidir. extrinsic_parameters has a row a frame: the rotation vector and the translation from the world to the
+camera. The center of the first pixel is (0, 0).
+References: OpenCV documentation, Camera Calibration and 3D Reconstruction; Fisheye camera model; Omnidirectional Camera
+Calibration.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from ..cameras.files.document import matrix_of
+from ..cameras.files.opencv import TERMS
+from ..maths.rotations import half_turn_vector
+from . import lenses
+from .format import OWN_TIMES, Format, Shot
+
+PINHOLE = TERMS["OPENCV_PINHOLE"]
+TABLE = {f"pinhole {count}": ("OPENCV_PINHOLE", PINHOLE[:count]) for count in (5, 8, 12, 14)} | {
+    "fisheye": ("OPENCV_FISHEYE", TERMS["OPENCV_FISHEYE"]),
+    "omnidir": ("UCM", (*TERMS["UCM"], "unified_xi", "skew")),
+}
+EXTRA = {"fisheye": "fisheye_model: 1\n", "omnidir": "xi: {unified_xi!r}\n"}
+
+
+class Opencv(Format):
+    """A file a camera; where its lens changes, a file a frame."""
+
+    key = "opencv"
+    label = "OpenCV"
+    description = "<camera>.yml for FileStorage: pinhole, fisheye and omnidir, and poses"
+    rigid = True
+
+    def refusal(self, shot):
+        """See Format."""
+        return OWN_TIMES if shot.camera.pixel_time is not None else lenses.refusal(TABLE, shot.camera)
+
+    def files(self, shots):
+        """See Format."""
+        for stem, lens, some in lenses.by_lens(shots, _lens):
+            yield f"{stem}.yml", f"%YAML:1.0\n---\n{lens}{_poses(some)}"
+
+
+def _lens(shot: Shot) -> str:
+    kind, lens = lenses.said(TABLE, shot.camera)
+    fx, fy, cx, cy = matrix_of(lens.settings)
+    K = [[fx, lens.settings["skew"], cx], [0.0, fy, cy], [0.0, 0.0, 1.0]]
+    width, height = shot.camera.raster.size
+    terms = [name for name in TABLE[kind][1] if name not in ("unified_xi", "skew")]
+    return (
+        f"image_width: {width}\nimage_height: {height}\n{_matrix('camera_matrix', K)}"
+        f"{_matrix('distortion_coefficients', [lenses.values(lens, terms)])}"
+        f"{EXTRA.get(kind, '').format(**lens.settings)}"
+    )
+
+
+def _poses(shots: Sequence[Shot]) -> str:
+    poses = [shot.camera.world_to_opencv for shot in shots]
+    rows = [[*half_turn_vector(pose[:3, :3]).tolist(), *pose[:3, 3].tolist()] for pose in poses]
+    frames = ", ".join(f"{shot.frame:.10g}" for shot in shots)
+    return f"frames: [ {frames} ]\n{_matrix('extrinsic_parameters', rows)}"
+
+
+def _matrix(name: str, rows) -> str:
+    array = np.array(rows, np.float64)
+    data = ", ".join(map(repr, array.ravel().tolist()))
+    return f"{name}: !!opencv-matrix\n   rows: {len(array)}\n   cols: {array.shape[1]}\n   dt: d\n   data: [ {data} ]\n"

@@ -1,0 +1,55 @@
+"""ROS's CameraInfo as YAML, as camera_calibration_parsers reads it: the lens alone, since a pose is none of its fields.
+
+The picture is rectified by its own K: P is K, and R the identity. The center of the first pixel is (0, 0).
+Reference: ROS documentation, sensor_msgs/CameraInfo; camera_calibration_parsers.
+"""
+
+from __future__ import annotations
+
+import json
+
+from ..cameras.files.document import matrix_of
+from ..cameras.files.opencv import TERMS
+from . import lenses
+from .format import OWN_TIMES, Format, Shot
+
+TABLE = {
+    "plumb_bob": ("OPENCV_PINHOLE", TERMS["OPENCV_PINHOLE"][:5]),
+    "rational_polynomial": ("OPENCV_PINHOLE", TERMS["OPENCV_PINHOLE"][:8]),
+    "equidistant": ("OPENCV_FISHEYE", TERMS["OPENCV_FISHEYE"]),
+}
+
+
+class Ros(Format):
+    """A file a camera; where its lens changes, a file a frame."""
+
+    key = "ros"
+    label = "ROS CameraInfo"
+    description = "<camera>.yaml: plumb_bob, rational_polynomial and equidistant lenses, without poses"
+
+    def refusal(self, shot):
+        """See Format."""
+        return OWN_TIMES if shot.camera.pixel_time is not None else lenses.refusal(TABLE, shot.camera)
+
+    def files(self, shots):
+        """See Format."""
+        for stem, lens, _ in lenses.by_lens(shots, _lens):
+            yield f"{stem}.yaml", lens
+
+
+def _lens(shot: Shot) -> str:
+    kind, lens = lenses.said(TABLE, shot.camera)
+    fx, fy, cx, cy = matrix_of(lens.settings)
+    width, height = shot.camera.raster.size
+    matrices = {
+        "camera_matrix": (3, 3, [fx, 0.0, cx, 0.0, fy, cy, 0.0, 0.0, 1.0]),
+        "distortion_coefficients": (1, len(TABLE[kind][1]), lenses.values(lens, TABLE[kind][1])),
+        "rectification_matrix": (3, 3, [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0]),
+        "projection_matrix": (3, 4, [fx, 0.0, cx, 0.0, 0.0, fy, cy, 0.0, 0.0, 0.0, 1.0, 0.0]),
+    }
+    text = f"image_width: {width}\nimage_height: {height}\ncamera_name: {json.dumps(shot.name)}\n"
+    for name, (rows, columns, values) in matrices.items():
+        data = ", ".join(map(repr, values))
+        text += f"distortion_model: {kind}\n" if name == "distortion_coefficients" else ""
+        text += f"{name}:\n  rows: {rows}\n  cols: {columns}\n  data: [{data}]\n"
+    return text

@@ -1,0 +1,148 @@
+"""NPZ, BOP, nerfstudio and ROS files: what is in them, by the formats' own words."""
+
+import json
+from io import BytesIO
+
+import cv2
+import numpy as np
+import pytest
+
+from camera_ray_caster.core.exports import FORMATS, export
+from camera_ray_caster.core.exports.format import Shot
+from camera_ray_caster.core.exports.rigid import with_rotation
+from camera_ray_caster.core.maths.rotations import half_turn_vector, quaternion
+from camera_ray_caster.core.records import InputError
+
+from ..cameras.model_examples import BORDER, TURNED, camera
+from .shots import CAMERAS, FRAME, pose, shots, views
+
+
+def files(key, made):
+    return dict(export(key, made)[0])
+
+
+@pytest.mark.parametrize("key", ["PERSP", "CROSS_SLIT", "FISHEYE_EQUIDISTANT"])
+def test_npz_has_the_rays_of_the_window(key):
+    there = camera(key, BORDER | {"matrix_world": pose(3)})
+    ((name, content),) = export("npz", [Shot("Camera", 12, there)])[0]
+    assert name == "Camera_0012.npz"
+    arrays = np.load(BytesIO(content))
+    rays = there.rays()
+    assert sorted(arrays) == ["directions", "origins", "valid"]
+    for part in arrays:
+        assert arrays[part].dtype == getattr(rays, part).dtype
+        assert np.array_equal(arrays[part], getattr(rays, part), equal_nan=part == "directions")
+
+
+def test_npz_has_the_times_of_pixels():
+    there = camera("PERSP", {"time_mode": "ROWS", "time_start": 1.0, "time_end": 2.0, "time_tolerance": 0.1,
+                             "time_evaluations": 4})  # fmt: skip
+    arrays = np.load(BytesIO(files("npz", [Shot("Camera", 1, there)])["Camera_0001.npz"]))
+    assert np.array_equal(arrays["time"], there.rays().time)
+    with pytest.raises(InputError, match="each pixel of which has its own time: choose one of npz, json"):
+        export("colmap", [Shot("Camera", 1, there)])
+
+
+@pytest.mark.parametrize("name", ["perspective", "shifted", "portrait", "pinhole"])
+def test_bop_projects_as_we_do(name):
+    made = [Shot(one.name, one.frame, one.camera, meters=0.5) for one in shots(name)]
+    images = json.loads(files("bop", made)["scene_camera.json"])
+    assert list(images) == ["1", "12", "10000"]
+    for image, (points, pixels) in zip(images.values(), views(name), strict=True):
+        turn, move = np.reshape(image["cam_R_w2c"], (3, 3)), np.array(image["cam_t_w2c"])
+        there = (points * 500.0 @ turn.T + move) @ np.reshape(image["cam_K"], (3, 3)).T  # millimeters
+        assert np.abs(there[:, :2] / there[:, 2:] + 0.5 - pixels).max() < 1e-9
+        assert image["depth_scale"] == 500
+
+
+def test_bop_has_a_file_for_each_of_several_cameras():
+    both = [*shots("perspective"), *shots("shifted")]
+    assert list(files("bop", both)) == ["scene_camera_perspective.json", "scene_camera_shifted.json"]
+    with pytest.raises(InputError, match="whose frame is no whole number"):
+        export("bop", shots("perspective", [1.5]))
+
+
+@pytest.mark.parametrize("name", ["perspective", "shifted", "portrait", "radtan", "five", "scaled", "fisheye"])
+def test_transforms_json_projects_as_we_do(name):
+    document = json.loads(files("nerfstudio", shots(name))["transforms.json"])
+    assert [frame["file_path"] for frame in document["frames"]] == [
+        f"{name}_0001.png", f"{name}_0012.png", f"{name}_10000.png",
+    ]  # fmt: skip
+    for frame, (points, pixels) in zip(document["frames"], views(name), strict=True):
+        matrix = np.array(frame["transform_matrix"]) @ np.diag([1, -1, -1, 1])  # from OpenCV's camera to the world
+        seen = (points - matrix[:3, 3]) @ matrix[:3, :3]
+        K = np.array([[frame["fl_x"], 0, frame["cx"]], [0, frame["fl_y"], frame["cy"]], [0, 0, 1.0]])
+        still = np.zeros(3)
+        if document["camera_model"] == "OPENCV_FISHEYE":
+            terms = np.array([frame[f"k{i}"] for i in (1, 2, 3, 4)])
+            found = cv2.fisheye.projectPoints(seen[:, None], still, still, K, terms)[0]
+        else:
+            terms = np.array([frame[term] for term in ("k1", "k2", "p1", "p2", "k3")])
+            found = cv2.projectPoints(seen, still, still, K, terms)[0]
+        assert np.abs(found.reshape(-1, 2) - pixels).max() < 1e-9  # whose center of the first pixel is (0.5, 0.5)
+
+
+def test_transforms_json_has_one_model():
+    with pytest.raises(InputError, match="'radtan' is OPENCV and 'fisheye' is OPENCV_FISHEYE: export them apart"):
+        files("nerfstudio", [*shots("radtan"), *shots("fisheye")])
+
+
+@pytest.mark.parametrize("name", CAMERAS)
+def test_each_format_writes_or_refuses_with_those_that_can(name):
+    (shot,) = shots(name, [1])
+    able = {one.key for one in FORMATS if one.refusal(shot) is None}
+    assert able >= {"npz", "json", "stmap"}
+    for one in FORMATS:
+        if one.key in able:
+            assert files(one.key, [shot])
+        else:
+            with pytest.raises(InputError) as refusal:
+                export(one.key, [shot])
+            choices = str(refusal.value).rpartition("choose one of ")[2].split(", ")
+            assert choices == [other.key for other in FORMATS if other.key in able]
+
+
+@pytest.mark.parametrize("change", ["mirrored", "sheared"])
+def test_axes_that_are_no_rotation_are_refused_where_poses_are_rotations(change):
+    matrix = np.array(TURNED, float)
+    matrix[:3, 0] = -matrix[:3, 0] if change == "mirrored" else matrix[:3, 0] + 0.01 * matrix[:3, 1]
+    shot = Shot("Camera", 1, camera("PERSP", FRAME | {"matrix_world": matrix.tolist()}))
+    for one in FORMATS:
+        if one.rigid:
+            with pytest.raises(InputError, match=f"whose axes are {change}, .*: choose one of ros, stmap, npz, json"):
+                export(one.key, [shot])
+        else:
+            assert files(one.key, [shot])
+
+
+def test_what_is_left_out_is_said():
+    lens = {"use_dof": True, "focus_distance": 3.0, "aperture_fstop": 1.4, "aperture_blades": 0, "aperture_rotation": 0,
+            "aperture_ratio": 1.0, "focus_position": None}  # fmt: skip
+    shot = [Shot("Camera", frame, camera("PERSP", lens | BORDER)) for frame in (1, 2)]
+    blur = "the depth of field of camera 'Camera' is not in the files"
+    border = "the files are of the full frame of camera 'Camera', without its render border"
+    assert export("ros", shot)[1] == [blur, border]
+    assert export("npz", shot)[1] == [blur]
+    assert export("json", shot)[1] == []
+    assert export("bop", shot)[1][1:] == [blur, border]
+
+
+@pytest.mark.parametrize("degrees", [0, 1e-7, 90, 179.9999, 180, 270])
+@pytest.mark.parametrize("axis", [(1, 0, 0), (0, 0, -1), (0.6, -0.48, 0.64)])
+def test_vectors_and_quaternions_of_rotations_are_exact_up_to_half_a_turn(axis, degrees):
+    turn = cv2.Rodrigues(np.array(axis) * np.radians(degrees))[0]
+    vector = half_turn_vector(turn)
+    assert np.linalg.norm(vector) <= np.pi * (1 + 1e-15)
+    assert np.abs(cv2.Rodrigues(vector)[0] - turn).max() < 1e-15 * 4
+    w, x, y, z = quaternion(turn)
+    assert w >= 0
+    assert w * w + x * x + y * y + z * z == pytest.approx(1, abs=1e-15)
+
+
+def test_the_nearest_rotation_is_nearer_than_the_matrix():
+    (shot,) = shots("perspective", [1])
+    near, moved = with_rotation(shot.camera)
+    gram = near.pose.basis.T @ near.pose.basis
+    assert np.abs(gram - np.eye(3)).max() < 4e-15
+    assert 0 < np.abs(near.pose.basis - shot.camera.pose.basis).max() < 1e-7
+    assert 0 < moved < 1e-4
