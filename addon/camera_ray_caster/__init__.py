@@ -21,6 +21,7 @@ __all__ = [
     "read_shapes",
     "register",
     "unregister",
+    "visible",
 ]
 
 _MODULES = {
@@ -31,6 +32,7 @@ _MODULES = {
     "read_camera": ".blender.read",
     "read_scene": ".blender.read",
     "read_shapes": ".blender.read",
+    "visible": ".core.casting.visibility",
 }
 """Where each name is."""
 

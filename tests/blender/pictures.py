@@ -23,6 +23,9 @@ LABELS = {
     "ray_direction": ("Ray Direction", "XYZ"),
     "solid_angle": ("Solid Angle", "X"),
     "footprint": ("Footprint", "X"),
+    "flow_forward": ("Flow Forward", "XY"),
+    "flow_backward": ("Flow Backward", "XY"),
+    "flow_hidden": ("Flow Hidden", "XY"),
     "distance_bound": ("Distance Bound", "X"),
     "position_bound": ("Position Bound", "X"),
     "normal_bound": ("Normal Bound", "X"),
@@ -50,10 +53,11 @@ def picture(channels, name, layer="ViewLayer"):
 
 def expected(scene, name, precision="AUTOMATIC", **keywords):
     """A pass as the caster returns it, in the form in which Blender stores it."""
-    from camera_ray_caster.blender.read.scene import read_camera, read_shapes
+    from camera_ray_caster.blender.read.scene import read_scene
 
-    camera = read_camera(scene, **keywords)
-    image = cast(camera, read_shapes(scene, **keywords), [name], precision=precision)[name].astype(np.float32)
+    found = read_scene(scene, **keywords, passes=[name])
+    camera = found.camera
+    image = cast(camera, found.shapes, [name], precision=precision)[name].astype(np.float32)
     if name == "depth":
         image[np.isinf(image)] = FAR
     return image.reshape(*camera.raster.shape, -1)

@@ -16,7 +16,7 @@ SOURCES = [*MODULES, *sorted((ROOT / "scripts").glob("*.py")), *sorted((ROOT / "
 # What a part of the package may import of the package: the longest name that fits counts. The lowest layer comes first.
 LOW = {"core.conventions", "core.tuning", "core.records", "core.arguments", "core.memory", "core.maths"}
 RAYS = LOW | {"core.cameras", "core.camera"}
-HITS = RAYS | {"core.shapes", "core.errors", "core.casting"}
+HITS = RAYS | {"core.motion", "core.shapes", "core.errors", "core.casting"}
 MAY_IMPORT = {
     "core.conventions": set(),
     "core.tuning": set(),

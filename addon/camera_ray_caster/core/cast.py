@@ -11,6 +11,7 @@ import numpy as np
 
 from . import arguments, memory, tuning
 from .camera.camera import Camera
+from .casting.flow import pictures
 from .casting.passes import PASSES, image_bytes
 from .casting.plan import Plan, make_plan
 from .casting.request import AUTOMATIC, MATERIAL, Request
@@ -52,8 +53,8 @@ def cast(
     times a second; where it returns False the cast stops within the shapes under way and raises Cancelled.
     ``cull=False`` tests every shape at every pixel: the same picture, slower.
     Raises InputError for an unknown pass, shading or precision, for a dtype that is no floating-point number, for a
-    number of samples or threads that is not whole, below 1, or above MOST_SAMPLES, and for passes that take more memory
-    than there is.
+    number of samples or threads that is not whole, below 1, or above MOST_SAMPLES, for flow to frames that were not
+    read, and for passes that take more memory than there is.
     """
     if not (isinstance(camera, Camera) and isinstance(shapes, Shapes)):
         raise TypeError(f"cast takes a camera and shapes as they are read, not {type(camera)} and {type(shapes)}")
@@ -65,6 +66,7 @@ def cast(
     passes = arguments.words(passes, "passes", PASSES)
     request = Request(passes, tuple(PASSES), shading, arguments.flag(cull, "cull"), precision=precision)
     memory.require(image_bytes(camera.raster.shape, passes, dtype), memory.of_pixels("the passes", camera.raster.shape))
+    request = replace(request, others=pictures(camera, shapes, passes))
     time = camera.pixel_time
     whole = make_plan(*_moment(camera, shapes, (time.first + time.last) / 2 if time else None), request)
     images = Images({name: PASSES[name].empty(camera.raster.shape, dtype) for name in passes})

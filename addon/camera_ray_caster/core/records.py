@@ -255,6 +255,10 @@ class Shapes:
     or the plane's longer half side.
     """
 
+    next: Shapes | None = None
+    """At the next frame, and ``previous`` at the previous one: see ``casting.flow``. None where they are not read."""
+    previous: Shapes | None = None
+
     def __len__(self) -> int:
         return len(self.kind)
 

@@ -5,7 +5,7 @@ import pytest
 
 from camera_ray_caster.blender.engine import passes
 from camera_ray_caster.blender.output import images, reports
-from camera_ray_caster.blender.read.scene import read_camera, read_shapes
+from camera_ray_caster.blender.read.scene import read_camera, read_scene, read_shapes
 from camera_ray_caster.blender.ui import cast_operator
 from camera_ray_caster.core.cast import cast
 from camera_ray_caster.core.casting.passes import PASSES
@@ -25,11 +25,12 @@ def test_cast_stores_every_pass_as_it_is(blender, scene, key):
     passes.tick(scene, blender.context.view_layer, [key])
     assert blender.ops.camera_ray_caster.cast() == {"FINISHED"}
     found = pixels_of(blender.data.images[images.image_name(key)])
-    expected = cast(read_camera(scene), read_shapes(scene), [key])[key].reshape(HEIGHT, WIDTH, -1).astype(np.float32)
+    read = read_scene(scene, passes=[key])
+    expected = cast(read.camera, read.shapes, [key])[key].reshape(HEIGHT, WIDTH, -1).astype(np.float32)
     if key == "depth":
         expected[np.isinf(expected)] = passes.FAR
     channels = expected.shape[2]
-    assert np.array_equal(found[..., :channels], expected)
+    assert np.array_equal(found[..., :channels], expected, equal_nan=True)
     if channels == 1:
         assert np.array_equal(found[..., 2], found[..., 0])
     assert channels == 4 or (found[..., 3] == 1).all()

@@ -47,13 +47,18 @@ def pose(rotation, place):
 
 def random_shapes(rng, n):
     """Return spheres, ellipsoids, planes and an infinite plane all around the origin."""
+    return shapes_of(*random_rows(rng, n))
+
+
+def random_rows(rng, n):
+    """Return the rows of ``random_shapes``."""
     rows = []
     for _ in range(n):
         center, axes = rng.uniform(-9, 9, 3), rng.normal(size=(3, 3)) * rng.uniform(0.1, 1.5)
         kinds = [(SPHERE, center, rng.uniform(0.1, 2.0)), (SPHERE, center, axes), (PLANE, center, axes)]
         rows.append(kinds[rng.integers(3)])
     rows.append((INFINITE_PLANE, rng.uniform(-9, 9, 3), np.linalg.qr(rng.normal(size=(3, 3)))[0]))
-    return shapes_of(*rows)
+    return rows
 
 
 def test_the_middle_ray_meets_a_sphere_at_its_near_pole():

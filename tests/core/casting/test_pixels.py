@@ -14,6 +14,7 @@ from camera_ray_caster.core.casting.pixels import hits_at, passes_at
 
 from ..cameras.model_examples import camera as camera_of
 from ..shapes import meshes
+from .neighbors import at_rest
 from .test_cast import camera_at, random_shapes
 
 SIZE = {"resolution_x": 64, "resolution_y": 48}
@@ -22,8 +23,7 @@ LATTICES = [([31], [7]), ([0, 63], [0, 47]), ([5, 6, 7, 40], [3, 11, 30, 31, 46]
 
 @pytest.mark.parametrize("model", MODELS, ids=lambda model: model.key)
 def test_passes_at_pixels_are_those_of_the_picture(model):
-    camera = camera_of(model.key, SIZE)
-    shapes = random_shapes(np.random.default_rng(0), 40)
+    camera, shapes = at_rest(camera_of(model.key, SIZE), random_shapes(np.random.default_rng(0), 40))
     whole = cast(camera, shapes, tuple(PASSES), np.float64)
     assert (whole["shape_index"] >= 0).any()
     for columns, rows in LATTICES:

@@ -20,6 +20,7 @@ from camera_ray_caster.core.shapes.plane import Plane
 from camera_ray_caster.core.shapes.sphere import Sphere
 
 from ..cameras.model_examples import camera as camera_of
+from .neighbors import at_rest
 from .test_cast import camera_at, random_shapes, shapes_of
 
 BALLS = shapes_of(*[(SPHERE, (x, y, -6 - x), 0.4) for x in range(-3, 4) for y in range(-3, 4)])
@@ -107,18 +108,19 @@ def test_normals_of_near_balls_come_with_unit_length_and_only_those_of_far_ones_
 )
 def test_a_pass_is_the_same_alone_and_among_all_others(shapes, shading):
     """Passes share working arrays: none may find what another left there."""
-    every = cast(camera_at(), shapes, tuple(PASSES), np.float64, shading=shading)
-    backwards = cast(camera_at(), shapes, tuple(reversed(PASSES)), np.float64, shading=shading)
+    camera, shapes = at_rest(camera_at(), shapes)
+    every = cast(camera, shapes, tuple(PASSES), np.float64, shading=shading)
+    backwards = cast(camera, shapes, tuple(reversed(PASSES)), np.float64, shading=shading)
     for name in PASSES:
         assert np.array_equal(backwards[name], every[name], equal_nan=True), name
-        alone = cast(camera_at(), shapes, (name,), np.float64, shading=shading)[name]
+        alone = cast(camera, shapes, (name,), np.float64, shading=shading)[name]
         assert np.array_equal(alone, every[name], equal_nan=True), name
 
 
 @pytest.mark.parametrize("key", ["PERSP", "ORTHO", "EQUIRECTANGULAR", "PUSHBROOM"])
 def test_passes_made_in_many_blocks_are_those_made_at_once(monkeypatch, key):
     camera = camera_of(key, {"resolution_x": 64, "resolution_y": 80})
-    shapes = random_shapes(np.random.default_rng(3), 40)
+    camera, shapes = at_rest(camera, random_shapes(np.random.default_rng(3), 40))
     once = cast(camera, shapes, tuple(PASSES), np.float64)
     monkeypatch.setattr(tuning, "BLOCK_PIXELS", 300)
     for order in (tuple(PASSES), tuple(reversed(PASSES))):

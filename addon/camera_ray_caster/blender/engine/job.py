@@ -12,13 +12,14 @@ import numpy as np
 from ...core.camera.camera import Camera
 from ...core.camera.stereo import eye_record
 from ...core.cast import Images, cast
+from ...core.casting.flow import frames_of
 from ...core.casting.passes import image_bytes
 from ...core.memory import of_pixels, require
 from ...core.records import Finding, Shapes
 from ...core.report.accuracy import accuracy
 from ...core.report.report import Report, report_cast
 from ..read.evaluated import Eye, scene_at
-from ..read.motion import motion_of
+from ..read.motion import with_other_frames
 from ..read.scene import go_to
 from ..verification.check import verify_evaluated
 
@@ -55,9 +56,9 @@ class Job:
         """Read an evaluated scene with one camera, and verify the camera.
 
         Reads the depsgraph only, so that a render's thread may call it. ``visit(frame)`` evaluates the scene at another
-        frame and returns its depsgraph: for a camera whose pixels have each their own time; the default sets the
-        scene's frame, which a render may not. ``view`` names a multi-view eye, ``eye(raw)`` is the record of that eye;
-        the default is ours. Raises InputError where the camera cannot be cast.
+        frame and returns its depsgraph: for a camera whose pixels have each their own time, and for flow; the default
+        sets the scene's frame, which a render may not. ``view`` names a multi-view eye, ``eye(raw)`` is the record of
+        that eye; the default is ours. Raises InputError where the camera cannot be cast.
         """
         scene = depsgraph.scene_eval
         started = perf_counter()
@@ -70,10 +71,10 @@ class Job:
         several = sum(layer.use for layer in scene.view_layers) > 1
         settings = scene.camera_ray_caster
         shading, samples, precision = settings.shading, settings.samples, settings.precision
-        if found.camera.pixel_time is not None:
+        if found.camera.pixel_time is not None or frames_of(passes):
             visit = visit or partial(go_to, depsgraph.scene)
             try:
-                found = found.with_motion(motion_of(found.camera, camera_object, visit, eye))
+                found = with_other_frames(found, camera_object, frame, passes, visit, eye)
             finally:
                 visit(frame)
         moved = perf_counter()

@@ -42,12 +42,12 @@ def _datablock(name: str, width: int, height: int):
 
 
 def _rgba(pixels: np.ndarray) -> np.ndarray:
-    """Return (n, 4): gray where a pass has one channel, alpha 1 where it has none."""
+    """Return (n, 4): gray where a pass has one channel, no blue where it has two, alpha 1 where it has none."""
     channels = pixels.shape[1]
     if channels == 4:
         return pixels
     rgba = np.ones((len(pixels), 4), np.float32)
-    rgba[:, :3] = pixels
+    rgba[:, :3] = np.pad(pixels, ((0, 0), (0, 1))) if channels == 2 else pixels
     return rgba
 
 

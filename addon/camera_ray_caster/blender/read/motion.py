@@ -1,18 +1,40 @@
-"""The motion of a scene whose pixels have each their own time: it is evaluated as often as the motion asks for."""
+"""Other frames of a scene: those that pixels with times of their own need, and the neighbors that flow looks into."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from dataclasses import replace
 
 import numpy as np
 
 from ...core.camera.camera import Camera
+from ...core.casting.flow import NEXT, PREVIOUS, frames_of
 from ...core.motion.evaluations import Motion, measure, resolve
 from ...core.records import Shapes
 from ..terminal.signals import raise_if_stopping
-from .evaluated import Eye, scene_at
+from .evaluated import Eye, SceneRecord, scene_at
 
 CHECKS = 4
 """Frames at which the interpolation is compared with the scene itself, beside those that resolved it."""
+
+STEPS = {NEXT: 1.0, PREVIOUS: -1.0}
+"""Frames from one that is read to its neighbors."""
+
+
+def with_other_frames(
+    found: SceneRecord, camera_object, frame: float, passes: Collection[str], visit: Callable, eye: Eye | None = None
+) -> SceneRecord:
+    """Return the record of a scene at a frame with its motion, where pixels have times of their own, and with the next
+    and the previous frame, where passes look into them: of the same camera object. See ``motion_of`` for ``visit``.
+    """
+    found = found.with_motion(motion_of(found.camera, camera_object, visit, eye))
+    for name in frames_of(passes):
+        there = scene_at(camera_object, visit(frame + STEPS[name]), eye)
+        there = there.with_motion(motion_of(there.camera, camera_object, visit, eye))
+        found = replace(
+            found,
+            camera=replace(found.camera, **{name: there.camera}),
+            shapes=replace(found.shapes, **{name: there.shapes}),
+        )
+    return found
 
 
 def motion_of(camera: Camera, camera_object, visit: Callable, eye: Eye | None = None) -> Motion | None:

@@ -7,23 +7,28 @@ from functools import partial
 
 import bpy
 
-from ...core.arguments import number, shown, word
+from ...core.arguments import number, shown, word, words
 from ...core.camera.camera import Camera
 from ...core.camera.pixel_time import LAST_FRAME
 from ...core.camera.stereo import eye_record
+from ...core.casting.flow import frames_of
+from ...core.casting.passes import PASSES
 from ...core.records import InputError, Shapes
 from .camera import check_camera, eye_object, has_pixel_times, is_removed
 from .evaluated import SceneRecord, camera_at, scene_at
-from .motion import motion_of
+from .motion import motion_of, with_other_frames
 from .shapes import shapes_record
 
 
-def read_scene(scene, frame=None, camera_object=None, view="") -> SceneRecord:
+def read_scene(scene, frame=None, camera_object=None, view="", passes=()) -> SceneRecord:
     """Return camera and shapes, and the record that the camera was made of: what ``read_camera`` and ``read_shapes``
-    return for the same arguments, read once. Raises what they raise.
+    return for the same arguments, read once. Where ``passes`` have names of flow, ``camera.next``, ``shapes.next`` and
+    ``previous`` are those of the neighbors of the frame that these passes look into. Raises what they raise, and
+    InputError for an unknown pass.
     """
-    with evaluated_camera(scene, camera_object, frame, view) as (active, depsgraph):
-        return _with_motion(scene, active, depsgraph, view)
+    passes = words(passes, "passes", PASSES)
+    with evaluated_camera(scene, camera_object, frame, view, bool(frames_of(passes))) as (active, depsgraph):
+        return _with_motion(scene, active, depsgraph, view, passes)
 
 
 def read_camera(scene, camera_object=None, frame=None, view="") -> Camera:
@@ -54,10 +59,10 @@ def read_shapes(scene, frame=None, camera_object=None, view="") -> Shapes:
         return shapes_record(depsgraph)
 
 
-def _with_motion(scene, camera_object, depsgraph, view: str) -> SceneRecord:
-    eye = partial(eye_record, view=view)
+def _with_motion(scene, camera_object, depsgraph, view: str, passes=()) -> SceneRecord:
+    eye, frame = partial(eye_record, view=view), depsgraph.scene_eval.frame_current_final
     found = scene_at(camera_object, depsgraph, eye)
-    return found.with_motion(motion_of(found.camera, camera_object, partial(go_to, scene), eye))
+    return with_other_frames(found, camera_object, frame, passes, partial(go_to, scene), eye)
 
 
 _readings: list[bool] = []
@@ -65,11 +70,12 @@ _readings: list[bool] = []
 
 
 @contextmanager
-def evaluated_camera(scene, camera_object=None, frame=None, view=""):
+def evaluated_camera(scene, camera_object=None, frame=None, view="", goes_on=False):
     """Yield the camera object that ``read_camera`` reads for these arguments, and the depsgraph that evaluates it.
 
     Within another reading, in a handler that this one calls, the scene is read as it is evaluated then. Raises
-    InputError where that would not do: for another frame, another camera or a view, and for pixel times.
+    InputError where that would not do: for another frame, another camera or a view, for pixel times, and where the
+    reading ``goes_on`` to other frames.
     """
     _check_scene(scene)
     frame = None if frame is None else number(frame, "frame", LAST_FRAME)
@@ -79,7 +85,8 @@ def evaluated_camera(scene, camera_object=None, frame=None, view=""):
     if _readings:
         depsgraph = _layer(scene).depsgraph
         active = scene.camera if camera_object is None else camera_object
-        if frame is not None or view or active != scene.camera or has_pixel_times(active, depsgraph):
+        elsewhere = frame is not None or goes_on or view or active != scene.camera
+        if elsewhere or has_pixel_times(active, depsgraph):
             raise InputError(
                 "a handler reads a camera while another reading evaluates the scene: "
                 "read the active camera at the current frame there, or read it later, in a timer"

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from contextlib import nullcontext
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import Any, Literal, Protocol, overload
+from typing import Any, Literal, overload
 
 import numpy as np
 
@@ -23,7 +23,8 @@ from ..maths.vector import components, dot, inverse, is_grid, matvec, norm
 from ..memory import of_pixels, require
 from ..records import BlenderCamera, InputError, Pose, Raster, Rays, RaysJacobian
 from .jacobian import of_projection, of_rays
-from .pixel_time import PixelTime, meeting
+from .meeting import meeting
+from .pixel_time import CameraMotion, PixelTime
 from .pixels import by_time, given, in_blocks
 from .sampling import in_opening, sub_pixel
 
@@ -32,16 +33,6 @@ FARTHEST = 1e15
 
 BLOCK_PIXELS = 1 << 17
 """Pixels whose rays are made at once where a thread's share has as many: of fewer, threads wait at numpy's calls."""
-
-
-class CameraMotion(Protocol):
-    """What knows a camera at other frames."""
-
-    def camera_at(self, frame: float) -> Camera:
-        """Return the camera at a frame, without its pixel times."""
-
-    def in_words(self) -> list[str]:
-        """Return how well it is known, in lines for the report."""
 
 
 @dataclass(frozen=True)
@@ -62,6 +53,9 @@ class Camera:
     """The frame of each pixel; None where the picture has one time."""
     motion: CameraMotion | None = None
     """With pixel times, what knows the camera at other frames; None for a camera that stands still."""
+    next: Camera | None = None
+    """At the next frame, and ``previous`` at the previous one: see ``casting.flow``. None where they are not read."""
+    previous: Camera | None = None
 
     @property
     def settings(self) -> dict[str, Any]:
@@ -260,7 +254,7 @@ class Camera:
         for points that are not finite. With ``jacobian`` return also their derivatives by the points, (..., 2, 3):
         pixels per world unit, for every model alike; see ``camera.jacobian``.
 
-        With pixel times and a moving camera each point, taken to stand still, is sought by itself: see ``meeting``; its
+        With pixel times and a moving camera the points, taken to stand still, are sought: see ``meeting``; their
         derivatives are refused. Raises InputError for them, and for an array of another shape.
         """
         points = numbers(points, "points")
@@ -279,8 +273,9 @@ class Camera:
             return pixels, found.reshape(*points.shape[:-1], 2, 3)
         if self._moves:
             time: Any = self.pixel_time
-            sought = [meeting(time, lambda t, p=point: self.at(t).project(p)) for point in each]
-            return np.reshape(sought, (*points.shape[:-1], 2))
+            motion: Any = self.motion
+            sought = meeting(time, lambda frame, some: self.at(frame).project(each[some]), len(each), motion.cuts)
+            return sought.reshape(*points.shape[:-1], 2)
         near = _is_near(points)
         with _quiet(near):
             pixels = self.model.project((points - self.pose.eye) @ inverse(self.pose.basis).T)

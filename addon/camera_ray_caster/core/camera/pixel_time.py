@@ -13,7 +13,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from itertools import pairwise
+from typing import Any, Protocol
 
 import numpy as np
 
@@ -144,6 +144,20 @@ class ImageTime:
 PixelTime = LinearTime | ImageTime
 
 
+class CameraMotion(Protocol):
+    """What knows a camera at other frames."""
+
+    def camera_at(self, frame: float) -> Any:
+        """Return the ``Camera`` at a frame, without its pixel times."""
+
+    @property
+    def cuts(self) -> tuple[float, ...]:
+        """The frames at which motion may change abruptly."""
+
+    def in_words(self) -> list[str]:
+        """Return how well it is known, in lines for the report."""
+
+
 def groups(pixel_time: PixelTime, x, y):
     """Yield (frame, rows, columns, where) for each frame of pixels x (1, columns), y (rows, 1): the slices hold all
     pixels of that frame, and ``where``, bool in their shape, tells which those are.
@@ -161,39 +175,6 @@ def groups(pixel_time: PixelTime, x, y):
         held = [np.flatnonzero(same.any(axis=axis)) for axis in (1, 0)]
         box = tuple(slice(lane[0], lane[-1] + 1) for lane in held)
         yield float(frame), *box, same[box]
-
-
-def meeting(pixel_time: PixelTime, project, steps: int = 64) -> np.ndarray:
-    """Return the pixel (2,) that sees a point at the pixel's own time; NaN where none does, the earliest of several.
-
-    ``project(frame)`` is the pixel at which the camera of that frame sees it. The frame at which pixel and camera agree
-    is bracketed in ``steps`` equal parts of the clock and halved until it is exact: a point that agrees twice
-    within one part may be missed. On an ImageTime the frames are those of the image.
-    """
-    if isinstance(pixel_time, ImageTime):
-        for frame in np.unique(pixel_time.frames):
-            pixel = project(frame)
-            if not np.isnan(pixel).any() and pixel_time.frame_at(*pixel) == frame:
-                return pixel
-        return np.full(2, np.nan)
-
-    def late(frame):
-        return float(pixel_time.frame_at(*project(frame))) - frame
-
-    margin = (abs(pixel_time.per_column) + abs(pixel_time.per_row)) / 2  # half a pixel: centers to edges
-    frames = np.linspace(pixel_time.first - margin, pixel_time.last + margin, steps + 1)
-    lates = [late(frame) for frame in frames]
-    for (a, at_a), (b, at_b) in pairwise(zip(frames, lates, strict=True)):
-        if at_a == 0:
-            return project(a)
-        if at_a * at_b < 0:
-            while a < (middle := a + (b - a) / 2) < b:
-                if late(middle) * at_a > 0:
-                    a = middle
-                else:
-                    b = middle
-            return project(b)
-    return project(frames[-1]) if lates[-1] == 0 else np.full(2, np.nan)
 
 
 def pixel_time_from(raw: BlenderCamera, raster: Raster) -> PixelTime | None:

@@ -31,6 +31,8 @@ class HitValues:
 
     def __init__(self, hits: Hits):
         self.hits = hits
+        self.flows: dict[str, Any] = {}
+        """To other frames, by name: what passes of one block share; see ``flow``."""
 
     @property
     def plan(self) -> Plan:

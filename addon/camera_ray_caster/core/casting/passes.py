@@ -1,8 +1,8 @@
 """The passes of a picture: what each stores, for a tile of hits. A new pass is one function and one row in PASSES.
 
 Where a ray hits nothing depth, distance and footprint are inf, shape_index and face_index are -1, combined the world's
-color, all others but solid_angle 0; a pixel without a ray is the same with combined (0, 0, 0, 0), valid False and
-solid_angle 0.
+color, flow_forward and flow_backward NaN, all others but solid_angle 0; a pixel without a ray is the same with combined
+(0, 0, 0, 0), valid False and solid_angle 0.
 """
 
 from __future__ import annotations
@@ -16,6 +16,7 @@ import numpy as np
 from ..errors.hits import HitErrors
 from ..maths.speed import whole_rows
 from ..maths.vector import matvec, unit
+from .flow import NEXT, PREVIOUS, flow_of
 from .hit_values import ZERO, HitValues
 from .hits import Hits
 from .shading import shade
@@ -132,6 +133,22 @@ def footprint(values: HitValues, out):
         out[values.hits.missed] = np.inf
 
 
+def flow_forward(values: HitValues, out):
+    """How far the pixel is, x and y, at which the next frame sees the surface point; NaN for none: see ``flow``."""
+    flow_of(values, NEXT).write(out)
+
+
+def flow_backward(values: HitValues, out):
+    """The same of the previous frame."""
+    flow_of(values, PREVIOUS).write(out)
+
+
+def flow_hidden(values: HitValues, out):
+    """Whether the next frame, and whether the previous one, has something before the surface point, or clips it."""
+    for k, name in enumerate((NEXT, PREVIOUS)):
+        flow_of(values, name).write_hidden(out[..., k])
+
+
 def distance_bound(values: HitValues, out):
     """How far the stored distance, and the depth, are from the exact ones at most; world units."""
     _bound(values, out, lambda errors: (errors.distance, errors.t * errors.rays.length))
@@ -183,6 +200,9 @@ PASSES = {
     "ray_direction": Pass(ray_direction, 3),
     "solid_angle": Pass(solid_angle),
     "footprint": Pass(footprint),
+    "flow_forward": Pass(flow_forward, 2),
+    "flow_backward": Pass(flow_backward, 2),
+    "flow_hidden": Pass(flow_hidden, 2, np.bool_),
     "distance_bound": Pass(distance_bound),
     "position_bound": Pass(position_bound),
     "normal_bound": Pass(normal_bound),

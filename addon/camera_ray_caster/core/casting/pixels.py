@@ -10,6 +10,7 @@ import numpy as np
 from ..camera.camera import Camera
 from ..maths.speed import Scratch
 from ..records import Shapes
+from .flow import pictures
 from .hits import Hits
 from .passes import PASSES, store
 from .plan import Plan, make_plan
@@ -37,7 +38,8 @@ def passes_at(
     """
     ends = {"x0": columns[0], "x1": columns[-1] + 1, "y0": rows[0], "y1": rows[-1] + 1}
     still = replace(camera, raster=replace(camera.raster, **ends), pixel_time=None, motion=None)
-    plan = make_plan(still, shapes, Request(tuple(passes), tuple(PASSES)))
+    request = Request(tuple(passes), tuple(PASSES), others=pictures(camera, shapes, passes))
+    plan = make_plan(still, shapes, request)
     images = {name: PASSES[name].empty((len(rows), len(columns)), np.float64) for name in passes}
     with np.errstate(all="ignore"):  # NaN and inf are answers: no ray, no hit
         store(hits_at(plan, columns, rows), images)

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 
@@ -35,6 +37,8 @@ class Request:
     sampled: bool = False
     """Whether rays lie all over the pixels and the aperture, not in their centers."""
     precision: str = AUTOMATIC
+    others: Mapping[str, Any] = field(default_factory=dict, compare=False)
+    """The pictures of other frames that passes look into, by name; see ``flow``."""
 
     def __post_init__(self):
         words(self.passes, "passes", self.known)

@@ -64,6 +64,11 @@ class Motion:
         """Return both at once."""
         return self.camera_at(frame), self.shapes_at(frame)
 
+    @property
+    def cuts(self) -> tuple[float, ...]:
+        """The frames at which intervals meet: motion may change abruptly there."""
+        return tuple(interval.frames[0] for interval in self.intervals[1:])
+
     def _interval(self, frame: float) -> TimeInterval:
         k = bisect_right(self.intervals, frame, key=lambda interval: interval.frames[0]) - 1
         return self.intervals[max(k, 0)]

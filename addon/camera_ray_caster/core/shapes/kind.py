@@ -21,6 +21,7 @@ import numpy as np
 
 from ..maths.speed import Scratch, lazy
 from ..records import Shapes
+from .follow import Follow, follow_frames
 from .frames import InCamera, WorldRays
 
 
@@ -237,6 +238,13 @@ class Kind(ABC):
     @abstractmethod
     def uv(self, shapes: InCamera, pixels: HitPixels, point: Any) -> tuple[np.ndarray, np.ndarray]:
         """Return u and v, (m,) each, of hit points given as components relative to the eye, world."""
+
+    def follow(self, shapes: InCamera, pixels: HitPixels, point: Any) -> Follow:
+        """Return what tells where hit points, components relative to the eye, world, are when their shapes have moved.
+
+        By default they keep their place in the shapes' own frames.
+        """
+        return follow_frames(shapes, pixels.at, point)
 
     def from_edge(self, shapes: InCamera, pixels: HitPixels, point: Any) -> np.ndarray:
         """Return how far hit points are from the nearest edge of their faces, (m,), as a part of the height of the

@@ -5,9 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from ..records import MESH, Shapes
+from .follow import Follow
 from .frames import InCamera, WorldRays
 from .kind import HitPixels, Kind, PixelNormals, Visible
 from .mesh_errors import TriangleErrors, decide
+from .mesh_follow import follow_meshes
 from .mesh_in_camera import MeshesInView
 from .mesh_normals import TriangleNormals
 from .mesh_search import MeshSet
@@ -52,6 +54,11 @@ class Meshes(Kind):
     def uv(self, shapes: InCamera, pixels: HitPixels, point) -> tuple[np.ndarray, np.ndarray]:
         """See ``Kind``: the render UV map, 0 where there is none."""
         return HitTriangles.of(shapes, pixels).uv(point)
+
+    def follow(self, shapes: InCamera, pixels: HitPixels, point) -> Follow:
+        """See ``Kind``: with the frames, and with their triangles where meshes change their form or are flat."""
+        with_frames = super().follow(shapes, pixels, point)
+        return follow_meshes(with_frames, HitTriangles.of(shapes, pixels), point)
 
     def from_edge(self, shapes: InCamera, pixels: HitPixels, point) -> np.ndarray:
         """See ``Kind``; edges within a face are none."""

@@ -42,11 +42,16 @@ class HitTriangles:
     def of(cls, shapes: InCamera, pixels: HitPixels) -> HitTriangles:
         """Return those of pixels that see meshes, one at least."""
         of_tile, which = pixels.scratch.noted[SEEN], pixels.kept(SEEN, np.int32)
-        place = np.zeros(len(of_tile.at), np.int32)
+        return cls(shapes, which, of_tile.at, of_tile.number, pixels.from_eye).only(slice(None))
+
+    def only(self, some: Any) -> HitTriangles:
+        """Return those that some of the pixels see, indices or a slice."""
+        which = self.which[some]
+        place = np.zeros(len(self.at), np.int32)
         place[which] = 1
-        some = np.flatnonzero(place)
-        place[some] = np.arange(len(some))
-        return cls(shapes, place.take(which), of_tile.at[some], of_tile.number[some], pixels.from_eye)
+        seen = np.flatnonzero(place)
+        place[seen] = np.arange(len(seen))
+        return HitTriangles(self.shapes, place.take(which), self.at[seen], self.number[seen], self.from_eye)
 
     def each(self, values: Any) -> np.ndarray:
         """Return the values of triangles (..., k) for the pixels that see them, (..., m)."""
@@ -65,9 +70,7 @@ class HitTriangles:
     @lazy
     def local(self) -> np.ndarray:
         """The corners in their meshes' frames from the middle, (3, 3, k): corner, component."""
-        return self._gather(
-            (3, 3), float, lambda mesh, k: _places(mesh, mesh.triangles.take(k, axis=1)) - mesh.middle[:, None]
-        )
+        return self._gather((3, 3), float, corners_from_middle)
 
     @lazy
     def axes(self) -> tuple[Any, ...]:
@@ -160,20 +163,20 @@ class HitTriangles:
         return self.at[:1] if (self.at == self.at[0]).all() else self.at
 
     @lazy
-    def _mesh(self) -> np.ndarray:
+    def mesh(self) -> np.ndarray:
         """(k,) indices into ``Shapes.meshes``."""
         return self.shapes.shapes.mesh[self.at]
 
     @lazy
     def _meshes(self) -> list[int]:
         """Those that are seen."""
-        return np.flatnonzero(np.bincount(self._mesh)).tolist()
+        return np.flatnonzero(np.bincount(self.mesh)).tolist()
 
     def _gather(self, shape: tuple[int, ...], dtype: type, of: Callable[[Mesh, np.ndarray], Any]) -> np.ndarray:
         """Return what a function gives for triangles of a mesh, (*shape, k)."""
         result: np.ndarray = np.empty((*shape, len(self.at)), dtype)
         for k in self._meshes:
-            some = self._mesh == k if len(self._meshes) > 1 else slice(None)
+            some = self.mesh == k if len(self._meshes) > 1 else slice(None)
             result[..., some] = of(self.shapes.shapes.meshes[k], self.number[some])
         return result
 
@@ -189,9 +192,9 @@ def affine_at(which: np.ndarray, constant: np.ndarray, slope: Any, point: Any) -
     return total
 
 
-def _places(mesh: Mesh, which: np.ndarray) -> np.ndarray:
-    """Return the vertices (3, 3, k) that triangles (3, k) name."""
-    return mesh.vertices.take(which, axis=1).swapaxes(0, 1)
+def corners_from_middle(mesh: Mesh, which: np.ndarray) -> np.ndarray:
+    """Return the corners of triangles (k,) in the mesh's frame from its middle, (3, 3, k): corner, component."""
+    return mesh.vertices.take(mesh.triangles.take(which, axis=1), axis=1).swapaxes(0, 1) - mesh.middle[:, None]
 
 
 def _at_loops(values: np.ndarray, loops: Any, which: np.ndarray) -> np.ndarray:

@@ -1,0 +1,128 @@
+"""The pixels that see points at the pixels' own times: where a moving camera's clock and the points' images agree.
+
+The image of a point is a polynomial of the frame, piece by piece: it is fitted at a few nodes of each piece, and where
+its last coefficients have not sunk to rounding, the piece is halved.
+Reference: L. Trefethen, Approximation Theory and Approximation Practice (2013), chapters 3, 8 and 18.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+from numpy.polynomial.chebyshev import chebpts2, chebval, chebvander
+
+from .pixel_time import ImageTime, LinearTime, PixelTime
+
+NODES = chebpts2(12)
+"""Of a piece, from -1 to 1."""
+
+FIT = np.linalg.inv(chebvander(NODES, len(NODES) - 1))
+
+PLACES = np.linspace(-1, 1, 65)
+"""Of a piece whose polynomials are known, between which a change of sign is looked for."""
+
+RESOLVED = 1e-10, 1e-13
+"""What last coefficients have to sink to: pixels, and a part of the largest coordinate."""
+
+LONGEST = 1 / 6
+"""Of the clock: longer pieces that are not resolved are halved even where no point is seen to agree with it."""
+
+SHORTEST = 2.0**-14
+"""Of the clock, at which halving ends: less than a row."""
+
+HALVINGS = 54
+"""Of the interval in which a polynomial has a root, until no number lies within."""
+
+Project = Callable[[float, np.ndarray], np.ndarray]
+"""Given a frame and the indices (k,) of points, the pixels (k, 2) at which the camera of that frame sees them then."""
+
+
+def meeting(pixel_time: PixelTime, project: Project, count: int, cuts: Iterable[float] = ()) -> np.ndarray:
+    """Return the pixels (count, 2) that see points at the pixels' own times; NaN where none does, the earliest of
+    several. ``cuts``: frames at which motion may change abruptly.
+
+    Right to RESOLVED but at other abrupt changes, around which it is right to SHORTEST. A point whose image agrees with
+    the clock twice within 1/64 of a piece may be missed. On an ImageTime the frames are those of the image.
+    """
+    found, everyone = np.full((count, 2), np.nan), np.arange(count)
+    with np.errstate(invalid="ignore"):  # NaN is an answer: not seen
+        if isinstance(pixel_time, ImageTime):
+            for frame in np.unique(pixel_time.frames).tolist():
+                left = everyone[np.isnan(found[:, 0])]
+                pixels = project(frame, left)
+                seen = np.flatnonzero(~np.isnan(pixels).any(axis=1))
+                seen = seen[pixel_time.frame_at(*pixels[seen].T) == frame]
+                found[left[seen]] = pixels[seen]
+            return found
+        margin = (abs(pixel_time.per_column) + abs(pixel_time.per_row)) / 2  # half a pixel: centers to edges
+        first, last = pixel_time.first - margin, pixel_time.last + margin
+        search = _Search(pixel_time, project, last - first)
+        for a, b in pairwise([first, *sorted({cut for cut in cuts if first < cut < last}), last]):
+            left = everyone[np.isnan(found[:, 0])]
+            found[left] = search.within(a, b, left)
+    return found
+
+
+@dataclass(frozen=True)
+class _Search:
+    clock: LinearTime
+    project: Project
+    length: float
+    """Of the clock, in frames."""
+
+    def within(self, a: float, b: float, some: np.ndarray) -> np.ndarray:
+        """Return the pixels (k, 2) of points whose images agree with the clock between two frames; NaN of others."""
+        found = np.full((len(some), 2), np.nan)
+        middle, half = (a + b) / 2, (b - a) / 2
+        pixels = np.stack([self.project(middle + half * node, some) for node in NODES.tolist()])
+        series = np.tensordot(FIT, pixels - pixels[:1], 1)
+        size = np.abs(pixels).max(axis=(0, 2))
+        clear = np.abs(series[-2:]).max(axis=(0, 2)) <= RESOLVED[0] + RESOLVED[1] * size
+        late = self._late(pixels, middle + half * NODES[:, None])
+        if clear.any():
+            found[clear] = self._root(middle, half, series[:, clear], pixels[0, clear])
+        if b - a <= SHORTEST * self.length:
+            change = (late[:-1] * late[1:] <= 0) & ~clear
+            rest = np.flatnonzero(change.any(axis=0))
+            k = change[:, rest].argmax(axis=0)
+            before, after = late[k, rest], late[k + 1, rest]
+            share = np.where(before == after, 0.0, before / (before - after))[:, None]
+            found[rest] = (1 - share) * pixels[k, rest] + share * pixels[k + 1, rest]
+            return found
+        rest = ~clear
+        if b - a <= LONGEST * self.length:
+            rest &= (np.fmin.reduce(late) <= 0) & (np.fmax.reduce(late) >= 0)
+        for ends in ((a, middle), (middle, b)):
+            left = np.flatnonzero(rest & np.isnan(found[:, 0]))
+            if left.size:
+                found[left] = self.within(*ends, some[left])
+        return found
+
+    def _late(self, pixels: np.ndarray, frame) -> np.ndarray:
+        """Return by how much the times of pixels (..., 2) are later than frames."""
+        return self.clock.frame_at(pixels[..., 0], pixels[..., 1]) - frame
+
+    def _root(self, middle: float, half: float, series: np.ndarray, start: np.ndarray) -> np.ndarray:
+        """Return the first pixels (k, 2) of points whose images are polynomials that agree with the clock; else NaN."""
+        found = np.full(start.shape, np.nan)
+        at_places = start + np.tensordot(chebvander(PLACES, len(series) - 1), series, 1)
+        late = self._late(at_places, middle + half * PLACES[:, None])
+        change = late[:-1] * late[1:] <= 0
+        here = np.flatnonzero(change.any(axis=0))
+        k = change[:, here].argmax(axis=0)
+        low, high, rises = PLACES[k], PLACES[k + 1], (late[k, here] < 0) | (late[k + 1, here] > 0)
+        series, start = series[:, here], start[here]
+        for _ in range(HALVINGS):
+            at = (low + high) / 2
+            is_after = (self._late(_values(series, start, at), middle + half * at) >= 0) == rises
+            low, high = np.where(is_after, low, at), np.where(is_after, at, high)
+        found[here] = _values(series, start, high)
+        return found
+
+
+def _values(series: np.ndarray, start: np.ndarray, at: np.ndarray) -> np.ndarray:
+    """Return the values (k, 2) of polynomials at places (k,)."""
+    return start + np.stack([chebval(at, series[..., axis], tensor=False) for axis in range(2)], axis=-1)

@@ -1,0 +1,146 @@
+"""Rays aimed at points, anywhere between the centers of pixels: what stands before the points."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+import numpy as np
+
+from ..camera.camera import Camera
+from ..conventions import gamma
+from ..errors.hits import HitErrors
+from ..errors.rays import world_rays
+from ..maths.speed import Scratch
+from ..maths.vector import components, difference, inverse, matvec, norm
+from ..records import Shapes
+from ..shapes.frames import WorldRays
+from .hit_values import HitValues
+from .plan import Plan, make_plan
+from .rays import TileRays
+from .request import Request
+from .search import nearest_hits
+
+POINTS = 1 << 15
+"""That are aimed at at once."""
+
+LAYERS = 4
+"""Rays that share a pixel in the first lattice of rays; the next one has as many times as many, of fuller pixels."""
+
+
+def aiming_plan(camera: Camera, shapes: Shapes) -> Plan:
+    """Return the plan for rays anywhere in the full frame of a camera, at one moment; aimed rays are chief rays."""
+    raster = replace(camera.raster, x0=0, y0=0, x1=camera.raster.width, y1=camera.raster.height)
+    camera = replace(camera, raster=raster, aperture=None, pixel_time=None, motion=None)
+    return make_plan(camera, shapes, Request((), (), sampled=True))
+
+
+def is_before(plan: Plan, pixels: np.ndarray, points: np.ndarray, error: np.ndarray) -> np.ndarray:
+    """Return what stands before world points (n, 3) that the camera of an aiming plan sees at pixels (n, 2) of its
+    frame, (n,): 1 where something does, 0 where nothing does, -1 where the point is nearer or farther than the clip
+    range.
+
+    The ray of each pixel is turned to its point. A hit is before the point where it is nearer by more than both may be
+    wrong: the hit by its error bound, for a ray that passes the exact point as far beside as ``error`` (n,), world
+    units, and rounding allow; the point by ``error``. The surface that a point lies on is thus not before it, however
+    the ray grazes it.
+    """
+    found = np.empty(len(points), np.int8)
+    with np.errstate(all="ignore"):  # NaN and inf are answers: no ray, no hit
+        for first in range(0, len(points), POINTS):
+            part = slice(first, first + POINTS)
+            aim = _Aim(plan, pixels[part], points[part], error[part])
+            found[part] = aim.answer()
+    return found
+
+
+class _Aim:
+    """Some points, and the rays to them, in the camera's frame; (3, n) and (n,) arrays."""
+
+    def __init__(self, plan: Plan, pixels: np.ndarray, points: np.ndarray, error: np.ndarray):
+        camera, self.plan = plan.camera, plan
+        basis = camera.pose.basis
+        self.pixels = pixels
+        x, y = pixels.T
+        rays = world_rays(camera, x, y)
+        camera_from_world = inverse(basis)
+        local = matvec(camera_from_world, components(points - camera.pose.eye))
+        origin, direction = camera.camera_rays(x, y)
+        self.origin, towards = _whole(origin, len(x)), np.array(difference(local, origin))
+        distance = norm(matvec(basis, towards))
+        self.t = -towards[2] if camera.model.planar else distance
+        self.direction = towards / self.t
+        if camera.model.parallel:  # rays that have one direction keep it
+            self.direction = _whole(direction, len(x))
+            self.origin = np.array(local) - self.t * self.direction
+        self.length = norm(matvec(basis, self.direction))
+        size = norm(matvec(basis, self.origin)) + norm(components(points - camera.pose.eye))
+        self.origin_error = rays.origin_error + gamma(8) * size * bool(camera.model.parallel)
+        beside = error + self.origin_error + gamma(16) * camera.stretch * size
+        self.direction_error = beside / self.t + gamma(16) * camera.stretch * self.length
+        self.t_error = beside * np.sqrt((camera_from_world * camera_from_world).sum())
+
+    def answer(self) -> np.ndarray:
+        """Return what ``is_before`` does."""
+        camera = self.plan.camera
+        answer = np.zeros(len(self.t), np.int8)
+        for some, columns, rows, place in _lattices(self.pixels, camera.raster.size):
+            answer[some] = self._front(some, columns, rows, place) < self.t[some] - self.t_error[some]
+        answer[~((self.t >= camera.clip_start) & (self.t <= camera.clip_end))] = -1
+        return answer
+
+    def _front(self, some: np.ndarray, columns: np.ndarray, rows: np.ndarray, place: tuple) -> np.ndarray:
+        """Return the largest t at which what stands before points may be, (k,); inf where nothing does."""
+        shape = len(rows), len(columns)
+
+        def laid(values, empty=np.nan):
+            values = np.broadcast_to(values, (*np.shape(values)[:-1], len(self.t)))
+            cells = np.full((*values.shape[:-1], *shape), empty)
+            cells[(..., *place)] = values[..., some]
+            return cells
+
+        camera, plan = self.plan.camera, self.plan.at_pixels(columns, rows)
+        from_eye = camera.from_eye(sampled=False)
+        origin, direction = laid(self.origin, 0.0), laid(self.direction)
+        rays = TileRays(
+            columns[None] + 0.5, rows[:, None] + 0.5, (0, 0), from_eye, (0.0,) * 3 if from_eye else tuple(origin),
+            tuple(direction), Scratch(),
+        )  # fmt: skip
+        in_world = WorldRays(
+            matvec(camera.pose.basis, rays.origin), matvec(camera.pose.basis, direction), laid(self.length),
+            laid(self.origin_error) if np.ndim(self.origin_error) else self.origin_error, laid(self.direction_error),
+        )  # fmt: skip
+        hits = nearest_hits(plan, rays)
+        front = np.full(shape, np.inf)
+        values = HitValues(hits)
+        for where, errors in values.by_kind(
+            lambda kind, own: HitErrors(camera, plan.in_camera, kind, own, in_world.only(own.where), True)
+        ):
+            front[where] = errors.t + errors.t_error
+        return front[place]
+
+
+def _whole(vector, count: int) -> np.ndarray:
+    """Return components that broadcast as (3, n)."""
+    return np.array([np.broadcast_to(component, (count,)) for component in vector])
+
+
+def _lattices(pixels: np.ndarray, size: tuple[int, int]) -> Iterator[tuple]:
+    """Yield lattices of rays, columns (c,) and rows (r,) of pixels, in which each of some points, indices (k,), has a
+    place of its own, (k,) rows and columns: rows of pixels are repeated for the points that share one of them.
+    """
+    column, row = (np.minimum(np.floor(part).astype(int), side - 1) for part, side in zip(pixels.T, size, strict=True))
+    order = np.lexsort((column, row))
+    is_new = np.append(True, (np.diff(column[order]) != 0) | (np.diff(row[order]) != 0))
+    first = np.flatnonzero(is_new)
+    layer = np.empty(len(order), int)
+    layer[order] = np.arange(len(order)) - np.repeat(first, np.diff(np.append(first, len(order))))
+    start, end = 0, LAYERS
+    while (some := np.flatnonzero((layer >= start) & (layer < end))).size:
+        columns, at_column = np.unique(column[some], return_inverse=True)
+        rows, at_row = np.unique(row[some], return_inverse=True)
+        repeats = np.zeros(len(rows), int)
+        np.maximum.at(repeats, at_row, layer[some] - start + 1)
+        begin = np.cumsum(repeats) - repeats
+        yield some, columns, np.repeat(rows, repeats), (begin[at_row] + layer[some] - start, at_column)
+        start, end = end, LAYERS * end

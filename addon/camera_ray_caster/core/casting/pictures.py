@@ -1,0 +1,109 @@
+"""Where points that may move are seen in a picture, and whether something stands before them there."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from functools import partial
+from typing import Any, Protocol
+
+import numpy as np
+
+from ..camera.camera import Camera
+from ..camera.meeting import meeting
+from ..records import Shapes
+from .aimed import aiming_plan, is_before
+from .plan import Plan
+
+SHAPES = 1 << 21
+"""Whose places at other moments are kept: some 200 MB."""
+
+PLANS = 16
+"""Of moments that are kept: the pixels of a tile are seen in few rows of the other frame."""
+
+
+class Points(Protocol):
+    """Points that may move with shapes."""
+
+    def at(self, shapes: Shapes, some: np.ndarray) -> np.ndarray:
+        """Return where some, indices (k,), are at the moment of the shapes, (k, 3) world; NaN if they are not there."""
+
+    def error(self, shapes: Shapes, some: np.ndarray) -> np.ndarray:
+        """Return how wrong that is at most, (k,)."""
+
+
+class Picture:
+    """A camera and shapes as they are read, in which points are looked for; its plan is made once."""
+
+    def __init__(self, camera: Camera, shapes: Shapes):
+        self.camera, self.shapes = camera, shapes
+        self._states: dict[float, tuple[Camera, Shapes]] = {}
+        self._plans: dict[float | None, Plan] = {}
+
+    def prepare(self) -> None:
+        """Make what ``before`` needs, before threads share the picture."""
+        if self.camera.pixel_time is None:
+            self._plan(None)
+
+    def pixels(self, points: Points, count: int) -> np.ndarray:
+        """Return the pixel coordinates (count, 2) at which points are seen, each at the pixel's own time; NaN where
+        that is nowhere in the full frame.
+        """
+        clock, motion = self.camera.pixel_time, self.camera.motion
+        if clock is None:
+            found = self._project(points, None, np.arange(count))
+        else:
+            found = meeting(clock, partial(self._project, points), count, () if motion is None else motion.cuts)
+        return np.where(self._is_inside(found)[:, None], found, np.nan)
+
+    def before(self, points: Points, pixels: np.ndarray) -> np.ndarray:
+        """Return what stands before points that are seen at pixels (n, 2), as ``aimed.is_before`` does; -1 where the
+        pixel is NaN. With pixel times it is asked at the time of the pixel's center.
+        """
+        answer = np.full(len(pixels), -1, np.int8)
+        seen = np.flatnonzero(~np.isnan(pixels[:, 0]))
+        for frame, some in self._moments(pixels, seen):
+            _, shapes = self._moment(frame)
+            then = pixels[some] if frame is None else self._project(points, frame, some)
+            inside = self._is_inside(then)
+            some, then = some[inside], then[inside]
+            answer[some] = is_before(self._plan(frame), then, points.at(shapes, some), points.error(shapes, some))
+        return answer
+
+    def _moments(self, pixels: np.ndarray, seen: np.ndarray) -> Iterator[tuple[float | None, np.ndarray]]:
+        """Yield the times of pixels' centers, None for that of the picture, and the indices of those that have it."""
+        clock = self.camera.pixel_time
+        if clock is None:
+            yield None, seen
+            return
+        times = clock.frame_at(*(np.floor(pixels[seen].T) + 0.5))
+        for frame in np.unique(times).tolist():
+            yield frame, seen[times == frame]
+
+    def _project(self, points: Points, frame: float | None, some: np.ndarray) -> np.ndarray:
+        camera, shapes = self._moment(frame)
+        return camera.project(points.at(shapes, some))
+
+    def _is_inside(self, pixels: np.ndarray) -> np.ndarray:
+        with np.errstate(invalid="ignore"):  # NaN is not
+            return ((pixels >= 0) & (pixels <= self.camera.raster.size)).all(axis=1)
+
+    def _moment(self, frame: float | None) -> tuple[Camera, Shapes]:
+        """Return both at a frame; None for a picture that has one time."""
+        if frame is None:
+            return self.camera, self.shapes
+        shapes, motion = self.shapes, self.shapes.motion
+        return _kept(self._states, frame, max(16, SHAPES // max(len(shapes), 1)), lambda: (
+            self.camera.at(frame), shapes if motion is None else motion.shapes_at(frame)))  # fmt: skip
+
+    def _plan(self, frame: float | None) -> Plan:
+        return _kept(self._plans, frame, PLANS, lambda: aiming_plan(*self._moment(frame)))
+
+
+def _kept(known: dict, key: Any, most: int, make: Callable[[], Any]) -> Any:
+    """Return what is known by a key, or what is made and known from then on; beyond so many the oldest is forgotten."""
+    found = known.get(key)
+    if found is None:
+        found = known[key] = make()
+        for old in list(known)[:-most]:
+            known.pop(old, None)
+    return found

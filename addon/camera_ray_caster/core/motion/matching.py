@@ -1,0 +1,35 @@
+"""Which shape of one reading of a scene is which of another."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..records import MESH, Shapes
+from .deformation import alike
+from .interpolation import matched
+
+
+def rows_in(before: Shapes, after: Shapes) -> np.ndarray:
+    """Return the rows (n,) that the shapes of ``before`` have in ``after``; -1 for those that are not in it.
+
+    Shapes are the same by the name of their object and their place among those of that name, where both have as many,
+    of the same kind, and of meshes with the same triangles.
+    """
+    if matched(before, after):
+        return np.arange(len(before))
+    numbers = {name: number for number, name in enumerate(dict.fromkeys((*before.names, *after.names)))}
+    own, other = (np.array([numbers[name] for name in one.names], int)[one.name_index] for one in (before, after))
+    counts, other_counts = (np.bincount(one, minlength=len(numbers)) for one in (own, other))
+    there = np.flatnonzero((counts == other_counts)[own])
+    rows = np.full(len(before), -1)
+    here = there[np.argsort(own[there], kind="stable")]
+    found = np.flatnonzero((counts == other_counts)[other])
+    rows[here] = found[np.argsort(other[found], kind="stable")]
+    is_other = (rows >= 0) & (before.kind != after.kind[rows])
+    meshes = np.flatnonzero((rows >= 0) & ~is_other & (before.kind == MESH))
+    pairs = np.stack((before.mesh[meshes], after.mesh[rows[meshes]])) if meshes.size else np.zeros((2, 0), int)
+    for one, another in np.unique(pairs, axis=1).T:
+        if not alike([before.meshes[one]], [after.meshes[another]]):
+            is_other[meshes[(pairs == [[one], [another]]).all(axis=0)]] = True
+    rows[is_other] = -1
+    return rows

@@ -1,0 +1,68 @@
+"""Points of meshes that move with their triangles: where a mesh changes its form, or is flat."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ..conventions import gamma
+from ..maths.vector import difference, matrix_rows, matvec, norm
+from ..records import Shapes
+from .follow import Follow, Moved
+from .mesh_surface import LOST, HitTriangles, corners_from_middle
+
+
+def follow_meshes(with_frames: Follow, all_triangles: HitTriangles, point: Any) -> Follow:
+    """Return what moves points, components relative to the eye: with the frames of their shapes where that will do."""
+
+    def moved(then: Shapes, rows: np.ndarray, some: np.ndarray) -> Moved:
+        found, triangles = with_frames(then, rows, some), all_triangles.only(some)
+        others = np.flatnonzero(triangles.each(_are_flat(triangles) | _are_others(triangles, then, rows)))
+        if others.size:
+            own = _with_triangles(triangles.only(others), then, rows, tuple(part[some[others]] for part in point))
+            for values, new in zip(found, own, strict=True):
+                values[..., others] = new
+        return found
+
+    return moved
+
+
+def _are_flat(triangles: HitTriangles) -> np.ndarray:
+    """Return whether the axes of their shapes lie in one plane, so that these have no inverse, (k,) bool."""
+    product = triangles.shapes.shape_from_world[triangles.at] @ triangles.shapes.shapes.axes[triangles.at]
+    return ~(np.abs(product - np.eye(3)).max(axis=(1, 2)) < LOST)
+
+
+def _are_others(triangles: HitTriangles, then: Shapes, rows: np.ndarray) -> np.ndarray:
+    """Return which of them, (k,) bool, are of another mesh in other shapes, where shapes have rows (n,)."""
+    pairs, which = _pairs(triangles, then, rows)
+    return np.array([triangles.shapes.shapes.meshes[one] is not then.meshes[other] for one, other in pairs.T])[which]
+
+
+def _with_triangles(triangles: HitTriangles, then: Shapes, rows: np.ndarray, point: Any) -> Moved:
+    """Return how points, components relative to the eye, move with their triangles: affinely, as the corners do."""
+    corners = np.empty_like(triangles.local)
+    pairs, which = _pairs(triangles, then, rows)
+    for pair, other in enumerate(pairs[1].tolist()):
+        some = which == pair
+        corners[..., some] = corners_from_middle(then.meshes[other], triangles.number[some])
+    there = rows[triangles.at]
+    axes, shift = matrix_rows(then.axes[there]), (then.center[there] - triangles.shapes.shapes.center[triangles.at]).T
+    steps = np.array([
+        shift + difference(matvec(axes, new), matvec(triangles.axes, old))
+        for new, old in zip(corners, triangles.local, strict=True)
+    ])  # fmt: skip
+    gradients = [norm(gradient) for gradient in triangles.gradients]
+    spread = sum(norm(step - steps[0]) * gradient for step, gradient in zip(steps[1:], gradients, strict=True))
+    reach = np.maximum.reduce([norm(corner) for corner in (*triangles.corners, *steps)])
+    thin = np.maximum(*map(norm, triangles.edges)) * sum(gradients)
+    error = gamma(64) * reach * (1 + spread) * (1 + thin)
+    by = np.array(list(triangles.interpolated(steps, point)))
+    return Moved(by, triangles.each(spread), triangles.each(error))
+
+
+def _pairs(triangles: HitTriangles, then: Shapes, rows: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return the pairs (2, p) of a mesh here and one in other shapes, and which of them each triangle has, (k,)."""
+    pairs, which = np.unique((triangles.mesh, then.mesh[rows[triangles.at]]), axis=1, return_inverse=True)
+    return pairs, which.reshape(-1)
