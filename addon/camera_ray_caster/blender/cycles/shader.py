@@ -106,7 +106,19 @@ def _compile(camera) -> bool:
 
 
 def _let_cycles_query() -> None:
-    """Let Cycles find the module that reads a shader's inputs: a Python that imports bpy does not know where it is."""
-    for folder in Path(bpy.utils.system_resource("PYTHON")).glob("lib/python*/site-packages"):
-        if str(folder) not in sys.path:
-            sys.path.append(str(folder))
+    """Import the module with which Cycles reads a shader's inputs, and the OpenImageIO that it was built with, from
+    where Blender keeps them: a Python that imports bpy does not know that place, and may have another OpenImageIO.
+
+    Raises InputError where that one was imported before.
+    """
+    before = list(sys.path)
+    folders = list(Path(bpy.utils.system_resource("PYTHON")).glob("lib/python*/site-packages"))
+    sys.path[:0] = map(str, folders)
+    try:
+        import OpenImageIO
+        import oslquery  # noqa: F401
+    finally:
+        sys.path[:] = before
+    taken = Path(OpenImageIO.__file__)
+    if any((folder / "OpenImageIO").is_dir() and not taken.is_relative_to(folder) for folder in folders):
+        raise InputError(f"Cycles needs Blender's OpenImageIO, and this Python has imported {taken}: import that later")
