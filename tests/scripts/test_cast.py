@@ -38,6 +38,12 @@ def test_cast_writes_a_picture_all_passes_and_a_report(ran):
     assert report["pixels"] == 32 * 24
     assert {finding["witness"] for finding in report["findings"]} >= {"view_frame", "world_to_camera_view"}
     assert report["camera"]["name"] == "Top"
+    assert report["host"]["meters"] == 1
+    assert report["indices"]["ViewLayer"] == {
+        "object_index": {"7": ["Sphere"]},
+        "material_index": {},
+        "shape_index": [{"first": 0, "count": 1, "object": "Sphere", "kind": "SPHERE"}],
+    }
 
 
 def test_standard_output_is_the_table_and_nothing_of_blenders(ran):

@@ -235,6 +235,8 @@ class Shapes:
     name_index: np.ndarray
     """(n,) int32 into ``names``: instances and points share their object's name."""
     names: tuple[str, ...] = ()
+    materials: tuple[tuple[int, str], ...] = ()
+    """Pass index and name of each material that a shape has."""
     lights: Lights = field(default_factory=Lights)
     world_color: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 1.0)
     motion: MovingShapes | None = None

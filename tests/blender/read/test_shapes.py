@@ -202,3 +202,13 @@ def test_points_that_are_too_small_to_be_are_counted(scene):
     shapes = read_shapes(scene)
     assert len(shapes) == 0
     assert shapes.left_out[0][1].startswith("2 of its points have no radius")
+
+
+def test_the_materials_that_shapes_have_are_known_by_their_pass_indices(blender, camera_scene):
+    for name, index in (("Red", 3), ("Blue", 0), ("Unused", 9)):
+        blender.data.materials.new(name).pass_index = index
+    for name in ("Red", "Blue", "Red"):
+        blender.ops.mesh.primitive_cube_add()
+        blender.context.object.data.materials.append(blender.data.materials[name])
+    blender.ops.mesh.primitive_cube_add()
+    assert sorted(read_shapes(camera_scene).materials) == [(0, "Blue"), (3, "Red")]

@@ -148,7 +148,7 @@ GOOD = crc.camera_to_json(camera("PERSP"))
     ("change", "asked", "says"),
     [
         (lambda text: text[:-9], {}, "is damaged"),
-        (lambda text: "{}", {}, "no camera.json of the Camera Ray Caster"),
+        (lambda text: "{}", {}, "no camera.json, and no report.json, of the Camera"),
         (lambda text: text.replace('"format_version": 1', '"format_version": 2'), {}, "of version 2: update"),
         (lambda text: text.replace('"lens": 50.0', '"lens": -50.0'), {}, "lens of camera 'Camera' is -50"),
         (lambda text: text.replace('"lens": 50.0', '"lens": "wide"'), {}, "lens of camera 'Camera' is 'wide'"),

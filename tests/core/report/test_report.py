@@ -7,11 +7,14 @@ import numpy as np
 import pytest
 
 from camera_ray_caster.core.camera.build import camera_from
+from camera_ray_caster.core.camera.facts import camera_facts
 from camera_ray_caster.core.cast import cast
-from camera_ray_caster.core.records import SPHERE, BlenderCamera, Finding, Shapes
+from camera_ray_caster.core.exports.camera_json import camera_from_json
+from camera_ray_caster.core.records import SPHERE, BlenderCamera, Finding, InputError, Shapes, no_shapes
 from camera_ray_caster.core.report.accuracy import Accuracy, accuracy
-from camera_ray_caster.core.report.facts import camera_facts
+from camera_ray_caster.core.report.indices import indices_of
 from camera_ray_caster.core.report.report import WIDTH, Report, as_data, as_json, as_lines, report_cast
+from camera_ray_caster.core.version import VERSION
 
 GOOD = Finding("good witness", 9, 1e-5, 1e-6, 1e-4, 1e-8, 1e-9, 1e-7)
 BAD = replace(GOOD, witness="bad witness", worst_pixels=0.5)
@@ -214,3 +217,49 @@ def test_facts_of_an_orthographic_camera_by_hand():
     facts = camera_facts(camera(type="ORTHO", ortho_scale=8.0))
     assert facts["frame"] == [8.0, 6.0]
     assert "K" not in facts
+
+
+def test_the_numbers_of_the_index_passes_have_names():
+    ball = np.array([SPHERE], np.uint8)
+    shapes = Shapes(
+        kind=np.concatenate((ball, ball, ball + 3, ball, ball)),
+        center=np.zeros((5, 3)),
+        axes=np.tile(np.eye(3), (5, 1, 1)),
+        object_index=np.array([7, 7, 7, 0, 7], np.int32),
+        material_index=np.array([2, 2, 2, 0, 3], np.int32),
+        color=np.ones((5, 4), np.float32),
+        name_index=np.array([0, 0, 0, 1, 2], np.int32),
+        names=("Dust", "Moon", "Ball"),
+        materials=((3, "Red"), (2, "Gray"), (2, "Also Gray")),
+    )
+    assert indices_of(shapes) == {
+        "object_index": {"0": ["Moon"], "7": ["Dust", "Ball"]},
+        "material_index": {"2": ["Also Gray", "Gray"], "3": ["Red"]},
+        "shape_index": [
+            {"first": 0, "count": 2, "object": "Dust", "kind": "SPHERE"},
+            {"first": 2, "count": 1, "object": "Dust", "kind": "MESH"},
+            {"first": 3, "count": 1, "object": "Moon", "kind": "SPHERE"},
+            {"first": 4, "count": 1, "object": "Ball", "kind": "SPHERE"},
+        ],
+    }
+    assert indices_of(no_shapes()) == {"object_index": {}, "material_index": {}, "shape_index": []}
+
+
+def test_a_report_makes_the_camera_again(report):
+    text = as_json(report)
+    document = strict(text)
+    assert document["version"] == VERSION
+    assert document["conventions"]["K"].startswith("as OpenCV")
+    assert document["indices"]["Layer"]["shape_index"][0]["object"] == "Sphere"
+    assert np.array_equal(document["camera"]["world_to_opencv"], camera().world_to_opencv)
+    for asked in ({}, {"frame": 1.5}):
+        assert camera_from_json(text, **asked).rays().directions.tobytes() == camera().rays().directions.tobytes()
+    with pytest.raises(InputError, match=r"this report is of frame 1\.5, not 2"):
+        camera_from_json(text, 2)
+    with pytest.raises(InputError, match="whose time is an image: export a camera"):
+        camera_from_json(as_json(replace(report, record=None)))
+
+
+def test_the_tables_of_several_layers_stand_apart(report):
+    other = replace(report, indices={"Other": {"shape_index": []}})
+    assert sorted((report + other).indices) == ["Layer", "Other"]

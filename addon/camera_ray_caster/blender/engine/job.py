@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from functools import partial
 from time import perf_counter
 
+import bpy
 import numpy as np
 
 from ...core.camera.camera import Camera
@@ -40,6 +41,8 @@ class Job:
     layer: str
     stored: tuple[int, int]
     """Rows and columns of what Blender makes of the picture: of a border that it does not crop to, the whole frame."""
+    host: dict[str, object]
+    """Blender's version, and how long a Blender unit is."""
     several: bool
     """Whether the layer is one of several that are rendered."""
 
@@ -93,6 +96,7 @@ class Job:
             stored=raster.shape
             if not scene.render.use_border or scene.render.use_crop_to_border
             else raster.size[::-1],
+            host={"blender": bpy.app.version_string, "meters": scene.unit_settings.scale_length},
             several=several,
         )
 
@@ -108,7 +112,7 @@ class Job:
         seconds = {**self.seconds, **images.seconds, "accuracy": perf_counter() - began}
         report = report_cast(
             self.camera, self.shapes, images, seconds, self.findings, self.frame, self.layer, self.several,
-            precision=self.precision, accuracy=bounds,
+            precision=self.precision, accuracy=bounds, host=self.host,
         )  # fmt: skip
         return images, report
 

@@ -30,6 +30,11 @@ class Looks:
             return (self._of(self._override),)
         return tuple(self._of_slot(item, slot) for slot in slots)
 
+    @property
+    def materials(self) -> tuple[tuple[int, str], ...]:
+        """Pass index and name of each material that has been looked up."""
+        return tuple((index, material.name) for material, (index, _) in self._known.items())
+
     def _of_slot(self, item, slot: int) -> Look:
         """Return the look of a slot; behind the last one it is the last one's.
 

@@ -2,6 +2,7 @@
 
 from collections import Counter
 from collections.abc import Hashable, Iterable
+from dataclasses import replace
 from functools import partial
 
 from ...core.records import Mesh, Shapes
@@ -125,7 +126,8 @@ class _Scene:
         for item in self.visibility.unlisted(self.listed):
             if _may_have_surface(item) or item.instance_type == "COLLECTION":
                 self.left_out[item.name, HIDDEN] += 1
-        return gathered(list(self.groups.values()), self.left_out, self.world)
+        shapes = gathered(list(self.groups.values()), self.left_out, self.world)
+        return replace(shapes, materials=self.looks.materials)
 
 
 def _may_have_surface(item) -> bool:

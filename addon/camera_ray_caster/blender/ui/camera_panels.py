@@ -6,8 +6,8 @@ from textwrap import wrap
 
 import bpy
 
+from ...core.camera.facts import camera_facts
 from ...core.records import InputError
-from ...core.report.facts import camera_facts
 from ..output import reports
 from ..properties.declared import GROUP
 from ..read.evaluated import camera_at

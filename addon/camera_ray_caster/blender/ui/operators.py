@@ -3,8 +3,8 @@
 import bpy
 from bpy.props import BoolProperty, StringProperty
 
+from ...core.camera.facts import camera_facts
 from ...core.cameras.parts.calibration import FILE_WRITERS
-from ...core.report.facts import camera_facts
 from ...core.report.report import Report, as_json
 from ..output import reports
 from ..properties.calibration import set_calibration

@@ -4,9 +4,9 @@ from dataclasses import replace
 from functools import partial
 
 from ...core.camera.camera import Camera
+from ...core.camera.facts import camera_facts
 from ...core.camera.stereo import eye_record
 from ...core.records import Finding
-from ...core.report.facts import camera_facts
 from ...core.report.report import Report
 from ...core.report.verification import verify
 from ..read.evaluated import camera_at

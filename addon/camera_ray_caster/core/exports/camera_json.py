@@ -17,12 +17,12 @@ from typing import Any
 from ..arguments import number, shown, word
 from ..camera.build import camera_from
 from ..camera.camera import Camera
+from ..camera.facts import CONVENTIONS, camera_facts
 from ..camera.pixel_time import LAST_FRAME
 from ..cameras.parts.calibration import FILE
 from ..motion.evaluations import Motion
 from ..motion.interpolation import TimeInterval
 from ..records import BlenderCamera, InputError, no_shapes
-from ..report.facts import CONVENTIONS, camera_facts
 from ..version import VERSION
 from .format import Format, Shot
 from .plain import as_text, merged, plain, restored, shared, without
@@ -61,8 +61,8 @@ def camera_to_json(camera: Camera) -> str:
 
 
 def camera_from_json(path_or_text: str | Path, frame: float | None = None, camera: str | None = None) -> Camera:
-    """Return a camera of a camera.json, from its path or its text: its rays are those of the camera that was written,
-    bit for bit, on the same machine and numpy. Needs no Blender.
+    """Return a camera of a camera.json or a report.json, from its path or its text: its rays are those of the camera
+    that was written, bit for bit, on the same machine and numpy. Needs no Blender.
 
     ``frame``: one of those in the file; default the first. ``camera``: its name there; default the only one.
     Raises InputError, in one line, for what cannot be read, is no such file, or has no such camera or frame.
@@ -70,8 +70,10 @@ def camera_from_json(path_or_text: str | Path, frame: float | None = None, camer
     text = path_or_text if isinstance(path_or_text, str) and path_or_text.lstrip()[:1] == "{" else _read(path_or_text)
     try:
         document = restored(json.loads(text))
+        if "record" in document:
+            return _of_report(document, frame)
         if document.get("format") != FORMAT:
-            raise InputError("this is no camera.json of the Camera Ray Caster: export one with the format json")
+            raise InputError("this is no camera.json, and no report.json, of the Camera Ray Caster: export one")
         if document["format_version"] > NUMBER:
             raise InputError(f"this camera.json is of version {document['format_version']}: update the add-on")
         return _camera(_frame(_chosen(document["cameras"], camera), frame))
@@ -79,6 +81,15 @@ def camera_from_json(path_or_text: str | Path, frame: float | None = None, camer
         raise
     except (ValueError, TypeError, LookupError, AttributeError, ArithmeticError, RecursionError) as error:
         raise InputError(f"this camera.json is damaged ({type(error).__name__}: {error}): export it again") from error
+
+
+def _of_report(report: Mapping[str, Any], frame: float | None) -> Camera:
+    """Return the camera of a report.json."""
+    if report["record"] is None:
+        raise InputError("this report has no record of its camera, whose time is an image: export a camera.json")
+    if frame not in (None, report[FRAME]):
+        raise InputError(f"this report is of frame {report[FRAME]:g}, not {shown(frame)}")
+    return _camera(report["record"])
 
 
 def _text(shots: Sequence[Shot]) -> str:
@@ -95,15 +106,23 @@ def _text(shots: Sequence[Shot]) -> str:
 def _said(shot: Shot) -> dict[str, Any]:
     """Return what is said of a camera at a frame."""
     camera = shot.camera
-    said = {"meters": shot.meters, "camera": camera_facts(camera), "record": _record(camera)}
+    return {"meters": shot.meters, "camera": camera_facts(camera), **recorded(camera)}
+
+
+def recorded(camera: Camera) -> dict[str, Any]:
+    """Return what a camera is made of, as JSON has it: ``record``; and of a camera that moves from pixel to pixel its
+    ``evaluations``, ``intervals`` and what else is known of its ``motion``.
+    """
+    said: dict[str, Any] = {"record": plain(_record(camera))}
     motion = camera.motion
     if isinstance(motion, Motion):
         said["evaluations"] = [
-            {FRAME: frame, "record": without(plain(_record(state)), plain(said["record"]))}
+            {FRAME: frame, "record": without(plain(_record(state)), said["record"])}
             for frame, (state, _) in sorted(motion.states.items())
         ]
-        said["intervals"] = [interval.frames for interval in motion.intervals]
-        said["motion"] = {name: getattr(motion, name) for name in ("tolerance", "estimated", "unresolved", "measured")}
+        said["intervals"] = plain([interval.frames for interval in motion.intervals])
+        known = {name: getattr(motion, name) for name in ("tolerance", "estimated", "unresolved", "measured")}
+        said["motion"] = plain(known)
     return said
 
 

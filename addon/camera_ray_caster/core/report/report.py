@@ -12,11 +12,15 @@ from typing import Any
 import numpy as np
 
 from ..camera.camera import Camera
+from ..camera.facts import CONVENTIONS, camera_facts
+from ..camera.pixel_time import ImageTime
 from ..cast import STEPS, Images
 from ..conventions import EPS32
+from ..exports.camera_json import recorded
 from ..records import Finding, Shapes
+from ..version import VERSION
 from .accuracy import QUANTITIES, Accuracy
-from .facts import camera_facts
+from .indices import indices_of
 
 WIDTH = 100
 """Columns that the table does not exceed."""
@@ -59,6 +63,12 @@ class Report:
     """The paths of what the compositor's File Output nodes wrote."""
     warnings: tuple[str, ...] = ()
     """What the file asked for and was not done; a terminal shows them apart."""
+    host: Mapping[str, Any] = field(default_factory=dict)
+    """``blender``: its version; ``meters``: how long a Blender unit is."""
+    record: Mapping[str, Any] | None = None
+    """What the camera was made of, for ``camera_from_json``: see ``recorded``; None of one whose time is an image."""
+    indices: Mapping[str, Any] = field(default_factory=dict)
+    """What the numbers of the index passes stand for, by view layer: see ``indices_of``."""
     made: Mapping[str, Any] = field(default_factory=dict)
     """``of``: what the frame was made of; ``files``: the files beside the report, and their bytes."""
 
@@ -92,6 +102,7 @@ class Report:
             exact=_union(self.exact, other.exact),
             motion=_union(self.motion, other.motion),
             accuracy=self.accuracy + other.accuracy,
+            indices={**self.indices, **other.indices},
         )
 
 
@@ -107,6 +118,7 @@ def report_cast(
     *,
     precision: str,
     accuracy: Accuracy,
+    host: Mapping[str, Any] | None = None,
 ) -> Report:
     """Return the report of one cast of a view layer; of ``several``, it is named beside what was not done."""
     return Report(
@@ -124,12 +136,15 @@ def report_cast(
         motion=tuple(camera.motion.in_words()) if camera.motion is not None else (),
         precision=precision,
         accuracy=accuracy,
+        host=host or {},
+        record=None if isinstance(camera.pixel_time, ImageTime) else recorded(camera),
+        indices={layer: indices_of(shapes)},
     )
 
 
 def as_data(report: Report) -> dict:
     """Return the report as plain lists, dicts, strings and numbers; a number that is not finite becomes None."""
-    data = asdict(report)
+    data = {"version": VERSION, "conventions": CONVENTIONS, **asdict(report)}
     data["accuracy"] = report.accuracy.as_data()
     data["rays_per_second"] = report.rays_per_second
     data["passed"] = report.passed

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..camera.camera import Camera
 from ..cameras.model import WindowModel
+from .camera import Camera
 
 CONVENTIONS = {
     "lengths": "Blender units, but millimeters for lenses, sensors and film; meters: how long a Blender unit is",

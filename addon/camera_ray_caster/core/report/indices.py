@@ -1,0 +1,37 @@
+"""What the numbers in the index passes stand for, so that files can be read without the .blend."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ..records import Shapes
+
+KINDS = "SPHERE", "PLANE", "INFINITE_PLANE", "MESH"
+"""By ``Shapes.kind``."""
+
+
+def indices_of(shapes: Shapes) -> dict[str, Any]:
+    """Return for ``object_index`` and ``material_index`` the names of the objects and materials that have each pass
+    index, and for ``shape_index`` runs of shapes: the first one's index, how many there are, their object and kind.
+
+    Of materials only those count that a shape has; a pixel without one has material_index 0, too.
+    """
+    objects: dict[str, list[str]] = {}
+    for index, name in np.unique(np.stack((shapes.object_index, shapes.name_index), axis=1), axis=0).tolist():
+        objects.setdefault(str(index), []).append(shapes.names[name])
+    materials: dict[str, list[str]] = {}
+    for index, name in sorted(shapes.materials):
+        materials.setdefault(str(index), []).append(name)
+    return {"object_index": objects, "material_index": materials, "shape_index": _runs(shapes)}
+
+
+def _runs(shapes: Shapes) -> list[dict[str, Any]]:
+    both = np.stack((shapes.name_index, shapes.kind.astype(np.int64)), axis=1)
+    begins = np.flatnonzero(np.any(np.diff(both, axis=0, prepend=-1), axis=1))
+    counts = np.diff(begins, append=len(shapes))
+    return [
+        {"first": first, "count": count, "object": shapes.names[name], "kind": KINDS[kind]}
+        for first, count, (name, kind) in zip(begins.tolist(), counts.tolist(), both[begins].tolist(), strict=True)
+    ]
