@@ -46,7 +46,7 @@ MAY_IMPORT = {
     "": {"blender"},
 }
 BLENDER = {"bpy", "bpy_extras", "mathutils", "bl_math", "gpu", "gpu_extras", "blf", "bmesh", "imbuf", "addon_utils"}
-CYCLES = {"_cycles", "cycles"}
+CYCLES = {"cycles", "_cycles", "oslquery", "OpenImageIO"}
 """Blender's Cycles, which is an add-on of its own."""
 TESTS_OF_THEIR_OWN = {"core/truth", "blender/add_a_camera"}
 """Rooms of tests that no room of the package has: the exact rays of 60 digits, and a model that is added and taken away
