@@ -39,6 +39,8 @@ def test_cameras_txt_projects_as_colmap_does(tmp_path, kind):
     named = {"calibration_file": str(tmp_path / "cameras.txt"), "calibration_camera": "12"}
     cam = camera(key, FRAME | named)
     points = np.random.default_rng(3).uniform((-1, -1, -3), (1, 1, -1), (10_000, 3))
+    if kind == "FOV":  # near the axis COLMAP takes a series that is right to 1e-5 pixels
+        points = points[np.hypot(points[:, 0], points[:, 1]) > 0.03 * -points[:, 2]]
     other = pycolmap.Camera(model=kind, width=640, height=480, params=values)
     expected = np.asarray(other.img_from_cam(points * (1, -1, -1)))
     assert np.abs(cam.project(points) - np.stack((expected[:, 0], 480 - expected[:, 1]), axis=1)).max() < 1e-9
