@@ -36,6 +36,45 @@ def test_cast_stores_every_pass_as_it_is(blender, scene, key):
     assert channels == 4 or (found[..., 3] == 1).all()
 
 
+@pytest.mark.parametrize("kind", ["PERSP", "PANO", "OMNIDIRECTIONAL_STEREO", "SPHERICAL", "MULTIVIEW"])
+def test_cast_casts_every_view_of_a_stereo_scene(blender, scene, kind):
+    data, render = scene.camera.data, scene.render
+    render.use_multiview = True
+    data.type = "PERSP" if kind in ("PERSP", "MULTIVIEW") else "PANO"
+    data.stereo.interocular_distance, data.stereo.use_spherical_stereo = 0.5, kind == "SPHERICAL"
+    if kind == "OMNIDIRECTIONAL_STEREO":
+        data.camera_ray_caster.model = kind
+    if kind == "MULTIVIEW":
+        render.views_format = kind
+        scene.camera.name = "Camera_L"
+        other = blender.data.objects.new("Camera_R", blender.data.cameras.new("Camera"))
+        other.location = (0.5, 0.2, 7)
+        scene.collection.objects.link(other)
+        before = scene.camera
+    passes.tick(scene, blender.context.view_layer, ["depth", "position"])
+    assert blender.ops.camera_ray_caster.cast() == {"FINISHED"}
+    for view in ("left", "right"):
+        found = pixels_of(blender.data.images[images.image_name("position", view)])[..., :3]
+        expected = cast(read_camera(scene, view=view), read_shapes(scene), ["position"])["position"]
+        assert np.array_equal(found, expected)
+        assert expected.any()
+    left, right = (pixels_of(blender.data.images[f"Ray Caster depth {view}"]) for view in ("left", "right"))
+    assert not np.array_equal(left, right)
+    assert "Ray Caster depth" not in blender.data.images
+    assert reports.latest().pixels == 2 * WIDTH * HEIGHT
+    assert kind != "MULTIVIEW" or scene.camera == before
+
+
+def test_the_progress_of_two_views_is_one(blender, scene):
+    scene.render.use_multiview = True
+    read, seen = cast_operator.Cast.read(None, blender.context), []
+    cast_operator.cast_views(read, lambda fraction: seen.append(fraction) or True)
+    assert list(read) == ["left", "right"]
+    assert seen == sorted(seen)
+    assert any(fraction <= 0.5 for fraction in seen)
+    assert max(seen) <= 1 < 2 * max(seen)
+
+
 @pytest.mark.parametrize("precision", PRECISIONS)
 def test_cast_searches_with_the_precision_that_is_set(blender, scene, precision):
     passes.tick(scene, blender.context.view_layer, ["depth"])

@@ -25,7 +25,7 @@ from ...core.memory import of_pixels, require
 from ...core.records import BlenderCamera, InputError
 from ...core.shaders.camera_shader import camera_shader
 from ...core.shaders.turn import UPRIGHT, Turn, shutter_of
-from ..read.camera import camera_record, shader_mark
+from ..read.camera import camera_record, shader_mark, view_names
 from ..read.scene import evaluated, evaluated_camera
 from ..terminal.signals import raise_if_stopping
 from .device import device_of
@@ -66,10 +66,8 @@ def picture_of(scene) -> Picture:
     """
     check_cycles()
     started, pixels = perf_counter(), {}
-    render = scene.render
-    views = [view.name for view in render.views if view.use] if render.use_multiview else [""]
     with cycles_engine(scene) as run:
-        for view in views:
+        for view in view_names(scene):
             pixels |= {(layer, view): found for layer, found in _of_view(scene, view, run).items()}
     made_by = {"engine": "CYCLES", "device": device_of(scene), "samples": scene.cycles.samples}
     return Picture(pixels, made_by, perf_counter() - started)

@@ -19,6 +19,7 @@ from ...core.report.report import Report, as_json
 from ..cycles.picture import Picture
 from ..engine.engine import CameraRayCaster
 from ..engine.passes import ticked
+from ..read.camera import views_of
 from ..terminal import signals
 from ..terminal.opening import not_run, reported
 from . import arrays, file_outputs, reports
@@ -151,7 +152,7 @@ def _save(scene, path: Path, settings) -> None:
     try:
         bpy.data.images["Render Result"].save_render(str(path), scene=scene)
     except RuntimeError as error:
-        if not _views_written(scene.render, path):
+        if not _views_written(scene, path):
             raise OSError(0, str(error).strip()) from error
 
 
@@ -183,8 +184,7 @@ def _check_suffixes(render) -> None:
             )
 
 
-def _views_written(render, path: Path) -> bool:
+def _views_written(scene, path: Path) -> bool:
     """Return whether each of several views has its file: Blender then misses one without a view's suffix."""
-    views = render.stereo_views if render.views_format == "STEREO_3D" else render.views
-    files = [path.with_stem(path.stem + view.file_suffix) for view in views if view.use]
-    return render.use_multiview and all(file.is_file() for file in files)
+    files = [path.with_stem(path.stem + view.file_suffix) for view in views_of(scene)]
+    return bool(files) and all(file.is_file() for file in files)

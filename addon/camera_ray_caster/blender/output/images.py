@@ -12,19 +12,19 @@ from ..engine.passes import stored
 PREFIX = "Ray Caster "
 
 
-def image_name(key: str) -> str:
-    """Return the name of a pass's Image datablock."""
-    return PREFIX + key.replace("_", " ")
+def image_name(key: str, view: str = "") -> str:
+    """Return the name of a pass's Image datablock; ``view``: of a stereo scene."""
+    return f"{PREFIX}{key.replace('_', ' ')} {view}".rstrip()
 
 
-def store(images: Mapping[str, np.ndarray]) -> list:
-    """Write passes into their Image datablocks and return these. Only the main thread may."""
-    return [_store(key, pixels) for key, pixels in images.items()]
+def store(images: Mapping[tuple[str, str], np.ndarray]) -> list:
+    """Write passes, by their keys and views, into their Image datablocks and return these. Only the main thread may."""
+    return [_store(*name, pixels) for name, pixels in images.items()]
 
 
-def _store(key: str, pixels: np.ndarray):
+def _store(key: str, view: str, pixels: np.ndarray):
     height, width = pixels.shape[:2]
-    image = _datablock(image_name(key), width, height)
+    image = _datablock(image_name(key, view), width, height)
     if key != "combined":
         image.colorspace_settings.name = "Non-Color"
     image.pixels.foreach_set(_rgba(stored(key, pixels).reshape(height * width, -1)).ravel())

@@ -134,6 +134,18 @@ def find_cameras(scene, names: Sequence[str]) -> list:
     return [find_camera(scene, name) for name in dict.fromkeys(names)]
 
 
+def views_of(scene) -> list:
+    """Return the views that Blender renders of a multi-view scene; none of any other."""
+    render = scene.render
+    views = render.stereo_views if render.views_format == "STEREO_3D" else render.views
+    return [view for view in views if view.use and render.use_multiview]
+
+
+def view_names(scene) -> list[str]:
+    """Return the names of a scene's views: one empty name where it is not multi-view."""
+    return [view.name for view in views_of(scene)] or [""]
+
+
 def eye_object(scene, view: str):
     """Return the camera object of a multi-view view: the active camera, or in the Multi-View format another one."""
     camera, views = scene.camera, scene.render.views

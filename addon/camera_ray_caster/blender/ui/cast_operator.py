@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import partial
+from functools import partial, reduce
+from operator import add
 from typing import Any
 
 import bpy
@@ -14,6 +16,8 @@ from ...core.report.report import Report
 from ..engine.job import Job
 from ..engine.passes import ticked
 from ..output import images, reports
+from ..read.camera import view_names
+from ..read.scene import evaluated_camera
 from .needs import NO_CAMERA, reporting
 
 INTERVAL = 0.1
@@ -36,7 +40,7 @@ def fraction() -> float | None:
 
 
 class Cast(bpy.types.Operator):
-    """Cast the chosen passes of the active camera into images"""
+    """Cast the chosen passes of the active camera into images, in a stereo scene of each eye"""
 
     bl_idname = "camera_ray_caster.cast"
     bl_label = "Cast"
@@ -51,17 +55,17 @@ class Cast(bpy.types.Operator):
     @reporting
     def execute(self, context):
         """Cast at once and wait for it."""
-        return self.finish(context, *self.read(context).cast())
+        return self.finish(context, *cast_views(self.read(context)))
 
     def invoke(self, context, event):
         """Read the scene, then cast on a thread; Blender calls ``modal`` until that has ended."""
         try:
-            job = self.read(context)
+            jobs = self.read(context)
         except InputError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
         timer = context.window_manager.event_timer_add(INTERVAL, window=context.window)
-        _running.append(Running(Worker(partial(job.cast, threads=BESIDE)), timer))
+        _running.append(Running(Worker(partial(cast_views, jobs, threads=BESIDE)), timer))
         context.window_manager.modal_handler_add(self)
         show_progress()
         return {"RUNNING_MODAL"}
@@ -91,10 +95,13 @@ class Cast(bpy.types.Operator):
         """Stop; Blender calls this when it ends the operator itself, to load another file say."""
         stop()
 
-    def read(self, context) -> Job:
-        """Read the scene as the window shows it."""
-        keys = [entry.key for entry in ticked(context.scene, context.view_layer)]
-        return Job.read(context.evaluated_depsgraph_get(), context.scene.camera, keys)
+    def read(self, context) -> dict[str, Job]:
+        """Read the scene as the window shows it, for each view."""
+        keys, jobs = [entry.key for entry in ticked(context.scene, context.view_layer)], {}
+        for view in view_names(context.scene):
+            with evaluated_camera(context.scene, view=view) as (camera, depsgraph):
+                jobs[view] = Job.read(depsgraph, camera, keys, view=view)
+        return jobs
 
     def finish(self, context, passes, report: Report):
         """Store and show the images, and keep the report."""
@@ -105,6 +112,20 @@ class Cast(bpy.types.Operator):
         else:
             self.report({"INFO"}, f"{report.pixels} rays cast at {report.shapes} shapes")
         return {"FINISHED"}
+
+
+def cast_views(jobs: Mapping[str, Job], progress=None, threads=None) -> tuple[dict[tuple[str, str], Any], Report]:
+    """Cast one view after the other; return the passes by their keys and views, and the report of all.
+
+    ``progress`` and ``threads`` are as in ``cast``, and so is Cancelled.
+    """
+    passes, made = {}, []
+    for i, (view, job) in enumerate(jobs.items()):
+        part = None if progress is None else lambda fraction, before=i: progress((before + fraction) / len(jobs))
+        found, report = job.cast(part, threads)
+        passes |= {(key, view): pixels for key, pixels in found.items()}
+        made.append(report)
+    return passes, reduce(add, made)
 
 
 def show_progress() -> None:
