@@ -41,7 +41,7 @@ def moving(key, readout, frame=5.0):
 CALIBRATED = [model.key for model in MODELS if model.group == "Calibrated"]
 
 
-@pytest.mark.parametrize(("key", "readout"), zip(CALIBRATED, cycle(READ)))
+@pytest.mark.parametrize(("key", "readout"), [*zip(CALIBRATED, cycle(READ), strict=False)])
 def test_each_ray_is_cast_at_its_pixel_s_time_from_where_the_camera_is_then(key, readout):
     still = moving(key, readout)
     first, last = still.pixel_time.first, still.pixel_time.last

@@ -34,6 +34,9 @@ FARTHEST = 1e15
 BLOCK_PIXELS = 1 << 17
 """Pixels whose rays are made at once where a thread's share has as many: of fewer, threads wait at numpy's calls."""
 
+BY_POLYNOMIALS = 4
+"""As many times more where polynomials give most pixels, and the formula is asked for few: 0.75 to 0.9 of the time."""
+
 
 @dataclass(frozen=True)
 class Camera:
@@ -162,7 +165,8 @@ class Camera:
                 self._write(x, y[part], origins[part], directions[part], valid[part])
 
         if is_grid(x, y) and y.ndim == 2:
-            in_blocks(put, valid.shape, BLOCK_PIXELS, ROWS)  # whole panels
+            pixels = BLOCK_PIXELS * (BY_POLYNOMIALS if self.model.by_polynomials else 1)
+            in_blocks(put, valid.shape, pixels, ROWS)  # whole panels
         else:
             put(...)
         if not near:

@@ -24,6 +24,7 @@ import numpy as np
 from ..cameras.central_cylindrical import CentralCylindrical
 from ..cameras.mirrorball import Mirrorball
 from ..cameras.model import Model, Step
+from ..cameras.parts.radial import Radial
 from ..cameras.perspective import Perspective
 from ..conventions import gamma
 from ..maths.vector import components, difference, inverse, matvec, norm, unit
@@ -121,6 +122,11 @@ class SphericalStereo(Model):
     def facts(self):
         """See Model."""
         return {"lens": self.lens.label, "eye_offset": self.offset, **self.lens.facts()}
+
+    @property
+    def by_polynomials(self) -> bool:  # type: ignore[override]
+        """See Model: where the lens fills the picture; 0.4 to 0.8 of the time."""
+        return not isinstance(self.lens, Radial)
 
     @property
     def ray_rounding(self) -> float:

@@ -52,6 +52,11 @@ class OpencvPinhole(WindowModel):
     )
 
     @property
+    def by_polynomials(self) -> bool:  # type: ignore[override]
+        """See Model: where there is more than a window."""
+        return self._bends
+
+    @property
     def ray_rounding(self) -> float:
         """See Model; a window alone rounds twice."""
         return gamma(16) if self._bends else gamma(2)

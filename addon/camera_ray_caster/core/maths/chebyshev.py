@@ -3,7 +3,7 @@
 The function is evaluated at a few points of each panel, and the polynomials through them give the pixels: some twenty
 products each, whatever the function takes. Where the coefficients have not sunk to rounding, the function is evaluated
 at each pixel. For fisheyes that take sines, or iterate, rays take 0.4 to 0.8 of the time, whole casts 0.6 to 0.9;
-for models with ``by_polynomials`` what ``Camera.rays`` returns takes 0.3 to 0.75 of the time.
+for models with ``by_polynomials`` what ``Camera.rays`` returns takes 0.3 to 0.8 of the time.
 References: J. Boyd, Chebyshev and Fourier Spectral Methods, 2nd ed. (2001), chapters 2, 4 and 5; L. Trefethen,
 Approximation Theory and Approximation Practice (2013), chapters 3 and 8.
 """
