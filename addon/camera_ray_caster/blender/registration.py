@@ -17,6 +17,7 @@ from .ui import (
     cast_operator,
     cast_panels,
     cycles_operators,
+    export_operators,
     gallery_panels,
     menus,
     model_panels,
@@ -29,7 +30,7 @@ from .view3d import mouse_gizmo, overlay, scene_cache
 
 CLASSES = (
     *groups.CLASSES, *overlay.CLASSES, *engine.CLASSES, *operators.CLASSES, *cast_operator.CLASSES,
-    *cycles_operators.CLASSES, *add_line.CLASSES,
+    *cycles_operators.CLASSES, *add_line.CLASSES, *export_operators.CLASSES,
     *mouse_gizmo.CLASSES, *render_panels.CLASSES, *gallery_panels.CLASSES, *menus.CLASSES, *model_panels.CLASSES,
     *camera_panels.CLASSES, *cast_panels.CLASSES, *object_panels.CLASSES, *overlay_panels.CLASSES,
 )  # fmt: skip
@@ -37,7 +38,7 @@ CLASSES = (
 
 MODULES = (
     groups, kept, follow, reports, gallery, scene_cache, viewport, cast_operator, overlay, render_panels, menus,
-    commands,
+    export_operators, commands,
 )  # fmt: skip
 """Modules that add more than classes. ``register(undo)`` adds it and gives ``undo`` the callbacks that remove it."""
 

@@ -33,7 +33,7 @@ def test_the_panels_say_what_the_camera_is_and_why_it_is_none(blender, scene):
 
     sidebar = [*camera_panels.CLASSES[:2], *cast_panels.CLASSES[:2], overlay_panels.SidebarOverlay]
     said = drawn(blender, camera_panels.SidebarCamera)
-    for text in ("Eye", "6 m", "24 × 16 px", "39.6°", "Distance d", "2.77778", "K"):
+    for text in ("Eye", "6 m", "24 × 16 px", "39.6°", "Distance d", "2.77778", "K", "camera_ray_caster.copy_k"):
         assert text in said
     blender.ops.camera_ray_caster.cast()
     for panel in (*sidebar, *cast_panels.CLASSES[2:]):

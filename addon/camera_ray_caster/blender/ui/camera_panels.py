@@ -124,7 +124,8 @@ class SidebarCamera(Sidebar, bpy.types.Panel):
     bl_label = "Camera"
 
     def draw_header_preset(self, context):
-        """A button that copies the facts."""
+        """The formats of exports, and a button that copies the facts."""
+        self.layout.menu("CAMERA_RAY_CASTER_MT_export", text="", icon="EXPORT")
         self.layout.operator("camera_ray_caster.copy_facts", text="", icon="COPYDOWN", emboss=False)
 
     def draw(self, context):
@@ -139,6 +140,9 @@ class SidebarCamera(Sidebar, bpy.types.Panel):
             draw_message(layout, context, reason, "ERROR")
         else:
             draw_facts(layout, context, facts, camera)
+            row = layout.row(align=True)
+            row.operator("camera_ray_caster.copy_k")
+            row.operator("camera_ray_caster.copy_world_to_camera")
 
 
 class SidebarVerify(Sidebar, bpy.types.Panel):

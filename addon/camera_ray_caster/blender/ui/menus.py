@@ -4,6 +4,7 @@ import bpy
 
 from .cast_operator import Cast
 from .cycles_operators import UseInCycles
+from .export_operators import ExportMenu
 from .operators import CopyFacts, LoadCalibration, Verify, WriteReport
 
 LISTED = (Cast, Verify, LoadCalibration, UseInCycles, CopyFacts, WriteReport)
@@ -19,6 +20,7 @@ class RayCasterMenu(bpy.types.Menu):
         """A line each."""
         for operator in LISTED:
             self.layout.operator(operator.bl_idname)
+        self.layout.menu(ExportMenu.bl_idname)
 
 
 def draw_menu(self, context) -> None:

@@ -5,6 +5,7 @@ from bpy.props import BoolProperty, StringProperty
 
 from ...core.camera.facts import camera_facts
 from ...core.cameras.parts.calibration import FILE_WRITERS
+from ...core.exports.camera_json import recorded
 from ...core.report.report import Report, as_json
 from ..output import reports
 from ..properties.calibration import set_calibration
@@ -46,7 +47,8 @@ class Verify(OfScene, bpy.types.Operator):
 
 
 class CopyFacts(OfScene, bpy.types.Operator):
-    """Copy what the active camera is to the clipboard, as JSON with all digits"""
+    """Copy what the active camera is to the clipboard, as JSON with all digits, of which camera_from_json makes its
+    rays"""
 
     bl_idname = "camera_ray_caster.copy_facts"
     bl_label = "Copy Camera"
@@ -55,8 +57,9 @@ class CopyFacts(OfScene, bpy.types.Operator):
     @reporting
     def execute(self, context):
         """Copy it."""
-        facts = camera_facts(read_camera(context.scene))
-        context.window_manager.clipboard = as_json(Report(camera=facts, frame=context.scene.frame_current_final))
+        camera, frame = read_camera(context.scene), context.scene.frame_current_final
+        report = Report(camera=camera_facts(camera), frame=frame, record=recorded(camera))
+        context.window_manager.clipboard = as_json(report)
         return {"FINISHED"}
 
 

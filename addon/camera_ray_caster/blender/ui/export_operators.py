@@ -1,0 +1,153 @@
+"""Cameras out of Blender: the export menu, and matrices to the clipboard."""
+
+from pathlib import Path
+
+import bpy
+from bpy.props import EnumProperty, StringProperty
+from bpy_extras.io_utils import ExportHelper
+
+from ...core.exports import FORMATS, find_format
+from ...core.records import InputError
+from ..output import exports
+from ..read.camera import ALL, find_camera, find_cameras
+from ..read.scene import read_camera
+from .needs import OfScene, reporting
+
+CHOSEN = {
+    "ACTIVE": lambda context: [context.scene.camera],
+    "SELECTED": lambda context: [item for item in context.selected_objects if item.type == "CAMERA"],
+    "ALL": lambda context: find_cameras(context.scene, [ALL]),
+}
+"""Camera objects by the item of ``Export.cameras``."""
+
+
+class Export(OfScene, ExportHelper, bpy.types.Operator):
+    """Write cameras, by frame, as files of another program into a folder"""
+
+    bl_idname = "camera_ray_caster.export"
+    bl_label = "Export Cameras"
+    bl_options = {"REGISTER"}
+
+    format: EnumProperty(
+        name="Format", items=[(one.key, one.label, one.description) for one in FORMATS], options={"SKIP_SAVE"}
+    )
+    cameras: EnumProperty(
+        name="Cameras",
+        items=[
+            ("ACTIVE", "Active", "The scene's active camera"),
+            ("SELECTED", "Selected", "The selected cameras"),
+            ("ALL", "All", "Every camera of the scene"),
+        ],
+    )
+    frames: EnumProperty(
+        name="Frames",
+        items=[
+            ("CURRENT", "Current", "The current frame"),
+            ("RANGE", "Range", "From the scene's start to its end, by its frame step"),
+        ],
+    )
+    target: StringProperty(name="To", description="The camera to which maps lead; empty: the perspective of the lens")
+
+    check_extension = None
+    """The file dialog's name is that of a folder."""
+
+    @property
+    def filename_ext(self) -> str:
+        """What is added to the .blend's name for the folder that the dialog proposes."""
+        return f"_{self.format}"
+
+    @classmethod
+    def description(cls, context, properties):
+        """Say what the files are."""
+        return find_format(properties.format).description
+
+    def draw(self, context):
+        """Draw what may be chosen beside the folder."""
+        layout = self.layout
+        layout.use_property_split = True
+        layout.prop(self, "format")
+        layout.prop(self, "cameras")
+        layout.prop(self, "frames")
+        if find_format(self.format).takes_target:
+            layout.prop_search(self, "target", context.scene, "objects", icon="CAMERA_DATA")
+
+    @reporting
+    def execute(self, context):
+        """Export, and say what was written."""
+        scene = context.scene
+        cameras = CHOSEN[self.cameras](context)
+        if not cameras:
+            raise InputError("no camera is selected: select some, or export the active one")
+        target = find_camera(scene, self.target) if self.target else None
+        every = range(scene.frame_start, scene.frame_end + 1, scene.frame_step)
+        frames = [scene.frame_current_final] if self.frames == "CURRENT" else every
+        folder = Path(bpy.path.abspath(self.filepath))
+        said, paths = exports.write(scene, self.format, cameras, frames, folder, target)
+        for line in said:
+            self.report({"INFO"}, line)
+        self.report({"INFO"}, f"Wrote {len(paths)} {'file' if len(paths) == 1 else 'files'} into {folder}")
+        return {"FINISHED"}
+
+
+class ExportMenu(bpy.types.Menu):
+    """The formats"""
+
+    bl_idname = "CAMERA_RAY_CASTER_MT_export"
+    bl_label = "Cameras (Ray Caster)"
+
+    def draw(self, context):
+        """An entry a format."""
+        self.layout.operator_context = "INVOKE_DEFAULT"
+        for one in FORMATS:
+            self.layout.operator(Export.bl_idname, text=one.label).format = one.key
+
+
+class CopyK(OfScene, bpy.types.Operator):
+    """Copy the active camera's matrix K to the clipboard, as OpenCV has it: y down, the origin in the center of the top
+    left pixel"""
+
+    bl_idname = "camera_ray_caster.copy_k"
+    bl_label = "Copy K"
+    bl_options = {"INTERNAL"}
+
+    @reporting
+    def execute(self, context):
+        """Copy it."""
+        camera = read_camera(context.scene)
+        if camera.K is None:
+            raise InputError(f"{camera.model.label} has no K: Copy Camera has all of its numbers")
+        context.window_manager.clipboard = _as_text(camera.K)
+        return {"FINISHED"}
+
+
+class CopyWorldToCamera(OfScene, bpy.types.Operator):
+    """Copy the matrix from the world to the active camera's frame, as OpenCV has it: x right, y down, z ahead"""
+
+    bl_idname = "camera_ray_caster.copy_world_to_camera"
+    bl_label = "Copy World to Camera"
+    bl_options = {"INTERNAL"}
+
+    @reporting
+    def execute(self, context):
+        """Copy it."""
+        context.window_manager.clipboard = _as_text(read_camera(context.scene).world_to_opencv)
+        return {"FINISHED"}
+
+
+def _as_text(matrix) -> str:
+    """Return a matrix as Python, and JSON, have it, with all digits."""
+    rows = ",\n ".join(map(str, matrix.tolist()))
+    return f"[{rows}]"
+
+
+def _draw_in_file_menu(menu, context) -> None:
+    menu.layout.menu(ExportMenu.bl_idname)
+
+
+def register(undo) -> None:
+    """See ``registration``."""
+    bpy.types.TOPBAR_MT_file_export.append(_draw_in_file_menu)
+    undo.callback(bpy.types.TOPBAR_MT_file_export.remove, _draw_in_file_menu)
+
+
+CLASSES = (Export, ExportMenu, CopyK, CopyWorldToCamera)

@@ -1,0 +1,103 @@
+"""Exports and matrices by Blender's operators."""
+
+import json
+
+import numpy as np
+import pytest
+
+from camera_ray_caster.blender.read.scene import read_camera
+from camera_ray_caster.blender.ui import export_operators
+from camera_ray_caster.core.exports import FORMATS
+from camera_ray_caster.core.exports.camera_json import camera_from_json
+
+
+def names(folder):
+    return sorted(path.name for path in folder.iterdir())
+
+
+@pytest.fixture
+def two(blender, scene):
+    """Two cameras; the second one is selected, the first one active."""
+    scene.camera.name = "First"
+    blender.ops.object.camera_add(location=(1, 2, 3))
+    blender.context.object.name = "Second"
+    scene.frame_start, scene.frame_end, scene.frame_step = 1, 9, 4
+    return scene
+
+
+@pytest.mark.parametrize(
+    ("cameras", "frames", "written"),
+    [
+        ("ACTIVE", "CURRENT", ["First_0001"]),
+        ("SELECTED", "CURRENT", ["Second_0001"]),
+        ("ALL", "RANGE", [f"{name}_000{frame}" for name in ("First", "Second") for frame in (1, 5, 9)]),
+    ],
+)
+def test_the_chosen_cameras_and_frames_are_written(blender, two, tmp_path, cameras, frames, written):
+    folder = str(tmp_path / "out")
+    done = blender.ops.camera_ray_caster.export(filepath=folder, format="mrcal", cameras=cameras, frames=frames)
+    assert done == {"FINISHED"}
+    assert names(tmp_path / "out") == [f"{name}.cameramodel" for name in written]
+
+
+def test_a_map_may_lead_to_another_camera(blender, two, tmp_path):
+    blender.ops.camera_ray_caster.export(filepath=str(tmp_path), format="stmap", target="Second")
+    assert names(tmp_path) == ["First_0001_distort.exr", "First_0001_undistort.exr"]
+
+
+def test_what_cannot_be_written_is_an_error_in_one_line(blender, two, tmp_path):
+    two.camera.data.type = "ORTHO"
+    with pytest.raises(RuntimeError, match="COLMAP cannot represent the Orthographic of camera 'First': choose one of"):
+        blender.ops.camera_ray_caster.export(filepath=str(tmp_path), format="colmap")
+    blender.ops.object.select_all(action="DESELECT")
+    with pytest.raises(RuntimeError, match="no camera is selected"):
+        blender.ops.camera_ray_caster.export(filepath=str(tmp_path), format="json", cameras="SELECTED")
+    with pytest.raises(RuntimeError, match="no camera 'Third'"):
+        blender.ops.camera_ray_caster.export(filepath=str(tmp_path), format="stmap", target="Third")
+    assert names(tmp_path) == []
+
+
+def test_every_format_can_be_chosen_and_says_what_it_is(blender):
+    properties = blender.ops.camera_ray_caster.export.get_rna_type().properties
+    items = properties["format"].enum_items
+    assert [(item.identifier, item.name, item.description) for item in items] == [
+        (one.key, one.label, one.description) for one in FORMATS
+    ]
+    assert export_operators._draw_in_file_menu in blender.types.TOPBAR_MT_file_export._dyn_ui_initialize()
+
+
+@pytest.fixture
+def copied(monkeypatch, blender, scene):
+    """A function that runs an operator's ``execute`` and returns what it has put on the clipboard: without a window
+    there is none.
+    """
+
+    class Own:
+        clipboard = ""
+
+    class Context:
+        window_manager = Own()
+        scene = blender.context.scene
+
+    def run(operator):
+        assert operator.execute(operator, Context) == {"FINISHED"}
+        return Context.window_manager.clipboard
+
+    return run
+
+
+def test_matrices_are_copied_with_all_digits(blender, scene, copied):
+    from camera_ray_caster.blender.ui.operators import CopyFacts
+
+    scene.camera.rotation_euler = 0.3, 0.2, 0.1
+    scene.camera.data.lens = 33.3
+    camera = read_camera(scene)
+    assert np.array_equal(json.loads(copied(export_operators.CopyK)), camera.K)
+    assert np.array_equal(json.loads(copied(export_operators.CopyWorldToCamera)), camera.world_to_opencv)
+    assert camera_from_json(copied(CopyFacts)).rays().directions.tobytes() == camera.rays().directions.tobytes()
+
+
+def test_a_camera_without_k_says_so(blender, scene):
+    scene.camera.data.type = "ORTHO"
+    with pytest.raises(RuntimeError, match="Orthographic has no K"):
+        blender.ops.camera_ray_caster.copy_k()
