@@ -32,6 +32,7 @@ MAY_IMPORT = {
     "core.errors": RAYS | {"core.shapes", "core.errors"},
     "core.casting": HITS,
     "core.cast": HITS,
+    "core.annotations": HITS | {"core.cast", "core.version", "core.annotations"},
     "core.shaders": RAYS | {"core.shaders"},
     "core.motion": RAYS | {"core.motion"},
     # a witness that knew a camera model's formula would be no witness

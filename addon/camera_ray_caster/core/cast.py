@@ -26,6 +26,8 @@ MOST_SAMPLES = 1 << 24
 class Images(dict[str, np.ndarray]):
     """The passes by name, (rows, columns[, channels]) arrays, row 0 at the bottom; beside them how they were made."""
 
+    camera: Camera
+    shapes: Shapes
     plan: Plan
     seconds: dict[str, float]
 
@@ -70,7 +72,7 @@ def cast(
     time = camera.pixel_time
     whole = make_plan(*_moment(camera, shapes, (time.first + time.last) / 2 if time else None), request)
     images = Images({name: PASSES[name].empty(camera.raster.shape, dtype) for name in passes})
-    images.plan = whole
+    images.camera, images.shapes, images.plan = camera, shapes, whole
     sampled = ("combined",) if samples > 1 and "combined" in passes else ()
     parts = [(replace(request, passes=tuple(name for name in passes if name not in sampled)), 1)]
     parts += [(replace(request, passes=sampled, sampled=True), samples)] if sampled else []

@@ -1,7 +1,7 @@
 """A rendered frame as files: a picture, its passes as EXR or NPZ, and the report. They appear whole or not at all."""
 
 import os
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager, redirect_stdout
 from dataclasses import replace
 from math import ceil
@@ -23,6 +23,7 @@ from ..read.camera import views_of
 from ..terminal import signals
 from ..terminal.opening import not_run, reported
 from . import arrays, file_outputs, reports
+from .annotations import ENDING, annotated
 from .file_set import appearing
 from .stamps import made
 
@@ -61,27 +62,33 @@ def render(
     file_output: bool = False,
     picture: Picture | None = None,
     stamp: Mapping[str, Any] | None = None,
+    keypoints: Sequence[str] | None = None,
 ) -> tuple[Report, list[Path]]:
     """Render the scene's current frame into ``folder`` and return the report and the files.
 
     They are NAME.png, NAME.exr (or .npz, as ``layers`` says) and REPORT_NAME.json; of several views NAME_L.png,
     NAME_R.png and so on, by the views' suffixes. ``half`` stores real numbers of passes with 16 bits.
     The compositor's File Output nodes write, where they say, only with ``file_output``.
-    ``picture`` takes the place of the combined pass. ``stamp`` stands in the report: see ``stamps``.
+    ``picture`` takes the place of the combined pass. ``stamp`` stands in the report: see ``stamps``. ``keypoints``: not
+    None for NAME_coco.json, of the first view layer: see ``annotations``.
     Leaves all as it was and raises InputError where Blender cannot render or the folder
     cannot be written, Cancelled where it is stopped.
     """
     check(scene)
-    with _engine_has(picture, {} if layers == NPZ else None) as images, appearing(folder) as temporary:
+    keeps = layers == NPZ or keypoints is not None
+    with _engine_has(picture, {} if keeps else None) as images, appearing(folder) as temporary:
         report = _composited(scene, file_output)
         report = report if picture is None else report.with_seconds(cycles=picture.seconds)
         started = perf_counter()
         _save(scene, temporary / f"{name}.png", PICTURE)
-        if images is None:
+        if layers == EXR:
             _save(scene, temporary / f"{name}.exr", LAYERS | ({"color_depth": "16"} if half else {}))
         else:
             suffixes = {view.name: view.file_suffix for view in scene.render.views}
             arrays.save(temporary / f"{name}.npz", images, suffixes, half)
+        if keypoints is not None:
+            text = annotated(scene, next(iter(images.values())), name, keypoints)
+            (temporary / f"{name}{ENDING}").write_text(text, encoding="utf-8")
         report = report.with_seconds(files=perf_counter() - started)
         if stamp is not None:
             report = replace(report, made=made(stamp, temporary))

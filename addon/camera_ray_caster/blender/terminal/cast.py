@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 
+from ..output.annotations import collect
 from ..output.file_set import clear_up
 from .options import add_frame, add_json, command_parser, show, warn
 from .pictures import Pictures, add_words, follow, summary
@@ -40,6 +41,8 @@ def run(arguments: Sequence[str], prog: str) -> int:
         made += outcome.made
         if outcome.made and (len(jobs) == 1 or options.json):
             show(outcome.report, options.json, f"Wrote {', '.join(map(str, outcome.paths))}")
+    if pictures.keypoints is not None and len(jobs) > 1 and not options.shard:
+        collect(options.output, [job.name for job in jobs])
     if not options.json and (len(jobs) != 1 or not made):
         print(summary(made, len(jobs), options.output), flush=True)
     return int(not passed)

@@ -18,8 +18,10 @@ from ..cycles.shader import check_cycles
 from ..engine.engine import CameraRayCaster
 from ..engine.passes import tick, ticked
 from ..output import files
+from ..output.annotations import check_annotations
 from ..output.stamps import file_hash, finished, stamp_of
-from ..read.camera import find_camera, find_cameras
+from ..read.camera import ALL, find_camera, find_cameras
+from ..read.keypoints import check_key_points
 from ..read.scene import read_camera
 from . import signals
 from .options import go_to, open_scene, stem, use_camera, warn
@@ -34,7 +36,7 @@ DEFAULT_PASSES = ("combined", "depth", "normal", "position", "object_index")
 
 SETTINGS = (
     "passes", "shading", "precision", "engine", "samples", "resolution", "format", "half", "calibration_camera",
-    "enable_autoexec",
+    "enable_autoexec", "annotations", "keypoints",
 )  # fmt: skip
 """The options that pictures depend on, beside the file, camera and frame."""
 
@@ -54,6 +56,10 @@ def add_words(parser) -> None:
     parser.add_argument("--format", type=str.upper, choices=files.FORMATS, default=files.EXR,
                         help="of the passes: a multilayer EXR, or NumPy's arrays; default: %(default)s")  # fmt: skip
     parser.add_argument("--half", action="store_true", help="16 bits: real numbers of arrays, colors of EXR files")
+    parser.add_argument("--annotations", action="store_true",
+                        help="write boxes and masks of objects beside each picture, in COCO's form")  # fmt: skip
+    parser.add_argument("--keypoints", nargs="+", metavar="NAME", help="annotate these, too: empties, meshes with "
+                        f"vertex groups, or {ALL}")  # fmt: skip
     parser.add_argument("--output", type=Path, default=Path("out"), metavar="FOLDER", help="default: %(default)s")
 
 
@@ -97,6 +103,9 @@ class Pictures:
         self.options = options
         self.scene = scene = open_scene(options)
         self.warnings: list[str] = []
+        if self.keypoints is not None:
+            check_annotations(scene)
+            check_key_points(scene, self.keypoints)
         if by_cycles:
             scene.cycles.samples = options.samples or scene.cycles.samples
             self.warnings += said_of_device(scene)
@@ -109,6 +118,11 @@ class Pictures:
         for setting in ("shading", "precision"):
             if getattr(options, setting):
                 setattr(scene.camera_ray_caster, setting, getattr(options, setting))
+
+    @property
+    def keypoints(self) -> list[str] | None:
+        """The names of the key points to be annotated; None for no annotations."""
+        return self.options.keypoints or ([] if self.options.annotations else None)
 
     def stamp(self) -> dict[str, Any]:
         """Return what every picture is made of; see ``stamps``."""
@@ -148,7 +162,7 @@ class Pictures:
         picture = self._by_cycles(prog) if options.engine == CYCLES else None
         report, paths = files.render(
             scene, options.output, job.name, job.report, layers=options.format, half=options.half,
-            file_output=options.file_output, picture=picture, stamp=stamp,
+            file_output=options.file_output, picture=picture, stamp=stamp, keypoints=self.keypoints,
         )  # fmt: skip
         return Outcome(report.passed, True, report.warnings, report, paths)
 

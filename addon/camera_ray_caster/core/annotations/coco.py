@@ -1,0 +1,165 @@
+"""COCO's form of annotations: images, categories, boxes, masks and key points, as one document a picture or of many.
+
+Boxes are x, y, width and height in pixels from the top left corner of the picture, y down; key points are x, y and
+visibility: 0 outside, 1 hidden, 2 seen; a pixel's center is at + 0.5. Masks are run lengths, column by column. Beside
+COCO's own words stand ``bbox_whole`` and ``area_whole``, of the object were it alone in the picture,
+``visible_fraction``, ``object``, ``shape_index``; and the lists ``hidden``, of objects of which no pixel is seen, and
+``keypoints``, of all key points with their world coordinates and depth.
+Reference: https://cocodataset.org/#format-data.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from itertools import chain
+from typing import Any
+
+import numpy as np
+
+from ..camera.camera import Camera
+from ..records import Shapes
+from ..version import VERSION
+from .keypoints import SeenKeyPoint
+from .silhouettes import Box, Silhouette, silhouettes
+
+Document = dict[str, Any]
+
+NO_POINT: list[float] = [0, 0, 0]
+"""COCO's key point of an object that has none of this name, and of one that is outside."""
+
+
+@dataclass(frozen=True)
+class Sheet:
+    """A picture's file: its size in pixels, and the column and row of the full frame at which it begins."""
+
+    width: int
+    height: int
+    corner: tuple[int, int] = (0, 0)
+
+    def box(self, x0: int, x1: int, y0: int, y1: int) -> list[int]:
+        """Return pixels x0 .. x1 - 1, y0 .. y1 - 1 of the full frame, y up, as COCO's box."""
+        return [x0 - self.corner[0], self.height - (y1 - self.corner[1]), x1 - x0, y1 - y0]
+
+    def point(self, pixel: tuple[float, float]) -> list[float]:
+        """Return pixel coordinates of the full frame, y up, as COCO's."""
+        return [pixel[0] - self.corner[0], self.height - (pixel[1] - self.corner[1])]
+
+
+def document(
+    image: dict[str, Any],
+    sheet: Sheet,
+    camera: Camera,
+    shapes: Shapes,
+    category_of: Callable[[str], str],
+    points: Sequence[SeenKeyPoint] = (),
+) -> Document:
+    """Return the annotations of one picture.
+
+    image: ``file_name``, and what else is to be said of it. ``category_of``: from an object's name to its category.
+    """
+    found, index = silhouettes(camera, shapes)
+    raster = camera.raster
+    names = [shapes.names[shapes.name_index[one.row]] for one in found]
+    category = {name: category_of(name) for name in names}
+    numbers = {name: number for number, name in enumerate(sorted(set(category.values())), 1)}
+    key_names: dict[str, list[str]] = {name: [] for name in numbers}
+    for seen in points:
+        if seen.point.owner in category:
+            key_names[category[seen.point.owner]].append(seen.point.name)
+    key_names = {name: list(dict.fromkeys(own)) for name, own in key_names.items()}
+
+    def box(ends: Box) -> list[int]:
+        x0, x1, y0, y1 = ends
+        return sheet.box(x0 + raster.x0, x1 + raster.x0, y0 + raster.y0, y1 + raster.y0)
+
+    def mask(row: int) -> dict[str, Any]:
+        picture = np.zeros((sheet.height, sheet.width), bool)
+        x, y = raster.x0 - sheet.corner[0], raster.y0 - sheet.corner[1]
+        picture[y : y + index.shape[0], x : x + index.shape[1]] = index == row
+        return run_lengths(picture[::-1])
+
+    def whole(name: str, one: Silhouette) -> Document:
+        return {
+            "image_id": 1, "category_id": numbers[category[name]], "object": name, "shape_index": one.row,
+            "bbox_whole": box(one.whole), "area_whole": one.whole_pixels,
+        }  # fmt: skip
+
+    def visible(name: str, one: Silhouette, ends: Box) -> Document:
+        own = {seen.point.name: _triple(sheet, seen) for seen in points if seen.point.owner == name}
+        return whole(name, one) | {
+            "iscrowd": 0, "bbox": box(ends), "area": one.visible_pixels, "segmentation": mask(one.row),
+            "visible_fraction": one.visible_pixels / one.whole_pixels, **_key_points(own, key_names[category[name]]),
+        }  # fmt: skip
+
+    each = list(zip(names, found, strict=True))
+    shown = [visible(name, one, one.visible) for name, one in each if one.visible is not None]
+    return {
+        "info": {"description": "Made by Camera Ray Caster", "version": VERSION},
+        "images": [{"id": 1, **image, "width": sheet.width, "height": sheet.height}],
+        "categories": [_category(number, name, key_names[name]) for name, number in numbers.items()],
+        "annotations": [{"id": number, **one} for number, one in enumerate(shown, 1)],
+        "hidden": [whole(name, one) for name, one in each if one.visible is None],
+        "keypoints": [
+            {
+                "image_id": 1, "name": seen.point.name, "object": seen.point.owner, "world": list(seen.point.place),
+                "pixel": seen.pixel and sheet.point(seen.pixel), "depth": seen.depth,
+                "visibility": seen.visibility.name.lower(),
+            }
+            for seen in points
+        ],
+    }  # fmt: skip
+
+
+def merged(documents: Iterable[Document]) -> Document:
+    """Return one document of several, with numbers of its own; categories of the same name are one."""
+    result: Document = {"info": {}, "images": [], "categories": [], "annotations": [], "hidden": [], "keypoints": []}
+    key_names: dict[str, list[str]] = {}
+    for one in documents:
+        result["info"], number = one["info"], {"image_id": len(result["images"]) + 1}
+        result["images"].append(one["images"][0] | {"id": number["image_id"]})
+        own = {category["id"]: category for category in one["categories"]}
+        for category in own.values():
+            known = key_names.setdefault(category["name"], [])
+            known += [name for name in category.get("keypoints", ()) if name not in known]
+        for part in ("annotations", "hidden"):
+            result[part] += [entry | number | {"category": own[entry["category_id"]]} for entry in one[part]]
+        result["keypoints"] += [point | number for point in one["keypoints"]]
+    numbers = {name: number for number, name in enumerate(key_names, 1)}
+    result["categories"] = [_category(number, name, key_names[name]) for name, number in numbers.items()]
+    for entry in (*result["annotations"], *result["hidden"]):
+        category = entry.pop("category")
+        entry["category_id"] = numbers[category["name"]]
+        if "bbox" in entry:
+            values = entry.get("keypoints", [])
+            triples = [values[k : k + 3] for k in range(0, len(values), 3)]
+            own = dict(zip(category.get("keypoints", ()), triples, strict=True))
+            entry |= _key_points(own, key_names[category["name"]])
+    for place, entry in enumerate(result["annotations"], 1):
+        entry["id"] = place
+    return result
+
+
+def run_lengths(mask: np.ndarray) -> dict[str, Any]:
+    """Return a mask (rows, columns), row 0 at the top, as COCO's run lengths: of 0, of 1 and so on, by columns."""
+    flat = mask.ravel(order="F")
+    changes = np.flatnonzero(np.diff(flat, prepend=False))
+    return {"size": list(mask.shape), "counts": np.diff(changes, prepend=0, append=len(flat)).tolist()}
+
+
+def _category(number: int, name: str, key_names: list[str]) -> Document:
+    said = {"id": number, "name": name, "supercategory": ""}
+    return said | {"keypoints": key_names, "skeleton": []} if key_names else said
+
+
+def _triple(sheet: Sheet, seen: SeenKeyPoint) -> list[float]:
+    if seen.pixel is None or not seen.visibility:
+        return NO_POINT
+    return [*sheet.point(seen.pixel), int(seen.visibility)]
+
+
+def _key_points(own: dict[str, list[float]], names: list[str]) -> Document:
+    """Return COCO's words for the key points of an object, in the order of its category, where this has any."""
+    triples = [own.get(name, NO_POINT) for name in names]
+    said = {"keypoints": list(chain(*triples)), "num_keypoints": sum(triple[2] > 0 for triple in triples)}
+    return said if names else {}

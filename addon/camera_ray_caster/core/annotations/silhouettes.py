@@ -1,0 +1,86 @@
+"""Which pixels each shape has in a picture: those in which it is seen, and those that it would have alone."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ..camera.camera import Camera
+from ..cast import cast
+from ..records import MovingShapes, Shapes
+
+Box = tuple[int, int, int, int]
+"""x0, x1, y0, y1 in the pixels of the render window, row 0 at the bottom, x1 and y1 not included."""
+
+
+@dataclass(frozen=True)
+class Silhouette:
+    """A shape in a picture: a pixel is its own where the pixel's chief ray hits it."""
+
+    row: int
+    """In ``Shapes``."""
+    whole: Box
+    """Of the pixels that it would have alone."""
+    whole_pixels: int
+    visible: Box | None = None
+    """Of the pixels in which it is seen; None where there are none."""
+    visible_pixels: int = 0
+
+
+def silhouettes(camera: Camera, shapes: Shapes) -> tuple[list[Silhouette], np.ndarray]:
+    """Return the silhouettes of all shapes that have pixels in the render window, and the shape index of each pixel,
+    (rows, columns) int32.
+
+    Each shape is cast by itself, in its bounds.
+    """
+    images = cast(camera, shapes, ("shape_index",))
+    index = images["shape_index"]
+    rows, columns = np.nonzero(index >= 0)
+    found = dict(zip(*_boxes(index[rows, columns], columns, rows), strict=True))
+    everywhere = 0, camera.raster.shape[1], 0, camera.raster.shape[0]
+    if camera.pixel_time is None:
+        bounds = dict(zip(images.plan.seen.tolist(), images.plan.bounds.tolist(), strict=True))
+    else:
+        bounds = dict.fromkeys(range(len(shapes)), everywhere)
+    result = []
+    for row, (x0, x1, y0, y1) in bounds.items():
+        raster = camera.raster
+        window = replace(raster, x0=raster.x0 + x0, x1=raster.x0 + x1, y0=raster.y0 + y0, y1=raster.y0 + y1)
+        alone = cast(replace(camera, raster=window), _only(shapes, row), ("shape_index",), threads=1)["shape_index"]
+        own_rows, own_columns = np.nonzero(alone >= 0)
+        for whole, count in _boxes(alone[own_rows, own_columns], own_columns + x0, own_rows + y0)[1]:
+            result.append(Silhouette(row, whole, count, *found.get(row, ())))
+    return result, index
+
+
+def _boxes(index: np.ndarray, columns: np.ndarray, rows: np.ndarray) -> tuple[list[int], list[tuple[Box, int]]]:
+    """Return the shapes that pixels (m,) have, and the box of each one's pixels and their number."""
+    order = np.argsort(index, kind="stable")
+    which, first, counts = np.unique(index[order], return_index=True, return_counts=True)
+    if not which.size:
+        return [], []
+    x, y = columns[order], rows[order]
+    ends = (np.minimum.reduceat(x, first), np.maximum.reduceat(x, first) + 1,
+            np.minimum.reduceat(y, first), np.maximum.reduceat(y, first) + 1)  # fmt: skip
+    boxes = [tuple(box) for box in np.transpose(ends).tolist()]
+    return which.tolist(), list(zip(boxes, counts.tolist(), strict=True))
+
+
+@dataclass(frozen=True)
+class _MovingAlone:
+    """One of the shapes that move."""
+
+    motion: MovingShapes
+    row: int
+
+    def shapes_at(self, frame: float) -> Shapes:
+        return _only(self.motion.shapes_at(frame), self.row)
+
+
+def _only(shapes: Shapes, row: int) -> Shapes:
+    """Return one of the shapes."""
+    one = slice(row, row + 1)
+    columns = "kind", "center", "axes", "object_index", "material_index", "color", "name_index", "mesh", "shared"
+    motion = None if shapes.motion is None else _MovingAlone(shapes.motion, row)
+    return replace(shapes, motion=motion, slots=None, **{name: getattr(shapes, name)[one] for name in columns})

@@ -1,0 +1,156 @@
+"""Annotations of pictures: boxes, masks and key points against pictures that are worked out by hand."""
+
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from camera_ray_caster.core.annotations.coco import Sheet, document, merged, run_lengths
+from camera_ray_caster.core.annotations.keypoints import KeyPoint, seen_key_points
+from camera_ray_caster.core.annotations.silhouettes import silhouettes
+from camera_ray_caster.core.camera.build import camera_from
+from camera_ray_caster.core.cast import cast
+from camera_ray_caster.core.casting.visibility import Visibility
+from camera_ray_caster.core.motion.evaluations import resolve
+from camera_ray_caster.core.records import PLANE, SPHERE
+
+from ..camera.test_pixel_time import SHUTTER
+from ..camera.test_pixel_time import camera as timed_camera
+from ..cameras.model_examples import raw_of
+from ..casting.test_cast import random_shapes, shapes_of
+
+CAMERA = timed_camera({})
+"""Orthographic, 64 x 48 pixels, 16 of them a unit."""
+WALLS = shapes_of((PLANE, (0, 0, -5), 0.5), (PLANE, (0.5, 0.25, -3), 0.5), (PLANE, (0, 0, -9), 0.25))
+"""One square, another before its upper right, and one behind the first."""
+SHEET = Sheet(64, 48)
+
+
+def unpacked(lengths):
+    """The mask of run lengths."""
+    values = np.arange(len(lengths["counts"])) % 2 == 1
+    return np.repeat(values, lengths["counts"]).reshape(lengths["size"], order="F")
+
+
+def annotated(camera=CAMERA, shapes=WALLS, sheet=SHEET, points=(), file_name="a.png"):
+    found = document({"file_name": file_name}, sheet, camera, shapes, lambda name: "wall", points)
+    return json.loads(json.dumps(found))
+
+
+def test_boxes_masks_and_areas_by_hand():
+    """The square is 16 pixels wide; the one before it covers 8 x 12 of them."""
+    found = annotated()
+    assert found["images"] == [{"id": 1, "file_name": "a.png", "width": 64, "height": 48}]
+    assert found["categories"] == [{"id": 1, "name": "wall", "supercategory": ""}]
+    behind, before = found["annotations"]
+    assert behind["bbox"] == behind["bbox_whole"] == [24, 16, 16, 16]
+    assert (behind["area"], behind["area_whole"], behind["visible_fraction"]) == (160, 256, 0.625)
+    assert before["bbox"] == before["bbox_whole"] == [32, 12, 16, 16]
+    assert before["visible_fraction"] == 1
+    assert [one["object"] for one in found["hidden"]] == ["shape 2"]
+    assert found["hidden"][0]["bbox_whole"] == [28, 20, 8, 8]
+    index = cast(CAMERA, WALLS, ("shape_index",))["shape_index"][::-1]
+    for one in found["annotations"]:
+        assert (unpacked(one["segmentation"]) == (index == one["shape_index"])).all()
+
+
+def test_a_visible_part_has_a_box_of_its_own():
+    covered = replace(WALLS, center=np.array([(0, 0, -5), (0.5, 0, -3), (9, 9, -9.0)]))
+    behind = annotated(shapes=covered)["annotations"][0]
+    assert (behind["bbox"], behind["bbox_whole"]) == ([24, 16, 8, 16], [24, 16, 16, 16])
+    assert len(annotated(shapes=covered)["hidden"]) == 0
+
+
+def test_a_border_is_a_part_of_the_frame_or_a_picture_of_its_own():
+    border = timed_camera({}, use_border=True, border_min_x=0.5, border_max_x=1.0, border_min_y=0.0, border_max_y=0.5)
+    shown = annotated(border)["annotations"][0]
+    assert shown["bbox"] == [32, 28, 8, 4]
+    assert unpacked(shown["segmentation"]).shape == (48, 64)
+    alone = annotated(border, sheet=Sheet(32, 24, (32, 0)))["annotations"][0]
+    assert alone["bbox"] == [0, 4, 8, 4]
+    assert unpacked(alone["segmentation"]).sum() == shown["area"]
+
+
+@pytest.mark.parametrize("key", ["PERSP", "FISHEYE_EQUIDISTANT", "CROSS_SLIT"])
+def test_silhouettes_are_those_of_casts_without_the_others(key):
+    camera = camera_from(raw_of(key, {"resolution_x": 64, "resolution_y": 48}))
+    shapes = random_shapes(np.random.default_rng(0), 40)
+    found, index = silhouettes(camera, shapes)
+    assert len(found) > 2
+    for one in found:
+        far = shapes.center.copy()
+        others = np.arange(len(shapes)) != one.row
+        far[others] = camera.pose.eye + np.array((0, 0, 1e6))
+        alone = cast(camera, replace(shapes, center=far), ("shape_index",))["shape_index"] == one.row
+        y, x = np.nonzero(alone)
+        assert one.whole == (x.min(), x.max() + 1, y.min(), y.max() + 1)
+        assert one.whole_pixels == alone.sum()
+        seen = index == one.row
+        assert one.visible_pixels == seen.sum()
+        assert (one.visible is None) == (not seen.any())
+
+
+def test_a_shape_that_moves_while_rows_are_read_has_the_box_of_its_picture():
+    def evaluate(frame):
+        return timed_camera(SHUTTER), shapes_of((PLANE, (2 * (frame - 5), 0, -3), 0.5))
+
+    camera, shapes = evaluate(5.0)
+    motion = resolve(evaluate, 4.75, 5.25, 0.01, 64)
+    (one,), index = silhouettes(replace(camera, motion=motion), replace(shapes, motion=motion))
+    assert one.whole == one.visible
+    assert one.whole[1] - one.whole[0] > 16
+    assert one.whole_pixels == (index == 0).sum()
+
+
+def test_key_points_have_pixels_depths_and_are_hidden_as_they_are():
+    points = [
+        KeyPoint("corner", "shape 0", (-0.5, -0.5, -5.0)), KeyPoint("covered", "shape 0", (0.4, 0.4, -5.0)),
+        KeyPoint("away", "shape 1", (9.0, 0.0, -5.0)), KeyPoint("free", "", (0.0, 1.0, -7.0)),
+    ]  # fmt: skip
+    seen = seen_key_points(CAMERA, WALLS, points)
+    assert [one.visibility.name for one in seen] == ["SEEN", "HIDDEN", "OUTSIDE", "SEEN"]
+    assert seen[0].pixel == pytest.approx((24, 16))
+    assert [one.depth for one in seen] == pytest.approx([5, 5, 5, 7])
+    found = annotated(points=seen)
+    assert found["categories"][0]["keypoints"] == ["corner", "covered", "away"]
+    first, second = found["annotations"]
+    assert first["keypoints"] == pytest.approx([24, 32, 2, 38.4, 17.6, 1, 0, 0, 0])
+    assert (first["num_keypoints"], second["num_keypoints"]) == (2, 0)
+    assert found["keypoints"][3] == {
+        "image_id": 1, "name": "free", "object": "", "world": [0, 1, -7], "pixel": [32, 8], "depth": 7,
+        "visibility": "seen",
+    }  # fmt: skip
+
+
+@pytest.mark.parametrize("key", ["PERSP", "EQUIRECTANGULAR", "CROSS_SLIT", "ORTHO"])
+def test_the_depth_of_a_key_point_is_that_of_the_depth_pass(key):
+    camera = camera_from(raw_of(key, {"resolution_x": 64, "resolution_y": 48}))
+    shapes = shapes_of((SPHERE, (0, 0, 0), 6.0))
+    images = cast(camera, shapes, ("depth", "position"), float)
+    rows, columns = [5, 20, 40], [9, 30, 60]
+    points = [KeyPoint("", "", tuple(images["position"][at])) for at in zip(rows, columns, strict=True)]
+    seen = seen_key_points(camera, shapes, points)
+    assert [one.depth for one in seen] == pytest.approx(images["depth"][rows, columns].tolist(), rel=1e-9)
+    assert {one.visibility for one in seen} == {Visibility.SEEN}
+
+
+def test_documents_are_merged_with_numbers_and_key_points_of_their_own():
+    points = seen_key_points(CAMERA, WALLS, [KeyPoint("corner", "shape 0", (-0.5, -0.5, -5.0))])
+    plain = document({"file_name": "c.png"}, SHEET, CAMERA, WALLS, lambda name: name)
+    both = merged([annotated(), annotated(points=points, file_name="b.png"), plain])
+    assert [image["id"] for image in both["images"]] == [1, 2, 3]
+    assert [image["file_name"] for image in both["images"]] == ["a.png", "b.png", "c.png"]
+    assert [category["name"] for category in both["categories"]] == ["wall", "shape 0", "shape 1", "shape 2"]
+    assert [one["id"] for one in both["annotations"]] == list(range(1, 7))
+    assert [one["category_id"] for one in both["annotations"]] == [1, 1, 1, 1, 2, 3]
+    assert [one.get("keypoints") for one in both["annotations"]] == [
+        [0, 0, 0], [0, 0, 0], pytest.approx([24, 32, 2]), [0, 0, 0], None, None,
+    ]  # fmt: skip
+    assert [one["image_id"] for one in both["hidden"]] == [1, 2, 3]
+    assert both["keypoints"][0]["image_id"] == 2
+
+
+def test_run_lengths_begin_with_what_is_not_in_the_mask():
+    assert run_lengths(np.array([[True, False], [True, True]])) == {"size": [2, 2], "counts": [0, 2, 1, 1]}
+    assert run_lengths(np.zeros((2, 3), bool)) == {"size": [2, 3], "counts": [6]}

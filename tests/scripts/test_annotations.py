@@ -1,0 +1,67 @@
+"""What cast.py --annotations writes, and what it refuses."""
+
+import json
+
+import pytest
+
+from .running import left, script, small
+
+
+@pytest.fixture(scope="module")
+def scene(registered, tmp_path_factory):
+    """The small scene with key points: an empty on top of the sphere and parented to it, one behind, a vertex group."""
+    bpy = registered
+    path = small(bpy, tmp_path_factory.mktemp("annotations") / "small.blend")
+    sphere = bpy.data.objects["Sphere"]
+    for name, place in (("Top of it", (0, 0, 1.0001)), ("Below", (0, 0, -2))):
+        empty = bpy.data.objects.new(name, None)
+        bpy.context.scene.collection.objects.link(empty)
+        empty.location = place
+    bpy.data.objects["Top of it"].parent = sphere
+    pole = max(sphere.data.vertices, key=lambda vertex: vertex.co.z)
+    group = sphere.vertex_groups.new(name="pole")
+    group.add([pole.index], 0.5, "REPLACE")
+    sphere["category"] = "ball"
+    bpy.ops.wm.save_as_mainfile(filepath=str(path))
+    return path
+
+
+def test_boxes_masks_and_key_points_stand_beside_the_pictures_and_in_one_file(scene, tmp_path):
+    words = "--annotations", "--keypoints", "ALL", "--frames", "1:2", "--passes", "shape_index,depth"
+    done = script("cast", scene, *words, "--output", tmp_path)
+    assert (done.returncode, done.stderr) == (0, "")
+    names = [f"{name}_000{k}{end}" for k in (1, 2) for name, end in (("report", ".json"), ("small", ".exr"),
+             ("small", ".png"), ("small", "_coco.json"))]  # fmt: skip
+    assert left(tmp_path) == sorted(["annotations.json", *names])
+    whole = json.loads((tmp_path / "annotations.json").read_text())
+    assert [(image["file_name"], image["camera"], image["frame"]) for image in whole["images"]] == [
+        ("small_0001.png", "Top", 1.0), ("small_0002.png", "Top", 2.0),
+    ]  # fmt: skip
+    (category,) = whole["categories"]
+    assert (category["name"], category["keypoints"]) == ("ball", ["pole", "Top of it"])
+    first, second = whole["annotations"]
+    (x, y, width, height), area = first["bbox"], first["area"]
+    assert (x + width / 2, y + height / 2) == (16, 12)
+    assert 0.7 < area / (width * height) < 0.85
+    assert second["bbox"][0] < x
+    assert first["keypoints"] == pytest.approx([16, 12, 2, 16, 12, 2], abs=1e-4)
+    points = {(point["image_id"], point["name"]): point for point in whole["keypoints"]}
+    assert points[1, "Below"]["visibility"] == "hidden"
+    assert points[1, "Below"]["depth"] == pytest.approx(7)
+    assert points[1, "pole"]["object"] == points[1, "Top of it"]["object"] == "Sphere"
+    again = script("cast", scene, *words, "--output", tmp_path, "--skip-existing")
+    assert again.returncode == 0
+    assert json.loads((tmp_path / "annotations.json").read_text()) == whole
+
+
+@pytest.mark.parametrize(("words", "said"), [
+    (["--keypoints", "Nobody"], "no key point 'Nobody'"),
+    (["--keypoints", "Top"], "no key point 'Top'"),
+    (["--keypoints", "ALL", "Below"], "ALL stands alone"),
+])  # fmt: skip
+def test_bad_names_are_refused_in_one_line(scene, tmp_path, words, said):
+    done = script("cast", scene, *words, "--output", tmp_path / "out")
+    assert done.returncode == 2
+    assert said in done.stderr
+    assert done.stderr.count("\n") == 1
+    assert not (tmp_path / "out").exists()
