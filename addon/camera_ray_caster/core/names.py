@@ -11,12 +11,17 @@ UNSAFE = re.compile(r'[\x00-\x1f\x7f/\\:*?"<>|]|^\.')
 """What a file's name may not have on some system; a dot in front would hide it."""
 
 
+def file_name(name: str) -> str:
+    """Return a name with ``_`` for what no file's name may have."""
+    return UNSAFE.sub("_", name).rstrip(". ") or "_"
+
+
 def file_names(names: Iterable[str]) -> dict[str, str]:
-    """Return a file name for each name: itself, with ``_`` for what no file's name may have.
+    """Return ``file_name`` of each name.
 
     Raises InputError where two names would have the same file, also where only small and capital letters differ.
     """
-    found = {name: UNSAFE.sub("_", name).rstrip(". ") or "_" for name in names}
+    found = {name: file_name(name) for name in names}
     owners: dict[str, str] = {}
     for name, file in found.items():
         other = owners.setdefault(file.casefold(), name)

@@ -58,6 +58,8 @@ def test_a_stereo_scene_has_the_eyes_of_each_camera(scene, tmp_path):
     for side, eye in eyes.items():
         assert same(eye, read_camera(scene, view=side))
     assert not same(eyes["left"], eyes["right"])
+    exports.write(scene, "mrcal", [scene.camera], [5], tmp_path / "mrcal")  # as renders of the eyes are called
+    assert names(tmp_path / "mrcal") == ["Moving_0005_LEFT.cameramodel", "Moving_0005_R.cameramodel"]
 
 
 def test_slits_paths_and_times_come_back_from_a_file(scene, tmp_path):

@@ -9,7 +9,7 @@ import numpy as np
 
 from ...core.exports import export, find_format
 from ...core.exports.format import Content, Shot
-from ...core.names import file_names
+from ...core.names import file_name, file_names
 from ...core.records import InputError
 from ..read.scene import evaluated, go_to, read_camera
 from ..terminal import signals
@@ -37,17 +37,18 @@ def write(scene, key: str, cameras: Sequence, frames: Iterable[float], folder: P
 
 def shots(scene, cameras: Sequence, frames: Iterable[float], target=None) -> list[Shot]:
     """Return the cameras, or their eyes, at frames, frame by frame; see ``write``."""
-    eyes = [(f"{camera.name}{suffix}", camera, view) for camera in cameras for suffix, view in _eyes(scene)]
-    names = file_names(name for name, _, _ in eyes)
+    eyes = [(camera, suffix, view) for camera in cameras for suffix, view in _eyes(scene)]
+    file_names(f"{camera.name}{suffix}" for camera, suffix, _ in eyes)  # no two are alike
     found = []
     with evaluated(scene):
         for frame in frames:
             signals.raise_if_stopping()
             go_to(scene, frame)
             to = read_camera(scene, target) if target is not None else None
-            for name, camera, view in eyes:
-                read = read_camera(scene, camera, view=view)
-                found.append(Shot(names[name], frame, read, scene.unit_settings.scale_length, to))
+            for camera, suffix, view in eyes:
+                read, meters = read_camera(scene, camera, view=view), scene.unit_settings.scale_length
+                suffix = file_name(suffix) if suffix else ""
+                found.append(Shot(file_name(camera.name), frame, read, meters, to, suffix))
     return found
 
 

@@ -15,10 +15,10 @@ from pathlib import Path
 from typing import Any
 
 from ..arguments import number, shown, word
+from ..camera import pixel_time
 from ..camera.build import camera_from
 from ..camera.camera import Camera
 from ..camera.facts import CONVENTIONS, camera_facts
-from ..camera.pixel_time import LAST_FRAME
 from ..cameras.parts.calibration import FILE
 from ..motion.evaluations import Motion
 from ..motion.interpolation import TimeInterval
@@ -117,13 +117,20 @@ def recorded(camera: Camera) -> dict[str, Any]:
     motion = camera.motion
     if isinstance(motion, Motion):
         said["evaluations"] = [
-            {FRAME: frame, "record": without(plain(_record(state)), said["record"])}
+            {FRAME: frame, "record": without(plain(_record(_of_one_time(state))), said["record"])}
             for frame, (state, _) in sorted(motion.states.items())
         ]
         said["intervals"] = plain([interval.frames for interval in motion.intervals])
         known = {name: getattr(motion, name) for name in ("tolerance", "estimated", "unresolved", "measured")}
         said["motion"] = plain(known)
     return said
+
+
+def _of_one_time(camera: Camera) -> Camera:
+    """Return a camera whose record has nothing of pixel times: those of the picture are said once."""
+    times = {setting.name for settings in pixel_time.SETTINGS.values() for setting in settings}
+    settings = {name: value for name, value in camera.record.settings.items() if name not in times}
+    return replace(camera, record=replace(camera.record, settings=settings | {pixel_time.MODE.name: pixel_time.NONE}))
 
 
 def _record(camera: Camera) -> dict[str, Any]:
@@ -171,7 +178,7 @@ def _chosen(cameras: Sequence[Mapping[str, Any]], name: str | None) -> Mapping[s
 
 def _frame(camera: Mapping[str, Any], frame: float | None) -> dict[str, Any]:
     frames = {own[FRAME]: own for own in camera["frames"]}
-    chosen = next(iter(frames)) if frame is None else number(frame, "frame", LAST_FRAME)
+    chosen = next(iter(frames)) if frame is None else number(frame, "frame", pixel_time.LAST_FRAME)
     if chosen not in frames:
         ends = f"{min(frames):g} to {max(frames):g}"
         raise InputError(f"camera {camera['name']!r} has no frame {shown(frame)} here: its frames go from {ends}")

@@ -28,19 +28,26 @@ OWN_TIMES = "each pixel of which has its own time"
 class Shot:
     """A camera at a frame."""
 
-    name: str
-    """Of the camera in names of files; see ``names``."""
+    camera_name: str
+    """In names of files; see ``names``."""
     frame: float
     camera: Camera
     meters: float = 1.0
     """How long a Blender unit is."""
     target: Camera | None = None
     """The camera to whose picture a map leads; None for the perspective of the same lens."""
+    suffix: str = ""
+    """Of the view, for one eye of a camera; "" for a camera with one."""
+
+    @property
+    def name(self) -> str:
+        """The name of the files of this camera, or this eye, at all frames, without an ending."""
+        return self.camera_name + self.suffix
 
     @property
     def stem(self) -> str:
-        """The name of the files of this camera and frame, without an ending."""
-        return f"{self.name}_{frame_digits(self.frame)}"
+        """The name of the files of this frame, without an ending: as renders of it are called."""
+        return f"{self.camera_name}_{frame_digits(self.frame)}{self.suffix}"
 
     @property
     def image(self) -> str:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from math import pi
+from typing import Any
 
 from ..camera.camera import Camera
 from ..cameras.equirectangular import Equirectangular
@@ -31,14 +32,15 @@ def calibrations(camera: Camera) -> list[Lens]:
     and the model's other settings. An equirectangular panorama is one, with pixels per radian, and (cx, cy) where it
     looks ahead. Beyond the rim of a fisheye of Blender's a calibration goes on.
     """
-    model = camera.model
-    if isinstance(model, Perspective):
+    model: Any = camera.model
+    kind = type(model)  # what inherits from one of these turns its rays further
+    if kind is Perspective:
         return [_lens(model, "OPENCV_PINHOLE")]
-    if isinstance(model, Equirectangular):
+    if kind is Equirectangular:
         return [_lens(model, model.key)]
-    if isinstance(model, FisheyeEquidistant) and model.half_fov <= pi:
+    if kind is FisheyeEquidistant and model.half_fov <= pi:
         return [_lens(model, "OPENCV_FISHEYE", 1 / model.half_fov)]
-    if isinstance(model, FisheyeStereographic):
+    if kind is FisheyeStereographic:
         return _unified(model, {"unified_xi": 1.0})
     if isinstance(model, Calibrated | OpencvPinhole) and model.K is not None:
         own = {one.name: camera.settings[one.name] for one in model.SETTINGS if one not in CALIBRATION}

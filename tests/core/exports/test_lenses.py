@@ -1,0 +1,52 @@
+"""Cameras as calibrations: whatever a camera is said to be has its rays."""
+
+import numpy as np
+import pytest
+
+from camera_ray_caster.core.cameras import MODELS
+from camera_ray_caster.core.exports.lenses import calibrations
+
+from ..cameras.model_examples import EXAMPLES, IDENTITY, camera
+from .shots import CAMERAS
+
+
+def pixels_of(lens, there, points):
+    """Where a calibration sees points in the camera's frame."""
+    frame = dict(zip(("resolution_x", "resolution_y"), there.model.frame, strict=True))
+    if lens.model == "EQUIRECTANGULAR":
+        x, y, z = points.T
+        own = lens.settings
+        across, down = np.arctan2(x, -z) * own["fx"] + own["cx"], -np.arctan2(y, np.hypot(x, z)) * own["fy"] + own["cy"]
+        return np.stack((across + 0.5, frame["resolution_y"] - 0.5 - down), axis=-1)
+    size = {"calibration_width": 0, "calibration_height": 0}
+    return camera(lens.model, frame | size | lens.settings).model.project(points)
+
+
+@pytest.mark.parametrize("key", [model.key for model in MODELS])
+def test_a_calibration_of_a_camera_has_its_rays(key):
+    examples = [*EXAMPLES[key], *(settings for own, settings in CAMERAS.values() if own == key)]
+    for settings in examples:
+        there = camera(key, {**settings, "matrix_world": IDENTITY})
+        width, height = there.model.frame
+        x, y = np.random.default_rng(5).uniform(0, 1, (2, 300)) * [[width], [height]]
+        rays = there.rays_at(x, y)
+        seen = there.model.project(rays.directions)
+        for lens in calibrations(there):
+            apart = pixels_of(lens, there, rays.directions) - seen
+            if lens.model == "EQUIRECTANGULAR":  # a whole turn is none
+                turn = 2 * np.pi * lens.settings["fx"]
+                apart[:, 0] -= turn * np.rint(apart[:, 0] / turn)
+            assert np.nanmax(np.abs(apart), initial=0.0) < 1e-9 * width, lens.model
+
+
+def test_the_models_that_are_calibrations_of_others():
+    found = {
+        model.key: [lens.model for lens in calibrations(camera(model.key, EXAMPLES[model.key][0]))] for model in MODELS
+    }
+    others = {key: models for key, models in found.items() if models not in ([], [key])}
+    assert others == {
+        "PERSP": ["OPENCV_PINHOLE"],
+        "FISHEYE_EQUIDISTANT": ["OPENCV_FISHEYE"],
+        "FISHEYE_STEREOGRAPHIC": ["UCM", "EUCM"],
+        "UCM": ["UCM", "EUCM"],
+    }
