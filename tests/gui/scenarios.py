@@ -6,6 +6,7 @@ import _cycles
 import bpy
 import numpy as np
 from camera_scenarios import CAMERA_SCENARIOS
+from lesson_scenarios import LESSON_SCENARIOS
 from parts import BUTTON, MODULE, addon, load, timed
 from user import pixels_of
 
@@ -295,6 +296,6 @@ SCENARIOS = {
     scenario.__name__: scenario
     for scenario in (
         panel, no_camera, left_out, stop, stop_samples, load_while_casting, overlay, ray_under_mouse, viewport,
-        cycles, *CAMERA_SCENARIOS, disable,
+        cycles, *CAMERA_SCENARIOS, *LESSON_SCENARIOS, disable,
     )
 }  # fmt: skip

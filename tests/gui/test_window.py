@@ -19,7 +19,8 @@ OUTPUT = ROOT / "out" / "gui"
 
 SCENARIOS = (
     "panel", "no_camera", "left_out", "stop", "stop_samples", "load_while_casting", "overlay", "ray_under_mouse",
-    "viewport", "cycles", "camera_settings", "model_gallery", "search", "told", "disable",
+    "viewport", "cycles", "camera_settings", "model_gallery", "search", "told",
+    "step_through", "disable",
 )  # fmt: skip
 SIZE = "1400x900"
 LIMIT = 1200

@@ -19,6 +19,8 @@ from .ui import (
     cycles_operators,
     export_operators,
     gallery_panels,
+    lesson_operators,
+    lesson_panels,
     menus,
     model_panels,
     object_panels,
@@ -26,18 +28,19 @@ from .ui import (
     overlay_panels,
     render_panels,
 )
-from .view3d import mouse_gizmo, overlay, scene_cache
+from .view3d import lesson, mouse_gizmo, overlay, scene_cache
 
 CLASSES = (
     *groups.CLASSES, *overlay.CLASSES, *engine.CLASSES, *operators.CLASSES, *cast_operator.CLASSES,
     *cycles_operators.CLASSES, *add_line.CLASSES, *export_operators.CLASSES,
     *mouse_gizmo.CLASSES, *render_panels.CLASSES, *gallery_panels.CLASSES, *menus.CLASSES, *model_panels.CLASSES,
-    *camera_panels.CLASSES, *cast_panels.CLASSES, *object_panels.CLASSES, *overlay_panels.CLASSES,
+    *camera_panels.CLASSES, *cast_panels.CLASSES, *lesson_operators.CLASSES, *lesson_panels.CLASSES,
+    *object_panels.CLASSES, *overlay_panels.CLASSES,
 )  # fmt: skip
 """Blender's types, in the order in which they are registered: a panel comes after the panel that it is in."""
 
 MODULES = (
-    groups, kept, follow, reports, gallery, scene_cache, viewport, cast_operator, overlay, render_panels, menus,
+    groups, kept, follow, reports, gallery, scene_cache, viewport, cast_operator, overlay, lesson, render_panels, menus,
     export_operators, commands,
 )  # fmt: skip
 """Modules that add more than classes. ``register(undo)`` adds it and gives ``undo`` the callbacks that remove it."""

@@ -165,7 +165,7 @@ def test_a_model_of_a_newer_version_is_never_another_one(blender, scene, reopene
     for owner, name in ((data, "model"), (thing, "primitive")):
         stored = owner.bl_system_properties_get() if blender.app.version >= (5, 0, 0) else owner
         stored["camera_ray_caster"][name] = 99
-    unknown = "model of camera 'Camera' is '99': it must be one of BLENDER, CAMERA_OBSCURA"
+    unknown = "model of camera 'Camera' is '99': it must be one of BLENDER, OPENCV_PINHOLE"
     with pytest.raises(crc.InputError, match=unknown):
         crc.read_camera(scene)
     assert [reason for _, reason in crc.read_shapes(scene).left_out] == [LEFT_OUT]

@@ -10,10 +10,12 @@ from collections.abc import Sequence
 import bpy
 
 from ...core.records import Cancelled, InputError
-from . import cast, export, signals, to_cycles, verify
+from . import cast, explain, export, signals, to_cycles, verify
 from .standard_output import keep_output
 
-COMMANDS = {"cast": cast.run, "verify": verify.run, "to_cycles": to_cycles.run, "export": export.run}
+COMMANDS = {
+    "cast": cast.run, "verify": verify.run, "explain": explain.run, "to_cycles": to_cycles.run, "export": export.run,
+}  # fmt: skip
 
 
 def main(command: str, arguments: Sequence[str], prog: str) -> int:

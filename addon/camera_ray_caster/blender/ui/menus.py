@@ -5,9 +5,10 @@ import bpy
 from .cast_operator import Cast
 from .cycles_operators import UseInCycles
 from .export_operators import ExportMenu
+from .lesson_operators import StepThrough
 from .operators import CopyFacts, LoadCalibration, Verify, WriteReport
 
-LISTED = (Cast, Verify, LoadCalibration, UseInCycles, CopyFacts, WriteReport)
+LISTED = (Cast, Verify, StepThrough, LoadCalibration, UseInCycles, CopyFacts, WriteReport)
 
 
 class RayCasterMenu(bpy.types.Menu):

@@ -56,11 +56,11 @@ def draw() -> None:
     gpu.state.depth_test_set("LESS_EQUAL")
     for name in _wanted(settings, in_camera):
         color, width = STYLES[name]
-        _draw(batches[name], "POINT" if name == "hits" else "POLYLINE", color, width * scale)
+        draw_batch(batches[name], "POINT" if name == "hits" else "POLYLINE", color, width * scale)
     if settings.show_frustum and not in_camera:
         gpu.state.depth_test_set("NONE")
         for batch, color in zip(batches["basis"], AXES, strict=True):
-            _draw(batch, "POLYLINE", color, 1.5 * WIDE * scale)
+            draw_batch(batch, "POLYLINE", color, 1.5 * WIDE * scale)
     gpu.state.depth_test_set("NONE")
     gpu.state.blend_set("NONE")
 
@@ -90,7 +90,7 @@ def _made(parts: Diagram) -> dict:
     """Return the batches by the names of STYLES, None where a part is empty, and those of u, v and w."""
 
     def batch(kind: str, form: str, points):
-        return batch_for_shader(_shader(kind), form, {"pos": points.reshape(-1, 3)}) if len(points) else None
+        return batch_for_shader(shader(kind), form, {"pos": points.reshape(-1, 3)}) if len(points) else None
 
     batches = {name: batch("POLYLINE", "LINES", getattr(parts, name)) for name in STYLES if name != "hits"}
     batches["hits"] = batch("POINT", "POINTS", parts.hits)
@@ -98,22 +98,24 @@ def _made(parts: Diagram) -> dict:
     return batches
 
 
-def _shader(kind: str):
+def shader(kind: str):
+    """Return Blender's shader of a color for POLYLINE or POINT."""
     return gpu.shader.from_builtin(f"{kind}_UNIFORM_COLOR")
 
 
-def _draw(batch, kind: str, color, width: float) -> None:
+def draw_batch(batch, kind: str, color, width: float) -> None:
+    """Draw lines or points of a color and a width in pixels; nothing where the batch is None."""
     if batch is None:
         return
-    shader = _shader(kind)
-    shader.bind()
-    shader.uniform_float("color", color)
+    bound = shader(kind)
+    bound.bind()
+    bound.uniform_float("color", color)
     if kind == "POINT":
         gpu.state.point_size_set(width)
     else:
-        shader.uniform_float("viewportSize", gpu.state.viewport_get()[2:])
-        shader.uniform_float("lineWidth", width)
-    batch.draw(shader)
+        bound.uniform_float("viewportSize", gpu.state.viewport_get()[2:])
+        bound.uniform_float("lineWidth", width)
+    batch.draw(bound)
 
 
 CLASSES = (OverlayProperties,)

@@ -108,6 +108,12 @@ def probe(camera: Camera, shapes: Shapes, column: int, row: int) -> Probe:
     )
 
 
+def pixel_outline(camera: Camera, size: float, column: int, row: int) -> np.ndarray:
+    """Return the segments (n, 2, 3) of a pixel's outline on the image in space: see ``diagram``."""
+    x, y = column + np.array([0.0, 1.0, 1.0, 0.0, 0.0]), row + np.array([0.0, 0.0, 1.0, 1.0, 0.0])
+    return _drawn(_segments(_ahead(camera, size, x, y)[None]))
+
+
 def _spread(count: int, wanted: int) -> np.ndarray:
     """Return the numbers of up to ``wanted`` of ``count`` pixels: those in the middle of as many equal parts."""
     wanted = min(count, wanted)

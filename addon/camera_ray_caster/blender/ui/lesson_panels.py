@@ -1,0 +1,41 @@
+"""The steps of a pixel in the 3D View's sidebar."""
+
+import bpy
+
+from ..view3d.lesson import lessons
+from .camera_panels import Sidebar, draw_message
+from .lesson_operators import ClearSteps, CopySteps, StepThrough
+
+OPEN = ("View coordinates [-1, 1]²", "Model", "Seen")
+"""The steps that are not folded at first."""
+
+
+class SidebarLesson(Sidebar, bpy.types.Panel):
+    """From a pixel to its color, step by step."""
+
+    bl_idname = "CAMERA_RAY_CASTER_PT_lesson"
+    bl_label = "Step Through"
+
+    def draw(self, context):
+        """The buttons; the steps of the latest pixel, each of which can be folded."""
+        layout = self.layout
+        layout.operator(StepThrough.bl_idname, icon="EYEDROPPER", text="Click a Pixel")
+        row = layout.row(align=True)
+        row.operator(CopySteps.bl_idname, icon="COPYDOWN")
+        row.operator(ClearSteps.bl_idname, icon="X")
+        found = lessons(context)
+        if not found:
+            return
+        *others, latest = found.values()
+        if others:
+            pixels = ", ".join(f"({x}, {y})" for x, y in (one.seen.pixel for one in others))
+            draw_message(layout, context, f"Drawn, too: {pixels}")
+        for title, lines in latest.steps:
+            header, body = layout.panel(f"camera_ray_caster {title}", default_closed=title not in OPEN)
+            header.label(text=f"{title} {latest.seen.pixel[0]}, {latest.seen.pixel[1]}" if title == "Pixel" else title)
+            if body:
+                for line in lines:
+                    draw_message(body, context, line, "BLANK1" if line.startswith(" ") else "DOT")
+
+
+CLASSES = (SidebarLesson,)

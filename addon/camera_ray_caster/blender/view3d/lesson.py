@@ -1,0 +1,87 @@
+"""The pixels that are stepped through: which they are, their lessons, and their rays drawn in every 3D View."""
+
+from __future__ import annotations
+
+import bpy
+import gpu
+import numpy as np
+from bpy.app.handlers import persistent
+from gpu_extras.batch import batch_for_shader
+
+from ...core.report.diagram import pixel_outline
+from ...core.report.lesson import Lesson, lesson
+from .overlay import draw_batch, shader
+from .scene_cache import CachedScene, cached_scene
+
+FAR = 100.0
+"""Lengths of the camera's display that a ray is drawn where it meets nothing."""
+RAY, OTHERS, SEEN, NORMAL = (1.0, 0.45, 0.1, 1.0), (0.7, 0.7, 0.7, 0.9), (1.0, 0.9, 0.2, 1.0), (0.3, 0.9, 0.95, 1.0)
+WIDTH, POINT = 2.5, 8.0
+"""Pixels, at the interface's scale 1."""
+
+pixels: list[tuple[int, int]] = []
+"""Those that were clicked, the latest last."""
+_read: list[tuple[CachedScene, dict[tuple[int, int], Lesson]]] = []
+
+
+def lessons(context) -> dict[tuple[int, int], Lesson]:
+    """Return the lessons of the pixels that are in the frame, read again after a change of the scene."""
+    scene = cached_scene(context)
+    if not _read or _read[0][0] is not scene:
+        _read[:] = [(scene, {})]
+    known = _read[0][1]
+    if scene.camera is None:
+        return {}
+    raster = scene.camera.raster
+    shown = [(x, y) for x, y in pixels if x < raster.width and y < raster.height]
+    for pixel in shown:
+        if pixel not in known:
+            known[pixel] = lesson(scene.camera, scene.shapes, *pixel)
+    return {pixel: known[pixel] for pixel in shown}
+
+
+def draw() -> None:
+    """Draw rays, pixels on the image and places on the rays; called by Blender for each 3D View."""
+    context = bpy.context
+    if not pixels:
+        return
+    found, scale = lessons(context), context.preferences.system.ui_scale
+    size = context.scene.camera.data.display_size if found else 0.0
+    gpu.state.blend_set("ALPHA")
+    gpu.state.depth_test_set("NONE")
+    for one in found.values():
+        for kind, form, points, color, width in _parts(cached_scene(context).camera, one, size):
+            points = np.asarray(points, np.float32).reshape(-1, 3)
+            if len(points) and np.isfinite(points).all():
+                draw_batch(batch_for_shader(shader(kind), form, {"pos": points}), kind, color, width * scale)
+    gpu.state.blend_set("NONE")
+
+
+def _parts(camera, one: Lesson, size: float):
+    """Yield (kind of shader, form, points, color, width) of what is drawn of a pixel."""
+    yield "POLYLINE", "LINES", pixel_outline(camera, size, *one.seen.pixel), RAY, WIDTH
+    origin, direction = one.seen.origin, one.seen.direction
+    end = one.seen.distance if np.isfinite(one.seen.distance) else FAR * size
+    yield "POLYLINE", "LINES", [origin, origin + end * direction], RAY, WIDTH
+    others = [place.t for meeting in one.met for place in meeting.places if 0 <= place.t != end]
+    if others:
+        yield "POLYLINE", "LINES", [origin + end * direction, origin + max(others) * direction], OTHERS, WIDTH / 2
+        yield "POINT", "POINTS", [origin + t * direction for t in others], OTHERS, POINT * 0.75
+    if one.point is not None:
+        yield "POLYLINE", "LINES", [one.point, one.point + size * one.normal], NORMAL, WIDTH
+        yield "POINT", "POINTS", [one.point], SEEN, POINT
+
+
+@persistent
+def forget(*_):
+    """Another file: nothing of this one counts."""
+    pixels.clear()
+    _read.clear()
+
+
+def register(undo) -> None:
+    """See ``registration``."""
+    undo.callback(forget)
+    undo.add_handlers([("load_pre", forget)])
+    handle = bpy.types.SpaceView3D.draw_handler_add(draw, (), "WINDOW", "POST_VIEW")
+    undo.callback(bpy.types.SpaceView3D.draw_handler_remove, handle, "WINDOW")

@@ -1,0 +1,155 @@
+"""A pixel step by step, with its numbers put in: raster, view coordinates, the model's formula, ray, shapes, hit."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..camera.camera import Camera
+from ..cameras.model import WindowModel
+from ..casting.pixels import passes_at
+from ..records import InputError, Shapes
+from .diagram import Probe, probe
+from .meetings import Meeting, meetings, nearest, words
+
+NORMALIZED = "[-1, 1]²"
+"""What a step of a formula says whose x and y are view coordinates, not pixels."""
+
+
+@dataclass(frozen=True)
+class Lesson:
+    """One pixel's way from the raster to the color."""
+
+    seen: Probe
+    steps: tuple[tuple[str, tuple[str, ...]], ...]
+    """(title, lines), in order."""
+    met: tuple[Meeting, ...] = ()
+    """The shapes on the ray's line, the one that is seen first."""
+    point: np.ndarray | None = None
+    """(3,) what is seen, world; None where nothing is."""
+    normal: np.ndarray | None = None
+
+    def lines(self) -> list[str]:
+        """Return all of it as lines of text."""
+        return [line for title, texts in self.steps for line in (title, *(f"  {text}" for text in texts), "")][:-1]
+
+
+def lesson(camera: Camera, shapes: Shapes, column: int, row: int) -> Lesson:
+    """Return the steps of a pixel of the full frame, counted from the bottom left, at the camera's own frame.
+
+    Raises InputError for a pixel outside of the frame.
+    """
+    raster = camera.raster
+    if not (0 <= column < raster.width and 0 <= row < raster.height):
+        raise InputError(
+            f"pixel {column},{row} is outside of the frame: give 0,0 (bottom left) to "
+            f"{raster.width - 1},{raster.height - 1}"
+        )
+    seen = probe(camera, shapes, column, row)
+    steps = [*_raster(camera, seen), ("Model", tuple(_formula(camera, seen)))]
+    if np.isnan(seen.direction).any():
+        return Lesson(seen, (*steps, ("Ray", ("none: the model has no ray for this pixel",))))
+    met = meetings(camera, shapes, seen.origin, seen.direction)
+    steps += [("Ray in the world", _world(camera, seen)), ("Shapes on its line", tuple(_shapes(met)))]
+    if nearest(met) is None:
+        color = words(shapes.world_color)
+        return Lesson(seen, (*steps, ("Seen", (f"nothing: the color of the world, {color}",))), tuple(met))
+    names = ("position", "normal", "combined", "depth")
+    found = passes_at(camera, shapes, np.array([column]), np.array([row]), names)
+    point, normal, color, depth = (found[name][0, 0] for name in names)
+    lines = (
+        f"{seen.name!r}, shape_index {seen.shape_index}",
+        f"point o + t r = {words(point)}, distance {seen.distance:.9g}, depth {depth:.9g}",
+        f"unit normal, turned towards the ray {words(normal)}",
+        f"color, linear {words(color)}",
+    )
+    return Lesson(seen, (*steps, ("Seen", lines)), tuple(met), point, normal)
+
+
+def _raster(camera: Camera, seen: Probe):
+    (column, row), raster = seen.pixel, camera.raster
+    width, height = raster.width, raster.height
+    x, y = column + 0.5, row + 0.5
+    yield (
+        "Pixel",
+        (f"({column}, {row}) of {width} × {height}, from the bottom left", f"its center: x = {x:g}, y = {y:g}"),
+    )
+    yield (
+        f"View coordinates {NORMALIZED}",
+        tuple(
+            f"2 {name}/{side} - 1 = 2 · {pixel:g}/{pixels} - 1 = {place:.6g}"
+            for name, side, pixel, pixels, place in zip("xy", "WH", (x, y), (width, height), seen.view, strict=True)
+        ),
+    )
+
+
+def _formula(camera: Camera, seen: Probe):
+    """Yield the model's steps, each also with numbers, and the ray in the camera's frame."""
+    model, raster = camera.model, camera.raster
+    x, y = seen.pixel[0] + 0.5, seen.pixel[1] + 0.5
+    yield model.label
+    known = {**_numbers(camera.settings), **_numbers(model.facts())}
+    known |= {"W": raster.width, "H": raster.height, "x": x, "y": y}
+    if isinstance(model, WindowModel):
+        known["X"], known["Y"] = map(float, model.window.plane_from_pixels(x, y))
+    for step in model.FORMULA:
+        names = known | ({"x": seen.view[0], "y": seen.view[1]} if NORMALIZED in step.words else {})
+        yield f"{step.words}: {step.symbols}"
+        put_in = with_numbers(step.symbols, names)
+        if put_in != step.symbols:
+            yield f"  {put_in}"
+    with np.errstate(all="ignore"):  # NaN is an answer: no ray
+        origin, direction = (np.array([float(part) for part in v]) for v in camera.camera_rays(x, y))
+    if np.isnan(direction).any():
+        return
+    if isinstance(model, WindowModel):
+        yield f"on the image plane: X = {known['X']:.6g}, Y = {known['Y']:.6g}"
+    yield f"in the camera's frame (x right, y up, -z ahead): origin {words(origin)}"
+    length = np.linalg.norm(direction)
+    angle = np.degrees(np.arctan2(np.hypot(*direction[:2]), -direction[2]))
+    yield f"direction {words(direction)}, of length {length:.6g}; {angle:.6g}° from the axis"
+
+
+def _numbers(values: Mapping[str, object]) -> dict[str, float]:
+    return {name: value for name, value in values.items() if isinstance(value, int | float)}
+
+
+def with_numbers(symbols: str, known: Mapping[str, float]) -> str:
+    """Return a formula with the numbers in place of the names that are known, but on the left of its equals signs."""
+
+    def number(found: re.Match) -> str:
+        name = found.group()
+        if name not in known:
+            return name
+        return f"{known[name]:.6g}" if known[name] >= 0 else f"({known[name]:.6g})"
+
+    parts = re.split(r"(\w+\s*=\s*)", symbols)
+    return "".join(part if i % 2 else re.sub(r"[A-Za-z_]\w*", number, part) for i, part in enumerate(parts))
+
+
+def _world(camera: Camera, seen: Probe) -> tuple[str, ...]:
+    u, v, z = camera.pose.basis.T
+    return (
+        f"eye {words(camera.pose.eye)}",
+        f"u = {words(u)}, v = {words(v)}, w = {words(-z)}",
+        f"o = {words(seen.origin)}",
+        f"r = {words(seen.direction)}, of length 1",
+    )
+
+
+def _shapes(met: list[Meeting]):
+    """Yield what each shape on the ray's line says, and which of all places is seen."""
+    first = nearest(met)
+    if not met:
+        yield "none"
+    for meeting in met:
+        yield f"{meeting.name!r}, shape {meeting.shape}"
+        yield from (f"  {line}" for line in meeting.equation)
+        for place in meeting.places:
+            what = f"{place.what}; " if place.what else ""
+            is_seen = first is not None and place is first[1]
+            why = place.objection or ("seen: the nearest that counts" if is_seen else "hidden behind the nearest")
+            yield f"  t = {place.t:.9g}: {what}{why}"

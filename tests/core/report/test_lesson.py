@@ -1,0 +1,96 @@
+"""The steps of a pixel: hand numbers, and what the search finds of the same ray by other means."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from camera_ray_caster.core.camera.build import camera_from
+from camera_ray_caster.core.cast import cast
+from camera_ray_caster.core.records import INFINITE_PLANE, MESH, PLANE, SPHERE, BlenderCamera, InputError, Mesh, Shapes
+from camera_ray_caster.core.report.lesson import lesson, with_numbers
+from camera_ray_caster.core.report.meetings import nearest
+
+TETRAHEDRON = Mesh(
+    vertices=np.array([[-1, 1, 0, 0], [-1, -1, 1, 0], [0, 0, 0, 2]], np.float32),
+    triangles=np.array([[0, 0, 1, 2], [2, 1, 2, 0], [1, 3, 3, 3]], np.int32),
+    polygon=np.arange(4, dtype=np.int32),
+)
+
+
+def scene():
+    """A ball, a quad behind it, an endless floor and a tetrahedron beside the ball; the camera looks along -Z."""
+    count = 4
+    column = np.arange(count, dtype=np.int32)
+    axes = np.stack([np.eye(3), np.diag([3.0, 3.0, 1.0]), np.array([[1, 0, 0], [0, 0, 1], [0, -1, 0.0]]), np.eye(3)])
+    return Shapes(
+        kind=np.array([SPHERE, PLANE, INFINITE_PLANE, MESH], np.uint8),
+        center=np.array([[0, 0, -5], [0, 0, -8], [0, -2, 0], [2, 0, -6.0]]),
+        axes=axes,
+        object_index=column,
+        material_index=column,
+        color=np.ones((count, 4), np.float32),
+        name_index=column,
+        names=("Ball", "Wall", "Floor", "Tent"),
+        meshes=(TETRAHEDRON,),
+        mesh=np.array([-1, -1, -1, 0], np.int32),
+    )
+
+
+def camera(**changed):
+    given = {"type": "PERSP", "resolution_x": 40, "resolution_y": 30, "lens": 18.0} | changed
+    return camera_from(BlenderCamera("Camera", matrix_world=np.eye(4), **given))
+
+
+def test_the_ball_straight_ahead_is_met_at_4_and_at_6():
+    found = lesson(camera(resolution_x=41, resolution_y=31), scene(), 20, 15)
+    assert found.seen.name == "Ball"
+    ball, wall = found.met[:2]
+    assert [place.t for place in ball.places] == [4, 6]
+    assert [place.t for place in wall.places] == [8]
+    assert ball.equation[1] == "1 t² -10 t +24 = 0, discriminant 4"
+    assert np.array_equal(found.point, [0, 0, -4])
+    assert np.array_equal(found.normal, [0, 0, 1])
+    text = "\n".join(found.lines())
+    assert "t = 4: seen: the nearest that counts" in text
+    assert "t = 6: hidden behind the nearest" in text
+    assert "r = x u + aspect y v + d w" in text
+    assert "(20, 15) of 41 × 31, from the bottom left" in text
+
+
+@pytest.mark.parametrize(
+    "changed",
+    [{}, {"type": "ORTHO"}, {"type": "PANO", "settings": {"panorama_type": "FISHEYE_EQUIDISTANT", "fisheye_fov": 3.0}}],
+)
+def test_the_plain_equations_find_what_the_search_finds(changed):
+    eye, shapes = camera(**changed), scene()
+    images = cast(eye, shapes, ("distance", "shape_index", "valid"), np.float64)
+    hits = 0
+    for row in range(0, 30, 3):
+        for column in range(0, 40, 3):
+            found = lesson(eye, shapes, column, row)
+            first = nearest(list(found.met))
+            assert np.isnan(found.seen.direction).any() == (not images["valid"][row, column])
+            assert (first[0].shape if first else -1) == images["shape_index"][row, column]
+            if first:
+                assert first[1].t == pytest.approx(images["distance"][row, column], rel=1e-12)
+                hits += 1
+    assert hits > 50
+
+
+def test_what_lies_outside_of_the_clip_range_says_so():
+    near = replace(camera(resolution_x=41, resolution_y=31), clip_start=4.5, clip_end=7.0)
+    text = "\n".join(lesson(near, scene(), 20, 15).lines())
+    assert "t = 4: nearer than the clip start, 4.5" in text
+    assert "t = 6: seen" in text
+    assert "t = 8: farther than the clip end, 7" in text
+
+
+def test_a_pixel_outside_of_the_frame_is_refused():
+    with pytest.raises(InputError, match=r"pixel 40,0 is outside of the frame: give 0,0 \(bottom left\) to 39,29"):
+        lesson(camera(), scene(), 40, 0)
+
+
+def test_numbers_are_put_in_for_names_and_not_for_parts_of_names():
+    known = {"x": 2.5, "W": 40, "fov": 3.0}
+    assert with_numbers("x = (x - W/2) fov, max(x) X", known) == "x = (2.5 - 40/2) 3, max(2.5) X"

@@ -1,0 +1,55 @@
+"""What a user does to see how a pixel gets its color, one scenario a function: see scenarios.py."""
+
+import bpy
+import numpy as np
+from parts import BUTTON, addon, load
+
+
+def place_of(user, column, row):
+    """Where a pixel of the camera is in the window."""
+    view, raster = user.region("WINDOW"), addon("view3d.scene_cache").cached_scene(bpy.context).camera.raster
+    with bpy.context.temp_override(window=user.window, area=user.area(), region=view):
+        left, bottom, right, top = addon("view3d.camera_frame").camera_frame(bpy.context)
+    x, y = (column + 0.5) / raster.width, (row + 0.5) / raster.height
+    return view.x + left + x * (right - left), view.y + bottom + y * (top - bottom)
+
+
+def step_through(user, scenes):
+    """Two pixels are clicked: their steps stand in the sidebar, their rays in every 3D View, and can be copied."""
+    yield from load(user, scenes, "toys")
+    space, lesson = user.area().spaces.active, addon("view3d.lesson")
+    yield from user.scroll(40)
+    yield from user.wait(0.5)
+    yield from user.press(f"{BUTTON}step_through(")
+    yield from user.wait(0.5)
+    assert space.region_3d.view_perspective == "CAMERA"
+    camera = addon("view3d.scene_cache").cached_scene(bpy.context).camera
+    yield from user.click(*place_of(user, 400, 200))
+    (first,) = lesson.pixels
+    assert np.abs(np.subtract(first, (400, 200))).max() <= 3
+    user.send("keydown", "shift")
+    yield from user.click(*place_of(user, 150, 120))
+    user.send("keyup", "shift")
+    assert len(lesson.pixels) == 2
+    yield from user.key("Escape")
+    user.picture("step_through")
+    one = lesson.lessons(bpy.context)[first]
+    hit = camera.project(one.point)
+    assert np.abs(hit - np.add(first, 0.5)).max() < 1e-9
+    yield from user.press(f"{BUTTON}copy_steps(")
+    said = bpy.context.window_manager.clipboard
+    assert said.count("View coordinates [-1, 1]²") == 2
+    assert f"({first[0]}, {first[1]}) of {camera.raster.width}" in said
+    space.region_3d.view_perspective = "PERSP"
+    space.region_3d.view_distance = 26
+    yield from user.wait(0.7)
+    on = user.cut(user.picture("step_through_rays"), user.region("WINDOW"))
+    bpy.ops.camera_ray_caster.clear_steps()
+    yield from user.wait(0.7)
+    off = user.cut(user.picture("step_through_cleared"), user.region("WINDOW"))
+    assert not lesson.pixels
+    yield from user.scroll(60, down=False)
+    assert np.count_nonzero(np.abs(on - off).max(axis=2) > 0.1) > 500
+
+
+LESSON_SCENARIOS = (step_through,)
