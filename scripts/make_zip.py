@@ -6,10 +6,18 @@
 Needs pip's bpy, which brings Blender's own builder of extensions.
 """
 
+from __future__ import annotations
+
+if __name__ == "__main__":
+    import ends  # it lies beside this file
+
+    ends.begin(__file__)
+
 import shutil
 import subprocess
 import sys
 import tempfile
+from argparse import RawDescriptionHelpFormatter
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -33,8 +41,11 @@ def stage(folder: Path) -> Path:
 def main() -> int:
     """Build it, and return the exit status of Blender's builder."""
     import bpy
+    from arguments import Parser
 
-    output = Path(sys.argv[1] if len(sys.argv) > 1 else ROOT / "dist")
+    parser = Parser(prog="make_zip.py", description=__doc__, formatter_class=RawDescriptionHelpFormatter)
+    parser.add_argument("folder", nargs="?", type=Path, default=ROOT / "dist", help="default: dist/")
+    output = parser.parse_args().folder
     output.mkdir(parents=True, exist_ok=True)
     (tools,) = bpy.utils.script_paths(subdir="addons_core/bl_pkg/cli")
     with tempfile.TemporaryDirectory() as folder:
@@ -43,4 +54,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(ends.run(__file__, main))

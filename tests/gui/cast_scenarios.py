@@ -1,0 +1,74 @@
+"""What a user does while a cast is running, one scenario a function: see scenarios.py."""
+
+import time
+
+import bpy
+import numpy as np
+from parts import BUTTON, addon, load
+
+PAUSE = 2.0
+"""Seconds that the window may stand still beside a cast that takes many times as long, on busy cores."""
+
+
+def begin(user, scenes, size):
+    """Load the example and press Cast for its depth, in a picture of size x size pixels."""
+    yield from load(user, scenes, "spheres_and_planes")
+    scene = bpy.context.scene
+    scene.render.resolution_x = scene.render.resolution_y = size
+    addon("engine.passes").tick(scene, bpy.context.view_layer, ["depth"])
+    yield from user.press(f"{BUTTON}cast(")
+    yield from user.until(lambda: (addon("ui.cast_operator").fraction() or 0) > 0, "it has begun")
+
+
+def stop(user, scenes):
+    """A cast of 16384 x 16384 pixels leaves the window alive, shows how far it is, and Esc stops it."""
+    yield from begin(user, scenes, 16384)
+    times = [time.monotonic()]
+    while times[-1] - times[0] < 2:
+        yield
+        times.append(time.monotonic())
+    user.picture("casting")
+    assert np.diff(times).max() < PAUSE, np.diff(times)
+    assert 0 < addon("ui.cast_operator").fraction() < 1
+    yield from user.key("Escape")
+    yield from user.until(lambda: addon("ui.cast_operator").fraction() is None, "it has stopped", 5)
+    assert addon("output.reports").latest() is None
+    assert "Ray Caster depth" not in bpy.data.images
+
+
+def stop_samples(user, scenes):
+    """Esc stops a picture of 256 x 256 pixels with 4,096 samples, which is one tile, as soon as any."""
+    yield from load(user, scenes, "spheres_and_planes")
+    scene, cast = bpy.context.scene, addon("ui.cast_operator")
+    scene.render.resolution_x = scene.render.resolution_y = 256
+    scene.camera_ray_caster.samples = 4096
+    addon("engine.passes").tick(scene, bpy.context.view_layer, ["combined"])
+    yield from user.press(f"{BUTTON}cast(")
+    yield from user.until(lambda: (cast.fraction() or 0) > 0, "it has begun")
+    worker = cast._running[0].worker
+    stop, waited = worker.stop, []
+
+    def timed():
+        started = time.perf_counter()
+        stop()
+        waited.append(time.perf_counter() - started)
+
+    worker.stop = timed
+    yield from user.key("Escape")
+    yield from user.until(lambda: cast.fraction() is None, "it has stopped", 5)
+    print(f"stopped after {waited[0]:.2f} s")
+    assert waited[0] < PAUSE, waited
+    assert addon("output.reports").latest() is None
+
+
+def load_while_casting(user, scenes):
+    """Another file ends the cast of this one, and nothing of it stays."""
+    yield from begin(user, scenes, 8192)
+    bpy.ops.wm.open_mainfile(filepath=str(scenes / "orthographic.blend"), load_ui=False)
+    yield from user.wait(1)
+    assert addon("ui.cast_operator").fraction() is None
+    assert addon("output.reports").latest() is None
+    assert "Ray Caster depth" not in bpy.data.images
+
+
+CAST_SCENARIOS = (stop, stop_samples, load_while_casting)
