@@ -19,6 +19,7 @@ WORDS = {
     "cast": [SCENE, "--passes", "depth"],
     "environment": [],
     "explain": [SCENE, "--pixel", "0,0"],
+    "export": ["--help"],
     "make_docs": ["--help"],
     "make_pictures": ["--help"],
     "make_scenes": ["--help"],
