@@ -79,3 +79,46 @@ def bound(camera, found):
     turned = [np.linalg.norm(camera.rays_at(x + u, y + v).directions - here, axis=-1) for u, v in np.eye(2) * 2.0**-8]
     distance = np.linalg.norm(found - camera.pose.eye, axis=-1)
     return (32 * 16 + 64) * EPS32 + distance * 1e-4 * 2.0**8 * np.nan_to_num(np.maximum(*turned), nan=1.0)
+
+
+def sides(ahead, model):
+    """The unit vectors to the right of directions in the camera's frame."""
+    x, y, _ = np.moveaxis(ahead @ np.array(model.upright).T, -1, 0)
+    side = np.stack((y, -x, np.zeros_like(x)), axis=-1)
+    return side / np.linalg.norm(side, axis=-1, keepdims=True) @ np.array(model.tilted).T
+
+
+@pytest.mark.parametrize("view", ["left", "right"])
+def test_the_eye_is_beside_a_ray_that_has_passed_the_lens(blender, scene, view):
+    """Of Cycles' rays the eye's move is undone: what is left passes through the opening to the point in focus."""
+    data, focus = scene.camera.data, 2.5
+    data.shift_x, data.lens = 0.0, 50.0
+    data.dof.use_dof, data.dof.aperture_fstop, data.dof.focus_distance = True, 0.1, focus
+    data.stereo.interocular_distance, data.stereo.convergence_mode = 0.3, "OFFAXIS"
+    for one in scene.render.views:
+        one.use, one.file_suffix = one.name == view, ""
+    blender.ops.mesh.primitive_cube_add(size=16, location=scene.camera.location)
+    camera = read_camera(scene, view=view)
+    model, basis, eye = camera.model, camera.pose.basis, camera.pose.eye
+    end = (cycles_surface(scene, "Position", 32.0) - eye) @ basis
+    direction = -cycles_surface(scene, "Incoming", 1.0) @ basis
+    chief = np.stack(np.broadcast_arrays(*model.lens.rays(camera.raster.columns(), camera.raster.rows())[1]), axis=-1)
+    seen = ~np.isnan(chief[..., 0]) & ~np.isnan(end[..., 0])
+    assert seen.mean() > 0.5
+    chief, end, direction = chief[seen], end[seen], direction[seen]
+    unit = chief / np.linalg.norm(chief, axis=1, keepdims=True)
+    in_focus, normal = (chief, np.array((0, 0, -1.0))) if model.lens.planar else (unit, unit)
+    ahead = direction
+    for _ in range(60):  # of unit length, and the eye's direction is ahead - offset / convergence side
+        beside = model.offset * sides(ahead, model)
+        turned = (direction * beside).sum(axis=1, keepdims=True) * model.nearness
+        length = np.sqrt(1 - (model.offset * model.nearness) ** 2 + turned**2) - turned
+        ahead = length * direction + model.nearness * beside
+    end = end - beside
+    opening = end - direction * ((end * normal).sum(axis=1) / (direction * normal).sum(axis=1))[:, None]
+    miss = np.linalg.norm(np.cross(focus * in_focus - opening, ahead), axis=1)
+    assert np.quantile(miss, 0.9) <= 64 * 16 * EPS32  # near the poles, where a side turns fast, float32 loses more
+    reach = np.linalg.norm(opening, axis=1)
+    assert camera.aperture.radius == pytest.approx(0.25)
+    assert reach.max() <= 0.25 + 64 * 16 * EPS32
+    assert reach.max() >= 0.24

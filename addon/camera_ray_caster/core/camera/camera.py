@@ -117,11 +117,11 @@ class Camera:
         own place in the pixel, the same in all of them, and its own in the aperture.
         """
         off_x, off_y = sub_pixel(sample)
-        origin, direction = self.camera_rays(x + off_x, y + off_y)
+        place = x + off_x, y + off_y
+        chief = self.camera_rays(*place)
         if self.aperture is None:
-            return origin, direction
-        u, v = in_opening(sample, x, y)
-        return self.aperture.through(origin, direction, self.model.planar, *self.aperture.points(u, v))
+            return chief
+        return self.model.through(self.aperture, chief, *place, self.aperture.points(*in_opening(sample, x, y)))
 
     @property
     def parallel(self):

@@ -6,8 +6,9 @@ Formula: side = (D x up) / |D x up|, offset e = -+ interocular distance / 2 for 
 altitudes |asin(D_up)| ``from`` and ``to`` of a pole merge it is faded by cos(pi/2 (altitude - from) / (to - from)),
 and 0 above. Origin e side, direction D - (e / convergence distance) side, or D where the eyes are parallel.
 As in Cycles, off-axis and toe-in are the same, the pivot and the shift of an eye do not count, and the eyes of the
-mirror ball are swapped. Depth is the distance from the ray's origin, also of perspective cameras; without depth of
-field. Singular: straight up and down, where there is no side and no ray.
+mirror ball are swapped. Depth is the distance from the ray's origin, also of perspective cameras. With depth of field D
+is a ray through the lens, which has unit length, and the eye moves with it.
+Singular: straight up and down, where there is no side and no ray.
 Inverse: with u the length along D, a point p = e side + u (D - (e / c) side) lies at |p|^2 = u^2 + (1 - u / c)^2 e^2,
 which has one positive u for points farther away than e; with a pole merge the altitude, on which e depends, is sought
 by bisection.
@@ -24,10 +25,11 @@ import numpy as np
 from ..cameras.central_cylindrical import CentralCylindrical
 from ..cameras.mirrorball import Mirrorball
 from ..cameras.model import Model, Step
+from ..cameras.parts.aperture import Aperture
 from ..cameras.parts.radial import Radial
 from ..cameras.perspective import Perspective
 from ..conventions import gamma
-from ..maths.vector import components, difference, inverse, matvec, norm, unit
+from ..maths.vector import along, components, difference, inverse, matvec, norm, unit
 from ..records import BlenderCamera, Pose
 
 EYE = "spherical_eye"
@@ -67,6 +69,8 @@ class SphericalStereo(Model):
     """Whether D is as long as 1 across instead of 1."""
     in_world: bool
     """Whether up is the world's, so that ``upright`` goes with the pose."""
+    opening: Aperture | None = None
+    """The lens's; None for a pinhole."""
 
     key = "SPHERICAL_STEREO"
     label = "Spherical Stereo"
@@ -84,13 +88,26 @@ class SphericalStereo(Model):
 
     def rays(self, x, y):
         """See Model: unit length; without a ray where the lens has none, and straight up and down."""
-        _, direction = self.lens.rays(x, y)
+        return self._beside(self.lens.rays(x, y)[1], self.on_tube)
+
+    def through(self, aperture, chief, x, y, point):
+        """See Model: the eye is beside the ray that has passed the lens."""
+        origin, direction = self.lens.through(aperture, self.lens.rays(x, y), x, y, point)
+        beside, direction = self._beside(direction, False)
+        return along(origin, beside, 1.0), direction
+
+    def aperture(self, raw, pose):
+        """See Model."""
+        return self.opening
+
+    def _beside(self, direction, on_tube: bool):
+        """Return origin and direction of the ray of an eye beside one of the lens, from the eye's place on."""
         ahead = unit(matvec(self.upright, direction))
         across = np.sqrt(ahead[0] * ahead[0] + ahead[1] * ahead[1])
         across = np.where(across > 0, across, np.nan)
-        share = self._offset_at(self._altitude(across, np.abs(ahead[2]))) / across
+        share = self._offset_at(_altitude(across, np.abs(ahead[2]), on_tube)) / across
         beside = ahead[1] * share, -ahead[0] * share, 0.0
-        turn = self.nearness * across if self.on_tube else self.nearness
+        turn = self.nearness * across if on_tube else self.nearness
         turned = difference(ahead, tuple(turn * component for component in beside))
         return matvec(self.tilted, beside), unit(matvec(self.tilted, turned))
 
@@ -108,12 +125,13 @@ class SphericalStereo(Model):
             return self.lens.project(np.stack(matvec(self.tilted, ahead), axis=-1))
 
     def bounds(self, centers, radii):
-        """See Model: u D lies no farther from a point that it sees than (1 - u / c) e."""
+        """See Model: u D lies no farther from a point that it sees than (1 - u / c) e, which the lens blurs, too."""
         there, back = (float(np.linalg.norm(matrix, 2)) for matrix in (self.upright, self.tilted))
-        offset = abs(self.offset)
-        farthest = there * (np.sqrt((centers * centers).sum(axis=1)) + radii) + self.nearness * offset**2
+        offset, wide = abs(self.offset), self.opening.widest if self.opening else 0.0
+        blur = wide / abs(self.opening.focus) if self.opening else 0.0
+        farthest = there * (np.sqrt((centers * centers).sum(axis=1)) + radii + wide) + self.nearness * offset**2
         beside = offset * np.maximum(1.0, self.nearness * farthest - 1)
-        return self.lens.bounds(centers, radii + back * beside)
+        return self.lens.bounds(centers, radii + back * beside * (1 + blur))
 
     def posed(self, pose):
         """See Model."""
@@ -140,10 +158,6 @@ class SphericalStereo(Model):
         rounding = gamma(32) * norm(here) * STEP / np.maximum(*moves)
         return tuple(own + rounding for own in self.lens.pixel_rounding(x, y))
 
-    def _altitude(self, across, up):
-        """Return what Cycles takes for the altitude of a direction, given across and up."""
-        return np.arcsin(np.minimum(up / across, 1.0)) if self.on_tube else np.arctan2(up, across)
-
     def _offset_at(self, altitude):
         if self.merge is None:
             return self.offset
@@ -164,7 +178,7 @@ class SphericalStereo(Model):
         """Return the offset of the ray that sees a point; z is not negative."""
         if self.merge is None:
             return self.offset
-        seen = lambda offset: self._altitude(self._flat_and_aside(across, z, offset)[0], z)  # noqa: E731
+        seen = lambda offset: _altitude(self._flat_and_aside(across, z, offset)[0], z, self.on_tube)  # noqa: E731
         low, high = np.zeros(across.shape), np.full(across.shape, self.merge[1])
         for _ in range(HALVINGS):
             middle = (low + high) / 2
@@ -193,8 +207,14 @@ def with_eye(lens: Model, raw: BlenderCamera, pose: Pose) -> Model:
         merge=(min(begin, end), end) if settings["use_pole_merge"] and end > 0 else None,
         on_tube=isinstance(lens, CentralCylindrical),
         in_world=isinstance(lens, Perspective),
+        opening=lens.aperture(raw, pose),
     )
     return eye.posed(pose)
+
+
+def _altitude(across, up, on_tube: bool):
+    """Return what Cycles takes for the altitude of a direction, given across and up."""
+    return np.arcsin(np.minimum(up / across, 1.0)) if on_tube else np.arctan2(up, across)
 
 
 def _rows(matrix) -> Matrix:

@@ -127,6 +127,13 @@ class Model(ABC):
         """
         return thin_lens(raw, pose, self.parallel) if self.central or self.parallel else None
 
+    def through(self, aperture: Aperture, chief: tuple[Any, Any], x, y, point: tuple[Any, Any]) -> tuple[Any, Any]:
+        """Return origin and direction of the ray of a pixel through a point of the aperture, as ``rays`` does.
+
+        chief: its chief ray. By default the two meet where the aperture is sharp.
+        """
+        return aperture.through(*chief, self.planar, *point)
+
     @classmethod
     def eye(cls, raw: BlenderCamera, view: str) -> BlenderCamera | None:
         """Return the record of an eye, "left" or "right", of a model that has eyes of its own.

@@ -52,6 +52,11 @@ class Aperture:
         """Whether its shape is that of the lens mirrored up and down, as Cycles has it for the mirror ball."""
         return self.axis == SIDEWAYS
 
+    @property
+    def widest(self) -> float:
+        """How far from its center the opening reaches at most."""
+        return max(self.radius, self.radius / self.ratio)
+
     def points(self, u, v):
         """Return points (x, y) of the opening for u, v in [0, 1): area-uniform, in Blender units.
 
@@ -98,9 +103,8 @@ class Aperture:
         A point at distance s seen through l appears where the point moved by -l (1 - s / focus) would through the
         eye. (n,) arrays; distance and radius of the spheres, along the axis for planar cameras.
         """
-        widest = max(self.radius, self.radius / self.ratio)
         ends = np.abs(1 - (distance - radius) / self.focus), np.abs(1 - (distance + radius) / self.focus)
-        return widest * np.maximum(1.0, np.maximum(*ends))
+        return self.widest * np.maximum(1.0, np.maximum(*ends))
 
 
 SMALLEST = 1e-5
