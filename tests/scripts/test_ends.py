@@ -16,6 +16,8 @@ SCENE = str(ROOT / "blend_scenes" / "empty.blend")
 WORDS = {
     "benchmark": ["--help"],
     "calibration_readers": ["--help"],
+    "check_set": ["--help"],
+    "clevr_set": ["--help"],
     "cast": [SCENE, "--passes", "depth"],
     "environment": [],
     "explain": [SCENE, "--pixel", "0,0"],

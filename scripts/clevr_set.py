@@ -1,0 +1,83 @@
+"""Make a small data set in the manner of CLEVR with a fisheye camera: pictures by Cycles, ground truth beside them.
+
+    python scripts/clevr_set.py --output clevr     makes it
+    python scripts/check_set.py clevr              loads it back, and re-projects each view into the next
+
+Of each view: a PNG; an NPZ with Cycles' linear picture and our depth, distance, normals, indices, rays and flow, pixel
+for pixel; a report; boxes and masks in COCO's form. Of all: clevr.blend, camera.json, annotations.json.
+"""
+
+if __name__ == "__main__":
+    import ends  # it lies beside this file
+
+    ends.begin(__file__)
+
+import sys
+from argparse import ArgumentDefaultsHelpFormatter
+from pathlib import Path
+from shutil import copy
+from tempfile import TemporaryDirectory
+
+from arguments import Parser, count, size
+
+ADDON = Path(__file__).resolve().parents[1] / "addon"
+ENGINES = "CYCLES", "CAMERA_RAY_CASTER"
+PASSES = (
+    "combined", "depth", "distance", "normal", "object_index", "material_index", "shape_index", "ray_origin",
+    "ray_direction", "flow_forward", "flow_hidden",
+)  # fmt: skip
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Make the scene, cast its views and export its cameras; return the exit status."""
+    parser = Parser(prog="clevr_set.py", description=__doc__.splitlines()[0],
+                    formatter_class=ArgumentDefaultsHelpFormatter)  # fmt: skip
+    parser.add_argument("--views", type=count, default=6, metavar="N", help="around the objects")
+    parser.add_argument("--objects", type=count, default=10, metavar="N", help="at most: as many as find a place")
+    parser.add_argument("--resolution", type=size, default=(320, 320), metavar="WxH", help="of a view")
+    parser.add_argument("--seed", type=count, default=1, metavar="N", help="of what is where")
+    parser.add_argument("--engine", type=str.upper, choices=ENGINES, default=ENGINES[0], help="of the pictures")
+    parser.add_argument("--samples", type=count, default=32, metavar="N", help="of Cycles, a pixel")
+    parser.add_argument("--output", type=Path, default=Path("clevr"), metavar="FOLDER", help="for the files")
+    asked = parser.parse_args(arguments)
+
+    sys.path.insert(0, str(ADDON))
+    from camera_ray_caster.blender.terminal.standard_output import keep_output
+
+    keep_output()
+    import bpy
+    from scenes.clevr import clevr
+
+    import camera_ray_caster
+    from camera_ray_caster.blender.terminal import commands
+
+    camera_ray_caster.register()
+    try:
+        with TemporaryDirectory() as folder:
+            file = Path(folder) / "clevr.blend"
+            bpy.ops.wm.read_factory_settings(use_empty=True)
+            clevr(bpy.context.scene, asked.views, asked.objects, asked.resolution, asked.seed)
+            bpy.ops.wm.save_as_mainfile(filepath=str(file), compress=True)
+            words = [str(file), "--frames", f"1:{asked.views}", "--output", str(asked.output)]
+            samples = ["--samples", str(asked.samples)] if asked.engine == ENGINES[0] else []
+            made = [
+                "--passes",
+                ",".join(PASSES),
+                "--format",
+                "NPZ",
+                "--annotations",
+                "--engine",
+                asked.engine,
+                *samples,
+            ]
+            status = commands.main("cast", [*words, *made], parser.prog)
+            status = status or commands.main("export", [*words, "--format", "json"], parser.prog)
+            if not status:
+                copy(file, asked.output)
+            return status
+    finally:
+        camera_ray_caster.unregister()
+
+
+if __name__ == "__main__":
+    sys.exit(ends.run(__file__, main))

@@ -1,0 +1,57 @@
+"""The example data set: made, loaded back, and found out where it is not what it was."""
+
+import json
+import shutil
+
+import numpy as np
+import pytest
+
+from .running import left, script
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory):
+    """A set of two views of our own pictures."""
+    folder = tmp_path_factory.mktemp("clevr") / "set"
+    words = "--views", 2, "--objects", 5, "--resolution", "64x48", "--engine", "CAMERA_RAY_CASTER"
+    done = script("clevr_set", *words, "--output", folder)
+    assert done.returncode == 0, done.stderr
+    return folder
+
+
+def test_a_set_has_pictures_passes_cameras_and_annotations_and_fits_together(made):
+    ends = ".npz", ".png", "_coco.json"
+    names = [f"clevr_000{k}{end}" for k in (1, 2) for end in ends] + ["report_0001.json", "report_0002.json"]
+    assert left(made) == sorted(["annotations.json", "camera.json", "clevr.blend", *names])
+    with np.load(made / "clevr_0001.npz") as passes:
+        assert passes["combined"].shape == (48, 64, 4)
+        assert set(np.unique(passes["object_index"])) == set(range(6))
+    objects = {one["object"] for one in json.loads((made / "annotations.json").read_text())["annotations"]}
+    assert len(objects) == 6
+    done = script("check_set", made)
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert "all as it has to be" in done.stdout
+
+
+@pytest.mark.parametrize("name", ["distance", "flow_forward", "shape_index"])
+def test_passes_of_another_view_are_found_out(made, tmp_path, name):
+    folder = tmp_path / "set"
+    shutil.copytree(made, folder)
+    with np.load(folder / "clevr_0001.npz") as file:
+        passes = dict(file)
+    passes[name] = np.roll(passes[name], 2, axis=1)
+    np.savez(folder / "clevr_0001.npz", **passes)
+    done = script("check_set", folder)
+    assert (done.returncode, done.stderr) == (1, "")
+    assert "do not fit together" in done.stdout
+
+
+def test_what_is_no_set_is_refused_in_one_line(tmp_path):
+    done = script("check_set", tmp_path)
+    assert done.returncode == 2
+    assert done.stderr.count("\n") == 1
+    (tmp_path / "file").write_text("")
+    done = script("clevr_set", "--views", 1, "--resolution", "8x8", "--engine", "CAMERA_RAY_CASTER",
+                  "--output", tmp_path / "file")  # fmt: skip
+    assert (done.returncode, done.stderr.count("\n")) == (2, 1)
+    assert left(tmp_path) == ["file"]
