@@ -49,11 +49,18 @@ MAY_IMPORT = {
 BLENDER = {"bpy", "bpy_extras", "mathutils", "bl_math", "gpu", "gpu_extras", "blf", "bmesh", "imbuf", "addon_utils"}
 CYCLES = {"cycles", "_cycles", "oslquery", "OpenImageIO"}
 """Blender's Cycles, which is an add-on of its own."""
+DASK = {"dask", "distributed"}
 TESTS_OF_THEIR_OWN = {"core/truth", "blender/add_a_camera"}
 """Rooms of tests that no room of the package has: the exact rays of 60 digits, and a model that is added and taken away
 again.
 """
-OUTSIDE = {"core": {"numpy"}, "blender": {"numpy"} | BLENDER, "blender.cycles": {"numpy"} | BLENDER | CYCLES, "": set()}
+OUTSIDE = {
+    "core": {"numpy"},
+    "blender": {"numpy"} | BLENDER,
+    "blender.cycles": {"numpy"} | BLENDER | CYCLES,
+    "blender.terminal.farm": BLENDER | DASK,
+    "": set(),
+}
 
 
 def name_of(path):

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable, Iterable
 from dataclasses import replace
 from time import perf_counter
@@ -16,7 +15,7 @@ from .casting.passes import PASSES, image_bytes
 from .casting.plan import Plan, make_plan
 from .casting.request import AUTOMATIC, MATERIAL, Request
 from .casting.tiles import STEPS, Effort, Tile, cast_tile, in_threads, moments, shares
-from .maths.speed import Scratch
+from .maths.speed import Scratch, processors
 from .records import Shapes
 
 MOST_SAMPLES = 1 << 24
@@ -61,7 +60,7 @@ def cast(
     if not (isinstance(camera, Camera) and isinstance(shapes, Shapes)):
         raise TypeError(f"cast takes a camera and shapes as they are read, not {type(camera)} and {type(shapes)}")
     started = perf_counter()
-    threads = (os.cpu_count() or 1) if threads is None else arguments.count(threads, "threads")
+    threads = processors() if threads is None else arguments.count(threads, "threads")
     samples = arguments.count(samples, "samples", MOST_SAMPLES)
     dtype = arguments.real_type(dtype, "dtype")
     progress = arguments.function(progress, "progress")

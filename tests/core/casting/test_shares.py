@@ -37,7 +37,7 @@ def threads_of(monkeypatch, function):
     def asked(pool, threads, **_):
         raise Asked(threads)
 
-    monkeypatch.setattr(os, "cpu_count", lambda: 16)
+    monkeypatch.setattr(os, "sched_getaffinity", lambda process: range(16), raising=False)
     monkeypatch.setattr(ThreadPoolExecutor, "__init__", asked)
     try:
         function()

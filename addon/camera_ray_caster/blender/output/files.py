@@ -1,7 +1,7 @@
 """A rendered frame as files: a picture, its passes as EXR or NPZ, and the report. They appear whole or not at all."""
 
 import os
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, redirect_stdout
 from dataclasses import replace
 from math import ceil
@@ -59,18 +59,22 @@ def render(
     *,
     layers: str = EXR,
     half: bool = False,
+    shown: bool = True,
     file_output: bool = False,
     picture: Picture | None = None,
     stamp: Mapping[str, Any] | None = None,
     keypoints: Sequence[str] | None = None,
+    beside: Iterable[Path] = (),
 ) -> tuple[Report, list[Path]]:
     """Render the scene's current frame into ``folder`` and return the report and the files.
 
     They are NAME.png, NAME.exr (or .npz, as ``layers`` says) and REPORT_NAME.json; of several views NAME_L.png,
-    NAME_R.png and so on, by the views' suffixes. ``half`` stores real numbers of passes with 16 bits.
+    NAME_R.png and so on, by the views' suffixes. ``half`` stores real numbers of passes with 16 bits; without
+    ``shown`` there is no NAME.png.
     The compositor's File Output nodes write, where they say, only with ``file_output``.
-    ``picture`` takes the place of the combined pass. ``stamp`` stands in the report: see ``stamps``. ``keypoints``: not
-    None for NAME_coco.json, of the first view layer: see ``annotations``.
+    ``picture`` takes the place of the combined pass. ``stamp`` stands in the report, with the files and those
+    ``beside`` them: see ``stamps``. ``keypoints``: not None for NAME_coco.json, of the first view layer: see
+    ``annotations``.
     Leaves all as it was and raises InputError where Blender cannot render or the folder
     cannot be written, Cancelled where it is stopped.
     """
@@ -80,7 +84,8 @@ def render(
         report = _composited(scene, file_output)
         report = report if picture is None else report.with_seconds(cycles=picture.seconds)
         started = perf_counter()
-        _save(scene, temporary / f"{name}.png", PICTURE)
+        if shown:
+            _save(scene, temporary / f"{name}.png", PICTURE)
         if layers == EXR:
             _save(scene, temporary / f"{name}.exr", LAYERS | ({"color_depth": "16"} if half else {}))
         else:
@@ -91,7 +96,7 @@ def render(
             (temporary / f"{name}{ENDING}").write_text(text, encoding="utf-8")
         report = report.with_seconds(files=perf_counter() - started)
         if stamp is not None:
-            report = replace(report, made=made(stamp, temporary))
+            report = replace(report, made=made(stamp, (*sorted(temporary.iterdir()), *beside)))
         (temporary / f"{report_name}.json").write_text(as_json(report), encoding="utf-8")
         names = sorted(os.listdir(temporary))
         signals.raise_if_stopping()

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -36,6 +36,12 @@ def stamp_of(settings: Mapping[str, Any]) -> dict[str, Any]:
     }
 
 
+def differing(one: Mapping[str, Any], other: Mapping[str, Any]) -> list[str]:
+    """Return in what two stamps differ, settings by their names. Raises KeyError or TypeError where one is none."""
+    first, second = ({**stamp, **stamp["settings"]} for stamp in (one, other))
+    return [key for key in first if key != "settings" and first[key] != second[key]]
+
+
 def file_hash(path: Path) -> str:
     """Return the SHA-256 of a file. Raises InputError where it cannot be read."""
     try:
@@ -45,17 +51,17 @@ def file_hash(path: Path) -> str:
         raise InputError(f"cannot read {str(path)!r}: {error.strerror}") from error
 
 
-def made(stamp: Mapping[str, Any], folder: Path) -> dict[str, Any]:
-    """Return what a report says of the files that were made under a stamp, all that are in a folder."""
-    return {"of": stamp, "files": {path.name: path.stat().st_size for path in sorted(folder.iterdir())}}
+def made(stamp: Mapping[str, Any], paths: Iterable[Path]) -> dict[str, Any]:
+    """Return what a report says of the files that were made under a stamp."""
+    return {"of": stamp, "files": {path.name: path.stat().st_size for path in paths}}
 
 
 def finished(report: Path, stamp: Mapping[str, Any]) -> dict[str, Any] | None:
-    """Return what the report of a frame says that has this stamp and all of its files; None without one."""
+    """Return what a report says, if it is of a frame with this stamp and all of its files; None otherwise."""
     try:
         found = json.loads(report.read_text(encoding="utf-8"))
         made = found["made"]
         whole = all((report.parent / name).stat().st_size == size for name, size in made["files"].items())
-        return found if whole and made["of"] == stamp else None
+        return found if whole and made["of"].items() >= stamp.items() else None
     except (OSError, ValueError, KeyError, TypeError, AttributeError):  # none, or not ours
         return None

@@ -5,8 +5,8 @@ from collections.abc import Sequence
 from ..output.annotations import collect
 from ..output.file_set import clear_up
 from .options import add_frame, add_json, command_parser, show, warn
-from .pictures import Pictures, add_words, follow, summary
-from .words import add_frames, joined, share
+from .pictures import Pictures, add_words, follow, parsed, summary
+from .words import add_frames, share
 
 
 def run(arguments: Sequence[str], prog: str) -> int:
@@ -28,7 +28,8 @@ def run(arguments: Sequence[str], prog: str) -> int:
     parser.add_argument("--file-output", action="store_true",
                         help="let the compositor's File Output nodes write; default: they do not")  # fmt: skip
     add_json(parser)
-    options = parser.parse_args(joined(arguments, "--frames"))
+    parser.set_defaults(pictures=True)
+    options = parsed(parser, arguments)
     pictures = Pictures(options)
     for line in pictures.warnings:
         warn(prog, line)

@@ -10,11 +10,12 @@ from collections.abc import Sequence
 import bpy
 
 from ...core.records import Cancelled, InputError
-from . import cast, explain, export, signals, to_cycles, verify
+from . import cast, dataset, explain, export, signals, to_cycles, verify
 from .standard_output import keep_output
 
 COMMANDS = {
-    "cast": cast.run, "verify": verify.run, "explain": explain.run, "to_cycles": to_cycles.run, "export": export.run,
+    "cast": cast.run, "dataset": dataset.run, "verify": verify.run, "explain": explain.run, "to_cycles": to_cycles.run,
+    "export": export.run,
 }  # fmt: skip
 
 

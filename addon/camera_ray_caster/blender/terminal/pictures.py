@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from argparse import Namespace
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
+from ...core.camera.camera import Camera
 from ...core.casting.passes import PASSES
 from ...core.casting.request import PRECISIONS, SHADINGS
 from ...core.names import file_names, frame_digits
@@ -23,10 +24,11 @@ from ..output.stamps import file_hash, finished, stamp_of
 from ..read.camera import ALL, find_camera, find_cameras
 from ..read.keypoints import check_key_points
 from ..read.scene import read_camera
-from . import signals
+from . import ray_maps, signals
+from .jobs import Job, Outcome, RayMap
 from .options import go_to, open_scene, stem, use_camera, warn
 from .progress import Progress
-from .words import add_cameras, pass_names, picture_size, sample_count
+from .words import Parser, add_cameras, joined, pass_names, picture_size, sample_count
 
 CYCLES = "CYCLES"
 ENGINES = CameraRayCaster.bl_idname, CYCLES
@@ -63,27 +65,18 @@ def add_words(parser) -> None:
     parser.add_argument("--output", type=Path, default=Path("out"), metavar="FOLDER", help="default: %(default)s")
 
 
-@dataclass(frozen=True)
-class Job:
-    """One picture: a camera, None for the scene's own; a frame, None for the file's; the names of its files."""
-
-    camera: str | None
-    frame: float | None
-    name: str
-    report: str
-
-
-@dataclass(frozen=True)
-class Outcome:
-    """What came of a job: whether no witness disagrees, and whether it was made, not finished before. Then it has the
-    report, and the paths of the files.
-    """
-
-    passed: bool
-    made: bool = False
-    warnings: tuple[str, ...] = ()
-    report: Report | None = None
-    paths: Sequence[Path] = ()
+def parsed(parser: Parser, arguments: Sequence[str]) -> Namespace:
+    """Return the options of a command line. Raises InputError for those that do not go together."""
+    options = parser.parse_args(joined(arguments, "--frames"))
+    if options.cameras and options.camera:
+        raise InputError("--cameras names several in place of one: leave out --camera")
+    if options.cameras and options.calibration:
+        raise InputError("--calibration is of one camera: name it with --camera, in place of --cameras")
+    if options.samples and options.engine != CYCLES:
+        raise InputError(f"--samples is for --engine {CYCLES}: the file has our own samples")
+    if options.shard and options.frames is None:
+        raise InputError("--shard is a share of the frames of --frames: give that, too")
+    return options
 
 
 class Pictures:
@@ -92,14 +85,8 @@ class Pictures:
     def __init__(self, options):
         """Raise InputError for what cannot be cast."""
         by_cycles = options.engine == CYCLES
-        if options.samples and not by_cycles:
-            raise InputError(f"--samples is for --engine {CYCLES}: the file has our own samples")
         if by_cycles:
             check_cycles()
-        if options.cameras and options.calibration:
-            raise InputError("--calibration is of one camera: name it with --camera, in place of --cameras")
-        if options.cameras and options.camera:
-            raise InputError("--cameras names several in place of one: leave out --camera")
         self.options = options
         self.scene = scene = open_scene(options)
         self.warnings: list[str] = []
@@ -112,9 +99,10 @@ class Pictures:
         if options.resolution:
             scene.render.resolution_x, scene.render.resolution_y = options.resolution
             scene.render.resolution_percentage = 100
-        for layer in scene.view_layers:
-            if options.passes or [entry.key for entry in ticked(scene, layer)] == ["combined"]:
-                tick(scene, layer, options.passes or DEFAULT_PASSES)
+        self.passes = {layer.name: [entry.key for entry in ticked(scene, layer)] for layer in scene.view_layers}
+        for layer, own in self.passes.items():
+            if options.passes or own == ["combined"]:
+                self.passes[layer] = list(options.passes or DEFAULT_PASSES)
         for setting in ("shading", "precision"):
             if getattr(options, setting):
                 setattr(scene.camera_ray_caster, setting, getattr(options, setting))
@@ -133,8 +121,6 @@ class Pictures:
     def jobs(self) -> list[Job]:
         """Return a job for each camera and frame that is asked for; cameras of --cameras give files their names."""
         asked, shard, scene = self.options, self.options.shard, self.scene
-        if shard and asked.frames is None:
-            raise InputError("--shard is a share of the frames of --frames: give that, too")
         frames = asked.frames if shard is None else asked.frames[shard[0] - 1 :: shard[1]]
         if asked.cameras is None:
             numbers = {asked.frame: ""} if frames is None else {frame: f"_{frame_digits(frame)}" for frame in frames}
@@ -147,30 +133,60 @@ class Pictures:
             for camera, name in names.items()
         ]
 
-    def make(self, job: Job, stamp: dict[str, Any], prog: str) -> Outcome:
-        """Make a picture, or take it where --skip-existing lets it and it is finished."""
-        scene, options = self.scene, self.options
-        stamp = {**stamp, "camera": job.camera, "frame": job.frame}
-        if options.skip_existing:
-            found = finished(options.output / f"{job.report}.json", stamp)
-            if found is not None:
-                return Outcome(found["passed"])
-        if job.camera is not None:
-            use_camera(scene, find_camera(scene, job.camera))
-        go_to(scene, job.frame)
-        read_camera(scene)  # a camera that cannot be cast is refused before anything is made
-        picture = self._by_cycles(prog) if options.engine == CYCLES else None
-        report, paths = files.render(
-            scene, options.output, job.name, job.report, layers=options.format, half=options.half,
-            file_output=options.file_output, picture=picture, stamp=stamp, keypoints=self.keypoints,
-        )  # fmt: skip
+    def make(self, job: Job, stamp: dict[str, Any], prog: str, ray_map: RayMap | None = None) -> Outcome:
+        """Make a picture, or take it where --skip-existing lets it and it is finished; with ``ray_map`` without the
+        passes of a camera's rays where they are those of the map.
+        """
+        taken = self.finished(job, stamp, ray_map) if self.options.skip_existing else None
+        if taken is not None:
+            return taken
+        camera = self.camera_at(job)  # which is refused before anything is made, if it cannot be cast
+        left_out, beside = (), []
+        if ray_map is not None and ray_maps.digest_of(camera) == ray_map.digest:
+            left_out, beside = ray_maps.PASSES, [self.options.output / ray_map.file]
+        self.tick(lambda key: key not in left_out)
+        picture = self._by_cycles(prog) if self.options.engine == CYCLES else None
+        of = _of(stamp, job, ray_map)
+        report, paths = self.render(
+            job, of, shown=self.options.pictures, picture=picture, beside=beside, keypoints=self.keypoints
+        )
         return Outcome(report.passed, True, report.warnings, report, paths)
+
+    def render(self, job: Job, of: dict[str, Any], **more) -> tuple[Report, list[Path]]:
+        """Write the files of a job as the scene is set to it; ``of`` is their stamp, for the rest see ``files``."""
+        asked = self.options
+        return files.render(
+            self.scene, asked.output, job.name, job.report,
+            layers=asked.format, half=asked.half, file_output=asked.file_output, stamp=of, **more,
+        )  # fmt: skip
+
+    def finished(self, job: Job, stamp: dict[str, Any], ray_map: RayMap | None = None) -> Outcome | None:
+        """Return what came of a job that is finished; None of one that is not."""
+        found = finished(self.options.output / f"{job.report}.json", _of(stamp, job, ray_map))
+        return None if found is None else Outcome(found["passed"])
+
+    def camera_at(self, job: Job) -> Camera:
+        """Set the scene to a job's camera and frame, and return the camera. Raises InputError for what none is."""
+        if job.camera is not None:
+            use_camera(self.scene, find_camera(self.scene, job.camera))
+        go_to(self.scene, job.frame)
+        return read_camera(self.scene)
+
+    def tick(self, wanted: Callable[[str], bool]) -> None:
+        """Tick the wanted ones of the passes that are asked for, in every view layer."""
+        for layer, keys in self.passes.items():
+            tick(self.scene, self.scene.view_layers[layer], [key for key in keys if wanted(key)])
 
     def _by_cycles(self, prog: str) -> Picture:
         """Render the current frame with Cycles, whose work no signal's handler can end."""
         files.check(self.scene)
         with signals.leaving(f"{prog}: {signals.STOPPED}"):
             return picture_of(self.scene)
+
+
+def _of(stamp: dict[str, Any], job: Job, ray_map: RayMap | None) -> dict[str, Any]:
+    """Return what a job's files are made of."""
+    return {**stamp, "camera": job.camera, "frame": job.frame, "rays": ray_map and ray_map.digest}
 
 
 def follow(outcomes: Iterable[Outcome], count: int, prog: str) -> Iterator[Outcome]:

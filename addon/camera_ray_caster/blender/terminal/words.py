@@ -60,6 +60,14 @@ def add_cameras(parser) -> None:
     parser.add_argument("--cameras", nargs="+", metavar="NAME", help=f"several of the scene's cameras, or {ALL}")
 
 
+def count(text: str) -> int:
+    """Return how many of something; argparse names this function where the text is none."""
+    number = int(text)
+    if number < 1:
+        raise argparse.ArgumentTypeError(f"{text} is none: give 1 or more")
+    return number
+
+
 def share(text: str) -> tuple[int, int]:
     """Return K and N of "K/N"; argparse names this function where the text is none."""
     number, of = (int(part) for part in text.split("/"))

@@ -35,7 +35,9 @@ def camera_from(raw: BlenderCamera) -> Camera:
     try:
         lens, pose = kind.from_blender(raw, raster), pose_from(raw)
     except InputError as error:
-        raise error if raw is given else InputError(f"{error}; calibration file {FILE.read(raw)!r}") from error
+        if raw is given:
+            raise
+        raise InputError(f"{error}; calibration file {FILE.read(raw)!r}") from error
     _check_apart(raw, lens, pose)
     model = with_eye(lens, raw, pose)
     return Camera(

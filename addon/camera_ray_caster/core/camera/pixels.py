@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from itertools import pairwise
@@ -10,7 +9,7 @@ from itertools import pairwise
 import numpy as np
 
 from ..arguments import numbers
-from ..maths.speed import sharing
+from ..maths.speed import processors, sharing
 from ..maths.vector import is_grid
 from ..records import InputError
 from .pixel_time import PixelTime, groups
@@ -33,7 +32,7 @@ def given(x, y) -> tuple[np.ndarray, np.ndarray, tuple[int, ...]]:
 def in_blocks(put: Callable[[slice], None], shape: tuple[int, ...], pixels: int, rows: int = 1) -> None:
     """Call ``put`` with all rows of a picture, about so many pixels at a time, a multiple of ``rows``, in threads."""
     height, width = shape
-    threads = sharing(os.cpu_count() or 1, height * width / SHARED_PIXELS)
+    threads = sharing(processors(), height * width / SHARED_PIXELS)
     step = rows * max(1, round(min(pixels / max(width, 1), height / threads) / rows))
     blocks = [slice(*ends) for ends in pairwise([*range(0, height, step), height])]
     with ThreadPoolExecutor(threads) as pool:  # numpy releases the interpreter

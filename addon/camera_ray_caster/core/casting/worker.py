@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor, wait
 from threading import Event
 from typing import Any
 
-BESIDE = max(1, (os.cpu_count() or 1) - 1)
+from ..maths.speed import processors
+
+BESIDE = max(1, processors() - 1)
 """Threads for work that goes on beside a window, which keeps a core for itself."""
 
 

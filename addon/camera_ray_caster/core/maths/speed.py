@@ -8,6 +8,7 @@ Source: numpy's manual, setbufsize.
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from math import prod, sqrt
@@ -26,6 +27,11 @@ NARROW = 128
 
 BAND, STRIP = 144, 36
 """Rows that are best worked on together, and the fewest that are, where nothing else tells."""
+
+
+def processors() -> int:
+    """Return how many processors this process may use: whoever has started it may hold it to some of them."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 def sharing(threads: int, work: float) -> int:

@@ -1,0 +1,107 @@
+"""The command that makes a data set: pictures of cameras and frames in one folder, by one process or by many.
+
+Each camera and frame has CAMERA_FRAME.npz (or .exr), CAMERA_FRAME.json, its report, of which ``camera_from_json`` makes
+the camera, and CAMERA_FRAME.png where the combined pass is asked for. Ray passes of a camera that stands still are in
+CAMERA_rays.npz, once: reports list it among a frame's files. dataset.json says what all of it is made of. A second run
+makes what is missing.
+"""
+
+from __future__ import annotations
+
+import json
+from argparse import Namespace
+from collections.abc import Sequence
+from itertools import chain
+from pathlib import Path
+from typing import Any
+
+import bpy
+
+from ...core.records import InputError
+from ..output import files
+from ..output.file_set import appearing, clear_up
+from ..output.stamps import differing
+from ..read.camera import check_camera
+from . import farm
+from .options import command_parser, warn
+from .pictures import Pictures, add_words, follow, parsed, summary
+from .ray_maps import made_map
+from .words import add_frames, count
+
+NAME = "dataset.json"
+
+
+def run(arguments: Sequence[str], prog: str) -> int:
+    """Make the pictures of a data set that are not there."""
+    parser = command_parser(
+        prog,
+        "Make a data set of cameras and frames of a Blender file; a second run makes what is missing.",
+        f"{prog} blend_scenes/toys.blend --cameras ALL --frames 1:100 --passes combined,depth,normal --workers 4",
+        "writes out/CAMERA_FRAME.png, .npz and .json in four processes; out/dataset.json says what they are made of.",
+    )
+    add_frames(parser)
+    add_words(parser)
+    parser.set_defaults(format=files.NPZ, skip_existing=True, file_output=False, shard=None, frame=None)
+    where = parser.add_mutually_exclusive_group()
+    where.add_argument(
+        "--workers", type=count, metavar="N", help="processes of Dask on this machine; default: this one"
+    )
+    where.add_argument("--scheduler", metavar="tcp://HOST:PORT", help="of a Dask cluster; every worker needs this "
+                       "package, bpy, the file and the folder")  # fmt: skip
+    options = parsed(parser, arguments)
+    pictures = Pictures(options)
+    for line in pictures.warnings:
+        warn(prog, line)
+    _complete(options, pictures)
+    jobs, stamp = pictures.jobs(), pictures.stamp()
+    first = {job.camera: job for job in reversed(jobs)}
+    for job in first.values():
+        pictures.camera_at(job)  # a camera that cannot be cast is refused before anything is made
+    passed, made = True, 0
+    try:
+        with farm.cluster(options) as client:
+            _claim(options.output, stamp)
+            maps = {job.camera: made_map(pictures, job, stamp) for job in first.values()}
+            taken = {job: pictures.finished(job, stamp, maps[job.camera]) for job in jobs}
+            missing = [job for job in jobs if taken[job] is None]
+            if client is None:
+                making = (pictures.make(job, stamp, prog, maps[job.camera]) for job in missing)
+            else:
+                making = farm.outcomes(client, options, stamp, maps, missing)
+            for outcome in follow(chain(filter(None, taken.values()), making), len(jobs), prog):
+                passed &= outcome.passed
+                made += outcome.made
+    finally:
+        clear_up(options.output)  # what workers have left that were ended
+    print(summary(made, len(jobs), options.output), flush=True)
+    return int(not passed)
+
+
+def _complete(options: Namespace, pictures: Pictures) -> None:
+    """Fill in what the options leave to the file, and make paths those of every process."""
+    scene = pictures.scene
+    if options.cameras is None:
+        check_camera(scene, scene.camera)
+        options.cameras = [scene.camera.name]
+    options.frames = options.frames or range(scene.frame_start, scene.frame_end + 1, scene.frame_step)
+    options.pictures = any("combined" in keys for keys in pictures.passes.values())
+    options.file, options.output = Path(bpy.data.filepath).absolute(), options.output.absolute()
+    options.calibration = options.calibration and options.calibration.absolute()
+
+
+def _claim(folder: Path, stamp: dict[str, Any]) -> None:
+    """Make a folder that of a data set. Raises InputError where it is that of another one."""
+    clear_up(folder)
+    path = folder / NAME
+    try:
+        others = differing(stamp, json.loads(path.read_text(encoding="utf-8")))
+    except FileNotFoundError:
+        with appearing(folder) as new:
+            (new / NAME).write_text(json.dumps(stamp, indent=2) + "\n", encoding="utf-8")
+        return
+    except (OSError, ValueError, KeyError, TypeError) as error:
+        raise InputError(
+            f"{str(path)!r} is of no data set that this version has made: choose another folder"
+        ) from error
+    if others:
+        raise InputError(f"{str(folder)!r} has a data set of other {', '.join(others)}: choose another folder")

@@ -1,0 +1,92 @@
+"""A data set whose workers, or whose whole run, are killed at random moments: the next run finishes it, every file is
+whole, and what was finished is not made again.
+"""
+
+import json
+import subprocess
+import sys
+import time
+from random import Random
+
+import numpy as np
+import psutil
+import pytest
+
+from ..scripts.running import ROOT, left, script, small
+
+pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no such signals")
+
+KILLS = 20
+"""Moments for a worker, and as many for the whole run."""
+FEW = 1
+"""Moments of each that ``make test`` tries."""
+WORDS = "--cameras", "ALL", "--frames", "1:12", "--passes", "combined,depth,ray_direction"
+
+
+@pytest.fixture(scope="module")
+def reference(registered, tmp_path_factory):
+    """The file, and the folder of the set that nothing has disturbed."""
+    folder = tmp_path_factory.mktemp("farm")
+    scene = small(registered, folder / "small.blend", resolution_x=160, resolution_y=120)
+    assert script("dataset", scene, *WORDS, "--output", folder / "out").returncode == 0
+    return scene, folder / "out"
+
+
+def finished(out):
+    """Of each file of a frame whose report is there what changes where it is written."""
+    found = {}
+    for report in out.glob("*_0*.json"):
+        for name in (report.name, *json.loads(report.read_text())["made"]["files"]):
+            state = (out / name).stat()
+            found[name] = state.st_ino, state.st_mtime_ns
+    return found
+
+
+def workers(run):
+    """The processes that a run has started and that are alive."""
+    children = psutil.Process(run.pid).children(recursive=True)
+    return [child for child in children if any("spawn_main" in word for word in child.cmdline())]
+
+
+def kill(reference, out, name, random):
+    """Kill one worker or the whole run, finish the set, and compare it."""
+    scene, whole = reference
+    words = [sys.executable, ROOT / "scripts" / "dataset.py", scene, *WORDS, "--workers", "2", "--output", out]
+    run = subprocess.Popen(list(map(str, words)), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    while run.poll() is None and not list(out.glob("*_0*.json")):
+        time.sleep(0.01)
+    time.sleep(random.uniform(0, 1))
+    before = {}
+    if run.poll() is None:
+        started = workers(run)
+        victim = random.choice(started or [run]) if name == "worker" else run
+        victim.kill()
+        if victim is run:
+            psutil.wait_procs(started, 30)  # they notice
+        before = finished(out)
+    said = run.communicate(timeout=100)[1]
+    assert "Traceback" not in said, said
+    if name == "worker":
+        assert (run.returncode, said) == (0, "")
+    done = script("dataset", scene, *WORDS, "--output", out)
+    assert (done.returncode, done.stderr) == (0, "")
+    after = finished(out)
+    assert before == {file: after[file] for file in before}
+    assert left(out) == left(whole)
+    for path in whole.glob("*.npz"):
+        with np.load(path) as expected, np.load(out / path.name) as found:
+            assert found.keys() == expected.keys()
+            assert all((found[key] == expected[key]).all() for key in expected)
+
+
+@pytest.mark.parametrize("name", ["worker", "run"])
+@pytest.mark.parametrize("moment", range(FEW))
+def test_some_moments(reference, tmp_path, name, moment):
+    kill(reference, tmp_path / "out", name, Random(moment))
+
+
+@pytest.mark.hostile
+@pytest.mark.parametrize("name", ["worker", "run"])
+@pytest.mark.parametrize("moment", range(FEW, FEW + KILLS))
+def test_many_moments(reference, tmp_path, name, moment):
+    kill(reference, tmp_path / "out", name, Random(moment))

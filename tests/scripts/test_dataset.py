@@ -1,0 +1,173 @@
+"""What dataset.py makes, what of it a second run takes, and what it refuses."""
+
+import errno
+import json
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+import camera_ray_caster as crc
+
+from .running import left, refused, script
+
+WORDS = "--cameras", "ALL", "--frames", "1:2", "--passes", "depth,ray_origin,ray_direction"
+
+
+@pytest.fixture
+def out(tmp_path):
+    """The folder of the data set."""
+    return tmp_path / "out"
+
+
+def read(out, stem):
+    """All arrays of a frame, from every file that its report lists."""
+    files = json.loads((out / f"{stem}.json").read_text())["made"]["files"]
+    return {name: array for file in files for name, array in np.load(out / file).items()}
+
+
+def test_rays_of_a_camera_that_stands_still_are_written_once(command, scene, out, tmp_path):
+    done = command("dataset", scene, *WORDS, "--output", out)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert done.stdout == f"Wrote 4 pictures into {out}\n"
+    stems = [f"{camera}_{of}" for camera in ("Side", "Top") for of in ("0001", "0002", "rays")]
+    assert left(out) == [*(f"{stem}.{kind}" for stem in stems for kind in ("json", "npz")), "dataset.json"]
+    has_rays = {stem: "ray_origin" in np.load(out / f"{stem}.npz") for stem in stems}
+    assert [stem for stem in stems if has_rays[stem]] == ["Side_rays", "Top_0002", "Top_rays"]
+    rays = crc.camera_from_json(out / "Side_0002.json").rays()
+    for name in "ray_origin", "ray_direction":
+        assert (np.load(out / "Side_rays.npz")[name] == getattr(rays, f"{name[4:]}s").astype(np.float32)).all()
+    command("cast", scene, *WORDS, "--format", "npz", "--output", tmp_path / "cast")
+    for stem in stems:
+        if "rays" not in stem:
+            found, expected = read(out, stem), dict(np.load(tmp_path / "cast" / f"{stem}.npz"))
+            assert found.keys() == expected.keys()
+            assert all((found[name] == expected[name]).all() for name in expected)
+
+
+def test_a_map_that_has_gone_is_made_again_with_the_frames_that_need_it(command, scene, out):
+    command("dataset", scene, *WORDS, "--output", out)
+    (out / "Side_rays.npz").unlink()
+    assert command("dataset", scene, *WORDS, "--output", out).stdout.startswith("Wrote 0 of 4 pictures")
+    assert "ray_direction" in read(out, "Side_0001")
+    later = command("dataset", scene, *WORDS[:3], "2:3", *WORDS[4:], "--output", out)
+    assert later.stdout.startswith("Wrote 2 of 4 pictures")
+    assert [len(np.load(out / f"Side_{of}.npz")) for of in ("0001", "0002", "0003", "rays")] == [1, 1, 1, 2]
+
+
+def test_cameras_and_frames_are_the_file_s_where_none_are_named(command, blender, scene, out):
+    blender.context.scene.frame_start, blender.context.scene.frame_end = 2, 6
+    blender.context.scene.frame_step = 2
+    blender.ops.wm.save_as_mainfile(filepath=str(scene))
+    assert command("dataset", scene, "--format", "exr", "--output", out).returncode == 0
+    stems = [f"Top_{frame}" for frame in ("0002", "0004", "0006")]
+    assert left(out) == [*(f"{stem}.{kind}" for stem in stems for kind in ("exr", "json", "png")), "dataset.json"]
+
+
+@pytest.mark.parametrize("case", ["passes", "sha256", "a word", "a list"])
+def test_the_folder_of_another_data_set_is_refused(command, blender, scene, out, case):
+    command("dataset", scene, *WORDS, "--output", out)
+    words, said = WORDS, "of no data set"
+    if case == "passes":
+        words, said = (*WORDS[:-1], "depth"), "a data set of other passes:"
+    elif case == "sha256":
+        blender.data.objects["Sphere"].location.x = 0.25
+        blender.ops.wm.save_as_mainfile(filepath=str(scene))
+        said = "a data set of other sha256:"
+    else:
+        (out / "dataset.json").write_text({"a word": "word", "a list": "[1]"}[case])
+    before = {path.name: path.stat().st_mtime_ns for path in out.iterdir()}
+    assert said in refused(command("dataset", scene, *words, "--output", out))
+    assert {path.name: path.stat().st_mtime_ns for path in out.iterdir()} == before
+
+
+def test_no_space_leaves_whole_frames(command, scene, out, monkeypatch):
+    from camera_ray_caster.blender.output import arrays
+
+    save = arrays.save
+
+    def full(path, *given):
+        if path.stem == "Top_0001":
+            path.write_bytes(b"cut off")
+            raise OSError(errno.ENOSPC, "No space left on device")
+        save(path, *given)
+
+    monkeypatch.setattr(arrays, "save", full)
+    assert "No space left on device" in refused(command("dataset", scene, *WORDS, "--output", out))
+    assert [name for name in left(out) if name.startswith(("Top_0", "."))] == []
+    monkeypatch.undo()
+    assert command("dataset", scene, *WORDS, "--output", out).stdout.startswith("Wrote 3 of 4 pictures")
+
+
+def test_a_camera_that_cannot_be_cast_is_refused_before_anything_is_made(command, blender, scene, out):
+    blender.data.objects["Side"].scale.y = 0
+    blender.ops.wm.save_as_mainfile(filepath=str(scene))
+    assert "scale of zero" in refused(command("dataset", scene, *WORDS, "--output", out))
+    assert not out.exists()
+
+
+REFUSED = {
+    "--workers 0": "give 1 or more",
+    "--workers 2 --scheduler tcp://127.0.0.1:1": "not allowed with",
+    "--scheduler tcp://127.0.0.1:1": "no scheduler of Dask answers at 'tcp://127.0.0.1:1'",
+    "--scheduler nothing://x": "no scheduler of Dask answers at 'nothing://x'",
+    "--shard 1/2": "unrecognized arguments",
+}
+
+
+@pytest.mark.parametrize("words", REFUSED)
+def test_a_farm_that_is_not_there_is_refused(command, scene, out, monkeypatch, words):
+    from camera_ray_caster.blender.terminal import farm
+
+    monkeypatch.setattr(farm, "ANSWER", "1s")
+    assert REFUSED[words] in refused(command("dataset", scene, *WORDS, *words.split(), "--output", out))
+    assert not out.exists()
+
+
+def test_a_python_without_dask_is_told_what_it_needs(command, scene, out, monkeypatch):
+    monkeypatch.setitem(sys.modules, "distributed", None)
+    assert "need Dask" in refused(command("dataset", scene, *WORDS, "--workers", "2", "--output", out))
+    assert command("dataset", scene, *WORDS, "--output", out).returncode == 0
+
+
+def test_two_workers_make_what_one_process_makes(scene, out, tmp_path):
+    done = script("dataset", scene, *WORDS, "--workers", "2", "--output", out)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert done.stdout == f"Wrote 4 pictures into {out}\n"
+    script("dataset", scene, *WORDS, "--output", tmp_path / "one")
+    assert left(out) == left(tmp_path / "one")
+    for path in out.glob("*.npz"):
+        assert path.read_bytes() == (tmp_path / "one" / path.name).read_bytes()
+
+
+@pytest.fixture
+def scheduler(tmp_path):
+    """The address of a Dask cluster that others have started: a scheduler, and one worker."""
+    known = tmp_path / "scheduler.json"
+    started = [
+        subprocess.Popen(
+            [sys.executable, "-m", f"distributed.cli.{name}", "--no-dashboard", "--scheduler-file", known, *words],
+            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+        )
+        for name, words in (("dask_scheduler", ["--port", "0"]), ("dask_worker", ["--nthreads", "1"]))
+    ]  # fmt: skip
+    while not (known.exists() and known.read_text()):
+        assert started[0].poll() is None
+    yield json.loads(known.read_text())["address"]
+    for process in reversed(started):
+        process.terminate()
+        process.wait(30)
+
+
+def test_any_cluster_of_dask_makes_them_and_what_its_workers_refuse_is_one_line(blender, scene, out, scheduler):
+    side = blender.data.objects["Side"]
+    for frame, scale in (2, 1), (3, 0):
+        side.scale.y = scale
+        side.keyframe_insert("scale", frame=frame)
+    blender.ops.wm.save_as_mainfile(filepath=str(scene))
+    words = ("--passes", "depth", "--scheduler", scheduler, "--output", out)
+    done = script("dataset", scene, *WORDS[:3], "1:2", *words)
+    assert (done.returncode, done.stderr, done.stdout) == (0, "", f"Wrote 4 pictures into {out}\n")
+    assert "scale of zero" in refused(script("dataset", scene, *WORDS[:3], "1:3", *words))
+    assert [name for name in left(out) if name.startswith((".", "Side_0003"))] == []
