@@ -37,6 +37,31 @@ def check_cast(status, out, errors, folder):
         check_pixels(read_exr(path))
 
 
+def check_export(status, out, errors, folder):
+    """An export has its files; a camera.json makes the rays of the camera in the open file."""
+    assert status == 0, f"status {status}: {errors[-3000:] or out[:1500]}"
+    assert errors == "", f"standard error has {errors[-2000:]!r}"
+    files = [path for path in folder.rglob("*") if path.is_file()]
+    assert files
+    for path in files:
+        if path.name == "camera.json":
+            import bpy
+
+            import camera_ray_caster as crc
+
+            document = json.loads(path.read_text(encoding="utf-8"), parse_constant=_refuse)
+            names, scene = [camera["name"] for camera in document["cameras"]], bpy.context.scene
+            views = [view.name for view in scene.render.stereo_views if view.use] if len(names) > 1 else [""]
+            for name, view in zip(names, views, strict=True):
+                there = crc.read_camera(scene, view=view).rays()
+                back = crc.camera_from_json(path, camera=name).rays()
+                assert there.directions.tobytes() == back.directions.tobytes(), "other directions come back"
+                assert there.origins.tobytes() == back.origins.tobytes(), "other origins come back"
+        elif path.suffix in (".txt", ".yml"):
+            words = set(path.read_text(encoding="utf-8").lower().replace(",", " ").split())
+            assert not words & {"nan", "inf", "-inf"}, f"{path.name} has numbers that are none"
+
+
 def _refuse(word):
     raise AssertionError(f"the report has {word}")
 

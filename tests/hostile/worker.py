@@ -18,7 +18,10 @@ from pathlib import Path
 
 from .inputs import make
 from .inputs.parts import Hostile, small_scene
-from .judge import check_cast, check_refusal
+from .judge import check_cast, check_export, check_refusal
+
+EXPORTED = "json", "colmap", "opencv", "stmap"
+"""Formats that are tried: of everything, with poses and lenses as others say them, of two lenses."""
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -70,6 +73,13 @@ def outcome(hostile: Hostile, file: Path, folder: Path) -> str:
     else:
         assert verify[0] == 0, f"verify has status {verify[0]}: {verify[2] or verify[1]}"
         assert verify[2] == "", f"verify says {verify[2]}"
+    for key in () if hostile.words else EXPORTED:
+        export = run(of_add_on("export"), [str(file), "--format", key, "--output", "out"], folder / key)
+        if export[0] == 2:
+            check_refusal(*export, folder / key)
+            assert key != "json" or verify[0] == 2, f"verified, but not exported: {export[2]}"
+        else:
+            check_export(*export, folder / key)
     return "refused" if cast[0] == 2 else "cast"
 
 

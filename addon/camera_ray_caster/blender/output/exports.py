@@ -13,6 +13,7 @@ from ...core.names import file_name, file_names
 from ...core.records import InputError
 from ..read.scene import evaluated, go_to, read_camera
 from ..terminal import signals
+from ..terminal.opening import reported
 from .file_set import appearing
 
 
@@ -79,6 +80,6 @@ def _write_image(path: Path, pixels: np.ndarray) -> None:
         image.file_format = "OPEN_EXR"
         image.save(filepath=str(path))
     except RuntimeError as error:
-        raise OSError(0, str(error).strip()) from error
+        raise OSError(0, reported(error)) from error
     finally:
         bpy.data.images.remove(image)

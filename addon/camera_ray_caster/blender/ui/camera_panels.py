@@ -125,8 +125,11 @@ class SidebarCamera(Sidebar, bpy.types.Panel):
 
     def draw_header_preset(self, context):
         """The formats of exports, and a button that copies the facts."""
-        self.layout.menu("CAMERA_RAY_CASTER_MT_export", text="", icon="EXPORT")
-        self.layout.operator("camera_ray_caster.copy_facts", text="", icon="COPYDOWN", emboss=False)
+        row = self.layout.row(align=True)
+        row.emboss = "NONE"
+        row.menu("CAMERA_RAY_CASTER_MT_export", text="", icon="EXPORT")
+        row.operator("camera_ray_caster.copy_facts", text="", icon="COPYDOWN")
+        row.separator()
 
     def draw(self, context):
         """Which camera, and what it is, or why it is none."""
@@ -140,9 +143,9 @@ class SidebarCamera(Sidebar, bpy.types.Panel):
             draw_message(layout, context, reason, "ERROR")
         else:
             draw_facts(layout, context, facts, camera)
-            row = layout.row(align=True)
-            row.operator("camera_ray_caster.copy_k")
-            row.operator("camera_ray_caster.copy_world_to_camera")
+            column = layout.column(align=True)
+            column.operator("camera_ray_caster.copy_k")
+            column.operator("camera_ray_caster.copy_world_to_camera")
 
 
 class SidebarVerify(Sidebar, bpy.types.Panel):

@@ -50,7 +50,7 @@ class Colmap(Format):
         if shot.camera.pixel_time is not None:
             return OWN_TIMES
         if " " in shot.image:
-            return "whose name has a space"
+            return "whose name has a space, at which names end there: rename it"
         said = lenses.spoken(TABLE, shot.camera)
         if said is not None and said[0] == SPHERE and not _is_whole(said[1], shot.camera.raster.size):
             return "which is not the whole sphere"

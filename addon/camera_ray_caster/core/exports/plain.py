@@ -76,5 +76,5 @@ def merged(base: Mapping[str, Any], own: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _same(left, right) -> bool:
-    """Whether two plain values are the same: 0 and -0 are not."""
-    return left is right or (type(left) is type(right) and json.dumps(left) == json.dumps(right))
+    """Whether two plain values are written alike: 0 and -0 are not, and neither are 0 and 0.0."""
+    return left is right or repr(left) == repr(right)
