@@ -49,7 +49,7 @@ def test_ros_rectifies_pixels_to_the_rays_of_points(tmp_path, name):
         seen = points @ near.world_to_opencv[:3, :3].T + near.world_to_opencv[:3, 3]
         for point, pixel in zip(seen, pixels - 0.5, strict=True):
             apart.append(np.subtract(model.rectifyPoint(pixel), model.project3dToPixel(point)))
-    assert np.abs(apart).max() < (1e-9 if not any(info.D) else 1e-2)
+    assert np.abs(apart).max() < (1e-3 if any(info.D) else 1e-9)  # five steps of OpenCV's
 
 
 @pytest.mark.parametrize("name", NERFBASELINES)
