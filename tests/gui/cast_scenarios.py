@@ -71,4 +71,25 @@ def load_while_casting(user, scenes):
     assert "Ray Caster depth" not in bpy.data.images
 
 
-CAST_SCENARIOS = (stop, stop_samples, load_while_casting)
+def show_result(user, scenes):
+    """Without an Image Editor a cast says where its images are, and Show Result opens one, in colors."""
+    yield from load(user, scenes, "spheres_and_planes")
+    view = user.area()
+    bpy.context.scene.render.resolution_percentage = 25
+    addon("engine.passes").tick(bpy.context.scene, bpy.context.view_layer, ["combined", "depth"])
+    yield from user.press(f"{BUTTON}cast(")
+    yield from user.until(addon("output.reports").latest, "the cast has ended")
+    yield from user.wait(0.5)
+    user.picture("cast_without_editor")
+    with bpy.context.temp_override(window=user.window, area=view, region=user.region("WINDOW")):
+        bpy.ops.camera_ray_caster.show_result(name="Ray Caster depth")
+    yield from user.wait(1)
+    user.picture("show_result")
+    editor = next(area for area in user.window.screen.areas if area.type == "IMAGE_EDITOR")
+    assert editor.spaces.active.image.name == addon("output.images").VIEW
+    yield from user.point(editor.x + editor.width // 2, editor.y + editor.height // 2)
+    yield from user.key("Escape")
+    yield from user.until(lambda: any(area.type == "VIEW_3D" for area in user.window.screen.areas), "the view is back")
+
+
+CAST_SCENARIOS = (stop, stop_samples, load_while_casting, show_result)

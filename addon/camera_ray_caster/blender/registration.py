@@ -7,7 +7,7 @@ import bpy
 from . import gallery
 from .cycles import follow
 from .engine import engine, viewport
-from .output import reports
+from .output import images, reports
 from .properties import groups
 from .read import kept
 from .terminal import commands
@@ -27,6 +27,7 @@ from .ui import (
     operators,
     overlay_panels,
     render_panels,
+    show_result,
 )
 from .view3d import lesson, mouse_gizmo, overlay, scene_cache
 
@@ -34,14 +35,14 @@ CLASSES = (
     *groups.CLASSES, *overlay.CLASSES, *engine.CLASSES, *operators.CLASSES, *cast_operator.CLASSES,
     *cycles_operators.CLASSES, *add_line.CLASSES, *export_operators.CLASSES,
     *mouse_gizmo.CLASSES, *render_panels.CLASSES, *gallery_panels.CLASSES, *menus.CLASSES, *model_panels.CLASSES,
-    *camera_panels.CLASSES, *cast_panels.CLASSES, *lesson_operators.CLASSES, *lesson_panels.CLASSES,
-    *object_panels.CLASSES, *overlay_panels.CLASSES,
+    *camera_panels.CLASSES, *show_result.CLASSES, *cast_panels.CLASSES, *lesson_operators.CLASSES,
+    *lesson_panels.CLASSES, *object_panels.CLASSES, *overlay_panels.CLASSES,
 )  # fmt: skip
 """Blender's types, in the order in which they are registered: a panel comes after the panel that it is in."""
 
 MODULES = (
-    groups, kept, follow, reports, gallery, scene_cache, viewport, cast_operator, overlay, lesson, render_panels, menus,
-    export_operators, commands,
+    groups, kept, follow, reports, images, gallery, scene_cache, viewport, cast_operator, overlay, lesson,
+    render_panels, menus, export_operators, commands,
 )  # fmt: skip
 """Modules that add more than classes. ``register(undo)`` adds it and gives ``undo`` the callbacks that remove it."""
 

@@ -156,24 +156,6 @@ def test_left_out_is_one_line_that_counts():
     assert len(said) < 100
 
 
-def test_the_steps_of_pixels_are_copied_and_forgotten(blender, scene):
-    from camera_ray_caster.blender.ui.lesson_panels import SidebarLesson
-    from camera_ray_caster.blender.view3d import lesson
-
-    assert not blender.ops.camera_ray_caster.copy_steps.poll()
-    lesson.pixels[:] = [(12, 8), (0, 0), (24, 0)]  # the last one is outside of the frame
-    found = lesson.lessons(blender.context)
-    assert list(found) == [(12, 8), (0, 0)]
-    assert found[12, 8].seen.name == "Sphere"
-    assert blender.ops.camera_ray_caster.copy_steps() == {"FINISHED"}
-    blender.data.objects["Sphere"].location.z = -3
-    blender.context.view_layer.update()
-    assert lesson.lessons(blender.context)[12, 8].seen.distance > found[12, 8].seen.distance + 2.9
-    assert SidebarLesson.is_registered
-    assert blender.ops.camera_ray_caster.clear_steps() == {"FINISHED"}
-    assert lesson.lessons(blender.context) == {}
-
-
 def test_the_cast_is_undone_with_its_images(blender, scene):
     blender.ops.ed.undo_push(message="before")
     blender.ops.camera_ray_caster.cast()

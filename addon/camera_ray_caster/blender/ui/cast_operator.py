@@ -105,12 +105,14 @@ class Cast(bpy.types.Operator):
 
     def finish(self, context, passes, report: Report):
         """Store and show the images, and keep the report."""
-        images.show(context.window_manager, images.store(passes))
+        made = images.store(passes)
+        images.show(context.window_manager, made)
         reports.keep(report)
         if report.shapes == 0:
             self.report({"WARNING"}, "There is no sphere and no plane to cast at: the images show the background")
         else:
-            self.report({"INFO"}, f"{report.pixels} rays cast at {report.shapes} shapes")
+            others = f" and {len(made) - 1} more" if len(made) > 1 else ""
+            self.report({"INFO"}, f"{report.pixels} rays cast: image {made[0].name!r}{others}, by Show Result")
         return {"FINISHED"}
 
 

@@ -5,10 +5,11 @@ from __future__ import annotations
 import bpy
 
 from ..engine.passes import PASSES, ticked
-from ..output import reports
+from ..output import images, reports
 from . import cast_operator
 from .camera_panels import Sidebar, draw_message, draw_row
 from .object_panels import draw_cast_as
+from .show_result import ResultsMenu
 
 LISTED = 6
 """Objects that the panel names for each reason; the report has them all."""
@@ -32,6 +33,8 @@ class SidebarCast(Sidebar, bpy.types.Panel):
                          icon="RENDER_STILL")  # fmt: skip
         else:
             row.progress(factor=fraction, text=f"{fraction:.0%}, Esc stops")
+        if images.results():
+            layout.menu(ResultsMenu.bl_idname, icon="IMAGE_DATA")
         settings = context.scene.camera_ray_caster
         layout.row().prop(settings, "shading", expand=True)
         layout.prop(settings, "samples")

@@ -1,0 +1,68 @@
+"""Passes as pictures to look at: numbers of any range in what a screen shows."""
+
+from __future__ import annotations
+
+import numpy as np
+
+SIGNED = ("normal", "ray_direction")
+"""Passes from -1 to 1."""
+COUNTED = ("object_index", "material_index", "shape_index", "face_index")
+SHARES = ("combined", "uv", "valid")
+"""Passes that are shown as they are."""
+NOTHING = 1e9
+"""From here on a distance is that of nothing: Blender has 1e10, the caster infinity."""
+WIDE = 100.0
+"""Ratio of the largest to the least value from which on the scale is logarithmic."""
+GOLDEN = (0.618033988749895, 0.754877666246693, 0.569840290998053)
+"""Steps of the three channels from one index to the next, of which no two small indices come near each other: the
+golden ratio's and the plastic number's.
+"""
+
+
+def displayed(key: str, image: np.ndarray) -> tuple[np.ndarray, str]:
+    """Return a pass (rows, columns[, channels]) as colors (rows, columns, 3) float32 from 0 to 1, and in words what
+    they mean. Black is what has no value.
+    """
+    values = np.asarray(image, np.float64).reshape(*image.shape[:2], -1)[..., :3]
+    if values.shape[-1] == 2:
+        values = np.pad(values, ((0, 0), (0, 0), (0, 1)))
+    if key in SHARES:
+        colors, said = values, "as it is"
+    elif key in SIGNED:
+        colors, said = (values + 1) / 2 * (values != 0).any(axis=-1, keepdims=True), "-1 is black, 0 gray, 1 white"
+    elif key in COUNTED:
+        colors, said = _colors(values[..., :1], key), "a color for each number"
+    else:
+        colors, said = _range(values)
+    shown = np.broadcast_to(np.clip(np.nan_to_num(colors), 0, 1), (*values.shape[:2], 3))
+    return shown.astype(np.float32), said
+
+
+def _colors(numbers: np.ndarray, key: str) -> np.ndarray:
+    """Return a color for each whole number; black for -1, and for 0 where indices begin with 1."""
+    numbers = np.where(np.isfinite(numbers), numbers, -1.0)
+    none = numbers < (1 if key in ("object_index", "material_index") else 0)
+    return np.where(none, 0.0, 0.25 + 0.75 * ((numbers + 1) * GOLDEN % 1.0))
+
+
+def _range(values: np.ndarray) -> tuple[np.ndarray, str]:
+    """Return the finite values between their ends: one component from near, white, to far, a tenth of that; several
+    each from black to white.
+    """
+    counted = np.isfinite(values) & (np.abs(values) < NOTHING) & (values.shape[-1] > 1 or values != 0)
+    if not counted.any():
+        return np.zeros_like(values), "nothing has a value"
+    low, high = (np.array([end(column[mask]) if mask.any() else 0.0 for column, mask in _columns(values, counted)])
+                 for end in (np.min, np.max))  # fmt: skip
+    logarithmic = values.shape[-1] == 1 and low[0] > 0 and high[0] > WIDE * low[0]
+    said = ", ".join(f"{a:.4g} to {b:.4g}" for a, b in zip(low, high, strict=True))
+    if logarithmic:
+        values, low, high = np.log(np.where(counted, values, low)), np.log(low), np.log(high)
+    share = (values - low) / np.where(high > low, high - low, 1.0)
+    if values.shape[-1] == 1:
+        return np.where(counted, 1 - 0.9 * share, 0.0), f"white to dark: {said}{', logarithmic' if logarithmic else ''}"
+    return np.where(counted, share, 0.0), f"black to white by component: {said}"
+
+
+def _columns(values: np.ndarray, counted: np.ndarray):
+    return ((values[..., k], counted[..., k]) for k in range(values.shape[-1]))

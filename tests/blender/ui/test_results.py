@@ -1,0 +1,68 @@
+"""What casts leave: images that are saved and shown, and the steps of pixels."""
+
+import numpy as np
+import pytest
+
+from camera_ray_caster.blender.engine import passes
+from camera_ray_caster.blender.output import images
+from camera_ray_caster.blender.read.scene import read_camera, read_shapes
+from camera_ray_caster.core.cast import cast
+
+from .conftest import HEIGHT, WIDTH
+from .test_sidebar import pixels_of
+
+
+def test_images_are_saved_with_the_file_exactly_and_cast_anew_after_it_is_loaded(blender, scene, tmp_path):
+    scene.camera_ray_caster.samples = 5
+    passes.tick(scene, blender.context.view_layer, ["combined", "depth", "normal"])
+    blender.ops.camera_ray_caster.cast()
+    names = list(images.results())
+    before = {name: pixels_of(blender.data.images[name]) for name in names}
+    path = str(tmp_path / "saved.blend")
+    for _ in range(2):
+        blender.ops.wm.save_as_mainfile(filepath=path)
+        blender.ops.wm.open_mainfile(filepath=path)
+        assert images.results() == dict(zip(names, ["combined", "depth", "normal"], strict=True))
+        for name in names:
+            assert np.array_equal(pixels_of(blender.data.images[name]), before[name]), name
+    scene = blender.context.scene
+    scene.render.resolution_x = 2 * WIDTH
+    blender.ops.camera_ray_caster.cast()
+    assert blender.data.images[names[1]].size[:] == (2 * WIDTH, HEIGHT)
+    assert len(blender.data.images) == 3
+    expected = cast(read_camera(scene), read_shapes(scene), ["normal"])["normal"]
+    assert np.array_equal(pixels_of(blender.data.images[names[2]])[..., :3], expected)
+
+
+def test_a_result_is_shown_in_colors(blender, scene):
+    passes.tick(scene, blender.context.view_layer, ["combined", "depth", "distance", "distance_bound"])
+    blender.ops.camera_ray_caster.cast()
+    assert list(images.results().values()) == ["combined", "depth", "distance", "distance_bound"]
+    image, said = images.show_in_colors(images.image_name("depth"))
+    shown = pixels_of(image)
+    depth = pixels_of(blender.data.images[images.image_name("depth")])[..., 0]
+    near = np.unravel_index(depth.argmin(), depth.shape)
+    assert said == f"white to dark: {depth.min():.4g} to {depth[depth < 1e9].max():.4g}"
+    assert shown[near][0] == 1
+    assert not shown[depth > 1e9][:, :3].any()
+    assert images.show_in_colors(images.image_name("combined"))[0].name == images.image_name("combined")
+    with pytest.raises(RuntimeError, match="there is no image 'Cat' of a cast"):
+        blender.ops.camera_ray_caster.show_result(name="Cat")
+
+
+def test_the_steps_of_pixels_are_copied_and_forgotten(blender, scene):
+    from camera_ray_caster.blender.ui.lesson_panels import SidebarLesson
+    from camera_ray_caster.blender.view3d import lesson
+
+    assert not blender.ops.camera_ray_caster.copy_steps.poll()
+    lesson.pixels[:] = [(12, 8), (0, 0), (24, 0)]  # the last one is outside of the frame
+    found = lesson.lessons(blender.context)
+    assert list(found) == [(12, 8), (0, 0)]
+    assert found[12, 8].seen.name == "Sphere"
+    assert blender.ops.camera_ray_caster.copy_steps() == {"FINISHED"}
+    blender.data.objects["Sphere"].location.z = -3
+    blender.context.view_layer.update()
+    assert lesson.lessons(blender.context)[12, 8].seen.distance > found[12, 8].seen.distance + 2.9
+    assert SidebarLesson.is_registered
+    assert blender.ops.camera_ray_caster.clear_steps() == {"FINISHED"}
+    assert lesson.lessons(blender.context) == {}
