@@ -18,9 +18,9 @@ OUTPUT = ROOT / "out" / "gui"
 """Where the screenshots are: below the project, which a Blender in a box of its own can see too."""
 
 SCENARIOS = (
-    "panel", "no_camera", "left_out", "stop", "stop_samples", "load_while_casting", "show_result", "overlay", "ray_under_mouse",
-    "viewport", "cycles", "camera_settings", "model_gallery", "search", "told",
-    "step_through", "disable",
+    "panel", "no_camera", "left_out", "stop", "stop_samples", "load_while_casting", "show_result", "overlay",
+    "ray_under_mouse", "viewport", "cycles", "camera_settings", "model_gallery", "search", "told", "step_through",
+    "disable",
 )  # fmt: skip
 SIZE = "1400x900"
 LIMIT = 1200
