@@ -9,25 +9,25 @@ from __future__ import annotations
 
 from ..cameras.files.document import matrix_of
 from . import lenses
-from .format import OWN_TIMES, Format, Shot
+from .format import Shot
 from .plain import as_text
 
 TABLE = {"pinhole": ("OPENCV_PINHOLE", ())}
 
 
-class Bop(Format):
+class Bop(lenses.LensFormat):
     """A file a camera."""
 
     key = "bop"
     label = "BOP"
     description = "scene_camera.json: pinholes and poses in millimeters; of several cameras scene_camera_<camera>.json"
-    rigid = True
+    table = TABLE
 
     def refusal(self, shot):
         """See Format."""
         if shot.frame != int(shot.frame):
             return "whose frame is no whole number"
-        return OWN_TIMES if shot.camera.pixel_time is not None else lenses.refusal(TABLE, shot.camera)
+        return super().refusal(shot)
 
     def files(self, shots):
         """See Format."""

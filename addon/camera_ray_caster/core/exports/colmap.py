@@ -16,7 +16,7 @@ from ..cameras.files.document import Lens, matrix_of
 from ..conventions import gamma
 from ..maths.rotations import quaternion
 from . import lenses
-from .format import OWN_TIMES, Format, Shot
+from .format import Shot
 
 SPHERE = "EQUIRECTANGULAR"
 TABLE = {
@@ -37,24 +37,22 @@ POINTS = """# 3D point list with one line of data per point:
 """
 
 
-class Colmap(Format):
+class Colmap(lenses.LensFormat):
     """A camera a line for each lens of each camera, an image for each frame."""
 
     key = "colmap"
     label = "COLMAP"
     description = "cameras.txt, images.txt and points3D.txt: calibrated lenses and poses"
-    rigid = True
+    table = TABLE
 
     def refusal(self, shot):
         """See Format."""
-        if shot.camera.pixel_time is not None:
-            return OWN_TIMES
         if " " in shot.image:
             return "whose name has a space, at which names end there: rename it"
         said = lenses.spoken(TABLE, shot.camera)
         if said is not None and said[0] == SPHERE and not _is_whole(said[1], shot.camera.raster.size):
             return "which is not the whole sphere"
-        return lenses.refusal(TABLE, shot.camera)
+        return super().refusal(shot)
 
     def files(self, shots):
         """See Format."""

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from math import pi
-from typing import Any
+from typing import Any, ClassVar
 
 from ..camera.camera import Camera
 from ..cameras.equirectangular import Equirectangular
@@ -20,9 +20,12 @@ from ..cameras.opencv_pinhole import OpencvPinhole
 from ..cameras.parts.calibrated import Calibrated
 from ..cameras.parts.calibration import CALIBRATION
 from ..cameras.perspective import Perspective
-from .format import Shot
+from .format import OWN_TIMES, Format, Shot
 
 MATRIX = "fx", "fy", "cx", "cy"
+
+Table = Mapping[str, tuple[str, Sequence[str]]]
+"""By the name of a format's model: our model's key, and the settings that it has beside the matrix."""
 
 
 def calibrations(camera: Camera) -> list[Lens]:
@@ -64,9 +67,8 @@ def _lens(model: WindowModel, key: str, focal: float = 1.0, settings: Mapping[st
     return Lens("", key, matrix | dict(settings or {}))
 
 
-def spoken(table: Mapping[str, tuple[str, Sequence[str]]], camera: Camera) -> tuple[str, Lens] | None:
-    """Return the first of a format's models (our key, and the settings that it has beside the matrix) that says the
-    lens of a camera, and the lens; None where none does.
+def spoken(table: Table, camera: Camera) -> tuple[str, Lens] | None:
+    """Return the first of a format's models that says the lens of a camera, and the lens; None where none does.
     """
     return next(
         (
@@ -79,7 +81,7 @@ def spoken(table: Mapping[str, tuple[str, Sequence[str]]], camera: Camera) -> tu
     )
 
 
-def said(table: Mapping[str, tuple[str, Sequence[str]]], camera: Camera) -> tuple[str, Lens]:
+def said(table: Table, camera: Camera) -> tuple[str, Lens]:
     """Return ``spoken`` of a camera that is not refused."""
     found = spoken(table, camera)
     assert found is not None
@@ -103,17 +105,24 @@ def by_lens(shots: Sequence[Shot], told: Callable[[Shot], str]) -> Iterator[tupl
             yield from ((shot.stem, text, [shot]) for shot, text in own)
 
 
-def refusal(table: Mapping[str, tuple[str, Sequence[str]]], camera: Camera) -> str | None:
-    """Return what a format with this table cannot say of a camera; see ``Format.refusal``."""
-    if spoken(table, camera) is not None:
-        return None
-    known = {key for key, _ in table.values()}
-    for lens in calibrations(camera):
-        if lens.model in known:
-            lacking = [_beyond(lens, terms) for key, terms in table.values() if key == lens.model]
-            names = min(lacking, key=len)
-            return f"whose {', '.join(names)} {'is' if len(names) == 1 else 'are'} not 0"
-    return ""
+class LensFormat(Format):
+    """A format of calibrated lenses, most with poses."""
+
+    table: ClassVar[Table]
+    rigid = True
+
+    def refusal(self, shot):
+        """See Format."""
+        if shot.camera.pixel_time is not None:
+            return OWN_TIMES
+        if spoken(self.table, shot.camera) is not None:
+            return None
+        known = {key for key, _ in self.table.values()}
+        for lens in calibrations(shot.camera):
+            if lens.model in known:
+                names = min((_beyond(lens, terms) for key, terms in self.table.values() if key == lens.model), key=len)
+                return f"whose {', '.join(names)} {'is' if len(names) == 1 else 'are'} not 0"
+        return ""
 
 
 def _beyond(lens: Lens, terms: Collection[str]) -> list[str]:

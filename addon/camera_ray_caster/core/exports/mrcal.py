@@ -11,7 +11,6 @@ from ..cameras.files.document import Lens, matrix_of
 from ..cameras.files.mrcal import MODELS, STEREOGRAPHIC
 from ..maths.rotations import half_turn_vector
 from . import lenses
-from .format import OWN_TIMES, Format
 
 TABLE = {kind: one for kind, one in MODELS.items() if kind != STEREOGRAPHIC} | {
     "LENSMODEL_LONLAT": ("EQUIRECTANGULAR", ()),
@@ -19,22 +18,20 @@ TABLE = {kind: one for kind, one in MODELS.items() if kind != STEREOGRAPHIC} | {
 }
 
 
-class Mrcal(Format):
+class Mrcal(lenses.LensFormat):
     """A file a camera and frame."""
 
     key = "mrcal"
     label = "mrcal"
     description = "<camera>_<frame>.cameramodel: OpenCV's lenses, panoramas and stereographic fisheyes, and poses"
-    rigid = True
+    table = TABLE
 
     def refusal(self, shot):
         """See Format."""
-        if shot.camera.pixel_time is not None:
-            return OWN_TIMES
         said = lenses.spoken(TABLE, shot.camera)
         if said is not None and said[0] == STEREOGRAPHIC and said[1].settings["unified_xi"] != 1:
             return "whose unified_xi is not 1"
-        return lenses.refusal(TABLE, shot.camera)
+        return super().refusal(shot)
 
     def files(self, shots):
         """See Format."""

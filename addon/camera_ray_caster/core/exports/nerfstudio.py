@@ -14,23 +14,19 @@ from ..cameras.files.document import matrix_of
 from ..cameras.files.nerfstudio import MODELS
 from ..records import InputError
 from . import lenses
-from .format import OWN_TIMES, Format, Shot
+from .format import Shot
 from .plain import as_text
 
 TABLE = {kind: MODELS[kind] for kind in ("OPENCV", "OPENCV_FISHEYE")}
 
 
-class Nerfstudio(Format):
+class Nerfstudio(lenses.LensFormat):
     """One file with all cameras and frames."""
 
     key = "nerfstudio"
     label = "nerfstudio"
     description = "transforms.json: pinholes and fisheyes, and poses"
-    rigid = True
-
-    def refusal(self, shot):
-        """See Format."""
-        return OWN_TIMES if shot.camera.pixel_time is not None else lenses.refusal(TABLE, shot.camera)
+    table = TABLE
 
     def files(self, shots):
         """See Format."""

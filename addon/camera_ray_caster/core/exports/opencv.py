@@ -17,7 +17,7 @@ from ..cameras.files.document import matrix_of
 from ..cameras.files.opencv import TERMS
 from ..maths.rotations import half_turn_vector
 from . import lenses
-from .format import OWN_TIMES, Format, Shot
+from .format import Shot
 
 PINHOLE = TERMS["OPENCV_PINHOLE"]
 TABLE = {f"pinhole {count}": ("OPENCV_PINHOLE", PINHOLE[:count]) for count in (5, 8, 12, 14)} | {
@@ -27,17 +27,13 @@ TABLE = {f"pinhole {count}": ("OPENCV_PINHOLE", PINHOLE[:count]) for count in (5
 EXTRA = {"fisheye": "fisheye_model: 1\n", "omnidir": "xi: {unified_xi!r}\n"}
 
 
-class Opencv(Format):
+class Opencv(lenses.LensFormat):
     """A file a camera; where its lens changes, a file a frame."""
 
     key = "opencv"
     label = "OpenCV"
     description = "<camera>.yml for FileStorage: pinhole, fisheye and omnidir, and poses"
-    rigid = True
-
-    def refusal(self, shot):
-        """See Format."""
-        return OWN_TIMES if shot.camera.pixel_time is not None else lenses.refusal(TABLE, shot.camera)
+    table = TABLE
 
     def files(self, shots):
         """See Format."""

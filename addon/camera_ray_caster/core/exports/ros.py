@@ -11,7 +11,7 @@ import json
 from ..cameras.files.document import matrix_of
 from ..cameras.files.opencv import TERMS
 from . import lenses
-from .format import OWN_TIMES, Format, Shot
+from .format import Shot
 
 TABLE = {
     "plumb_bob": ("OPENCV_PINHOLE", TERMS["OPENCV_PINHOLE"][:5]),
@@ -20,16 +20,14 @@ TABLE = {
 }
 
 
-class Ros(Format):
+class Ros(lenses.LensFormat):
     """A file a camera; where its lens changes, a file a frame."""
 
     key = "ros"
     label = "ROS CameraInfo"
     description = "<camera>.yaml: plumb_bob, rational_polynomial and equidistant lenses, without poses"
-
-    def refusal(self, shot):
-        """See Format."""
-        return OWN_TIMES if shot.camera.pixel_time is not None else lenses.refusal(TABLE, shot.camera)
+    table = TABLE
+    rigid = False
 
     def files(self, shots):
         """See Format."""
