@@ -84,6 +84,7 @@ def make(chance, number, folder):
     path.write_bytes(content)
     own = bpy.context.scene.camera.data.camera_ray_caster
     own.model = chance.choice(models)
+    bpy.context.scene.render.resolution_x, bpy.context.scene.render.resolution_y = 64, 48
     own.calibration_file = str(path)
     return Hostile(f"{own.model}, {path.name}: {way.__name__[1:]} {said}")
 

@@ -31,7 +31,7 @@ def camera_from(raw: BlenderCamera) -> Camera:
     kind, raster = find_model(raw), raster_from(raw)
     if not 0 <= raw.clip_start < raw.clip_end:
         raise InputError(f"clip start {raw.clip_start}, clip end {raw.clip_end} of camera {raw.name!r} leave no depth")
-    given, raw = raw, with_file(raw, kind)
+    given, raw = raw, with_file(raw, kind, raster)
     try:
         lens, pose = kind.from_blender(raw, raster), pose_from(raw)
     except InputError as error:

@@ -8,15 +8,15 @@ from ..cameras import MODELS
 from ..cameras.files import lenses_of
 from ..cameras.files.document import Lens
 from ..cameras.model import Model
-from ..cameras.parts.calibration import FILE, FILE_CAMERA
-from ..records import BlenderCamera, InputError
+from ..cameras.parts.calibration import FILE, FILE_CAMERA, SIZE
+from ..records import BlenderCamera, InputError, Raster
 
 
-def with_file(raw: BlenderCamera, model: type[Model]) -> BlenderCamera:
+def with_file(raw: BlenderCamera, model: type[Model], raster: Raster) -> BlenderCamera:
     """Return the record with the settings of the file that it names; itself where it names none.
 
-    Raises InputError for a file that cannot be read, that is for another model, or has several cameras of which none
-    is chosen.
+    Raises InputError for a file that cannot be read, that is for another model, for pictures of another shape than the
+    frame, or has several cameras of which none is chosen.
     """
     path = FILE.read(raw) if FILE in model.SETTINGS else ""
     if not path:
@@ -25,8 +25,24 @@ def with_file(raw: BlenderCamera, model: type[Model]) -> BlenderCamera:
     if lens.model != model.key:
         label = next(other.label for other in MODELS if other.key == lens.model)
         raise InputError(f"{path!r} is a calibration for {label}, not {model.label}: choose that model")
+    _check_shape(path, lens, raster)
     given = model.SETTINGS[model.SETTINGS.index(FILE) + 1 :]
     return replace(raw, settings={**raw.settings, **{one.name: one.default for one in given}, **lens.settings})
+
+
+def _check_shape(path: str, lens: Lens, raster: Raster) -> None:
+    """Raise InputError where a calibrated picture has another shape than the frame, counted in pixels or as it is seen,
+    by more than a pixel that the frame's size may have been cut by.
+    """
+    width, height = (lens.settings[side.name] for side in SIZE)
+    for high in (raster.height, raster.height * raster.pixel_aspect):
+        if abs(raster.width * height - high * width) <= width + height:
+            return
+    sizes = f"{SIZE[0].name} and {SIZE[1].name} of calibration file {path!r} are {width:g} x {height:g}"
+    raise InputError(
+        f"{sizes}, and the frame is {raster.width} x {raster.height}, of another shape: set the resolution to that "
+        "size, or a multiple of it"
+    )
 
 
 def chosen_lens(path: str, key: str, name: str = "") -> Lens:

@@ -197,3 +197,28 @@ def test_a_file_without_meaning_is_refused_by_its_field(tmp_path, text, says):
 def test_a_camera_that_is_not_in_the_file_is_refused_with_those_that_are(tmp_path):
     with pytest.raises(InputError, match="no camera 'cam7': set calibration_camera to one of cam0"):
         of_file(tmp_path / "camchain.yaml", GOOD, "OPENCV_PINHOLE", calibration_camera="cam7")
+
+
+@pytest.mark.parametrize(
+    "frame",
+    [
+        {"resolution_x": 1920, "resolution_y": 1440},
+        {"resolution_x": 640, "resolution_y": 480, "resolution_percentage": 33},  # 211 x 158
+        {"resolution_x": 320, "resolution_y": 480, "pixel_aspect_x": 2.0},
+        {"resolution_x": 640, "resolution_y": 480, "pixel_aspect_x": 2.0},
+    ],
+)
+def test_a_frame_of_the_picture_s_shape_is_that_picture_scaled(tmp_path, frame):
+    found = of_file(tmp_path / "camchain.yaml", GOOD, "OPENCV_PINHOLE", **frame).model
+    across, up = found.frame[0] / 640, found.frame[1] / 480
+    expected = [[300 * across, 0, 321 * across - 0.5], [0, 301 * up, 239.75 * up - 0.5], [0, 0, 1]]
+    np.testing.assert_allclose(found.K, expected, rtol=1e-14)
+
+
+@pytest.mark.parametrize("frame", [{"resolution_x": 1920, "resolution_y": 1080}, {"resolution_y": 482}])
+def test_a_frame_of_another_shape_is_refused_with_both_sizes(tmp_path, frame):
+    size = f"{frame.get('resolution_x', 640)} x {frame['resolution_y']}"
+    says = f"calibration_width and calibration_height of .*yaml' are 640 x 480, and the frame is {size}"
+    with pytest.raises(InputError, match=says) as refusal:
+        of_file(tmp_path / "camchain.yaml", GOOD, "OPENCV_PINHOLE", **frame)
+    assert "\n" not in str(refusal.value)

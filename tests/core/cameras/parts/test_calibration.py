@@ -78,7 +78,8 @@ D: !!opencv-matrix
 
 def test_the_text_that_the_refusals_start_from_is_good(tmp_path):
     (tmp_path / "lens.yml").write_text(GOOD)
-    assert camera("OPENCV_PINHOLE", {"calibration_file": str(tmp_path / "lens.yml")}).model.distortion.k1 == -0.1
+    found = camera("OPENCV_PINHOLE", FRAME | {"calibration_file": str(tmp_path / "lens.yml")})
+    assert found.model.distortion.k1 == -0.1
 
 
 @pytest.mark.parametrize(
@@ -108,7 +109,7 @@ def test_the_text_that_the_refusals_start_from_is_good(tmp_path):
 def test_a_file_without_meaning_is_refused_by_name(tmp_path, change, says):
     (tmp_path / "lens.yml").write_text(GOOD.replace(*change))
     with pytest.raises(InputError, match=says) as refusal:
-        camera("OPENCV_PINHOLE", {"calibration_file": str(tmp_path / "lens.yml")})
+        camera("OPENCV_PINHOLE", FRAME | {"calibration_file": str(tmp_path / "lens.yml")})
     assert "\n" not in str(refusal.value)
     assert "lens.yml" in str(refusal.value)
 
