@@ -20,7 +20,7 @@ from camera_ray_caster.core.records import BlenderCamera, InputError
 ANGLE = Number("tilt", "Tilt", "Of the head", 0.0, 0.0, math.pi / 2, "angle")
 SIZE = Number("size", "Size", "Of the hat", 1.0, ABOVE_ZERO)
 SIDE = Choice("side", "Side", "Of the street", "LEFT", (Item("LEFT", "Left", "", 0), Item("RIGHT", "Right", "", 1)))
-PAIR = Numbers("pair", "Pair", "Of shoes", (1.0, 2.0))
+PAIR = Numbers("pair", "Pair", "Of shoes", (1.0, 2.0), ("Left", "Right"))
 WORN = Flag("worn", "Worn", "Out", False)
 
 
