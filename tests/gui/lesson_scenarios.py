@@ -52,4 +52,21 @@ def step_through(user, scenes):
     assert np.count_nonzero(np.abs(on - off).max(axis=2) > 0.1) > 500
 
 
-LESSON_SCENARIOS = (step_through,)
+def examples(user, scenes):
+    """The gallery's menu has a picture for each model, and a camera of it comes with its slits."""
+    yield from load(user, scenes, "toys")
+    view = user.region("WINDOW")
+    yield from user.point(view.x + 60, view.y + view.height - 150)
+    with bpy.context.temp_override(window=user.window, area=user.area(), region=view):
+        bpy.ops.wm.call_menu(name="CAMERA_RAY_CASTER_MT_cameras")
+    yield from user.wait(2)
+    user.picture("examples")
+    yield from user.key("Escape")
+    bpy.ops.camera_ray_caster.append_camera(name="cross_slit")
+    user.area().spaces.active.region_3d.view_perspective = "CAMERA"
+    yield from user.wait(1)
+    user.picture("appended")
+    assert bpy.context.scene.camera.data.camera_ray_caster.slit_2 is not None
+
+
+LESSON_SCENARIOS = (step_through, examples)

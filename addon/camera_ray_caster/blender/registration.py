@@ -18,6 +18,7 @@ from .ui import (
     cast_panels,
     cycles_operators,
     export_operators,
+    gallery_operators,
     gallery_panels,
     lesson_operators,
     lesson_panels,
@@ -26,6 +27,7 @@ from .ui import (
     object_panels,
     operators,
     overlay_panels,
+    point_operators,
     render_panels,
     show_result,
 )
@@ -36,13 +38,14 @@ CLASSES = (
     *cycles_operators.CLASSES, *add_line.CLASSES, *export_operators.CLASSES,
     *mouse_gizmo.CLASSES, *render_panels.CLASSES, *gallery_panels.CLASSES, *menus.CLASSES, *model_panels.CLASSES,
     *camera_panels.CLASSES, *show_result.CLASSES, *cast_panels.CLASSES, *lesson_operators.CLASSES,
-    *lesson_panels.CLASSES, *object_panels.CLASSES, *overlay_panels.CLASSES,
+    *point_operators.CLASSES, *gallery_operators.CLASSES, *lesson_panels.CLASSES,
+    *object_panels.CLASSES, *overlay_panels.CLASSES,
 )  # fmt: skip
 """Blender's types, in the order in which they are registered: a panel comes after the panel that it is in."""
 
 MODULES = (
     groups, kept, follow, reports, images, gallery, scene_cache, viewport, cast_operator, overlay, lesson,
-    render_panels, menus, export_operators, commands,
+    render_panels, menus, gallery_operators, export_operators, commands,
 )  # fmt: skip
 """Modules that add more than classes. ``register(undo)`` adds it and gives ``undo`` the callbacks that remove it."""
 

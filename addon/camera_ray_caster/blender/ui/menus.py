@@ -5,10 +5,12 @@ import bpy
 from .cast_operator import Cast
 from .cycles_operators import UseInCycles
 from .export_operators import ExportMenu
+from .gallery_operators import ExamplesMenu
 from .lesson_operators import StepThrough
 from .operators import CopyFacts, LoadCalibration, Verify, WriteReport
+from .point_operators import PixelOfPoint
 
-LISTED = (Cast, Verify, StepThrough, LoadCalibration, UseInCycles, CopyFacts, WriteReport)
+LISTED = (Cast, Verify, StepThrough, PixelOfPoint, LoadCalibration, UseInCycles, CopyFacts, WriteReport)
 
 
 class RayCasterMenu(bpy.types.Menu):
@@ -21,7 +23,8 @@ class RayCasterMenu(bpy.types.Menu):
         """A line each."""
         for operator in LISTED:
             self.layout.operator(operator.bl_idname)
-        self.layout.menu(ExportMenu.bl_idname)
+        for menu in (ExportMenu, ExamplesMenu):
+            self.layout.menu(menu.bl_idname)
 
 
 def draw_menu(self, context) -> None:

@@ -1,0 +1,113 @@
+"""The gallery's scenes: opened, or their camera taken into the scene that is open."""
+
+import bpy
+from bpy.props import StringProperty
+
+from ...core.cameras import MODELS
+from ...core.cameras.model import GROUPS
+from .. import gallery
+
+CAMERA = "Camera"
+"""What the camera of every scene of the gallery is called."""
+
+
+class OfGallery:
+    """An operator on a scene of the gallery."""
+
+    name: StringProperty(name="Scene", description="Its name in the gallery", options={"SKIP_SAVE"})
+
+    def path(self) -> str | None:
+        """Return the path of the scene; report an error and return None where there is none of that name."""
+        found = {path.stem: str(path) for path in gallery.scenes()}.get(self.name)
+        if found is None:
+            self.report({"ERROR"}, f"the gallery has no scene {self.name!r}")
+        return found
+
+
+class OpenExample(OfGallery, bpy.types.Operator):
+    """Open this scene of the gallery; Blender asks first whether to save changes"""
+
+    bl_idname = "camera_ray_caster.open_example"
+    bl_label = "Open Example Scene"
+    bl_options = {"INTERNAL"}
+
+    def execute(self, context):
+        """Open it."""
+        path = self.path()
+        if path is None:
+            return {"CANCELLED"}
+        return bpy.ops.wm.open_mainfile("INVOKE_DEFAULT", filepath=path, display_file_selector=False, load_ui=False)
+
+
+class AppendCamera(OfGallery, bpy.types.Operator):
+    """Add this camera of the gallery, with the slits or the path that it needs, and make it the scene's camera"""
+
+    bl_idname = "camera_ray_caster.append_camera"
+    bl_label = "Add Camera of the Gallery"
+    bl_options = {"REGISTER", "UNDO"}
+
+    def execute(self, context):
+        """Append it to the active collection."""
+        path = self.path()
+        if path is None:
+            return {"CANCELLED"}
+        known = set(bpy.data.objects)
+        with bpy.data.libraries.load(path, link=False) as (_, wanted):
+            wanted.objects = [CAMERA]
+        added = [item for item in bpy.data.objects if item not in known]
+        for item in context.selected_objects:
+            item.select_set(False)
+        for item in added:
+            context.collection.objects.link(item)
+        (camera,) = wanted.objects
+        camera.select_set(True)
+        context.view_layer.objects.active = context.scene.camera = camera
+        self.report({"INFO"}, f"{camera.name!r} is the scene's camera")
+        return {"FINISHED"}
+
+
+class GalleryMenu:
+    """A menu of the gallery's scenes by the model of their camera, in groups."""
+
+    def draw(self, context):
+        """A column a group, an entry a model."""
+        row = self.layout.row()
+        for group in GROUPS:
+            column = row.column()
+            column.label(text=group)
+            for model in MODELS:
+                name = gallery.scene_name(model.key)
+                if model.group == group:
+                    entry = column.operator(self.operator, text=model.label, icon_value=gallery.icon(name))
+                    entry.name = name
+
+
+class ExamplesMenu(GalleryMenu, bpy.types.Menu):
+    """Scenes to open."""
+
+    bl_idname = "CAMERA_RAY_CASTER_MT_examples"
+    bl_label = "Example Scenes"
+    operator = OpenExample.bl_idname
+
+
+class CamerasMenu(GalleryMenu, bpy.types.Menu):
+    """Cameras to add."""
+
+    bl_idname = "CAMERA_RAY_CASTER_MT_cameras"
+    bl_label = "Camera of the Gallery"
+    operator = AppendCamera.bl_idname
+
+
+def draw_menu(self, context) -> None:
+    """Draw our menu in Blender's menu Add > Camera."""
+    if gallery.folder() is not None:
+        self.layout.menu(CamerasMenu.bl_idname)
+
+
+CLASSES = (OpenExample, AppendCamera, ExamplesMenu, CamerasMenu)
+
+
+def register(undo) -> None:
+    """See ``registration``."""
+    bpy.types.VIEW3D_MT_camera_add.append(draw_menu)
+    undo.callback(bpy.types.VIEW3D_MT_camera_add.remove, draw_menu)

@@ -1,0 +1,81 @@
+"""From a point of the scene to its pixel, and from a pixel to the point that it sees."""
+
+import bpy
+import numpy as np
+from mathutils import Matrix, Vector
+
+from ..view3d import lesson
+from ..view3d.scene_cache import cached_scene
+from .lesson_operators import OfLesson, redraw
+from .needs import OfScene
+
+
+class PixelOfPoint(OfScene, bpy.types.Operator):
+    """Step through the pixel of the 3D cursor, or in Edit Mode of the selected vertices"""
+
+    bl_idname = "camera_ray_caster.pixel_of_point"
+    bl_label = "Pixel of 3D Cursor or Vertices"
+    bl_options = {"REGISTER"}
+
+    def execute(self, context):
+        """Find the pixels, and say where they are and whether the points are seen."""
+        camera = cached_scene(context).camera
+        if camera is None:
+            self.report({"ERROR"}, "the camera cannot be cast: the sidebar says why")
+            return {"CANCELLED"}
+        what, points = points_of(context)
+        places = camera.project(points)
+        size = camera.raster.width, camera.raster.height
+        inside = np.isfinite(places).all(axis=1) & ((places >= 0) & (places < size)).all(axis=1)
+        if not inside.any():
+            self.report({"WARNING"}, f"{what}: the camera has no pixel that looks there")
+            return {"CANCELLED"}
+        lesson.pixels[:] = dict.fromkeys((int(x), int(y)) for x, y in places[inside])
+        x, y = places[inside][-1]
+        where = f"{what}: x = {x:.3f}, y = {y:.3f}, from the bottom left"
+        self.report({"INFO"}, where + hidden_by(context, points[inside][-1]))
+        redraw(context)
+        return {"FINISHED"}
+
+
+def points_of(context) -> tuple[str, np.ndarray]:
+    """Return what the points are, and the points, (n, 3), world."""
+    item = context.edit_object
+    if item is not None and item.type == "MESH":
+        item.update_from_editmode()
+        places = [item.matrix_world @ vertex.co for vertex in item.data.vertices if vertex.select]
+        if places:
+            return ("Vertex" if len(places) == 1 else f"Last of {len(places)} vertices"), np.array(places, np.float64)
+    return "3D cursor", np.array([context.scene.cursor.location], np.float64)
+
+
+def hidden_by(context, point) -> str:
+    """Return what the last point's pixel sees before it, as the end of a sentence; empty where that is nothing."""
+    seen = list(lesson.lessons(context).values())[-1].seen
+    away = np.linalg.norm(point - seen.origin)
+    return f"; hidden by {seen.name!r}" if seen.distance < away * (1 - 1e-3) else ""
+
+
+class EmptyAtHit(OfLesson, bpy.types.Operator):
+    """Add an empty where the ray of each of these pixels hits, its Z axis along the normal"""
+
+    bl_idname = "camera_ray_caster.empty_at_hit"
+    bl_label = "Empty at Hit"
+    bl_options = {"REGISTER", "UNDO"}
+
+    def execute(self, context):
+        """Add them."""
+        found = [one for one in lesson.lessons(context).values() if one.point is not None]
+        if not found:
+            self.report({"WARNING"}, "the rays of these pixels hit nothing")
+            return {"CANCELLED"}
+        for one in found:
+            empty = bpy.data.objects.new(f"Pixel {one.seen.pixel[0]}, {one.seen.pixel[1]}", None)
+            empty.empty_display_type, empty.empty_display_size = "SINGLE_ARROW", 0.5
+            turn = Vector(one.normal).to_track_quat("Z", "Y")
+            empty.matrix_world = Matrix.LocRotScale(Vector(one.point), turn, None)
+            context.collection.objects.link(empty)
+        return {"FINISHED"}
+
+
+CLASSES = (PixelOfPoint, EmptyAtHit)

@@ -1,0 +1,64 @@
+"""The gallery's cameras in another scene, and the way between points and pixels."""
+
+import numpy as np
+import pytest
+
+from camera_ray_caster.blender import gallery
+from camera_ray_caster.blender.read.scene import read_camera
+from camera_ray_caster.blender.view3d import lesson
+from camera_ray_caster.core.cameras import MODELS
+
+
+@pytest.mark.parametrize("model", MODELS, ids=lambda model: model.key)
+def test_the_camera_of_each_model_comes_with_all_that_it_needs(blender, model):
+    before = set(blender.data.objects)
+    assert blender.ops.camera_ray_caster.append_camera(name=gallery.scene_name(model.key)) == {"FINISHED"}
+    scene = blender.context.scene
+    assert scene.camera not in before
+    assert len(set(blender.data.objects) - before) <= 3  # camera, slits
+    blender.context.view_layer.update()
+    camera = read_camera(scene)
+    assert camera.model.key == model.key
+    assert camera.rays().valid.any()
+
+
+def test_what_the_gallery_does_not_have_is_refused(blender):
+    for operator in (blender.ops.camera_ray_caster.append_camera, blender.ops.camera_ray_caster.open_example):
+        with pytest.raises(RuntimeError, match="the gallery has no scene 'cat'"):
+            operator(name="cat")
+
+
+def test_an_example_is_opened(blender):
+    blender.ops.camera_ray_caster.open_example(name="omnimax")
+    assert blender.context.scene.camera.data.camera_ray_caster.model == "OMNIMAX"
+
+
+def test_the_3d_cursor_has_a_pixel_and_its_ray_hits_what_hides_it(blender, scene, capfd):
+    scene.cursor.location = (0.5, 0.25, 0.0)  # within the ball
+    place = read_camera(scene).project(np.array(scene.cursor.location))
+    assert blender.ops.camera_ray_caster.pixel_of_point() == {"FINISHED"}
+    assert f"x = {place[0]:.3f}, y = {place[1]:.3f}, from the bottom left; hidden by 'Sphere'" in capfd.readouterr().out
+    assert lesson.pixels == [tuple(place.astype(int))]
+    assert blender.ops.camera_ray_caster.empty_at_hit() == {"FINISHED"}
+    empty = next(item for item in blender.data.objects if item.type == "EMPTY")
+    blender.context.view_layer.update()
+    on_the_ball = np.array(empty.matrix_world.translation)
+    assert np.linalg.norm(on_the_ball) == pytest.approx(1, abs=1e-6)
+    assert np.array(empty.matrix_world)[:3, 2] == pytest.approx(on_the_ball, abs=1e-6)
+    scene.cursor.location = (0, 0, 10)  # behind the camera
+    assert blender.ops.camera_ray_caster.pixel_of_point() == {"CANCELLED"}
+
+
+def test_a_selected_vertex_has_a_pixel(blender, scene):
+    ball = blender.data.objects["Sphere"]
+    blender.context.view_layer.objects.active = ball
+    blender.ops.object.mode_set(mode="EDIT")
+    blender.ops.mesh.select_all(action="DESELECT")
+    blender.ops.object.mode_set(mode="OBJECT")
+    top = max(ball.data.vertices, key=lambda vertex: vertex.co.z + 0.1 * vertex.co.x)
+    top.select = True
+    blender.ops.object.mode_set(mode="EDIT")
+    blender.ops.camera_ray_caster.pixel_of_point()
+    blender.ops.object.mode_set(mode="OBJECT")
+    place = read_camera(scene).project(np.array(ball.matrix_world @ top.co))
+    assert lesson.pixels == [tuple(place.astype(int))]
