@@ -119,6 +119,20 @@ def test_nothing_moves_in_a_scene_that_stands_still():
         assert not images["flow_hidden"].any()
 
 
+@pytest.mark.parametrize("key", ["OMNIDIRECTIONAL_STEREO", "STRIP"])
+def test_a_point_that_is_seen_twice_is_followed_where_it_is(key):
+    """By both eyes in one picture, and from a path that comes back: not to the other picture of it."""
+    both = {"OMNIDIRECTIONAL_STEREO": {"eye": "TOP_BOTTOM"}, "STRIP": {"path": ((-2, 0, 0), (2, 0, 0), (-2, 0, 0.5))}}
+    camera = camera_from(raw_of(key, SIZE | both[key]))
+    shapes = shapes_of((SPHERE, (0, 0, 0), 6.0))
+    images = cast(*at_rest(camera, shapes), ("flow_forward", "flow_hidden", "position", "shape_index"), float)
+    hit = images["shape_index"] >= 0
+    own = np.argwhere(hit)[:, ::-1] + 0.5
+    assert np.abs(camera.project(images["position"][hit]) - own).max(axis=1).mean() > 5
+    assert np.abs(images["flow_forward"][hit]).max() < PIXEL
+    assert not images["flow_hidden"].any()
+
+
 def test_a_mesh_hides_its_own_back_and_never_the_point_that_is_seen():
     """A smooth ball of flat triangles turns: what goes behind its rim is hidden, and it alone."""
     ball = meshes.ball(40, 60)

@@ -40,9 +40,12 @@ Project = Callable[[float, np.ndarray], np.ndarray]
 """Given a frame and the indices (k,) of points, the pixels (k, 2) at which the camera of that frame sees them then."""
 
 
-def meeting(pixel_time: PixelTime, project: Project, count: int, cuts: Iterable[float] = ()) -> np.ndarray:
+def meeting(
+    pixel_time: PixelTime, project: Project, count: int, cuts: Iterable[float] = (), around: float | None = None
+) -> np.ndarray:
     """Return the pixels (count, 2) that see points at the pixels' own times; NaN where none does, the earliest of
-    several. ``cuts``: frames at which motion may change abruptly.
+    several. ``cuts``: frames at which motion may change abruptly. ``around``: a frame that is looked at first, so that
+    of several pixels one between the same cuts is found, if there is one.
 
     Right to RESOLVED but at other abrupt changes, around which it is right to SHORTEST. A point whose image agrees with
     the clock twice within 1/64 of a piece may be missed. On an ImageTime the frames are those of the image.
@@ -60,9 +63,13 @@ def meeting(pixel_time: PixelTime, project: Project, count: int, cuts: Iterable[
         margin = (abs(pixel_time.per_column) + abs(pixel_time.per_row)) / 2  # half a pixel: centers to edges
         first, last = pixel_time.first - margin, pixel_time.last + margin
         search = _Search(pixel_time, project, last - first)
-        for a, b in pairwise([first, *sorted({cut for cut in cuts if first < cut < last}), last]):
+        pieces = list(pairwise([first, *sorted({cut for cut in cuts if first < cut < last}), last]))
+        if around is not None:
+            pieces.sort(key=lambda ends: max(ends[0] - around, around - ends[1]))
+        for a, b in pieces:
             left = everyone[np.isnan(found[:, 0])]
-            found[left] = search.within(a, b, left)
+            if left.size:
+                found[left] = search.within(a, b, left)
     return found
 
 

@@ -4,7 +4,8 @@ The surface point that a pixel's chief ray hits moves with its shape, or with it
 form, and the camera of the other frame sees it at other pixel coordinates. The flow is these less the pixel's own, in
 pixels, x to the right and y up. It is NaN where nothing is hit (a background has no points), where the shape is not in
 the other frame (see ``motion.matching``), and where the point is not in its full frame. Across the seam of a panorama
-it leads from one edge of the picture to the other.
+it leads from one edge of the picture to the other. A camera that sees a point more than once, as from a path or with
+both eyes in one picture, has the flow to where a search from the pixel itself leads.
 Blender's Vector pass, which only Blender's own cameras have, is the backward flow in X and Y and the forward flow, its
 sign turned, in Z and W; its background is 0.
 ``camera.next``, ``shapes.next`` and ``previous`` are the other frames: the scene's neighbors as ``read_scene`` reads
@@ -92,15 +93,28 @@ class Flow:
     @lazy
     def pixels(self) -> np.ndarray:
         """The pixel coordinates (m, 2) at which the points are seen."""
-        return self._picture.pixels(self, len(self._at))
+        found = self._picture.pixels(self, len(self._at), self._own)
+        camera, other = self._values.plan.camera, self._picture.camera
+        if camera.model.central or other.pixel_time is not None:
+            return found
+        back = camera.project(self._points.T)
+        several = np.flatnonzero(~(np.abs(back - self._own).max(axis=1) <= 1.0))
+        near = self._picture.pixels_from(self.at(self._picture.shapes, several), self._own[several])
+        found[several] = np.where(np.isnan(near), found[several], near)
+        return found
+
+    @lazy
+    def _own(self) -> np.ndarray:
+        """The coordinates (m, 2) of the pixels themselves."""
+        rays, shape = self._values.hits.rays, self._values.hits.t.shape
+        both = [np.broadcast_to(part, shape).reshape(-1)[self._place] for part in (rays.x, rays.y)]
+        return np.stack(both, axis=1)
 
     def write(self, out: np.ndarray) -> None:
         """Write the flow, (rows, columns, 2)."""
-        rays, shape = self._values.hits.rays, out.shape[:2]
-        here = [np.broadcast_to(part, shape).reshape(-1)[self._place] for part in (rays.x, rays.y)]
-        flow = np.full((shape[0] * shape[1], 2), np.nan)
-        flow[self._place] = self.pixels - np.stack(here, axis=1)
-        out[...] = flow.reshape(*shape, 2)
+        flow = np.full((self._values.hits.t.size, 2), np.nan)
+        flow[self._place] = self.pixels - self._own
+        out[...] = flow.reshape(out.shape)
 
     def write_hidden(self, out: np.ndarray) -> None:
         """Write where something is before the points, or they are beyond the clip range, (rows, columns)."""

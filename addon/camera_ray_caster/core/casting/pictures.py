@@ -10,6 +10,8 @@ import numpy as np
 
 from ..camera.camera import Camera
 from ..camera.meeting import meeting
+from ..cameras.parts.inverse import pixels_of
+from ..maths.vector import inverse
 from ..records import Shapes
 from .aimed import aiming_plan, is_before
 from .plan import Plan
@@ -44,15 +46,26 @@ class Picture:
         if self.camera.pixel_time is None:
             self._plan(None)
 
-    def pixels(self, points: Points, count: int) -> np.ndarray:
+    def pixels(self, points: Points, count: int, beside: np.ndarray | None = None) -> np.ndarray:
         """Return the pixel coordinates (count, 2) at which points are seen, each at the pixel's own time; NaN where
-        that is nowhere in the full frame.
+        that is nowhere in the full frame. ``beside``: pixels (count, 2) to which those that are sought at their own
+        times are to be near, where a point has several.
         """
         clock, motion = self.camera.pixel_time, self.camera.motion
         if clock is None:
             found = self._project(points, None, np.arange(count))
         else:
-            found = meeting(clock, partial(self._project, points), count, () if motion is None else motion.cuts)
+            around = float(np.mean(clock.frame_at(*beside.T))) if beside is not None and count else None
+            cuts = () if motion is None else motion.cuts
+            found = meeting(clock, partial(self._project, points), count, cuts, around)
+        return np.where(self._is_inside(found)[:, None], found, np.nan)
+
+    def pixels_from(self, points: np.ndarray, start: np.ndarray) -> np.ndarray:
+        """Return the pixel coordinates (n, 2) of world points (n, 3) to which a search from others (n, 2) leads; NaN
+        where it leads nowhere in the full frame. For cameras that see a point more than once.
+        """
+        pose, model = self.camera.pose, self.camera.model
+        found = pixels_of(model.rays, model.frame, (points - pose.eye) @ inverse(pose.basis).T, start)
         return np.where(self._is_inside(found)[:, None], found, np.nan)
 
     def before(self, points: Points, pixels: np.ndarray) -> np.ndarray:

@@ -36,22 +36,25 @@ AT_ONCE = 4096
 """Points sought together: their working arrays take some 100 MB."""
 
 
-def pixels_of(rays: Callable, frame: tuple[int, int], points) -> np.ndarray:
+def pixels_of(rays: Callable, frame: tuple[int, int], points, start=None) -> np.ndarray:
     """Return the pixel coordinates (..., 2) at which ``rays(x, y)`` pass through points (..., 3); NaN where none does.
 
     rays: as a model's, in the points' frame. frame: width and height in pixels; a pixel beyond it may be found. Of
-    several the one nearest to the frame's middle. Right to some EPS of angle over the angle from pixel to pixel.
+    several the one nearest to the frame's middle, or the one to which a search from ``start`` (..., 2) leads. Right
+    to some EPS of angle over the angle from pixel to pixel.
     """
     points = np.asarray(points, np.float64)
     flat = points.reshape(-1, 3)
-    found = [_sought(rays, frame, flat[first : first + AT_ONCE]) for first in range(0, len(flat), AT_ONCE)]
+    starts = None if start is None else np.asarray(start, np.float64).reshape(-1, 1, 2)
+    parts = [slice(first, first + AT_ONCE) for first in range(0, len(flat), AT_ONCE)]
+    found = [_sought(rays, frame, flat[part], None if starts is None else starts[part]) for part in parts]
     return np.concatenate([np.zeros((0, 2)), *found]).reshape(*points.shape[:-1], 2)
 
 
-def _sought(rays, frame, points) -> np.ndarray:
-    """Return what ``pixels_of`` does, for points (n, 3)."""
+def _sought(rays, frame, points, start) -> np.ndarray:
+    """Return what ``pixels_of`` does, for points (n, 3) and pixels (n, k, 2) at which to begin, or None."""
     with np.errstate(all="ignore"):  # NaN and inf are answers: no ray
-        start = _starts(rays, frame, points)
+        start = _starts(rays, frame, points) if start is None else start
         place = np.repeat(points[:, None], start.shape[1], axis=1)
         off, limit = _off(rays, start, place)
         for _ in range(STEPS):
