@@ -46,7 +46,10 @@ MAY_IMPORT = {
     "blender": {"blender", "core"},
     "": {"blender"},
 }
-BLENDER = {"bpy", "bpy_extras", "mathutils", "bl_math", "gpu", "gpu_extras", "blf", "bmesh", "imbuf", "addon_utils"}
+BLENDER = {
+    "bpy", "bpy_extras", "mathutils", "bl_math", "gpu", "gpu_extras", "blf", "bmesh", "imbuf", "addon_utils",
+    "bl_operators", "bl_ui",
+}  # fmt: skip
 CYCLES = {"cycles", "_cycles", "oslquery", "OpenImageIO"}
 """Blender's Cycles, which is an add-on of its own."""
 DASK = {"dask", "distributed"}

@@ -28,6 +28,7 @@ from .ui import (
     operators,
     overlay_panels,
     point_operators,
+    presets,
     render_panels,
     show_result,
 )
@@ -36,7 +37,8 @@ from .view3d import lesson, mouse_gizmo, overlay, scene_cache
 CLASSES = (
     *groups.CLASSES, *overlay.CLASSES, *engine.CLASSES, *operators.CLASSES, *cast_operator.CLASSES,
     *cycles_operators.CLASSES, *add_line.CLASSES, *export_operators.CLASSES,
-    *mouse_gizmo.CLASSES, *render_panels.CLASSES, *gallery_panels.CLASSES, *menus.CLASSES, *model_panels.CLASSES,
+    *mouse_gizmo.CLASSES, *render_panels.CLASSES, *gallery_panels.CLASSES,
+    *menus.CLASSES, *presets.CLASSES, *model_panels.CLASSES,
     *camera_panels.CLASSES, *show_result.CLASSES, *cast_panels.CLASSES, *lesson_operators.CLASSES,
     *point_operators.CLASSES, *gallery_operators.CLASSES, *lesson_panels.CLASSES,
     *object_panels.CLASSES, *overlay_panels.CLASSES,
@@ -45,7 +47,7 @@ CLASSES = (
 
 MODULES = (
     groups, kept, follow, reports, images, gallery, scene_cache, viewport, cast_operator, overlay, lesson,
-    render_panels, menus, gallery_operators, export_operators, commands,
+    render_panels, menus, gallery_operators, presets, export_operators, commands,
 )  # fmt: skip
 """Modules that add more than classes. ``register(undo)`` adds it and gives ``undo`` the callbacks that remove it."""
 

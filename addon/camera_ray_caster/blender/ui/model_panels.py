@@ -19,6 +19,9 @@ from .operators import LoadCalibration
 
 SETTINGS = {model.key: model.SETTINGS for model in MODELS}
 
+PRESETS = "CAMERA_RAY_CASTER_PT_presets"
+"""The panel of the presets, which needs what is here."""
+
 SHOWN_FOR = {"lens": "PERSP", "ortho_scale": "ORTHO"}
 """Blender's own settings that its panel shows for one type of camera only. Those of the film it always shows."""
 
@@ -86,6 +89,11 @@ class ModelPanel(CameraPanel, bpy.types.Panel):
     bl_idname = "CAMERA_RAY_CASTER_PT_model"
     bl_label = "Camera Model"
     bl_parent_id = "DATA_PT_context_camera"
+
+    def draw_header_preset(self, context):
+        """The presets."""
+        self.layout.emboss = "NONE"
+        self.layout.popover(PRESETS, icon="PRESET", text="")
 
     def draw(self, context):
         """The list; below it what the chosen model needs. A calibration file grays out the numbers that it replaces."""

@@ -1,0 +1,58 @@
+"""Presets of the camera model, as Blender has presets: those of the extension and the user's own."""
+
+from pathlib import Path
+
+import bpy
+from bl_operators.presets import AddPresetBase
+from bl_ui.utils import PresetPanel
+
+from ...core.cameras.parts.settings import OWN
+from ..properties.declared import GROUP, MODEL
+from .model_panels import PRESETS, settings_of
+
+FOLDER = Path(__file__).resolve().parents[1]
+"""Where ``presets`` is."""
+KEPT = {"FLOAT", "INT", "BOOLEAN", "ENUM", "VECTOR", "TEXT", "FILE"}
+"""Kinds of settings that a preset holds; objects and images belong to a file."""
+
+
+class ModelPresets(PresetPanel, bpy.types.Panel):
+    """The list of presets."""
+
+    bl_idname = PRESETS
+    bl_label = "Camera Model Presets"
+    preset_subdir = GROUP
+    preset_operator = "script.execute_preset"
+    preset_add_operator = "camera_ray_caster.preset_add"
+
+
+class AddModelPreset(AddPresetBase, bpy.types.Operator):
+    """Add or remove a preset of the camera model and its settings"""
+
+    bl_idname = "camera_ray_caster.preset_add"
+    bl_label = "Add Camera Model Preset"
+    preset_menu = ModelPresets.bl_idname
+    preset_subdir = GROUP
+    preset_defines = (f"own = bpy.context.camera.{GROUP}",)
+
+    @classmethod
+    def poll(cls, context):
+        """Grayed out beside a camera's tab."""
+        cls.poll_message_set("Open the camera's tab in the Properties editor first")
+        return getattr(context, "camera", None) is not None
+
+    @property
+    def preset_values(self) -> list[str]:
+        """The model, and its settings that are ours."""
+        settings = settings_of(bpy.context.camera)
+        kept = [setting.name for setting in settings if setting.owner == OWN and setting.kind in KEPT]
+        return [f"own.{name}" for name in (MODEL.name, *kept)]
+
+
+CLASSES = (ModelPresets, AddModelPreset)
+
+
+def register(undo) -> None:
+    """See ``registration``."""
+    bpy.utils.register_preset_path(str(FOLDER))
+    undo.callback(bpy.utils.unregister_preset_path, str(FOLDER))
