@@ -54,6 +54,15 @@ def test_boxes_masks_and_key_points_stand_beside_the_pictures_and_in_one_file(sc
     assert json.loads((tmp_path / "annotations.json").read_text()) == whole
 
 
+def test_a_data_set_has_one_file_of_them_too_whatever_shows_the_picture(scene, tmp_path):
+    words = "--annotations", "--frames", "1:2", "--passes", "depth", "--output", tmp_path
+    assert script("dataset", scene, *words).returncode == 0
+    whole = json.loads((tmp_path / "annotations.json").read_text())
+    assert [image["file_name"] for image in whole["images"]] == ["Top_0001.npz", "Top_0002.npz"]
+    assert len(whole["annotations"]) == 2
+    assert all((tmp_path / image["file_name"]).is_file() for image in whole["images"])
+
+
 @pytest.mark.parametrize(("words", "said"), [
     (["--keypoints", "Nobody"], "no key point 'Nobody'"),
     (["--keypoints", "Top"], "no key point 'Top'"),

@@ -31,8 +31,8 @@ def check_annotations(scene) -> None:
         raise InputError("--annotations are of one view: switch off Stereoscopy (Output properties)")
 
 
-def annotated(scene, images: Images, name: str, keypoints: Sequence[str] = ()) -> str:
-    """Return the annotations of the picture NAME.png, which a render has just made of the scene, as COCO's JSON.
+def annotated(scene, images: Images, file_name: str, keypoints: Sequence[str] = ()) -> str:
+    """Return the annotations of the picture in a file, which a render has just made of the scene, as COCO's JSON.
 
     ``keypoints``: see ``read.keypoints``.
     """
@@ -42,7 +42,7 @@ def annotated(scene, images: Images, name: str, keypoints: Sequence[str] = ()) -
         size, corner = raster.size, (0, 0)
     else:
         size, corner = raster.shape[::-1], (raster.x0, raster.y0)
-    image = {"file_name": f"{name}.png", "camera": camera.name, "frame": scene.frame_current_final}
+    image = {"file_name": file_name, "camera": camera.name, "frame": scene.frame_current_final}
     points = key_points(scene, bpy.context.evaluated_depsgraph_get(), keypoints) if keypoints else []
     seen = seen_key_points(camera, images.shapes, points)
     return json.dumps(document(image, Sheet(*size, corner), camera, images.shapes, category_of, seen))

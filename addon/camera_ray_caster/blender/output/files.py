@@ -92,7 +92,8 @@ def render(
             suffixes = {view.name: view.file_suffix for view in scene.render.views}
             arrays.save(temporary / f"{name}.npz", images, suffixes, half)
         if keypoints is not None:
-            text = annotated(scene, next(iter(images.values())), name, keypoints)
+            shows = f"{name}.png" if shown else f"{name}.{layers.lower()}"
+            text = annotated(scene, next(iter(images.values())), shows, keypoints)
             (temporary / f"{name}{ENDING}").write_text(text, encoding="utf-8")
         report = report.with_seconds(files=perf_counter() - started)
         if stamp is not None:

@@ -19,6 +19,7 @@ import bpy
 
 from ...core.records import InputError
 from ..output import files
+from ..output.annotations import collect
 from ..output.file_set import appearing, clear_up
 from ..output.stamps import differing
 from ..read.camera import check_camera
@@ -71,6 +72,8 @@ def run(arguments: Sequence[str], prog: str) -> int:
             for outcome in follow(chain(filter(None, taken.values()), making), len(jobs), prog):
                 passed &= outcome.passed
                 made += outcome.made
+        if pictures.keypoints is not None:
+            collect(options.output, [job.name for job in jobs])
     finally:
         clear_up(options.output)  # what workers have left that were ended
     print(summary(made, len(jobs), options.output), flush=True)
