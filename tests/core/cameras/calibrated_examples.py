@@ -15,6 +15,7 @@ ARIA = {
 HALF_A_RADIAN_UP = 0, sin(0.5), -cos(0.5)
 UP_A_HALF = 48 + 24 * 0.1 * 0.25, 27 + 24 * (0.5 - 0.15 * 0.25)
 
+ON_SENSOR = {"calibration_unit": "MILLIMETERS", "lens": 14.0, "sensor_width": 24.0, "shift_x": 0.1}
 TWICE_AS_WIDE = {"cx": 95.5, "calibration_width": 192}
 LINEAR = {"ftheta_c": 1.05, "ftheta_d": 0.1, "ftheta_e": -0.2}
 BACKWARD = {"ftheta_reference": "RADIUS_TO_ANGLE"}
@@ -61,6 +62,7 @@ EXAMPLES = {
         BORDER | {"cx": 30.0, "fov_omega": 1.4, "fx": 50.0},
         {"matrix_world": TURNED, "fov_omega": 1e-6, "skew": 1.0},
         SCALED | {"fx": 15.0, "fov_omega": 2.0},
+        ON_SENSOR | {"fov_omega": 0.8},
     ],
     "DIVISION": [
         {"division_lambda": -0.4},
@@ -75,6 +77,7 @@ EXAMPLES = {
         {"matrix_world": TURNED, "ftheta_angle_to_radius": "0 20 0 1.5", "ftheta_max_angle": 2.0, **LINEAR},
         SCALED | BACKWARD | LINEAR | {"ftheta_radius_to_angle": "0 0.02 0 1e-6 0 1e-10"},
         BACKWARD | {"ftheta_radius_to_angle": "0 0.04", "ftheta_max_angle": 1.5},
+        ON_SENSOR | {"matrix_world": TURNED, "ftheta_angle_to_radius": "0 9 0.1 -0.2"},
     ],
     "OCAM": [
         {"ocam_polynomial": "-30 0 0.01 1e-5 2e-7"},

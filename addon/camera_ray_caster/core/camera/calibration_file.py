@@ -31,13 +31,12 @@ def with_file(raw: BlenderCamera, model: type[Model], raster: Raster) -> Blender
 
 
 def _check_shape(path: str, lens: Lens, raster: Raster) -> None:
-    """Raise InputError where a calibrated picture has another shape than the frame, counted in pixels or as it is seen,
-    by more than a pixel that the frame's size may have been cut by.
+    """Raise InputError where a calibrated picture has another shape than a frame of square pixels, by more than the pixel
+    that a percentage of the resolution may have cut off. Other pixels may have been calibrated as they are, or as seen.
     """
     width, height = (lens.settings[side.name] for side in SIZE)
-    for high in (raster.height, raster.height * raster.pixel_aspect):
-        if abs(raster.width * height - high * width) <= width + height:
-            return
+    if raster.pixel_aspect != 1 or abs(raster.width * height - raster.height * width) <= width + height:
+        return
     sizes = f"{SIZE[0].name} and {SIZE[1].name} of calibration file {path!r} are {width:g} x {height:g}"
     raise InputError(
         f"{sizes}, and the frame is {raster.width} x {raster.height}, of another shape: set the resolution to that "
