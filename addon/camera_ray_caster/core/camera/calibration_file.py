@@ -31,8 +31,9 @@ def with_file(raw: BlenderCamera, model: type[Model], raster: Raster) -> Blender
 
 
 def _check_shape(path: str, lens: Lens, raster: Raster) -> None:
-    """Raise InputError where a calibrated picture has another shape than a frame of square pixels, by more than the pixel
-    that a percentage of the resolution may have cut off. Other pixels may have been calibrated as they are, or as seen.
+    """Raise InputError where a calibrated picture has another shape than a frame of square pixels, by more than the
+    pixel that a percentage of the resolution may have cut off. Other pixels may have been calibrated as they are, or as
+    they are seen.
     """
     width, height = (lens.settings[side.name] for side in SIZE)
     if raster.pixel_aspect != 1 or abs(raster.width * height - raster.height * width) <= width + height:
