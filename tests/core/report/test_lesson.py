@@ -8,7 +8,7 @@ import pytest
 from camera_ray_caster.core.camera.build import camera_from
 from camera_ray_caster.core.cast import cast
 from camera_ray_caster.core.records import INFINITE_PLANE, MESH, PLANE, SPHERE, BlenderCamera, InputError, Mesh, Shapes
-from camera_ray_caster.core.report.lesson import lesson, with_numbers
+from camera_ray_caster.core.report.lesson import lesson
 from camera_ray_caster.core.report.meetings import nearest
 
 TETRAHEDRON = Mesh(
@@ -89,8 +89,3 @@ def test_what_lies_outside_of_the_clip_range_says_so():
 def test_a_pixel_outside_of_the_frame_is_refused():
     with pytest.raises(InputError, match=r"pixel 40,0 is outside of the frame: give 0,0 \(bottom left\) to 39,29"):
         lesson(camera(), scene(), 40, 0)
-
-
-def test_numbers_are_put_in_for_names_and_not_for_parts_of_names():
-    known = {"x": 2.5, "W": 40, "fov": 3.0}
-    assert with_numbers("x = (x - W/2) fov, max(x) X", known) == "x = (2.5 - 40/2) 3, max(2.5) X"

@@ -45,7 +45,10 @@ class CameraObscura(Perspective):
     number = 1
     SETTINGS = (DEPTH, WIDTH, HOLE, *FILM)
     FORMULA = (
-        Step("Pixel on the wall, V pixels on its fitted side", "X = (x - W/2 + shift_x V) width / V, Y likewise"),
+        Step(
+            "Pixel on the wall, V pixels on its fitted side, p times as high as wide",
+            "X = (x - W/2 + shift_x V) width / V, Y = ((y - H/2) p + shift_y V) width / V",
+        ),
         Step("Direction, through the hole", "r = -X u - Y v + depth w"),
     )
     K = None

@@ -16,7 +16,7 @@ import numpy as np
 from ..records import BlenderCamera, Raster
 from .model import Step
 from .parts.film import SHIFT
-from .parts.meridians import LONGITUDE, RAY, Meridians
+from .parts.meridians import RAY, Meridians, longitude
 from .parts.settings import ABOVE_ZERO, CAMERA, Number, span
 
 PREFIX = "central_cylindrical_"
@@ -43,7 +43,7 @@ class CentralCylindrical(Meridians):
     group = "Blender's Own"
     SETTINGS = (*LONGITUDES, *HEIGHTS, TUBE, *SHIFT)
     FORMULA = (
-        LONGITUDE,
+        longitude("u_min", "u_max"),
         Step("Height on the tube over its radius", "h = (v_min + (y/H + shift_y) (v_max - v_min)) / radius"),
         Step("Latitude", "lat = atan(h)"),
         RAY,

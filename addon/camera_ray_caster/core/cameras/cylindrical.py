@@ -15,7 +15,7 @@ from ..records import BlenderCamera, Raster
 from .central_cylindrical import CentralCylindrical
 from .model import Step
 from .parts.film import SHIFT
-from .parts.meridians import LONGITUDE, RAY
+from .parts.meridians import RAY, longitude
 from .parts.settings import Number, span
 
 STEEPEST, WIDEST = radians(89), 10 * pi
@@ -42,7 +42,7 @@ class Cylindrical(CentralCylindrical):
     number = 8
     SETTINGS = (*PAN, *LATITUDES, *SHIFT)
     FORMULA = (
-        LONGITUDE,
+        longitude("pan_min", "pan_max"),
         Step("Tangent of the latitude", "h = tan(bottom) + (y/H + shift_y) (tan(top) - tan(bottom))"),
         Step("Latitude", "lat = atan(h)"),
         RAY,

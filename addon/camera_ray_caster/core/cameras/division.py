@@ -43,7 +43,7 @@ class Division(Calibrated):
     SETTINGS = (*CALIBRATION, LAMBDA)
     FORMULA = (
         COORDINATES,
-        Step("Depth, r² = a² + b²", "n = 1 + lambda r²"),
+        Step("Radius and depth", "r = sqrt(a² + b²), n = 1 + lambda r²"),
         Step("Direction", "d = (a, b, -n) / sqrt(r² + n²)"),
     )
 

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from ..records import BlenderCamera, Raster
 from .model import Step
 from .parts.calibration import CALIBRATION, Calibration
-from .parts.radial import COORDINATES
+from .parts.radial import COORDINATES, RADIUS
 from .parts.unified import ALPHA, XI, Unified
 
 
@@ -29,8 +29,9 @@ class DoubleSphere(Unified):
     SETTINGS = (*CALIBRATION, XI, ALPHA)
     FORMULA = (
         COORDINATES,
-        Step("Lengths, r² = a² + b²", "D = alpha sqrt(1 + (1 - 2 alpha) r²) + 1 - alpha, N = 1 - alpha² r²"),
-        Step("On the second sphere", "(s, c) = (D r, N) / sqrt(D² r² + N²)"),
+        RADIUS,
+        Step("Lengths", "D = alpha sqrt(1 + (1 - 2 alpha) r²) + 1 - alpha, N = 1 - alpha² r²"),
+        Step("On the second sphere", "s = D r / sqrt(D² r² + N²), c = N / sqrt(D² r² + N²)"),
         Step("From the eye", "t = xi c + sqrt(1 - xi² s²)"),
         Step("Direction", "d = (a/r t s, b/r t s, xi - t c)"),
     )

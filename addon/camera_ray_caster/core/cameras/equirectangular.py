@@ -16,7 +16,7 @@ import numpy as np
 from ..records import BlenderCamera, Raster
 from .model import Step
 from .parts.film import SHIFT
-from .parts.meridians import LONGITUDE, RAY, Meridians
+from .parts.meridians import RAY, Meridians, longitude
 from .parts.settings import CAMERA, Number, span
 from .parts.silhouette import everywhere
 
@@ -42,7 +42,11 @@ class Equirectangular(Meridians):
     description = "Longitude and latitude on a square grid"
     group = "Blender's Own"
     SETTINGS = (*LONGITUDES, *LATITUDES, *SHIFT)
-    FORMULA = (LONGITUDE, Step("Latitude", "lat = lat_min + (y/H + shift_y) (lat_max - lat_min)"), RAY)
+    FORMULA = (
+        longitude("longitude_min", "longitude_max"),
+        Step("Latitude", "lat = latitude_min + (y/H + shift_y) (latitude_max - latitude_min)"),
+        RAY,
+    )
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> Equirectangular:

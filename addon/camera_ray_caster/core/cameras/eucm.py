@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from ..records import BlenderCamera, Raster
 from .model import Step
 from .parts.calibration import CALIBRATION, Calibration
-from .parts.radial import COORDINATES
+from .parts.radial import COORDINATES, RADIUS
 from .parts.unified import ALPHA, BETA, Unified
 
 
@@ -29,7 +29,8 @@ class EnhancedUnifiedCamera(Unified):
     SETTINGS = (*CALIBRATION, ALPHA, BETA)
     FORMULA = (
         COORDINATES,
-        Step("Lengths, r² = a² + b²", "D = alpha sqrt(1 + (1 - 2 alpha) beta r²) + 1 - alpha, N = 1 - beta alpha² r²"),
+        RADIUS,
+        Step("Lengths", "D = alpha sqrt(1 + (1 - 2 alpha) beta r²) + 1 - alpha, N = 1 - beta alpha² r²"),
         Step("Direction", "d = (D a, D b, -N) / sqrt(D² r² + N²)"),
     )
 

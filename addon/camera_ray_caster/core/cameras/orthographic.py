@@ -34,8 +34,8 @@ class Orthographic(WindowModel):
     ray_rounding = gamma(2)
     SETTINGS = (ORTHO_SCALE, *FILM)
     FORMULA = (
-        Step("Pixel on the camera's plane", "X = (x - W/2 + shift_x V) q, Y = ((y - H/2) a + shift_y V) q"),
-        Step("Size of a pixel there, V pixels on the fitted side", "q = ortho_scale / V"),
+        Step("Pixel on the camera's plane", "X = (x - W/2 + shift_x V) q, Y = ((y - H/2) p + shift_y V) q"),
+        Step("Width of a pixel there, V of them on the fitted side, p times as high", "q = ortho_scale / V"),
         Step("Origin", "o = eye + X u + Y v"),
         Step("Direction, the same for all", "r = w"),
         Step("Normalized form over [-1, 1]²", "o = e + x size u + y size v"),

@@ -36,10 +36,10 @@ class Perspective(WindowModel):
     ray_rounding = gamma(2)
     SETTINGS: ClassVar[tuple[Setting, ...]] = (LENS, *FILM)
     FORMULA: ClassVar[tuple[Step, ...]] = (
-        Step("Pixel on the plane at unit depth", "X = (x - W/2 + shift_x V) q, Y = ((y - H/2) a + shift_y V) q"),
-        Step("Size of a pixel there, V pixels on the fitted side", "q = sensor / (lens V)"),
+        Step("Pixel on the plane at unit depth", "X = (x - W/2 + shift_x V) q, Y = ((y - H/2) p + shift_y V) q"),
+        Step("Width of a pixel there, V of them on the fitted side, p times as high", "q = sensor / (lens V)"),
         Step("Direction along the axes u, v, w", "r = X u + Y v + w"),
-        Step("Normalized form over [-1, 1]²", "r = x u + aspect y v + d w, d = 1 / tan(fov / 2)"),
+        Step("Normalized form over [-1, 1]², moved by the shift", "r = x u + aspect y v + d w, d = 1 / tan(fov / 2)"),
     )
 
     @classmethod

@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
 from ..camera.camera import Camera
 from ..cameras.model import WindowModel
+from ..cameras.parts.film import Film
 from ..casting.pixels import passes_at
 from ..records import InputError, Shapes
 from .diagram import Probe, probe
+from .formula import worked_out
 from .meetings import Meeting, meetings, nearest, words
 
 NORMALIZED = "[-1, 1]²"
@@ -88,46 +89,50 @@ def _raster(camera: Camera, seen: Probe):
 
 def _formula(camera: Camera, seen: Probe):
     """Yield the model's steps, each also with numbers, and the ray in the camera's frame."""
-    model, raster = camera.model, camera.raster
+    model = camera.model
     x, y = seen.pixel[0] + 0.5, seen.pixel[1] + 0.5
     yield model.label
-    known = {**_numbers(camera.settings), **_numbers(model.facts())}
-    known |= {"W": raster.width, "H": raster.height, "x": x, "y": y}
+    moved = {}
     if isinstance(model, WindowModel):
-        known["X"], known["Y"] = map(float, model.window.plane_from_pixels(x, y))
-    for step in model.FORMULA:
-        names = known | ({"x": seen.view[0], "y": seen.view[1]} if NORMALIZED in step.words else {})
+        plane = model.window.plane_from_pixels(x, y)
+        pitch = model.window.pitch_x, model.window.pitch_y
+        moved = {name: 2 * X / (q * side) for name, X, q, side in zip("xy", plane, pitch, model.frame, strict=True)}
+    formulas = [(step.symbols, moved if NORMALIZED in step.words else {}) for step in model.FORMULA]
+    for step, lines in zip(model.FORMULA, worked_out(formulas, _known(camera, x, y)), strict=True):
         yield f"{step.words}: {step.symbols}"
-        put_in = with_numbers(step.symbols, names)
-        if put_in != step.symbols:
-            yield f"  {put_in}"
+        yield from (f"  {line}" for line in lines)
     with np.errstate(all="ignore"):  # NaN is an answer: no ray
         origin, direction = (np.array([float(part) for part in v]) for v in camera.camera_rays(x, y))
     if np.isnan(direction).any():
         return
     if isinstance(model, WindowModel):
-        yield f"on the image plane: X = {known['X']:.6g}, Y = {known['Y']:.6g}"
+        yield f"on the image plane: ({plane[0]:.6g}, {plane[1]:.6g})"
     yield f"in the camera's frame (x right, y up, -z ahead): origin {words(origin)}"
     length = np.linalg.norm(direction)
     angle = np.degrees(np.arctan2(np.hypot(*direction[:2]), -direction[2]))
     yield f"direction {words(direction)}, of length {length:.6g}; {angle:.6g}° from the axis"
 
 
-def _numbers(values: Mapping[str, object]) -> dict[str, float]:
-    return {name: value for name, value in values.items() if isinstance(value, int | float)}
-
-
-def with_numbers(symbols: str, known: Mapping[str, float]) -> str:
-    """Return a formula with the numbers in place of the names that are known, but on the left of its equals signs."""
-
-    def number(found: re.Match) -> str:
-        name = found.group()
-        if name not in known:
-            return name
-        return f"{known[name]:.6g}" if known[name] >= 0 else f"({known[name]:.6g})"
-
-    parts = re.split(r"(\w+\s*=\s*)", symbols)
-    return "".join(part if i % 2 else re.sub(r"[A-Za-z_]\w*", number, part) for i, part in enumerate(parts))
+def _known(camera: Camera, x: float, y: float) -> dict[str, Any]:
+    """Return what the names in a model's formula stand for: settings are known without their prefixes, too."""
+    model, raster = camera.model, camera.raster
+    facts: dict[str, Any] = dict(model.facts())
+    numbers = {name: number for name, number in (camera.settings | facts).items() if isinstance(number, int | float)}
+    known: dict[str, Any] = {}
+    for name, number in reversed(numbers.items()):
+        parts = name.split("_")
+        known |= {"_".join(parts[start:]): number for start in range(1, len(parts))}
+    known |= numbers
+    known |= {"pi": np.pi, "W": raster.width, "H": raster.height, "x": x, "y": y, "p": raster.pixel_aspect}
+    known |= dict(zip("uvw", np.diag([1.0, 1.0, -1.0]), strict=True))
+    if "field_of_view" in facts:
+        known["fov"] = np.radians(facts["field_of_view"][0])
+    if camera.K is not None:
+        (known["fx"], known["skew"], known["cx"]), (_, known["fy"], known["cy"]), _ = camera.K
+    if isinstance(model, WindowModel):
+        film = Film.from_blender(camera.record, raster)
+        known |= {"sensor": film.size, "V": film.fitted_pixels}
+    return known
 
 
 def _world(camera: Camera, seen: Probe) -> tuple[str, ...]:

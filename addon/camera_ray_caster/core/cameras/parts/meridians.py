@@ -21,8 +21,12 @@ from .film import Window
 from .settings import FULL_TURN
 from .silhouette import longitude_latitude, pixel_bounds, turned
 
-LONGITUDE = Step("Longitude", "lon = lon_min + (x/W + shift_x) (lon_max - lon_min)")
 RAY = Step("Direction", "d = (cos(lat) sin(lon), sin(lat), -cos(lat) cos(lon))")
+
+
+def longitude(low: str, high: str) -> Step:
+    """Return the step of a formula whose longitudes have these names."""
+    return Step("Longitude", f"lon = {low} + (x/W + shift_x) ({high} - {low})")
 
 
 @dataclass(frozen=True)

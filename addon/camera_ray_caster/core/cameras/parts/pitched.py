@@ -14,7 +14,9 @@ from .settings import Number
 
 TILT = Number("tilt", "Dome Tilt", "How far the dome is tipped towards the front", 0.0, 0.0, pi / 2, "angle", 4)
 
-PITCH = Step("Turned up by the elevation e about the camera's X", "(d_x, d_y cos e - d_z sin e, d_y sin e + d_z cos e)")
+PITCH = Step(
+    "Turned up by the elevation e about the camera's X", "(d_x, d_y cos(e) - d_z sin(e), d_y sin(e) + d_z cos(e))"
+)
 
 
 @dataclass(frozen=True)

@@ -37,9 +37,15 @@ FISHEYE_LENS = Number(
     "fisheye_lens", "Focal Length", "Of the fisheye lens", 10.5, ABOVE_ZERO, inf, "mm", owner=CAMERA
 )  # fmt: skip
 
-ROUND_PLANE = Step("Pixel on the plane, the nearer sides at 1", "a = (2 x/W - 1 + 2 shift_x) W / w, b likewise")
+ROUND_PLANE = Step(
+    "Pixel on the plane, the nearer sides at 1, pixels p times as high as wide",
+    "a = (2 x/W - 1 + 2 shift_x) W / w, b = (2 y/H - 1 + 2 shift_y) p H / w, w = min(W, p H)",
+)
 WHOLE_PLANE = Step("Pixel on the plane, the frame's sides at 1", "a = 2 x/W - 1 + 2 shift_x, b = 2 y/H - 1 + 2 shift_y")
-SENSOR_PLANE = Step("Pixel on the sensor", "a = (x - W/2 + shift_x W) sensor / V, b likewise, in mm")
+SENSOR_PLANE = Step(
+    "Pixel on the sensor, mm, pixels p times as high as wide",
+    "a = (x - W/2 + shift_x W) sensor / V, b = (y - H/2 + shift_y H) p sensor / V",
+)
 COORDINATES = Step(
     "Distorted coordinates, in focal lengths, y up", "b = (H - y - 1/2 - cy) / -fy, a = (x - 1/2 - cx + skew b) / fx"
 )

@@ -1,0 +1,106 @@
+"""Formulas as models write them, with the numbers of a pixel put in and worked out, one assignment after the other.
+
+A formula is text for readers: ``theta = 2 asin(r / (2 f))``, ``d = (a, b, -n) / sqrt(r² + n²)``. What stands side by
+side is multiplied, from left to right with divisions; a superscript is a power, ° the factor to radians.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+FUNCTIONS = {
+    "sin": np.sin, "cos": np.cos, "tan": np.tan, "asin": np.arcsin, "acos": np.arccos, "atan": np.arctan,
+    "sqrt": np.sqrt, "min": np.minimum, "max": np.maximum,
+}  # fmt: skip
+POWERS = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹", "0123456789")
+TOKEN = re.compile(r"\s*(?:(\d+\.?\d*)|([A-Za-z_][A-Za-z_0-9]*'?)|([⁰¹²³⁴⁵⁶⁷⁸⁹]+)|(°)|([-+*/(),]))")
+NAME = re.compile(r"[A-Za-z_][A-Za-z_0-9]*'?")
+ASSIGNMENT = re.compile(r"([A-Za-z_][A-Za-z_0-9]*'?) = (.*)")
+
+
+def assignments(symbols: str) -> Iterator[tuple[str, str]]:
+    """Yield the names that a formula gives a value, each with its expression: its parts between commas and semicolons
+    that stand in no parentheses.
+    """
+    depth, parts = 0, [""]
+    for letter in symbols:
+        depth += (letter == "(") - (letter == ")")
+        if letter in ",;" and depth == 0:
+            parts.append("")
+        else:
+            parts[-1] += letter
+    for part in parts:
+        found = ASSIGNMENT.fullmatch(part.strip())
+        if found:
+            yield found[1], found[2]
+
+
+def value(expression: str, known: Mapping[str, Any]) -> Any:
+    """Return what an expression gives, a number or a vector; None for what is none, or has names that are not known."""
+    words, at, ended = [], 0, False
+    expression = expression.rstrip()
+    while at < len(expression):
+        found = TOKEN.match(expression, at)
+        if found is None:
+            return None
+        at = found.end()
+        number, name, power, degrees, sign = found.groups()
+        begins = number or name or sign == "("
+        if begins and ended:
+            words.append("*")
+        if name and name not in FUNCTIONS:
+            if name not in known:
+                return None
+            words.append(f"known[{name!r}]")
+        else:
+            words.append(number or name or sign or (degrees and "*degree") or f"**{power.translate(POWERS)}")
+        ended = bool(sign == ")" if sign else name not in FUNCTIONS)
+    try:
+        with np.errstate(all="ignore"):  # NaN is an answer: no ray
+            return eval("".join(words), {"__builtins__": {}}, FUNCTIONS | {"known": known, "degree": np.pi / 180})
+    except (SyntaxError, TypeError, ZeroDivisionError):
+        return None
+
+
+def worked_out(formulas: Sequence[tuple[str, Mapping[str, Any]]], known: Mapping[str, Any]) -> list[list[str]]:
+    """Return for each formula its assignments with their numbers and results, of those that can be worked out.
+
+    formulas: each with the numbers that only it knows; an assignment may need what stands in a later one. What they
+    assign is not known before.
+    """
+    parts = [(k, *part) for k, (symbols, _) in enumerate(formulas) for part in assignments(symbols)]
+    known = {name: number for name, number in known.items() if name not in {name for _, name, _ in parts}}
+    lines: dict[int, str] = {}
+    before = -1
+    while before < len(lines):
+        before = len(lines)
+        for at, (k, name, expression) in enumerate(parts):
+            own = known | dict(formulas[k][1])
+            found = None if at in lines else value(expression, own)
+            if found is not None:
+                put_in, result = with_numbers(expression, own), shown(found)
+                lines[at] = f"{name} = {result}" if put_in == result else f"{name} = {put_in} = {result}"
+                known[name] = found
+    return [[lines[at] for at in sorted(lines) if parts[at][0] == k] for k in range(len(formulas))]
+
+
+def shown(number: Any) -> str:
+    """Return a number, or a vector, with six digits."""
+    return f"{number:.6g}" if np.ndim(number) == 0 else f"({', '.join(map(shown, number))})"
+
+
+def with_numbers(expression: str, known: Mapping[str, Any]) -> str:
+    """Return an expression with numbers in place of the names that are known; vectors keep their names."""
+
+    def number(found: re.Match) -> str:
+        name = found.group()
+        if np.ndim(known.get(name, ())):
+            return name
+        text = shown(known[name])
+        return f"({text})" if text.startswith("-") else text
+
+    return NAME.sub(number, expression)
