@@ -74,8 +74,9 @@ def test_many_points_in_one_pixel_are_each_asked_for_themselves(monkeypatch):
     rng = np.random.default_rng(0)
     points = np.concatenate((rng.normal(0, 1e-4, (700, 3)), rng.uniform(-1, 1, (300, 3)))) + np.array((0, 0, -5))
     expected = np.where(points[:, 2] < -5, HIDDEN, SEEN)
-    for points_at_once in (1 << 15, 123):
+    for points_at_once, cells in ((1 << 15, 1 << 19), (123, 1 << 19), (1 << 15, 200)):
         monkeypatch.setattr(aimed, "POINTS", points_at_once)
+        monkeypatch.setattr(aimed, "CELLS", cells)
         assert (visible(camera, wall, points) == expected).all()
 
 

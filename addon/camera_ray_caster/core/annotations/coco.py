@@ -116,15 +116,16 @@ def merged(documents: Iterable[Document]) -> Document:
     result: Document = {"info": {}, "images": [], "categories": [], "annotations": [], "hidden": [], "keypoints": []}
     key_names: dict[str, list[str]] = {}
     for one in documents:
-        result["info"], number = one["info"], {"image_id": len(result["images"]) + 1}
-        result["images"].append(one["images"][0] | {"id": number["image_id"]})
+        number = len(result["images"]) + 1
+        result["info"], image = one["info"], {"image_id": number}
+        result["images"].append(one["images"][0] | {"id": number})
         own = {category["id"]: category for category in one["categories"]}
         for category in own.values():
             known = key_names.setdefault(category["name"], [])
             known += [name for name in category.get("keypoints", ()) if name not in known]
         for part in ("annotations", "hidden"):
-            result[part] += [entry | number | {"category": own[entry["category_id"]]} for entry in one[part]]
-        result["keypoints"] += [point | number for point in one["keypoints"]]
+            result[part] += [entry | image | {"category": own[entry["category_id"]]} for entry in one[part]]
+        result["keypoints"] += [point | image for point in one["keypoints"]]
     numbers = {name: number for number, name in enumerate(key_names, 1)}
     result["categories"] = [_category(number, name, key_names[name]) for name, number in numbers.items()]
     for entry in (*result["annotations"], *result["hidden"]):
@@ -135,8 +136,8 @@ def merged(documents: Iterable[Document]) -> Document:
             triples = [values[k : k + 3] for k in range(0, len(values), 3)]
             own = dict(zip(category.get("keypoints", ()), triples, strict=True))
             entry |= _key_points(own, key_names[category["name"]])
-    for place, entry in enumerate(result["annotations"], 1):
-        entry["id"] = place
+    for number, entry in enumerate(result["annotations"], 1):
+        entry["id"] = number
     return result
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 
@@ -23,6 +24,9 @@ from .search import nearest_hits
 
 POINTS = 1 << 15
 """That are aimed at at once."""
+
+CELLS = 1 << 19
+"""Rows times columns of a lattice of rays, about, most of which have none where points are few and far between."""
 
 LAYERS = 4
 """Rays that share a pixel in the first lattice of rays; the next one has as many times as many, of fuller pixels."""
@@ -142,5 +146,9 @@ def _lattices(pixels: np.ndarray, size: tuple[int, int]) -> Iterator[tuple]:
         repeats = np.zeros(len(rows), int)
         np.maximum.at(repeats, at_row, layer[some] - start + 1)
         begin = np.cumsum(repeats) - repeats
-        yield some, columns, np.repeat(rows, repeats), (begin[at_row] + layer[some] - start, at_column)
+        band = begin // max(1, CELLS // len(columns))
+        for low, high in pairwise([*np.unique(band, return_index=True)[1].tolist(), len(rows)]):
+            own = np.flatnonzero((at_row >= low) & (at_row < high))
+            place = begin[at_row[own]] - begin[low] + layer[some[own]] - start, at_column[own]
+            yield some[own], columns, np.repeat(rows[low:high], repeats[low:high]), place
         start, end = end, LAYERS * end
