@@ -9,6 +9,8 @@ import pytest
 
 from camera_ray_caster.core import cameras
 from camera_ray_caster.core.camera.pixel_time import SETTINGS
+from camera_ray_caster.core.exports.camera_json import camera_from_json
+from camera_ray_caster.core.report.report import as_json
 
 from .opening import FOLDER, README, look, opened, rendered
 
@@ -97,13 +99,18 @@ def test_scene_renders_and_verifies(blender, name, tmp_path):
     shading = "MATERIAL" if name in MESHES else "GRID"
     assert (scene.render.engine, scene.camera_ray_caster.shading) == ("CAMERA_RAY_CASTER", shading)
     small(scene)
-    passes = ("combined", "object_index", "valid")
+    passes = ("combined", "object_index", "valid", "ray_direction")
     images, report = run(blender.context.evaluated_depsgraph_get(), scene.camera, passes)
     assert report.passed
     assert report.left_out == ()
     assert bool(report.motion) == (name in TIMES)
     np.testing.assert_array_equal(rendered(blender, tmp_path / "picture.exr"), images["combined"])
     valid, index = images["valid"], images["object_index"]
+    assert (report.record is None) == (name == "time_displacement")  # whose time is an image
+    if report.record is not None:
+        rays = camera_from_json(as_json(report)).rays()
+        assert np.array_equal(rays.valid, valid)
+        assert np.abs(rays.directions - images["ray_direction"])[valid].max() < 1e-7  # as float32
     share = SHARES.get(name, 1)
     if share is None:
         assert 0.5 < valid.mean() < 1

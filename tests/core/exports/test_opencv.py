@@ -58,19 +58,6 @@ def test_opencv_sees_points_where_we_do(tmp_path, name):
         assert np.abs(found - pixels[ahead]).max() < 1e-9
 
 
-@pytest.mark.parametrize("name", SAID)
-def test_our_own_reader_makes_the_camera_of_it(tmp_path, name):
-    (shot,) = shots(name, [1])
-    exported("opencv", name, tmp_path, [1])
-    key = {"PERSP": "OPENCV_PINHOLE", "FISHEYE_EQUIDISTANT": "OPENCV_FISHEYE", "FISHEYE_STEREOGRAPHIC": "UCM"}
-    model, settings = shot.camera.model.key, {"calibration_file": str(tmp_path / f"{name}.yml")}
-    raw = shot.camera.record
-    frame = {part: getattr(raw, part) for part in ("resolution_x", "resolution_y", "matrix_world")}
-    back = camera(key.get(model, model), frame | settings)
-    there = views(name, frames=[1])[0][0]
-    assert np.abs(back.project(there) - shot.camera.project(there)).max() < 1e-9
-
-
 @pytest.mark.parametrize("name", REFUSED)
 def test_what_opencv_cannot_represent_is_refused(name):
     with pytest.raises(InputError, match=rf"^OpenCV cannot represent the .*{REFUSED[name]}.*: choose one of .*json$"):
