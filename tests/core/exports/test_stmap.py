@@ -83,6 +83,13 @@ def test_a_pixel_without_a_place_says_so():
     assert (distort[lost] == (-1, -1, 0)).all()
 
 
+def test_what_the_places_of_the_eyes_mean_is_said():
+    _, _, said = maps(("PERSP", TURNED), ("PERSP", FRAME))
+    (line,) = said
+    assert "'Camera' and 'Camera' stand " in line
+    assert line.endswith(" apart: the maps are right for what is far away")
+
+
 @pytest.mark.parametrize(
     ("one", "other", "says"),
     [

@@ -23,7 +23,7 @@ def write(scene, key: str, cameras: Sequence, frames: Iterable[float], folder: P
 
     Of a scene with Stereo 3D each camera has the eyes that are rendered, with the suffixes of their views. ``target``:
     the camera object to which maps lead. The scene is as it was afterwards. Raises InputError for what cannot be read
-    or said, and for a folder that cannot be written, Cancelled where it is stopped: nothing is left behind then.
+    or represented, and for a folder that cannot be written, Cancelled where it is stopped: nothing is left behind then.
     """
     if target is not None and not find_format(key).takes_target:
         raise InputError(f"a camera to lead to is for maps: format {key} has none")
@@ -58,7 +58,7 @@ def _eyes(scene) -> list[tuple[str, str]]:
     render = scene.render
     if not render.use_multiview or render.views_format != "STEREO_3D":
         return [("", "")]
-    return [(view.file_suffix, view.name) for view in render.stereo_views if view.use]
+    return [(view.file_suffix, view.name) for view in render.stereo_views if view.use] or [("", "")]
 
 
 def _write(path: Path, content: Content) -> None:

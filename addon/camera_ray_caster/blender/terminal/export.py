@@ -17,7 +17,7 @@ def run(arguments: Sequence[str], prog: str) -> int:
         prog,
         "Write the cameras of a Blender file, by frame, for other programs.",
         f"{prog} blend_scenes/toys.blend --format colmap --cameras ALL --frames 1:100:10 --output out",
-        "writes cameras.txt, images.txt and points3D.txt; cameras that COLMAP cannot say are refused.",
+        "writes cameras.txt, images.txt and points3D.txt; cameras that COLMAP cannot represent are refused.",
         ends="exit status: 0 done; 2 bad input.",
     )
     formats = {one.key: one for one in FORMATS}

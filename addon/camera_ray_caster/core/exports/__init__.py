@@ -37,8 +37,8 @@ def export(key: str, shots: Sequence[Shot]) -> tuple[Iterator[tuple[str, Content
     """Return the files of an export, each its name and its content, made when it is asked for, and what is to be said
     of it, in lines.
 
-    Raises InputError, in one line, for a format that there is not, and for a camera that it cannot say, with the
-    formats that can.
+    Raises InputError, in one line, for a format that there is not, and for a camera that it cannot represent, with
+    the formats that can.
     """
     chosen = find_format(key)
     for shot in shots:
@@ -49,7 +49,7 @@ def export(key: str, shots: Sequence[Shot]) -> tuple[Iterator[tuple[str, Content
             raise InputError(
                 f"{chosen.label} cannot represent the {what}{reason and ', '}{reason}: choose one of {able}"
             )
-    said = list(dict.fromkeys(line for shot in shots for line in chosen.unsaid(shot.camera)))
+    said = list(dict.fromkeys(line for shot in shots for line in chosen.unsaid(shot)))
     if not chosen.rigid:
         return chosen.files(shots), said
     cameras, moves = zip(*(rigid.with_rotation(shot.camera) for shot in shots), strict=True)

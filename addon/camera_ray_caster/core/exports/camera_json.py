@@ -46,7 +46,7 @@ class CameraJson(Format):
         """See Format."""
         return None
 
-    def unsaid(self, camera):
+    def unsaid(self, shot):
         """See Format."""
         return []
 

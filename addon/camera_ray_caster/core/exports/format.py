@@ -1,8 +1,8 @@
 """The contract of an export format: what a file in this folder has to say.
 
 A format is one class under ``Format`` and one word in FORMATS. It gives ``key``, ``label``, ``description``,
-``refusal``, which says what it has no words for, and ``files``. It computes contents and writes nothing: the files of
-an export appear together or not at all, by whoever asked for them.
+``refusal``, which says what it cannot represent, and ``files``. Lengths are Blender units unless it says otherwise. It
+computes contents and writes nothing: the files of an export appear together or not at all, by whoever asked for them.
 """
 
 from __future__ import annotations
@@ -75,9 +75,9 @@ class Format(ABC):
         itself; None where it says all of it.
         """
 
-    def unsaid(self, camera: Camera) -> list[str]:
+    def unsaid(self, shot: Shot) -> list[str]:
         """Return what the files leave out of a camera that is no reason to refuse it, in lines."""
-        raster = camera.raster
+        camera, raster = shot.camera, shot.camera.raster
         lines = {
             f"the depth of field of camera {camera.name!r} is not in the files": camera.aperture is not None,
             f"the files are of the full frame of camera {camera.name!r}, without its render border": (

@@ -68,8 +68,7 @@ def _lens(model: WindowModel, key: str, focal: float = 1.0, settings: Mapping[st
 
 
 def spoken(table: Table, camera: Camera) -> tuple[str, Lens] | None:
-    """Return the first of a format's models that says the lens of a camera, and the lens; None where none does.
-    """
+    """Return the first of a format's models that says the lens of a camera, and the lens; None where none does."""
     return next(
         (
             (kind, lens)

@@ -25,9 +25,9 @@ class Npz(Format):
         """See Format."""
         return None
 
-    def unsaid(self, camera):
+    def unsaid(self, shot):
         """See Format: only the chief rays of a lens."""
-        return super().unsaid(camera)[: camera.aperture is not None]
+        return super().unsaid(shot)[: shot.camera.aperture is not None]
 
     def files(self, shots):
         """See Format."""

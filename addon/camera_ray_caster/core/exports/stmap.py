@@ -39,6 +39,13 @@ class Stmap(Format):
                 return f"{of}whose rays have no eye in common"
         return None
 
+    def unsaid(self, shot):
+        """See Format; and what the places of the two eyes mean."""
+        one, other = shot.camera, shot.target or shot.camera
+        apart = float(np.linalg.norm(one.pose.eye - other.pose.eye))
+        line = f"{one.name!r} and {other.name!r} stand {apart:.3g} apart: the maps are right for what is far away"
+        return [*super().unsaid(shot), *([line] if apart else [])]
+
     def files(self, shots):
         """See Format. Raises InputError where the perspective of the same lens has no meaning."""
         for shot in shots:
