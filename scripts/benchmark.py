@@ -4,6 +4,7 @@
     python scripts/benchmark.py --quick         the first two, fewer rounds
     python scripts/benchmark.py --meshes        triangle meshes, also beside Open3D
     python scripts/benchmark.py --models        rays and pictures of every camera model
+    python scripts/benchmark.py --dataset       a data set of meshes: what it costs beside writing, and two processes
     python scripts/benchmark.py --scaling --picture FILE.png    cost against pixels, shapes and triangles
 
 Contenders take turns, round by round, so that what else the machine does falls on all of them, with a pause before
@@ -47,6 +48,7 @@ def main() -> int:
     parser.add_argument("--meshes", action="store_true", help="triangle meshes of 1,000 to a million triangles")
     parser.add_argument("--models", action="store_true", help="ray generation and casting of every camera model")
     parser.add_argument("--scaling", action="store_true", help="cost against pixels, shapes and triangles")
+    parser.add_argument("--dataset", action="store_true", help="pictures of a data set, by one process and by two")
     parser.add_argument("--picture", type=Path, metavar="FILE", help="with --scaling: draw a diagram")
     parser.add_argument("--json", type=Path, metavar="FILE", help="write the figures")
     options = parser.parse_args()
@@ -64,6 +66,10 @@ def main() -> int:
         import mesh_contest
 
         figures = mesh_contest.run(compare, options.quick, width, height, rounds, options.threads)
+    elif options.dataset:
+        import dataset_speed
+
+        figures = dataset_speed.run(8 if options.quick else 100)
     elif options.scaling:
         import scaling
 

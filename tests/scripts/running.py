@@ -1,6 +1,7 @@
 """How the tests run a script, and what they run it on."""
 
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -13,6 +14,11 @@ def script(name, *arguments, folder=None):
     words = [sys.executable, str(ROOT / "scripts" / f"{name}.py"), *map(str, arguments)]
     clean = {key: value for key, value in os.environ.items() if key != "OCIO"}  # bpy sets it, and then speaks of it
     return subprocess.run(words, cwd=folder, capture_output=True, text=True, timeout=120, env=clean)
+
+
+def complaints(stderr):
+    """The lines on standard error that do not say how far a run is: on a busy machine those come, too."""
+    return [line for line in stderr.splitlines() if not re.search(r"\d of \d+(, [\d:]+ left)?$", line)]
 
 
 def small(bpy, path, **settings):

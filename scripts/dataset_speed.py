@@ -1,0 +1,115 @@
+"""The benchmark's data set: what a picture costs beside writing it, and what is gained by two processes of Dask.
+
+Processor seconds count what a process and its children used, so that what else the machine does matters less. A run's
+start (Python, Blender, the cluster) is taken off: a long run's time less a short one's, over the pictures between them.
+"""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+from resource import RUSAGE_CHILDREN, getrusage
+from time import perf_counter, process_time
+
+import numpy as np
+
+from camera_ray_caster.core.casting.passes import PASSES
+
+SCRIPT = Path(__file__).with_name("dataset.py")
+CAMERAS, SIZE = 3, (640, 480)
+PASSES_CAST = [name for name in PASSES if not name.endswith("_bound") and not name.startswith("flow_")]
+FEW = 2
+"""Frames of the short run: something for each worker."""
+
+
+def run(frames: int) -> list[dict]:
+    """Print and return the figures of a scene of meshes: FRAMES frames of three cameras, all passes but the bounds."""
+    with tempfile.TemporaryDirectory() as folder:
+        scene = _scene(Path(folder) / "scene.blend")
+        cores = sorted(os.sched_getaffinity(0))[:2]
+        rows = [
+            _measured(scene, Path(folder) / "one", "one process, one core", frames, cores[:1]),
+            _measured(scene, Path(folder) / "two", "one process, two cores", frames, cores),
+            _measured(scene, Path(folder) / "dask", "two workers, a core each", frames, cores, "--workers", "2"),
+        ]
+        one, two, dask = rows
+        writing = _writing(sorted((Path(folder) / "one").glob("*_0*.npz")))
+    print(f"\n{frames} frames x {CAMERAS} cameras, {SIZE[0]} x {SIZE[1]}, {len(PASSES_CAST)} passes; seconds a picture")
+    for row in rows:
+        print(f"  {row['name']:28}{row['wall']:8.3f} by the clock{row['cpu']:8.3f} of processors")
+    print(f"  {'writing alone':28}{'':21}{writing:8.3f} of processors")
+    print(f"  all beside writing alone, processor time: {one['cpu'] / writing:.2f} x")
+    print(f"  two workers beside one process on one core: {one['wall'] / dask['wall']:.2f} x as fast by the clock, "
+          f"{2 * one['cpu'] / dask['cpu']:.2f} x by processor time")  # fmt: skip
+    print(f"  two workers beside one process on the same two cores: {dask['wall'] / two['wall']:.2f} x the time")
+    print(f"  a worker's overhead: {1e3 * (dask['cpu'] - one['cpu']):.0f} ms of processors a picture")
+    return [*rows, {"name": "writing alone", "cpu": writing}]
+
+
+def _scene(path: Path) -> Path:
+    """Save a scene of monkeys, a ring and a floor, seen by cameras that move."""
+    import bpy
+
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    bpy.ops.mesh.primitive_plane_add(size=30)
+    bpy.ops.mesh.primitive_torus_add(location=(0, 0, 1), major_radius=3)
+    for turn in np.linspace(0, 2 * np.pi, 6, endpoint=False):
+        place = 2 * np.cos(turn), 2 * np.sin(turn), 1
+        bpy.ops.mesh.primitive_monkey_add(size=1.5, location=place, rotation=(0, 0, turn))
+        bpy.ops.object.modifier_add(type="SUBSURF")
+    for number in range(CAMERAS):
+        bpy.ops.object.camera_add()
+        camera = bpy.context.object
+        turn = 2 * np.pi * number / CAMERAS
+        for frame, height in (1, 3), (100, 6):
+            camera.location = 8 * np.cos(turn), 8 * np.sin(turn), height
+            camera.rotation_euler = 1.1, 0, turn + np.pi / 2
+            camera.keyframe_insert("location", frame=frame)
+    scene = bpy.context.scene
+    scene.camera, scene.render.resolution_percentage = camera, 100
+    scene.render.resolution_x, scene.render.resolution_y = SIZE
+    bpy.ops.wm.save_as_mainfile(filepath=str(path))
+    return path
+
+
+def _measured(scene: Path, out: Path, name: str, frames: int, cores: list[int], *words: str) -> dict:
+    """Run the script on some cores; return seconds a picture, by the clock and of processors."""
+    spent: list[tuple[float, float]] = []
+    for last in FEW, FEW + frames:  # the second run takes what the first one has made
+        began, used = perf_counter(), getrusage(RUSAGE_CHILDREN)
+        subprocess.run(
+            [sys.executable, SCRIPT, scene, "--cameras", "ALL", "--frames", f"1:{last}", "--passes",
+             ",".join(PASSES_CAST), "--output", out, *words],
+            check=True, stdout=subprocess.DEVNULL, preexec_fn=lambda: os.sched_setaffinity(0, cores),
+        )  # fmt: skip
+        now = getrusage(RUSAGE_CHILDREN)
+        spent.append((perf_counter() - began, now.ru_utime + now.ru_stime - used.ru_utime - used.ru_stime))
+    (few_wall, few_cpu), (wall, cpu) = spent
+    more = CAMERAS * (frames - FEW)
+    return {"name": name, "wall": (wall - few_wall) / more, "cpu": (cpu - few_cpu) / more}
+
+
+def _writing(files: list[Path]) -> float:
+    """Return the processor seconds of writing the arrays and the picture of a frame, the median of files."""
+    import bpy
+
+    from camera_ray_caster.blender.output import arrays
+    from camera_ray_caster.blender.output.files import PICTURE
+
+    spent = []
+    for file in files:
+        images = dict(np.load(file))
+        height, width = images["depth"].shape
+        picture = bpy.data.images.new("picture", width, height, alpha=True, float_buffer=True)
+        picture.pixels.foreach_set(images["combined"].ravel())
+        settings = bpy.context.scene.render.image_settings
+        settings.file_format = PICTURE["file_format"]
+        began = process_time()
+        arrays.save(file, {("", ""): images}, {}, half=False)
+        picture.save_render(str(file.with_suffix(".png")))
+        spent.append(process_time() - began)
+        bpy.data.images.remove(picture)
+    return float(np.median(spent))
