@@ -1,13 +1,14 @@
 """The benchmark as a user runs it: tables and figures from measurements, ratios that follow, one-line refusals."""
 
 import json
+import sys
 from importlib.util import find_spec
 
 import pytest
 
 from camera_ray_caster.core.cameras import MODELS
 
-from .running import refused, script
+from .running import ROOT, refused, script
 
 
 def figures(tmp_path, *words):
@@ -48,6 +49,22 @@ def test_scaling_is_measured_and_drawn(tmp_path):
     assert [row["triangles"] for row in rows if row["against"] == "triangles"] == [1000, 4000, 16000]
     assert all(row["median_ms"] > 0 and 0 < row["beside_mb"] < 200 for row in rows)
     assert (tmp_path / "scaling.png").read_bytes().startswith(b"\x89PNG")
+
+
+@pytest.mark.hostile
+def test_data_sets_are_timed(registered, monkeypatch, capsys):
+    monkeypatch.setattr(sys, "path", [str(ROOT / "scripts"), *sys.path])
+    import dataset_speed
+
+    monkeypatch.setattr(dataset_speed, "SIZE", (32, 24))
+    *rows, writing = dataset_speed.run(4)
+    assert [row["name"] for row in rows] == [
+        "one process, one core",
+        "one process, two cores",
+        "two workers, a core each",
+    ]
+    assert all(row["cpu"] > writing["cpu"] > 0 for row in rows)
+    assert f"{rows[0]['cpu'] / writing['cpu']:.2f} x" in capsys.readouterr().out
 
 
 @pytest.mark.parametrize(
