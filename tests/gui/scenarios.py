@@ -29,6 +29,8 @@ def panel(user, scenes):
     yield from user.until(addon("output.reports").verified, "the camera is verified")
     assert addon("output.reports").verified().passed
     assert addon("output.reports").latest() is None
+    yield from user.scroll(10)
+    yield from user.wait(0.5)
     yield from user.press(f"{BUTTON}cast(")
     yield from user.until(addon("output.reports").latest, "the cast has ended")
     yield from user.wait(0.5)
