@@ -30,6 +30,8 @@ def camera_facts(camera: Camera) -> dict[str, object]:
     that begin with one. Last the model's settings by name (``Camera.settings``) and its formula, step by step.
     """
     raster, basis = camera.raster, camera.pose.basis
+    own = camera.model.facts()
+    own = own if "field_of_view" in own else _field_of_view(camera) | own
     return {
         "name": camera.name,
         "model": camera.model.label,
@@ -42,8 +44,7 @@ def camera_facts(camera: Camera) -> dict[str, object]:
         "window": [raster.x0, raster.x1, raster.y0, raster.y1],
         "pixel_aspect": raster.pixel_aspect,
         "clip": [camera.clip_start, camera.clip_end],
-        **_field_of_view(camera),
-        **camera.model.facts(),
+        **own,
         **({} if camera.K is None else {"K": camera.K.tolist()}),
         **({"plane_from_pixels": _plane(camera.model)} if isinstance(camera.model, WindowModel) else {}),
         "world_to_opencv": camera.world_to_opencv.tolist(),
