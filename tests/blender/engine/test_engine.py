@@ -149,3 +149,18 @@ def test_the_report_is_kept_until_another_file_is_opened(blender, scene):
     assert "view_frame" in blender.data.texts["Camera Ray Caster Report"].as_string()
     blender.ops.wm.read_factory_settings(use_empty=True)
     assert reports.latest() is None
+
+
+@pytest.mark.parametrize("persistent", [False, True])
+def test_the_report_is_of_all_layers_of_one_frame(blender, scene, persistent):
+    """With Persistent Data, too, where Blender keeps the engine from one frame to the next."""
+    from camera_ray_caster.blender.output import reports
+
+    scene.render.use_persistent_data = persistent
+    scene.view_layers.new("Second")
+    for frame in (1, 2):
+        scene.frame_set(frame)
+        blender.ops.render.render()
+        report = reports.latest()
+        assert report.frame == frame
+        assert report.pixels == 2 * WIDTH * HEIGHT

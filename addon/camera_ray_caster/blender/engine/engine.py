@@ -1,6 +1,7 @@
 """The render engine: Blender asks for a picture, ``job`` casts it, Blender stores, shows and writes it."""
 
 import math
+from collections.abc import Mapping
 from dataclasses import replace
 from functools import partial, reduce
 from operator import add
@@ -29,7 +30,8 @@ class CameraRayCaster(Viewport, bpy.types.RenderEngine):
     bl_idname = ENGINE
     bl_label = "Camera Ray Caster"
     bl_use_eevee_viewport = True
-    done: Report | None = None
+    done: Mapping[str, Report] = {}
+    """The reports of this frame's view layers."""
     stopped = False
     """Whether a render was stopped since whoever asks has set it False."""
     picture: Picture | None = None
@@ -52,7 +54,7 @@ class CameraRayCaster(Viewport, bpy.types.RenderEngine):
         except (Cancelled, KeyboardInterrupt):
             type(self).stopped = True
         else:
-            self.keep(report)
+            self.keep(report, depsgraph.view_layer_eval.name)
 
     def render_layer(self, depsgraph) -> Report:
         """Cast the ticked passes of a view layer, for every eye, and store them in Blender's result."""
@@ -104,8 +106,11 @@ class CameraRayCaster(Viewport, bpy.types.RenderEngine):
         shift_x = raw.shift_x if raw.type == "PANO" else self.camera_shift_x(camera)
         return replace(raw, matrix_world=np.array(self.camera_model_matrix(camera), np.float64), shift_x=shift_x)
 
-    def keep(self, report: Report) -> None:
-        """Warn of what was left out, and add the report to those of this frame's other view layers."""
+    def keep(self, report: Report, layer: str) -> None:
+        """Warn of what was left out, and add the report to those of this frame's other view layers.
+
+        With Persistent Data an engine renders one frame after the other: a layer that comes again begins a new one.
+        """
         if report.left_out:
             self.report({"WARNING"}, f"{reports.left_out_line(report.left_out)}; the report says why")
         for line in report.motion:
@@ -114,8 +119,8 @@ class CameraRayCaster(Viewport, bpy.types.RenderEngine):
         for finding in report.findings:
             if not finding.passed:
                 self.report({"WARNING"}, f"{finding.witness} disagrees with the rays: see the report")
-        self.done = report if self.done is None else self.done + report
-        reports.keep(self.done)
+        self.done = {layer: report} if layer in self.done else {**self.done, layer: report}
+        reports.keep(reduce(add, self.done.values()))
 
     def advance(self, fraction: float) -> bool:
         """Show how far the cast is; return whether to go on."""
