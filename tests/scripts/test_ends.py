@@ -19,6 +19,7 @@ WORDS = {
     "check_set": ["--help"],
     "clevr_set": ["--help"],
     "cast": [SCENE, "--passes", "depth"],
+    "dataset": ["--help"],
     "environment": [],
     "explain": [SCENE, "--pixel", "0,0"],
     "export": ["--help"],

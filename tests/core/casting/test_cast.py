@@ -8,11 +8,10 @@ import pytest
 from camera_ray_caster.core import tuning
 from camera_ray_caster.core.camera.build import camera_from
 from camera_ray_caster.core.cast import cast
-from camera_ray_caster.core.casting.passes import PASSES
 from camera_ray_caster.core.conventions import EPS
 from camera_ray_caster.core.records import INFINITE_PLANE, PLANE, SPHERE, BlenderCamera, Cancelled, InputError, Shapes
 
-EVERY = tuple(PASSES)
+from ..still import STILL
 
 
 def shapes_of(*rows, **more):
@@ -62,7 +61,7 @@ def random_rows(rng, n):
 
 
 def test_the_middle_ray_meets_a_sphere_at_its_near_pole():
-    images = cast(camera_at(), shapes_of((SPHERE, (0, 0, -5), 2.0)), EVERY, np.float64)
+    images = cast(camera_at(), shapes_of((SPHERE, (0, 0, -5), 2.0)), STILL, np.float64)
     middle = 16, 16
     assert images["depth"][middle] == 3.0
     assert images["distance"][middle] == 3.0
@@ -76,7 +75,7 @@ def test_the_middle_ray_meets_a_sphere_at_its_near_pole():
 
 def test_a_miss_and_a_pixel_without_shapes():
     sphere = shapes_of((SPHERE, (0, 0, -5), 2.0), world_color=(0.1, 0.2, 0.3, 1.0))
-    images = cast(camera_at(), sphere, EVERY, np.float64)
+    images = cast(camera_at(), sphere, STILL, np.float64)
     corner = 0, 0
     assert images["depth"][corner] == images["distance"][corner] == np.inf
     assert images["shape_index"][corner] == -1
@@ -103,7 +102,7 @@ def test_a_finite_plane_ends_where_it_ends():
 
 def test_orthographic_rays_start_on_the_camera_plane():
     camera = camera_at(type="ORTHO", ortho_scale=4.0)
-    images = cast(camera, shapes_of((SPHERE, (0, 0, -5), 1.5)), EVERY, np.float64)
+    images = cast(camera, shapes_of((SPHERE, (0, 0, -5), 1.5)), STILL, np.float64)
     x = (np.arange(33) + 0.5 - 16.5) / 33 * 4
     square = x[None] ** 2 + x[:, None] ** 2
     hit = square <= 1.5**2
@@ -115,7 +114,7 @@ def test_orthographic_rays_start_on_the_camera_plane():
 
 
 def test_from_inside_a_sphere_the_far_wall_is_seen_and_faces_the_eye():
-    images = cast(camera_at(clip_start=0.01), shapes_of((SPHERE, (0, 0, 0), 3.0)), EVERY, np.float64)
+    images = cast(camera_at(clip_start=0.01), shapes_of((SPHERE, (0, 0, 0), 3.0)), STILL, np.float64)
     assert images["distance"] == pytest.approx(np.full((33, 33), 3.0), rel=8 * EPS)
     assert (images["normal"] * images["ray_direction"]).sum(axis=-1) == pytest.approx(-np.ones((33, 33)))
 
@@ -136,7 +135,7 @@ def test_hits_lie_on_the_ray_and_on_the_shape_and_none_is_nearer(kind, seed):
     shapes = random_shapes(rng, 25)
     rotation = np.linalg.qr(rng.normal(size=(3, 3)))[0]
     camera = camera_at(pose(rotation, rng.uniform(-1, 1, 3)), type=kind, ortho_scale=9.0, clip_start=0.05)
-    images = cast(camera, shapes, EVERY, np.float64)
+    images = cast(camera, shapes, STILL, np.float64)
     rays, seen = camera.rays(), images["shape_index"] >= 0
     assert seen.any()
     along = rays.origins + images["distance"][..., None] * rays.directions
@@ -184,8 +183,8 @@ def test_culling_and_batches_change_no_bit(kind, seed):
         pose(rotation, rng.uniform(-4, 4, 3)), type=kind, ortho_scale=12.0, resolution_x=160, resolution_y=90,
         clip_start=[0.1, 3.0][seed % 2], use_border=seed % 3 == 0, border_min_x=0.2, border_max_y=0.7,
     )  # fmt: skip
-    culled, unculled = (cast(camera, shapes, EVERY, np.float64, cull=cull) for cull in (True, False))
-    for name in EVERY:
+    culled, unculled = (cast(camera, shapes, STILL, np.float64, cull=cull) for cull in (True, False))
+    for name in STILL:
         assert np.array_equal(culled[name], unculled[name]), name
     assert culled.plan.unseen > unculled.plan.unseen == 0
 
@@ -206,8 +205,8 @@ def test_far_small_spheres_are_not_lost():
 
 def test_dtype_is_only_what_is_stored():
     shapes = random_shapes(np.random.default_rng(5), 20)
-    single, double = (cast(camera_at(), shapes, EVERY, dtype) for dtype in (np.float32, np.float64))
-    for name in (name for name in EVERY if not name.endswith("_bound")):  # a bound counts what storing loses
+    single, double = (cast(camera_at(), shapes, STILL, dtype) for dtype in (np.float32, np.float64))
+    for name in (name for name in STILL if not name.endswith("_bound")):  # a bound counts what storing loses
         stored = double[name].astype(single[name].dtype)
         assert np.array_equal(single[name], stored), name
     assert single["shape_index"].dtype == np.int32

@@ -7,13 +7,13 @@ import pytest
 
 from camera_ray_caster.core.cast import cast
 from camera_ray_caster.core.casting import hit_values
-from camera_ray_caster.core.casting.passes import PASSES
 from camera_ray_caster.core.conventions import EPS
 from camera_ray_caster.core.records import INFINITE_PLANE, PLANE
 
 from ..camera.test_pixel_time import shapes
 from ..cameras.model_examples import EXAMPLES, TURNED, camera
 from ..shapes.meshes import grid, mesh_of, shapes_of
+from ..still import STILL
 
 BALL = shapes(((0.3, -0.2, -5.0), 1.5))
 ROUNDED = 64 * EPS
@@ -199,7 +199,7 @@ def test_an_orthographic_camera_s_footprints_grow_with_the_slope():
 
 def test_pictures_that_do_not_ask_pay_nothing(monkeypatch):
     monkeypatch.setattr(hit_values, "RayDerivatives", None)
-    others = tuple(name for name in PASSES if name not in ("solid_angle", "footprint"))
+    others = tuple(name for name in STILL if name not in ("solid_angle", "footprint"))
     assert set(cast(camera("EQUIRECTANGULAR"), BALL, others)) == set(others)
     with pytest.raises(TypeError, match="NoneType"):
         cast(camera("EQUIRECTANGULAR"), BALL, "solid_angle")
