@@ -28,7 +28,9 @@ from camera_ray_caster.core.cameras.perspective import Perspective
 right = Perspective.rays
 Perspective.rays = lambda self, x, y: right(self, x + 0.5, y)
 from door import through
-sys.exit(through("{command}"))
+status = through("{command}")
+Perspective.rays = right  # Blender 4.5 hangs at its end where a class holds this module
+sys.exit(status)
 """
 
 
