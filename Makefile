@@ -20,12 +20,12 @@ SCENE := blend_scenes/spheres_and_planes.blend
 cast: $(VENV)/ready  ## render the example scene into out/ and print the report
 	$(VENV)/bin/python scripts/cast.py $(SCENE) --output out
 
-# The tests of a file stay together, since they share fixtures, and one window.
+# The tests of a file stay together, since they share fixtures, and one window. A worker that dies ends the run.
 test: $(VENV)/ready  ## run every test with this Python, on all cores
-	$(VENV)/bin/python -m pytest --numprocesses auto --dist loadfile
+	$(VENV)/bin/python -m pytest --numprocesses auto --dist loadfile --max-worker-restart 0
 
 test-hostile: $(VENV)/ready  ## try all hostile inputs, kills and full disks, some minutes
-	$(VENV)/bin/python -m pytest tests/hostile -m hostile --numprocesses auto
+	$(VENV)/bin/python -m pytest tests/hostile -m hostile --numprocesses auto --max-worker-restart 0
 
 test-all:  ## run the tests on each supported bpy for which a Python is found, but those in a window
 	@$(PYTHON) scripts/environment.py test-all

@@ -3,7 +3,6 @@ whole, and what was finished is not made again.
 """
 
 import json
-import subprocess
 import sys
 import time
 from random import Random
@@ -12,7 +11,7 @@ import numpy as np
 import psutil
 import pytest
 
-from ..scripts.running import ROOT, complaints, left, script, small
+from ..scripts.running import ROOT, complaints, left, script, small, start
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no such signals")
 
@@ -51,8 +50,7 @@ def workers(run):
 def kill(reference, out, name, random):
     """Kill one worker or the whole run, finish the set, and compare it."""
     scene, whole = reference
-    words = [sys.executable, ROOT / "scripts" / "dataset.py", scene, *WORDS, "--workers", "2", "--output", out]
-    run = subprocess.Popen(list(map(str, words)), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    run = start(ROOT / "scripts" / "dataset.py", scene, *WORDS, "--workers", "2", "--output", out)
     while run.poll() is None and not list(out.glob("*_0*.json")):
         time.sleep(0.01)
     time.sleep(random.uniform(0, 1))

@@ -6,7 +6,6 @@ whole casts, from the start of Python on.
 
 import shutil
 import signal
-import subprocess
 import sys
 import time
 from pathlib import Path
@@ -15,7 +14,7 @@ from random import Random
 import pytest
 
 from ..exr import read_exr
-from ..scripts.running import ROOT, small
+from ..scripts.running import ROOT, small, start
 from .writer import FILES, content, write
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no such signals")
@@ -25,17 +24,6 @@ WRITINGS, CASTS = 40, 10
 """Moments for each signal: 200 in all."""
 FEW = 1
 """Moments for each signal that ``make test`` tries."""
-
-
-def start(*words):
-    """Start a Python with the signals as a shell hands them over."""
-    return subprocess.Popen(
-        [sys.executable, *map(str, words)],
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-        preexec_fn=lambda: [signal.signal(getattr(signal, name), signal.SIG_DFL) for name in SIGNALS[:3]],
-    )
 
 
 def ended(run, name, was_killed):

@@ -2,6 +2,7 @@
 
 import os
 import re
+import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -14,6 +15,14 @@ def script(name, *arguments, folder=None):
     words = [sys.executable, str(ROOT / "scripts" / f"{name}.py"), *map(str, arguments)]
     clean = {key: value for key, value in os.environ.items() if key != "OCIO"}  # bpy sets it, and then speaks of it
     return subprocess.run(words, cwd=folder, capture_output=True, text=True, timeout=120, env=clean)
+
+
+def start(*words, action=signal.SIG_DFL, **options):
+    """Start a Python with the signals as a shell in front of a user hands them over: one in the background may not."""
+    hear = [getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name)]
+    given = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True} | options
+    words = [sys.executable, *map(str, words)]
+    return subprocess.Popen(words, preexec_fn=lambda: [signal.signal(number, action) for number in hear], **given)
 
 
 def complaints(stderr):

@@ -2,7 +2,6 @@
 
 import json
 import signal
-import subprocess
 import sys
 import time
 
@@ -10,7 +9,7 @@ import numpy as np
 import pytest
 
 from ..exr import read_exr
-from .running import ROOT, left, refused, script, small
+from .running import ROOT, left, refused, script, small, start
 
 WORDS = "--engine", "cycles", "--samples", "2"
 
@@ -113,8 +112,7 @@ bpy.app.handlers.render_init.append(begun)
 from door import through
 sys.exit(through("cast"))
 """
-    words = [sys.executable, "-c", code]
-    with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as run:
+    with start("-c", code) as run:
         end = time.monotonic() + 60
         while not started.exists() and time.monotonic() < end:
             time.sleep(0.05)

@@ -10,6 +10,7 @@ from random import Random
 import pytest
 
 from .running import ROOT
+from .running import start as start_python
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="Windows ends a process without telling it")
 SCENE = str(ROOT / "blend_scenes" / "empty.blend")
@@ -37,16 +38,9 @@ ENVIRONMENT = {name: value for name, value in os.environ.items() if name != "PYT
 
 
 def start(name, folder, stdout=subprocess.PIPE, action=signal.SIG_DFL):
-    """Start a script in a folder, with the signals as a shell in front of a user hands them over."""
-    return subprocess.Popen(
-        [sys.executable, str(ROOT / "scripts" / f"{name}.py"), *WORDS[name]],
-        stdout=stdout,
-        stderr=subprocess.PIPE,
-        text=True,
-        cwd=folder,
-        env=ENVIRONMENT,
-        preexec_fn=lambda: [signal.signal(number, action) for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)],
-    )
+    """Start a script in a folder, with what lets it print something soon."""
+    script = ROOT / "scripts" / f"{name}.py"
+    return start_python(script, *WORDS[name], action=action, stdout=stdout, cwd=folder, env=ENVIRONMENT)
 
 
 def test_every_script_is_here():

@@ -1,13 +1,12 @@
 """Runs that are ended before they are done leave nothing, and say so in one line."""
 
 import signal
-import subprocess
 import sys
 import time
 
 import pytest
 
-from .running import ROOT, left, small
+from .running import ROOT, left, small, start
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="Windows ends a process without telling it")
@@ -17,8 +16,7 @@ def test_a_run_that_is_ended_leaves_good_files_and_nothing_else(blender, tmp_pat
     out = tmp_path / "out"
     out.mkdir()
     (out / "large.exr").write_text("good")
-    words = [sys.executable, str(ROOT / "scripts" / "cast.py"), str(path), "--output", str(out)]
-    with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as run:
+    with start(ROOT / "scripts" / "cast.py", path, "--output", out) as run:
         end = time.monotonic() + 60
         while len(left(out)) == 1 and time.monotonic() < end:
             time.sleep(0.05)

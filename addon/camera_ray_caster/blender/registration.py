@@ -1,5 +1,6 @@
 """Registration of everything that the add-on adds to Blender, in one step that can be undone."""
 
+import atexit
 from contextlib import ExitStack, suppress
 
 import bpy
@@ -87,9 +88,12 @@ def register() -> None:
         for module in MODULES:
             module.register(undo)
         _registered.append(undo.pop_all())
+    if not bpy.app.binary_path:  # Blender disables add-ons before it ends; pip's bpy crashes on what is left
+        atexit.register(unregister)
 
 
 def unregister() -> None:
     """Remove all that is registered and still there, the last first."""
+    atexit.unregister(unregister)
     if _registered:
         _registered.pop().close()
