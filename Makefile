@@ -20,12 +20,15 @@ SCENE := blend_scenes/spheres_and_planes.blend
 cast: $(VENV)/ready  ## render the example scene into out/ and print the report
 	$(VENV)/bin/python scripts/cast.py $(SCENE) --output out
 
-# The tests of a file stay together, since they share fixtures, and one window. A worker that dies ends the run.
+# The tests of a file stay together, since they share fixtures, and one window. A worker that dies, or a test that hangs,
+# ends the run.
+PYTEST := $(VENV)/bin/python -m pytest --numprocesses auto --max-worker-restart 0 --timeout 600
+
 test: $(VENV)/ready  ## run every test with this Python, on all cores
-	$(VENV)/bin/python -m pytest --numprocesses auto --dist loadfile --max-worker-restart 0
+	$(PYTEST) --dist loadfile
 
 test-hostile: $(VENV)/ready  ## try all hostile inputs, kills and full disks, some minutes
-	$(VENV)/bin/python -m pytest tests/hostile -m hostile --numprocesses auto --max-worker-restart 0
+	$(PYTEST) tests/hostile -m hostile
 
 test-all:  ## run the tests on each supported bpy for which a Python is found, but those in a window
 	@$(PYTHON) scripts/environment.py test-all
