@@ -52,6 +52,64 @@ def step_through(user, scenes):
     assert np.count_nonzero(np.abs(on - off).max(axis=2) > 0.1) > 500
 
 
+def beside(user):
+    """An Image Editor beside the 3D View, which it takes half the place of."""
+    before = list(user.window.screen.areas)
+    with bpy.context.temp_override(window=user.window, area=user.area(), region=user.region("WINDOW")):
+        bpy.ops.screen.area_split(direction="VERTICAL", factor=0.5)
+    (editor,) = [area for area in user.window.screen.areas if area not in before]
+    editor.ui_type = "IMAGE_EDITOR"
+    return editor
+
+
+def step_through_image(user, scenes):
+    """Pixels are clicked in the picture that a cast has made: each has a frame around it, and its steps beside it."""
+    yield from load(user, scenes, "toys")
+    lesson, editor = addon("view3d.lesson"), beside(user)
+    view = next(region for region in editor.regions if region.type == "WINDOW")
+    addon("engine.passes").tick(bpy.context.scene, bpy.context.view_layer, ["combined"])
+    bpy.ops.camera_ray_caster.cast()
+    image = editor.spaces.active.image
+    assert image == bpy.data.images["Ray Caster combined"]
+    with bpy.context.temp_override(window=user.window, area=editor, region=view):
+        bpy.ops.image.view_zoom_ratio(ratio=16)
+    yield from user.wait(1)
+    sidebar = next(region for region in editor.regions if region.type == "UI")
+    yield from user.open_tab("Ray Caster", editor)
+    yield from user.press(f"{BUTTON}step_through(", sidebar)
+
+    def place(column, row):
+        """Where a point of the image is in the window, by Blender."""
+        x, y = view.view2d.view_to_region(column / image.size[0], row / image.size[1], clip=False)
+        return view.x + x, view.y + y
+
+    def framed(picture, column, row):
+        """On how many sides of a pixel there is a mark's color."""
+        sides = [place(column + x, row + y) for x, y in ((0, 0.5), (1, 0.5), (0.5, 0), (0.5, 1))]
+        around = [picture[y - 2 : y + 3, x - 2 : x + 3, :3] for x, y in sides]
+        return sum(np.abs(part - lesson.RAY[:3]).max(axis=2).min() < 0.1 for part in around)
+
+    middle = image.size[0] // 2 - 8, image.size[1] // 2
+    pixels = [middle, (middle[0] + 5, middle[1] - 6)]
+    yield from user.click(*place(*np.add(pixels[0], 0.5)))
+    assert lesson.pixels == pixels[:1]
+    user.send("keydown", "shift")
+    yield from user.click(*place(*np.add(pixels[1], (0.95, 0.05))))
+    user.send("keyup", "shift")
+    assert lesson.pixels == pixels
+    yield from user.key("Escape")
+    yield from user.wait(0.5)
+    picture = user.picture("step_through_image")
+    assert [framed(picture, *pixel) for pixel in pixels] == [4, 4]
+    bpy.ops.camera_ray_caster.clear_steps()
+    yield from user.wait(0.7)
+    picture = user.picture("step_through_image_cleared")
+    assert [framed(picture, *pixel) for pixel in pixels] == [0, 0]
+    with bpy.context.temp_override(window=user.window, area=editor):
+        bpy.ops.screen.area_close()
+    yield from user.wait(0.5)
+
+
 def examples(user, scenes):
     """The gallery's menu has a picture for each model, and a camera of it comes with its slits."""
     yield from load(user, scenes, "toys")
@@ -69,4 +127,4 @@ def examples(user, scenes):
     assert bpy.context.scene.camera.data.camera_ray_caster.slit_2 is not None
 
 
-LESSON_SCENARIOS = (step_through, examples)
+LESSON_SCENARIOS = (step_through, step_through_image, examples)

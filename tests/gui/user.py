@@ -84,15 +84,17 @@ class User:
         """Return the part of a screenshot that a region fills."""
         return picture[region.y : region.y + region.height, region.x : region.x + region.width]
 
-    def open_tab(self, name):
-        """Open the 3D View's sidebar (N) and click on its tabs until the one of that name is active."""
-        view = self.area()
-        if self.region().width < 10:
-            yield from self.point(view.x + view.width // 3, view.y + view.height // 3)
+    def open_tab(self, name, area=None):
+        """Open an area's sidebar (N), the 3D View's by default, and click on its tabs until the one of that name is
+        active.
+        """
+        area = area or self.area()
+        region = next(region for region in area.regions if region.type == "UI")
+        if region.width < 10:
+            yield from self.point(area.x + area.width // 3, area.y + area.height // 3)
             yield from self.key("n")
-            yield from self.until(lambda: self.region().width > 10, "the sidebar is open")
+            yield from self.until(lambda: region.width > 10, "the sidebar is open")
         yield from self.wait(0.5)
-        region = self.region()
         for y in range(region.y + region.height - 12, region.y, -24):
             if region.active_panel_category == name:
                 return

@@ -1,9 +1,11 @@
 """Step Through: pixels are clicked in the camera's view or in an Image Editor, and their steps can be copied."""
 
+from math import floor
+
 import bpy
 
 from ..view3d import lesson
-from ..view3d.camera_frame import camera_frame
+from ..view3d.camera_frame import frame_in
 from ..view3d.scene_cache import cached_scene
 from .needs import OfScene
 
@@ -60,39 +62,24 @@ def pixel_at(context, x: int, y: int) -> tuple[int, int] | None:
                 continue
             if region.type != "WINDOW":
                 return None  # the sidebar and other regions lie over the view
-            place = PLACES.get(area.type, _nowhere)(context, area, region, x - region.x, y - region.y)
-            if place is not None and all(0 <= share < 1 for share in place):
-                return int(place[0] * camera.raster.width), int(place[1] * camera.raster.height)
+            with context.temp_override(area=area, region=region):
+                frame = frame_in(bpy.context, camera.raster)
+            if frame is None:
+                continue
+            left, bottom, right, top = frame
+            column = floor((x - region.x - left) / (right - left) * camera.raster.width)
+            row = floor((y - region.y - bottom) / (top - bottom) * camera.raster.height)
+            if 0 <= column < camera.raster.width and 0 <= row < camera.raster.height:
+                return column, row
     return None
-
-
-def _in_view(context, area, region, x, y):
-    """Return the place in the camera's frame, in shares of it."""
-    with context.temp_override(area=area, region=region):
-        frame = camera_frame(bpy.context)
-    if frame is None:
-        return None
-    left, bottom, right, top = frame
-    return (x - left) / (right - left), (y - bottom) / (top - bottom)
-
-
-def _in_image(context, area, region, x, y):
-    """Return the place in the image, in shares of it; None where none is shown."""
-    return region.view2d.region_to_view(x, y) if area.spaces.active.image else None
-
-
-def _nowhere(*_):
-    return None
-
-
-PLACES = {"VIEW_3D": _in_view, "IMAGE_EDITOR": _in_image}
 
 
 def redraw(context) -> None:
-    """Redraw every 3D View of the window, with its sidebar."""
-    for area in context.screen.areas:
-        if area.type == "VIEW_3D":
-            area.tag_redraw()
+    """Redraw what shows these pixels: every 3D View and Image Editor, with its sidebar."""
+    for window in context.window_manager.windows:
+        for area in window.screen.areas:
+            if area.type in {"VIEW_3D", "IMAGE_EDITOR"}:
+                area.tag_redraw()
 
 
 class OfLesson:

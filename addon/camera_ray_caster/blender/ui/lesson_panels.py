@@ -1,7 +1,8 @@
-"""The steps of a pixel in the 3D View's sidebar."""
+"""The steps of a pixel, in the sidebars of the 3D View and of an Image Editor that shows a picture of the camera."""
 
 import bpy
 
+from ..view3d.camera_frame import is_picture
 from ..view3d.lesson import lessons
 from .camera_panels import Sidebar, draw_message
 from .gallery_operators import ExamplesMenu
@@ -12,10 +13,9 @@ OPEN = ("View coordinates [-1, 1]²", "Model", "Seen")
 """The steps that are not folded at first."""
 
 
-class SidebarLesson(Sidebar, bpy.types.Panel):
+class Steps:
     """From a pixel to its color, step by step."""
 
-    bl_idname = "CAMERA_RAY_CASTER_PT_lesson"
     bl_label = "Step Through"
 
     def draw(self, context):
@@ -43,4 +43,22 @@ class SidebarLesson(Sidebar, bpy.types.Panel):
                     draw_message(body, context, line, "BLANK1" if line.startswith(" ") else "DOT")
 
 
-CLASSES = (SidebarLesson,)
+class SidebarLesson(Sidebar, Steps, bpy.types.Panel):
+    """Beside the 3D View."""
+
+    bl_idname = "CAMERA_RAY_CASTER_PT_lesson"
+
+
+class ImageLesson(Sidebar, Steps, bpy.types.Panel):
+    """Beside a picture of the camera."""
+
+    bl_idname = "CAMERA_RAY_CASTER_PT_image_lesson"
+    bl_space_type = "IMAGE_EDITOR"
+
+    @classmethod
+    def poll(cls, context):
+        """Only there."""
+        return is_picture(context.space_data.image)
+
+
+CLASSES = (SidebarLesson, ImageLesson)

@@ -1,7 +1,11 @@
-"""The pixels that are stepped through: which they are, their lessons, and their rays drawn in every 3D View."""
+"""The pixels that are stepped through: which they are, their lessons, and their rays drawn in every 3D View.
+
+In an Image Editor that shows a picture of the camera, each has a frame around it and its numbers beside it.
+"""
 
 from __future__ import annotations
 
+import blf
 import bpy
 import gpu
 import numpy as np
@@ -10,14 +14,16 @@ from gpu_extras.batch import batch_for_shader
 
 from ...core.report.diagram import pixel_outline
 from ...core.report.lesson import Lesson, lesson
+from .camera_frame import image_frame
 from .overlay import draw_batch, shader
 from .scene_cache import CachedScene, cached_scene
 
 FAR = 100.0
 """Lengths of the camera's display that a ray is drawn where it meets nothing."""
 RAY, OTHERS, SEEN, NORMAL = (1.0, 0.45, 0.1, 1.0), (0.7, 0.7, 0.7, 0.9), (1.0, 0.9, 0.2, 1.0), (0.3, 0.9, 0.95, 1.0)
-WIDTH, POINT = 2.5, 8.0
-"""Pixels, at the interface's scale 1."""
+GROUND = (0.0, 0.0, 0.0, 1.0)
+WIDTH, POINT, MARK, TEXT = 2.5, 8.0, 5.0, 12.0
+"""Pixels, at the interface's scale 1: of lines, of points, from a mark's middle to its sides at least, of letters."""
 
 pixels: list[tuple[int, int]] = []
 """Those that were clicked, the latest last."""
@@ -72,6 +78,32 @@ def _parts(camera, one: Lesson, size: float):
         yield "POINT", "POINTS", [one.point], SEEN, POINT
 
 
+def draw_marks() -> None:
+    """Draw a frame around each pixel in its picture; called by Blender for each Image Editor."""
+    context = bpy.context
+    found = lessons(context) if pixels else {}
+    frame = image_frame(context, cached_scene(context).camera.raster) if found else None
+    if frame is None:
+        return
+    raster, scale = cached_scene(context).camera.raster, context.preferences.system.ui_scale
+    corner, far = np.array(frame[:2]), np.array(frame[2:])
+    side = (far - corner) / (raster.width, raster.height)
+    blf.size(0, TEXT * scale)
+    for pixel in found:
+        middle, half = corner + (np.array(pixel) + 0.5) * side, np.maximum(side / 2, MARK * scale)
+        x, y = np.transpose([middle - half, middle + half])
+        points = np.zeros((8, 3), np.float32)
+        points[:, 0], points[:, 1] = x[[0, 1, 1, 1, 1, 0, 0, 0]], y[[0, 0, 0, 1, 1, 1, 1, 0]]
+        for color, width in ((GROUND, 2 * WIDTH), (RAY, WIDTH)):
+            draw_batch(batch_for_shader(shader("POLYLINE"), "LINES", {"pos": points}), "POLYLINE", color, width * scale)
+        blf.enable(0, blf.SHADOW)
+        blf.shadow(0, 5, *GROUND)
+        blf.color(0, 1, 1, 1, 1)
+        blf.position(0, x[1] + MARK * scale, middle[1] - TEXT * scale / 3, 0)
+        blf.draw(0, f"{pixel[0]}, {pixel[1]}")
+        blf.disable(0, blf.SHADOW)
+
+
 @persistent
 def forget(*_):
     """Another file: nothing of this one counts."""
@@ -83,5 +115,9 @@ def register(undo) -> None:
     """See ``registration``."""
     undo.callback(forget)
     undo.add_handlers([("load_pre", forget)])
-    handle = bpy.types.SpaceView3D.draw_handler_add(draw, (), "WINDOW", "POST_VIEW")
-    undo.callback(bpy.types.SpaceView3D.draw_handler_remove, handle, "WINDOW")
+    for space, function, when in (
+        (bpy.types.SpaceView3D, draw, "POST_VIEW"),
+        (bpy.types.SpaceImageEditor, draw_marks, "POST_PIXEL"),
+    ):
+        handle = space.draw_handler_add(function, (), "WINDOW", when)
+        undo.callback(space.draw_handler_remove, handle, "WINDOW")
