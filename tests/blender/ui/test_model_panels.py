@@ -3,7 +3,7 @@
 import pytest
 
 from camera_ray_caster.blender.cycles import to_cycles
-from camera_ray_caster.blender.ui.model_panels import LensPanel, ModelPanel, TimePanel
+from camera_ray_caster.blender.ui.model_panels import LensPanel, ModelPanel, SensorPanel, TimePanel
 from camera_ray_caster.core.records import InputError
 
 MATRIX = ("calibration_width", "calibration_height", "fx", "fy", "cx", "cy", "skew")
@@ -62,10 +62,10 @@ class Layout:
 
     use_property_split = True
 
-    def __init__(self, names=None, grayed=None, operators=None):
+    def __init__(self, names=None, grayed=None, operators=None, labels=None):
         self.names, self.grayed, self.active = [] if names is None else names, [] if grayed is None else grayed, True
         self.operators = [] if operators is None else operators
-        self.labels = []
+        self.labels = [] if labels is None else labels
 
     def label(self, text, icon="NONE"):
         self.labels.append(text)
@@ -80,7 +80,7 @@ class Layout:
         self.prop(owner, name)
 
     def column(self, align=False):
-        inside = Layout(self.names, self.grayed, self.operators)
+        inside = Layout(self.names, self.grayed, self.operators, self.labels)
         inside.active = self.active
         return inside
 
@@ -158,6 +158,30 @@ def test_what_the_model_does_not_read_of_the_lens_is_gray(blender, data):
     assert drawn(blender, ModelPanel, data, ours)[0] == ("model", "slit_1")
 
 
+def test_a_sensor_that_the_model_does_not_read_is_gray(blender, data):
+    def sensor():
+        return drawn(blender, SensorPanel, data, "CAMERA_RAY_CASTER")
+
+    assert sensor() == (("sensor_fit", "sensor_width"), ())
+    data.sensor_fit = "VERTICAL"
+    assert sensor() == (("sensor_fit", "sensor_height"), ())
+    data.camera_ray_caster.model = "OMNIMAX"
+    assert sensor() == ((), ("sensor_fit", "sensor_height"))
+
+
+def test_beside_blender_s_own_panel_ours_says_what_the_model_does_not_use(blender, data):
+    def said(engine="CYCLES"):
+        drawn(blender, ModelPanel, data, engine)
+        return " ".join(drawn.labels)
+
+    assert said() == ""
+    data.camera_ray_caster.model = "OMNIMAX"
+    assert said() == "The model does not use Blender's Type, Focal Length, Sensor Fit, Sensor Width, Sensor Height"
+    assert said("CAMERA_RAY_CASTER") == ""
+    data.camera_ray_caster.model = "PUSHBROOM"
+    assert said().endswith("The model does not use Blender's Type")
+
+
 def test_a_missing_slit_or_path_is_added_where_the_camera_sees_something(blender, camera_scene):
     from camera_ray_caster.blender.read import read_camera
 
@@ -187,16 +211,18 @@ def test_a_calibration_file_grays_out_the_numbers_that_it_replaces(blender, data
 
 
 def test_lengths_in_millimeters_are_blender_s_own_and_the_panel_says_so(blender, data):
+    def said():
+        return [drawn(blender, ModelPanel, data, "CAMERA_RAY_CASTER"), " ".join(drawn.labels)][1]
+
     own = data.camera_ray_caster
     data.type, own.model = "PANO", "DIVISION"
-    drawn(blender, ModelPanel, data)
-    assert drawn.labels == ["Pixels of a picture of 1920 × 1080, scaled to the frame"]
+    assert said() == "Pixels of a picture of 1920 × 1080, scaled to the frame"
     own.calibration_unit = "MILLIMETERS"
+    assert said() == "Millimeters on Blender's sensor, the center by its Shift"
     assert drawn(blender, ModelPanel, data)[0] == ("model", *FILE, "lens", "division_lambda")
-    assert drawn.labels == ["Millimeters on Blender's sensor, the center by its Shift"]
     own.calibration_file = "//lens.yml"
+    assert said() == "Pixels of the file's picture, scaled to the frame"
     assert drawn(blender, ModelPanel, data)[1] == ("calibration_unit", *MATRIX, "division_lambda")
-    assert drawn.labels == ["Pixels of the file's picture, scaled to the frame"]
 
 
 def test_a_camera_of_cycles_shows_the_settings_of_its_own_type_and_the_way_back(osl, blender, camera_scene):

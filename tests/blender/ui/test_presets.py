@@ -12,6 +12,13 @@ from camera_ray_caster.blender.ui import presets
 OURS = sorted((presets.FOLDER / "presets" / "camera_ray_caster").glob("*.py"))
 
 
+def run(bpy, camera, name):
+    """Choose a preset of ours for a camera."""
+    (path,) = (path for path in OURS if path.stem == name)
+    with bpy.context.temp_override(camera=camera):
+        bpy.ops.script.execute_preset(filepath=str(path), menu_idname=presets.ModelPresets.bl_idname)
+
+
 def listed():
     return {path.stem for folder in bpy.utils.preset_paths("camera_ray_caster") for path in Path(folder).glob("*.py")}
 
@@ -19,19 +26,57 @@ def listed():
 @pytest.mark.parametrize("path", OURS, ids=lambda path: path.stem)
 def test_a_preset_makes_a_camera_that_sees(blender, camera_scene, path):
     assert path.stem in listed()
-    context = {"camera": camera_scene.camera.data}
-    with blender.context.temp_override(**context):
-        blender.ops.script.execute_preset(filepath=str(path), menu_idname=presets.ModelPresets.bl_idname)
+    run(blender, camera_scene.camera.data, path.stem)
     camera_scene.render.resolution_x, camera_scene.render.resolution_y = 64, 48
     blender.context.view_layer.update()
     camera = read_camera(camera_scene)
     assert camera.rays().valid[24, 32]
 
 
+PINHOLE, FISHEYE = ("k1", "k2", "p1", "p2", "k3"), ("k1", "k2", "k3", "k4")
+OPENCV = {
+    "TUM_RGB-D_freiburg1": PINHOLE, "KITTI_odometry_00": PINHOLE, "TUM_VI_cam0_512": FISHEYE,
+    "GoPro_HERO10_Black_Wide_16_9": FISHEYE, "GoPro_HERO10_Black_Wide_4_3": FISHEYE,
+    "GoPro_HERO10_Black_Linear_16_9": FISHEYE, "GoPro_HERO11_Black_Wide_8_7": FISHEYE,
+}  # fmt: skip
+"""The coefficients of the presets of OpenCV's models."""
+
+
+@pytest.mark.parametrize("name", OPENCV)
+def test_a_preset_projects_as_opencv_does_and_sees_in_every_corner(blender, camera_scene, name):
+    cv2 = pytest.importorskip("cv2")
+    run(blender, camera_scene.camera.data, name)
+    own, render = camera_scene.camera.data.camera_ray_caster, camera_scene.render
+    width, height = render.resolution_x, render.resolution_y = own.calibration_width, own.calibration_height
+    render.resolution_percentage = 10  # rays are cast at a tenth of the size
+    blender.context.view_layer.update()
+    assert read_camera(camera_scene).rays().valid.all()
+    render.resolution_percentage = 100
+    blender.context.view_layer.update()
+    points = np.array([[[0.3, -0.2, 2.0], [-1.0, 0.5, 3.0]]])  # OpenCV: y down, z ahead
+    matrix = np.array([[own.fx, own.skew, own.cx], [0, own.fy, own.cy], [0, 0, 1]])
+    project = cv2.projectPoints if OPENCV[name] == PINHOLE else cv2.fisheye.projectPoints
+    lens = np.array([getattr(own, key) for key in OPENCV[name]])
+    expected = project(points, np.zeros(3), np.zeros(3), matrix, lens)[0].reshape(-1, 2)
+    found = read_camera(camera_scene).project(points[0] * (1, -1, -1))
+    assert np.abs(found - (expected + 0.5) * (1, -1) - (0, height)).max() < 1e-9 * width
+
+
+@pytest.mark.parametrize(("name", "degrees"), [("Project_Aria_RGB", 110), ("Project_Aria_SLAM_left", 150)])
+def test_a_camera_of_project_aria_is_as_wide_as_its_documentation_says(blender, camera_scene, name, degrees):
+    """Up to a twentieth: there the angle is nominal, and devices differ."""
+    run(blender, camera_scene.camera.data, name)
+    own, render = camera_scene.camera.data.camera_ray_caster, camera_scene.render
+    render.resolution_x, render.resolution_y = own.calibration_width, own.calibration_height
+    blender.context.view_layer.update()
+    rays = read_camera(camera_scene).model.rays(np.array([0.5, render.resolution_x - 0.5]), render.resolution_y / 2)[1]
+    left, right = np.transpose(np.broadcast_arrays(*rays))
+    assert np.degrees(np.arccos(left @ right)) == pytest.approx(degrees, rel=0.05)
+
+
 def test_the_camera_of_euroc_projects_as_opencv_does(blender, camera_scene):
     cv2 = pytest.importorskip("cv2")
-    with blender.context.temp_override(camera=camera_scene.camera.data):
-        blender.ops.script.execute_preset(filepath=str(OURS[1]), menu_idname=presets.ModelPresets.bl_idname)
+    run(blender, camera_scene.camera.data, "EuRoC_MAV_cam0")
     camera_scene.render.resolution_x, camera_scene.render.resolution_y = 752, 480
     blender.context.view_layer.update()
     points = np.array([[0.3, -0.2, 2.0], [-1.0, 0.5, 3.0]])  # OpenCV: y down, z ahead

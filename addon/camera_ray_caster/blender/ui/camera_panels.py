@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from textwrap import wrap
-
 import bpy
 
 from ...core.camera.facts import camera_facts
@@ -11,11 +9,8 @@ from ...core.records import InputError
 from ..output import reports
 from ..properties.declared import GROUP
 from ..read.evaluated import camera_at
+from .drawing import Sidebar, draw_message, draw_row, length
 from .gallery_panels import draw_model
-
-LETTER = 6.0
-"""About the width of a letter in a panel, in units of the interface's scale."""
-
 
 WITNESSES = {
     "view_frame": "View Frame",
@@ -25,14 +20,6 @@ WITNESSES = {
     "Cycles": "Cycles",
 }
 """What the panel calls a witness, by its name in the report."""
-
-
-class Sidebar:
-    """What our panels in the 3D View's sidebar have in common."""
-
-    bl_space_type = "VIEW_3D"
-    bl_region_type = "UI"
-    bl_category = "Ray Caster"
 
 
 def facts_of(context, camera_object) -> tuple[dict[str, object] | None, str]:
@@ -45,15 +32,6 @@ def facts_of(context, camera_object) -> tuple[dict[str, object] | None, str]:
         return camera_facts(camera), ""
     except InputError as error:
         return None, str(error)
-
-
-def draw_message(layout, context, text: str, icon: str = "INFO") -> None:
-    """Draw a sentence in as many lines as the panel's width asks for, its first letter a capital."""
-    width = context.region.width / (context.preferences.system.ui_scale or 1.0)  # 0 without a window
-    column = layout.column(align=True)
-    column.scale_y = 0.85
-    for i, line in enumerate(wrap(text[:1].upper() + text[1:], max(16, int((width - 65) / LETTER)))):
-        column.label(text=line, icon="BLANK1" if i else icon)
 
 
 def draw_facts(layout, context, facts, camera) -> None:
@@ -96,25 +74,6 @@ def scalars(context, facts, camera):
     if "frame" in facts:
         yield "Frame", " × ".join(length(context, side) for side in facts["frame"])
     yield "Clip", " to ".join(length(context, distance) for distance in facts["clip"])
-
-
-def length(context, value: float) -> str:
-    """Return a length in the scene's units."""
-    units = context.scene.unit_settings
-    if units.system == "NONE":
-        return f"{value:.5g}"
-    return bpy.utils.units.to_string(units.system, "LENGTH", value * units.scale_length, precision=4)
-
-
-def draw_row(layout, name: str, cells, factor: float) -> None:
-    """Draw a row of a table: its name, then its cells in columns of equal width."""
-    row = layout.split(factor=factor, align=True)
-    row.label(text=name)
-    row = row.split(align=True)
-    for cell in cells:
-        column = row.column(align=True)
-        column.alignment = "RIGHT"
-        column.label(text=cell)
 
 
 class SidebarCamera(Sidebar, bpy.types.Panel):

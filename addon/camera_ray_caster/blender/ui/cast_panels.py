@@ -7,7 +7,7 @@ import bpy
 from ..engine.passes import PASSES, ticked
 from ..output import images, reports
 from . import cast_operator
-from .camera_panels import Sidebar, draw_message, draw_row
+from .drawing import Sidebar, draw_message, draw_row
 from .object_panels import draw_cast_as
 from .show_result import ResultsMenu
 

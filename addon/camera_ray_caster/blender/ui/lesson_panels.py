@@ -4,7 +4,7 @@ import bpy
 
 from ..view3d.camera_frame import is_picture
 from ..view3d.lesson import lessons
-from .camera_panels import Sidebar, draw_message
+from .drawing import Sidebar, draw_message
 from .gallery_operators import ExamplesMenu
 from .lesson_operators import ClearSteps, CopySteps, StepThrough
 from .point_operators import EmptyAtHit, PixelOfPoint

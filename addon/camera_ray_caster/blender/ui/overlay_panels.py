@@ -3,7 +3,7 @@
 import bpy
 
 from ..view3d.scene_cache import cached_scene
-from .camera_panels import Sidebar, draw_message
+from .drawing import Sidebar, draw_message
 
 
 class SidebarOverlay(Sidebar, bpy.types.Panel):

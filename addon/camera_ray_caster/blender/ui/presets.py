@@ -6,12 +6,15 @@ import bpy
 from bl_operators.presets import AddPresetBase
 from bl_ui.utils import PresetPanel
 
-from ...core.cameras.parts.settings import OWN
-from ..properties.declared import GROUP, MODEL
-from .model_panels import PRESETS, settings_of
+from ...core.cameras.parts.settings import CAMERA, OWN
+from ..properties.declared import BLENDERS_OWN, GROUP, MODEL
+from .model_panels import PRESETS
+from .model_settings import settings_of
 
 FOLDER = Path(__file__).resolve().parents[1]
 """Where ``presets`` is."""
+OWNERS = {OWN: "own", CAMERA: "camera"}
+"""What a preset calls the structs of the settings that it keeps."""
 KEPT = {"FLOAT", "INT", "BOOLEAN", "ENUM", "VECTOR", "TEXT", "FILE"}
 """Kinds of settings that a preset holds; objects and images belong to a file."""
 
@@ -33,7 +36,7 @@ class AddModelPreset(AddPresetBase, bpy.types.Operator):
     bl_label = "Add Camera Model Preset"
     preset_menu = ModelPresets.bl_idname
     preset_subdir = GROUP
-    preset_defines = (f"own = bpy.context.camera.{GROUP}",)
+    preset_defines = ("camera = bpy.context.camera", f"own = camera.{GROUP}")
 
     @classmethod
     def poll(cls, context):
@@ -43,10 +46,11 @@ class AddModelPreset(AddPresetBase, bpy.types.Operator):
 
     @property
     def preset_values(self) -> list[str]:
-        """The model, and its settings that are ours."""
-        settings = settings_of(bpy.context.camera)
-        kept = [setting.name for setting in settings if setting.owner == OWN and setting.kind in KEPT]
-        return [f"own.{name}" for name in (MODEL.name, *kept)]
+        """The model, Blender's type where that is the model, and what the model reads of the camera."""
+        camera = bpy.context.camera
+        types = ["camera.type", "camera.panorama_type"] if getattr(camera, GROUP).model == BLENDERS_OWN else []
+        kept = [it for it in settings_of(camera) if it.owner in OWNERS and it.kind in KEPT]
+        return [f"own.{MODEL.name}", *types, *(f"{OWNERS[it.owner]}.{it.name}" for it in kept)]
 
 
 CLASSES = (ModelPresets, AddModelPreset)

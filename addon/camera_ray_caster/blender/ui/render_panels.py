@@ -73,7 +73,7 @@ BORROWED = {
 field.
 """
 
-REPLACED = {"DATA_PT_lens"}
+REPLACED = {"DATA_PT_camera", "DATA_PT_lens"}
 """Panels of Blender's in whose place this engine has its own."""
 
 

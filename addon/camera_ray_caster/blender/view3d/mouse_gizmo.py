@@ -10,7 +10,7 @@ import gpu
 from gpu_extras.batch import batch_for_shader
 
 from ...core.report.diagram import Probe, probe
-from ..ui.camera_panels import length
+from ..ui.drawing import length
 from .camera_frame import camera_frame
 from .scene_cache import cached_scene
 

@@ -1,0 +1,44 @@
+"""What panels draw with: sentences in lines, rows of tables, lengths in the scene's units."""
+
+from textwrap import wrap
+
+import bpy
+
+LETTER = 6.0
+"""About the width of a letter in a panel, in units of the interface's scale."""
+
+
+class Sidebar:
+    """What our panels in the 3D View's sidebar have in common."""
+
+    bl_space_type = "VIEW_3D"
+    bl_region_type = "UI"
+    bl_category = "Ray Caster"
+
+
+def draw_message(layout, context, text: str, icon: str = "INFO") -> None:
+    """Draw a sentence in as many lines as the panel's width asks for, its first letter a capital."""
+    width = context.region.width / (context.preferences.system.ui_scale or 1.0)  # 0 without a window
+    column = layout.column(align=True)
+    column.scale_y = 0.85
+    for i, line in enumerate(wrap(text[:1].upper() + text[1:], max(16, int((width - 65) / LETTER)))):
+        column.label(text=line, icon="BLANK1" if i else icon)
+
+
+def length(context, value: float) -> str:
+    """Return a length in the scene's units."""
+    units = context.scene.unit_settings
+    if units.system == "NONE":
+        return f"{value:.5g}"
+    return bpy.utils.units.to_string(units.system, "LENGTH", value * units.scale_length, precision=4)
+
+
+def draw_row(layout, name: str, cells, factor: float) -> None:
+    """Draw a row of a table: its name, then its cells in columns of equal width."""
+    row = layout.split(factor=factor, align=True)
+    row.label(text=name)
+    row = row.split(align=True)
+    for cell in cells:
+        column = row.column(align=True)
+        column.alignment = "RIGHT"
+        column.label(text=cell)

@@ -1,0 +1,83 @@
+"""The settings of a camera's model and its lens, as the panels of its properties and of the sidebar draw them."""
+
+from ...core.cameras.parts.calibration import UNIT
+from ...core.cameras.parts.film import FILM, LENS
+from ...core.cameras.parts.settings import CAMERA, Setting
+from ..cycles.shader import CUSTOM
+from ..properties.declared import BLENDERS_OWN, ENGINE, GROUP
+from ..properties.owners import owner_of
+from .add_line import AddLine
+from .drawing import draw_message
+from .model_settings import lengths_in_words, not_used, of_type, read_settings, shown
+
+
+def draw_model_settings(layout, context, camera) -> None:
+    """Draw what the chosen model needs. A calibration file grays out the numbers that it replaces."""
+    own = getattr(camera, GROUP)
+    column, settings = layout.column(align=True), read_settings(camera)
+    for setting in settings:
+        if shown(setting, camera, context.engine):
+            draw_setting(column, context, camera, setting)
+        if setting.replaces_the_rest:
+            column = layout.column(align=True)
+            column.active = not getattr(own, setting.name)
+    if UNIT in settings:
+        draw_message(layout, context, lengths_in_words(own))
+    if context.engine != ENGINE and camera.type != CUSTOM and (labels := not_used(camera)):
+        draw_message(layout, context, f"The model does not use Blender's {', '.join(labels)}")
+
+
+def draw_lens(layout, camera) -> None:
+    """Draw Blender's type of camera and its settings, and those of Blender's that the model reads; gray what it does
+    not read.
+    """
+    read, offered = read_settings(camera), of_type(camera)
+    column = layout.column()
+    column.active = getattr(camera, GROUP).model == BLENDERS_OWN
+    column.prop(camera, "type")
+    if camera.type == "PANO":
+        column.prop(camera, "panorama_type")
+    column = layout.column(align=True)
+    for setting in dict.fromkeys((*offered, *read)):
+        if setting.owner == CAMERA and setting not in FILM:
+            row = column.row()
+            row.active = setting in read
+            by_angle = setting == LENS and camera.lens_unit == "FOV"
+            row.prop(camera, "angle" if by_angle else setting.name)
+    if LENS in (*offered, *read):
+        row = column.row()
+        row.active = LENS in read
+        row.prop(camera, "lens_unit")
+
+
+def draw_setting(layout, context, camera, setting: Setting) -> None:
+    """Draw a setting of a camera; nothing for one of Cycles while that is disabled."""
+    owner = owner_of(setting, camera, context.scene)
+    if owner is not None:
+        KINDS.get(setting.kind, _draw_property)(layout, context, owner, setting)
+
+
+def _draw_property(layout, context, owner, setting) -> None:
+    layout.prop(owner, setting.name)
+
+
+def _draw_image(layout, context, owner, setting) -> None:
+    layout.template_ID(owner, setting.name, open="image.open")
+
+
+def _draw_vector(layout, context, owner, setting) -> None:
+    layout.label(text=setting.label)
+    for i, name in enumerate(setting.components):
+        layout.prop(owner, setting.name, index=i, text=name)
+
+
+def _draw_object(layout, context, owner, setting) -> None:
+    """Draw the object; where there is none, what it should be, and a button that adds one."""
+    layout.prop(owner, setting.name)
+    if getattr(owner, setting.name) is None:
+        draw_message(layout, context, f"Missing: {setting.text[:1].lower()}{setting.text[1:]}", "ERROR")
+        layout.operator(AddLine.bl_idname, text=f"Add {setting.label}", icon="ADD").setting = setting.name
+
+
+KINDS = {"IMAGE": _draw_image, "VECTOR": _draw_vector, "OBJECT": _draw_object}
+"""How the kinds of settings are drawn that are not drawn as a plain property."""
