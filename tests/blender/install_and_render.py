@@ -17,6 +17,9 @@ MODULE = "bl_ext.user_default.camera_ray_caster"
 ENGINE = "CAMERA_RAY_CASTER"
 
 
+NAMES = set()
+"""Of the C functions that this process has asked ctypes for."""
+
 LEDGER = Counter()
 """What the extension has added less what it has taken back, of what Blender does not list."""
 
@@ -120,12 +123,14 @@ def main(archive, picture, report):
         "enabled": enabled,
         "enabled again": again,
         "disabled": traces(),
+        "C functions": sorted(NAMES),
         "modules": [name for name in sys.modules if "camera_ray_caster" in name],
     }
     Path(report).write_text(json.dumps(seen))
 
 
 if __name__ == "__main__":
+    sys.addaudithook(lambda event, arguments: NAMES.add(str(arguments[1])) if event == "ctypes.dlsym" else None)
     with ExitStack() as stack:
         for one in what_is_not_listed():
             stack.enter_context(one)

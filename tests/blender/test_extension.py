@@ -70,6 +70,11 @@ def test_the_installed_package_never_imports_itself_by_name(installed):
     assert names == set()
 
 
+def test_the_installed_extension_leaves_the_allocator_of_its_host_alone(installed):
+    seen, _ = installed
+    assert "mallopt" not in seen["C functions"]
+
+
 def test_ten_times_disabled_and_enabled_leaves_what_once_does(installed):
     seen, _ = installed
     assert seen["enabled"] != seen["before"]

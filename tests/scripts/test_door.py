@@ -1,4 +1,4 @@
-"""How scripts step into the add-on: which package an engine is of, and whose memory settings change."""
+"""How scripts step into the add-on: which package an engine is of."""
 
 import sys
 from pathlib import Path
