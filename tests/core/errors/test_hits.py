@@ -31,7 +31,7 @@ def raster_of(width, height, window=None):
         (raster_of(1, 1), 1, 1),
         (raster_of(64, 64), 64, 64),
         (raster_of(100, 40), 40, 100),
-        (raster_of(1920, 1080), 48, 85),
+        (raster_of(1920, 1080), 47, 84),
         (raster_of(65536, 1), 1, 4096),
         (raster_of(1, 65536), 4096, 1),
         (raster_of(1920, 1080, (500, 300, 510, 304)), 4, 10),

@@ -146,8 +146,13 @@ class HitValues:
 
     def by_kind(self, of: Callable[[Kind, HitPixels], T]) -> list[tuple[np.ndarray, T]]:
         """Return, for each kind that is seen, where it is, (rows, columns) bool, and what a function gives there."""
+        return [(pixels.where, of(kind, pixels)) for kind, pixels in self._kinds]
+
+    @lazy
+    def _kinds(self) -> list[tuple[Kind, HitPixels]]:
+        """The kinds that are seen, each with its pixels."""
         kinds = self.look_up(self.plan.kinds, "kinds")
-        return [(where, of(kind, self.pixels(where))) for kind, where in by_kind(kinds)]
+        return [(kind, self.pixels(where)) for kind, where in by_kind(kinds)]
 
     @lazy
     def cosine(self) -> np.ndarray:

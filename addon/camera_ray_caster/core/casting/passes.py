@@ -72,7 +72,7 @@ def uv(values: HitValues, out):
     """The surface's own coordinates, (u, v, 0); see the shapes."""
     out[...] = 0
     for where, (u, v) in values.uv:
-        out[where] = np.stack((u, v, np.zeros_like(u)), axis=-1)
+        out[..., 0][where], out[..., 1][where] = u, v
 
 
 def object_index(values: HitValues, out):

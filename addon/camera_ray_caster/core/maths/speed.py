@@ -46,6 +46,11 @@ def taken(values: np.ndarray, which: np.ndarray) -> np.ndarray:
     return values.take(which, axis=-1, mode="wrap")
 
 
+def merged(values: np.ndarray) -> np.ndarray:
+    """Return the first of values (n,), as (1,), where all are the same: what is taken by it broadcasts."""
+    return values[:1] if (values == values[:1]).all() else values
+
+
 @contextmanager
 def whole_rows(width: int) -> Iterator[None]:
     """Let this thread's ufuncs take rows of ``width`` at once, where that helps."""

@@ -90,15 +90,17 @@ def accuracy(camera: Camera, shapes: Shapes, plan: Plan) -> Accuracy:
 
 
 def sample(raster: Raster) -> tuple[np.ndarray, np.ndarray]:
-    """Return the x (1, columns) and y (rows, 1) of at most PIXELS pixel centers, evenly over the render window."""
+    """Return the x (1, columns) and y (rows, 1) of at most PIXELS pixel centers, evenly over the render window.
+
+    One step for rows and columns keeps a lattice of rays one, which meshes are searched in spans of: see
+    ``shapes.mesh_spans``.
+    """
     height, width = raster.shape
-    rows = min(height, PIXELS, max(1, isqrt(PIXELS * height // width)))
-    columns = min(width, PIXELS // rows)
-    return raster.columns()[:, _even(columns, width)], raster.rows()[_even(rows, height)]
-
-
-def _even(count: int, total: int) -> np.ndarray:
-    return (2 * np.arange(count) + 1) * total // (2 * count)
+    step = isqrt(max(0, height * width - 1) // PIXELS) + 1
+    while -(-height // step) * -(-width // step) > PIXELS:
+        step += 1
+    rows, columns = (slice((side - 1) % step // 2, None, step) for side in (height, width))
+    return raster.columns()[:, columns], raster.rows()[rows]
 
 
 def _bounds(plan: Plan, x: np.ndarray, y: np.ndarray, where: np.ndarray | bool = True) -> np.ndarray:

@@ -11,7 +11,7 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from ..maths.speed import Scratch, lazy
+from ..maths.speed import Scratch, lazy, merged
 from ..maths.vector import components, difference, matrix_rows, matvec
 from .affine_search import AffineSet, Group, divide
 from .frames import InCamera, WorldRays
@@ -81,8 +81,9 @@ class AffineKind(Kind):
 
     def uv(self, shapes: InCamera, pixels: HitPixels, point: Any) -> tuple[np.ndarray, np.ndarray]:
         """See ``Kind``; the points in the frame of q are right to EPS (distance / size)."""
-        offset = difference(point, components(shapes.shapes.center[pixels.at] - shapes.pose.eye))
-        return self.surface_uv(matvec(matrix_rows(shapes.shape_from_world[pixels.at]), offset))
+        at = merged(pixels.at)
+        offset = difference(point, components(shapes.shapes.center[at] - shapes.pose.eye))
+        return self.surface_uv(matvec(matrix_rows(shapes.shape_from_world[at]), offset))
 
     def errors(self, shapes: InCamera, pixels: HitPixels, rays: WorldRays, from_eye: bool, unit: bool) -> AffineErrors:
         """See ``Kind``."""

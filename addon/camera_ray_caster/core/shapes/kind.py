@@ -14,7 +14,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, NamedTuple, Protocol
 
 import numpy as np
@@ -130,6 +130,8 @@ class HitPixels:
     from_eye: bool
     """Whether their rays leave the eye."""
     scratch: Scratch
+    noted: dict[str, Any] = field(default_factory=dict)
+    """What a kind has worked out of them, by name."""
 
     @lazy
     def places(self) -> np.ndarray:

@@ -13,12 +13,15 @@ from typing import Any
 import numpy as np
 
 from ..conventions import EPS
-from ..maths.speed import lazy
+from ..maths.speed import lazy, merged
 from ..maths.vector import components, cross, difference, dot, matrix_rows, matvec, norm
 from ..records import Mesh
 from .frames import InCamera
 from .kind import HitPixels
 from .mesh_found import SEEN
+
+TRIANGLES = "triangles"
+"""Under which pixels note theirs."""
 
 LOST = 1 / 16
 """A triangle so thin that rounding of its points moves a barycentric coordinate by this much has one value all over."""
@@ -40,9 +43,12 @@ class HitTriangles:
 
     @classmethod
     def of(cls, shapes: InCamera, pixels: HitPixels) -> HitTriangles:
-        """Return those of pixels that see meshes, one at least."""
-        of_tile, which = pixels.scratch.noted[SEEN], pixels.kept(SEEN, np.int32)
-        return cls(shapes, which, of_tile.at, of_tile.number, pixels.from_eye).only(slice(None))
+        """Return those of pixels that see meshes, one at least; made once for all that asks for them."""
+        if TRIANGLES not in pixels.noted:
+            of_tile, which = pixels.scratch.noted[SEEN], pixels.kept(SEEN, np.int32)
+            own = cls(shapes, which, of_tile.at, of_tile.number, pixels.from_eye)
+            pixels.noted[TRIANGLES] = own.only(slice(None))
+        return pixels.noted[TRIANGLES]
 
     def only(self, some: Any) -> HitTriangles:
         """Return those that some of the pixels see, indices or a slice."""
@@ -160,7 +166,7 @@ class HitTriangles:
     @lazy
     def _places(self) -> np.ndarray:
         """Where what is asked of shapes stands in ``Shapes``: (k,), or (1,) where it is one."""
-        return self.at[:1] if (self.at == self.at[0]).all() else self.at
+        return merged(self.at)
 
     @lazy
     def mesh(self) -> np.ndarray:
