@@ -26,8 +26,11 @@ BORDERS = [(0.1, 0.7, 0.2, 0.9), (0.0, 0.5, 0.5, 1.0), (0.31, 0.77, 0.13, 0.59)]
 
 @pytest.mark.parametrize("border", BORDERS)
 @pytest.mark.parametrize("crop", [True, False])
-def test_a_border_shows_the_full_pictures_pixels(scene, render, border, crop):
+def test_a_border_shows_the_full_pictures_pixels(scene, render, border, crop, monkeypatch):
+    from camera_ray_caster.blender.engine import engine
+
     whole = picture(render(), "ray_direction")
+    monkeypatch.setattr(engine, "BAND_PIXELS", 2 * WIDTH)  # handed over in several bands, the last one smaller
     settings = scene.render
     settings.use_border, settings.use_crop_to_border = True, crop
     settings.border_min_x, settings.border_max_x, settings.border_min_y, settings.border_max_y = border

@@ -23,6 +23,11 @@ from .job import run
 from .passes import stored, ticked
 from .viewport import Viewport
 
+BAND_PIXELS = 1 << 18
+"""Pixels that are handed over to Blender at once, whose copies take the memory of those before. 18 passes of 3840 x
+2160 pixels take 1.5 to 2 s of processor time; all at once 4.5 to 7.2 s, 2**16 1.2 to 1.9 s.
+"""
+
 
 class CameraRayCaster(Viewport, bpy.types.RenderEngine):
     """Rays of the scene's camera, cast at meshes, spheres and planes."""
@@ -84,13 +89,20 @@ class CameraRayCaster(Viewport, bpy.types.RenderEngine):
             self.images[layer, view] = images
         report = replace(report, passes=tuple(keys), combined=made_by)
         started = perf_counter()
-        height, width = next(iter(images.values())).shape[:2]
-        result = self.begin_result(0, 0, width, height, layer=layer, view=view)
-        for entry in wanted:
-            found = result.layers[0].passes.find_by_name(entry.label, view)
-            found.rect.foreach_set(stored(entry.key, images[entry.key]))
-        self.end_result(result)
+        self.store({entry.label: (entry.key, images[entry.key]) for entry in wanted}, layer, view)
         return report.with_seconds(write=perf_counter() - started)
+
+    def store(self, passes: Mapping[str, tuple[str, np.ndarray]], layer: str, view: str) -> None:
+        """Hand passes, their keys and images by their labels in Blender, over to Blender's result, in bands of rows."""
+        height, width = next(iter(passes.values()))[1].shape[:2]
+        step = max(1, BAND_PIXELS // width)
+        for first in range(0, height, step):
+            rows = slice(first, min(first + step, height))
+            result = self.begin_result(0, first, width, rows.stop - first, layer=layer, view=view)
+            for label, (key, image) in passes.items():
+                found = result.layers[0].passes.find_by_name(label, view)
+                found.rect.foreach_set(stored(key, image[rows]))
+            self.end_result(result)
 
     def visit(self, depsgraph, frame: float):
         """Evaluate the scene at another frame."""

@@ -100,13 +100,13 @@ class Job:
             several=several,
         )
 
-    def cast(self, progress: Callable[[float], bool] | None = None, threads=None) -> tuple[Images, Report]:
-        """Cast the passes and report. ``progress`` and ``threads`` are as in ``cast``, and so is Cancelled."""
+    def cast(self, progress: Callable[[float], bool] | None = None) -> tuple[Images, Report]:
+        """Cast the passes and report. ``progress`` is as in ``cast``, and so is Cancelled."""
         settings = {"shading": self.shading, "samples": self.samples, "precision": self.precision}
         shapes = [self.camera.raster.shape, self.stored]
         needed = sum(image_bytes(shape, self.passes, np.float32) for shape in shapes)
         require(needed, of_pixels("the passes", self.stored))
-        images = cast(self.camera, self.shapes, self.passes, **settings, threads=threads, progress=progress)
+        images = cast(self.camera, self.shapes, self.passes, **settings, progress=progress)
         began = perf_counter()
         bounds = accuracy(self.camera, self.shapes, images.plan)
         seconds = {**self.seconds, **images.seconds, "accuracy": perf_counter() - began}

@@ -15,7 +15,7 @@ from ...core.camera.build import camera_from
 from ...core.camera.camera import Camera
 from ...core.camera.view_records import frame_record, view_record
 from ...core.cast import cast
-from ...core.casting.worker import BESIDE, Worker
+from ...core.casting.worker import Worker
 from ...core.records import BlenderCamera, InputError
 from ..output.reports import left_out_count
 from ..view3d.camera_frame import camera_frame
@@ -150,7 +150,7 @@ def _target(context, raw: BlenderCamera | None) -> Target | None:
 def _cast(target: Target, shapes, shown: dict[str, str], step: int, progress=None):
     """Return the combined pass at a step, (rows, columns, 4) float32, and its rectangle. It may run on a thread."""
     camera = target.camera(step)
-    images = cast(camera, shapes, ("combined",), np.float32, **shown, threads=BESIDE, progress=progress)
+    images = cast(camera, shapes, ("combined",), np.float32, **shown, progress=progress)
     return images["combined"], target.rectangle(camera.raster)
 
 

