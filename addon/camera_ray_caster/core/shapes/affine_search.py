@@ -14,7 +14,7 @@ import numpy as np
 from .. import tuning
 from ..maths.vector import cut, is_lattice
 from .kind import Candidates, Large, SearchRays, ShapeSet, Visible
-from .windows import batches, gather, in_tile, pixels_in
+from .windows import Windows, batches, in_tile, pixels_in
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,15 +77,11 @@ class Group:
     def _cast_batch(self, rays: SearchRays, here: np.ndarray, bounds: np.ndarray) -> Candidates:
         """Test many shapes at once; the windows are moved until they lie in the tile."""
         order = np.lexsort((-self.visible.at[here], -self.visible.near[here]))  # what hides others is written last
-        here, (x0, x1, y0, y1) = here[order], bounds[order].T
-        wide, high = int((x1 - x0).max()), int((y1 - y0).max())
-        x0, y0 = np.minimum(x0, rays.shape[1] - wide), np.minimum(y0, rays.shape[0] - high)
-        x = x0[:, None, None] + np.arange(wide)
-        y = y0[:, None, None] + np.arange(high)[:, None]
-        constants = self._constants(here, axes=2)
-        t, where = self._intersect(rays, constants, lambda component: gather(component, y, x))
-        t = np.broadcast_to(t, (len(here), high, wide))
-        return Candidates(self.visible.at[here][:, None, None], (y0, x0), t, where)
+        here = here[order]
+        windows = Windows.around(bounds[order], rays.shape)
+        t, where = self._intersect(rays, self._constants(here, axes=2), windows.of)
+        t = np.broadcast_to(t, (len(here), *windows.size))
+        return Candidates(self.visible.at[here][:, None, None], (windows.row, windows.column), t, where)
 
     def _constants(self, here, axes: int = 0):
         """Return the constants of one row, or of many with so many more axes behind them."""

@@ -20,6 +20,7 @@ from typing import Any, NamedTuple, Protocol
 import numpy as np
 
 from ..maths.speed import Scratch, lazy
+from ..maths.vector import cross
 from ..records import Shapes
 from .follow import Follow, follow_frames
 from .frames import InCamera, WorldRays
@@ -89,6 +90,13 @@ class SearchRays:
     shape: tuple[int, int]
     """Rows and columns."""
     scratch: Scratch
+
+    @lazy
+    def moment(self) -> Any:
+        """The cross products of origins and directions, in float64; None for rays from the eye."""
+        if self.origin is None:
+            return None
+        return cross(tuple(np.asarray(component, float) for component in self.origin), self.direction)
 
 
 class Large(NamedTuple):

@@ -17,7 +17,7 @@ from .mesh_found import SEEN, Found, SeenTriangles
 from .mesh_in_camera import MeshesInView, Triangles
 from .mesh_spans import Lattice, spans
 from .triangles import ROUNDING, STEEP, crossing, plane, signs, volumes
-from .windows import banded, batches, gather, in_tile, pixels_in
+from .windows import Windows, banded, batches, in_tile, pixels_in
 
 Reach = tuple[float, float]
 """How long the directions and the origins of a tile's rays are at most."""
@@ -111,7 +111,7 @@ class MeshSet(ShapeSet):
         doubt = _doubt(corners, reach).item()
         if rays.origin is not None:
             corners = [difference(corner, tuple(cut(part, window) for part in rays.origin)) for corner in corners]
-        inner = _inside(corners, direction, rays.origin is None)
+        inner = _inside(volumes(corners, direction), rays.origin is None)
         normal, product = plane(corners)
         slope = dot(normal, direction)
         t = dot(normal, corners[0]) / slope
@@ -142,30 +142,18 @@ class MeshSet(ShapeSet):
         return here[at], pixel
 
     def _cast(self, rays: SearchRays, reach: Reach, here: np.ndarray, bounds: np.ndarray, found: Found) -> None:
-        """Keep what is met of triangles that are tested pixel by pixel, in windows.
-
-        The windows are as large as the largest bounds, and moved until they lie in the tile.
-        """
+        """Keep what is met of triangles that are tested pixel by pixel, in windows."""
         corners: Any
         meets, corners = self.meshes.facing(here)
         if not meets.size:
             return
-        here, corners = here[meets], corners[..., None, None]
-        x0, x1, y0, y1 = bounds[meets].T
-        wide, high = int((x1 - x0).max()), int((y1 - y0).max())
-        x0, y0 = np.minimum(x0, rays.shape[1] - wide), np.minimum(y0, rays.shape[0] - high)
-        x, y = x0[:, None, None] + np.arange(wide), y0[:, None, None] + np.arange(high)[:, None]
+        here, windows = here[meets], Windows.around(bounds[meets], rays.shape)
         doubt = _doubt(corners, reach)
-        direction = tuple(gather(component, y, x) for component in rays.direction)
-        if rays.origin is not None:
-            origin = tuple(gather(component, y, x) for component in rays.origin)
-            corners = [difference(corner, origin) for corner in corners]
-        inner = _inside(corners, direction, rays.origin is None)
+        direction, moment = (parts and tuple(map(windows.flat, parts)) for parts in (rays.direction, rays.moment))
+        inner = _inside(volumes(corners, direction, moment), rays.origin is None)
         hit = np.flatnonzero(inner >= -doubt)
         sure = (inner > doubt).reshape(-1)[hit]
-        k, place = np.divmod(hit, high * wide)
-        row, column = np.divmod(place, wide)
-        pixel, which = (y0[k] + row) * rays.shape[1] + x0[k] + column, here[k]
+        pixel, which = windows.pixel.reshape(-1)[hit], here[hit % len(here)]
         self._test(rays, [(which[~sure], pixel[~sure])], found)
         pixel, which = pixel[sure], which[sure]
         self._keep(found, pixel, crossing(*self._meeting(rays, which, pixel)), which)
@@ -179,7 +167,7 @@ class MeshSet(ShapeSet):
         which, pixel = (np.concatenate(part) for part in zip(*rest, strict=True))
         corners, direction = self._meeting(rays, which, pixel)
         doubt = ROUNDING * np.maximum.reduce([norm(corner) for corner in corners]) ** 2 * norm(direction)
-        inner = _inside(corners, direction, is_turned=False)
+        inner = _inside(volumes(corners, direction), is_turned=False)
         met = inner > doubt
         open_ = np.flatnonzero(np.abs(inner) <= doubt)
         if open_.size:
@@ -205,12 +193,12 @@ class MeshSet(ShapeSet):
         return corners if rays.origin is None else corners - at(rays.origin), at(rays.direction)
 
 
-def _inside(corners: Any, direction: Any, is_turned: bool) -> np.ndarray:
+def _inside(volumes: tuple[Any, Any, Any], is_turned: bool) -> np.ndarray:
     """Return the volume that is nearest to letting a ray miss its triangle: positive where it is met.
 
     ``is_turned``: all volumes of a hit are known to be positive; else they may all be negative, too.
     """
-    first, second, third = volumes(corners, direction)
+    first, second, third = volumes
     inner = np.minimum(np.minimum(first, second), third)
     if not is_turned:
         np.maximum(inner, -np.maximum(np.maximum(first, second), third), out=inner)

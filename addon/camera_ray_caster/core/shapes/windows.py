@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
 from .. import tuning
+from ..maths.speed import lazy, taken
 
 
 def pixels_in(bounds: np.ndarray) -> np.ndarray:
@@ -50,11 +53,49 @@ def batches(bounds: np.ndarray) -> Iterator[np.ndarray]:
             yield alike[first : first + count]
 
 
-def gather(component, y, x):
-    """Return a broadcastable component at pixels given by a column of rows and a row of columns a shape."""
-    if np.ndim(component) == 0:
-        return component
-    rows, columns = component.shape
-    if rows == columns == 1:
-        return component[None]
-    return component[y if rows > 1 else 0, x if columns > 1 else 0]
+@dataclass(frozen=True, eq=False)
+class Windows:
+    """Windows of a tile that are all as large as the largest of some bounds, moved until they lie in the tile."""
+
+    row: np.ndarray
+    """(k,) that of the lowest pixel of each."""
+    column: np.ndarray
+    """(k,) that of the leftmost."""
+    size: tuple[int, int]
+    """Rows and columns."""
+    width: int
+    """Of the tile."""
+
+    @classmethod
+    def around(cls, bounds: np.ndarray, shape: tuple[int, int]) -> Windows:
+        """Return those of bounds, (k, 4), in a tile of some rows and columns."""
+        x0, x1, y0, y1 = bounds.T.astype(np.intp)
+        high, wide = int((y1 - y0).max()), int((x1 - x0).max())
+        return cls(np.minimum(y0, shape[0] - high), np.minimum(x0, shape[1] - wide), (high, wide), shape[1])
+
+    def of(self, component: Any) -> Any:
+        """Return a component of the tile's rays in each window, (k, rows, columns); a row stays a row."""
+        if np.ndim(component) == 0:
+            return component
+        rows, columns = component.shape
+        if rows == columns == 1:
+            return component[None]
+        y = self.row[:, None, None] + np.arange(self.size[0])[:, None] if rows > 1 else 0
+        x = self.column[:, None, None] + np.arange(self.size[1]) if columns > 1 else 0
+        return component[y, x]
+
+    @lazy
+    def pixel(self) -> np.ndarray:
+        """The flat indices of their pixels, (rows columns, k): long loops over windows, not short ones over columns."""
+        high, wide = self.size
+        inside = np.arange(high)[:, None] * self.width + np.arange(wide)
+        return inside.reshape(-1, 1) + (self.row * self.width + self.column)
+
+    def flat(self, component: Any) -> Any:
+        """Return a component at ``pixel``; one that is a number as it is."""
+        if np.ndim(component) == 0:
+            return component
+        if min(component.shape) > 1:
+            return taken(component.reshape(-1), self.pixel)
+        own = np.broadcast_to(self.of(component), (len(self.row), *self.size))
+        return own.reshape(len(self.row), -1).T
