@@ -18,8 +18,6 @@ def step_through(user, scenes):
     """Two pixels are clicked: their steps stand in the sidebar, their rays in every 3D View, and can be copied."""
     yield from load(user, scenes, "toys")
     space, lesson = user.area().spaces.active, addon("view3d.lesson")
-    yield from user.scroll(40)
-    yield from user.wait(0.5)
     yield from user.press(f"{BUTTON}step_through(")
     yield from user.wait(0.5)
     assert space.region_3d.view_perspective == "CAMERA"
@@ -48,7 +46,6 @@ def step_through(user, scenes):
     yield from user.wait(0.7)
     off = user.cut(user.picture("step_through_cleared"), user.region("WINDOW"))
     assert not lesson.pixels
-    yield from user.scroll(60, down=False)
     assert np.count_nonzero(np.abs(on - off).max(axis=2) > 0.1) > 500
 
 

@@ -7,6 +7,7 @@ from camera_scenarios import CAMERA_SCENARIOS
 from cast_scenarios import CAST_SCENARIOS
 from lesson_scenarios import LESSON_SCENARIOS
 from parts import BUTTON, MODULE, addon, load, timed
+from stranger_scenarios import STRANGER_SCENARIOS
 from user import pixels_of
 
 DRAWN = 0.002
@@ -19,7 +20,9 @@ def panel(user, scenes):
     area = user.area("DOPESHEET_EDITOR")
     area.ui_type = "IMAGE_EDITOR"
     timings = {}
-    for name in ("ui.camera_panels", "ui.cast_panels", "ui.overlay_panels"):
+    for name in (
+        "ui.camera_panels", "ui.facts_panels", "ui.verify_panels", "ui.cast_panels", "ui.overlay_panels",
+    ):
         for kind in vars(addon(name)).values():
             if isinstance(kind, type) and issubclass(kind, bpy.types.Panel) and "draw" in vars(kind):
                 timed(kind, timings.setdefault(kind.__name__, []))
@@ -29,8 +32,6 @@ def panel(user, scenes):
     yield from user.until(addon("output.reports").verified, "the camera is verified")
     assert addon("output.reports").verified().passed
     assert addon("output.reports").latest() is None
-    yield from user.scroll(10)
-    yield from user.wait(0.5)
     yield from user.press(f"{BUTTON}cast(")
     yield from user.until(addon("output.reports").latest, "the cast has ended")
     yield from user.wait(0.5)
@@ -43,7 +44,7 @@ def panel(user, scenes):
     assert depth.min() > scene.camera.data.clip_start
     assert depth.max() == addon("engine.passes").FAR
     print({name: f"{1e3 * np.median(seconds or [0]):.2f} ms" for name, seconds in timings.items()})
-    assert all(timings[name] for name in ("SidebarCamera", "SidebarVerify", "SidebarCast", "SidebarReport"))
+    assert all(timings[name] for name in ("SidebarCamera", "SidebarVerify", "SidebarCast", "SidebarFacts"))
     slow = {name: np.median(seconds) for name, seconds in timings.items() if np.median(seconds or [0]) > DRAWN}
     assert not slow, slow
     bpy.ops.ed.undo()
@@ -74,13 +75,10 @@ def left_out(user, scenes):
     yield from user.until(addon("output.reports").latest, "the cast has ended")
     names = addon("output.reports").by_reason(addon("output.reports").latest())
     yield from user.wait(0.5)
-    yield from user.scroll(30)
-    yield from user.wait(0.5)
     user.picture("left_out")
     yield from user.press(f"{BUTTON}select(")
     chosen = {item.name for item in bpy.context.view_layer.objects if item.select_get()}
     assert chosen in [set(group) for group in names.values()], (names, chosen)
-    yield from user.scroll(60, down=False)
 
 
 def overlay(user, scenes):
@@ -233,6 +231,6 @@ SCENARIOS = {
     scenario.__name__: scenario
     for scenario in (
         panel, no_camera, left_out, *CAST_SCENARIOS, overlay, ray_under_mouse, viewport,
-        cycles, *CAMERA_SCENARIOS, *LESSON_SCENARIOS, disable,
+        cycles, *CAMERA_SCENARIOS, *LESSON_SCENARIOS, *STRANGER_SCENARIOS, disable,
     )
 }  # fmt: skip

@@ -101,9 +101,9 @@ class User:
             yield from self.click(region.x + region.width - 12, y)
         raise AssertionError(f"the sidebar has no tab {name!r}")
 
-    def press(self, command, region=None):
-        """Press the button of an operator in a region, the sidebar's by default: the one of which Ctrl+C copies that
-        Python command.
+    def find(self, command, region=None):
+        """Move the mouse onto the button of an operator in a region, the sidebar's by default: the one of which Ctrl+C
+        copies that Python command. ``known`` has its height.
 
         Where it was the last time is tried first, then every 17 pixels: less than a button's height.
         """
@@ -117,9 +117,14 @@ class User:
             yield
             if wm.clipboard.strip().startswith(command):
                 self.known[command] = y
-                yield from self.click(x, y)
                 return
         raise AssertionError(f"no button for {command}")
+
+    def press(self, command, region=None):
+        """Press the button of an operator: see ``find``."""
+        yield from self.find(command, region)
+        region = region or self.region()
+        yield from self.click(region.x + region.width // 3, self.known[command])
 
 
 def pixels_of(image):

@@ -38,6 +38,7 @@ def prepare():
     preferences = bpy.context.preferences
     preferences.view.show_splash = False
     preferences.view.render_display_type = "AREA"  # there is no window manager for a second window
+    preferences.view.filebrowser_display_type = "SCREEN"
     preferences.use_preferences_save = False
 
 

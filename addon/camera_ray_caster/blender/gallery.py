@@ -1,10 +1,13 @@
-"""The gallery that comes with the extension: an example scene for each camera model, and its picture."""
+"""The gallery that comes with the extension: example scenes of camera models, times and places, and their pictures."""
 
 from __future__ import annotations
 
 from pathlib import Path
 
 import bpy.utils.previews
+
+from ..core.cameras import MODELS
+from ..core.cameras.model import GROUPS
 
 PACKAGE = Path(__file__).resolve().parents[1]
 FOLDERS = (PACKAGE / "gallery", PACKAGE.parents[1] / "blend_scenes")
@@ -15,6 +18,20 @@ NAMES = {
     "FISHEYE_LENS_POLYNOMIAL": "fisheye_polynomial", "STEREOGRAPHIC_PANORAMA": "little_planet",
 }  # fmt: skip
 """The scene of a camera model by its key; of all others the scene is called as the model."""
+
+LECTURE = {
+    "Camera Obscura": "camera_obscura", "Pinhole": "pinhole", "Thin Lens": "thin_lens", "Orthographic": "orthographic",
+    "Fisheye": "fisheye_equidistant", "Omnimax": "omnimax", "Slit Scan": "slit_scan_rows",
+}  # fmt: skip
+"""The scenes of an introduction to cameras, in its order, by what it calls them."""
+TIMES = "slit_scan_rows", "slit_scan_columns", "time_displacement", "rolling_shutter", "twisted_monkey", "propeller"
+"""Scenes whose pixels have each their own time."""
+PLACES = (
+    "spheres_and_planes", "toys", "toys_cross_slit", "living_room", "living_room_equirectangular",
+    "living_room_omnimax", "rotunda_fisheye", "rotunda_panorama", "street", "street_pushbroom", "sculpture_garden",
+    "unrolled_monkey",
+)  # fmt: skip
+"""Scenes of every kind of shape, most of meshes."""
 
 _previews: list[bpy.utils.previews.ImagePreviewCollection] = []
 
@@ -27,6 +44,20 @@ def folder() -> Path | None:
 def scene_name(key: str) -> str:
     """Return the name of the example scene of a camera model."""
     return NAMES.get(key, key.lower())
+
+
+def groups() -> dict[str, dict[str, str]]:
+    """Return the names of the scenes that menus offer, by label, in groups."""
+    return {
+        "Introduction": LECTURE,
+        "Time": {_label(name): name for name in TIMES},
+        **{group: {it.label: scene_name(it.key) for it in MODELS if it.group == group} for group in GROUPS},
+        "Places": {_label(name): name for name in PLACES},
+    }
+
+
+def _label(name: str) -> str:
+    return name.replace("_", " ").title()
 
 
 def scenes() -> list[Path]:

@@ -19,8 +19,10 @@ from .ui import (
     cast_panels,
     cycles_operators,
     export_operators,
+    facts_panels,
     gallery_operators,
     gallery_panels,
+    left_out_panels,
     lesson_operators,
     lesson_panels,
     menus,
@@ -31,7 +33,9 @@ from .ui import (
     point_operators,
     presets,
     render_panels,
+    see_through,
     show_result,
+    verify_panels,
 )
 from .view3d import lesson, mouse_gizmo, overlay, scene_cache
 
@@ -40,9 +44,9 @@ CLASSES = (
     *cycles_operators.CLASSES, *add_line.CLASSES, *export_operators.CLASSES,
     *mouse_gizmo.CLASSES, *render_panels.CLASSES, *gallery_panels.CLASSES,
     *menus.CLASSES, *presets.CLASSES, *model_panels.CLASSES,
-    *camera_panels.CLASSES, *show_result.CLASSES, *cast_panels.CLASSES, *lesson_operators.CLASSES,
-    *point_operators.CLASSES, *gallery_operators.CLASSES, *lesson_panels.CLASSES,
-    *object_panels.CLASSES, *overlay_panels.CLASSES,
+    *see_through.CLASSES, *camera_panels.CLASSES, *show_result.CLASSES, *cast_panels.CLASSES, *verify_panels.CLASSES,
+    *left_out_panels.CLASSES, *lesson_operators.CLASSES, *point_operators.CLASSES, *gallery_operators.CLASSES,
+    *lesson_panels.CLASSES, *facts_panels.CLASSES, *overlay_panels.CLASSES, *object_panels.CLASSES,
 )  # fmt: skip
 """Blender's types, in the order in which they are registered: a panel comes after the panel that it is in."""
 

@@ -60,7 +60,7 @@ def without_it(crc, path, folder):
     """Open the file: read, render and show its camera, with the add-on registered and without."""
     crc.register()
     bpy.ops.wm.open_mainfile(filepath=str(path))
-    from camera_ray_caster.blender.ui.camera_panels import facts_of
+    from camera_ray_caster.blender.ui.facts_panels import facts_of
 
     said = [refusal(lambda: crc.read_camera(bpy.context.scene))]
     said.append(refusal(lambda: rendered(bpy.context.scene, folder / "none.exr")))

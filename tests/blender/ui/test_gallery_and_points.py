@@ -22,6 +22,25 @@ def test_the_camera_of_each_model_comes_with_all_that_it_needs(blender, model):
     assert camera.rays().valid.any()
 
 
+SHOWN = {name for entries in gallery.groups().values() for name in entries.values()}
+
+
+def test_the_menus_offer_all_that_has_a_picture():
+    pictures = gallery.folder() / "pictures"
+    with_picture = {path.stem for path in gallery.scenes() if (pictures / f"{path.stem}.png").is_file()}
+    assert with_picture | {"orthographic"} == SHOWN
+
+
+@pytest.mark.parametrize("name", [*gallery.TIMES, "unrolled_monkey", "living_room"])
+def test_the_camera_of_a_time_or_a_place_comes_with_all_that_it_needs(blender, name):
+    assert blender.ops.camera_ray_caster.append_camera(name=name) == {"FINISHED"}
+    blender.context.scene.render.resolution_percentage = 10
+    blender.context.view_layer.update()
+    camera = read_camera(blender.context.scene)
+    assert camera.rays().valid.any()
+    assert (camera.pixel_time is not None) == (name in gallery.TIMES)
+
+
 def test_what_the_gallery_does_not_have_is_refused(blender):
     for operator in (blender.ops.camera_ray_caster.append_camera, blender.ops.camera_ray_caster.open_example):
         with pytest.raises(RuntimeError, match="the gallery has no scene 'cat'"):

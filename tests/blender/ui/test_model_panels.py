@@ -67,6 +67,9 @@ class Layout:
         self.operators = [] if operators is None else operators
         self.labels = [] if labels is None else labels
 
+    def split(self, factor, align):
+        return self.column(align)
+
     def label(self, text, icon="NONE"):
         self.labels.append(text)
 
@@ -81,7 +84,7 @@ class Layout:
 
     def column(self, align=False):
         inside = Layout(self.names, self.grayed, self.operators, self.labels)
-        inside.active = self.active
+        inside.active, inside.use_property_split = self.active, self.use_property_split
         return inside
 
     row = column
@@ -102,9 +105,9 @@ def data(blender):
     return blender.data.cameras.new("Camera")
 
 
-def drawn(bpy, panel, data, engine="CYCLES"):
+def drawn(bpy, panel, data, engine="CYCLES", width=300):
     layout = Layout()
-    region = type("Region", (), {"width": 300})
+    region = type("Region", (), {"width": width})
     context = {"camera": data, "scene": bpy.context.scene, "engine": engine, "region": region}
     context = type("Context", (), {**context, "preferences": bpy.context.preferences})
     panel.draw(type("Panel", (), {"layout": layout}), context)
@@ -117,6 +120,15 @@ def test_the_settings_of_the_chosen_model_are_shown_in_order(blender, data):
     assert set(SHOWN) <= {item.identifier for item in own.bl_rna.properties["model"].enum_items}
     for own.model, names in SHOWN.items():
         assert drawn(blender, ModelPanel, data) == (("model", *names), ())
+
+
+def test_in_a_narrow_editor_the_same_is_shown_with_labels_that_are_not_cut_off(blender, data):
+    data.camera_ray_caster.model = "OPENCV_FISHEYE"
+    wide = drawn(blender, ModelPanel, data)
+    label = "Camera in File"
+    assert label not in drawn.labels
+    assert drawn(blender, ModelPanel, data, width=220) == wide
+    assert label in drawn.labels
 
 
 def test_what_blender_shows_for_another_type_of_camera_is_shown(blender, data):

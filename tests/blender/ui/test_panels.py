@@ -13,7 +13,7 @@ class Layout:
         def call(*arguments, **keywords):
             self.said += [keywords["text"]] if keywords.get("text") else []
             self.said += {"operator": arguments, "prop": arguments[1:]}.get(name, ())
-            return self
+            return (self, self) if name == "panel" else self
 
         return call
 
@@ -29,19 +29,28 @@ def drawn(blender, panel):
 
 
 def test_the_panels_say_what_the_camera_is_and_why_it_is_none(blender, scene):
-    from camera_ray_caster.blender.ui import camera_panels, cast_panels, overlay_panels
+    from camera_ray_caster.blender.ui import (
+        camera_panels,
+        cast_panels,
+        facts_panels,
+        left_out_panels,
+        overlay_panels,
+        verify_panels,
+    )
 
-    sidebar = [*camera_panels.CLASSES[:2], *cast_panels.CLASSES[:2], overlay_panels.SidebarOverlay]
-    said = drawn(blender, camera_panels.SidebarCamera)
+    verify = verify_panels.SidebarVerify
+    sidebar = [camera_panels.SidebarCamera, verify, *cast_panels.CLASSES[:3], overlay_panels.SidebarOverlay]
+    assert "camera_ray_caster.see_through" not in drawn(blender, camera_panels.SidebarCamera)  # there is no view
+    said = drawn(blender, facts_panels.SidebarFacts)
     for text in ("Eye", "6 m", "24 × 16 px", "39.6°", "Distance d", "2.77778", "K", "camera_ray_caster.copy_k"):
         assert text in said
     blender.ops.camera_ray_caster.cast()
-    for panel in (*sidebar, *cast_panels.CLASSES[2:]):
+    for panel in (*sidebar, camera_panels.SidebarSettings, *cast_panels.CLASSES[3:]):
         drawn(blender, panel)
-    assert "Suzanne" in drawn(blender, cast_panels.SidebarLeftOut)
-    assert "All witnesses agree" in drawn(blender, camera_panels.SidebarVerify)
+    assert "Suzanne" in drawn(blender, left_out_panels.SidebarLeftOut)
+    assert "All witnesses agree" in drawn(blender, verify)
     scene.camera.location.x = 1
-    assert "has changed since" in drawn(blender, camera_panels.SidebarVerify)
+    assert "has changed since" in drawn(blender, verify)
     scene.camera = None
     assert "no active camera" in drawn(blender, camera_panels.SidebarCamera)
     for panel in sidebar:
@@ -49,14 +58,14 @@ def test_the_panels_say_what_the_camera_is_and_why_it_is_none(blender, scene):
 
 
 def test_cast_as_stands_in_the_objects_properties_and_beside_what_was_left_out(blender, scene):
-    from camera_ray_caster.blender.ui import cast_panels, object_panels
+    from camera_ray_caster.blender.ui import left_out_panels, object_panels
 
     blender.ops.camera_ray_caster.cast()
-    assert drawn(blender, cast_panels.SidebarLeftOut).split()[-6:] == [
+    assert drawn(blender, left_out_panels.SidebarLeftOut).split()[-6:] == [
         "Select", "1", "Object", "camera_ray_caster.select", "Suzanne", "primitive",
     ]  # fmt: skip
     blender.data.objects["Suzanne"].name = "Renamed"
-    assert "primitive" not in drawn(blender, cast_panels.SidebarLeftOut)
+    assert "primitive" not in drawn(blender, left_out_panels.SidebarLeftOut)
     assert not object_panels.ObjectPanel.poll(blender.context)  # the camera is active
     blender.context.view_layer.objects.active = blender.data.objects["Renamed"]
     assert object_panels.ObjectPanel.poll(blender.context)
@@ -75,9 +84,9 @@ def test_the_panels_say_how_right_the_hits_are(blender, scene):
     assert found.hits > 0
     assert 0 < reports.latest().seconds["accuracy"] < sum(reports.latest().seconds.values())
     median, worst = (f"≤ {getattr(found, name)('relative_distance'):.0e}" for name in ("median", "worst"))
-    assert f"Median {median} Worst {worst}" in drawn(blender, cast_panels.SidebarDetails)
-    assert "384 rays at 1 shapes in" in drawn(blender, cast_panels.SidebarReport)
+    assert f"Median {median} Worst {worst}" in drawn(blender, cast_panels.SidebarReport)
+    assert "384 rays at 1 shape in" in drawn(blender, cast_panels.SidebarCast)
     assert f"Worst distance error: {worst}" in drawn(blender, render_panels.RenderPanel)
     scene.camera.location.z = -6  # it looks away from all there is
     blender.ops.camera_ray_caster.cast()
-    assert "Worst nothing hit" in drawn(blender, cast_panels.SidebarDetails)
+    assert "Worst nothing hit" in drawn(blender, cast_panels.SidebarReport)

@@ -1,4 +1,4 @@
-"""The operator that adds a slit or a path for a camera that has none, where it gives a full picture at once."""
+"""Operators that add a slit or a path for a camera that has none, where it gives a full picture, and select it."""
 
 import bpy
 from bpy.props import EnumProperty
@@ -7,7 +7,7 @@ from mathutils import Euler, Matrix, Vector
 from ...core.cameras.parts.lines import SECOND_SLIT, SLIT
 from ...core.cameras.strip import PATH
 from ..properties.declared import GROUP
-from .needs import OfCamera, camera_object_of
+from .needs import OfCamera, camera_object_of, select_alone
 
 QUARTER = 1.5707963267948966
 PATH_HALF = 5.0
@@ -24,14 +24,18 @@ halfway to the window of a cross-slit camera, which then sees about twice as wid
 SETTINGS = {setting.name: setting for setting in (SLIT, SECOND_SLIT, PATH)}
 
 
-class AddLine(OfCamera, bpy.types.Operator):
+class OfLine(OfCamera):
+    """An operator on a slit or the path of the camera of the panel."""
+
+    setting: EnumProperty(name="Line", items=[(it.name, it.label, it.text) for it in SETTINGS.values()])
+
+
+class AddLine(OfLine, bpy.types.Operator):
     """Add this line to the scene, parented to the camera, and choose it"""
 
     bl_idname = "camera_ray_caster.add_line"
     bl_label = "Add Slit or Path"
     bl_options = {"REGISTER", "UNDO"}
-
-    setting: EnumProperty(name="Line", items=[(it.name, it.label, it.text) for it in SETTINGS.values()])
 
     def execute(self, context):
         """Add it beside the camera, in the same collection."""
@@ -44,6 +48,25 @@ class AddLine(OfCamera, bpy.types.Operator):
             collection.objects.link(line)
         line.parent, line.matrix_local = camera, PLACES[self.setting]
         setattr(getattr(camera.data, GROUP), self.setting, line)
+        if context.area is not None and context.area.type == "VIEW_3D":  # a camera's properties stay with the camera
+            select_alone(context, line)
+        return {"FINISHED"}
+
+
+class SelectLine(OfLine, bpy.types.Operator):
+    """Select this line alone, to move it"""
+
+    bl_idname = "camera_ray_caster.select_line"
+    bl_label = "Select Slit or Path"
+    bl_options = {"REGISTER", "UNDO"}
+
+    def execute(self, context):
+        """Select it, and make it the active object."""
+        line = getattr(getattr(camera_object_of(context).data, GROUP), self.setting)
+        if line is None or line.name not in context.view_layer.objects:
+            self.report({"ERROR"}, "It is not in this view layer")
+            return {"CANCELLED"}
+        select_alone(context, line)
         return {"FINISHED"}
 
 
@@ -58,4 +81,4 @@ def _path(name: str):
     return curve
 
 
-CLASSES = (AddLine,)
+CLASSES = (AddLine, SelectLine)

@@ -8,6 +8,12 @@ LETTER = 6.0
 """About the width of a letter in a panel, in units of the interface's scale."""
 
 
+MARGIN = 20.0
+"""About the width beside a panel's fields, in the same units."""
+NARROW = 280
+"""Width up to which a label beside its field would be cut off, in the same units."""
+
+
 class Sidebar:
     """What our panels in the 3D View's sidebar have in common."""
 
@@ -16,12 +22,38 @@ class Sidebar:
     bl_category = "Ray Caster"
 
 
+def width_of(context) -> float:
+    """Return the width of the region in units of the interface's scale."""
+    return context.region.width / (context.preferences.system.ui_scale or 1.0)  # 0 without a window
+
+
+def put_labels(layout, context) -> None:
+    """Put labels beside the fields, as Blender does, where there is room for them."""
+    layout.use_property_split = width_of(context) > NARROW
+
+
+def draw_field(layout, context, owner, name: str):
+    """Draw a property, where labels are not put beside fields with as much room for its own as it needs; return the
+    layout of its field.
+    """
+    kind = owner.bl_rna.properties[name]
+    if layout.use_property_split or kind.type in {"BOOLEAN", "FLOAT", "INT"}:  # Blender puts the label into these
+        row = layout.row(align=True)
+        row.prop(owner, name)
+        return row
+    room = (LETTER * len(kind.name) + MARGIN) / max(width_of(context) - 2 * MARGIN, 1.0)
+    row = layout.split(factor=min(room, 0.6), align=True)
+    row.label(text=kind.name)
+    row = row.row(align=True)
+    row.prop(owner, name, text="")
+    return row
+
+
 def draw_message(layout, context, text: str, icon: str = "INFO") -> None:
     """Draw a sentence in as many lines as the panel's width asks for, its first letter a capital."""
-    width = context.region.width / (context.preferences.system.ui_scale or 1.0)  # 0 without a window
     column = layout.column(align=True)
     column.scale_y = 0.85
-    for i, line in enumerate(wrap(text[:1].upper() + text[1:], max(16, int((width - 65) / LETTER)))):
+    for i, line in enumerate(wrap(text[:1].upper() + text[1:], max(16, int((width_of(context) - 65) / LETTER)))):
         column.label(text=line, icon="BLANK1" if i else icon)
 
 

@@ -3,12 +3,13 @@
 import bpy
 from bpy.props import StringProperty
 
-from ...core.cameras import MODELS
-from ...core.cameras.model import GROUPS
 from .. import gallery
+from .needs import select_alone
 
 CAMERA = "Camera"
 """What the camera of every scene of the gallery is called."""
+LINES = 14
+"""Of a column of the menus."""
 
 
 class OfGallery:
@@ -55,31 +56,28 @@ class AppendCamera(OfGallery, bpy.types.Operator):
         with bpy.data.libraries.load(path, link=False) as (_, wanted):
             wanted.objects = [CAMERA]
         added = [item for item in bpy.data.objects if item not in known]
-        for item in context.selected_objects:
-            item.select_set(False)
         for item in added:
             context.collection.objects.link(item)
         (camera,) = wanted.objects
-        camera.select_set(True)
-        context.view_layer.objects.active = context.scene.camera = camera
+        select_alone(context, camera)
+        context.scene.camera = camera
         self.report({"INFO"}, f"{camera.name!r} is the scene's camera")
         return {"FINISHED"}
 
 
 class GalleryMenu:
-    """A menu of the gallery's scenes by the model of their camera, in groups."""
+    """A menu of the gallery's scenes, in groups."""
 
     def draw(self, context):
-        """A column a group, an entry a model."""
-        row = self.layout.row()
-        for group in GROUPS:
-            column = row.column()
+        """Columns of groups, small groups below each other, an entry a scene."""
+        row, free = self.layout.row(), 0
+        for group, entries in gallery.groups().items():
+            if len(entries) >= free:
+                column, free = row.column(), LINES
+            free -= len(entries) + 1
             column.label(text=group)
-            for model in MODELS:
-                name = gallery.scene_name(model.key)
-                if model.group == group:
-                    entry = column.operator(self.operator, text=model.label, icon_value=gallery.icon(name))
-                    entry.name = name
+            for label, name in entries.items():
+                column.operator(self.operator, text=label, icon_value=gallery.icon(name)).name = name
 
 
 class ExamplesMenu(GalleryMenu, bpy.types.Menu):

@@ -51,11 +51,13 @@ def draw_pictures(layout, own, members) -> None:
         cell.prop_enum(own, MODEL.name, item.key)
 
 
-def draw_model(layout, camera):
-    """Draw the chooser of a camera's model, a menu and the gallery beside it, and return its row."""
+def draw_model(layout, camera, **options):
+    """Draw the chooser of a camera's model, a menu and the gallery beside it, and return its row. ``options``: those of
+    Blender's ``prop`` for the menu.
+    """
     row = layout.row(align=True)
     row.context_pointer_set(POINTER, camera)
-    row.prop(getattr(camera, GROUP), MODEL.name)
+    row.prop(getattr(camera, GROUP), MODEL.name, **options)
     row.popover(ModelGallery.bl_idname, text="", icon="IMGDISPLAY")
     return row
 

@@ -5,11 +5,10 @@ import bpy
 from ..view3d.camera_frame import is_picture
 from ..view3d.lesson import lessons
 from .drawing import Sidebar, draw_message
-from .gallery_operators import ExamplesMenu
 from .lesson_operators import ClearSteps, CopySteps, StepThrough
 from .point_operators import EmptyAtHit, PixelOfPoint
 
-OPEN = ("View coordinates [-1, 1]²", "Model", "Seen")
+OPEN = ("Ray", "Ray in the world", "Seen")
 """The steps that are not folded at first."""
 
 
@@ -23,14 +22,13 @@ class Steps:
         layout = self.layout
         layout.operator(StepThrough.bl_idname, icon="EYEDROPPER", text="Click a Pixel")
         layout.operator(PixelOfPoint.bl_idname, icon="PIVOT_CURSOR", text="Pixel of 3D Cursor")
+        found = lessons(context)
+        if not found:
+            return
         layout.operator(EmptyAtHit.bl_idname, icon="EMPTY_SINGLE_ARROW")
         row = layout.row(align=True)
         row.operator(CopySteps.bl_idname, icon="COPYDOWN")
         row.operator(ClearSteps.bl_idname, icon="X")
-        found = lessons(context)
-        if not found:
-            layout.menu(ExamplesMenu.bl_idname, icon="FILE_BLEND")
-            return
         *others, latest = found.values()
         if others:
             pixels = ", ".join(f"({x}, {y})" for x, y in (one.seen.pixel for one in others))

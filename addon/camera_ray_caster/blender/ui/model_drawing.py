@@ -1,14 +1,18 @@
 """The settings of a camera's model and its lens, as the panels of its properties and of the sidebar draw them."""
 
+from ...core.camera import pixel_time
 from ...core.cameras.parts.calibration import UNIT
 from ...core.cameras.parts.film import FILM, LENS
 from ...core.cameras.parts.settings import CAMERA, Setting
 from ..cycles.shader import CUSTOM
 from ..properties.declared import BLENDERS_OWN, ENGINE, GROUP
 from ..properties.owners import owner_of
-from .add_line import AddLine
-from .drawing import draw_message
+from .add_line import AddLine, SelectLine
+from .drawing import draw_field, draw_message
 from .model_settings import lengths_in_words, not_used, of_type, read_settings, shown
+
+PRESETS = "CAMERA_RAY_CASTER_PT_presets"
+"""The panel of the presets."""
 
 
 def draw_model_settings(layout, context, camera) -> None:
@@ -27,16 +31,16 @@ def draw_model_settings(layout, context, camera) -> None:
         draw_message(layout, context, f"The model does not use Blender's {', '.join(labels)}")
 
 
-def draw_lens(layout, camera) -> None:
+def draw_lens(layout, context, camera) -> None:
     """Draw Blender's type of camera and its settings, and those of Blender's that the model reads; gray what it does
     not read.
     """
     read, offered = read_settings(camera), of_type(camera)
     column = layout.column()
     column.active = getattr(camera, GROUP).model == BLENDERS_OWN
-    column.prop(camera, "type")
+    draw_field(column, context, camera, "type")
     if camera.type == "PANO":
-        column.prop(camera, "panorama_type")
+        draw_field(column, context, camera, "panorama_type")
     column = layout.column(align=True)
     for setting in dict.fromkeys((*offered, *read)):
         if setting.owner == CAMERA and setting not in FILM:
@@ -47,7 +51,15 @@ def draw_lens(layout, camera) -> None:
     if LENS in (*offered, *read):
         row = column.row()
         row.active = LENS in read
-        row.prop(camera, "lens_unit")
+        draw_field(row, context, camera, "lens_unit")
+
+
+def draw_times(layout, context, camera) -> None:
+    """Draw the list of the times of pixels; below it what the chosen one needs."""
+    own = getattr(camera, GROUP)
+    draw_field(layout, context, own, pixel_time.MODE.name)
+    for setting in pixel_time.SETTINGS.get(own.time_mode, ()):
+        draw_setting(layout, context, camera, setting)
 
 
 def draw_setting(layout, context, camera, setting: Setting) -> None:
@@ -58,7 +70,7 @@ def draw_setting(layout, context, camera, setting: Setting) -> None:
 
 
 def _draw_property(layout, context, owner, setting) -> None:
-    layout.prop(owner, setting.name)
+    draw_field(layout, context, owner, setting.name)
 
 
 def _draw_image(layout, context, owner, setting) -> None:
@@ -72,9 +84,11 @@ def _draw_vector(layout, context, owner, setting) -> None:
 
 
 def _draw_object(layout, context, owner, setting) -> None:
-    """Draw the object; where there is none, what it should be, and a button that adds one."""
-    layout.prop(owner, setting.name)
-    if getattr(owner, setting.name) is None:
+    """Draw the object with a button that selects it; where there is none, what it should be, and one that adds it."""
+    row = draw_field(layout, context, owner, setting.name)
+    if getattr(owner, setting.name) is not None:
+        row.operator(SelectLine.bl_idname, text="", icon="RESTRICT_SELECT_OFF").setting = setting.name
+    else:
         draw_message(layout, context, f"Missing: {setting.text[:1].lower()}{setting.text[1:]}", "ERROR")
         layout.operator(AddLine.bl_idname, text=f"Add {setting.label}", icon="ADD").setting = setting.name
 

@@ -2,18 +2,15 @@
 
 import bpy
 
-from ...core.camera import pixel_time
 from ...core.cameras.parts.film import SENSOR_FIT, SHIFT
-from ..properties.declared import ENGINE, GROUP
+from ..properties.declared import ENGINE
 from ..read.camera import shader_mark
 from .cycles_operators import BackToBlender, UseInCycles
+from .drawing import draw_field, put_labels
 from .gallery_panels import draw_model
-from .model_drawing import draw_lens, draw_model_settings, draw_setting
+from .model_drawing import PRESETS, draw_lens, draw_model_settings, draw_times
 from .model_settings import read_settings
 from .operators import LoadCalibration
-
-PRESETS = "CAMERA_RAY_CASTER_PT_presets"
-"""The panel of the presets."""
 
 
 class CameraPanel:
@@ -44,9 +41,9 @@ class ModelPanel(CameraPanel, bpy.types.Panel):
     def draw(self, context):
         """The list; below it what the chosen model needs."""
         layout, camera = self.layout, context.camera
-        layout.use_property_split = True
-        row = draw_model(layout, camera)
+        row = draw_model(layout, camera, text="")
         row.operator(LoadCalibration.bl_idname, text="", icon="FILEBROWSER")
+        put_labels(layout, context)
         draw_model_settings(layout, context, camera)
         draw_cycles(layout, camera)
 
@@ -68,8 +65,8 @@ class LensPanel(CameraPanel, bpy.types.Panel):
     def draw(self, context):
         """The type of Blender's, its settings and those of the model that Blender has; shift; clip."""
         layout, camera = self.layout, context.camera
-        layout.use_property_split = True
-        draw_lens(layout, camera)
+        put_labels(layout, context)
+        draw_lens(layout, context, camera)
         column = layout.column(align=True)
         column.active = set(SHIFT) <= set(read_settings(camera))
         column.prop(camera, "shift_x", text="Shift X")
@@ -98,9 +95,9 @@ class SensorPanel(CameraPanel, bpy.types.Panel):
     def draw(self, context):
         """How the sensor is fitted, and the side that counts."""
         layout, camera = self.layout.column(), context.camera
-        layout.use_property_split = True
+        put_labels(layout, context)
         layout.active = SENSOR_FIT in read_settings(camera)
-        layout.prop(camera, "sensor_fit")
+        draw_field(layout, context, camera, "sensor_fit")
         layout.prop(camera, "sensor_height" if camera.sensor_fit == "VERTICAL" else "sensor_width", text="Size")
 
 
@@ -124,12 +121,8 @@ class TimePanel(CameraPanel, bpy.types.Panel):
 
     def draw(self, context):
         """The list; below it what the chosen mode needs."""
-        layout, camera = self.layout, context.camera
-        layout.use_property_split = True
-        own = getattr(camera, GROUP)
-        layout.prop(own, pixel_time.MODE.name)
-        for setting in pixel_time.SETTINGS.get(own.time_mode, ()):
-            draw_setting(layout, context, camera, setting)
+        put_labels(self.layout, context)
+        draw_times(self.layout, context, context.camera)
 
 
 CLASSES = (ModelPanel, LensPanel, SensorPanel, TimePanel)

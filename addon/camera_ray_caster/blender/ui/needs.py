@@ -13,6 +13,15 @@ def camera_object_of(context):
     return item if item is not None and item.type == "CAMERA" else context.scene.camera
 
 
+def select_alone(context, *items) -> None:
+    """Select these objects and no others, and make the first one active."""
+    for item in context.selected_objects:
+        item.select_set(False)
+    for item in items:
+        item.select_set(True)
+    context.view_layer.objects.active = items[0]
+
+
 class OfScene:
     """An operator on the camera of the scene."""
 

@@ -11,7 +11,7 @@ from ..output import reports
 from ..properties.calibration import set_calibration
 from ..read.scene import read_camera
 from ..verification.check import verified
-from .needs import OfCamera, OfScene, camera_object_of, reporting
+from .needs import OfCamera, OfScene, camera_object_of, reporting, select_alone
 
 NO_REPORT = "Render with the Camera Ray Caster first (F12), or cast from the sidebar"
 
@@ -109,11 +109,7 @@ class SelectLeftOut(bpy.types.Operator):
         if not found:
             self.report({"ERROR"}, "None of them is in this view layer: they were renamed, removed or excluded")
             return {"CANCELLED"}
-        for item in context.selected_objects:
-            item.select_set(False)
-        for item in found:
-            item.select_set(True)
-        context.view_layer.objects.active = found[0]
+        select_alone(context, *found)
         return {"FINISHED"}
 
 

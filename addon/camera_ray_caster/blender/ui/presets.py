@@ -8,7 +8,7 @@ from bl_ui.utils import PresetPanel
 
 from ...core.cameras.parts.settings import CAMERA, OWN
 from ..properties.declared import BLENDERS_OWN, GROUP, MODEL
-from .model_panels import PRESETS
+from .model_drawing import PRESETS
 from .model_settings import settings_of
 
 FOLDER = Path(__file__).resolve().parents[1]

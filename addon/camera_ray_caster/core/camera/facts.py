@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..cameras.model import WindowModel
+from ..maths.vector import inverse
 from .camera import Camera
 
 CONVENTIONS = {
@@ -57,7 +58,7 @@ def _plane(model: WindowModel) -> list[list[float]]:
     """Return the window's affine map, (2, 3)."""
     K = model.window.matrix(model.frame[1])
     opencv_from_pixels = np.array([[1.0, 0.0, -0.5], [0.0, -1.0, model.frame[1] - 0.5], [0.0, 0.0, 1.0]])
-    return (np.diag([1.0, -1.0]) @ (np.linalg.inv(K) @ opencv_from_pixels)[:2]).tolist()
+    return (np.diag([1.0, -1.0]) @ (inverse(K) @ opencv_from_pixels)[:2]).tolist()
 
 
 def _field_of_view(camera: Camera) -> dict[str, object]:

@@ -1,0 +1,45 @@
+"""What the latest cast left out, in the 3D View's sidebar."""
+
+import bpy
+
+from ..output import reports
+from .drawing import Sidebar, draw_message
+from .object_panels import draw_cast_as
+
+LISTED = 6
+"""Objects that the panel names for each reason; the report has them all."""
+
+
+class SidebarLeftOut(Sidebar, bpy.types.Panel):
+    """What the latest cast left out of the scene, by reason."""
+
+    bl_idname = "CAMERA_RAY_CASTER_PT_left_out"
+    bl_label = "Left Out"
+
+    @classmethod
+    def poll(cls, context):
+        """Show it where something was left out."""
+        return reports.latest() is not None and len(reports.latest().left_out) > 0
+
+    def draw_header_preset(self, context):
+        """How many."""
+        self.layout.label(text=str(len(reports.latest().left_out)))
+
+    def draw(self, context):
+        """Each reason once, with a button that selects its objects; below it their names, and what each is cast as."""
+        for reason, names in reports.by_reason(reports.latest()).items():
+            column = self.layout.column(align=True)
+            draw_message(column, context, reason, "DOT")
+            count = f"{len(names)} {'Object' if len(names) == 1 else 'Objects'}"
+            select = column.operator("camera_ray_caster.select", text=f"Select {count}", icon="RESTRICT_SELECT_OFF")
+            select.reason = reason
+            for name in names[:LISTED]:
+                item = context.view_layer.objects.get(name)
+                row = column.split(factor=0.5, align=True)
+                row.label(text=name, icon="BLANK1")
+                draw_cast_as(row, item, text="")
+            if len(names) > LISTED:
+                draw_message(column, context, f"and {len(names) - LISTED} more", "BLANK1")
+
+
+CLASSES = (SidebarLeftOut,)

@@ -1,0 +1,147 @@
+"""What someone does who has never seen the add-on, with the sidebar alone: see scenarios.py."""
+
+import bpy
+import numpy as np
+from lesson_scenarios import place_of
+from parts import BUTTON, addon
+
+ROW = 26
+"""Pixels from a row of the sidebar to the next."""
+
+
+def default_scene(user):
+    """Blender's default scene, a cube, with the sidebar on our tab."""
+    bpy.ops.wm.read_homefile(use_factory_startup=True, load_ui=False)
+    yield from user.wait(0.5)
+    view = user.area().spaces.active
+    view.shading.type, view.region_3d.view_perspective = "SOLID", "PERSP"
+    yield from user.wait(0.5)
+    yield from user.open_tab("Ray Caster")
+    yield from user.scroll(60, down=False)
+
+
+def open_menu(user, command, rows, share):
+    """Click on the menu that stands so many rows below (above: negative) the button of a command."""
+    yield from user.find(command)
+    region = user.region()
+    yield from user.click(region.x + region.width * share, user.known[command] - rows * ROW)
+    yield from user.wait(0.7)
+
+
+def choose(user, command, rows, share, text):
+    """Find an entry of a menu by typing: the space bar begins the search."""
+    yield from open_menu(user, command, rows, share)
+    user.picture(f"menu_{text}")
+    yield from user.key("space")
+    user.send("type", text)
+    yield from user.wait(0.7)
+    yield from user.key("Return")
+    yield from user.wait(0.7)
+
+
+def choose_model(user, own, key):
+    """Go from the top of the list above the button See Through Camera down to a camera model, and take it."""
+    yield from open_menu(user, f"{BUTTON}see_through(", -1, 0.4)
+    for item in own.bl_rna.properties["model"].enum_items:
+        user.send("key", "Down")
+        yield
+        if item.identifier == key:
+            break
+    yield from user.key("Return")
+    yield from user.wait(0.7)
+    assert own.model == key
+
+
+def cast_a_cube(user, scenes):
+    """The Cast button is seen without scrolling, and what it made is shown from the menu below it."""
+    yield from default_scene(user)
+    user.picture("stranger_sidebar")
+    yield from user.press(f"{BUTTON}cast(")
+    yield from user.until(addon("output.reports").latest, "the cast has ended")
+    yield from user.wait(0.5)
+    user.picture("stranger_cast")
+    yield from user.press(f"{BUTTON}verify(")
+    yield from user.until(lambda: addon("output.reports").verified().findings, "the camera is verified")
+    yield from user.wait(0.5)
+    user.picture("stranger_verified")
+    yield from choose(user, f"{BUTTON}cast(", 1.4, 0.4, "combined")
+    yield from user.until(lambda: any(area.type == "IMAGE_EDITOR" for area in user.window.screen.areas), "it is shown")
+    user.picture("stranger_shown")
+    editor = user.area("IMAGE_EDITOR")
+    assert editor.spaces.active.image == bpy.data.images["Ray Caster combined"]
+    yield from user.point(editor.x + editor.width // 2, editor.y + editor.height // 2)
+    yield from user.key("Escape")
+    yield from user.until(lambda: any(area.type == "VIEW_3D" for area in user.window.screen.areas), "the view is back")
+
+
+def see_through(user, scenes):
+    """A model is chosen, and a button shows what the camera sees; a slit is added, selected and dragged."""
+    yield from default_scene(user)
+    view, own = user.region("WINDOW"), bpy.context.scene.camera.data.camera_ray_caster
+    button = f"{BUTTON}see_through("
+    yield from choose_model(user, own, "OMNIMAX")
+    yield from user.press(button)
+    yield from user.wait(2)
+    seen = user.cut(user.picture("stranger_omnimax"), view)
+    assert bpy.context.scene.render.engine == "CAMERA_RAY_CASTER"
+    yield from choose_model(user, own, "CROSS_SLIT")
+    user.picture("stranger_slits_missing")
+    yield from user.press(f"{BUTTON}add_line(")
+    yield from user.press(f"{BUTTON}add_line(")
+    yield from user.wait(2)
+    before = user.cut(user.picture("stranger_slits"), view)
+    assert np.abs(before - seen).max() > 0.1
+    slit = bpy.context.object
+    assert slit == own.slit_2
+    place = slit.matrix_world.translation.copy()
+    yield from user.point(view.x + view.width // 3, view.y + view.height // 3)
+    yield from user.key("g")
+    yield from user.point(view.x + view.width // 3 + 90, view.y + view.height // 3 + 40)
+    yield from user.click(view.x + view.width // 3 + 90, view.y + view.height // 3 + 40)
+    yield from user.wait(2)
+    after = user.cut(user.picture("stranger_slit_dragged"), view)
+    assert (slit.matrix_world.translation - place).length > 0.01
+    assert np.count_nonzero(np.abs(after - before).max(axis=2) > 0.1) > 1000
+
+
+def ray_of_a_pixel(user, scenes):
+    """A pixel is clicked and its ray read off; the point that it hits gets an empty, and its pixel is found again."""
+    yield from default_scene(user)
+    lesson, scene = addon("view3d.lesson"), bpy.context.scene
+    yield from user.press(f"{BUTTON}step_through(")
+    yield from user.wait(1)
+    yield from user.click(*place_of(user, 960, 500))
+    yield from user.key("Escape")
+    yield from user.wait(0.5)
+    user.picture("stranger_ray")
+    (pixel,) = lesson.pixels
+    hit = lesson.lessons(bpy.context)[pixel].point
+    yield from user.press(f"{BUTTON}copy_steps(")
+    assert f"({pixel[0]}, {pixel[1]}) of" in bpy.context.window_manager.clipboard
+    yield from user.press(f"{BUTTON}empty_at_hit(")
+    yield from user.wait(0.5)
+    empty = bpy.data.objects[f"Pixel {pixel[0]}, {pixel[1]}"]
+    assert np.allclose(empty.matrix_world.translation, hit, atol=1e-6)
+    lesson.forget()
+    scene.cursor.location = empty.matrix_world.translation
+    yield from user.press(f"{BUTTON}pixel_of_point(")
+    yield from user.wait(0.5)
+    user.picture("stranger_point")
+    assert lesson.pixels == [pixel]
+
+
+def export_colmap(user, scenes):
+    """The Export menu stands below the camera, and Return in the file dialog writes beside the .blend."""
+    yield from default_scene(user)
+    bpy.ops.wm.save_as_mainfile(filepath=str(user.folder / "stranger.blend"))
+    yield from choose(user, f"{BUTTON}see_through(", 1, 0.25, "colmap")
+    yield from user.wait(1)
+    user.picture("stranger_export")
+    yield from user.key("Return")
+    folder = user.folder / "stranger_colmap"
+    yield from user.until(lambda: (folder / "cameras.txt").is_file(), "the camera is exported")
+    assert (folder / "cameras.txt").read_text().splitlines()[-1].split()[1:4] == ["PINHOLE", "1920", "1080"]
+    user.picture("stranger_exported")
+
+
+STRANGER_SCENARIOS = (cast_a_cube, see_through, ray_of_a_pixel, export_colmap)
