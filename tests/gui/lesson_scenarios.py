@@ -2,6 +2,7 @@
 
 import bpy
 import numpy as np
+from mathutils import Euler
 from parts import BUTTON, addon, load
 
 
@@ -50,11 +51,13 @@ def step_through(user, scenes):
 
 
 def beside(user):
-    """An Image Editor beside the 3D View, which it takes half the place of."""
+    """An Image Editor beside the 3D View, which keeps two fifths of its place."""
     before = list(user.window.screen.areas)
-    with bpy.context.temp_override(window=user.window, area=user.area(), region=user.region("WINDOW")):
-        bpy.ops.screen.area_split(direction="VERTICAL", factor=0.5)
-    (editor,) = [area for area in user.window.screen.areas if area not in before]
+    old = user.area()
+    with bpy.context.temp_override(window=user.window, area=old, region=user.region("WINDOW")):
+        bpy.ops.screen.area_split(direction="VERTICAL", factor=0.4)
+    (new,) = [area for area in user.window.screen.areas if area not in before]
+    editor = max(old, new, key=lambda area: area.width)
     editor.ui_type = "IMAGE_EDITOR"
     return editor
 
@@ -62,49 +65,86 @@ def beside(user):
 def step_through_image(user, scenes):
     """Pixels are clicked in the picture that a cast has made: each has a frame around it, and its steps beside it."""
     yield from load(user, scenes, "toys")
-    lesson, editor = addon("view3d.lesson"), beside(user)
-    view = next(region for region in editor.regions if region.type == "WINDOW")
+    lesson, editor, space = addon("view3d.lesson"), beside(user), user.area().spaces.active
+    yield from user.wait(1)
+    view, sidebar = parts_of(editor)
+    in_view = {"window": user.window, "area": editor, "region": view}
     addon("engine.passes").tick(bpy.context.scene, bpy.context.view_layer, ["combined"])
     bpy.ops.camera_ray_caster.cast()
     image = editor.spaces.active.image
     assert image == bpy.data.images["Ray Caster combined"]
-    with bpy.context.temp_override(window=user.window, area=editor, region=view):
-        bpy.ops.image.view_zoom_ratio(ratio=16)
-    yield from user.wait(1)
-    sidebar = next(region for region in editor.regions if region.type == "UI")
+    space.show_region_ui = space.show_region_toolbar = False
     yield from user.open_tab("Ray Caster", editor)
     yield from user.press(f"{BUTTON}step_through(", sidebar)
-
-    def place(column, row):
-        """Where a point of the image is in the window, by Blender."""
-        x, y = view.view2d.view_to_region(column / image.size[0], row / image.size[1], clip=False)
-        return view.x + x, view.y + y
-
-    def framed(picture, column, row):
-        """On how many sides of a pixel there is a mark's color."""
-        sides = [place(column + x, row + y) for x, y in ((0, 0.5), (1, 0.5), (0.5, 0), (0.5, 1))]
-        around = [picture[y - 2 : y + 3, x - 2 : x + 3, :3] for x, y in sides]
-        return sum(np.abs(part - lesson.RAY[:3]).max(axis=2).min() < 0.1 for part in around)
+    yield from lesson_frames(user, editor)
+    lesson.pixels.clear()
+    with bpy.context.temp_override(**in_view):
+        bpy.ops.image.view_zoom_ratio(ratio=16)
+    yield from user.wait(0.5)
 
     middle = image.size[0] // 2 - 8, image.size[1] // 2
     pixels = [middle, (middle[0] + 5, middle[1] - 6)]
-    yield from user.click(*place(*np.add(pixels[0], 0.5)))
+    yield from user.click(*place_in(view, image, *np.add(pixels[0], 0.5)))
     assert lesson.pixels == pixels[:1]
     user.send("keydown", "shift")
-    yield from user.click(*place(*np.add(pixels[1], (0.95, 0.05))))
+    yield from user.click(*place_in(view, image, *np.add(pixels[1], (0.9, 0.1))))
     user.send("keyup", "shift")
     assert lesson.pixels == pixels
     yield from user.key("Escape")
     yield from user.wait(0.5)
-    picture = user.picture("step_through_image")
-    assert [framed(picture, *pixel) for pixel in pixels] == [4, 4]
+    marked = user.picture("step_through_image")
+    assert [sides_marked(marked, view, image, *pixel) for pixel in pixels] == [4, 4]
     bpy.ops.camera_ray_caster.clear_steps()
     yield from user.wait(0.7)
-    picture = user.picture("step_through_image_cleared")
-    assert [framed(picture, *pixel) for pixel in pixels] == [0, 0]
+    cleared = user.picture("step_through_image_cleared")
+    assert [sides_marked(cleared, view, image, *pixel) for pixel in pixels] == [0, 0]
+    space.show_region_ui = space.show_region_toolbar = True
     with bpy.context.temp_override(window=user.window, area=editor):
         bpy.ops.screen.area_close()
     yield from user.wait(0.5)
+
+
+def lesson_frames(user, editor):
+    """The README's animated picture: pixels are clicked in the whole picture, and the view turns around their rays."""
+    area, lesson = user.area(), addon("view3d.lesson")
+    view, sidebar = parts_of(editor)
+    region, image = area.spaces.active.region_3d, editor.spaces.active.image
+    in_view = {"window": user.window, "area": editor, "region": view}
+    with bpy.context.temp_override(**in_view):
+        bpy.ops.image.view_zoom_ratio(ratio=0.5)
+        bpy.ops.image.view_pan(offset=(sidebar.width, 0))  # in pixels of the image: half as many of the window
+    region.view_perspective, region.view_distance, region.view_location = "PERSP", 17.5, (0.6, -4.6, 1.5)
+    turns = np.radians([40] * 3 + [*range(40, 104, 8)])
+    clicks = {1: (392, 260), 2: (150, 120), 3: (620, 110)}
+    for i, turn in enumerate(turns):
+        region.view_rotation = Euler((np.radians(66), 0, turn)).to_quaternion()
+        if i in clicks:
+            user.send(*(["keydown", "shift"] if i > 1 else ["keyup", "shift"]))
+            yield from user.click(*place_in(view, image, *clicks[i]))
+            user.send("keyup", "shift")
+            assert len(lesson.pixels) == i, lesson.pixels
+        yield from user.wait(0.3)
+        user.picture(f"lesson_{i:02}", (editor, area))
+    with bpy.context.temp_override(**in_view):
+        bpy.ops.image.view_pan(offset=(-sidebar.width, 0))
+
+
+def parts_of(area):
+    """An area's main region and its sidebar."""
+    return [next(region for region in area.regions if region.type == kind) for kind in ("WINDOW", "UI")]
+
+
+def place_in(view, image, column, row):
+    """Where a point of an image is in the window, by Blender."""
+    x, y = view.view2d.view_to_region(column / image.size[0], row / image.size[1], clip=False)
+    return view.x + x, view.y + y
+
+
+def sides_marked(picture, view, image, column, row):
+    """On how many sides of a pixel there is a mark's color."""
+    sides = [place_in(view, image, column + x, row + y) for x, y in ((0, 0.5), (1, 0.5), (0.5, 0), (0.5, 1))]
+    around = [picture[y - 2 : y + 3, x - 2 : x + 3, :3] for x, y in sides]
+    return sum(np.abs(part - addon("view3d.lesson").RAY[:3]).max(axis=2).min() < 0.1 for part in around)
 
 
 def examples(user, scenes):

@@ -108,6 +108,12 @@ def overlay(user, scenes):
     scene.camera_ray_caster_overlay.show = False
     yield from user.wait(0.7)
     assert changed(off, user.picture("overlay_gone")) < 100
+    scene.camera_ray_caster_overlay.show = True
+    yield from user.press(f"{BUTTON}verify(")
+    yield from user.until(addon("output.reports").verified, "the camera is verified")
+    yield from user.wait(0.7)
+    user.picture("sidebar_and_overlay", [user.area()])
+    scene.camera_ray_caster_overlay.show = False
 
 
 def ray_under_mouse(user, scenes):

@@ -68,17 +68,26 @@ class User:
             self.send("click", 5 if down else 4)
             yield
 
-    def picture(self, name):
-        """Take a screenshot, (rows, columns, 4) from 0 to 1, row 0 at the bottom.
+    def picture(self, name, areas=()):
+        """Take a screenshot, (rows, columns, 4) from 0 to 1, row 0 at the bottom: of the window, or of areas side by
+        side.
 
         Blender's own operator gives a black one with software OpenGL.
         """
         path = f"{self.folder}/{name}.png"
-        subprocess.run(["import", "-window", "root", path], check=True, timeout=20)
+        subprocess.run(["import", "-window", "root", *self.crop(areas), path], check=True, timeout=20)
         image = bpy.data.images.load(path)
         pixels = pixels_of(image)
         bpy.data.images.remove(image)
         return pixels
+
+    def crop(self, areas):
+        """The words that crop a screenshot to areas; none for the window."""
+        if not areas:
+            return []
+        left, right = min(area.x for area in areas), max(area.x + area.width for area in areas)
+        bottom, top = min(area.y for area in areas), max(area.y + area.height for area in areas)
+        return ["-crop", f"{right - left}x{top - bottom}+{left}+{self.window.height - top}", "+repage"]
 
     def cut(self, picture, region):
         """Return the part of a screenshot that a region fills."""
