@@ -1,0 +1,61 @@
+"""COLMAP by pycolmap, in a process of its own: in Blender's, its libraries and Blender's corrupt each other's memory."""
+
+import pickle
+import subprocess
+import sys
+from functools import cache
+
+
+def project(model, width, height, parameters, points):
+    """The pixels at which a camera sees points in its own frame."""
+    import pycolmap
+
+    return pycolmap.Camera(model=model, width=width, height=height, params=parameters).img_from_cam(points)
+
+
+def read(folder):
+    """The names of the models of the cameras by number, and the images by number: name, camera, camera from world."""
+    import pycolmap
+
+    found = pycolmap.Reconstruction(folder)
+    cameras = {number: camera.model.name for number, camera in found.cameras.items()}
+    images = {
+        number: (image.name, image.camera_id, image.cam_from_world().matrix()) for number, image in found.images.items()
+    }
+    return cameras, images
+
+
+def seen(folder, image, points):
+    """The pixels at which an image of a model sees points of the world."""
+    import pycolmap
+
+    one = pycolmap.Reconstruction(folder).images[image]
+    return [one.project_point(point) for point in points]
+
+
+@cache
+def _process():
+    return subprocess.Popen([sys.executable, __file__], stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+
+
+def colmap(function, *arguments):
+    """What a function of this module returns in that process, which ends with this one."""
+    process = _process()
+    pickle.dump((function.__name__, arguments), process.stdin)
+    process.stdin.flush()
+    return pickle.load(process.stdout)
+
+
+def serve():
+    """Answer until nobody asks any more."""
+    while True:
+        try:
+            name, arguments = pickle.load(sys.stdin.buffer)
+        except EOFError:
+            return
+        pickle.dump(globals()[name](*arguments), sys.stdout.buffer)
+        sys.stdout.buffer.flush()
+
+
+if __name__ == "__main__":
+    serve()
