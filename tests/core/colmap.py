@@ -1,4 +1,4 @@
-"""COLMAP by pycolmap, in a process of its own: in Blender's, its libraries and Blender's corrupt each other's memory."""
+"""COLMAP by pycolmap, in a process of its own: in one with bpy each library's memory is corrupted by the other."""
 
 import pickle
 import subprocess
