@@ -37,7 +37,7 @@ from .ui import (
     show_result,
     verify_panels,
 )
-from .view3d import lesson, mouse_gizmo, overlay, scene_cache
+from .view3d import lesson, mouse_gizmo, notice, overlay, scene_cache
 
 CLASSES = (
     *groups.CLASSES, *overlay.CLASSES, *engine.CLASSES, *operators.CLASSES, *cast_operator.CLASSES,
@@ -51,7 +51,7 @@ CLASSES = (
 """Blender's types, in the order in which they are registered: a panel comes after the panel that it is in."""
 
 MODULES = (
-    groups, kept, follow, reports, images, gallery, scene_cache, viewport, cast_operator, overlay, lesson,
+    groups, kept, follow, reports, images, gallery, scene_cache, viewport, cast_operator, overlay, lesson, notice,
     render_panels, menus, gallery_operators, presets, export_operators, commands,
 )  # fmt: skip
 """Modules that add more than classes. ``register(undo)`` adds it and gives ``undo`` the callbacks that remove it."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import partial
+from time import perf_counter
 from typing import Any
 
 import bpy
@@ -23,6 +24,11 @@ from ..view3d.scene_cache import CachedScene, cached_scene
 
 STEPS = (8, 2, 1)
 """Pixels of the window to a side of the picture's, from coarse to fine. The first is cast at once."""
+
+QUICK = 0.06
+"""Seconds of the first within which the last follows it at once. Of 60 monkeys of 3,936 triangles each, 1600 x 950, the
+three take 48, 178 and 327 ms of processor time.
+"""
 
 INTERVAL = 0.03
 """Seconds between two checks whether a finer picture is finished."""
@@ -76,7 +82,7 @@ class Viewport:
         shown = {"shading": settings.shading, "precision": settings.precision}
         matrices = [tuple(row) for row in (*region_data.view_matrix, *region_data.window_matrix)]
         key = scene, matrices, context.region.width, context.region.height, shown
-        self.update_stats("", "; ".join(filter(None, (*scene.differences, left_out_count(scene.shapes.left_out)))))
+        self.update_stats("", left_out_count(scene.shapes.left_out))
         if self._key != key:
             self._key, self._step, self._picture = key, 0, None
             self._abandon()
@@ -97,7 +103,10 @@ class Viewport:
         except InputError:
             return  # the sidebar says why
         self._cast = partial(_cast, self._target, scene.shapes, shown)
+        started = perf_counter()
         self._show(self._cast(STEPS[0]))
+        if perf_counter() - started < QUICK:
+            self._step = len(STEPS) - 2
         self._refine()
 
     def _refine(self) -> None:

@@ -4,13 +4,11 @@ from __future__ import annotations
 
 import math
 
-import blf
 import bpy
-import gpu
-from gpu_extras.batch import batch_for_shader
 
 from ...core.report.diagram import Probe, probe
 from ..ui.drawing import length
+from . import text
 from .camera_frame import camera_frame
 from .scene_cache import cached_scene
 
@@ -42,7 +40,7 @@ class RayUnderMouse(bpy.types.Gizmo):
             return
         raster = scene.camera.raster
         found = probe(scene.camera, scene.shapes, int(x * raster.width), int(y * raster.height))
-        _write(context, self.mouse, [*_lines(context, found), *(("", text) for text in scene.differences)])
+        _write(context, self.mouse, [*_lines(context, found), *(("", line) for line in scene.differences)])
 
 
 class RayUnderMouseGroup(bpy.types.GizmoGroup):
@@ -80,33 +78,15 @@ def _lines(context, found: Probe) -> list[tuple[str, str]]:
 
 
 def _write(context, mouse, lines) -> None:
-    """Write a table of two columns on a dark ground beside the mouse, on the side where there is room."""
-    scale = context.preferences.system.ui_scale
-    font, size, margin = 0, 12 * scale, MARGIN * scale
-    blf.size(font, size)
-    names = max(blf.dimensions(font, name)[0] for name, _ in lines) + size
-    width, step = names + max(blf.dimensions(font, text)[0] for _, text in lines), 1.5 * size
-    height = step * len(lines)
-    x, y = mouse[0] + 2 * margin, mouse[1] - margin
-    if x + width + margin > context.region.width:
-        x = mouse[0] - 2 * margin - width
-    y = max(y, height + margin)
-    _ground(x - size, x + width + size, y - height - size, y + size / 2)
-    for name, text in lines:
-        y -= step
-        for offset, color, word in ((0, 0.65, name), (names, 0.95, text)):
-            blf.color(font, color, color, color, 1.0)
-            blf.position(font, x + offset, y, 0)
-            blf.draw(font, word)
+    """Write lines beside the mouse, on the side where there is room."""
+    margin = MARGIN * context.preferences.system.ui_scale
 
+    def place(width, height):
+        right = mouse[0] + 2 * margin
+        fits = right + width + margin <= context.region.width
+        return right if fits else mouse[0] - 2 * margin - width, max(mouse[1] - margin, height + margin)
 
-def _ground(left, right, bottom, top) -> None:
-    shader = gpu.shader.from_builtin("UNIFORM_COLOR")
-    corners = ((left, bottom), (right, bottom), (left, top), (right, top))
-    gpu.state.blend_set("ALPHA")
-    shader.bind()
-    shader.uniform_float("color", (0.06, 0.06, 0.06, 0.78))
-    batch_for_shader(shader, "TRI_STRIP", {"pos": corners}).draw(shader)
+    text.write(context, lines, place)
 
 
 CLASSES = (RayUnderMouse, RayUnderMouseGroup)

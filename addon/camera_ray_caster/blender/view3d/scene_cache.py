@@ -62,9 +62,13 @@ def _differences(camera: Camera | None, scene) -> Iterator[str]:
     if camera is None:
         return
     if camera.pixel_time is not None:
-        yield f"All at frame {scene.frame_current_final:g}: a render has a time for each pixel"
+        now, first, last = scene.frame_current_final, camera.pixel_time.first, camera.pixel_time.last
+        yield f"Every pixel at frame {now:g}; a render has each at its own, from frame {first:.4g} to {last:.4g}"
     if camera.aperture is not None:
-        yield "Without blur: a render has it" if scene.camera_ray_caster.samples > 1 else "No blur with 1 sample"
+        samples = scene.camera_ray_caster.samples
+        render = f"; a render with {samples} samples has depth of field" if samples > 1 else ", as in a render with 1 sample"
+        yield f"Rays through the center of the lens only{render}"
+
 
 
 @persistent

@@ -1,0 +1,39 @@
+"""Text on a dark ground in a 3D View: a table of two columns."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+import blf
+import gpu
+from gpu_extras.batch import batch_for_shader
+
+SIZE = 12
+"""Pixels, at the interface's scale 1."""
+
+
+def write(context, lines: Sequence[tuple[str, str]], place: Callable[[float, float], tuple[float, float]]) -> None:
+    """Write (name, text) lines; ``place`` is given their width and height and returns left and top in the region."""
+    font, size = 0, SIZE * context.preferences.system.ui_scale
+    blf.size(font, size)
+    longest = max(blf.dimensions(font, name)[0] for name, _ in lines)
+    names = longest + size if longest else 0.0
+    width, step = names + max(blf.dimensions(font, text)[0] for _, text in lines), 1.5 * size
+    x, y = place(width, step * len(lines))
+    _ground(x - size, x + width + size, y - step * len(lines) - size, y + size / 2)
+    for name, text in lines:
+        y -= step
+        for offset, color, word in ((0, 0.65, name), (names, 0.95, text)):
+            blf.color(font, color, color, color, 1.0)
+            blf.position(font, x + offset, y, 0)
+            blf.draw(font, word)
+
+
+def _ground(left, right, bottom, top) -> None:
+    shader = gpu.shader.from_builtin("UNIFORM_COLOR")
+    corners = ((left, bottom), (right, bottom), (left, top), (right, top))
+    gpu.state.blend_set("ALPHA")
+    shader.bind()
+    shader.uniform_float("color", (0.06, 0.06, 0.06, 0.78))
+    batch_for_shader(shader, "TRI_STRIP", {"pos": corners}).draw(shader)
+    gpu.state.blend_set("NONE")
