@@ -66,8 +66,8 @@ def _differences(camera: Camera | None, scene) -> Iterator[str]:
         yield f"Every pixel at frame {now:g}; a render has each at its own, from frame {first:.4g} to {last:.4g}"
     if camera.aperture is not None:
         samples = scene.camera_ray_caster.samples
-        render = f"; a render with {samples} samples has depth of field" if samples > 1 else ", as in a render with 1 sample"
-        yield f"Rays through the center of the lens only{render}"
+        blurred = f"; a render with {samples} samples has depth of field"
+        yield f"Rays through the center of the lens only{blurred if samples > 1 else ', as in a render with 1 sample'}"
 
 
 
