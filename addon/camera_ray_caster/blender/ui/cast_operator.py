@@ -135,7 +135,7 @@ class Cast(bpy.types.Operator):
         images.show(context.window_manager, made)
         reports.keep(report)
         if report.shapes == 0:
-            self.report({"WARNING"}, "There is no sphere and no plane to cast at: the images show the background")
+            self.report({"WARNING"}, "There is no surface to cast at: the images show the background")
         else:
             others = f" and {len(made) - 1} more" if len(made) > 1 else ""
             self.report({"INFO"}, f"{report.pixels} rays cast: image {made[0]!r}{others}, by Show Result")
