@@ -115,7 +115,7 @@ def lesson_frames(user, editor):
         bpy.ops.image.view_pan(offset=(sidebar.width, 0))  # in pixels of the image: half as many of the window
     region.view_perspective, region.view_distance, region.view_location = "PERSP", 17.5, (0.6, -4.6, 1.5)
     turns = np.radians([40] * 3 + [*range(40, 104, 8)])
-    clicks = {1: (392, 260), 2: (150, 120), 3: (620, 110)}
+    clicks = {1: (392, 260), 2: (246, 120), 3: (704, 128)}
     for i, turn in enumerate(turns):
         region.view_rotation = Euler((np.radians(66), 0, turn)).to_quaternion()
         if i in clicks:

@@ -90,3 +90,15 @@ def test_the_panels_say_how_right_the_hits_are(blender, scene):
     scene.camera.location.z = -6  # it looks away from all there is
     blender.ops.camera_ray_caster.cast()
     assert "Worst nothing hit" in drawn(blender, cast_panels.SidebarReport)
+
+
+def test_sentences_of_a_lesson_begin_with_a_capital_and_formulas_as_they_are(blender, scene):
+    from camera_ray_caster.blender.ui.lesson_panels import SidebarLesson
+    from camera_ray_caster.blender.view3d import lesson
+
+    lesson.pixels[:] = [(12, 8)]
+    said = drawn(blender, SidebarLesson)
+    assert "Unit normal" in said
+    assert "u = (1, 0, 0)" in said
+    assert "U = " not in said
+    lesson.forget()

@@ -50,10 +50,11 @@ def draw_field(layout, context, owner, name: str):
 
 
 def draw_message(layout, context, text: str, icon: str = "INFO") -> None:
-    """Draw a sentence in as many lines as the panel's width asks for, its first letter a capital."""
+    """Draw a sentence in as many lines as the panel needs, its first letter a capital; a formula as it is."""
+    text = text if text[1:4] == " = " else text[:1].upper() + text[1:]
     column = layout.column(align=True)
     column.scale_y = 0.85
-    for i, line in enumerate(wrap(text[:1].upper() + text[1:], max(16, int((width_of(context) - 65) / LETTER)))):
+    for i, line in enumerate(wrap(text, max(16, int((width_of(context) - 65) / LETTER)))):
         column.label(text=line, icon="BLANK1" if i else icon)
 
 
