@@ -114,7 +114,7 @@ class _Aim:
             matvec(camera.pose.basis, rays.origin), matvec(camera.pose.basis, direction), laid(self.length),
             laid(self.origin_error) if np.ndim(self.origin_error) else self.origin_error, laid(self.direction_error),
         )  # fmt: skip
-        hits = nearest_hits(plan, rays)
+        hits = nearest_hits(plan, rays, before=laid(self.t - self.t_error, -np.inf))
         front = np.full(shape, np.inf)
         values = HitValues(hits)
         for where, errors in values.by_kind(

@@ -80,6 +80,7 @@ class Flow:
         self._points = np.concatenate([np.zeros((3, 0)), *(point for _, (_, _, point) in parts)], axis=1)
         self._points += values.plan.camera.pose.eye[:, None]
         self._last: tuple[Shapes, np.ndarray] | None = None
+        self._known: tuple[np.ndarray, Moved] | None = None
 
     def at(self, shapes: Shapes, some: np.ndarray) -> np.ndarray:
         """See ``pictures.Points``."""
@@ -135,8 +136,12 @@ class Flow:
     def _moved(self, shapes: Shapes, some: np.ndarray) -> Moved:
         """Return how some of the points have moved; NaN where their shape is not there."""
         if self._last is None or self._last[0] is not shapes:
-            self._last = shapes, rows_in(self._values.plan.shapes, shapes)
-        rows = self._last[1]
+            self._last, self._known = (shapes, rows_in(self._values.plan.shapes, shapes)), None
+        if self._known is None or self._known[0] is not some:  # places and errors are asked for one after the other
+            self._known = some, self._move(shapes, self._last[1], some)
+        return self._known[1]
+
+    def _move(self, shapes: Shapes, rows: np.ndarray, some: np.ndarray) -> Moved:
         moved = Moved(np.full((3, len(some)), np.nan), *np.full((2, len(some)), np.nan))
         is_there = rows[self._at[some]] >= 0
         for follow, first, end in zip(self._follow, self._ends, self._ends[1:], strict=False):

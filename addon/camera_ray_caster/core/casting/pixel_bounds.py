@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..camera.camera import Camera
+from ..maths.speed import taken
 
 SAMPLE_MARGIN = 0.5
 """Pixels by which bounds widen when samples lie all over the pixels."""
@@ -67,7 +68,13 @@ class PixelBounds:
         """See ``shapes.kind.PixelBounds``."""
         if self.columns is None or self.rows is None:
             return bounds
-        return np.hstack((np.searchsorted(self.columns, bounds[:, :2]), np.searchsorted(self.rows, bounds[:, 2:])))
+        found = np.empty_like(bounds)
+        sides = zip((self.columns, self.rows), self.camera.raster.shape[::-1], strict=True)
+        for k, (places, side) in enumerate(sides):
+            before = np.searchsorted(places, np.arange(side + 1)).astype(found.dtype)  # a table: bounds are many
+            for column in (2 * k, 2 * k + 1):
+                found[:, column] = taken(before, bounds[:, column])
+        return found
 
     def least_t(self, centers: np.ndarray, radii: np.ndarray) -> np.ndarray:
         """See ``shapes.kind.PixelBounds``."""

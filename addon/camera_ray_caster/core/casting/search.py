@@ -18,8 +18,12 @@ from .plan import Plan
 from .rays import TileRays
 
 
-def nearest_hits(plan: Plan, rays: TileRays, listen: Callable[[], object] = bool) -> Hits:
+def nearest_hits(
+    plan: Plan, rays: TileRays, listen: Callable[[], object] = bool, before: np.ndarray | None = None
+) -> Hits:
     """Return the nearest hits within the clip range, in the scratch of the rays.
+
+    ``before``: (rows, columns), t beyond which hits do not count; where there is none up to it t stays this.
 
     Of shapes hit at exactly the same t the one with the lowest index counts, whatever order they are tested
     in. ``listen()`` is called between them, and may raise; the default does nothing.
@@ -31,6 +35,9 @@ def nearest_hits(plan: Plan, rays: TileRays, listen: Callable[[], object] = bool
         rays.corner, shape, scratch,
     )  # fmt: skip
     nearest = Nearest(own, scratch("t", shape), scratch("index", shape, plan.index_type))
+    if before is not None:
+        nearest.clear()
+        np.copyto(nearest.t, before)
     for large in merge(*(one.large(own) for one in plan.sets), key=attrgetter("at"), reverse=True):
         nearest.cast(large)
         listen()

@@ -24,6 +24,7 @@ from ..maths.vector import cross
 from ..records import Shapes
 from .follow import Follow, follow_frames
 from .frames import InCamera, WorldRays
+from .windows import Present
 
 
 class PixelBounds(Protocol):
@@ -97,6 +98,22 @@ class SearchRays:
         if self.origin is None:
             return None
         return cross(tuple(np.asarray(component, float) for component in self.origin), self.direction)
+
+    @lazy
+    def present(self) -> Present:
+        """Those that there are."""
+        return Present(self.direction, self.shape)
+
+    def at(self, pixel: np.ndarray) -> tuple[np.ndarray | None, np.ndarray]:
+        """Return the origins, None for the eye, and the directions at (m,) pixels of the tile, (3, m) float64 each."""
+        row, column = np.divmod(pixel, self.shape[1])
+
+        def taken(vector):
+            whole = (np.broadcast_to(component, self.shape) for component in vector)
+            each = [one.reshape(-1).take(pixel) if one.flags.c_contiguous else one[row, column] for one in whole]
+            return np.array(each, float)
+
+        return None if self.origin is None else taken(self.origin), taken(self.direction)
 
 
 class Large(NamedTuple):

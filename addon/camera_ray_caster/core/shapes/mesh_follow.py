@@ -64,5 +64,10 @@ def _with_triangles(triangles: HitTriangles, then: Shapes, rows: np.ndarray, poi
 
 def _pairs(triangles: HitTriangles, then: Shapes, rows: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Return the pairs (2, p) of a mesh here and one in other shapes, and which of them each triangle has, (k,)."""
-    pairs, which = np.unique((triangles.mesh, then.mesh[rows[triangles.at]]), axis=1, return_inverse=True)
-    return pairs, which.reshape(-1)
+    of_shape = np.zeros(len(rows), int)
+    of_shape[triangles.at] = 1
+    seen = np.flatnonzero(of_shape)  # triangles are many, shapes are few
+    own = triangles.shapes.shapes.mesh[seen], then.mesh[rows[seen]]
+    pairs, which = np.unique(own, axis=1, return_inverse=True)
+    of_shape[seen] = which.reshape(-1)
+    return pairs, of_shape[triangles.at]

@@ -11,12 +11,12 @@ import numpy as np
 
 from .. import tuning
 from ..maths.speed import lazy, taken
-from ..maths.vector import cut, difference, dot, norm
+from ..maths.vector import cross, cut, difference, dot, norm
 from .kind import Candidates, PixelBounds, SearchRays, ShapeSet
 from .mesh_found import SEEN, Found, SeenTriangles
 from .mesh_in_camera import MeshesInView, Triangles
 from .mesh_spans import Lattice, spans
-from .triangles import ROUNDING, STEEP, crossing, plane, signs, volumes
+from .triangles import EDGES, ROUNDING, STEEP, crossing, plane, signs, volumes
 from .windows import Windows, banded, batches, in_tile, pixels_in
 
 Reach = tuple[float, float]
@@ -92,8 +92,9 @@ class MeshSet(ShapeSet):
             yield
         self._test(rays, rest, found)
         here, bounds = here[~is_large], bounds[~is_large]
-        for batch in batches(bounds):
-            self._cast(rays, reach, here[batch], bounds[batch], found)
+        is_sparse = rays.present.part < tuning.SPARSE
+        for some in _pieces(bounds) if is_sparse else batches(bounds):
+            (self._scatter if is_sparse else self._cast)(rays, reach, here[some], bounds[some], found)
             yield
 
     def _fill(self, rays: SearchRays, reach: Reach, which: int, bounds: list[int], found: Found):
@@ -158,6 +159,23 @@ class MeshSet(ShapeSet):
         pixel, which = pixel[sure], which[sure]
         self._keep(found, pixel, crossing(*self._meeting(rays, which, pixel)), which)
 
+    def _scatter(self, rays: SearchRays, reach: Reach, here: np.ndarray, bounds: np.ndarray, found: Found) -> None:
+        """Keep what is met of triangles that are tested ray by ray, where few pixels have one."""
+        corners: Any
+        meets, corners = self.meshes.facing(here)
+        pixel, k = rays.present.within(bounds[meets])
+        which, doubt = here[meets][k], taken(_doubt(corners, reach), k)
+        origin, direction = rays.at(pixel)
+        if origin is None:  # the normals of planes through the eye and an edge serve all rays
+            normals = [np.array(cross(corners[i], corners[j])) for i, j in EDGES]
+            inner = _inside(tuple(dot(taken(normal, k), direction) for normal in normals), is_turned=True)
+        else:
+            inner = _inside(volumes(taken(corners, k) - origin, direction), is_turned=False)
+        is_open, is_met = np.abs(inner) <= doubt, inner > doubt
+        self._test(rays, [(which[is_open], pixel[is_open])], found)
+        which, pixel = which[is_met], pixel[is_met]
+        self._keep(found, pixel, crossing(*self._meeting(rays, which, pixel)), which)
+
     def _test(self, rays: SearchRays, rest: list[tuple[np.ndarray, np.ndarray]], found: Found) -> None:
         """Keep what is met of lists of triangles and the pixels in which to test them, by exact signs where rounding
         could decide: all at once, since a call of these takes a millisecond.
@@ -184,13 +202,8 @@ class MeshSet(ShapeSet):
 
     def _meeting(self, rays: SearchRays, which: np.ndarray, pixel: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Return corners relative to the rays' origins (3, 3, m) and directions (3, m), one triangle a pixel."""
-        row, column = np.divmod(pixel, rays.shape[1])
-
-        def at(components):
-            return np.array([np.broadcast_to(component, rays.shape)[row, column] for component in components], float)
-
-        corners = self.meshes.corners(which)
-        return corners if rays.origin is None else corners - at(rays.origin), at(rays.direction)
+        corners, (origin, direction) = self.meshes.corners(which), rays.at(pixel)
+        return corners if origin is None else corners - origin, direction
 
 
 def _inside(volumes: tuple[Any, Any, Any], is_turned: bool) -> np.ndarray:

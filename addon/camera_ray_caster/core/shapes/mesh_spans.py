@@ -20,6 +20,7 @@ from ..maths.speed import taken
 from ..maths.vector import cross, dot, is_grid, is_lattice, is_one, norm
 from .kind import SearchRays
 from .triangles import EDGES, ROUNDING, STEEP, plane
+from .windows import counted
 
 CLEAR = 1 / 8
 """Pixels. An edge so near to the direction of the rows that rounding moves where it crosses them by more decides of
@@ -107,7 +108,7 @@ def spans(lattice: Lattice, corners: Any, bounds: np.ndarray, width: int) -> Spa
     doubt = scale * np.abs(inverse)
     is_level = ~(doubt < CLEAR)
     x0, x1, y0, y1 = bounds.T
-    at, row = _counted(np.where(clear, y1 - y0, 0), y0)
+    at, row = counted(np.where(clear, y1 - y0, 0), y0)
     is_open = np.zeros(len(at), bool)
     if is_level.any():
         at, row, is_open = _level(lattice, edges, is_level, scale, bounds, at, row)
@@ -121,12 +122,12 @@ def spans(lattice: Lattice, corners: Any, bounds: np.ndarray, width: int) -> Spa
     left = (first <= last) & (first < low + doubt) & ~is_open
     right = (first + left <= last) & (last > high - doubt) & ~is_open
     place = row * width
-    span, column = _counted(np.where(is_open, np.maximum(last - first + 1, 0), 0), first)
+    span, column = counted(np.where(is_open, np.maximum(last - first + 1, 0), 0), first)
     rest = [(at[span], place[span] + column)]
     rest += [(at[some], place[some] + end[some]) for some, end in ((left, first), (right, last))]
     first += left
     count = np.where(is_open, 0, np.maximum(last - right + 1 - first, 0))
-    span, column = _counted(count, first)
+    span, column = counted(count, first)
     x, y, z = t_terms
     at_row = taken(x * lattice.first[0] + z, at) + taken(y, at) * (lattice.first[1] + row * lattice.step[1])
     t = taken(taken(x * lattice.step[0], at), span)
@@ -160,11 +161,3 @@ def _at_rows(start, change, meant: np.ndarray, without: float, at: np.ndarray, r
     """Yield the columns of each edge at rows of triangles, (m,), of those that are meant, (3, k)."""
     for own_start, own_change in zip(np.where(meant, start, without), np.where(meant, change, 0.0), strict=True):
         yield taken(own_start, at) + taken(own_change, at) * row
-
-
-def _counted(count: np.ndarray, first: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return, for each of some runs of numbers, its index and the number, one after the other."""
-    at = np.repeat(np.arange(len(count)), count)
-    number = np.arange(len(at))
-    number += taken(first - (np.cumsum(count) - count), at)
-    return at, number
