@@ -21,7 +21,11 @@ def panel(user, scenes):
     area.ui_type = "IMAGE_EDITOR"
     timings = {}
     for name in (
-        "ui.camera_panels", "ui.facts_panels", "ui.verify_panels", "ui.cast_panels", "ui.overlay_panels",
+        "ui.camera_panels",
+        "ui.facts_panels",
+        "ui.verify_panels",
+        "ui.cast_panels",
+        "ui.overlay_panels",
     ):
         for kind in vars(addon(name)).values():
             if isinstance(kind, type) and issubclass(kind, bpy.types.Panel) and "draw" in vars(kind):

@@ -52,7 +52,11 @@ TIMES = {
     "COLUMNS": ("time_start", "time_end", *EFFORT),
     "IMAGE": ("time_image", "time_start", "time_end", *EFFORT),
     "ROLLING_SHUTTER": (
-        "readout", "motion_blur_position", "motion_blur_shutter", "rolling_shutter_duration", *EFFORT,
+        "readout",
+        "motion_blur_position",
+        "motion_blur_shutter",
+        "rolling_shutter_duration",
+        *EFFORT,
     ),
 }
 
