@@ -101,3 +101,16 @@ def test_a_preset_is_added_chosen_and_removed(blender, camera_scene):
         assert (own.model, own.fov, own.tilt) == ("DOME_MASTER", 2.5, 0.25)
         blender.ops.camera_ray_caster.preset_add(name="Mine", remove_name=True)
     assert "Mine" not in listed()
+
+
+def test_a_preset_of_blender_s_own_model_keeps_the_type_and_the_lens(blender, camera_scene):
+    camera = camera_scene.camera.data
+    camera.type, camera.panorama_type, camera.fisheye_fov = "PANO", "FISHEYE_EQUIDISTANT", 2.5
+    with blender.context.temp_override(camera=camera):
+        blender.ops.camera_ray_caster.preset_add(name="Own")
+        camera.type, camera.fisheye_fov, camera.camera_ray_caster.model = "PERSP", 1.0, "OMNIMAX"
+        (path,) = (folder / "Own.py" for folder in map(Path, bpy.utils.preset_paths("camera_ray_caster"))
+                   if (folder / "Own.py").is_file())  # fmt: skip
+        blender.ops.script.execute_preset(filepath=str(path), menu_idname=presets.ModelPresets.bl_idname)
+        assert (camera.camera_ray_caster.model, camera.type, camera.fisheye_fov) == ("BLENDER", "PANO", 2.5)
+        blender.ops.camera_ray_caster.preset_add(name="Own", remove_name=True)

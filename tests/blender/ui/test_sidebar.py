@@ -284,3 +284,33 @@ def test_a_file_goes_without_the_add_on_and_comes_back_with_it(blender, scene, t
 def test_nothing_runs_after_a_cast(blender, scene):
     blender.ops.camera_ray_caster.cast()
     assert cast_operator.fraction() is None
+
+
+def test_see_through_shows_the_camera_s_own_picture_and_ends_with_the_same_button(blender, scene):
+    operator = blender.ops.camera_ray_caster.see_through
+    assert not operator.poll()
+    area = next(area for area in blender.context.window.screen.areas if area.type == "VIEW_3D")
+    space = area.spaces.active
+    with blender.context.temp_override(area=area):
+        operator()
+        assert scene.render.engine == "CAMERA_RAY_CASTER"
+        assert (space.region_3d.view_perspective, space.shading.type) == ("CAMERA", "RENDERED")
+        operator()
+        assert space.shading.type == "SOLID"
+
+
+def test_a_slit_that_the_sidebar_adds_is_selected_to_be_moved(blender, scene):
+    data = scene.camera.data
+    data.camera_ray_caster.model = "CROSS_SLIT"
+    area = next(area for area in blender.context.window.screen.areas if area.type == "VIEW_3D")
+    blender.ops.camera_ray_caster.add_line(setting="slit_1")  # as in the camera's properties, which it would leave
+    assert blender.context.object == scene.camera
+    with blender.context.temp_override(area=area):
+        blender.ops.camera_ray_caster.add_line(setting="slit_2")
+    own = data.camera_ray_caster
+    assert blender.context.selected_objects == [blender.context.object] == [own.slit_2]
+    blender.ops.camera_ray_caster.select_line(setting="slit_1")
+    assert blender.context.selected_objects == [blender.context.object] == [own.slit_1]
+    own.slit_1 = None
+    with pytest.raises(RuntimeError, match="not in this view layer"):
+        blender.ops.camera_ray_caster.select_line(setting="slit_1")
