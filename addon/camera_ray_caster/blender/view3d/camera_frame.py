@@ -40,13 +40,14 @@ def image_frame(context, raster) -> tuple[float, float, float, float] | None:
     """Return left, bottom, right, top of the camera's frame in an Image Editor's region, in the region's pixels.
 
     None where the image is neither a render nor one that a cast has made. One of the size of the render window is that
-    part of the frame.
+    part of the frame; of a render, which has no size in Python, the scene says whether it is.
     """
     image = context.space_data.image
     if not is_picture(image):
         return None
     whole, window = ((0, 0), raster.size), ((raster.x0, raster.y0), raster.shape[::-1])
-    first, count = window if tuple(image.size) == window[1] else whole
+    is_render, crops = image.type == "RENDER_RESULT", context.scene.render.use_crop_to_border
+    first, count = window if (crops if is_render else tuple(image.size) == window[1]) else whole
     view = context.region.view2d  # in widths and heights of the image; its way back would round to whole pixels
     corner, far = (np.array(view.region_to_view(at, at)) for at in (0.0, FAR))
     pixel = FAR / (far - corner) / count
