@@ -57,7 +57,7 @@ def groups() -> dict[str, dict[str, str]]:
 
 
 def _label(name: str) -> str:
-    return name.replace("_", " ").title()
+    return name.replace("_", " ").title().replace(" And ", " and ")
 
 
 def scenes() -> list[Path]:

@@ -36,8 +36,8 @@ def test_a_preset_makes_a_camera_that_sees(blender, camera_scene, path):
 PINHOLE, FISHEYE = ("k1", "k2", "p1", "p2", "k3"), ("k1", "k2", "k3", "k4")
 OPENCV = {
     "TUM_RGB-D_freiburg1": PINHOLE, "KITTI_odometry_00": PINHOLE, "TUM_VI_cam0_512": FISHEYE,
-    "GoPro_HERO10_Black_Wide_16_9": FISHEYE, "GoPro_HERO10_Black_Wide_4_3": FISHEYE,
-    "GoPro_HERO10_Black_Linear_16_9": FISHEYE, "GoPro_HERO11_Black_Wide_8_7": FISHEYE,
+    "GoPro_HERO10_Wide_16_colon_9": FISHEYE, "GoPro_HERO10_Wide_4_colon_3": FISHEYE,
+    "GoPro_HERO10_Linear_16_colon_9": FISHEYE, "GoPro_HERO11_Wide_8_colon_7": FISHEYE,
 }  # fmt: skip
 """The coefficients of the presets of OpenCV's models."""
 

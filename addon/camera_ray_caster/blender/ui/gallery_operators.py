@@ -8,7 +8,7 @@ from .needs import select_alone
 
 CAMERA = "Camera"
 """What the camera of every scene of the gallery is called."""
-LINES = 14
+LINES = 15
 """Of a column of the menus."""
 
 
