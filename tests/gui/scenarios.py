@@ -7,6 +7,7 @@ from camera_scenarios import CAMERA_SCENARIOS
 from cast_scenarios import CAST_SCENARIOS
 from lesson_scenarios import LESSON_SCENARIOS
 from parts import BUTTON, MODULE, addon, load, timed
+from redraw_scenarios import REDRAW_SCENARIOS
 from stranger_scenarios import STRANGER_SCENARIOS
 from user import pixels_of
 
@@ -241,6 +242,6 @@ SCENARIOS = {
     scenario.__name__: scenario
     for scenario in (
         panel, no_camera, left_out, *CAST_SCENARIOS, overlay, ray_under_mouse, viewport,
-        cycles, *CAMERA_SCENARIOS, *LESSON_SCENARIOS, *STRANGER_SCENARIOS, disable,
+        cycles, *CAMERA_SCENARIOS, *LESSON_SCENARIOS, *STRANGER_SCENARIOS, *REDRAW_SCENARIOS, disable,
     )
 }  # fmt: skip
