@@ -34,6 +34,28 @@ def test_images_are_saved_with_the_file_exactly_and_cast_anew_after_it_is_loaded
     assert np.array_equal(pixels_of(blender.data.images[names[2]])[..., :3], expected)
 
 
+def test_passes_of_all_widths_are_stored_beside_each_other(blender, scene):
+    keys = ["combined", "normal", "flow_forward", "depth", "ray_direction"]
+    passes.tick(scene, blender.context.view_layer, keys)
+    for _ in range(2):  # into new images, and into these again
+        assert blender.ops.camera_ray_caster.cast() == {"FINISHED"}
+        found = {key: pixels_of(blender.data.images[images.image_name(key)]) for key in keys}
+        for key in keys:
+            passes.tick(scene, blender.context.view_layer, [key])
+            blender.ops.camera_ray_caster.cast()
+            assert np.array_equal(pixels_of(blender.data.images[images.image_name(key)]), found[key], equal_nan=True)
+        passes.tick(scene, blender.context.view_layer, keys)
+    assert not found["flow_forward"][..., 2].any()
+    assert (found["normal"][..., 3] == 1).all()
+
+
+def test_an_image_of_the_same_name_that_is_somebody_elses_is_left_alone(blender, scene):
+    own = blender.data.images.new("Ray Caster combined", 3, 2)
+    blender.ops.camera_ray_caster.cast()
+    assert tuple(own.size) == (3, 2)
+    assert tuple(blender.data.images["Ray Caster combined.001"].size) == (WIDTH, HEIGHT)
+
+
 def test_a_result_is_shown_in_colors(blender, scene):
     passes.tick(scene, blender.context.view_layer, ["combined", "depth", "distance", "distance_bound"])
     blender.ops.camera_ray_caster.cast()

@@ -36,21 +36,6 @@ def test_cast_stores_every_pass_as_it_is(blender, scene, key):
     assert channels == 4 or (found[..., 3] == 1).all()
 
 
-def test_passes_of_all_widths_are_stored_beside_each_other(blender, scene):
-    keys = ["combined", "normal", "flow_forward", "depth", "ray_direction"]
-    passes.tick(scene, blender.context.view_layer, keys)
-    for _ in range(2):  # into new images, and into these again
-        assert blender.ops.camera_ray_caster.cast() == {"FINISHED"}
-        found = {key: pixels_of(blender.data.images[images.image_name(key)]) for key in keys}
-        for key in keys:
-            passes.tick(scene, blender.context.view_layer, [key])
-            blender.ops.camera_ray_caster.cast()
-            assert np.array_equal(pixels_of(blender.data.images[images.image_name(key)]), found[key], equal_nan=True)
-        passes.tick(scene, blender.context.view_layer, keys)
-    assert not found["flow_forward"][..., 2].any()
-    assert (found["normal"][..., 3] == 1).all()
-
-
 @pytest.mark.parametrize("kind", ["PERSP", "PANO", "OMNIDIRECTIONAL_STEREO", "SPHERICAL", "MULTIVIEW"])
 def test_cast_casts_every_view_of_a_stereo_scene(blender, scene, kind):
     data, render = scene.camera.data, scene.render
@@ -124,13 +109,6 @@ def test_cast_again_writes_into_the_same_images(blender, scene):
     assert tuple(depth.size) == (5, 40)
     assert depth.colorspace_settings.name == "Non-Color"
     assert pixels_of(depth)[20, 2, 0] == pytest.approx(5, abs=0.05)
-
-
-def test_an_image_of_the_same_name_that_is_somebody_elses_is_left_alone(blender, scene):
-    own = blender.data.images.new("Ray Caster combined", 3, 2)
-    blender.ops.camera_ray_caster.cast()
-    assert tuple(own.size) == (3, 2)
-    assert tuple(blender.data.images["Ray Caster combined.001"].size) == (WIDTH, HEIGHT)
 
 
 def test_cast_and_verify_keep_what_the_panel_shows(blender, scene):
