@@ -37,6 +37,23 @@ def check_cast(status, out, errors, folder):
         check_pixels(read_exr(path))
 
 
+def check_set(status, out, errors, folder):
+    """A data set has its arrays, and annotations whose boxes lie in the picture and whose numbers are numbers."""
+    assert status == 0, f"status {status}: {errors[-3000:] or out[:1500]}"
+    assert errors == "", f"standard error has {errors[-2000:]!r}"
+    found = json.loads((folder / "out" / "annotations.json").read_text(encoding="utf-8"), parse_constant=_refuse)
+    sizes = {image["id"]: (image["width"], image["height"]) for image in found["images"]}
+    assert sizes
+    for one in found["annotations"]:
+        (width, height), (x, y, wide, high) = sizes[one["image_id"]], one["bbox"]
+        assert 0 <= x <= x + wide <= width
+        assert 0 <= y <= y + high <= height
+    for path in folder.rglob("*_0*.npz"):
+        with np.load(path) as images:
+            assert images["flow_hidden"].dtype == bool
+            assert not np.isnan(images["depth"]).any()
+
+
 def check_export(status, out, errors, folder):
     """An export has its files; a camera.json makes the rays of the camera in the open file."""
     assert status == 0, f"status {status}: {errors[-3000:] or out[:1500]}"

@@ -18,7 +18,7 @@ from pathlib import Path
 
 from .inputs import make
 from .inputs.parts import Hostile, small_scene
-from .judge import check_cast, check_export, check_refusal
+from .judge import check_cast, check_export, check_refusal, check_set
 
 EXPORTED = "json", "colmap", "opencv", "stmap"
 """Formats that are tried: of everything, with poses and lenses as others say them, of two lenses."""
@@ -64,6 +64,10 @@ def outcome(hostile: Hostile, file: Path, folder: Path) -> str:
     if hostile.script:
         check_refusal(*run(of_script(hostile.script), list(hostile.words), folder / "script"), folder / "script")
         return "refused"
+    if hostile.command:
+        words = [str(file), *hostile.words]
+        check_refusal(*run(of_add_on(hostile.command), words, folder / "command"), folder / "command")
+        return "refused"
     cast = run(of_add_on("cast"), [str(file), "--output", "out", *hostile.words], folder / "cast")
     (check_refusal if cast[0] == 2 else check_cast)(*cast, folder / "cast")
     verify = run(of_add_on("verify"), [str(file), *hostile.words], folder / "verify")
@@ -73,6 +77,8 @@ def outcome(hostile: Hostile, file: Path, folder: Path) -> str:
     else:
         assert verify[0] == 0, f"verify has status {verify[0]}: {verify[2] or verify[1]}"
         assert verify[2] == "", f"verify says {verify[2]}"
+    if not hostile.words:
+        check_annotated(cast[0], folder, file)
     for key in () if hostile.words else EXPORTED:
         export = run(of_add_on("export"), [str(file), "--format", key, "--output", "out"], folder / key)
         if export[0] == 2:
@@ -81,6 +87,17 @@ def outcome(hostile: Hostile, file: Path, folder: Path) -> str:
         else:
             check_export(*export, folder / key)
     return "refused" if cast[0] == 2 else "cast"
+
+
+def check_annotated(status: int, folder: Path, file: Path) -> None:
+    """A data set with flow and annotations is made of what is cast, or refused."""
+    words = [str(file), "--frames", "1:1", "--passes", "depth,flow_hidden", "--keypoints", "ALL", "--output", "out"]
+    made = run(of_add_on("dataset"), words, folder / "set")
+    if made[0] == 2:
+        check_refusal(*made, folder / "set")
+    else:
+        assert status == 0, "not cast, but in a data set"
+        check_set(*made, folder / "set")
 
 
 def tried(kind, number) -> dict:

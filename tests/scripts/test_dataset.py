@@ -111,7 +111,7 @@ REFUSED = {
     "--workers 0": "give 1 or more",
     "--workers 2 --scheduler tcp://127.0.0.1:1": "not allowed with",
     "--scheduler tcp://127.0.0.1:1": "no scheduler of Dask answers at 'tcp://127.0.0.1:1'",
-    "--scheduler nothing://x": "no scheduler of Dask answers at 'nothing://x'",
+    "--scheduler nothing://x": "'nothing://x' is no address: give one such as tcp://HOST:PORT",
     "--shard 1/2": "unrecognized arguments",
 }
 
@@ -129,6 +129,27 @@ def test_a_python_without_dask_is_told_what_it_needs(command, scene, out, monkey
     monkeypatch.setitem(sys.modules, "distributed", None)
     assert "need Dask" in refused(command("dataset", scene, *WORDS, "--workers", "2", "--output", out))
     assert command("dataset", scene, *WORDS, "--output", out).returncode == 0
+
+
+IN_A_THREAD = """
+from argparse import Namespace
+from contextlib import suppress
+from threading import Thread
+from camera_ray_caster.blender.terminal import farm
+
+def use():
+    with suppress(AttributeError):  # it is registered by then
+        farm.work(Namespace(), {}, {}, [])
+
+worker = Thread(target=use)
+worker.start()
+worker.join()
+"""
+
+
+def test_a_worker_whose_thread_has_used_blender_ends_well():
+    done = subprocess.run([sys.executable, "-c", IN_A_THREAD], capture_output=True, text=True, timeout=60, check=False)
+    assert (done.returncode, complaints(done.stderr)) == (0, [])
 
 
 def test_two_workers_make_what_one_process_makes(scene, out, tmp_path):

@@ -2,7 +2,18 @@
 
 from .parts import Hostile
 
-COUNT = 150
+COUNT = 260
+
+WITH = {"dataset": ("--frames", "1:1"), "export": ("--format", "json")}
+"""Commands that are given a file, other than cast and verify, and the words that they need."""
+
+MANY = (
+    ("--cameras",), ("--cameras", ""), ("--cameras", "nobody"), ("--cameras", "\n"),
+    ("--cameras", "\udcff"), ("--frames", "2:1"), ("--frames", "1:2:0"), ("--frames", "1:" + "9" * 20),
+    ("--frames", "nan"), ("--frames", "0.5:2"), ("--output", "/proc/x"), ("--output", "/dev/null/x"),
+    ("--output", "x" * 300), ("--output",), ("--unknown",), ("second.blend",), ("\n",),
+)  # fmt: skip
+"""What commands of many cameras and frames refuse."""
 
 WRONG = {
     "": (
@@ -18,6 +29,23 @@ WRONG = {
         ("--precision", "double"), ("--output", ""), ("--output", "/proc/x"), ("--output", "/dev/null"),
         ("--output", "/dev/null/x"), ("--output", "x" * 300), ("--output",),
         ("--output", "x/" * 3000),
+    ),
+    "dataset": (
+        *MANY, ("--workers", "0"), ("--workers", "-1"), ("--workers", "nan"), ("--workers", "1" * 5000), ("--workers",),
+        ("--scheduler", ""), ("--scheduler", "nowhere"), ("--scheduler", "tcp://"),
+        ("--scheduler", "tcp://127.0.0.1:x"), ("--scheduler", "tcp://127.0.0.1:1", "--workers", "2"),
+        ("--shard", "1/2"), ("--frame", "1"), ("--camera", "Camera", "--cameras", "ALL"),
+        ("--resolution", "0x0"), ("--resolution", "-1x1"), ("--resolution", "1x"), ("--resolution", "9" * 20 + "x1"),
+        ("--samples", "4"), ("--engine", "CYCLES", "--samples", "0"), ("--engine", "toon"), ("--format", "tiff"),
+        ("--half=1",), ("--annotations=1",), ("--keypoints",), ("--keypoints", ""), ("--keypoints", "nobody"),
+        ("--keypoints", "\n"), ("--keypoints", "\udcff"), ("--keypoints", "ALL", "nobody"), ("--keypoints", "Plane"),
+        ("--passes", "flow"), ("--passes", "flow_forward,"), ("--passes", ""), ("--calibration", "none.yml"),
+        ("--calibration", "/dev/null"), ("--calibration", "."),
+    ),
+    "export": (
+        *MANY, ("--format", "png"), ("--format", ""), ("--format",), ("--format", "\n"), ("--to", "nobody"), ("--to",),
+        ("--format", "stmap", "--to", "nobody"), ("--format", "stmap", "--to", "Sphere"),
+        ("--format", "stmap", "--to", ""), ("--passes", "depth"), ("--calibration", "/dev/null"), ("--frame", "half"),
     ),
     "benchmark": (("--rounds", "0"), ("--rounds", "-1"), ("--rounds", "nan"), ("--threads", "0"), ("--size", "0x0"),
                   ("--size", "1x"), ("--size", "ax b"), ("--size", "1" * 5000), ("--json",), ("--x",), ("word",)),
@@ -35,5 +63,7 @@ def make(chance, number, folder):
     script, words = LINES[number % len(LINES)]
     if number >= len(LINES):
         words = (*words, *chance.choice(WRONG[script]))
-    script, name = "" if script == "cast" else script, script
-    return Hostile(f"{name or 'cast and verify'} {[word[:30] for word in words]}", words, script=script)
+    what = f"{script or 'cast and verify'} {[word[:30] for word in words]}"
+    if script in WITH:
+        return Hostile(what, (*WITH[script], *words), command=script)
+    return Hostile(what, words, script="" if script == "cast" else script)

@@ -20,6 +20,8 @@ class Hostile:
     """The .blend; None: the scene that is open is saved."""
     script: str = ""
     """One of scripts/, in place of cast and verify."""
+    command: str = ""
+    """One of the terminal's, which is given the file and is to refuse the words, in place of cast and verify."""
 
 
 def small_scene():

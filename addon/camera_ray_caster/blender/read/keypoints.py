@@ -14,9 +14,9 @@ def check_key_points(scene, names: Sequence[str]) -> None:
     """Raise InputError for a name that is neither an empty's nor that of a mesh with vertex groups, nor ALL."""
     if ALL in names and len(names) > 1:
         raise InputError(f"--keypoints {ALL} stands alone: leave out the names")
+    known = {ALL, *(item.name for item in scene.objects if _has_points(item))}
     for name in names:
-        item = scene.objects.get(name)
-        if name != ALL and not (item is not None and _has_points(item)):
+        if name not in known:
             raise InputError(
                 f"the scene has no key point {name!r}: name empties, or meshes with vertex groups, or give {ALL}"
             )

@@ -27,7 +27,7 @@ from . import farm
 from .options import command_parser, warn
 from .pictures import Pictures, add_words, follow, parsed, summary
 from .ray_maps import made_map
-from .words import add_frames, count
+from .words import add_frames, count, scheduler_address
 
 NAME = "dataset.json"
 
@@ -47,8 +47,8 @@ def run(arguments: Sequence[str], prog: str) -> int:
     where.add_argument(
         "--workers", type=count, metavar="N", help="processes of Dask on this machine; default: this one"
     )
-    where.add_argument("--scheduler", metavar="tcp://HOST:PORT", help="of a Dask cluster; every worker needs this "
-                       "package, bpy, the file and the folder")  # fmt: skip
+    where.add_argument("--scheduler", type=scheduler_address, metavar="tcp://HOST:PORT",
+                       help="of a Dask cluster; workers need this package, bpy, the file and the folder")  # fmt: skip
     options = parsed(parser, arguments)
     pictures = Pictures(options)
     for line in pictures.warnings:

@@ -7,6 +7,7 @@ the thread that imports it.
 
 from __future__ import annotations
 
+import atexit
 import logging
 import os
 import sys
@@ -17,7 +18,7 @@ from contextlib import ExitStack, contextmanager
 from dataclasses import replace
 from functools import partial
 from importlib import import_module
-from threading import Lock
+from threading import Lock, current_thread, main_thread
 from typing import Any
 
 from ...core.records import InputError
@@ -148,6 +149,8 @@ def work(options, stamp: Mapping[str, Any], maps: Mapping[str, Any], jobs: Seque
             from ..output.stamps import differing
             from .pictures import Pictures
 
+            if current_thread() is not main_thread():
+                atexit.register(_leave)  # before what registering adds, which is done before it
             import_module(__name__.partition(".blender.")[0]).register()  # what registers commands imports this module
             _opened.clear()
             _opened["pictures"] = pictures = Pictures(options)
@@ -157,3 +160,11 @@ def work(options, stamp: Mapping[str, Any], maps: Mapping[str, Any], jobs: Seque
             _opened["of"] = options, stamp
         made = (_opened["pictures"].make(job, stamp, "dataset.py", maps[job.camera]) for job in jobs)
         return [replace(outcome, report=None, paths=()) for outcome in made]
+
+
+def _leave() -> None:
+    """End this process without Blender's own end, which crashes in another thread than the one that has imported it."""
+    logging.shutdown()
+    for stream in (sys.stdout, sys.stderr):
+        stream.flush()
+    os._exit(0)

@@ -1,6 +1,7 @@
 """The words of a command line: a parser that refuses in one line, and what turns words into values."""
 
 import argparse
+import re
 from collections.abc import Sequence
 
 from ...core.camera.pixel_time import LAST_FRAME
@@ -66,6 +67,13 @@ def count(text: str) -> int:
     if number < 1:
         raise argparse.ArgumentTypeError(f"{text} is none: give 1 or more")
     return number
+
+
+def scheduler_address(text: str) -> str:
+    """Return the address of a scheduler; argparse names this function where the text is none."""
+    if not re.fullmatch(r"\w+://[^\s:]\S*:\d+", text):
+        raise argparse.ArgumentTypeError(f"{text!r} is no address: give one such as tcp://HOST:PORT")
+    return text
 
 
 def share(text: str) -> tuple[int, int]:
