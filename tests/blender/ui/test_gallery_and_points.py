@@ -16,6 +16,7 @@ def test_the_camera_of_each_model_comes_with_all_that_it_needs(blender, model):
     scene = blender.context.scene
     assert scene.camera not in before
     assert len(set(blender.data.objects) - before) <= 3  # camera, slits
+    scene.render.resolution_percentage = 10
     blender.context.view_layer.update()
     camera = read_camera(scene)
     assert camera.model.key == model.key
