@@ -44,6 +44,11 @@ def test_the_panels_say_what_the_camera_is_and_why_it_is_none(blender, scene):
     said = drawn(blender, facts_panels.SidebarFacts)
     for text in ("Eye", "6 m", "24 × 16 px", "39.6°", "Distance d", "2.77778", "K", "camera_ray_caster.copy_k"):
         assert text in said
+    own = scene.camera.data.camera_ray_caster
+    own.model = "PUSHBROOM"
+    settings = drawn(blender, camera_panels.SidebarSettings).split()
+    assert {"slit_1", "ortho_scale", "lens", "shift_x", "time_mode"} <= set(settings)  # there is no lens panel there
+    own.model = "BLENDER"
     blender.ops.camera_ray_caster.cast()
     for panel in (*sidebar, camera_panels.SidebarSettings, *cast_panels.CLASSES[3:]):
         drawn(blender, panel)

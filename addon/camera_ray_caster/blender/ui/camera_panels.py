@@ -86,7 +86,7 @@ class SidebarSettings(Sidebar, bpy.types.Panel):
         if getattr(camera, GROUP).model == BLENDERS_OWN:
             draw_lens(layout, context, camera)
         else:
-            draw_model_settings(layout, context, camera)
+            draw_model_settings(layout, context, camera, beside_lens=False)
         draw_times(layout, context, camera)
 
 

@@ -6,8 +6,6 @@ import bpy
 
 LETTER = 6.0
 """About the width of a letter in a panel, in units of the interface's scale."""
-
-
 MARGIN = 20.0
 """About the width beside a panel's fields, in the same units."""
 NARROW = 280

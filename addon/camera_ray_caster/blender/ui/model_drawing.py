@@ -15,19 +15,21 @@ PRESETS = "CAMERA_RAY_CASTER_PT_presets"
 """The panel of the presets."""
 
 
-def draw_model_settings(layout, context, camera) -> None:
-    """Draw what the chosen model needs. A calibration file grays out the numbers that it replaces."""
+def draw_model_settings(layout, context, camera, beside_lens: bool = True) -> None:
+    """Draw what the chosen model needs, beside a panel of the lens not what that has. A calibration file grays out the
+    numbers that it replaces.
+    """
     own = getattr(camera, GROUP)
     column, settings = layout.column(align=True), read_settings(camera)
     for setting in settings:
-        if shown(setting, camera, context.engine):
+        if not beside_lens or shown(setting, camera, context.engine):
             draw_setting(column, context, camera, setting)
         if setting.replaces_the_rest:
             column = layout.column(align=True)
             column.active = not getattr(own, setting.name)
     if UNIT in settings:
         draw_message(layout, context, lengths_in_words(own))
-    if context.engine != ENGINE and camera.type != CUSTOM and (labels := not_used(camera)):
+    if beside_lens and context.engine != ENGINE and camera.type != CUSTOM and (labels := not_used(camera)):
         draw_message(layout, context, f"The model does not use Blender's {', '.join(labels)}")
 
 
