@@ -1,4 +1,6 @@
-"""mrcal, nerfbaselines and ROS's image_geometry against what is written for them, where they are installed."""
+"""mrcal, nerfbaselines and ROS's image_geometry against what is written for them, where they are installed:
+``scripts/calibration_readers.py`` says how.
+"""
 
 import json
 
