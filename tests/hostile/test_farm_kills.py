@@ -5,6 +5,7 @@ whole, and what was finished is not made again.
 import json
 import sys
 import time
+from contextlib import suppress
 from random import Random
 
 import numpy as np
@@ -43,8 +44,12 @@ def finished(out):
 
 def workers(run):
     """The processes that a run has started and that are alive."""
-    children = psutil.Process(run.pid).children(recursive=True)
-    return [child for child in children if any("spawn_main" in word for word in child.cmdline())]
+    found = []
+    for child in psutil.Process(run.pid).children(recursive=True):
+        with suppress(psutil.NoSuchProcess):  # it has just ended, or is not waited for yet
+            if any("spawn_main" in word for word in child.cmdline()):
+                found.append(child)
+    return found
 
 
 def kill(reference, out, name, random):
