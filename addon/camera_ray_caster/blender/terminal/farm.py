@@ -145,12 +145,12 @@ def work(options, stamp: Mapping[str, Any], maps: Mapping[str, Any], jobs: Seque
     """Make pictures in a worker; return what came of them."""
     with _blender:  # which does one thing at a time
         if (options, stamp) != _opened.get("of"):
+            if current_thread() is not main_thread():
+                atexit.register(_leave)  # before bpy is imported: what comes later is done before it
             keep_output()
             from ..output.stamps import differing
             from .pictures import Pictures
 
-            if current_thread() is not main_thread():
-                atexit.register(_leave)  # before what registering adds, which is done before it
             import_module(__name__.partition(".blender.")[0]).register()  # what registers commands imports this module
             _opened.clear()
             _opened["pictures"] = pictures = Pictures(options)
