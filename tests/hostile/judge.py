@@ -68,8 +68,10 @@ def check_export(status, out, errors, folder):
 
             document = json.loads(path.read_text(encoding="utf-8"), parse_constant=_refuse)
             names, scene = [camera["name"] for camera in document["cameras"]], bpy.context.scene
-            views = [view.name for view in scene.render.stereo_views if view.use] if len(names) > 1 else [""]
-            for name, view in zip(names, views, strict=True):
+            render = scene.render
+            is_stereo = render.use_multiview and render.views_format == "STEREO_3D"
+            eyes = [view.name for view in render.stereo_views if view.use] if is_stereo else []
+            for name, view in zip(names, eyes or [""], strict=True):
                 there = crc.read_camera(scene, view=view).rays()
                 back = crc.camera_from_json(path, camera=name).rays()
                 assert there.directions.tobytes() == back.directions.tobytes(), "other directions come back"
