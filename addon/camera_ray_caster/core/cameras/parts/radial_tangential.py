@@ -24,6 +24,7 @@ from numpy.polynomial.polynomial import polyval
 from ...maths.inversion import Inverse
 from ...maths.polynomials import positive_roots
 from ...maths.recording import is_recorded, loop, roundoff, stop_gradient
+from .edge import Edge
 
 STEEPEST = tan(radians(89.9))
 """The largest undistorted radius that an endless picture is given."""
@@ -140,6 +141,18 @@ class RadialTangential:
         return self.farthest(self.limit) * (1 + NEAR) if self.limit < inf else inf
 
     @cached_property
+    def _edge(self) -> Edge | None:
+        """What encloses all that is seen, since the map is one-to-one within the limit; None without one."""
+        second = self.limit * abs(self.gain(self.limit**2)[0]) + 8 * self.limit**2 * hypot(self.p1, self.p2)
+        return Edge.around(lambda x, y: self.distort(self.limit * x, self.limit * y), second)
+
+    def _may_be_seen(self, u, v, rho):
+        """Return where something may be seen: false only where there is nothing for sure."""
+        if self.limit == inf or self._edge is None:
+            return rho <= self._farthest
+        return self._edge.may_hold(u, v, rho)
+
+    @cached_property
     def _radius(self):
         """Return the inverse of r g(r^2), out to the limit, or to 89.9 degrees where the picture has no end."""
         high = min(self.limit, STEEPEST)
@@ -165,7 +178,7 @@ class RadialTangential:
             step_x, step_y = self._step(x, y, u, v)
             return x - step_x, y - step_y  # whose derivatives are the inverse's own
         rho = np.hypot(u, v)
-        if not (radial or (near := rho <= self._farthest).all()):  # Newton's method would search long
+        if not (radial or (near := self._may_be_seen(u, v, rho)).all()):  # Newton's method would search long
             x, y = np.full(rho.shape, np.nan), np.full(rho.shape, np.nan)  # arrays, of one pixel too
             x[near], y[near] = self.undistort(u[near], v[near])
             return x, y
