@@ -25,6 +25,7 @@ WORDS = {
     "explain": [SCENE, "--pixel", "0,0"],
     "export": ["--help"],
     "make_docs": ["--help"],
+    "make_listing": ["--help"],
     "make_pictures": ["--help"],
     "make_scenes": ["--help"],
     "make_zip": ["--help"],
