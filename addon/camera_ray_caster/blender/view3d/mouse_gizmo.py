@@ -83,7 +83,7 @@ def _write(context, mouse, lines) -> None:
 
     def place(width, height):
         right = mouse[0] + 2 * margin
-        fits = right + width + margin <= context.region.width
+        fits = right + width + margin <= text.visible_width(context)
         return right if fits else mouse[0] - 2 * margin - width, max(mouse[1] - margin, height + margin)
 
     text.write(context, lines, place)

@@ -21,7 +21,7 @@ def draw() -> None:
     context = bpy.context
     lines = [("", line) for line in cached_scene(context).differences] if _shows_camera(context) else []
     if lines:
-        margin, across = MARGIN * context.preferences.system.ui_scale, context.region.width
+        margin, across = MARGIN * context.preferences.system.ui_scale, text.visible_width(context)
         text.write(context, lines, lambda width, height: ((across - width) / 2, height + margin))
 
 

@@ -29,6 +29,13 @@ def write(context, lines: Sequence[tuple[str, str]], place: Callable[[float, flo
             blf.draw(font, word)
 
 
+def visible_width(context) -> int:
+    """Return how many pixels of its width a region shows: a sidebar may lie over the others."""
+    region = context.region
+    sidebars = [other.x - region.x for other in context.area.regions if other.type == "UI" and other.width > 1]
+    return min([region.width, *(left for left in sidebars if left > 0)])
+
+
 def _ground(left, right, bottom, top) -> None:
     shader = gpu.shader.from_builtin("UNIFORM_COLOR")
     corners = ((left, bottom), (right, bottom), (left, top), (right, top))
