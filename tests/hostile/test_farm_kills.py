@@ -20,6 +20,8 @@ KILLS = 20
 """Moments for a worker, and as many for the whole run."""
 FEW = 1
 """Moments of each that ``make test`` tries."""
+LAST = 16
+"""Reports, of 24, after which a run is disturbed at the latest: both workers have something to do then."""
 WORDS = "--cameras", "ALL", "--frames", "1:12", "--passes", "combined,depth,ray_direction"
 
 
@@ -56,13 +58,14 @@ def kill(reference, out, name, random):
     """Kill one worker or the whole run, finish the set, and compare it."""
     scene, whole = reference
     run = start(ROOT / "scripts" / "dataset.py", scene, *WORDS, "--workers", "2", "--output", out)
-    while run.poll() is None and not list(out.glob("*_0*.json")):
+    reports = random.randint(1, LAST)
+    while run.poll() is None and len(list(out.glob("*_0*.json"))) < reports:
         time.sleep(0.01)
-    time.sleep(random.uniform(0, 1))
+    time.sleep(random.uniform(0, 0.05))
     before = {}
     if run.poll() is None:
         started = workers(run)
-        victim = random.choice(started or [run]) if name == "worker" else run
+        victim = random.choice(started) if name == "worker" else run
         victim.kill()
         if victim is run:
             psutil.wait_procs(started, 30)  # they notice
