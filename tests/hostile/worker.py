@@ -23,6 +23,9 @@ from .judge import check_cast, check_export, check_refusal, check_set
 EXPORTED = "json", "colmap", "opencv", "stmap"
 """Formats that are tried: of everything, with poses and lenses as others say them, of two lenses."""
 
+SETS = 4
+"""Of so many scenes of one sort one is made a data set, too, which takes as long as all else that is tried of it."""
+
 ROOT = Path(__file__).resolve().parents[2]
 
 
@@ -59,8 +62,8 @@ def of_script(name):
     return command
 
 
-def outcome(hostile: Hostile, file: Path, folder: Path) -> str:
-    """Return "cast" or "refused"; raise AssertionError for anything else."""
+def outcome(hostile: Hostile, file: Path, folder: Path, in_set: bool) -> str:
+    """Return "cast" or "refused"; raise AssertionError for anything else. ``in_set``: a data set is made, too."""
     if hostile.script:
         check_refusal(*run(of_script(hostile.script), list(hostile.words), folder / "script"), folder / "script")
         return "refused"
@@ -77,7 +80,7 @@ def outcome(hostile: Hostile, file: Path, folder: Path) -> str:
     else:
         assert verify[0] == 0, f"verify has status {verify[0]}: {verify[2] or verify[1]}"
         assert verify[2] == "", f"verify says {verify[2]}"
-    if not hostile.words:
+    if in_set and not hostile.words:
         check_annotated(cast[0], folder, file)
     for key in () if hostile.words else EXPORTED:
         export = run(of_add_on("export"), [str(file), "--format", key, "--output", "out"], folder / key)
@@ -115,7 +118,7 @@ def tried(kind, number) -> dict:
             file = made / "hostile.blend"
             bpy.ops.wm.save_as_mainfile(filepath=str(file), copy=True)
         try:
-            return {"what": hostile.what, "outcome": outcome(hostile, file, folder), "said": ""}
+            return {"what": hostile.what, "outcome": outcome(hostile, file, folder, number % SETS == 0), "said": ""}
         except AssertionError as error:
             return {"what": hostile.what, "outcome": "broken", "said": str(error)}
 

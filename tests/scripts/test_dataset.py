@@ -107,6 +107,13 @@ def test_a_camera_that_cannot_be_cast_is_refused_before_anything_is_made(command
     assert not out.exists()
 
 
+def test_a_scene_without_a_view_layer_is_refused_before_anything_is_made(command, blender, scene, out):
+    blender.context.view_layer.use = False
+    blender.ops.wm.save_as_mainfile(filepath=str(scene))
+    assert "view layer" in refused(command("dataset", scene, *WORDS, "--output", out))
+    assert not out.exists()
+
+
 REFUSED = {
     "--workers 0": "give 1 or more",
     "--workers 2 --scheduler tcp://127.0.0.1:1": "not allowed with",

@@ -57,7 +57,8 @@ def run(arguments: Sequence[str], prog: str) -> int:
     jobs, stamp = pictures.jobs(), pictures.stamp()
     first = {job.camera: job for job in reversed(jobs)}
     for job in first.values():
-        pictures.camera_at(job)  # a camera that cannot be cast is refused before anything is made
+        pictures.camera_at(job)  # what cannot be cast is refused before anything is made
+        files.check(pictures.scene)
     passed, made = True, 0
     try:
         with farm.cluster(options) as client:
