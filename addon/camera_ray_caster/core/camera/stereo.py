@@ -77,7 +77,8 @@ def _moved(raw: BlenderCamera, x: float, z: float, turn: float) -> BlenderCamera
     """Return the camera moved along its own normalized axes, and turned about its Y."""
     world_from_camera = np.array(raw.matrix_world, np.float64)
     axes = world_from_camera[:3, :3]
-    axes /= np.linalg.norm(axes, axis=0)
+    with np.errstate(invalid="ignore"):  # an axis of no length is refused with the camera
+        axes /= np.linalg.norm(axes, axis=0)
     world_from_camera[:3, 3] += axes @ (x, 0.0, z)
     world_from_camera[:3, :3] = axes @ [[cos(turn), 0.0, sin(turn)], [0.0, 1.0, 0.0], [-sin(turn), 0.0, cos(turn)]]
     return replace(raw, matrix_world=world_from_camera)
