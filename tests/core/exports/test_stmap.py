@@ -100,3 +100,12 @@ def test_what_the_places_of_the_eyes_mean_is_said():
 def test_cameras_without_an_eye_are_refused(one, other, says):
     with pytest.raises(InputError, match=f"^STMaps cannot represent the .*{says}"):
         maps(one, other)
+
+
+def test_places_that_float32_cannot_hold_are_none():
+    """The picture of a cylinder that is so high that another camera's pixels lie beyond float32."""
+    high = {"central_cylindrical_range_v_min": 3.4e38}
+    _, files, _ = maps(("CENTRAL_CYLINDRICAL", high), None)
+    for st in files.values():
+        assert np.isfinite(st).all()
+        assert (st[st[..., 2] == 0] == (-1, -1, 0)).all()

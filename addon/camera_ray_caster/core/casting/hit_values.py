@@ -117,12 +117,14 @@ class HitValues:
         faces_eye = self.hits.rays.from_eye and all(one.faces_eye for one in self.plan.sets)
         others = [(self.look_up(mask, f"others {k}"), normals) for k, (mask, normals) in enumerate(table.others)]
         if not (others and (np.logical_or.reduce([mask for mask, _ in others]) >= self.hits.seen).all()):
-            constants = self.look_up(table.constants, "constants")
-            gain, offset = constants[0], constants[1:]
-            np.multiply(gain, self.point, out=normal)
-            if faces_eye and table.is_sum:
-                return normal, offset
-            np.add(normal, offset, out=normal)
+            offset = self.look_up(table.offset, "offset of normals")
+            if table.gain is None:
+                normal = offset
+            else:
+                np.multiply(self.look_up(table.gain, "gain of normals"), self.point, out=normal)
+                if faces_eye and table.is_sum:
+                    return normal, offset
+                np.add(normal, offset, out=normal)
             if not table.unit:
                 np.divide(normal, np.maximum(norm(normal), np.finfo(float).tiny), out=normal)
             if not faces_eye:

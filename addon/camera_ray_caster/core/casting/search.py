@@ -12,7 +12,8 @@ import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 
 from ..maths.speed import whole_rows, widened
-from ..shapes.kind import Candidates, Large, SearchRays
+from ..shapes.kind import Candidates, Large
+from ..shapes.search_rays import SearchRays
 from .hits import NOTHING, Hits
 from .plan import Plan
 from .rays import TileRays

@@ -65,14 +65,15 @@ def perspective_of(camera: Camera) -> Camera:
 
 def places(camera: Camera, other: Camera) -> np.ndarray:
     """Return for each pixel of a camera's full frame where another one sees the same, as the module's page has it:
-    (rows, columns, 3) float32, row 0 at the bottom. A place is right to float32's rounding of it.
+    (rows, columns, 3) float32, row 0 at the bottom. A place is right to float32's rounding of it; one that float32
+    cannot hold is none.
     """
     width, height = camera.raster.size
     rays = camera.rays_at(np.arange(width)[None, :] + 0.5, np.arange(height)[:, None] + 0.5)
     with np.errstate(all="ignore"):  # NaN is an answer
-        pixels = other.model.project(rays.directions @ inverse(other.pose.basis).T)
-    found = np.isfinite(pixels).all(axis=-1)
+        there = other.model.project(rays.directions @ inverse(other.pose.basis).T) / other.raster.size
+        found = (np.abs(there) <= np.finfo(np.float32).max).all(axis=-1)
     result = np.zeros((height, width, 3), np.float32)
-    result[..., :2] = np.where(found[..., None], pixels / other.raster.size, -1.0)
+    result[..., :2] = np.where(found[..., None], there, -1.0)
     result[..., 2] = found
     return result

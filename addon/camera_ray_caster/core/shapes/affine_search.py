@@ -13,7 +13,8 @@ import numpy as np
 
 from .. import tuning
 from ..maths.vector import cut, is_lattice
-from .kind import Candidates, Large, SearchRays, ShapeSet, Visible
+from .kind import Candidates, Large, ShapeSet, Visible
+from .search_rays import SearchRays
 from .windows import Windows, batches, in_tile, pixels_in
 
 

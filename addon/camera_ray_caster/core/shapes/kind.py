@@ -20,11 +20,10 @@ from typing import Any, NamedTuple, Protocol
 import numpy as np
 
 from ..maths.speed import Scratch, lazy
-from ..maths.vector import cross
 from ..records import Shapes
 from .follow import Follow, follow_frames
 from .frames import InCamera, WorldRays
-from .windows import Present
+from .search_rays import SearchRays
 
 
 class PixelBounds(Protocol):
@@ -77,43 +76,6 @@ class Visible:
     """Where parts of the shapes may be seen."""
     whole: ShapeSet | None = None
     """What the kind has made for all pixels of the picture, where these are some columns and rows of them."""
-
-
-@dataclass(frozen=True, eq=False)
-class SearchRays:
-    """The rays of a tile in the camera frame, in the precision of the search; components broadcast."""
-
-    origin: Any
-    """None for rays from the eye."""
-    direction: Any
-    corner: tuple[int, int]
-    """Column and row, in the pixels of the plan, at which the tile begins."""
-    shape: tuple[int, int]
-    """Rows and columns."""
-    scratch: Scratch
-
-    @lazy
-    def moment(self) -> Any:
-        """The cross products of origins and directions, in float64; None for rays from the eye."""
-        if self.origin is None:
-            return None
-        return cross(tuple(np.asarray(component, float) for component in self.origin), self.direction)
-
-    @lazy
-    def present(self) -> Present:
-        """Those that there are."""
-        return Present(self.direction, self.shape)
-
-    def at(self, pixel: np.ndarray) -> tuple[np.ndarray | None, np.ndarray]:
-        """Return the origins, None for the eye, and the directions at (m,) pixels of the tile, (3, m) float64 each."""
-        row, column = np.divmod(pixel, self.shape[1])
-
-        def taken(vector):
-            whole = (np.broadcast_to(component, self.shape) for component in vector)
-            each = [one.reshape(-1).take(pixel) if one.flags.c_contiguous else one[row, column] for one in whole]
-            return np.array(each, float)
-
-        return None if self.origin is None else taken(self.origin), taken(self.direction)
 
 
 class Large(NamedTuple):

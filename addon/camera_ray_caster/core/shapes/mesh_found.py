@@ -8,7 +8,7 @@ import numpy as np
 
 from .. import tuning
 from ..maths.speed import taken
-from .kind import SearchRays
+from .search_rays import SearchRays
 
 SEEN = "triangles seen"
 """What the scratch notes of a tile: ``SeenTriangles``; its array of the same name has each pixel's."""
@@ -44,15 +44,14 @@ class Found:
         which.fill(count)
         return cls(t, which, count)
 
-    def seen(self, out: np.ndarray) -> np.ndarray:
-        """Return the triangles that pixels see, ascending, and in ``out`` which of them each pixel does, 0 for none."""
-        place, which = np.zeros(self.count + 1, np.int32), self.which.reshape(-1)
-        place[which] = 1
+    def seen(self) -> tuple[np.ndarray, np.ndarray]:
+        """Return the triangles that pixels see, ascending, and which of them each pixel does, 0 for none."""
+        place = np.zeros(self.count + 1, np.int32)
+        place[self.which.reshape(-1)] = 1
         place[self.count] = 0
         seen = np.flatnonzero(place)
         place[seen] = np.arange(len(seen))
-        np.take(place, which, out=out.reshape(-1), mode="wrap")
-        return seen
+        return seen, taken(place, self.which)
 
     def keep(self, pixel: np.ndarray, t: np.ndarray, which: np.ndarray) -> None:
         """Note those that are the nearest so far; a pixel may have several."""

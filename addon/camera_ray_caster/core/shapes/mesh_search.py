@@ -1,4 +1,4 @@
-"""The nearest triangle of every ray of a tile: many triangles at once, each in a window of pixels."""
+"""The nearest triangle of every ray of a tile: many triangles at once, in spans of rows or ray by ray."""
 
 from __future__ import annotations
 
@@ -12,12 +12,13 @@ import numpy as np
 from .. import tuning
 from ..maths.speed import lazy, taken
 from ..maths.vector import cross, cut, difference, dot, norm
-from .kind import Candidates, PixelBounds, SearchRays, ShapeSet
+from .kind import Candidates, PixelBounds, ShapeSet
 from .mesh_found import SEEN, Found, SeenTriangles
 from .mesh_in_camera import MeshesInView, Triangles
 from .mesh_spans import Lattice, spans
+from .search_rays import SearchRays
 from .triangles import EDGES, ROUNDING, STEEP, crossing, plane, signs, volumes
-from .windows import Windows, banded, batches, in_tile, pixels_in
+from .windows import Windows, banded, batches, in_tile, pixels_in, union
 
 Reach = tuple[float, float]
 """How long the directions and the origins of a tile's rays are at most."""
@@ -51,7 +52,11 @@ class MeshSet(ShapeSet):
         here, bounds = in_tile(triangles.bounds, rays.corner, rays.shape)
         if not here.size:
             return
-        found = Found.of(nearest, rays, len(triangles.shape))
+        window = union(bounds)
+        whole, rays = rays, rays.within(window)
+        first_row, first_column = (own.start for own in window)
+        bounds -= np.array([first_column, first_column, first_row, first_row], bounds.dtype)
+        found = Found.of(nearest[window], rays, len(triangles.shape))
         lattice = Lattice.of(rays)
         reach = _longest(rays.direction), _longest(rays.origin or (0.0,))
         near = triangles.near.take(here)
@@ -64,20 +69,21 @@ class MeshSet(ShapeSet):
                 steps = self._in_windows(rays, reach, *own, found)
             for _ in steps:
                 yield None
-        of_pixel = rays.scratch(SEEN, rays.shape, np.int32)
-        seen = found.seen(of_pixel)
+        seen, of_pixel = found.seen()
         if not seen.size:
             return
+        whole.scratch(SEEN, whole.shape, np.int32)[window] = of_pixel
         noted = SeenTriangles(triangles.shape[seen], triangles.number[seen])
-        rays.scratch.noted[SEEN] = noted
+        whole.scratch.noted[SEEN] = noted
+        corner = np.array([first_row]), np.array([first_column])
         met = found.which != found.count
-        yield Candidates(noted.at.take(of_pixel)[None], (np.zeros(1, int), np.zeros(1, int)), found.t[None], met[None])
+        yield Candidates(noted.at.take(of_pixel)[None], corner, found.t[None], met[None])
 
     def _in_spans(self, rays, lattice: Lattice, reach: Reach, here, bounds, found: Found) -> Iterator[None]:
         """Keep what is met of triangles under a lattice of rays, in small steps."""
         at, bands = banded(bounds, tuning.SPANNED_PIXELS)
         rest = []
-        for some in _pieces(bands):
+        for some in _pieces(bands, tuning.SPANNED_PIXELS):
             rest.append(self._span(rays, lattice, reach, here[at[some]], bands[some], found))
             yield
         self._test(rays, rest, found)
@@ -91,11 +97,7 @@ class MeshSet(ShapeSet):
             rest.append(self._fill(rays, reach, one, band, found))
             yield
         self._test(rays, rest, found)
-        here, bounds = here[~is_large], bounds[~is_large]
-        is_sparse = rays.present.part < tuning.SPARSE
-        for some in _pieces(bounds) if is_sparse else batches(bounds):
-            (self._scatter if is_sparse else self._cast)(rays, reach, here[some], bounds[some], found)
-            yield
+        yield from self._in_pixels(rays, reach, here[~is_large], bounds[~is_large], found)
 
     def _fill(self, rays: SearchRays, reach: Reach, which: int, bounds: list[int], found: Found):
         """Keep what is met of one triangle in a window of the tile. Return it for each pixel in which it is still to be
@@ -127,7 +129,7 @@ class MeshSet(ShapeSet):
     def _span(
         self, rays: SearchRays, lattice: Lattice, reach: Reach, here: np.ndarray, bounds: np.ndarray, found: Found
     ) -> tuple[np.ndarray, np.ndarray]:
-        """Keep what is met of triangles in spans, and of those that have none pixel by pixel. Return triangles that are
+        """Keep what is met of triangles in spans, and of those that have none ray by ray. Return triangles that are
         still to be tested, and the pixels in which they are.
         """
         meets, corners = self.meshes.facing(here)
@@ -137,40 +139,41 @@ class MeshSet(ShapeSet):
         self._keep(found, pixel, seen.t, taken(here, at))
         if not seen.clear.all():
             others = np.flatnonzero(~seen.clear)
-            for batch in batches(bounds[others]):
-                self._cast(rays, reach, here[others[batch]], bounds[others[batch]], found)
+            for _ in self._in_pixels(rays, reach, here[others], bounds[others], found):
+                pass
         at, pixel = seen.open
         return here[at], pixel
 
-    def _cast(self, rays: SearchRays, reach: Reach, here: np.ndarray, bounds: np.ndarray, found: Found) -> None:
-        """Keep what is met of triangles that are tested pixel by pixel, in windows."""
-        corners: Any
-        meets, corners = self.meshes.facing(here)
-        if not meets.size:
-            return
-        here, windows = here[meets], Windows.around(bounds[meets], rays.shape)
-        doubt = _doubt(corners, reach)
-        direction, moment = (parts and tuple(map(windows.flat, parts)) for parts in (rays.direction, rays.moment))
-        inner = _inside(volumes(corners, direction, moment), rays.origin is None)
-        hit = np.flatnonzero(inner >= -doubt)
-        sure = (inner > doubt).reshape(-1)[hit]
-        pixel, which = windows.pixel.reshape(-1)[hit], here[hit % len(here)]
-        self._test(rays, [(which[~sure], pixel[~sure])], found)
-        pixel, which = pixel[sure], which[sure]
-        self._keep(found, pixel, crossing(*self._meeting(rays, which, pixel)), which)
+    def _in_pixels(self, rays: SearchRays, reach: Reach, here, bounds, found: Found) -> Iterator[None]:
+        """Keep what is met of triangles that are tested pixel by pixel, in small steps."""
+        for some in _pieces(bounds, tuning.TRACED_PIXELS) if rays.origin is None else batches(bounds):
+            meets, corners = self.meshes.facing(here[some])
+            if meets.size:
+                cast = self._from_eye if rays.origin is None else self._from_anywhere
+                cast(rays, corners, _doubt(corners, reach), here[some][meets], bounds[some][meets], found)
+            yield
 
-    def _scatter(self, rays: SearchRays, reach: Reach, here: np.ndarray, bounds: np.ndarray, found: Found) -> None:
-        """Keep what is met of triangles that are tested ray by ray, where few pixels have one."""
-        corners: Any
-        meets, corners = self.meshes.facing(here)
-        pixel, k = rays.present.within(bounds[meets])
-        which, doubt = here[meets][k], taken(_doubt(corners, reach), k)
-        origin, direction = rays.at(pixel)
-        if origin is None:  # the normals of planes through the eye and an edge serve all rays
-            normals = [np.array(cross(corners[i], corners[j])) for i, j in EDGES]
-            inner = _inside(tuple(dot(taken(normal, k), direction) for normal in normals), is_turned=True)
-        else:
-            inner = _inside(volumes(taken(corners, k) - origin, direction), is_turned=False)
+    def _from_eye(self, rays: SearchRays, corners, doubt, here, bounds, found: Found) -> None:
+        """Keep what is met of triangles, where pixels in their bounds have a ray: planes through the eye and an edge
+        serve all rays.
+        """
+        pixel, k = rays.present.within(bounds)
+        _, direction = rays.at(pixel)
+        normals = (np.array(cross(corners[i], corners[j])) for i, j in EDGES)
+        inner = _inside(tuple(dot(taken(normal, k), direction) for normal in normals), is_turned=True)
+        self._decide(rays, inner, taken(doubt, k), here[k], pixel, found)
+
+    def _from_anywhere(self, rays: SearchRays, corners, doubt, here, bounds, found: Found) -> None:
+        """The same of rays of many origins, in windows: each has a value for each ray, but no corner has."""
+        windows = Windows.around(bounds, rays.shape)
+        direction, moment = (tuple(map(windows.flat, parts)) for parts in (rays.direction, rays.moment))
+        inner = _inside(volumes(corners, direction, moment), is_turned=False)
+        near = np.flatnonzero(inner >= -doubt)
+        k = near % len(here)
+        self._decide(rays, inner.reshape(-1)[near], doubt[k], here[k], windows.pixel.reshape(-1)[near], found)
+
+    def _decide(self, rays: SearchRays, inner, doubt, which, pixel, found: Found) -> None:
+        """Keep what is met, one triangle a pixel, from how far inside of it the ray is and what that is right to."""
         is_open, is_met = np.abs(inner) <= doubt, inner > doubt
         self._test(rays, [(which[is_open], pixel[is_open])], found)
         which, pixel = which[is_met], pixel[is_met]
@@ -234,7 +237,7 @@ def _slabs(near: np.ndarray, bounds: np.ndarray, pixels: int) -> Iterator[np.nda
     they are beside the pixels of their tile, whose farthest t are asked for before each.
     """
     x0, x1, y0, y1 = bounds.T
-    work = tuning.TRIANGLE_PIXELS * len(near) + np.dot((x1 - x0).astype(float), y1 - y0)
+    work = tuning.TRIANGLE_PIXELS * len(near) + np.multiply(x1 - x0, y1 - y0, dtype=float).sum()
     count = int(np.clip(np.rint(tuning.SLABS * math.sqrt(work / pixels)), 1, tuning.MOST_SLABS))
     cuts = np.quantile(near[:: max(1, len(near) >> 12)], np.arange(1, count) / count)
     slab = np.searchsorted(cuts, near)
@@ -242,11 +245,11 @@ def _slabs(near: np.ndarray, bounds: np.ndarray, pixels: int) -> Iterator[np.nda
         yield np.flatnonzero(slab == k)
 
 
-def _pieces(bounds: np.ndarray) -> Iterator[slice]:
-    """Yield as many triangles at once as SPANNED and SPANNED_PIXELS tell."""
+def _pieces(bounds: np.ndarray, most: int) -> Iterator[slice]:
+    """Yield SPANNED triangles at once, or as many as have so many pixels in their bounds."""
     pixels = np.cumsum(pixels_in(bounds))
     first = 0
     while first < len(bounds):
-        end = min(first + tuning.SPANNED, int(np.searchsorted(pixels, pixels[first] + tuning.SPANNED_PIXELS)) + 1)
+        end = min(first + tuning.SPANNED, int(np.searchsorted(pixels, pixels[first] + most)) + 1)
         yield slice(first, end)
         first = end

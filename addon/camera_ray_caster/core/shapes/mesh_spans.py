@@ -18,7 +18,7 @@ import numpy as np
 from ..conventions import EPS
 from ..maths.speed import taken
 from ..maths.vector import cross, dot, is_grid, is_lattice, is_one, norm
-from .kind import SearchRays
+from .search_rays import SearchRays
 from .triangles import EDGES, ROUNDING, STEEP, plane
 from .windows import counted
 

@@ -19,8 +19,10 @@ from .kinds import by_kind
 class NormalTable:
     """The normals of shapes, world frame; see ``Kind.normals``."""
 
-    constants: np.ndarray
-    """(4, n + 1): gain and offset; 0 where there are none."""
+    gain: np.ndarray | None
+    """(n + 1,); None where all are 0, as those of planes."""
+    offset: np.ndarray
+    """(3, n + 1); 0 where there are no constants."""
     unit: bool
     """Whether gain times point plus offset has unit length as it comes."""
     others: tuple[tuple[np.ndarray, PixelNormals], ...]
@@ -45,4 +47,5 @@ def normal_table(shapes: InCamera, seen: np.ndarray) -> NormalTable:
             others.append((own, normals))
     table[np.isnan(table)] = 0.0
     far = np.abs(table[1:]).max(initial=0.0)
-    return NormalTable(table, bool(far < tuning.FAR), tuple(others))
+    gain = table[0] if table[0].any() else None
+    return NormalTable(gain, table[1:], bool(far < tuning.FAR), tuple(others))

@@ -29,6 +29,13 @@ def in_tile(bounds: np.ndarray, corner: tuple[int, int], shape: tuple[int, int])
     return (here, parts) if len(some) == len(here) else (here[some], parts[some])
 
 
+def union(bounds: np.ndarray) -> tuple[slice, slice]:
+    """Return the rows and columns from the first to the last of bounds (n, 4), n not 0."""
+    x0, _, y0, _ = bounds.min(axis=0).tolist()
+    _, x1, _, y1 = bounds.max(axis=0).tolist()
+    return slice(y0, y1), slice(x0, x1)
+
+
 def banded(bounds: np.ndarray, most: int) -> tuple[np.ndarray, np.ndarray]:
     """Return bounds (n, 4) cut into bands of rows with so many pixels at most, and which of them each is of."""
     rows = np.maximum(most // (bounds[:, 1] - bounds[:, 0]), 1)
@@ -99,37 +106,6 @@ class Windows:
             return taken(component.reshape(-1), self.pixel)
         own = np.broadcast_to(self.of(component), (len(self.row), *self.size))
         return own.reshape(len(self.row), -1).T
-
-
-class Present:
-    """The rays of a tile that there are, row by row; the direction of others is NaN."""
-
-    def __init__(self, direction: Any, shape: tuple[int, int]):
-        self._there = np.broadcast_to(~np.isnan(direction[0]), shape).reshape(-1)
-        self._width = shape[1]
-
-    @lazy
-    def part(self) -> float:
-        """Of the pixels, that have a ray."""
-        return np.count_nonzero(self._there) / self._there.size
-
-    @lazy
-    def _pixels(self) -> np.ndarray:
-        return np.flatnonzero(self._there)
-
-    @lazy
-    def _before(self) -> np.ndarray:
-        """How many there are before each pixel of the tile, and in all of it."""
-        return np.append(0, np.cumsum(self._there))
-
-    def within(self, bounds: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return the pixels of those within bounds (k, 4), and of which bounds each is, (m,) both."""
-        x0, x1, y0, y1 = bounds.T.astype(np.intp)
-        at, row = counted(y1 - y0, y0)
-        row *= self._width
-        first = taken(self._before, row + taken(x0, at))
-        run, ray = counted(taken(self._before, row + taken(x1, at)) - first, first)
-        return taken(self._pixels, ray), taken(at, run)
 
 
 def counted(count: np.ndarray, first: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -20,14 +20,14 @@ def test_nothing_that_is_seen_lies_beyond_the_edge(values):
     angle, part = rng.uniform(-np.pi, np.pi, 100_000), np.sqrt(rng.uniform(0, 1, 100_000))
     part[::2] = 1
     u, v = lens.distort(lens.limit * part * np.cos(angle), lens.limit * part * np.sin(angle))
-    assert lens._may_be_seen(u, v, np.hypot(u, v)).all()
+    assert lens.edge.may_hold(u, v, np.hypot(u, v)).all()
 
 
 @pytest.mark.parametrize("values", LENSES)
 def test_all_but_little_of_what_lies_beyond_is_known_at_once(values):
     lens, rng = RadialTangential(**values), np.random.default_rng(3)
-    u, v = rng.uniform(-2, 2, (2, 3000)) * lens._farthest
-    found, sure = ~np.isnan(lens.undistort(u, v)[0]), ~lens._may_be_seen(u, v, np.hypot(u, v))
+    u, v = rng.uniform(-2, 2, (2, 3000)) * lens.farthest(lens.limit)
+    found, sure = ~np.isnan(lens.undistort(u, v)[0]), ~lens.edge.may_hold(u, v, np.hypot(u, v))
     assert 100 < found.sum() < 2900
     assert (~found & ~sure).sum() <= 3
     x, _ = lens._careful(u, v)  # which asks everywhere

@@ -22,9 +22,14 @@ class Edge:
     """The curve by the polar angles of its points, which ascend."""
 
     angle: np.ndarray
-    """(COUNT,) from -pi on."""
+    """(n,) from -pi on."""
     radius: np.ndarray
-    """(COUNT,): beyond it the curve has no point from this angle to the next."""
+    """(n,): beyond it the curve has no point from this angle to the next."""
+
+    @classmethod
+    def circle(cls, radius: float) -> Edge:
+        """Return that of a circle, or, where the radius is inf, of none."""
+        return cls(np.array([-pi]), np.array([radius * (1 + SLACK)]))
 
     @classmethod
     def around(cls, curve: Callable, second: float) -> Edge | None:
@@ -48,6 +53,6 @@ class Edge:
     def may_hold(self, x, y, r):
         """Return which points, r from the origin, the curve may enclose."""
         near = r <= self.radius.min()
-        if near.all():
+        if near.all():  # most lenses show their whole picture
             return near
         return r <= self.radius[np.searchsorted(self.angle, np.arctan2(y, x), "right") - 1]

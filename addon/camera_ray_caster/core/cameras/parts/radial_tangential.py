@@ -136,21 +136,13 @@ class RadialTangential:
         return least * (1 - 1e-9)
 
     @cached_property
-    def _farthest(self) -> float:
-        """Return the distorted radius beyond which there is nothing for sure."""
-        return self.farthest(self.limit) * (1 + NEAR) if self.limit < inf else inf
-
-    @cached_property
-    def _edge(self) -> Edge | None:
-        """What encloses all that is seen, since the map is one-to-one within the limit; None without one."""
+    def edge(self) -> Edge:
+        """What encloses all that is seen, since the map is one-to-one within the limit."""
+        if self.limit == inf:
+            return Edge.circle(inf)
         second = self.limit * abs(self.gain(self.limit**2)[0]) + 8 * self.limit**2 * hypot(self.p1, self.p2)
-        return Edge.around(lambda x, y: self.distort(self.limit * x, self.limit * y), second)
-
-    def _may_be_seen(self, u, v, rho):
-        """Return where something may be seen: false only where there is nothing for sure."""
-        if self.limit == inf or self._edge is None:
-            return rho <= self._farthest
-        return self._edge.may_hold(u, v, rho)
+        own = Edge.around(lambda x, y: self.distort(self.limit * x, self.limit * y), second)
+        return own or Edge.circle(self.farthest(self.limit))
 
     @cached_property
     def _radius(self):
@@ -178,7 +170,7 @@ class RadialTangential:
             step_x, step_y = self._step(x, y, u, v)
             return x - step_x, y - step_y  # whose derivatives are the inverse's own
         rho = np.hypot(u, v)
-        if not (radial or (near := self._may_be_seen(u, v, rho)).all()):  # Newton's method would search long
+        if not (radial or (near := self.edge.may_hold(u, v, rho)).all()):  # Newton's method would search long
             x, y = np.full(rho.shape, np.nan), np.full(rho.shape, np.nan)  # arrays, of one pixel too
             x[near], y[near] = self.undistort(u[near], v[near])
             return x, y

@@ -1,8 +1,8 @@
-"""The pixels of windows that have a ray, against a loop."""
+"""The pixels within bounds that have a ray, against a loop."""
 
 import numpy as np
 
-from camera_ray_caster.core.shapes.windows import Present
+from camera_ray_caster.core.shapes.search_rays import Present
 
 
 def test_each_window_has_its_rays_row_by_row_and_nothing_else():
@@ -21,11 +21,9 @@ def test_each_window_has_its_rays_row_by_row_and_nothing_else():
     ]
     assert list(zip(pixels.tolist(), which.tolist(), strict=True)) == expected
     assert len(set(which.tolist())) > 20
-    assert 0.3 < there.part < 0.5
 
 
 def test_rays_that_broadcast_are_there_everywhere():
     there = Present((np.zeros((1, 5)), np.zeros((4, 1)), -1.0), (4, 5))
     pixels, which = there.within(np.array([[1, 3, 2, 4]]))
-    assert there.part == 1
     assert (pixels.tolist(), which.tolist()) == ([11, 12, 16, 17], [0, 0, 0, 0])

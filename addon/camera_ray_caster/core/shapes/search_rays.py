@@ -1,0 +1,92 @@
+"""The rays of a tile as the search of its hits takes them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ..maths.speed import Scratch, lazy, taken
+from ..maths.vector import cross, cut
+from .windows import counted
+
+
+@dataclass(frozen=True, eq=False)
+class SearchRays:
+    """The rays of a tile in the camera frame, in the precision of the search; components broadcast."""
+
+    origin: Any
+    """None for rays from the eye."""
+    direction: Any
+    corner: tuple[int, int]
+    """Column and row, in the pixels of the plan, at which the tile begins."""
+    shape: tuple[int, int]
+    """Rows and columns."""
+    scratch: Scratch
+
+    def within(self, window: tuple[slice, slice]) -> SearchRays:
+        """Return those of some rows and columns of the tile."""
+        (rows, columns), (first_column, first_row) = window, self.corner
+        origin, direction = (  # copied once, not each time that some are taken
+            vector and tuple(np.array(cut(component, window)) for component in vector)
+            for vector in (self.origin, self.direction)
+        )
+        corner = first_column + columns.start, first_row + rows.start
+        shape = rows.stop - rows.start, columns.stop - columns.start
+        return SearchRays(origin, direction, corner, shape, self.scratch)
+
+    @lazy
+    def moment(self) -> Any:
+        """The cross products of origins and directions, in float64; None for rays from the eye."""
+        if self.origin is None:
+            return None
+        return cross(tuple(np.asarray(component, float) for component in self.origin), self.direction)
+
+    @lazy
+    def present(self) -> Present:
+        """Those that there are."""
+        return Present(self.direction, self.shape)
+
+    def at(self, pixel: np.ndarray) -> tuple[np.ndarray | None, np.ndarray]:
+        """Return the origins, None for the eye, and the directions at (m,) pixels of the tile, (3, m) float64 each."""
+        row, column = np.divmod(pixel, self.shape[1])
+
+        def at_pixels(vector):
+            values = np.empty((3, len(pixel)))
+            for own, component in zip(values, vector, strict=True):
+                rows, columns = np.shape(component) or (1, 1)
+                if rows == columns == 1:
+                    own[...] = component
+                else:
+                    place = row if columns == 1 else column if rows == 1 else pixel
+                    own[...] = taken(component.reshape(-1), place)
+            return values
+
+        return None if self.origin is None else at_pixels(self.origin), at_pixels(self.direction)
+
+
+class Present:
+    """The rays of a tile that there are, row by row; the direction of others is NaN."""
+
+    def __init__(self, direction: Any, shape: tuple[int, int]):
+        self._there = np.broadcast_to(~np.isnan(direction[0]), shape).reshape(-1)
+        self._width = shape[1]
+
+    @lazy
+    def _pixels(self) -> np.ndarray:
+        return np.flatnonzero(self._there)
+
+    @lazy
+    def _before(self) -> np.ndarray:
+        """How many there are before each pixel of the tile, and in all of it."""
+        return np.append(0, np.cumsum(self._there))
+
+    def within(self, bounds: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return the pixels of those within bounds (k, 4), and of which bounds each is, (m,) both."""
+        x0, x1, y0, y1 = bounds.T.astype(np.intp)
+        at, row = counted(y1 - y0, y0)
+        row *= self._width
+        first = taken(self._before, row + taken(x0, at))
+        run, ray = counted(taken(self._before, row + taken(x1, at)) - first, first)
+        return taken(self._pixels, ray), taken(at, run)
