@@ -98,8 +98,7 @@ def _farthest(t: np.ndarray, cell: int, most: int) -> np.ndarray:
     """Return the largest t of 1, 2, 4 ... cells to the right and upwards from each, until ``most`` are reached:
     (levels, rows, columns).
     """
-    rows = np.stack([t[first : first + cell].max(axis=0) for first in range(0, len(t), cell)])
-    levels = [np.maximum.reduceat(rows, np.arange(0, t.shape[1], cell), axis=1)]
+    levels = [_largest(_largest(t, cell).T, cell).T]
     size = 1
     while size < most:
         cells = levels[-1].copy()
@@ -108,3 +107,12 @@ def _farthest(t: np.ndarray, cell: int, most: int) -> np.ndarray:
         levels.append(cells)
         size *= 2
     return np.array(levels)
+
+
+def _largest(rows: np.ndarray, count: int) -> np.ndarray:
+    """Return the largest of each so many rows, one after the other; the last may be fewer."""
+    result = rows[::count].copy()
+    for k in range(1, count):
+        others = rows[k::count]
+        np.maximum(result[: len(others)], others, out=result[: len(others)])
+    return result

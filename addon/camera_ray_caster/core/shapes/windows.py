@@ -31,9 +31,8 @@ def in_tile(bounds: np.ndarray, corner: tuple[int, int], shape: tuple[int, int])
 
 def union(bounds: np.ndarray) -> tuple[slice, slice]:
     """Return the rows and columns from the first to the last of bounds (n, 4), n not 0."""
-    x0, _, y0, _ = bounds.min(axis=0).tolist()
-    _, x1, _, y1 = bounds.max(axis=0).tolist()
-    return slice(y0, y1), slice(x0, x1)
+    x0, x1, y0, y1 = bounds.T
+    return slice(int(y0.min()), int(y1.max())), slice(int(x0.min()), int(x1.max()))
 
 
 def banded(bounds: np.ndarray, most: int) -> tuple[np.ndarray, np.ndarray]:
