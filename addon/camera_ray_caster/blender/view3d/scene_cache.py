@@ -70,7 +70,6 @@ def _differences(camera: Camera | None, scene) -> Iterator[str]:
         yield f"Rays through the center of the lens only{blurred if samples > 1 else ', as in a render with 1 sample'}"
 
 
-
 @persistent
 def tag(scene, depsgraph):
     """Something was evaluated: where it is cameras alone, the shapes are what they were."""
