@@ -35,12 +35,13 @@ def reference(registered, tmp_path_factory):
 
 
 def finished(out):
-    """Of each file of a frame whose report is there what changes where it is written."""
+    """Of each file of a frame whose files are all there what changes where it is written."""
     found = {}
     for report in out.glob("*_0*.json"):
-        for name in (report.name, *json.loads(report.read_text())["made"]["files"]):
-            state = (out / name).stat()
-            found[name] = state.st_ino, state.st_mtime_ns
+        names = report.name, *json.loads(report.read_text())["made"]["files"]
+        with suppress(FileNotFoundError):  # a worker that is alive moves them, one by one
+            states = [(out / name).stat() for name in names]
+            found |= {name: (one.st_ino, one.st_mtime_ns) for name, one in zip(names, states, strict=True)}
     return found
 
 

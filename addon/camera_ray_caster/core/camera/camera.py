@@ -179,8 +179,7 @@ class Camera:
         """Write the world rays through pixel coordinates; the origins only where there is more than the eye."""
         if self.model.by_polynomials and is_raster(x, y):
             for part, place in enumerate((directions,) if self.model.central else (directions, origins)):
-                found = on_raster(partial(self._at_points, part), x, y, count=3, side_by_side=True)
-                place[...] = np.moveaxis(found, 0, -1)
+                on_raster(partial(self._at_points, part), x, y, count=3, out=np.moveaxis(place, -1, 0))
         else:
             with whole_rows(valid.shape[-1] if valid.ndim else 1):
                 self._write_by_formula(x, y, origins, directions)

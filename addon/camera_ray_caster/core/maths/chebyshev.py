@@ -81,21 +81,21 @@ def _are_centers(places, fewest: int) -> bool:
     return places.size >= fewest and places[0] % 1 == 0.5 and bool((np.diff(places) == 1).all())
 
 
-def on_raster(function: Callable, x, y, disc: Disc | None = None, count: int = 2, side_by_side=False) -> np.ndarray:
+def on_raster(function: Callable, x, y, disc: Disc | None = None, count: int = 2, out: np.ndarray | None = None):
     """Return a function's values at pixel coordinates, (count, rows, columns) on a raster; see ``is_raster``.
 
     function: of x (..., 1, columns) and y (..., rows, 1), gives ``count`` numbers or arrays of their common shape;
     where one has no value, NaN, so have the others. Anywhere but on a raster it is asked itself. With a ``disc`` its
     values count within that alone, and are NaN beyond; a function that is smooth beyond the disc, too, spares the
-    panels at its rim from being asked pixel by pixel. ``side_by_side``: a pixel's values are neighbors in memory.
-    Right to 8 times the function's own error, the norm of the interpolation, and to ROUNDING of the largest value in
-    the panel.
+    panels at its rim from being asked pixel by pixel. On a raster ``out``, (count, rows, columns) with a pixel's values
+    side by side in memory, is filled. Right to 8 times the function's own error, the norm of the interpolation, and to
+    ROUNDING of the largest value in the panel.
     """
     if not is_raster(x, y):
         return function(x, y)
     (low, bands), (left, panels) = _panels(y[:, 0], ROWS), _panels(x[0], COLUMNS)
     shape = ROWS * len(bands), COLUMNS * len(panels)
-    found = _empty(count, shape, side_by_side)
+    found = out if out is not None and out.shape[1:] == shape else _empty(count, shape, out is not None)
     shaped = found.reshape(count, len(bands), ROWS, len(panels), COLUMNS).swapaxes(2, 3)
     wanted = np.ones((len(bands), len(panels)), bool) if disc is None else disc.meets(panels, bands)
     right, empty = _interpolate(function, bands, panels, wanted, shaped)
@@ -112,7 +112,10 @@ def on_raster(function: Callable, x, y, disc: Disc | None = None, count: int = 2
         for band, panel in np.argwhere(wanted & ~disc.covers(panels, bands)):
             inside = disc.holds(panels[panel] * COLUMNS + CENTERS_X, bands[band] * ROWS + CENTERS_Y)
             np.copyto(shaped[:, band, panel], np.nan, where=~inside)
-    return found[:, low : low + y.size, left : left + x.size]
+    result = found[:, low : low + y.size, left : left + x.size]
+    if out is not None and found is not out:
+        out[...] = result
+    return result
 
 
 def _parts(panels, low: int, count: int):
