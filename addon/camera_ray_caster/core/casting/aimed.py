@@ -118,7 +118,7 @@ class _Aim:
         front = np.full(shape, np.inf)
         values = HitValues(hits)
         for where, errors in values.by_kind(
-            lambda kind, own: HitErrors(camera, plan.in_camera, kind, own, in_world.only(own.where), True)
+            lambda kind, own: HitErrors(camera, plan.in_camera, kind, own, in_world.only(own.of), True)
         ):
             front[where] = errors.t + errors.t_error
         return front[place]

@@ -211,7 +211,7 @@ class HitValues:
         camera, unit = plan.camera, plan.normals.unit
         rays = world_rays(camera, self.hits.rays.x, self.hits.rays.y)
         return self.by_kind(
-            lambda kind, pixels: HitErrors(camera, plan.in_camera, kind, pixels, rays.only(pixels.where), unit)
+            lambda kind, pixels: HitErrors(camera, plan.in_camera, kind, pixels, rays.only(pixels.of), unit)
         )
 
     def pixels(self, where: np.ndarray) -> HitPixels:

@@ -5,6 +5,7 @@ All lengths of error vectors are Euclidean, in the manner of gamma(n): they hold
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
@@ -77,11 +78,11 @@ class WorldRays:
     origin_error: Any
     direction_error: Any
 
-    def only(self, some: np.ndarray) -> WorldRays:
-        """Return those that are meant, bool; components broadcast to its shape, and numbers stay numbers."""
+    def only(self, of: Callable) -> WorldRays:
+        """Return those of some pixels: ``of`` gives components there as ``HitPixels.of``. Numbers stay numbers."""
 
         def part(values):
-            return np.broadcast_to(values, some.shape)[some] if np.ndim(values) else values
+            return of((values,))[0] if np.ndim(values) else values
 
         origin, direction = (tuple(map(part, vector)) for vector in (self.origin, self.direction))
         return WorldRays(origin, direction, *map(part, (self.length, self.origin_error, self.direction_error)))

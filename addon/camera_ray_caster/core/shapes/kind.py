@@ -19,7 +19,7 @@ from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
-from ..maths.speed import Scratch, lazy
+from ..maths.speed import Scratch, lazy, taken
 from ..records import Shapes
 from .follow import Follow, follow_frames
 from .frames import InCamera, WorldRays
@@ -128,16 +128,16 @@ class HitPixels:
     @lazy
     def at(self) -> np.ndarray:
         """(m,) indices into ``Shapes``."""
-        return self.hits[0].reshape(-1).take(self.places)
+        return taken(self.hits[0].reshape(-1), self.places)
 
     @lazy
     def t(self) -> np.ndarray:
         """(m,)."""
-        return self.hits[1].reshape(-1).take(self.places)
+        return taken(self.hits[1].reshape(-1), self.places)
 
     def of(self, vector: Any) -> tuple[np.ndarray, ...]:
         """Return the components of the block, which broadcast, at these pixels, (m,) each."""
-        return tuple(np.broadcast_to(part, self.where.shape).reshape(-1).take(self.places) for part in vector)
+        return tuple(taken(np.broadcast_to(part, self.where.shape).reshape(-1), self.places) for part in vector)
 
     def kept(self, name: str, dtype: type) -> np.ndarray:
         """Return the (m,) entries of these pixels in an array of the scratch that the search filled for the tile."""

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from ..conventions import gamma
-from ..maths.speed import lazy
+from ..maths.speed import lazy, taken
 from ..maths.vector import cross, difference, dot, norm
 from .frames import InCamera, Offsets, WorldRays
 
@@ -23,7 +23,7 @@ class Lookup:
 
     def of(self, table: np.ndarray) -> np.ndarray:
         """Return what a table of all shapes has for the rays."""
-        return table.take(self._at, axis=-1)
+        return taken(table, self._at)
 
     def row(self, name: str, i: int) -> np.ndarray:
         """Return what one row of a table has for them."""

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from ..conventions import EPS
-from ..maths.speed import lazy, merged
+from ..maths.speed import lazy, merged, taken
 from ..maths.vector import components, cross, difference, dot, matrix_rows, matvec, norm
 from ..records import Mesh
 from .frames import InCamera
@@ -61,7 +61,7 @@ class HitTriangles:
 
     def each(self, values: Any) -> np.ndarray:
         """Return the values of triangles (..., k) for the pixels that see them, (..., m)."""
-        return values.take(self.which, axis=-1)
+        return taken(values, self.which)
 
     @property
     def polygon(self) -> np.ndarray:
