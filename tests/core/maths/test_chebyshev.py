@@ -9,7 +9,7 @@ import pytest
 
 from camera_ray_caster.core.conventions import EPS
 from camera_ray_caster.core.errors.rays import world_rays
-from camera_ray_caster.core.maths.chebyshev import COLUMNS, FEWEST, POINTS, ROWS, Disc, on_raster
+from camera_ray_caster.core.maths.chebyshev import COLUMNS, FEWEST, PIECE, POINTS, ROUNDING, Disc, on_raster
 
 from ..cameras.model_examples import camera, raw_of
 from ..truth import truth
@@ -120,7 +120,8 @@ def test_outside_a_disc_there_is_nothing_and_only_points_of_panels_are_asked(mid
     x, y = centers(1000, 800)
     function = Counted(ending if ends else values)
     found, exact = on_raster(function, x, y, Disc(middle, holds)), np.stack(list(ending(x, y)))
-    np.testing.assert_allclose(found, exact, rtol=0, atol=8 * EPS)
+    largest = 2.0  # in a panel at the rim
+    np.testing.assert_allclose(found, exact, rtol=0, atol=(8 + ROUNDING) * EPS * largest)
     assert function.asked < most * x.size * y.size
 
 
@@ -152,4 +153,4 @@ def test_a_picture_without_distortion_stays_a_row_and_a_column():
 
 
 def test_no_product_is_large_enough_to_wake_a_thread_of_the_linear_algebra():
-    assert ROWS * COLUMNS * (POINTS + 1) <= ONE_CORE
+    assert 3 * PIECE * COLUMNS * (POINTS + 1) <= ONE_CORE

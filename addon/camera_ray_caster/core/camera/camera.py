@@ -34,8 +34,10 @@ FARTHEST = 1e15
 BLOCK_PIXELS = 1 << 17
 """Pixels whose rays are made at once where a thread's share has as many: of fewer, threads wait at numpy's calls."""
 
-BY_POLYNOMIALS = 4
-"""As many times more where polynomials give most pixels, and the formula is asked for few: 0.75 to 0.9 of the time."""
+BY_POLYNOMIALS = 8
+"""As many times more where polynomials give most pixels, and the formula is asked for few. 4: 1.1 to 1.25 times the
+time of rays that iterate.
+"""
 
 
 @dataclass(frozen=True)
@@ -183,7 +185,7 @@ class Camera:
         else:
             with whole_rows(valid.shape[-1] if valid.ndim else 1):
                 self._write_by_formula(x, y, origins, directions)
-        np.logical_not(np.isnan(directions[..., 0]), out=valid)
+        np.equal(directions[..., 0], directions[..., 0], out=valid)  # NaN is not
 
     def _write_by_formula(self, x, y, origins, directions) -> None:
         origin, direction = self.camera_rays(x, y)

@@ -24,6 +24,12 @@ def horner(x, coefficients):
     return value
 
 
+def with_slope(x, coefficients):
+    """Return a polynomial's value, as ``horner``, and its derivative; zeros at the end cost nothing."""
+    there = np.trim_zeros(coefficients, "b")
+    return horner(x, there), horner(x, [i * c for i, c in enumerate(there[1:], 1)] or [0.0])
+
+
 def positive_roots(polynomial: Polynomial) -> np.ndarray:
     """Return the real roots above 0, (n,) float64, in order; none of a constant."""
     size = np.abs(polynomial.coef)

@@ -25,8 +25,8 @@ MULTIPLE = 16
 NARROW = 128
 """Rows with fewer pixels are better copied: the loop's start costs more."""
 
-BAND, STRIP = 144, 36
-"""Rows that are best worked on together, and the fewest that are, where nothing else tells."""
+STRIP = 36
+"""The fewest rows that are worked on together, where nothing else tells."""
 
 
 def processors() -> int:

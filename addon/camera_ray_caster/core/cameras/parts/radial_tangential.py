@@ -22,7 +22,7 @@ import numpy as np
 from numpy.polynomial.polynomial import polyval
 
 from ...maths.inversion import Inverse
-from ...maths.polynomials import positive_roots
+from ...maths.polynomials import positive_roots, with_slope
 from ...maths.recording import is_recorded, loop, roundoff, stop_gradient
 from .edge import Edge
 
@@ -33,7 +33,7 @@ FAST_STEPS = 5
 """From the radial guess, which errs by a hundredth or so, Newton's steps square the error."""
 
 NEAR = 1e-8
-"""Of the radius: where the last step is shorter, its own error is below rounding."""
+"""Of the guessed radius: where the last step is shorter, its own error is below rounding."""
 
 STEPS = 200
 
@@ -64,13 +64,10 @@ class RadialTangential:
 
     def gain(self, r_squared):
         """Return g and its derivative by r^2."""
-        s = r_squared
-        above = 1 + s * (self.k1 + s * (self.k2 + s * (self.k3 + s * self.r8)))
-        above_slope = self.k1 + s * (2 * self.k2 + s * (3 * self.k3 + s * (4 * self.r8)))
+        above, above_slope = with_slope(r_squared, (1.0, self.k1, self.k2, self.k3, self.r8))
         if not (self.k4 or self.k5 or self.k6):
             return above, above_slope
-        below = 1 + s * (self.k4 + s * (self.k5 + s * self.k6))
-        below_slope = self.k4 + s * (2 * self.k5 + s * (3 * self.k6))
+        below, below_slope = with_slope(r_squared, (1.0, self.k4, self.k5, self.k6))
         gain = above / below
         return gain, (above_slope - gain * below_slope) / below
 
@@ -183,7 +180,6 @@ class RadialTangential:
             for _ in range(FAST_STEPS):
                 step_x, step_y = self._step(x, y, u, v)
                 x, y = x - step_x, y - step_y
-                r = np.abs(x) + np.abs(y)
                 slow = ~(np.abs(step_x) + np.abs(step_y) <= NEAR * r)
                 if not slow.any():
                     break
