@@ -51,12 +51,13 @@ BOUNDED = 1 << 12
 SURFACES = 1 << 12
 """Triangles whose normals are made constants at once. 2**10 to 2**18: within the noise, but memory without limit."""
 
-SLABS, MOST_SLABS = 2, 32
+SLABS, SLAB_PIXELS = 2, 1 << 17
 """Parts in which triangles are tested, the nearest first: what they hide is not tested. They are SLABS times the root
-of the triangles' work over the tile's pixels, since before each the whole tile is asked what is hidden. Processor time
-of depth and shape index of a monkey of 1,000, 63,000 and a million triangles before a wall, and of a thousand monkeys:
-SLABS 1: 0.95, 1.04, 1.24 and 1.19 times; 3: 1.04, 1.05, 1.01 and 1.09. Always four parts, and what is larger than a
-cell never hidden: 1.1 to 1.4 times, of the thousand 3 times.
+of the triangles' work over the tile's pixels, since before each the whole tile is asked what is hidden, and SLAB_PIXELS
+more for numpy's calls. Processor time of depth and shape index of a monkey of 1,000, 63,000 and a million triangles
+before a wall, and of a thousand monkeys: SLABS 1: 0.95, 1.04, 1.24 and 1.19 times; 3: 1.04, 1.05, 1.01 and 1.09. Always
+four parts, and what is larger than a cell never hidden: 1.1 to 1.4 times, of the thousand 3 times. SLAB_PIXELS 0: 1.5
+times the time of 60 monkeys of 3,936 in 200 x 119 pixels; up to 2**18: within the noise of those casts.
 """
 
 TRIANGLE_PIXELS = 16

@@ -6,7 +6,6 @@ import math
 from collections.abc import Callable
 from contextlib import nullcontext
 from dataclasses import dataclass, replace
-from functools import partial
 from typing import Any, Literal, overload
 
 import numpy as np
@@ -180,8 +179,9 @@ class Camera:
     def _write(self, x, y, origins, directions, valid) -> None:
         """Write the world rays through pixel coordinates; the origins only where there is more than the eye."""
         if self.model.by_polynomials and is_raster(x, y):
-            for part, place in enumerate((directions,) if self.model.central else (directions, origins)):
-                on_raster(partial(self._at_points, part), x, y, count=3, out=np.moveaxis(place, -1, 0))
+            parts = (directions,) if self.model.central else (directions, origins)
+            out = [np.moveaxis(part, -1, 0) for part in parts]
+            on_raster(self._at_points, x, y, self.model.disc, 3 * len(out), out)
         else:
             with whole_rows(valid.shape[-1] if valid.ndim else 1):
                 self._write_by_formula(x, y, origins, directions)
@@ -195,11 +195,11 @@ class Camera:
             if not self.model.central:
                 np.add(dot(row, origin), self.pose.eye[axis], out=origins[..., axis])
 
-    def _at_points(self, part: int, x, y):
-        """Return the components of the directions, or with part 1 those of the origins, by the formula."""
+    def _at_points(self, x, y):
+        """Return the components of the directions, and unless all leave the eye of the origins, by the formula."""
         directions, origins = np.empty((2, *np.broadcast_shapes(x.shape, y.shape), 3))
         self._write_by_formula(x, y, origins, directions)
-        return components((directions, origins)[part])
+        return (*components(directions), *components(origins)) if not self.model.central else components(directions)
 
     @property
     def _moves(self) -> bool:

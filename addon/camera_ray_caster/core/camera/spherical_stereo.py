@@ -26,9 +26,9 @@ from ..cameras.central_cylindrical import CentralCylindrical
 from ..cameras.mirrorball import Mirrorball
 from ..cameras.model import Model, Step
 from ..cameras.parts.aperture import Aperture
-from ..cameras.parts.radial import Radial
 from ..cameras.perspective import Perspective
 from ..conventions import gamma
+from ..maths.chebyshev import Disc
 from ..maths.vector import along, components, difference, inverse, matvec, norm, unit
 from ..records import BlenderCamera, Pose
 
@@ -78,6 +78,7 @@ class SphericalStereo(Model):
     group = "Blender's Own"
     central = False
     smooth = False  # where the offset ends
+    by_polynomials = True
     FORMULA = (
         Step("Direction without stereo, in a frame whose z is up", "D"),
         Step("To its right", "side = D x up / |D x up|"),
@@ -142,9 +143,9 @@ class SphericalStereo(Model):
         return {"lens": self.lens.label, "eye_offset": self.offset, **self.lens.facts()}
 
     @property
-    def by_polynomials(self) -> bool:  # type: ignore[override]
-        """See Model: where the lens fills the picture; 0.4 to 0.8 of the time."""
-        return not isinstance(self.lens, Radial)
+    def disc(self) -> Disc | None:
+        """See Model."""
+        return self.lens.disc
 
     @property
     def ray_rounding(self) -> float:

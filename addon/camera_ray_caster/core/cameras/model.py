@@ -22,6 +22,7 @@ from typing import Any, ClassVar, NamedTuple, Self
 import numpy as np
 
 from ..conventions import gamma
+from ..maths.chebyshev import Disc
 from ..maths.recording import Record, record
 from ..maths.speed import lazy
 from ..records import BlenderCamera, Pose, Raster
@@ -103,6 +104,11 @@ class Model(ABC):
     def recorded(self) -> Record:
         """The record of ``rays``: from x and y to the components of the origin and of the direction."""
         return record(lambda x, y: [component for vector in self.rays(x, y) for component in vector], 2)
+
+    @property
+    def disc(self) -> Disc | None:
+        """The part of the picture outside of which there are no rays; None where it has no such form."""
+        return None
 
     def project(self, points) -> np.ndarray:
         """Return the pixel coordinates (..., 2) of points (..., 3) in the camera's frame; NaN where no ray meets them.

@@ -238,7 +238,7 @@ def _slabs(near: np.ndarray, bounds: np.ndarray, pixels: int) -> Iterator[np.nda
     """
     x0, x1, y0, y1 = bounds.T
     work = tuning.TRIANGLE_PIXELS * len(near) + np.multiply(x1 - x0, y1 - y0, dtype=float).sum()
-    count = int(np.clip(np.rint(tuning.SLABS * math.sqrt(work / pixels)), 1, tuning.MOST_SLABS))
+    count = max(1, round(tuning.SLABS * math.sqrt(work / (pixels + tuning.SLAB_PIXELS))))
     cuts = np.quantile(near[:: max(1, len(near) >> 12)], np.arange(1, count) / count)
     slab = np.searchsorted(cuts, near)
     for k in range(count):

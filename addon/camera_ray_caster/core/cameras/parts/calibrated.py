@@ -13,7 +13,7 @@ from typing import Self
 
 import numpy as np
 
-from ...maths.chebyshev import on_raster
+from ...maths.chebyshev import Disc, on_raster
 from .film import FARTHEST_PIXELS
 from .radial import RIM_SLACK, Radial
 from .radial_tangential import RadialTangential
@@ -31,6 +31,11 @@ class Calibrated(Radial):
     def within(self, rim: float) -> Self:
         """Return the lens with a rim at this radius, or nearer where the distortion folds the picture."""
         return replace(self, rim=min(rim, self.distortion.limit))
+
+    @property
+    def disc(self) -> Disc | None:
+        """See Model."""
+        return None if self.distortion.bends else super().disc
 
     @property
     def K(self) -> np.ndarray | None:

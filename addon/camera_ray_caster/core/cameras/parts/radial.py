@@ -92,7 +92,7 @@ class Radial(WindowModel):
 
     @property
     def disc(self) -> Disc | None:
-        """The part of the picture within the rim; None where it has none, or is no ellipse along the frame's sides."""
+        """See Model: None also where it is no ellipse along the frame's sides."""
         if self.rim == np.inf or isinstance(self.window, AffineWindow):
             return None
         return Disc((self.window.center_x, self.window.center_y), self._is_within)
