@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from ..errors.hits import HitErrors
-from ..maths.speed import whole_rows
+from ..maths.speed import whole_rows, write_where
 from ..maths.vector import matvec, unit
 from .flow import NEXT, PREVIOUS, flow_of
 from .hit_values import ZERO, HitValues
@@ -42,8 +42,7 @@ class Pass:
 def combined(values: HitValues, out):
     """Linear RGBA: the shading's color, the world's where nothing is hit, transparent black where there is no ray."""
     shade(values, out)
-    if values.hits.lost is not None:
-        out[values.hits.lost] = 0
+    write_where(out, 0, values.hits.lost)
 
 
 def depth(values: HitValues, out):
@@ -54,8 +53,7 @@ def depth(values: HitValues, out):
 def distance(values: HitValues, out):
     """The length of the ray from its origin to the hit."""
     np.multiply(values.hits.t, values.length, out=out, casting="same_kind")
-    if values.hits.missed is not None:
-        out[values.hits.missed] = np.inf
+    write_where(out, np.inf, values.hits.missed)
 
 
 def position(values: HitValues, out):
@@ -119,8 +117,7 @@ def solid_angle(values: HitValues, out):
     pixel makes: see ``camera.jacobian``.
     """
     out[...] = values.derivatives.solid_angle
-    if values.hits.lost is not None:
-        out[values.hits.lost] = 0
+    write_where(out, 0, values.hits.lost)
 
 
 def footprint(values: HitValues, out):
@@ -129,8 +126,7 @@ def footprint(values: HitValues, out):
     the cosine between ray and normal.
     """
     out[...] = values.derivatives.area_at(values.distance) / values.cosine
-    if values.hits.missed is not None:
-        out[values.hits.missed] = np.inf
+    write_where(out, np.inf, values.hits.missed)
 
 
 def flow_forward(values: HitValues, out):
@@ -179,9 +175,7 @@ def _write(out, vector, offset, blank):
     else:
         for axis, component in enumerate(vector):
             np.add(component, offset[axis], out=out[..., axis], casting="same_kind")
-    if blank is not None:
-        for axis in range(3):
-            np.copyto(out[..., axis], 0, where=blank)
+    write_where(out, 0, blank)
 
 
 PASSES = {
@@ -242,5 +236,6 @@ def add_combined(hits: Hits, total: np.ndarray) -> None:
 
 def put(image: np.ndarray, out: np.ndarray, where) -> None:
     """Copy an image, (rows, columns[, channels]), only ``where`` it is meant; None for all pixels."""
-    meant = True if where is None else where if image.ndim == 2 else where[..., None]
-    np.copyto(out, image, where=meant, casting="same_kind")
+    if where is None:
+        np.copyto(out, image, casting="same_kind")
+    write_where(out, image, where)

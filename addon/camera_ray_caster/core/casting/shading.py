@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..maths.speed import write_where
 from ..maths.vector import difference, dot, inner
 from ..records import Lights
 from .hit_values import HitValues
@@ -28,15 +29,15 @@ def shade(values: HitValues, out: np.ndarray) -> None:
     color = values.plan.colors
     lit = _headlight(values) if len(shapes.lights.is_sun) == 0 else _lamps(values, shapes.lights)
     grid = _grid(values) if values.plan.request.shading == GRID else None
-    for channel, light in enumerate(lit):
-        light = np.add(light, shapes.world_color[channel], out=values.array("spare"))
-        if grid is not None:
-            np.multiply(light, grid, out=light)
+    for channel, world in enumerate(shapes.world_color):
         surface = np.take(color[channel], values.material, mode="wrap", out=values.array("color"))
-        np.multiply(surface, light, out=out[..., channel], casting="same_kind")
-    out[..., 3] = np.take(color[3], values.material, mode="wrap")
-    if missed is not None:
-        out[missed] = shapes.world_color
+        if channel < len(lit):
+            light = np.add(lit[channel], world, out=values.array("spare"))
+            if grid is not None:
+                np.multiply(light, grid, out=light)
+            np.multiply(surface, light, out=surface)
+        out[..., channel] = surface
+    write_where(out, shapes.world_color, missed)
 
 
 def _grid(values: HitValues) -> np.ndarray:

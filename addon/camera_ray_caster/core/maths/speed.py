@@ -51,6 +51,20 @@ def merged(values: np.ndarray) -> np.ndarray:
     return values[:1] if (values == values[:1]).all() else values
 
 
+def write_where(out: np.ndarray, values: Any, where: np.ndarray | None) -> None:
+    """Write what broadcasts to ``out``, (rows, columns[, channels]), where a mask (rows, columns) is set; nowhere for None.
+    Channel by channel: all at once takes four to seven times as long.
+    """
+    if where is None:
+        return
+    if out.ndim == where.ndim:
+        np.copyto(out, values, where=where, casting="same_kind")
+        return
+    values = np.broadcast_to(values, out.shape)
+    for channel in range(out.shape[-1]):
+        np.copyto(out[..., channel], values[..., channel], where=where, casting="same_kind")
+
+
 @contextmanager
 def whole_rows(width: int) -> Iterator[None]:
     """Let this thread's ufuncs take rows of ``width`` at once, where that helps."""
