@@ -52,7 +52,7 @@ def merged(values: np.ndarray) -> np.ndarray:
 
 
 def write_where(out: np.ndarray, values: Any, where: np.ndarray | None) -> None:
-    """Write what broadcasts to ``out``, (rows, columns[, channels]), where a mask (rows, columns) is set; nowhere for None.
+    """Write what broadcasts to ``out``, (rows, columns[, channels]), where a mask (rows, columns) is set, if any.
     Channel by channel: all at once takes four to seven times as long.
     """
     if where is None:
