@@ -8,7 +8,7 @@ import pytest
 
 from camera_ray_caster.core.cameras.parts.radial_tangential import RadialTangential
 from camera_ray_caster.core.conventions import EPS
-from camera_ray_caster.core.maths.chebyshev import FEWEST
+from camera_ray_caster.core.maths.panels import FEWEST
 
 from .model_examples import camera
 

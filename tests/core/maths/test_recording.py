@@ -9,7 +9,7 @@ import pytest
 
 from camera_ray_caster.core.cameras import MODELS
 from camera_ray_caster.core.conventions import EPS
-from camera_ray_caster.core.maths.chebyshev import is_raster
+from camera_ray_caster.core.maths.panels import is_raster
 from camera_ray_caster.core.maths.recording import NUMPY, NotRecordable, look_up, loop, record, roundoff
 from camera_ray_caster.core.maths.recording.record import COMPARISONS, LOGICAL, NUMERIC
 from camera_ray_caster.core.maths.vector import is_grid, is_lattice, is_one

@@ -16,7 +16,7 @@ from ..cameras.model import Model
 from ..cameras.parts.aperture import Aperture
 from ..cameras.parts.settings import values_of
 from ..conventions import gamma
-from ..maths.chebyshev import ROWS, is_raster, on_raster
+from ..maths.panels import ROWS, is_raster, on_raster
 from ..maths.speed import lazy, whole_rows
 from ..maths.vector import components, dot, inverse, is_grid, matvec, norm
 from ..memory import of_pixels, require
@@ -225,7 +225,7 @@ class Camera:
         With pixel times each ray is the camera's at the pixel's own time. Undefined (NaN, valid False) where the model
         has no ray. Each component of a direction is right to a few EPS relative to the unit length, amplified by the
         frame's offset (shift) over the pixel's own. Where a model's formula takes polynomials for whole pictures
-        (see ``maths.chebyshev``), a ray that is asked for alone may differ by as much.
+        (see ``maths.panels``), a ray that is asked for alone may differ by as much.
         """
         return self.rays_at(self.raster.columns(), self.raster.rows())
 

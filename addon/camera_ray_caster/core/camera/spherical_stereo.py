@@ -28,7 +28,7 @@ from ..cameras.model import Model, Step
 from ..cameras.parts.aperture import Aperture
 from ..cameras.perspective import Perspective
 from ..conventions import gamma
-from ..maths.chebyshev import Disc
+from ..maths.panels import Disc
 from ..maths.vector import along, components, difference, inverse, matvec, norm, unit
 from ..records import BlenderCamera, Pose
 

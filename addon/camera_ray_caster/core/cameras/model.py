@@ -22,7 +22,7 @@ from typing import Any, ClassVar, NamedTuple, Self
 import numpy as np
 
 from ..conventions import gamma
-from ..maths.chebyshev import Disc
+from ..maths.panels import Disc
 from ..maths.recording import Record, record
 from ..maths.speed import lazy
 from ..records import BlenderCamera, Pose, Raster
@@ -71,7 +71,7 @@ class Model(ABC):
     smooth: ClassVar[bool] = True
     """Whether rays are smooth functions of the pixel wherever there are any: the numerical inverse is exact then."""
     by_polynomials: ClassVar[bool] = False
-    """Whether polynomials give what ``Camera.rays`` returns for a whole picture (see ``maths.chebyshev``): for models
+    """Whether polynomials give what ``Camera.rays`` returns for a whole picture (see ``maths.panels``): for models
     whose rays take 1.35 to 3.5 times as long without, and fill a convex part of the picture, all of it or a disc. A
     cast takes as long with them as without (0.8 to 1.2), since it has to have the components apart, in the camera's
     frame: it asks the formula.

@@ -16,7 +16,7 @@ from math import atan
 import numpy as np
 
 from ..conventions import gamma
-from ..maths.chebyshev import on_raster
+from ..maths.panels import on_raster
 from ..maths.vector import components
 from ..records import BlenderCamera, Raster
 from .model import Step, WindowModel

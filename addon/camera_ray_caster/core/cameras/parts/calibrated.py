@@ -13,7 +13,7 @@ from typing import Self
 
 import numpy as np
 
-from ...maths.chebyshev import Disc, on_raster
+from ...maths.panels import Disc, on_raster
 from .film import FARTHEST_PIXELS
 from .radial import RIM_SLACK, Radial
 from .radial_tangential import RadialTangential

@@ -15,7 +15,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from ...maths.chebyshev import Disc, is_raster, on_raster
+from ...maths.panels import Disc, is_raster, on_raster
 from ...maths.vector import components
 from ..model import Step, WindowModel
 from .affine import AffineWindow
@@ -70,7 +70,7 @@ class Radial(WindowModel):
 
     group = "Fisheye"
     factors_by_polynomials: ClassVar[bool] = False
-    """Whether polynomials give the factors of a whole picture (see ``maths.chebyshev``): where they take sines, or
+    """Whether polynomials give the factors of a whole picture (see ``maths.panels``): where they take sines, or
     iterate, which costs more, and are smooth a little beyond the rim.
     """
 

@@ -9,7 +9,8 @@ import pytest
 
 from camera_ray_caster.core.conventions import EPS
 from camera_ray_caster.core.errors.rays import world_rays
-from camera_ray_caster.core.maths.chebyshev import COLUMNS, FEWEST, PIECE, POINTS, ROUNDING, Disc, on_raster
+from camera_ray_caster.core.maths.chebyshev import PIECE, POINTS, ROUNDING
+from camera_ray_caster.core.maths.panels import COLUMNS, FEWEST, Disc, on_raster
 
 from ..cameras.model_examples import camera, raw_of
 from ..truth import truth
