@@ -26,7 +26,10 @@ PIECE = 45
 """Rows of a panel in one product, which stays below 2^18: beyond, OpenBLAS wakes threads of its own."""
 
 TAIL = 2
-"""Coefficients that have to be as small as rounding, for a polynomial to be as right as its points."""
+"""Last coefficients that have to be as small as rounding, for a polynomial to be as right as its points."""
+
+TERMS = POINTS - TAIL
+"""Coefficients that are summed."""
 
 ROUNDING = 4
 """EPS of a panel's largest value."""
@@ -36,10 +39,8 @@ ROUNDING = 4
 class Polynomials:
     """What gives a function's values all over some panels of one size."""
 
-    start: np.ndarray
-    """At a point in the middle of each, (count, *panels, 1, 1)."""
-    rest: np.ndarray
-    """How much more it is at the others, (count, *panels, POINTS, POINTS)."""
+    terms: np.ndarray
+    """Their coefficients, (count, *panels, TERMS, TERMS), those of the highest degrees first."""
     right: np.ndarray
     """Whether they do all over it, (*panels)."""
     empty: np.ndarray
@@ -55,25 +56,26 @@ class Polynomials:
         empty = np.isnan(rest[0]).all(axis=(-2, -1))
         first = np.cumsum([0, *counts[:-1]])
         largest = np.maximum.reduceat(np.abs(rest).max(axis=(-2, -1)), first)
-        middle = slice(POINTS // 2, POINTS // 2 + 1)
-        start = rest[..., middle, middle].copy()
-        rest -= start  # what is left is small, and so is the rounding of the sums
-        tails = _fit()[-TAIL:] @ rest, rest @ _fit()[-TAIL:].T
-        tail = np.maximum.reduceat(np.maximum(*(np.abs(own).max(axis=(-2, -1)) for own in tails)), first)
-        return cls(start, rest, (tail <= ROUNDING * EPS * largest).all(axis=0), empty)
+        start = rest[..., POINTS // 2, POINTS // 2].copy()
+        rest -= start[..., None, None]  # what is left is small, and so is the rounding of the sums
+        upwards, across = _fit() @ rest, rest @ _fit()[:TAIL].T
+        tails = (np.abs(own).max(axis=(-2, -1)) for own in (upwards[..., :TAIL, :], across))
+        tail = np.maximum.reduceat(np.maximum(*tails), first)
+        terms = upwards[..., TAIL:, :] @ _fit()[TAIL:].T
+        terms[..., -1, -1] += start
+        return cls(terms, (tail <= ROUNDING * EPS * largest).all(axis=0), empty)
 
     def write(self, which, first: int, out: np.ndarray, pieces: slice = slice(None)) -> None:
         """Write the values of some panels, from the function's ``first`` on, into ``out``, (so many, panels, rows,
         columns), or of these pieces of their rows alone.
         """
         _, panels, rows, columns = out.shape
-        sums = empty_like(out, (panels, POINTS + 1, columns))
-        for own, rest, start in zip(sums, self.rest[first:], self.start[first:], strict=False):
-            own[..., :-1, :] = rest[which] @ _between(columns).T
-            own[..., -1:, :] = start[which]
+        sums = empty_like(out, (panels, TERMS, columns))
+        for own, terms in zip(sums, self.terms[first:], strict=False):
+            own[...] = terms[which] @ _between(columns).T
         found = _as_matrices(out)
         found = found.reshape(*found.shape[:-2], rows // PIECE, PIECE, found.shape[-1])[..., pieces, :, :]
-        parts = _between_and_start(rows).reshape(-1, PIECE, POINTS + 1)[pieces]
+        parts = _between(rows).reshape(-1, PIECE, TERMS)[pieces]
         np.matmul(parts, _as_matrices(sums)[..., None, :, :], out=found)
 
 
@@ -104,19 +106,13 @@ def _places() -> np.ndarray:
 
 @cache
 def _fit() -> np.ndarray:
-    """Return the matrix that brings values at the points to coefficients."""
+    """Return the matrix that brings values at the points to coefficients, those of the highest degrees first."""
     turns = np.outer(np.arange(POINTS), np.arange(POINTS)) % (2 * (POINTS - 1))  # whole ones taken off exactly
     weight = np.where(np.arange(POINTS) % (POINTS - 1) == 0, 0.5, 1.0)
-    return np.cos(np.pi / (POINTS - 1) * turns) * weight * weight[:, None] * (2 / (POINTS - 1))
+    return (np.cos(np.pi / (POINTS - 1) * turns) * weight * weight[:, None] * (2 / (POINTS - 1)))[::-1].copy()
 
 
 @cache
 def _between(pixels: int) -> np.ndarray:
-    """Return the matrix that brings values at the points to those at a panel's pixel centers, (pixels, POINTS)."""
-    return chebvander((2 * np.arange(pixels) + 1) / pixels - 1, POINTS - 1) @ _fit()
-
-
-@cache
-def _between_and_start(pixels: int) -> np.ndarray:
-    """Return the same with a column that adds the start, (pixels, POINTS + 1)."""
-    return np.column_stack((_between(pixels), np.ones(pixels)))
+    """Return the matrix that brings coefficients to the values at a panel's pixel centers, (pixels, TERMS)."""
+    return chebvander((2 * np.arange(pixels) + 1) / pixels - 1, TERMS - 1)[:, ::-1].copy()
