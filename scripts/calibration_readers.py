@@ -4,8 +4,8 @@
 
 Each file is read here and by its format's own reader, and points all over the picture are projected by both; COLMAP's
 and OpenCV's readers are in the tests. A reader that is not installed is named: mrcal needs numpysane and SciPy,
-nerfbaselines OpenCV and Pillow, both install with --no-deps; image_geometry is Debian's python3-image-geometry, which
-has no raw pixels of points: it rectifies ours.
+nerfbaselines OpenCV and Pillow, both install with --no-deps; NCore is the package nvidia-ncore, with PyTorch;
+image_geometry is Debian's python3-image-geometry, which has no raw pixels of points: it rectifies ours.
 """
 
 if __name__ == "__main__":
@@ -75,6 +75,29 @@ def nerfstudio_files():
         yield f"nerfbaselines {name}", key, "transforms.json", text, project
 
 
+def ncore_files():
+    """The same of f-theta cameras, by NVIDIA's NCore, which also writes the file."""
+    import torch
+    from ncore.data import FThetaCameraModelParameters, ShutterType
+    from ncore.sensors import FThetaCameraModel
+
+    reference = FThetaCameraModelParameters.PolynomialType
+    for kind in (reference.ANGLE_TO_PIXELDIST, reference.PIXELDIST_TO_ANGLE):
+        parameters = FThetaCameraModelParameters(
+            resolution=np.array([WIDTH, HEIGHT], np.uint64), shutter_type=ShutterType.GLOBAL,
+            external_distortion_parameters=None, principal_point=np.float32(K[2:]) - np.float32(0.5),
+            reference_poly=kind, pixeldist_to_angle_poly=np.float32([0, 0.0033, 1e-7, -2e-10, 1e-13, 0]),
+            angle_to_pixeldist_poly=np.float32([0, 301.5, 2.25, -7.5, 0.125, 0]), max_angle=1.75,
+            linear_cde=np.float32([1.0005, 2e-4, -1e-4]),
+        )  # fmt: skip
+
+        def project(points, path, parameters=parameters):
+            own = FThetaCameraModel(parameters, device="cpu", dtype=torch.float64, newton_iterations=20)
+            return own.camera_rays_to_image_points(torch.from_numpy(points)).image_points.numpy()
+
+        yield f"NCore {kind.name}", "FTHETA", ".json", json.dumps(parameters.to_dict()), project
+
+
 def ros_files():
     """The same of ROS' CameraInfo, by image_geometry: its rectification undone by our distortion."""
     from image_geometry import PinholeCameraModel
@@ -120,7 +143,7 @@ def worst(key: str, suffix: str, text: str, other) -> float:
 def main() -> int:
     """Print a line for each reader and lens model; return the exit status."""
     Parser(prog="calibration_readers.py", description=__doc__.splitlines()[0]).parse_args()
-    for files in (mrcal_files, nerfstudio_files, ros_files):
+    for files in (mrcal_files, nerfstudio_files, ncore_files, ros_files):
         try:
             for name, *rest in files():
                 print(f"{name:36} {worst(*rest):.1e}", flush=True)
