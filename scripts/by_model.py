@@ -1,7 +1,8 @@
 """The benchmark, model by model: rays against a plain fill of the same arrays, 1,000 spheres against the pinhole.
 
-A fill is that of arrays that exist: the directions, and the origins where there is more than one. To make such arrays
-and fill them (``np.full``) takes one to three times as long. The cameras are the contract test's, at the size wanted.
+Rays are new arrays, and so are those of ``np.full``, the directions', and the origins' where there is more than one; to
+get their memory from the system is most of its time. The other fill is that of arrays that exist. The cameras are the
+contract test's, at the size wanted; eyes of spherical stereo by their lens.
 """
 
 from __future__ import annotations
@@ -37,35 +38,53 @@ LENSES = {
 }  # fmt: skip
 """Distortions such as real lenses have."""
 
+STEREO_LENSES = (
+    "PERSP", "EQUIRECTANGULAR", "EQUIANGULAR_CUBEMAP_FACE", "CENTRAL_CYLINDRICAL", "MIRRORBALL", "FISHEYE_EQUIDISTANT",
+    "FISHEYE_EQUISOLID", "FISHEYE_LENS_POLYNOMIAL",
+)  # fmt: skip
+"""All of spherical stereo's."""
+
 
 def run(width: int, height: int, rounds: int, threads: int) -> list[dict]:
     """Print and return the ratios of every model, each taken in turns with what it is compared to."""
-    sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
-    from tests.core.cameras.model_examples import camera
-
     pinhole, shapes = c.scene(SPHERES, width, height)
     print(f"\n{width} x {height}, {threads} threads, {rounds} rounds; {SPHERES} spheres")
-    print(f"  {'':28}{'rays ms':>9}{'x fill':>8}{'cast ms':>10}{'x pinhole':>11}")
+    print(f"  {'':34}{'rays ms':>9}{'x np.full':>11}{'x fill':>8}{'cast ms':>10}{'x pinhole':>11}")
     rows = []
     there = np.empty((2, height, width, 3))
-    for model in MODELS:
-        one = camera(model.key, {"resolution_x": width, "resolution_y": height, **LENSES.get(model.key, {})})
+    for name, one in _cameras({"resolution_x": width, "resolution_y": height}):
+        arrays = 1 if one.model.central else 2
         entries = {
-            "fill": lambda one=one: there[: 1 if one.model.central else 2].fill(1.0),
+            "new": lambda arrays=arrays: np.full((arrays, *there.shape[1:]), 1.0),
+            "fill": lambda arrays=arrays: there[:arrays].fill(1.0),
             "rays": one.rays,
             "pinhole": lambda: cast(pinhole, shapes, c.PASSES, threads=threads),
             "cast": lambda one=one: cast(one, shapes, c.PASSES, threads=threads),
         }
-        times = {name: [] for name in entries}
+        times = {entry: [] for entry in entries}
         for turn in range(rounds + 1):
-            for name, entry in entries.items():
+            for entry, made in entries.items():
                 began = perf_counter()
-                made = entry()
+                result = made()
                 if turn:
-                    times[name].append(1e3 * (perf_counter() - began))
-                del made  # to hand it back is no part of making it
-        median = {name: float(np.median(own)) for name, own in times.items()}
-        rows.append({"model": model.key, **median})
-        print(f"  {model.key:28}{median['rays']:9.1f}{median['rays'] / median['fill']:8.1f}"
-              f"{median['cast']:10.1f}{median['cast'] / median['pinhole']:11.2f}")  # fmt: skip
+                    times[entry].append(1e3 * (perf_counter() - began))
+                del result  # to hand it back is no part of making it
+        median = {entry: float(np.median(own)) for entry, own in times.items()}
+        rows.append({"model": name, **median})
+        print(f"  {name:34}{median['rays']:9.1f}{median['rays'] / median['new']:11.1f}"
+              f"{median['rays'] / median['fill']:8.1f}"
+              f"{median['cast']:10.1f}{median['cast'] / median['pinhole']:11.2f}", flush=True)  # fmt: skip
     return rows
+
+
+def _cameras(frame: dict):
+    """Yield the name and the camera of each model, and of the eyes of spherical stereo."""
+    sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+    from tests.core.camera.test_spherical_stereo import MERGED, eye
+    from tests.core.cameras.model_examples import camera
+
+    for model in MODELS:
+        yield model.key, camera(model.key, {**frame, **LENSES.get(model.key, {})})
+    for key in STEREO_LENSES:
+        yield f"eye, {key}", eye(key, **frame)
+        yield f"eye, {key}, merged", eye(key, **frame, **MERGED)

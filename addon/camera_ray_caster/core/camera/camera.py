@@ -181,7 +181,7 @@ class Camera:
         if self.model.by_polynomials and is_raster(x, y):
             parts = (directions,) if self.model.central else (directions, origins)
             out = [np.moveaxis(part, -1, 0) for part in parts]
-            on_raster(self._at_points, x, y, self.model.disc, 3 * len(out), out)
+            on_raster(replace(self, model=self.model.endless)._at_points, x, y, self.model.disc, 3 * len(out), out)
         else:
             with whole_rows(valid.shape[-1] if valid.ndim else 1):
                 self._write_by_formula(x, y, origins, directions)
@@ -198,7 +198,8 @@ class Camera:
     def _at_points(self, x, y):
         """Return the components of the directions, and unless all leave the eye of the origins, by the formula."""
         directions, origins = np.empty((2, *np.broadcast_shapes(x.shape, y.shape), 3))
-        self._write_by_formula(x, y, origins, directions)
+        with np.errstate(all="ignore"):  # beyond the model's disc there may be no value
+            self._write_by_formula(x, y, origins, directions)
         return (*components(directions), *components(origins)) if not self.model.central else components(directions)
 
     @property

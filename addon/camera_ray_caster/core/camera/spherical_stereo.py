@@ -148,6 +148,11 @@ class SphericalStereo(Model):
         return self.lens.disc
 
     @property
+    def endless(self) -> Model:
+        """See Model."""
+        return replace(self, lens=self.lens.endless)
+
+    @property
     def ray_rounding(self) -> float:
         """See Model."""
         return self.lens.ray_rounding + gamma(32)

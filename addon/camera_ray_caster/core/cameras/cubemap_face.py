@@ -31,6 +31,7 @@ class CubemapFace(WindowModel):
     label = "Equiangular Cubemap Face"
     description = "90 degrees across and up, columns and rows even in the angle"
     group = "Blender's Own"
+    by_polynomials = True
     SETTINGS = SHIFT
     FORMULA = (
         Step("Angles across and up", "alpha = (x/W - 1/2 + shift_x) pi/2, beta = (y/H - 1/2 + shift_y) pi/2"),

@@ -33,6 +33,7 @@ class FisheyeEquidistant(Radial):
     description = "The angle from the axis grows evenly with the radius"
     group = "Blender's Own"
     factors_by_polynomials = True
+    by_polynomials = True
     SETTINGS: ClassVar[tuple[Setting, ...]] = (FISHEYE_FOV, *SHIFT)
     FORMULA: ClassVar[tuple[Step, ...]] = (WHOLE_PLANE, RADIUS, Step("Angle from the axis", "theta = r fov / 2"), RAY)
 

@@ -72,9 +72,9 @@ class Model(ABC):
     """Whether rays are smooth functions of the pixel wherever there are any: the numerical inverse is exact then."""
     by_polynomials: ClassVar[bool] = False
     """Whether polynomials give what ``Camera.rays`` returns for a whole picture (see ``maths.panels``): for models
-    whose rays take 1.35 to 3.5 times as long without, and fill a convex part of the picture, all of it or a disc. A
-    cast takes as long with them as without (0.8 to 1.2), since it has to have the components apart, in the camera's
-    frame: it asks the formula.
+    whose rays take 1.35 to 3.5 times as long without, and fill most of the picture, or a disc, beyond which ``endless``
+    may go on. A cast takes as long with them as without (0.8 to 1.2), since it has to have the components apart, in the
+    camera's frame: it asks the formula.
     """
     SETTINGS: ClassVar[tuple[Setting, ...]] = ()
     """All settings that ``from_blender`` reads, in the order of the panel. Blender's properties, the panel, the copying
@@ -109,6 +109,11 @@ class Model(ABC):
     def disc(self) -> Disc | None:
         """The part of the picture outside of which there are no rays; None where it has no such form."""
         return None
+
+    @property
+    def endless(self) -> Model:
+        """The model whose rays go on beyond ``disc``, smoothly where the formula does; itself where it has none."""
+        return self
 
     def project(self, points) -> np.ndarray:
         """Return the pixel coordinates (..., 2) of points (..., 3) in the camera's frame; NaN where no ray meets them.

@@ -83,6 +83,7 @@ class Omnimax(Pitched, Lens):
     group = "Dome"
     number = 6
     factors_by_polynomials = True
+    by_polynomials = True
     SETTINGS = (TILT, *SHIFT)
     FORMULA = (
         Step("Pixel on the film, its top at 1, at most 1.283458 as wide as high", "(a, b), see the references"),

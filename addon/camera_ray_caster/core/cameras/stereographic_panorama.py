@@ -35,6 +35,7 @@ class StereographicPanorama(Pitched, FisheyeStereographic):
     description = "All around; looking down, a little planet"
     group = "Panorama"
     number = 9
+    by_polynomials = True
     SETTINGS = (FOV, ELEVATION, *SHIFT)
     FORMULA = (
         ROUND_PLANE,

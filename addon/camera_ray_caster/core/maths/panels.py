@@ -42,9 +42,9 @@ class Disc:
     holds: Callable
     """Of x and y: whether they are within it."""
 
-    def covers(self, x, y) -> np.ndarray:
+    def covers(self, x, y, size: tuple[int, int]) -> np.ndarray:
         """Return which panels with these corners lie wholly in it: their corners do."""
-        corners = [self.holds(x + right, y + up) for right in (0, COLUMNS) for up in (0, ROWS)]
+        corners = [self.holds(x + right, y + up) for right in (0, size[1]) for up in (0, size[0])]
         return np.logical_and.reduce(corners)
 
     def nearest(self, x, y, size: tuple[int, int]):
@@ -96,13 +96,9 @@ def on_raster(
     if (rest := wanted & ~whole.right).any():
         _by_quarters(function, found, rest, (panels[0], bands[0]), (low, low + y.size), disc, SIZES[1:])
     if disc is not None:
-        centers = _centers(SIZES[0])
         for _, values in parts:
             values[:, ~wanted] = np.nan
-        for band, panel in np.argwhere(wanted & ~disc.covers(*corners)):
-            inside = disc.holds(corners[0][0, panel] + centers[0], corners[1][band] + centers[1])
-            for _, values in parts:
-                np.copyto(values[:, band, panel], np.nan, where=~inside)
+        _end(found, wanted, (panels[0], bands[0]), disc)
     window = np.s_[:, low : low + y.size, left : left + x.size]
     for own, values in zip(out or (), found, strict=False):
         if values is not own:
@@ -142,11 +138,32 @@ def _by_quarters(function, found, wanted, corner, rows: tuple[int, int], disc: D
     spans = np.clip(np.array(rows) - (y - corner[1] * size[0])[:, None], 0, size[0])
     for span in np.unique(spans[rest], axis=0):  # all rows of most panels, some of the outer ones
         at = np.flatnonzero(rest & (spans == span).all(axis=1))
-        for some in np.split(at, range(AT_ONCE, at.size, AT_ONCE)):
+        for some in _some(at):
             inside = slice(*span)
             asked = function(x[some, None, None] + centers[0], y[some, None, None] + centers[1][inside])
             for own, value in zip(chain(*(values for _, values in parts)), asked, strict=True):
                 own[band[some], panel[some], inside] = value
+
+
+def _end(found, wanted, corner, disc: Disc) -> None:
+    """Write NaN beyond the disc into wanted panels; corner: the numbers of the first, in x and y."""
+    size, times = SIZES[-1], SIZES[0][0] // SIZES[-1][0]
+    x, y = ((times * first + np.arange(times * count)) * side
+            for first, count, side in zip(corner, wanted.shape[::-1], size[::-1], strict=True))  # fmt: skip
+    wanted = wanted.repeat(times, axis=0).repeat(times, axis=1)
+    parts, centers = _divided(found, size), _centers(size)
+    for some in _some(np.argwhere(wanted & ~disc.covers(x[None], y[:, None], size))):
+        band, panel = some.T
+        beyond = ~disc.holds(x[panel, None, None] + centers[0], y[band, None, None] + centers[1])
+        for _, values in parts:
+            there = values[:, band, panel]
+            there[:, beyond] = np.nan
+            values[:, band, panel] = there
+
+
+def _some(values: np.ndarray) -> list[np.ndarray]:
+    """Split an array into parts that are worked on at once."""
+    return np.split(values, range(AT_ONCE, len(values), AT_ONCE))
 
 
 def _divided(found: list[np.ndarray], size: tuple[int, int]) -> list[tuple[int, np.ndarray]]:

@@ -9,7 +9,7 @@ Reference: Blender manual, Cameras > Panoramic; Kannala and Brandt (2006), secti
 from __future__ import annotations
 
 from abc import abstractmethod
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import inf, pi, radians
 from typing import ClassVar
 
@@ -96,6 +96,11 @@ class Radial(WindowModel):
         if self.rim == np.inf or isinstance(self.window, AffineWindow):
             return None
         return Disc((self.window.center_x, self.window.center_y), self._is_within)
+
+    @property
+    def endless(self) -> Radial:
+        """See Model."""
+        return self if self.disc is None else replace(self, rim=inf)
 
     def rays(self, x, y):
         """Return origin and direction, each a tuple of three broadcastable arrays, camera frame, of unit length.
