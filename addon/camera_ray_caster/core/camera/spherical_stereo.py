@@ -29,6 +29,7 @@ from ..cameras.parts.aperture import Aperture
 from ..cameras.perspective import Perspective
 from ..conventions import gamma
 from ..maths.panels import Disc
+from ..maths.speed import lazy
 from ..maths.vector import along, components, difference, inverse, matvec, norm, unit
 from ..records import BlenderCamera, Pose
 
@@ -147,7 +148,7 @@ class SphericalStereo(Model):
         """See Model."""
         return self.lens.disc
 
-    @property
+    @lazy
     def endless(self) -> Model:
         """See Model."""
         return replace(self, lens=self.lens.endless)

@@ -138,7 +138,7 @@ def _by_quarters(function, found, wanted, corner, rows: tuple[int, int], disc: D
     spans = np.clip(np.array(rows) - (y - corner[1] * size[0])[:, None], 0, size[0])
     for span in np.unique(spans[rest], axis=0):  # all rows of most panels, some of the outer ones
         at = np.flatnonzero(rest & (spans == span).all(axis=1))
-        for some in _some(at):
+        for some in _batches(at):
             inside = slice(*span)
             asked = function(x[some, None, None] + centers[0], y[some, None, None] + centers[1][inside])
             for own, value in zip(chain(*(values for _, values in parts)), asked, strict=True):
@@ -152,7 +152,7 @@ def _end(found, wanted, corner, disc: Disc) -> None:
             for first, count, side in zip(corner, wanted.shape[::-1], size[::-1], strict=True))  # fmt: skip
     wanted = wanted.repeat(times, axis=0).repeat(times, axis=1)
     parts, centers = _divided(found, size), _centers(size)
-    for some in _some(np.argwhere(wanted & ~disc.covers(x[None], y[:, None], size))):
+    for some in _batches(np.argwhere(wanted & ~disc.covers(x[None], y[:, None], size))):
         band, panel = some.T
         beyond = ~disc.holds(x[panel, None, None] + centers[0], y[band, None, None] + centers[1])
         for _, values in parts:
@@ -161,8 +161,8 @@ def _end(found, wanted, corner, disc: Disc) -> None:
             values[:, band, panel] = there
 
 
-def _some(values: np.ndarray) -> list[np.ndarray]:
-    """Split an array into parts that are worked on at once."""
+def _batches(values: np.ndarray) -> list[np.ndarray]:
+    """Split an array into parts of AT_ONCE."""
     return np.split(values, range(AT_ONCE, len(values), AT_ONCE))
 
 

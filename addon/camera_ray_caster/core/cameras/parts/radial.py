@@ -16,6 +16,7 @@ from typing import ClassVar
 import numpy as np
 
 from ...maths.panels import Disc, is_raster, on_raster
+from ...maths.speed import lazy
 from ...maths.vector import components
 from ..model import Step, WindowModel
 from .affine import AffineWindow
@@ -97,7 +98,7 @@ class Radial(WindowModel):
             return None
         return Disc((self.window.center_x, self.window.center_y), self._is_within)
 
-    @property
+    @lazy
     def endless(self) -> Radial:
         """See Model."""
         return self if self.disc is None else replace(self, rim=inf)
