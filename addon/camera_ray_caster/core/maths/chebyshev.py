@@ -40,17 +40,17 @@ class Polynomials:
     """What gives a function's values all over some panels of one size."""
 
     terms: np.ndarray
-    """Their coefficients, (count, *panels, TERMS, TERMS), those of the highest degrees first."""
+    """Their coefficients, (count, panels, TERMS, TERMS), those of the highest degrees first."""
     right: np.ndarray
-    """Whether they do all over it, (*panels)."""
+    """Whether they do all over it, (panels)."""
     empty: np.ndarray
-    """Whether there is no value at any point, (*panels)."""
+    """Whether there is no value at any point, (panels)."""
 
     @classmethod
     def through(cls, function: Callable, x, y, size: tuple[int, int], counts: Sequence[int]) -> Polynomials:
-        """Return those of panels with the corners x, y, which broadcast. ``counts``: of values that are one vector."""
-        x, y = x[..., None, None] + _places() * size[1], y[..., None, None] + _places()[:, None] * size[0]
-        rest = np.empty((sum(counts), *np.broadcast_shapes(x.shape, y.shape)))
+        """Return those of panels with the corners x, y, (panels). ``counts``: of values that are one vector."""
+        x, y = x[:, None, None] + _places() * size[1], y[:, None, None] + _places()[:, None] * size[0]
+        rest = np.empty((sum(counts), len(x), POINTS, POINTS))
         for own, value in zip(rest, function(x, y), strict=True):
             own[...] = value
         empty = np.isnan(rest[0]).all(axis=(-2, -1))
@@ -65,9 +65,9 @@ class Polynomials:
         terms[..., -1, -1] += start
         return cls(terms, (tail <= ROUNDING * EPS * largest).all(axis=0), empty)
 
-    def write(self, which, first: int, out: np.ndarray, pieces: slice = slice(None)) -> None:
-        """Write the values of some panels, from the function's ``first`` on, into ``out``, (so many, panels, rows,
-        columns), or of these pieces of their rows alone.
+    def write(self, which: slice, first: int, out: np.ndarray, pieces: slice) -> None:
+        """Write the values of some panels, from the function's ``first`` on, in these pieces of their rows, into
+        ``out``, (so many, panels, rows, columns).
         """
         _, panels, rows, columns = out.shape
         sums = empty_like(out, (panels, TERMS, columns))

@@ -85,20 +85,12 @@ def on_raster(
     wanted = np.ones((len(bands), len(panels)), bool)
     if disc is not None:
         wanted &= disc.holds(*disc.nearest(*corners, SIZES[0]))
-    parts = _divided(found, SIZES[0])
-    whole = Polynomials.through(function, *corners, SIZES[0], [len(own) for own in found])
-    for band, right in enumerate(whole.right & wanted):
-        if right.any():
-            used = np.s_[band, np.argmax(right) : right.size - np.argmax(right[::-1])]
-            first, last = np.clip((low - band * ROWS, low + y.size - band * ROWS), 0, ROWS)
-            for begin, values in parts:
-                whole.write(used, begin, values[:, *used], slice(first // PIECE, -(-last // PIECE)))
-    if (rest := wanted & ~whole.right).any():
-        _by_quarters(function, found, rest, (panels[0], bands[0]), (low, low + y.size), disc, SIZES[1:])
+    first = panels[0], bands[0]
+    _write(function, found, wanted.copy(), first, (low, low + y.size), disc, SIZES)
     if disc is not None:
-        for _, values in parts:
+        for _, values in _divided(found, SIZES[0]):
             values[:, ~wanted] = np.nan
-        _end(found, wanted, (panels[0], bands[0]), disc)
+        _end(found, wanted, first, disc)
     window = np.s_[:, low : low + y.size, left : left + x.size]
     for own, values in zip(out or (), found, strict=False):
         if values is not own:
@@ -106,36 +98,37 @@ def on_raster(
     return found[0][window]
 
 
-def _by_quarters(function, found, wanted, corner, rows: tuple[int, int], disc: Disc | None, sizes) -> None:
-    """Write the values in wanted panels by polynomials of their quarters, which have the first of these sizes, and of
-    theirs; at last each for itself, where it is of these rows.
+def _write(function, found, wanted, corner, rows: tuple[int, int], disc: Disc | None, sizes) -> None:
+    """Write the values in wanted panels, which have the first of these sizes, where they are of these rows: by
+    polynomials; where these are not right by those of their quarters, and of theirs; at last each for itself.
 
     corner: the numbers of the first panel, in x and y.
     """
     size, *smaller = sizes
-    corner = 2 * corner[0], 2 * corner[1]
     parts = _divided(found, size)
-    wanted = wanted.repeat(2, axis=0).repeat(2, axis=1)
     band, panel = np.nonzero(wanted)
     x, y = (corner[0] + panel) * size[1], (corner[1] + band) * size[0]
-    quarters = Polynomials.through(function, x, y, size, [len(own) for own in found])
-    right = quarters.right
-    rest = ~right
-    if disc is not None:  # no value at the points, and none nearest to the middle: none at all
-        rest &= ~(quarters.empty & np.isnan(function(*disc.nearest(x, y, size))[0]))
-    missing = ~(right | rest)
-    for first, values in parts:
-        given = empty_like(values, (np.count_nonzero(right), *size))
-        quarters.write(right, first, given)
-        values[:, band[right], panel[right]] = given
-        values[:, band[missing], panel[missing]] = np.nan
+    polynomials = Polynomials.through(function, x, y, size, [len(own) for own in found])
+    spans = np.clip(np.array(rows) - (band * size[0])[:, None], 0, size[0])
+    for run in _runs(band, panel, polynomials.right):
+        low, high = spans[run.start]
+        for begin, values in parts:
+            own = values[:, band[run.start], panel[run.start] : panel[run.stop - 1] + 1]
+            polynomials.write(run, begin, own, slice(low // PIECE, -(-high // PIECE)))
+    rest = ~polynomials.right
+    if disc is not None and polynomials.empty.any():
+        # No value at the points, and none nearest to the middle: none at all.
+        missing = polynomials.empty & np.isnan(function(*disc.nearest(x, y, size))[0])
+        rest &= ~missing
+        for _, values in parts:
+            values[:, band[missing], panel[missing]] = np.nan
     if smaller:
         wanted[band, panel] = rest
         if rest.any():
-            _by_quarters(function, found, wanted, corner, rows, disc, smaller)
+            wanted = wanted.repeat(2, axis=0).repeat(2, axis=1)
+            _write(function, found, wanted, (2 * corner[0], 2 * corner[1]), rows, disc, smaller)
         return
     centers = _centers(size)
-    spans = np.clip(np.array(rows) - (y - corner[1] * size[0])[:, None], 0, size[0])
     for span in np.unique(spans[rest], axis=0):  # all rows of most panels, some of the outer ones
         at = np.flatnonzero(rest & (spans == span).all(axis=1))
         for some in _batches(at):
@@ -143,6 +136,13 @@ def _by_quarters(function, found, wanted, corner, rows: tuple[int, int], disc: D
             asked = function(x[some, None, None] + centers[0], y[some, None, None] + centers[1][inside])
             for own, value in zip(chain(*(values for _, values in parts)), asked, strict=True):
                 own[band[some], panel[some], inside] = value
+
+
+def _runs(band, panel, right) -> list[slice]:
+    """Return those of panels that are right, as slices of neighbors in a band."""
+    at = np.flatnonzero(right)
+    ends = np.flatnonzero((np.diff(panel[at]) != 1) | (np.diff(band[at]) != 0)) + 1
+    return [slice(run[0], run[-1] + 1) for run in np.split(at, ends) if run.size]
 
 
 def _end(found, wanted, corner, disc: Disc) -> None:
