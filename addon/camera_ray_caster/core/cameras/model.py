@@ -72,7 +72,7 @@ class Model(ABC):
     """Whether rays are smooth functions of the pixel wherever there are any: the numerical inverse is exact then."""
     by_polynomials: ClassVar[bool] = False
     """Whether polynomials give what ``Camera.rays`` returns for a whole picture (see ``maths.panels``): for models
-    whose rays take 1.35 to 3.5 times as long without, and fill most of the picture, or a disc, beyond which ``endless``
+    whose rays take 1.2 to 3.5 times as long without, and fill most of the picture, or a disc, beyond which ``endless``
     may go on. A cast takes as long with them as without (0.8 to 1.2), since it has to have the components apart, in the
     camera's frame: it asks the formula.
     """
