@@ -71,7 +71,8 @@ def on_raster(
     values count within that alone, and are NaN beyond; a function that is smooth beyond the disc, too, spares the
     panels at its rim from being asked pixel by pixel. On a raster the arrays of ``out``, (some, rows, columns) with a
     pixel's values side by side in memory, are filled one after the other; each holds a vector. Right to 8 times the
-    function's own error, the norm of the interpolation, and to ROUNDING of the vector's largest value in the panel.
+    function's own error, the norm of the interpolation, and to each of the last coefficients, which are left out: at
+    most ROUNDING of the vector's largest value in the panel.
     """
     if not is_raster(x, y):
         return function(x, y)
