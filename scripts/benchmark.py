@@ -1,21 +1,21 @@
-"""Time this caster beside Blender, Cycles and the compiled ray tracers that are installed, in one run.
+"""Time this caster against Blender, Cycles and the compiled ray tracers that are installed, in one run.
 
     python scripts/benchmark.py                 1920 x 1080: 10, 1,000, 10,000 and 100,000 spheres
     python scripts/benchmark.py --quick         the first two, fewer rounds
-    python scripts/benchmark.py --meshes        triangle meshes, also beside Open3D
+    python scripts/benchmark.py --meshes        triangle meshes, also against Open3D
     python scripts/benchmark.py --models        rays and pictures of every camera model
-    python scripts/benchmark.py --dataset       a data set of meshes: what it costs beside writing, and two processes
+    python scripts/benchmark.py --dataset       a data set of meshes: cost against writing alone, and two processes
     python scripts/benchmark.py --scaling --picture FILE.png    cost against pixels, shapes and triangles
 
-Contenders take turns, round by round, so that what else the machine does falls on all of them, with a pause before
-each, in which the threads of the one before it come to rest. Times are milliseconds:
-least, median, and the spread (the middle half of the rounds) behind it; ratios are of medians.
+In each round all contenders run in turn, so that other load on the machine affects all of them. A pause before each run
+lets the threads of the previous contender come to rest. Times are in milliseconds: minimum, median, and spread (the
+middle half of the rounds). Ratios are ratios of medians.
 """
 
 from __future__ import annotations
 
 if __name__ == "__main__":
-    import ends  # it lies beside this file
+    import ends  # in this folder
 
     ends.begin(__file__)
 
@@ -35,27 +35,33 @@ from kept_memory import keep_memory  # noqa: E402
 
 COUNTS = (10, 1_000, 10_000, 100_000)
 EMBREE_MOST = 10_000
-"""Spheres of 320 triangles that fit the memory of a small machine."""
+"""Maximum number of spheres, of 320 triangles each, that fit into the memory of a small machine."""
 
 
 def main() -> int:
-    """Run what the arguments ask for and print tables; with --json also write them."""
+    """Run the benchmark that the arguments choose and print tables; with --json also write them."""
     parser = arguments.Parser(prog="benchmark.py", description=__doc__.splitlines()[0])
-    parser.add_argument("--quick", action="store_true", help="the smaller half of the scenes, fewer rounds")
-    parser.add_argument("--rounds", type=arguments.count, help="default: 9, with --quick 3")
+    parser.add_argument("--quick", action="store_true", help="run the smaller half of the scenes, with fewer rounds")
+    parser.add_argument("--rounds", type=arguments.count, help="number of rounds; default: 9, or 3 with --quick")
     parser.add_argument("--threads", type=arguments.count, default=2, help="default: %(default)s")
-    parser.add_argument("--size", type=arguments.size, default=(1920, 1080), help="default: 1920x1080")
-    parser.add_argument("--meshes", action="store_true", help="triangle meshes of 1,000 to a million triangles")
-    parser.add_argument("--models", action="store_true", help="ray generation and casting of every camera model")
-    parser.add_argument("--scaling", action="store_true", help="cost against pixels, shapes and triangles")
-    parser.add_argument("--dataset", action="store_true", help="pictures of a data set, by one process and by two")
-    parser.add_argument("--picture", type=Path, metavar="FILE", help="with --scaling: draw a diagram")
-    parser.add_argument("--json", type=Path, metavar="FILE", help="write the figures")
+    parser.add_argument(
+        "--size", type=arguments.size, default=(1920, 1080), help="resolution in pixels; default: 1920x1080"
+    )
+    parser.add_argument("--meshes", action="store_true", help="measure triangle meshes of 1,000 to a million triangles")
+    parser.add_argument(
+        "--models", action="store_true", help="measure ray generation and casting for every camera model"
+    )
+    parser.add_argument("--scaling", action="store_true", help="measure the cost against pixels, shapes and triangles")
+    parser.add_argument(
+        "--dataset", action="store_true", help="measure pictures of a data set, with one process and with two"
+    )
+    parser.add_argument("--picture", type=Path, metavar="FILE", help="draw a diagram; with --scaling only")
+    parser.add_argument("--json", type=Path, metavar="FILE", help="write the measurements to this file")
     options = parser.parse_args()
     keep_memory()
     for path in filter(None, (options.json, options.picture)):
         if not path.absolute().parent.is_dir():
-            parser.error(f"there is no folder for {str(path)!r}: make it or choose another")
+            parser.error(f"there is no folder for {str(path)!r}: create the folder or choose another folder")
     width, height = options.size
     rounds = options.rounds or (3 if options.quick else 9)
     if options.models:
@@ -86,7 +92,7 @@ def main() -> int:
 
 
 def spheres(count: int, width: int, height: int, rounds: int, threads: int) -> list[dict]:
-    """Time one scene of spheres with every contender."""
+    """Time one scene of spheres with every contender; return the rows of the table."""
     entries = {
         "ours, 4 passes": c.ours(c.PASSES, threads),
         "ours, depth + index": c.ours(("depth", "shape_index"), threads),
@@ -102,7 +108,7 @@ def spheres(count: int, width: int, height: int, rounds: int, threads: int) -> l
 
 
 def compare(title: str, camera, shapes, entries: dict, rounds: int) -> list[dict]:
-    """Time one scene with every contender and print its table."""
+    """Time one scene with every contender, print its table and return the rows."""
     print(f"\n{title}, {rounds} rounds, ms")
     rows, runs = [], {}
     for name, prepare in entries.items():
@@ -123,7 +129,7 @@ def compare(title: str, camera, shapes, entries: dict, rounds: int) -> list[dict
 
 
 def take_turns(runs: dict, rounds: int) -> dict[str, list[float]]:
-    """Return the milliseconds of each run, once untimed and then round by round."""
+    """Return the times of each run in milliseconds, round by round, after one untimed run."""
     times: dict[str, list[float]] = {name: [] for name in runs}
     for run in runs.values():
         run()
@@ -143,7 +149,7 @@ def take_turns(runs: dict, rounds: int) -> dict[str, list[float]]:
 
 
 def blender(width: int, height: int, threads: int, rounds: int) -> list[dict]:
-    """Time ``scene.ray_cast`` in a loop, and Cycles at one sample with the same passes, where bpy is installed."""
+    """Time ``scene.ray_cast`` in a loop, and Cycles at one sample with the same passes, if bpy is installed."""
     if not c.has("bpy"):
         print("\nBlender: not installed here")
         return []

@@ -1,8 +1,8 @@
-"""The benchmark, model by model: rays against a plain fill of the same arrays, 1,000 spheres against the pinhole.
+"""The benchmark by camera model: ray generation against a plain fill, and 1,000 spheres against the pinhole.
 
-A fill is that of arrays that exist: the directions, and the origins where there is more than one. To make such arrays
-and fill them (``np.full``) takes one to four times as long. The cameras are the contract test's, at the size wanted,
-and an eye of spherical stereo through each lens.
+The fill writes existing arrays of the same size: the directions, and the origins if there is more than one. Allocating
+such arrays and filling them (``np.full``) takes one to four times as long. The cameras are those of the contract test,
+at the requested size, and an eye of spherical stereo for each lens.
 """
 
 from __future__ import annotations
@@ -36,17 +36,17 @@ LENSES = {
     "FTHETA": {"ftheta_angle_to_radius": "0 58 0.5 -1.5 0.3", "ftheta_c": 1.001, "ftheta_d": 1e-3, **FRAME},
     "OCAM": {"ocam_polynomial": "-40 0 0.008 1e-5 2e-7", "ocam_c": 0.999, "ocam_d": 1e-3, **FRAME},
 }  # fmt: skip
-"""Distortions such as real lenses have."""
+"""Settings of calibrated lenses, by model: realistic distortions."""
 
 STEREO_LENSES = (
     "PERSP", "EQUIRECTANGULAR", "EQUIANGULAR_CUBEMAP_FACE", "CENTRAL_CYLINDRICAL", "MIRRORBALL", "FISHEYE_EQUIDISTANT",
     "FISHEYE_EQUISOLID", "FISHEYE_LENS_POLYNOMIAL",
 )  # fmt: skip
-"""All of spherical stereo's."""
+"""All models that support spherical stereo."""
 
 
 def run(width: int, height: int, rounds: int, threads: int) -> list[dict]:
-    """Print and return the ratios of every model, each taken in turns with what it is compared to."""
+    """Print and return the times of every model, timed alternately with the fill and the pinhole."""
     pinhole, shapes = c.scene(SPHERES, width, height)
     print(f"\n{width} x {height}, {threads} threads, {rounds} rounds; {SPHERES} spheres")
     print(f"  {'':34}{'rays ms':>9}{'x fill':>8}{'cast ms':>10}{'x pinhole':>11}")
@@ -66,7 +66,7 @@ def run(width: int, height: int, rounds: int, threads: int) -> list[dict]:
                 result = made()
                 if turn:
                     times[entry].append(1e3 * (perf_counter() - began))
-                del result  # to hand it back is no part of making it
+                del result  # freeing memory is not timed
         median = {entry: float(np.median(own)) for entry, own in times.items()}
         rows.append({"model": name, **median})
         print(f"  {name:34}{median['rays']:9.1f}{median['rays'] / median['fill']:8.1f}"
@@ -75,7 +75,7 @@ def run(width: int, height: int, rounds: int, threads: int) -> list[dict]:
 
 
 def _cameras(frame: dict):
-    """Yield the name and the camera of each model, and of the eyes of spherical stereo."""
+    """Yield the name and the camera of each model, and of each eye of spherical stereo."""
     sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
     from tests.core.camera.test_spherical_stereo import MERGED, eye
     from tests.core.cameras.model_examples import camera

@@ -1,15 +1,15 @@
-"""Calibration files against the programs that they are of: the largest distance in pixels of 10,000 projected points.
+"""Compare cameras read from calibration files with the files' own programs: largest pixel distance of 10,000 points.
 
     python scripts/calibration_readers.py
 
-Each file is read here and by its format's own reader, and points all over the picture are projected by both; COLMAP's
-and OpenCV's readers are in the tests. A reader that is not installed is named: mrcal needs numpysane and SciPy,
-nerfbaselines OpenCV and Pillow, both install with --no-deps; NCore is the package nvidia-ncore, with PyTorch;
-image_geometry is Debian's python3-image-geometry, which has no raw pixels of points: it rectifies ours.
+Each file is read by this project and by its format's own reader, and both project points all over the picture. COLMAP's
+and OpenCV's readers are compared in the tests. A reader that is not installed is named. mrcal needs numpysane and
+SciPy, and nerfbaselines needs OpenCV and Pillow; install both with --no-deps. NCore is the package nvidia-ncore, with
+PyTorch. image_geometry is Debian's python3-image-geometry; it cannot project to raw pixels, so it rectifies our pixels.
 """
 
 if __name__ == "__main__":
-    import ends  # it lies beside this file
+    import ends  # in this folder
 
     ends.begin(__file__)
 
@@ -34,7 +34,7 @@ EQUIDISTANT = -0.03, 4e-3, -1e-3, 2e-4
 
 
 def mrcal_files():
-    """Yield the name of each lens model, our model, the file's text, and mrcal's projection."""
+    """Yield (name, our model, file suffix, text of the file, mrcal's projection) of each lens model."""
     import mrcal
 
     for name, key, terms in (
@@ -52,7 +52,7 @@ def mrcal_files():
 
 
 def nerfstudio_files():
-    """The same of transforms.json, by nerfbaselines."""
+    """Yield the same for transforms.json, with nerfbaselines' projection."""
     from nerfbaselines import cameras
     from nerfbaselines.datasets.nerfstudio import load_nerfstudio_dataset
     from PIL import Image
@@ -66,7 +66,7 @@ def nerfstudio_files():
         text = json.dumps({"camera_model": name, "frames": [frame, frame | {"file_path": "b.png"}]})
 
         def project(points, path):
-            for image in ("a.png", "b.png"):  # which it opens
+            for image in ("a.png", "b.png"):  # nerfbaselines opens them
                 Image.new("L", (WIDTH, HEIGHT)).save(Path(path).parent / image)
             found = load_nerfstudio_dataset(str(Path(path).parent), "train", train_split_fraction=1.0)["cameras"][0]
             still = found.replace(poses=np.eye(4)[:3].astype(np.float64))
@@ -76,7 +76,7 @@ def nerfstudio_files():
 
 
 def ncore_files():
-    """The same of f-theta cameras, by NVIDIA's NCore, which also writes the file."""
+    """Yield the same for f-theta cameras, with the projection of NVIDIA's NCore, which also writes the file."""
     import torch
     from ncore.data import FThetaCameraModelParameters, ShutterType
     from ncore.sensors import FThetaCameraModel
@@ -99,7 +99,7 @@ def ncore_files():
 
 
 def ros_files():
-    """The same of ROS' CameraInfo, by image_geometry: its rectification undone by our distortion."""
+    """Yield the same for ROS' CameraInfo, but with image_geometry's camera, which rectifies pixels."""
     from image_geometry import PinholeCameraModel
 
     for name, terms in (("plumb_bob", BROWN[:5]), ("rational_polynomial", BROWN[:8])):
@@ -118,7 +118,7 @@ def ros_files():
 
 
 def points_before(cam) -> np.ndarray:
-    """Points of OpenCV's frame on rays through random places of the picture."""
+    """Return points in OpenCV's camera frame on rays through random positions in the picture."""
     random = np.random.default_rng(1)
     directions = cam.rays_at(*random.uniform((0, 0), (WIDTH, HEIGHT), (COUNT, 2)).T).directions
     return directions * random.uniform(0.5, 50, (COUNT, 1)) * (1, -1, -1)

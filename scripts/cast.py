@@ -1,15 +1,15 @@
-"""Render a .blend with the rays of its camera.
+"""Cast the rays of a .blend's cameras: write pictures, passes and reports.
 
     python scripts/cast.py FILE.blend                                      with pip's bpy
     blender --background FILE.blend --python scripts/cast.py -- --frame 1  inside Blender
 
-``python scripts/cast.py --help`` shows what else can be given.
+``python scripts/cast.py --help`` lists all options.
 """
 
 import os
 import sys
 
-sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))  # inside Blender it is not there
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))  # Blender does not add it
 
 import ends
 

@@ -1,15 +1,15 @@
-"""Load a data set of scenes that stand still back, and re-project every pixel of each view into the next one.
+"""Check a data set of a static scene: re-project every pixel of each view into the next view.
 
     python scripts/check_set.py FOLDER
 
-Reads the NPZ files NAME_FRAME.npz and camera.json, as clevr_set.py writes them; needs numpy only. The cameras are made
-of camera.json. A pixel's distance along its ray is a point; the next view's camera projects it. Where it comes out has
-to be where ``flow_forward`` leads, and the next view's own distance there has to be the point's, unless ``flow_hidden``
-says that something is before it. Exit status 1 where that is not so.
+Reads NAME_FRAME.npz and camera.json, as clevr_set.py writes them; needs numpy only. The cameras are made from
+camera.json. A pixel's ray and distance give a point, which the next view's camera projects. The projection must agree
+with ``flow_forward``, and the next view's distance there with the distance of the point, unless ``flow_hidden`` says
+that another surface hides the point. The exit status is 1 if a check fails.
 """
 
 if __name__ == "__main__":
-    import ends  # it lies beside this file
+    import ends  # in this folder
 
     ends.begin(__file__)
 
@@ -25,13 +25,13 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "addon"))
 import camera_ray_caster as crc
 
 FLOW = 1e-3
-"""Pixels that the stored flow and the re-projection may be apart: distance and flow are float32."""
+"""Maximum difference in pixels between stored flow and re-projection: distance and flow are float32."""
 
 SAME = 0.97
-"""Of the pixels that nothing hides, the part that has to land on a pixel of the same shape: the others meet an edge."""
+"""Minimum fraction of the unhidden pixels that must land on a pixel of the same shape; the rest lie at edges."""
 
 NEAR = 0.02
-"""Of the distance: the median of what nearest pixels may be apart, whose centers are up to 0.7 pixel away."""
+"""Maximum median of the relative difference of distances: the nearest pixel's center is up to 0.7 pixel away."""
 
 ROW = "{:>12} {:>10} {:>10} {:>12} {:>12} {:>12} {:>12}"
 HEAD = ROW.format("views", "pixels", "in next", "flow off", "same shape", "distance off", "hidden rightly")
@@ -43,7 +43,7 @@ def views(folder: Path) -> list[tuple[int, Path]]:
 
 
 def check(folder: Path, first: tuple[int, Path], second: tuple[int, Path]) -> tuple[list[str], bool]:
-    """Re-project a view into another one; return the row of the table, and whether all is as it has to be."""
+    """Re-project a view into another view; return the row of the table, and whether all checks pass."""
     camera, other = (crc.camera_from_json(folder / "camera.json", frame=frame) for frame, _ in (first, second))
     here, there = (np.load(path) for _, path in (first, second))
     rays = camera.rays()
@@ -57,7 +57,7 @@ def check(folder: Path, first: tuple[int, Path], second: tuple[int, Path]) -> tu
     own = np.argwhere(hit)[:, ::-1] + 0.5
     flow, hidden = here["flow_forward"][hit], here["flow_hidden"][hit][:, 0]
     flow_off = np.abs(pixels - own - flow)[inside]
-    edge = np.abs(pixels - np.clip(pixels, 0, size)).max(axis=1) < FLOW  # there rounding decides who is inside
+    edge = np.abs(pixels - np.clip(pixels, 0, size)).max(axis=1) < FLOW  # rounding decides there
     column, row = np.minimum(np.floor(pixels[inside]), np.array(size) - 1).astype(int).T
     same = there["shape_index"][row, column] == here["shape_index"][hit][inside]
     distance = np.linalg.norm(points[inside] - other.rays_at(*pixels[inside].T).origins, axis=1)
@@ -77,7 +77,7 @@ def check(folder: Path, first: tuple[int, Path], second: tuple[int, Path]) -> tu
 def main(arguments: list[str] | None = None) -> int:
     """Check a folder and print a table; return the exit status."""
     parser = Parser(prog="check_set.py", description=__doc__.splitlines()[0])
-    parser.add_argument("folder", type=Path, metavar="FOLDER", help="what clevr_set.py has made")
+    parser.add_argument("folder", type=Path, metavar="FOLDER", help="folder made by clevr_set.py")
     folder = parser.parse_args(arguments).folder
     found = views(folder)
     if len(found) < 2 or not (folder / "camera.json").is_file():
@@ -85,7 +85,10 @@ def main(arguments: list[str] | None = None) -> int:
     print(HEAD)
     passed = True
     for first, second in pairwise(found):
-        row, right = check(folder, first, second)
+        try:
+            row, right = check(folder, first, second)
+        except crc.InputError as error:
+            parser.error(str(error))
         print(ROW.format(*row), flush=True)
         passed &= right
     print("all as it has to be" if passed else "the views do not fit together")

@@ -1,14 +1,15 @@
-"""Make a small data set in the manner of CLEVR with a fisheye camera: pictures by Cycles, ground truth beside them.
+"""Make a small data set in the style of CLEVR with a fisheye camera: pictures by Cycles and their ground truth.
 
-    python scripts/clevr_set.py --output clevr     makes it
-    python scripts/check_set.py clevr              loads it back, and re-projects each view into the next
+    python scripts/clevr_set.py --output clevr     makes the data set
+    python scripts/check_set.py clevr              loads it, and re-projects each view into the next
 
-Of each view: a PNG; an NPZ with Cycles' linear picture and our depth, distance, normals, indices, rays and flow, pixel
-for pixel; a report; boxes and masks in COCO's form. Of all: clevr.blend, camera.json, annotations.json.
+Files of each view: a PNG; an NPZ with Cycles' linear picture and our depth, distance, normals, indices, rays and flow
+of the same pixels; a report; boxes and masks in COCO's format. Common files: clevr.blend, camera.json,
+annotations.json.
 """
 
 if __name__ == "__main__":
-    import ends  # it lies beside this file
+    import ends  # in this folder
 
     ends.begin(__file__)
 
@@ -32,13 +33,21 @@ def main(arguments: list[str] | None = None) -> int:
     """Make the scene, cast its views and export its cameras; return the exit status."""
     parser = Parser(prog="clevr_set.py", description=__doc__.splitlines()[0],
                     formatter_class=ArgumentDefaultsHelpFormatter)  # fmt: skip
-    parser.add_argument("--views", type=count, default=6, metavar="N", help="around the objects")
-    parser.add_argument("--objects", type=count, default=10, metavar="N", help="at most: as many as find a place")
-    parser.add_argument("--resolution", type=size, default=(320, 320), metavar="WxH", help="of a view")
-    parser.add_argument("--seed", type=count, default=1, metavar="N", help="of what is where")
-    parser.add_argument("--engine", type=str.upper, choices=ENGINES, default=ENGINES[0], help="of the pictures")
-    parser.add_argument("--samples", type=count, default=32, metavar="N", help="of Cycles, a pixel")
-    parser.add_argument("--output", type=Path, default=Path("clevr"), metavar="FOLDER", help="for the files")
+    parser.add_argument("--views", type=count, default=6, metavar="N", help="number of views around the objects")
+    parser.add_argument(
+        "--objects",
+        type=count,
+        default=10,
+        metavar="N",
+        help="maximum number of objects; fewer if there is no free place",
+    )
+    parser.add_argument("--resolution", type=size, default=(320, 320), metavar="WxH", help="resolution of each view")
+    parser.add_argument("--seed", type=count, default=1, metavar="N", help="seed of the random arrangement")
+    parser.add_argument(
+        "--engine", type=str.upper, choices=ENGINES, default=ENGINES[0], help="engine that renders the pictures"
+    )
+    parser.add_argument("--samples", type=count, default=32, metavar="N", help="samples per pixel of Cycles")
+    parser.add_argument("--output", type=Path, default=Path("clevr"), metavar="FOLDER", help="folder for the files")
     asked = parser.parse_args(arguments)
 
     sys.path.insert(0, str(ADDON))

@@ -1,8 +1,8 @@
-"""What the benchmark times: this caster, Blender and Cycles, and compiled ray tracers where they are installed.
+"""The benchmark's contenders: this caster, and the compiled ray tracers that are installed.
 
-Each contender prepares a scene once and gives a function that makes the picture's arrays once; only that is timed, and
-the preparation (a tracer's acceleration structure) is told apart. All see the same pinhole and the same spheres;
-Embree sees them as icospheres, since embreex knows only triangles.
+Each contender prepares a scene once and returns a function that makes the picture's arrays once. Only this function is
+timed; the preparation (a tracer's acceleration structure) is timed separately. All contenders use the same pinhole
+camera and the same spheres, except that Embree gets icospheres, since embreex supports triangles only.
 """
 
 from __future__ import annotations
@@ -20,13 +20,13 @@ PASSES = ("depth", "normal", "position", "object_index")
 LENS, SENSOR = 50.0, 36.0
 
 PAUSE = 0.15
-"""Seconds of rest before each timing: the threads of OpenBLAS, for one, spin on for a tenth of a second."""
+"""Seconds of pause before each timing: the threads of OpenBLAS, for example, keep spinning for a tenth of a second."""
 
 
 def scene(count: int, width: int, height: int, **raw):
-    """Return a camera, and ``count`` equal spheres before a wall that fills the picture behind them.
+    """Return a camera, and ``count`` equal spheres in front of a wall that fills the picture.
 
-    The spheres' discs have together 0.6 of the picture's area, however many they are.
+    The total area of the spheres' discs is 0.6 of the picture's area for any ``count``.
     """
     rng = np.random.default_rng(count)
     tangent_x = SENSOR / 2 / LENS
@@ -50,7 +50,7 @@ def scene(count: int, width: int, height: int, **raw):
 
 
 def ours(passes, threads: int) -> Callable:
-    """This caster, from camera and shapes to finished float32 arrays."""
+    """Return the contender of this caster: from camera and shapes to finished float32 arrays."""
 
     def prepare(camera, shapes):
         return lambda: cast(camera, shapes, passes, threads=threads)
@@ -59,9 +59,9 @@ def ours(passes, threads: int) -> Callable:
 
 
 def mitsuba(aovs: str | None, add: Callable | None = None) -> Callable:
-    """Mitsuba 3 on its LLVM backend: the aov integrator, or with None the intersection of rays that are given.
+    """Return the contender of Mitsuba 3 on its LLVM backend: the aov integrator, or with None only ray intersections.
 
-    ``add(content, shapes)`` puts the shapes into the scene's dictionary; by default they are spheres and rectangles.
+    ``add(content, shapes)`` adds the shapes to the scene's dictionary; by default they are spheres and rectangles.
     """
     import mitsuba as mi
 
@@ -112,7 +112,7 @@ def mitsuba(aovs: str | None, add: Callable | None = None) -> Callable:
 
 
 def embree(camera, shapes):
-    """Embree by embreex: the distance of rays that are given to icospheres of 320 triangles and a quad."""
+    """Prepare Embree with embreex: distances of given rays to icospheres of 320 triangles and a quad."""
     import trimesh
     from embreex.mesh_construction import TriangleMesh
     from embreex.rtcore_scene import EmbreeScene
@@ -132,7 +132,7 @@ def embree(camera, shapes):
 
 
 def has(module: str) -> bool:
-    """Whether a module is installed, with the libraries that it needs."""
+    """Return whether a module is installed, with the libraries that it needs."""
     try:
         import_module(module)
     except ImportError:

@@ -1,7 +1,8 @@
-"""The benchmark's data set: what a picture costs beside writing it, and what is gained by two processes of Dask.
+"""The benchmark of a data set: the cost of a picture compared with writing it, and the gain by two Dask processes.
 
-Processor seconds count what a process and its children used, so that what else the machine does matters less. A run's
-start (Python, Blender, the cluster) is taken off: a long run's time less a short one's, over the pictures between them.
+Processor seconds count only a process and its children, so that other load on the machine matters less. The startup
+time (Python, Blender, the cluster) is excluded: the difference between a long and a short run is divided by the
+difference of their pictures.
 """
 
 from __future__ import annotations
@@ -22,11 +23,11 @@ SCRIPT = Path(__file__).with_name("dataset.py")
 CAMERAS, SIZE = 3, (640, 480)
 PASSES_CAST = [name for name in PASSES if not name.endswith("_bound") and not name.startswith("flow_")]
 FEW = 2
-"""Frames of the short run: something for each worker."""
+"""Frames of the short run: enough work for each worker."""
 
 
 def run(frames: int) -> list[dict]:
-    """Print and return the figures of a scene of meshes: FRAMES frames of three cameras, all passes but the bounds."""
+    """Print and return the figures of a scene of meshes: ``frames`` frames of three cameras, the passes PASSES_CAST."""
     with tempfile.TemporaryDirectory() as folder:
         scene = _scene(Path(folder) / "scene.blend")
         cores = sorted(os.sched_getaffinity(0))[:2]
@@ -50,7 +51,7 @@ def run(frames: int) -> list[dict]:
 
 
 def _scene(path: Path) -> Path:
-    """Save a scene of monkeys, a ring and a floor, seen by cameras that move."""
+    """Save a scene of monkeys, a ring and a floor, with moving cameras."""
     import bpy
 
     bpy.ops.wm.read_factory_settings(use_empty=True)
@@ -76,9 +77,9 @@ def _scene(path: Path) -> Path:
 
 
 def _measured(scene: Path, out: Path, name: str, frames: int, cores: list[int], *words: str) -> dict:
-    """Run the script on some cores; return seconds a picture, by the clock and of processors."""
+    """Run the script on the given cores; return the seconds per picture: elapsed time and processor time."""
     spent: list[tuple[float, float]] = []
-    for last in FEW, FEW + frames:  # the second run takes what the first one has made
+    for last in FEW, FEW + frames:  # the second run skips the first run's pictures
         began, used = perf_counter(), getrusage(RUSAGE_CHILDREN)
         subprocess.run(
             [sys.executable, SCRIPT, scene, "--cameras", "ALL", "--frames", f"1:{last}", "--passes",
@@ -93,7 +94,7 @@ def _measured(scene: Path, out: Path, name: str, frames: int, cores: list[int], 
 
 
 def _writing(files: list[Path]) -> float:
-    """Return the processor seconds of writing the arrays and the picture of a frame, the median of files."""
+    """Return the processor seconds for writing the arrays and the picture of a frame; the median over ``files``."""
     import bpy
 
     from camera_ray_caster.blender.output import arrays

@@ -1,12 +1,12 @@
-"""What the scripts for a terminal share: the way into the add-on beside them, with pip's bpy or inside Blender.
+"""How the command scripts run the add-on of this source tree, with pip's bpy or inside Blender.
 
-An extension that is installed and enabled steps aside for this process: the scripts run the code that they lie beside.
+An installed and enabled extension is disabled for this process, so that the scripts run the code of this source tree.
 """
 
 import sys
 from pathlib import Path
 
-from ends import listen  # they lie beside this file
+from ends import listen  # in this folder
 from kept_memory import keep_memory
 
 ADDON = Path(__file__).resolve().parents[1] / "addon"
@@ -26,7 +26,7 @@ def through(command: str) -> int:
         return 2
     import addon_utils
 
-    if not bpy.app.binary_path:  # a process of our own, not somebody's Blender
+    if not bpy.app.binary_path:  # our own process, not a user's Blender
         keep_memory()
     installed = bpy.types.RenderEngine.bl_rna_get_subclass_py(ENGINE)
     if installed is not None:
@@ -39,16 +39,16 @@ def through(command: str) -> int:
     try:
         return commands.main(command, _arguments(bool(bpy.app.binary_path)), f"{command}.py")
     finally:
-        camera_ray_caster.unregister()  # Blender may hang at its end otherwise
+        camera_ray_caster.unregister()  # otherwise Blender may hang at exit
 
 
 def package_of(engine: type) -> str:
-    """Return the name of the add-on's package, under which Blender has it, that an engine is of."""
+    """Return the package name under which Blender has enabled the add-on of a render engine class."""
     return engine.__module__.partition(".blender.")[0]
 
 
 def _arguments(inside_blender: bool) -> list[str]:
-    """Return the arguments that are ours: inside Blender those after --."""
+    """Return the arguments of the script: inside Blender, those after "--"."""
     if not inside_blender:
         return sys.argv[1:]
     return sys.argv[sys.argv.index("--") + 1 :] if "--" in sys.argv else []

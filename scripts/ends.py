@@ -1,7 +1,8 @@
-"""How the process of a script ends: with a status and at most one line on standard error, never with a traceback.
+"""How a script's process ends when stopped or on a write error: with a status and one line on standard error at most.
 
-130: stopped. 2: what it prints, or a file of its own, cannot be written. 141: nobody reads what it prints any more, for
-which shells have that number and no words. Standard library only, and no syntax newer than Python 3.6.
+Exit status 130: stopped by a signal. 2: standard output or a file cannot be used. 141: the reader of standard output is
+gone; shells use this number for it, and no message is printed. Standard library only, and no syntax newer than
+Python 3.6.
 """
 
 import os
@@ -13,22 +14,22 @@ NAMES = "SIGINT", "SIGTERM", "SIGHUP"
 
 
 def begin(script):
-    """See to the signals and the standard streams of a script's process: before the imports that take long."""
+    """Set up the signals and the standard streams of a script's process; called before slow imports."""
     prog = os.path.basename(script)
 
     def leave(*_):
-        _say(prog, "stopped; what was under way has left nothing")
+        _say(prog, "stopped; no unfinished files were left behind")
         try:
             sys.stdout.flush()
         finally:
-            os._exit(130)  # whatever library is being imported
+            os._exit(130)  # also in the middle of an import
 
     listen(leave)
     for number in range(3):
         try:
             os.fstat(number)
         except OSError:
-            os.open(os.devnull, os.O_RDWR)  # the lowest free number: the next file that is opened would be taken for it
+            os.open(os.devnull, os.O_RDWR)  # takes the lowest free number, before another file does
     if sys.stderr is None:
         sys.stderr = os.fdopen(2, "w")
     if sys.stdout is None:
@@ -37,7 +38,7 @@ def begin(script):
 
 
 def listen(handler):
-    """Let a handler hear what asks a process to end, but what is ignored already, as under nohup."""
+    """Set the handler of the signals NAMES, except those that are ignored already, as under nohup."""
     for name in NAMES:
         number = getattr(signal, name, None)
         if number is not None and signal.getsignal(number) != signal.SIG_IGN:
@@ -45,7 +46,7 @@ def listen(handler):
 
 
 def run(script, main):
-    """Return the exit status of ``main()``, for ``sys.exit``; what it has printed is written by then."""
+    """Run ``main()``, flush standard output and return the exit status for ``sys.exit``."""
     prog = os.path.basename(script)
     try:
         try:
@@ -55,7 +56,7 @@ def run(script, main):
         sys.stdout.flush()
         return status
     except KeyboardInterrupt:
-        _say(prog, "stopped; what was under way has left nothing")
+        _say(prog, "stopped; no unfinished files were left behind")
         return 130
     except BrokenPipeError:
         _drop_output()
@@ -68,11 +69,11 @@ def run(script, main):
 
 
 def _drop_output():
-    """Send what standard output still holds nowhere: Python would try again at its end."""
+    """Discard the buffered standard output: Python would try to write it again at exit."""
     os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def _say(prog, text):
-    """Write a line to standard error, if it takes it."""
+    """Write a line to standard error; ignore errors."""
     with suppress(OSError):
         os.write(2, f"{prog}: {text}\n".encode("utf-8", "replace"))

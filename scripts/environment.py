@@ -1,13 +1,13 @@
-"""Which bpy goes with which Python, and the tests on every such pair that this machine has.
+"""Find the bpy that fits this Python, or run the tests with every supported bpy that this machine has a Python for.
 
-    python scripts/environment.py             the newest bpy for this Python, or a sentence why there is none
-    python scripts/environment.py test-all    the tests on each supported bpy, hostile inputs on the newest: what passed
+    python scripts/environment.py             print the newest bpy for this Python, or the reason why there is none
+    python scripts/environment.py test-all    run the tests with each bpy, hostile inputs with the newest; print results
 
-Standard library only, and no syntax newer than Python 3.6: it has to be able to say that a Python is too old.
+Standard library only, and no syntax newer than Python 3.6, so that it can report that a Python is too old.
 """
 
 if __name__ == "__main__":
-    import ends  # it lies beside this file
+    import ends  # in this folder
 
     ends.begin(__file__)
 
@@ -18,12 +18,12 @@ import shutil
 import subprocess
 import sys
 
-# A bpy wheel is built for one Python.
+# A bpy wheel works with one Python version only.
 PYTHON_OF_BPY = {"4.5": (3, 11), "5.0": (3, 11), "5.2": (3, 13)}
 
 
 def bpy_for(python):
-    """The newest bpy, "major.minor", that a Python (major, minor) can load; a sentence that says why not otherwise."""
+    """Return the newest bpy, "major.minor", that a Python (major, minor) can load, or the reason why there is none."""
     fitting = [bpy for bpy, needed in PYTHON_OF_BPY.items() if needed == python]
     if fitting:
         return fitting[-1]
@@ -32,12 +32,12 @@ def bpy_for(python):
 
 
 def dotted(version):
-    """(3, 11) as "3.11"."""
+    """Return a version such as (3, 11) as "3.11"."""
     return ".".join(map(str, version))
 
 
 def find_python(version):
-    """The path of a Python (major, minor) that runs and has pip, or None: a name on PATH may be an empty shim."""
+    """Return the path of a working Python (major, minor) with pip, or None. A name on PATH may be an empty shim."""
     name = "python" + dotted(version)
     pyenv = os.path.expanduser(f"~/.pyenv/versions/{dotted(version)}*/bin/python")
     probe = f"import pip, sys; sys.exit(sys.version_info[:2] != {version})"
@@ -48,8 +48,8 @@ def find_python(version):
 
 
 def test_all():
-    """Run `make test` for one supported bpy after the other, since each takes all cores, and `make test-hostile` for
-    the newest; the exit status is 0 when at least one bpy ran and none failed.
+    """Run `make test` for each supported bpy in turn, since each run uses all cores, and `make test-hostile` for the
+    newest. Return the exit status: 0 if at least one bpy passed and none failed.
     """
     results, newest = {}, None
     for bpy, version in PYTHON_OF_BPY.items():
@@ -67,20 +67,20 @@ def test_all():
 
 
 def in_words(status):
-    """What the exit status of tests says."""
+    """Return an exit status of tests in words."""
     return "FAILED" if status else "passed"
 
 
 def make(target, bpy, python):
-    """Run a target of make for a bpy on a Python, without the tests in a window, and return its exit status."""
-    # it gets its own settings, not those of the make that called; the window's Blender is the same with every bpy
+    """Run a make target with a bpy and a Python, without the tests in a window; return the exit status."""
+    # drop the settings of the calling make; the tests in a window use the same Blender with every bpy
     environment = {name: value for name, value in os.environ.items() if not name.startswith(("MAKE", "MFLAGS"))}
     environment["PYTEST_ADDOPTS"] = environment.get("PYTEST_ADDOPTS", "") + " --ignore=tests/gui"
     return subprocess.run(["make", target, f"PYTHON={python}", f"BPY={bpy}"], env=environment).returncode
 
 
 def main():
-    """Do what the arguments ask for."""
+    """Print the fitting bpy, or with test-all run the tests; return the exit status."""
     if sys.argv[1:] == ["test-all"]:
         return test_all()
     print(bpy_for(sys.version_info[:2]) if importlib.util.find_spec("pip") else f"needs pip: {sys.executable} has none")

@@ -3,13 +3,13 @@
     python scripts/explain.py FILE.blend --pixel 120,80                                 with pip's bpy
     blender --background FILE.blend --python scripts/explain.py -- --pixel 120,80  inside Blender
 
-``python scripts/explain.py --help`` shows what else can be given.
+``python scripts/explain.py --help`` lists all options.
 """
 
 import os
 import sys
 
-sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))  # inside Blender it is not there
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))  # Blender does not add it
 
 import ends
 

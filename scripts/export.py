@@ -3,13 +3,13 @@
     python scripts/export.py FILE.blend --format colmap --cameras ALL --frames 1:24        with pip's bpy
     blender --background FILE.blend --python scripts/export.py -- --format json            inside Blender
 
-``python scripts/export.py --help`` shows what else can be given.
+``python scripts/export.py --help`` lists all options.
 """
 
 import os
 import sys
 
-sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))  # inside Blender it is not there
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))  # Blender does not add it
 
 import ends
 

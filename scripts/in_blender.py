@@ -1,4 +1,4 @@
-"""The benchmark's contenders inside Blender: its own ray cast in a Python loop, and Cycles at one sample a pixel."""
+"""The benchmark's contenders inside Blender: its own ray cast in a Python loop, and Cycles at one sample per pixel."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ from camera_ray_caster.core.cast import cast
 from camera_ray_caster.core.records import SPHERE
 
 LOOP_RAYS = 20_000
-"""Rays that the loops cast; their time is scaled to the picture. Rays are given: making them is not timed."""
+"""Number of rays in the loops; the time is scaled to the whole picture. The generation of rays is not timed."""
 
 
 def run(camera, shapes, passes, threads: int, rounds: int) -> list[dict]:
-    """Print and return milliseconds a picture, each of the others in turns with both of ours.
+    """Print and return milliseconds per picture; each contender of Blender takes turns with both of ours.
 
-    Ours are timed more often than the others: compare medians.
+    Ours are timed more often than the others, so compare medians.
     """
     scene = _scene(camera, shapes)
     rays = camera.rays()
@@ -36,7 +36,7 @@ def run(camera, shapes, passes, threads: int, rounds: int) -> list[dict]:
         return (perf_counter() - began) * pixels / LOOP_RAYS
 
     def keeping_loop():
-        """Lists that become arrays at the end take less time than arrays that are written ray by ray."""
+        """Collect lists and convert them to arrays at the end, which is faster than writing arrays ray by ray."""
         began = perf_counter()
         depth, normal, position, index = [], [], [], []
         for direction in directions:
@@ -91,7 +91,7 @@ def run(camera, shapes, passes, threads: int, rounds: int) -> list[dict]:
 
 
 def _scene(camera, shapes):
-    """Build the same scene of icospheres and a quad in Blender, with Cycles at one sample and the four passes."""
+    """Build the same scene in Blender from icospheres and a quad, with Cycles at one sample and the four passes."""
     bpy.ops.wm.read_factory_settings(use_empty=True)
     scene = bpy.context.scene
     bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=4, radius=1)

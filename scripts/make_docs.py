@@ -1,7 +1,7 @@
-"""Write the table of camera models from what they declare: addon/camera_ray_caster/core/cameras/README.md.
+"""Write the page of camera models, addon/camera_ray_caster/core/cameras/README.md, from the models' declarations.
 
     python scripts/make_docs.py
-    python scripts/make_docs.py --check    # writes nothing; exit status 1 where the table is not up to date
+    python scripts/make_docs.py --check    # writes nothing; exit status 1 if the page is not up to date
 
 Needs numpy only.
 """
@@ -9,7 +9,7 @@ Needs numpy only.
 from __future__ import annotations
 
 if __name__ == "__main__":
-    import ends  # it lies beside this file
+    import ends  # in this folder
 
     ends.begin(__file__)
 
@@ -47,7 +47,7 @@ COLUMNS = "| setting | unit | range | default | |\n|---|---|---|---|---|\n"
 
 
 def page() -> str:
-    """Return the page: a section for each group of models, and one for the times of pixels."""
+    """Return the page: a section for each group of models, and a section for pixel times."""
     groups = {group: [model for model in MODELS if model.group == group] for group in GROUPS}
     sections = [f"\n## {group}\n" + "".join(map(section, models)) for group, models in groups.items() if models]
     items = {item.key: item for item in pixel_time.MODE.items}
@@ -59,7 +59,7 @@ def page() -> str:
 
 
 def section(model: type[Model]) -> str:
-    """Return what a model says of itself: its description, assumption, settings and formula."""
+    """Return the section of a model: its description, assumption, settings and formula."""
     steps = "\n".join(f"* {step.words}: `{step.symbols}`" for step in model.FORMULA)
     file = Path(inspect.getfile(model)).name
     return f"""
@@ -72,14 +72,14 @@ def section(model: type[Model]) -> str:
 
 
 def assumption(model: type[Model]) -> str:
-    """Return the assumption that the docstring of the model's file states, in one line; "" where it states none."""
+    """Return the assumption stated in the docstring of the model's file, in one line, or "" if there is none."""
     text = inspect.getdoc(inspect.getmodule(model)) or ""
     found = re.search(r"^Assumption: (.+?)(?=^\w+: |^\s*$|\Z)", text, re.MULTILINE | re.DOTALL)
     return f" Assumption: {' '.join(found[1].split())}".replace("``", "`") if found else ""
 
 
 def table(settings: tuple[Setting, ...]) -> str:
-    """Return the rows of some settings; "" without any."""
+    """Return the table of the settings, or "" without settings."""
     return "\n" + COLUMNS + "".join(map(row, settings)) if settings else ""
 
 
@@ -91,7 +91,7 @@ def row(setting: Setting) -> str:
 
 
 def number(setting) -> tuple[str, str, str]:
-    """Return the unit, the range and the default of a number; a unit is not repeated in what follows it."""
+    """Return the unit, the range and the default of a number; degrees are named in the unit only."""
     ends = setting.low, setting.high
     span = "" if ends == (-math.inf, math.inf) else setting.range_in_words(*setting.limits(*ends))
     words = span, setting.in_words(float(setting.default))
@@ -99,7 +99,7 @@ def number(setting) -> tuple[str, str, str]:
 
 
 def choice(setting) -> tuple[str, str, str]:
-    """Return the same of a choice."""
+    """Return the unit, the range and the default of a choice."""
     return "", ", ".join(f"`{item.key}`" for item in setting.items), f"`{setting.default}`"
 
 
@@ -114,12 +114,12 @@ KINDS = {
     "OBJECT": lambda setting: ("", " or ".join(setting.types).lower(), "none"),
     "IMAGE": lambda setting: ("", "an image", "none"),
 }
-"""Unit, range and default of each kind of setting, in words."""
+"""Functions that return the unit, the range and the default in words, by kind of setting."""
 
 
 def main() -> int | str:
-    """Write the page, or say that it is not up to date."""
-    from arguments import Parser  # it lies beside this file
+    """Write the page, or with --check return an error message if it is not up to date."""
+    from arguments import Parser  # in this folder
 
     parser = Parser(prog="make_docs.py", description=__doc__.splitlines()[0])
     parser.add_argument("--check", action="store_true", help="write nothing; exit status 1 if it is not up to date")

@@ -1,7 +1,7 @@
-"""Make the images of the extension's page, in listing/; the project's README shows some of them, too.
+"""Make the images of the extension's page in listing/; the project's README also shows some of them.
 
-    python scripts/make_listing.py                    icon and featured image, of scenes of blend_scenes/
-    python scripts/make_listing.py --windows FOLDER   screenshots and the animated picture, of the tests in a window
+    python scripts/make_listing.py                    icon and featured image, from scenes of blend_scenes/
+    python scripts/make_listing.py --windows FOLDER   screenshots and the animated picture, from the tests in a window
 
 The tests in a window (`make test-blender`) leave their screenshots in out/gui. Needs pip's bpy, and Pillow, which comes
 with Matplotlib.
@@ -10,7 +10,7 @@ with Matplotlib.
 from __future__ import annotations
 
 if __name__ == "__main__":
-    import ends  # it lies beside this file
+    import ends  # in this folder
 
     ends.begin(__file__)
 
@@ -31,7 +31,7 @@ import camera_ray_caster as crc  # noqa: E402  (found by the line above)
 SCENES, FOLDER = ROOT / "blend_scenes", ROOT / "listing"
 
 ICON = "rotunda_fisheye", 256
-"""The scene, and pixels to a side."""
+"""Scene of the icon, and its side in pixels."""
 FEATURED = (
     ("rotunda_fisheye", 0, 0, 540, 540),
     ("sculpture_garden", 540, 0, 840, 540),
@@ -42,16 +42,16 @@ FEATURED = (
 """Scene, left, top, width and height of each picture in the featured image."""
 SIZE, GROUND = (1920, 1080), (29, 29, 29)
 SAMPLES = 6
-"""Rays a pixel."""
+"""Rays per pixel."""
 
 SCREENSHOTS = {"overlay": "sidebar_and_overlay", "step_through": "lesson_03", "gallery": "gallery"}
-"""Names in listing/, and in the folder of a window's screenshots."""
+"""Names in the folder of screenshots, by name in listing/."""
 STILLS, STILL, TURN = 4, 1600, 250
-"""Frames of the animated picture before the view turns; milliseconds of these and the last, and of the others."""
+"""Number of frames before the view turns; milliseconds of these frames and the last, and of the other frames."""
 
 
 def picture(scene: str, width: int, height: int) -> Image.Image:
-    """Return a scene of the gallery as its camera sees it, transparent where a pixel has no ray."""
+    """Return the picture of a scene of the gallery, transparent where a pixel has no ray."""
     bpy.ops.wm.open_mainfile(filepath=str(SCENES / f"{scene}.blend"))
     current = bpy.context.scene
     current.render.resolution_x, current.render.resolution_y = width, height
@@ -62,12 +62,12 @@ def picture(scene: str, width: int, height: int) -> Image.Image:
 
 
 def encoded(linear: np.ndarray) -> np.ndarray:
-    """Return linear light as sRGB has it. Source: IEC 61966-2-1."""
+    """Return linear light encoded as sRGB. Source: IEC 61966-2-1."""
     return np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * np.maximum(linear, 0) ** (1 / 2.4) - 0.055)
 
 
 def featured() -> Image.Image:
-    """Return scenes of the gallery through several cameras, side by side."""
+    """Return the featured image: scenes of the gallery through several cameras, side by side."""
     whole = Image.new("RGB", SIZE, GROUND)
     for scene, left, top, width, height in FEATURED:
         part = picture(scene, width, height)
@@ -76,7 +76,7 @@ def featured() -> Image.Image:
 
 
 def few_colors(images: list[Image.Image]) -> list[Image.Image]:
-    """Return screenshots with one palette for all, which take a fraction of the bytes."""
+    """Return screenshots with one common palette, to reduce the file size."""
     width, height = images[0].size
     together = Image.new("RGB", (width, height * len(images)))
     for i, image in enumerate(images):
@@ -86,14 +86,14 @@ def few_colors(images: list[Image.Image]) -> list[Image.Image]:
 
 
 def lesson(windows: Path) -> None:
-    """Write the animated picture of Step Through from its screenshots."""
+    """Write the animated picture of the Step Through operator from its screenshots."""
     first, *others = few_colors([Image.open(path) for path in sorted(windows.glob("lesson_*.png"))])
     shown = [STILL] * STILLS + [TURN] * (len(others) - STILLS) + [STILL]
     first.save(FOLDER / "step_through.gif", save_all=True, append_images=others, duration=shown, loop=0)
 
 
 def main() -> int:
-    """Make them, and return 0."""
+    """Make the images and return 0."""
     parser = Parser(prog="make_listing.py", description=__doc__, formatter_class=RawDescriptionHelpFormatter)
     parser.add_argument("--windows", type=Path, metavar="FOLDER", help="screenshots of the window's tests: out/gui")
     windows = parser.parse_args().windows

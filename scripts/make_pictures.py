@@ -1,9 +1,10 @@
-"""Make the gallery's pictures: each is what the terminal casts of a scene of blend_scenes/.
+"""Make the gallery's pictures with the terminal command, from the scenes of blend_scenes/.
 
     python scripts/make_pictures.py            all of them
     python scripts/make_pictures.py NAME ...   only these, for example fisheye_stereographic
 
-A name that ends in _by_cycles is that of Cycles' picture of the same scene through the same camera, with its light.
+A name that ends in _by_cycles means the picture that Cycles renders of the same scene through the same camera, with
+Cycles' lighting.
 
 Needs pip's bpy.
 """
@@ -11,7 +12,7 @@ Needs pip's bpy.
 from __future__ import annotations
 
 if __name__ == "__main__":
-    import ends  # it lies beside this file
+    import ends  # in this folder
 
     ends.begin(__file__)
 
@@ -50,9 +51,9 @@ def make_picture(name: str) -> int:
 
 
 def without_text(png: bytes) -> bytes:
-    """Return a PNG file without its text chunks: Blender notes there where the file lay and when it was made.
+    """Return a PNG file without its text chunks, in which Blender writes the file's path and date.
 
-    Source: PNG Specification, section 5: an 8 byte signature, then chunks of length, type, data and checksum.
+    Source: PNG Specification, section 5: an 8-byte signature, then chunks of length, type, data and checksum.
     """
     kept, at = [png[:8]], 8
     while at < len(png):
@@ -64,13 +65,13 @@ def without_text(png: bytes) -> bytes:
 
 
 def main() -> int:
-    """Make the pictures that are named, or all; stop at the first that fails."""
+    """Make the named pictures, or all; stop at the first failure and return its exit status."""
     parser = Parser(prog="make_pictures.py", description=__doc__, formatter_class=RawDescriptionHelpFormatter)
     parser.add_argument("names", metavar="NAME", nargs="*", help=", ".join(NAMES))
     names = parser.parse_args().names or NAMES
     if unknown := [name for name in names if name not in NAMES]:
         parser.error(f"no picture is called {', '.join(unknown)}: choose from {', '.join(NAMES)}")
-    listen(signal.default_int_handler)  # there will be a folder to clear up
+    listen(signal.default_int_handler)  # so that temporary folders are removed
     return next((status for status in map(make_picture, names) if status), 0)
 
 

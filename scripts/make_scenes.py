@@ -1,15 +1,15 @@
-"""Make the example scenes from code: every .blend in blend_scenes/ and the README that lists them.
+"""Make the example scenes by code: every .blend in blend_scenes/, and the README that lists them.
 
     python scripts/make_scenes.py            all of them
     python scripts/make_scenes.py NAME ...   only these, for example spheres_and_planes
 
-Needs pip's bpy. Run it with bpy 4.5, the oldest that is supported: newer ones open what it writes.
+Needs pip's bpy. Run it with bpy 4.5, the oldest supported version: newer versions can open its files.
 """
 
 from __future__ import annotations
 
 if __name__ == "__main__":
-    import ends  # it lies beside this file
+    import ends  # in this folder
 
     ends.begin(__file__)
 
@@ -34,30 +34,34 @@ import camera_ray_caster  # noqa: E402  (found by the line above)
 README = """\
 # Example scenes
 
-To look at one: `python scripts/cast.py blend_scenes/NAME.blend --output out`
+This command casts the picture of a scene: `python scripts/cast.py blend_scenes/NAME.blend --output out`
 
 ## Gallery
 
-What each camera does, in the program's own pictures: places full of meshes in the colors of their materials, then, with
-the grid shading, mostly one room, six meters high with cells of half a meter, so that cameras can be compared. Where a
-camera has no ray, a picture is transparent.
+These pictures are made by the add-on and show what each camera does. The scenes in the first group are places full of
+meshes, in the colors of their materials. The other groups use the grid shading and mostly show the same room, so that
+cameras can be compared. The room is six meters high, and its grid cells are half a meter wide. A picture is transparent
+where the camera has no ray.
 {gallery}
 ### By Cycles, through the same cameras
 
-Ours on the left, one ray to the nearest surface; on the right Cycles' picture of the same rays, with shadows and
-reflected light: `python scripts/cast.py blend_scenes/NAME.blend --engine CYCLES --samples 12`
+The add-on's picture on the left shows the nearest surface that each ray hits. The picture on the right is rendered by
+Cycles along the same rays, with shadows and reflected light, by this command:
+`python scripts/cast.py blend_scenes/NAME.blend --engine CYCLES --samples 12`
 
 | | |
 |---|---|
 {by_cycles}
 
-## Small scenes, each hard for a ray caster in one way
+## Small scenes
+
+Each of these scenes is difficult for a ray caster in one way. The picture shows the first one.
 
 <img src="pictures/spheres_and_planes.png" width="480" alt="spheres, ellipsoids, a ring of points and walls">
 
 {examples}
 
-All of them are made by `python scripts/make_scenes.py`, and this page with them; the pictures by
+All scenes and this page are made by `python scripts/make_scenes.py`, and the pictures by
 `python scripts/make_pictures.py`.
 """
 
@@ -78,12 +82,17 @@ BOTH = (
 )
 
 
+def caption(make) -> str:
+    """Return the docstring of a scene's function as one line."""
+    return " ".join(make.__doc__.split())
+
+
 def readme() -> str:
-    """Return the page that lists the scenes, each by its docstring."""
-    examples = "\n".join(f"* `{name}.blend`: {make.__doc__}" for name, make in EXAMPLES.items())
+    """Return the page that lists the scenes, with the docstrings of their functions as descriptions."""
+    examples = "\n".join(f"* `{name}.blend`: {caption(make)}" for name, make in EXAMPLES.items())
     gallery = "".join(
         GROUP.format(
-            title=title, rows="\n".join(ROW.format(name=name, line=make.__doc__) for name, make in group.items())
+            title=title, rows="\n".join(ROW.format(name=name, line=caption(make)) for name, make in group.items())
         )
         for title, group in GALLERY.items()
     )
@@ -92,9 +101,9 @@ def readme() -> str:
 
 
 def write_scene(name: str) -> None:
-    """Write blend_scenes/NAME.blend: whole or not at all."""
+    """Write blend_scenes/NAME.blend, completely or not at all."""
     bpy.ops.wm.read_factory_settings(use_empty=True)
-    # one workspace is enough, and Blender's file browsers would store the home folder
+    # keep one workspace: the file browsers in the others would store the home folder
     bpy.data.batch_remove([other for other in bpy.data.workspaces if other != bpy.context.window.workspace])
     for area in bpy.context.window.screen.areas:
         if area.type == "VIEW_3D":
@@ -110,7 +119,7 @@ def write_scene(name: str) -> None:
 
 
 def main(arguments: list[str] | None = None) -> None:
-    """Make the scenes that are named, or all."""
+    """Make the named scenes, or all, and the README."""
     parser = Parser(prog="make_scenes.py", description=__doc__, formatter_class=RawDescriptionHelpFormatter)
     parser.add_argument("names", metavar="NAME", nargs="*", help=", ".join(SCENES))
     names = parser.parse_args(arguments).names or list(SCENES)
@@ -118,7 +127,7 @@ def main(arguments: list[str] | None = None) -> None:
         parser.error(f"no scene is called {', '.join(unknown)}: choose from {', '.join(SCENES)}")
     (FOLDER / "README.md").write_text(readme(), encoding="utf-8")
 
-    listen(signal.default_int_handler)  # there will be folders to clear up
+    listen(signal.default_int_handler)  # so that temporary folders are removed
     camera_ray_caster.register()
     for name in names:
         write_scene(name)

@@ -3,13 +3,13 @@
     python scripts/make_zip.py            into dist/
     python scripts/make_zip.py FOLDER
 
-Needs pip's bpy, which brings Blender's own builder of extensions.
+Needs pip's bpy, which contains Blender's extension builder.
 """
 
 from __future__ import annotations
 
 if __name__ == "__main__":
-    import ends  # it lies beside this file
+    import ends  # in this folder
 
     ends.begin(__file__)
 
@@ -25,7 +25,7 @@ SCENES = ROOT / "blend_scenes"
 
 
 def stage(folder: Path) -> Path:
-    """Put what the extension holds into a folder that is not there yet, and return it."""
+    """Copy the content of the extension into a new folder, and return the folder."""
     shutil.copytree(ROOT / "addon" / "camera_ray_caster", folder, ignore=shutil.ignore_patterns("__pycache__"))
     shutil.copy(ROOT / "LICENSE", folder)
     pictures = folder / "gallery" / "pictures"
@@ -39,7 +39,7 @@ def stage(folder: Path) -> Path:
 
 
 def main() -> int:
-    """Build it, and return the exit status of Blender's builder."""
+    """Build the extension and return the exit status of Blender's builder."""
     import bpy
     from arguments import Parser
 

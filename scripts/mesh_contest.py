@@ -1,7 +1,7 @@
-"""The benchmark's contenders for triangle meshes: this caster, Mitsuba, Embree and Open3D see the same triangles.
+"""The benchmark's contenders for triangle meshes: this caster, Mitsuba, Embree and Open3D with the same triangles.
 
-The scenes are Blender's monkey, subdivided, before a wall, and a thousand of them that share one mesh. Others are given
-every triangle in the world's coordinates as float32; the time to build their scenes is told apart.
+The scenes are Blender's monkey, subdivided, in front of a wall, and a thousand monkeys that share one mesh. The other
+tracers get all triangles in world coordinates as float32; the time to build their scenes is shown separately.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from camera_ray_caster.blender.read.scene import read_camera, read_shapes
 from camera_ray_caster.core.records import MESH, Shapes
 
 LEVELS = (0, 2, 3, 4, 5)
-"""Of subdivision: 1k, 16k, 63k, 252k and 1M triangles."""
+"""Subdivision levels: 1k, 16k, 63k, 252k and 1M triangles."""
 
 CROWD = 1000
 PASSES = "depth", "normal", "position", "object_index"
@@ -27,7 +27,7 @@ MODELS_LEVEL = 3
 
 
 def scene(level: int, crowd: bool, width: int, height: int):
-    """Return camera and shapes of a monkey, or of a crowd of them, before a wall."""
+    """Return the camera and the shapes of a monkey, or of CROWD monkeys, in front of a wall."""
     import bpy
 
     bpy.ops.wm.read_factory_settings(use_empty=True)
@@ -59,7 +59,7 @@ def scene(level: int, crowd: bool, width: int, height: int):
 
 
 def triangles(shapes: Shapes) -> Iterator[tuple[np.ndarray, np.ndarray, np.ndarray | None]]:
-    """Yield vertices (v, 3) float32 in the world, triangles (k, 3) and vertex normals of each shape."""
+    """Yield the vertices, (v, 3) float32, world, triangles, (k, 3), and vertex normals or None of each shape."""
     for row in range(len(shapes)):
         axes, center = shapes.axes[row], shapes.center[row]
         if shapes.kind[row] != MESH:
@@ -76,7 +76,7 @@ def triangles(shapes: Shapes) -> Iterator[tuple[np.ndarray, np.ndarray, np.ndarr
 
 
 def mitsuba(aovs: str | None) -> Callable:
-    """Mitsuba 3 on its LLVM backend; see ``contenders.mitsuba``."""
+    """Return the contender of Mitsuba 3 on its LLVM backend; see ``contenders.mitsuba``."""
     import mitsuba as mi
 
     mi.set_variant("llvm_ad_rgb")
@@ -96,7 +96,7 @@ def mitsuba(aovs: str | None) -> Callable:
 
 
 def merged(shapes: Shapes) -> tuple[np.ndarray, np.ndarray]:
-    """Return all vertices (v, 3) float32 and triangles (k, 3) of a scene."""
+    """Return all vertices, (v, 3) float32, and triangles, (k, 3), of a scene."""
     places, corners, start = [], [], 0
     for own, three, _ in triangles(shapes):
         places.append(own)
@@ -106,7 +106,7 @@ def merged(shapes: Shapes) -> tuple[np.ndarray, np.ndarray]:
 
 
 def embree(camera, shapes) -> Callable:
-    """Embree by embreex: the distance of rays that are given."""
+    """Prepare Embree with embreex: distances along given rays."""
     from embreex.mesh_construction import TriangleMesh
     from embreex.rtcore_scene import EmbreeScene
 
@@ -120,7 +120,7 @@ def embree(camera, shapes) -> Callable:
 
 
 def open3d(threads: int) -> Callable:
-    """Open3D's RaycastingScene with all its outputs, rays given."""
+    """Return the contender of Open3D's RaycastingScene: all its outputs for given rays."""
 
     def prepare(camera, shapes):
         import open3d as o3d
@@ -137,7 +137,7 @@ def open3d(threads: int) -> Callable:
 
 
 def run(compare: Callable, quick: bool, width: int, height: int, rounds: int, threads: int) -> list[dict]:
-    """Print and return what ``compare`` tells of each scene."""
+    """Print and return the rows of ``compare`` for each scene."""
     rows = []
     for level in LEVELS[:2] if quick else (*LEVELS, None):
         camera, shapes = scene(level or 0, level is None, width, height)
@@ -161,7 +161,7 @@ def run(compare: Callable, quick: bool, width: int, height: int, rounds: int, th
 
 
 def _by_model(width: int, height: int, rounds: int, threads: int) -> list[dict]:
-    """Print and return how long other models take, in turns with the perspective: as the contract test has them."""
+    """Print and return the times of other camera models of the contract test, in turns with the perspective."""
     sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
     from tests.core.cameras.model_examples import camera as camera_of
 

@@ -1,5 +1,5 @@
-"""The benchmark's scaling: seconds and memory of a cast against shapes, the triangles of a mesh and pixels, as a table
-and a diagram.
+"""The benchmark of scaling: time and memory of a cast against the number of spheres, of triangles of a mesh and of
+pixels, as a table and a diagram.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ PASSES = ("depth", "shape_index")
 
 
 def run(rounds: int, threads: int, quick: bool) -> list[dict]:
-    """Print and return milliseconds and the largest memory beyond the pictures."""
+    """Print and return the milliseconds and the peak memory in addition to the pictures."""
     counts, triangles, sizes = (all_[: len(all_) // 2] if quick else all_ for all_ in (COUNTS, TRIANGLES, SIZES))
     cases = [("spheres", n, 1920, 1080, c.scene) for n in counts]
     cases += [("triangles", n, 1920, 1080, ring) for n in triangles]
@@ -52,7 +52,7 @@ def run(rounds: int, threads: int, quick: bool) -> list[dict]:
 
 
 def ring(count: int, width: int, height: int):
-    """Return a camera, and one mesh of ``count`` triangles, a ring that fills the picture's height, before a wall.
+    """Return a camera, and a wall behind one mesh of ``count`` triangles, a ring that fills the picture's height.
 
     ``count`` is 1,000 times a power of 4.
     """
@@ -74,7 +74,7 @@ def ring(count: int, width: int, height: int):
 
 
 def draw(rows: list[dict], path) -> None:
-    """Draw the milliseconds against each, beside straight lines."""
+    """Draw the milliseconds against each quantity, with lines of linear growth."""
     import matplotlib as mpl
 
     mpl.use("Agg")

@@ -1,16 +1,16 @@
-"""The extreme cases through other ray tracers: how many each gets right, and to which error.
+"""Compare other ray tracers on the extreme cases: how many cases each gets right, and with which error.
 
     python scripts/side_by_side.py                 prints a table in Markdown
-    python scripts/side_by_side.py --details       and what each tracer made of each case
-    python scripts/side_by_side.py planet lens     the cases with one of these in their names
+    python scripts/side_by_side.py --details       also prints the error of each tracer on each case
+    python scripts/side_by_side.py planet lens     only the cases with one of these words in their names
 
-Needs the packages of the ``test`` extra, bpy and those of the ``compare`` extra; of a tracer that is not installed the
-table says so. All get the same rays, the exact chief rays rounded to their own precision, but Cycles, which makes its
-own from the camera.
+Needs bpy and the packages of the extras ``test`` and ``compare``; the table marks tracers that are not installed. All
+tracers get the same rays, the exact chief rays rounded to the tracer's precision, except Cycles, which makes its own
+rays from the camera.
 """
 
 if __name__ == "__main__":
-    import ends  # it lies beside this file
+    import ends  # in this folder
 
     ends.begin(__file__)
 
@@ -33,8 +33,10 @@ def main() -> int:
         print(f"side_by_side.py: {missing}: install the packages of the test extra", file=sys.stderr)
         return 2
     parser = Parser(prog="side_by_side.py", description=__doc__.splitlines()[0])
-    parser.add_argument("cases", nargs="*", metavar="CASE", help="a part of the names of extreme cases; default: all")
-    parser.add_argument("--details", action="store_true", help="list each case")
+    parser.add_argument(
+        "cases", nargs="*", metavar="CASE", help="part of the name of extreme cases; default: all cases"
+    )
+    parser.add_argument("--details", action="store_true", help="list every case")
     options = parser.parse_args()
     names, found = comparison.compared(words.cases_named(parser, options.cases))
     print(comparison.table(names, found))

@@ -3,13 +3,13 @@
     python scripts/to_cycles.py FILE.blend --output COPY.blend                        with pip's bpy
     blender --background FILE.blend --python scripts/to_cycles.py -- --output COPY.blend  inside Blender
 
-``python scripts/to_cycles.py --help`` shows what else can be given.
+``python scripts/to_cycles.py --help`` lists all options.
 """
 
 import os
 import sys
 
-sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))  # inside Blender it is not there
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))  # Blender does not add it
 
 import ends
 

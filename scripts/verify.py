@@ -1,15 +1,15 @@
-"""Hold the rays of a .blend's camera against Blender's own frame.
+"""Compare the rays of a .blend's camera with Blender's own frame.
 
     python scripts/verify.py FILE.blend                                      with pip's bpy
     blender --background FILE.blend --python scripts/verify.py -- --frame 1  inside Blender
 
-``python scripts/verify.py --help`` shows what else can be given.
+``python scripts/verify.py --help`` lists all options.
 """
 
 import os
 import sys
 
-sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))  # inside Blender it is not there
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))  # Blender does not add it
 
 import ends
 

@@ -1,14 +1,14 @@
-"""Error against run time: every method on each scene, held against the exact picture of 60 digits.
+"""Measure error against run time: every method on each scene, compared with the exact picture of 60 digits.
 
     python scripts/work_precision.py                        the chosen extreme cases, and the diagram
-    python scripts/work_precision.py FILE.blend planet      a file's camera and shapes; the cases with this in the name
-    python scripts/work_precision.py --only samples         one family of methods, on scenes of its own
+    python scripts/work_precision.py FILE.blend planet      a file's camera and shapes, and the cases named "planet"
+    python scripts/work_precision.py --only samples         one family of methods, on its own scenes
 
-Needs the packages of the ``test`` extra. Writes work_precision.json, .svg and .png into --output; prints the tables.
+Needs the packages of the ``test`` extra. Writes work_precision.json, .svg and .png into --output, and prints tables.
 """
 
 if __name__ == "__main__":
-    import ends  # it lies beside this file
+    import ends  # in this folder
 
     ends.begin(__file__)
 
@@ -22,7 +22,7 @@ sys.path[:0] = [str(ROOT / "addon"), str(ROOT), str(ROOT / "scripts")]
 
 
 def main() -> int:
-    """Run, print and write; return the exit status."""
+    """Measure, write the files and print the tables; return the exit status."""
     try:
         from arguments import Parser
         from precision import arithmetic, diagram, effort, words
@@ -33,8 +33,10 @@ def main() -> int:
     from camera_ray_caster.core.records import InputError
 
     parser = Parser(prog="work_precision.py", description=__doc__.splitlines()[0])
-    parser.add_argument("scenes", nargs="*", metavar="SCENE", help="a .blend, or a part of the names of extreme cases")
-    parser.add_argument("--only", choices=["arithmetic", *effort.FAMILIES], help="one family of methods; default: all")
+    parser.add_argument("scenes", nargs="*", metavar="SCENE", help=".blend file, or part of the name of extreme cases")
+    parser.add_argument(
+        "--only", choices=["arithmetic", *effort.FAMILIES], help="family of methods; default: all families"
+    )
     parser.add_argument("--output", type=Path, default=Path("out"), metavar="FOLDER", help="default: %(default)s")
     options = parser.parse_args()
     files = [name for name in options.scenes if name.endswith(".blend")]
@@ -65,7 +67,7 @@ def main() -> int:
 
 
 def _read(path):
-    """Return the camera of a file, as Blender has it but in a small picture, and its shapes."""
+    """Return the camera record of a file, reduced to a small picture, and its shapes."""
     from camera_ray_caster.core.records import InputError
 
     try:

@@ -5,8 +5,8 @@
     camera = crc.read_camera(bpy.context.scene)
     images = crc.cast(camera, crc.read_shapes(bpy.context.scene), passes=("depth", "normal"))
 
-``register`` is for Blender's interface and engine; reading and casting do not need it. Each name is imported when it is
-asked for, so that ``core`` runs where no Blender is installed.
+``register`` adds the interface and the engine to Blender; reading and casting do not need it. Each name is imported on
+first access, so that ``core`` runs without Blender.
 """
 
 from importlib import import_module
@@ -34,7 +34,7 @@ _MODULES = {
     "read_shapes": ".blender.read",
     "visible": ".core.casting.visibility",
 }
-"""Where each name is."""
+"""Module of each public name."""
 
 
 def __getattr__(name: str):
@@ -44,14 +44,14 @@ def __getattr__(name: str):
 
 
 def register() -> None:
-    """Add the engine, operators, panels and properties to Blender; nothing where they are there."""
+    """Add the engine, operators, panels and properties to Blender; do nothing if they are registered already."""
     from .blender import registration
 
     registration.register()
 
 
 def unregister() -> None:
-    """Take back all that ``register`` added."""
+    """Remove everything that ``register`` added."""
     from .blender import registration
 
     registration.unregister()

@@ -1,1 +1,1 @@
-"""Error against run time: the methods of the work-precision run, and how they are shown. Each gives ``Point``s."""
+"""Error against run time: the methods of the work-precision run, each measured as ``Point``s, and their display."""

@@ -1,4 +1,4 @@
-"""Textbook and robust arithmetic in float32 and float64, against the exact picture, without culling, on one thread."""
+"""Textbook and robust arithmetic in float32 and float64, compared with the exact picture; no culling, one thread."""
 
 from dataclasses import replace
 
@@ -15,10 +15,10 @@ from camera_ray_caster.core.shapes.in_camera import in_camera
 from .points import Point, timed
 
 SIDE = 320
-"""Pixels along each side of the pictures that are timed."""
+"""Width and height of the timed pictures, in pixels."""
 
 COMPARED = 64
-"""Pixels that are held against the exact picture."""
+"""Number of pixels that are compared with the exact picture."""
 
 METHODS = ("float32 textbook", "float32 robust", "float64 textbook", "float64 robust")
 
@@ -35,7 +35,7 @@ DEFAULT = [EVERYDAY, *FAR, *(next(case for case in CASES if case.name == name) f
 
 
 def textbook(camera, shapes, real):
-    """Return distances and shape indices by the quadratic formula and t = -N_z / D_z, calculated in ``real``."""
+    """Return distances and shape indices by the quadratic formula and t = -o_z / d_z, in the float type ``real``."""
     rays = camera.rays()
     origins, directions = (a.reshape(-1, 3).astype(real) for a in (rays.origins, rays.directions))
     distance, index = np.full(len(directions), real(camera.clip_end)), np.full(len(directions), -1)
@@ -58,25 +58,25 @@ def textbook(camera, shapes, real):
 
 
 def caster(camera, shapes, precision):
-    """Return what the caster finds."""
+    """Return distances and shape indices by this caster."""
     images = cast(camera, shapes, ("distance", "shape_index"), np.float64, precision=precision, cull=False, threads=1)
     return images["distance"], images["shape_index"]
 
 
 def small(raw):
-    """Return a camera with a picture of about SIDE x SIDE pixels at most, of the same shape."""
+    """Return a camera whose picture has about SIDE x SIDE pixels at most, with the same aspect ratio."""
     fraction = SIDE / (raw.resolution_x * raw.resolution_y) ** 0.5
     return replace(raw, resolution_percentage=max(1, min(raw.resolution_percentage, int(100 * fraction))))
 
 
 def measure(case) -> list[Point]:
-    """Return a point a method for an extreme case at SIDE x SIDE pixels."""
+    """Return a point per method for an extreme case at SIDE x SIDE pixels."""
     raw = replace(case.raw, resolution_x=SIDE, resolution_y=SIDE)
     return measured(case.name, raw, case.shapes)
 
 
 def measured(name, raw, shapes) -> list[Point]:
-    """Return a point a method for a camera, as Blender has it, and shapes."""
+    """Return a point per method for a camera record of Blender and shapes."""
     camera = camera_from(raw)
     runs = [
         lambda: textbook(camera, shapes, np.float32),
@@ -103,7 +103,7 @@ def measured(name, raw, shapes) -> list[Point]:
 
 
 def _exact(raw, camera, shapes):
-    """Yield pixels spread over the picture with their exact hits, those left out that no rounding decides."""
+    """Yield (pixel, exact hit) for pixels spread over the picture; pixels that rounding could decide are left out."""
     height, width = camera.raster.shape
     placed = in_camera(shapes, camera.pose)
     flat = np.unique(np.linspace(0, height * width - 1, COMPARED).round().astype(int))

@@ -1,4 +1,4 @@
-"""The extreme cases through every tracer: its errors against the exact picture, and the table of them."""
+"""The extreme cases in every tracer: errors compared with the exact picture, and their table."""
 
 import sys
 
@@ -15,7 +15,7 @@ PIXELS = 25
 
 
 def rays_of(case):
-    """Return the exact rays of a case's pixels that no rounding of float64 decides, and their exact distances."""
+    """Return the exact rays and distances of a case's pixels, without pixels that rounding in float64 could decide."""
     camera, shapes = case.camera, case.shapes
     height, width = camera.raster.shape
     placed = in_camera(shapes, camera.pose)
@@ -37,7 +37,7 @@ def rays_of(case):
 
 
 def error_of(found, exact) -> float:
-    """Return the worst relative error of the distances; inf where a hit or a miss is wrong."""
+    """Return the worst relative error of the distances, or inf if any hit or miss is wrong."""
     if (np.isinf(found) != np.isinf(exact)).any():
         return np.inf
     hit = np.isfinite(exact)
@@ -45,7 +45,7 @@ def error_of(found, exact) -> float:
 
 
 def judged(tracer, case, given, exact):
-    """Return the error of a tracer on a case; None where it cannot be set up."""
+    """Return the error of a tracer on a case, or None if the case cannot be set up."""
     with np.errstate(all="ignore"):
         try:
             found = tracer(case, given)
@@ -56,9 +56,9 @@ def judged(tracer, case, given, exact):
 
 
 def compared(cases):
-    """Return the names of the cases that have decided pixels, and for each tracer its errors on them.
+    """Return the names of the cases with decided pixels, and each tracer's errors on these cases.
 
-    In place of the errors of a tracer that is not installed stands what is missing.
+    For a tracer that is not installed, a message with the missing package replaces the errors.
     """
     given = [(case, *rays_of(case)) for case in cases]
     given = [(case, rays, exact) for case, rays, exact in given if rays.pixels]
@@ -72,7 +72,7 @@ def compared(cases):
 
 
 def table(names, found) -> str:
-    """Return the table in Markdown: how many cases each tracer gets right, and to which error."""
+    """Return a Markdown table of the number of cases that each tracer gets right, by error limit."""
     to = (f"and distances to {limit:g}" for limit in LIMITS)
     heads = (f"of {len(names)} extreme cases", "can be set up", "every hit and miss right", *to, "their median error")
     lines = ["| " + " | ".join(heads) + " |", "|---" * len(heads) + "|"]
@@ -89,7 +89,7 @@ def table(names, found) -> str:
 
 
 def details(names, found) -> str:
-    """Return what each tracer made of each case: its worst error, inf where a hit or a miss is wrong."""
+    """Return a Markdown table of each tracer's worst error on each case; inf if any hit or miss is wrong."""
     lines = ["| case | " + " | ".join(found) + " |", "|---" * (len(found) + 1) + "|"]
     for k, name in enumerate(names):
         cells = (errors if isinstance(errors, str) else _cell(errors[k]) for errors in found.values())

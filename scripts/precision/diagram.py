@@ -1,4 +1,4 @@
-"""The work-precision diagram and the table."""
+"""The work-precision diagram and its tables."""
 
 from pathlib import Path
 
@@ -26,7 +26,7 @@ TITLES = {
 
 
 def draw(points, stem: Path) -> None:
-    """Write stem.svg and stem.png: error over time, log-log, a curve a method."""
+    """Write stem.svg and stem.png: error over time, log-log, with a curve or markers per method."""
     plt.rcParams |= {"font.size": 9, "axes.spines.top": False, "axes.spines.right": False, "svg.fonttype": "none"}
     present = [family for family in TITLES if any(p.family == family for p in points)]
     pairs = [present[i : i + 2] for i in range(0, len(present), 2)]
@@ -44,7 +44,7 @@ def draw(points, stem: Path) -> None:
         _curves(axes[family], [p for p in points if p.family == family], *TITLES[family])
     for axis in figure.axes:
         low, high = axis.get_xlim()
-        if high < 30 * low:  # too few powers of ten to read a time by
+        if high < 30 * low:  # too few powers of ten on the axis
             axis.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
             axis.xaxis.set_major_formatter(StrMethodFormatter("{x:,.0f}"))
         axis.xaxis.set_minor_formatter(NullFormatter())
@@ -90,7 +90,7 @@ def _curves(axis, points, title, label):
 
 
 def table(points) -> str:
-    """Return the arithmetic's points as a Markdown table: worst relative error and ms per million rays a method."""
+    """Return the arithmetic points as a Markdown table: median / worst relative error, and ms per million rays."""
     if all(p.family != "arithmetic" for p in points):
         return ""
     lines = ["| scene | " + " | ".join(METHODS) + " | cheapest below 1e-12 |", "|---|" + "---|" * (len(METHODS) + 1)]

@@ -1,4 +1,4 @@
-"""Methods that buy precision with effort: samples, evaluations in time, Newton steps, pixels that are verified."""
+"""Methods whose precision depends on their effort: samples, evaluations in time, Newton steps, verified pixels."""
 
 from dataclasses import replace
 from functools import partial
@@ -23,11 +23,11 @@ SAMPLES = (1, 4, 16, 64, 256)
 REFERENCE = 2048
 TOLERANCES = (1.0, 0.03, 0.01, 1e-3)
 FAULT = 0.5
-"""Pixels by which the faulty camera's rays are wrong in the middle of its fault."""
+"""Maximum error of the faulty camera's rays, in pixels."""
 
 
 def sampled() -> list[Point]:
-    """Thin lens and camera obscura: samples against a picture of REFERENCE samples."""
+    """Measure thin lens and camera obscura by number of samples, compared with a picture of REFERENCE samples."""
     lens = replace(Case("", "", [], SMALL).camera, aperture=Aperture(0.05, 5.0))
     obscura = example("CAMERA_OBSCURA", {"resolution_x": 48, "resolution_y": 48, "obscura_hole": 0.05, "clip_end": 1e3})
     found = []
@@ -48,12 +48,12 @@ def _picture(camera, shapes, samples):
 
 
 def _mean_square(error) -> float:
-    """Half of the pixels see no edge, and their median error is none: the root of the mean square instead."""
+    """Return the root mean square error. The median would be 0, since half of the pixels show no edge."""
     return float(np.sqrt((error * error).mean()))
 
 
 def evaluated() -> list[Point]:
-    """Slit scan: a camera that swings to and fro on a curve, evaluated as often as the tolerance asks."""
+    """Measure a slit scan with a swinging camera on a curve, evaluated as often as each tolerance requires."""
     still, shapes = Case("", "", [], SMALL).camera, shapes_of(STILL)
 
     def evaluate(frame):
@@ -79,7 +79,7 @@ def evaluated() -> list[Point]:
 
 
 def stepped() -> list[Point]:
-    """Newton's method on theta = r + r^3 / 10: steps from the angle itself, and the table with its one step."""
+    """Measure Newton's method for theta = r + r^3 / 10: steps from r = theta, and the table with one step."""
     exact = np.linspace(1e-3, 1.2, 200_000)
     target = exact + exact**3 / 10
 
@@ -101,7 +101,7 @@ def stepped() -> list[Point]:
 
 
 class Faulty:
-    """A camera whose rays are up to FAULT pixels off around one place of the picture."""
+    """A camera whose rays are up to FAULT pixels off around one position in the picture."""
 
     def __init__(self, camera):
         self.camera, self.raster, self.pose = camera, camera.raster, camera.pose
@@ -109,14 +109,14 @@ class Faulty:
         self.formula_reach = camera.formula_reach
 
     def rays_at(self, x, y):
-        """Return the bent rays."""
+        """Return the displaced rays."""
         width, height = self.raster.width, self.raster.height
         away = ((x - 0.62 * width) / (0.1 * width)) ** 2 + ((y - 0.36 * height) / (0.1 * height)) ** 2
         return self.camera.rays_at(x + FAULT * np.exp(-away), y)
 
 
 def verified() -> list[Point]:
-    """Verification: how much of a fault of FAULT pixels is not seen by corners, grids and every pixel."""
+    """Measure the part of a fault of FAULT pixels that verification misses: corners, grids and every pixel."""
     side = 256
     camera = Faulty(Case("", "", [], SMALL | {"resolution_x": side, "resolution_y": side}).camera)
     grids = (2, 9, 33, 65, side)
@@ -130,4 +130,4 @@ def verified() -> list[Point]:
 
 
 FAMILIES = {"samples": sampled, "time": evaluated, "inverse": stepped, "verification": verified}
-"""What measures each family of points, on scenes of its own."""
+"""Functions that measure each family of points, on its own scenes."""

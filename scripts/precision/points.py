@@ -1,4 +1,4 @@
-"""What is measured of a method on a scene, and how its time is taken."""
+"""Measurements of a method on a scene, and the timing."""
 
 from dataclasses import dataclass
 from statistics import median
@@ -9,7 +9,7 @@ REPEATS = 7
 
 @dataclass(frozen=True)
 class Point:
-    """One method on one scene: an error with its unit, and what a million of its rays (or pixels) cost."""
+    """One method on one scene: an error with its unit, and the time per million rays (or pixels)."""
 
     family: str
     scene: str
@@ -18,16 +18,16 @@ class Point:
     worst_error: float
     unit: str
     seconds: float
-    """Per million, of the fastest of several runs: the others waited for something."""
+    """Seconds per million, of the fastest of several runs: the other runs were delayed by the machine."""
     spread: float
-    """The median run over the fastest."""
+    """Ratio of the median run's time to the fastest run's time."""
     wrong: int = 0
-    """Hits and misses that are not the exact ones."""
+    """Number of pixels whose hit or miss is wrong."""
     compared: int = 0
 
 
 def timed(runs, counts):
-    """Run functions alternately; return each one's result, seconds per million and spread, by the counts they make."""
+    """Run functions alternately; return the result, seconds per million and spread of each, by its count of items."""
     results, seconds = [run() for run in runs], [[] for _ in runs]
     for _ in range(REPEATS):
         for run, spent in zip(runs, seconds, strict=True):

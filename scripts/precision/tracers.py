@@ -1,8 +1,8 @@
-"""Other ray tracers, each given the same rays and shapes: what distance they find. Test-only packages.
+"""Distances found by other ray tracers for the same rays and shapes. Their packages are used for tests only.
 
-A tracer is a function of (case, rays) that returns distances, (n,) float64, inf for a miss; None where the case cannot
-be set up in it. Where a tracer has no ellipsoid, it sees an icosphere of 5120 triangles; where it has no infinite
-plane, a square of 1e6 times the distance.
+A tracer is a function of (case, rays) that returns distances, (n,) float64, with inf for a miss, or None if the case
+cannot be set up. A tracer without ellipsoids gets an icosphere of 5120 triangles, and a tracer without infinite planes
+a square of 1e6 times the distance.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from camera_ray_caster.core.records import INFINITE_PLANE, SPHERE
 SQUARE = np.array([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]], float), np.array([[0, 1, 2], [0, 2, 3]])
 ENDLESS = 1e6
 BOUND = 1e-5
-"""How much a camera setting may change where Blender stores it."""
+"""Maximum relative change of a camera setting when Blender stores it."""
 
 
 @dataclass(frozen=True)
@@ -27,22 +27,22 @@ class Given:
     """Chief rays through some pixels."""
 
     pixels: list
-    """(row, column) in the render window."""
+    """(row, column) of each pixel in the render window."""
     origins: np.ndarray
-    """(n, 3)."""
+    """Origins of the rays, (n, 3)."""
     directions: np.ndarray
-    """(n, 3), unit."""
+    """Unit directions of the rays, (n, 3)."""
     start: np.ndarray
-    """(n,) distances before which nothing counts: the clip start."""
+    """Distances of the near clip plane along the rays, (n,); nearer hits do not count."""
 
     @property
     def begun(self) -> np.ndarray:
-        """Where the rays are at ``start``, for tracers that know no clip start."""
+        """Points of the rays at ``start``, for tracers without a near clip plane."""
         return self.origins + self.start[:, None] * self.directions
 
 
 def triangles(shapes, k, origin):
-    """Return vertices and faces of shape k in its own frame, and its axes."""
+    """Return the vertices and faces of shape k in its own frame, and its axes."""
     import trimesh
 
     axes = shapes.axes[k]
@@ -63,13 +63,13 @@ def meshes(case, given):
 
 
 def ours(case, given):
-    """This caster."""
+    """Return the distances by this caster."""
     distance = cast(case.camera, case.shapes, ("distance",), np.float64)["distance"]
     return np.array([distance[pixel] for pixel in given.pixels])
 
 
 def embree(case, given):
-    """Embree 4 by embreex: triangles, float32."""
+    """Return the distances by Embree 4 with embreex: triangles, float32."""
     from embreex.mesh_construction import TriangleMesh
     from embreex.rtcore_scene import EmbreeScene
 
@@ -82,7 +82,7 @@ def embree(case, given):
 
 
 def mitsuba(case, given):
-    """Mitsuba 3, llvm_ad_rgb: true spheres where they are round, float32."""
+    """Return the distances by Mitsuba 3, llvm_ad_rgb: exact spheres for round spheres, otherwise triangles, float32."""
     import mitsuba as mi
     import trimesh
 
@@ -105,7 +105,7 @@ def mitsuba(case, given):
 
 
 def ray_cast(case, given):
-    """Blender's scene.ray_cast: triangles, float32."""
+    """Return the distances by Blender's scene.ray_cast: triangles, float32."""
     import bpy
 
     build(case, given)
@@ -118,7 +118,7 @@ def ray_cast(case, given):
 
 
 def cycles(case, given):
-    """Cycles with one sample a pixel: its own camera, triangles, float32."""
+    """Return the distances by Cycles with one sample per pixel: its own camera, triangles, float32."""
     import bpy
     from tests.blender.cycles.cycles import cycles_surface
 
@@ -133,7 +133,7 @@ def cycles(case, given):
 
 
 def build(case, given) -> None:
-    """Make an empty Blender file with a mesh object a shape, its matrix the shape's."""
+    """Make an empty Blender file with a mesh object for each shape, with the shape's matrix."""
     import bpy
     from mathutils import Matrix
 
@@ -146,12 +146,12 @@ def build(case, given) -> None:
         bpy.context.scene.collection.objects.link(item)
         matrix = np.eye(4)
         matrix[:3, :3], matrix[:3, 3] = axes, case.shapes.center[k]
-        item.matrix_world = Matrix(matrix)  # lists it would take by columns
+        item.matrix_world = Matrix(matrix)  # Blender would read a list of lists by columns
     bpy.context.view_layer.update()
 
 
 def set_camera(scene, raw) -> bool:
-    """Give the scene this camera; return whether Blender could store it."""
+    """Make this camera the scene's camera; return whether Blender stored its settings within BOUND."""
     import bpy
     from mathutils import Matrix
 

@@ -1,4 +1,4 @@
-"""The example scenes by name: functions that fill an empty Blender scene. The docstring is the line in the README."""
+"""The example scenes by name: functions that fill an empty Blender scene. Their docstrings are lines of the README."""
 
 from . import calibrated, cameras, contents, lenses, meshes, multiperspective, panoramas, showcase, time
 
@@ -89,7 +89,7 @@ GALLERY = {
         time.rolling_shutter,
     ),
 }
-"""The scenes that show what a camera does, by the heading under which the README has their pictures."""
+"""The scenes that show camera models and times, by their heading in the README."""
 
 PICTURES = {name: make for group in GALLERY.values() for name, make in group.items()}
 BY_CYCLES = (
@@ -100,5 +100,5 @@ BY_CYCLES = (
     "rotunda_fisheye",
     "street_pushbroom",
 )
-"""Of these, those that Cycles shows through the same camera, too."""
+"""Scenes of PICTURES that are also rendered by Cycles through the same camera."""
 SCENES = EXAMPLES | PICTURES

@@ -1,4 +1,4 @@
-"""Cubes, cylinders and balls at random on a floor, in the manner of CLEVR, seen by a fisheye that goes around them.
+"""Random cubes, cylinders and balls on a floor, in the style of CLEVR, seen by a fisheye camera that circles them.
 
 J. Johnson et al., CLEVR: A Diagnostic Dataset for Compositional Language and Elementary Visual Reasoning, CVPR 2017.
 """
@@ -23,15 +23,15 @@ SIZES = {"large": 0.7, "small": 0.35}
 ROUGHNESS = {"rubber": 0.7, "metal": 0.2}
 SHAPES = "cube", "cylinder", "sphere"
 APART, REACH = 0.25, 2.2
-"""Between objects, and from the middle to the farthest."""
+"""Minimum gap between objects, and maximum of their |x| and |y|."""
 EYE = 3.8, 1.8
-"""How far from the middle the camera goes around, and how high."""
+"""Radius of the camera's circle, and height of the camera."""
 STEP = radians(8)
-"""From one view to the next."""
+"""Angle between two successive views, in radians."""
 
 
 def clevr(scene, views: int, count: int, size: tuple[int, int], seed: int) -> None:
-    """Fill a scene: so many objects, each with its category and pass index, and a frame for each view."""
+    """Fill a scene: up to ``count`` objects, each with its category and pass index, and a frame for each view."""
     random = Random(seed)
     floor = add(scene, "floor", square(), scale=20)
     _dress(floor, "floor", "9a9a9a", "rubber")
@@ -64,7 +64,7 @@ def clevr(scene, views: int, count: int, size: tuple[int, int], seed: int) -> No
 
 
 def _place(random: Random, radius: float, taken) -> tuple[float, float, float] | None:
-    """Return a free place on the floor, x, y and the radius; None where none was found."""
+    """Return a free place on the floor as x, y and the radius, or None if none was found."""
     for _ in range(200):
         x, y = random.uniform(-REACH, REACH), random.uniform(-REACH, REACH)
         if all(hypot(x - a, y - b) > radius + r + APART for a, b, r in taken):
@@ -73,7 +73,7 @@ def _place(random: Random, radius: float, taken) -> tuple[float, float, float] |
 
 
 def _solid(scene, shape: str, name: str, place, turn: float):
-    """Add an object of a shape that stands on the floor."""
+    """Add an object of the named shape, standing on the floor."""
     x, y, radius = place
     where, angles = (x, y, radius), (0, 0, turn)
     if shape == "cube":
@@ -86,7 +86,7 @@ def _solid(scene, shape: str, name: str, place, turn: float):
 
 
 def _dress(thing, name: str, color: str, surface: str) -> None:
-    """Give an object a material of its own slot, made once for each name."""
+    """Give an object its own material slot, with a material that is made once for each name."""
     found = bpy.data.materials.get(name)
     if found is None:
         found = bpy.data.materials.new(name)

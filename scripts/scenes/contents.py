@@ -1,4 +1,4 @@
-"""Scenes that are hard because of what is in them, and what is not."""
+"""Scenes that are difficult because of their objects, or of missing objects."""
 
 from __future__ import annotations
 
@@ -22,7 +22,9 @@ from .parts import (
 
 
 def instances(scene):
-    """what no object list shows: collection instances, instances and points of geometry nodes, particles."""
+    """The scene has collection instances, instances and points of geometry nodes, and particles. None of these are in
+    the list of objects.
+    """
     add(scene, "Floor", square(), scale=(5, 4, 1), color="d9d2c6", index=1)
     snowman = bpy.data.collections.new("Snowman")
     for height, size, color in ((0.5, 0.5, "eae1d0"), (1.2, 0.35, "f0b941")):
@@ -46,7 +48,7 @@ def instances(scene):
 
 
 def particles(emitter, instance, count: int = 40) -> None:
-    """Let an object that is not shown itself emit resting instances of another."""
+    """Let an object emit resting instances of another object; hide the emitter."""
     settings = emitter.modifiers.new("Particles", "PARTICLE_SYSTEM").particle_system.settings
     settings.count, settings.frame_start, settings.frame_end, settings.lifetime = count, 0, 0, 1000
     settings.physics_type, settings.render_type = "NO", "OBJECT"
@@ -55,7 +57,9 @@ def particles(emitter, instance, count: int = 40) -> None:
 
 
 def left_out(scene):
-    """hair, a volume, a quad with an infinite corner: named in the report; what is hidden is not drawn."""
+    """Hair, a volume and a quad with an infinite corner are left out and named in the report. Hidden objects are not
+    drawn.
+    """
     add(scene, "Floor", square(), scale=4, color="d9d2c6", index=1)
     add(scene, "Sphere", uv_sphere(), (0, 0, 0.8), scale=0.8, color="e2674a", index=2)
     add(scene, "Monkey", mesh("monkey"), (-2.2, 0, 1), index=3)
@@ -72,7 +76,9 @@ def left_out(scene):
 
 
 def cast_as(scene):
-    """objects that are told what they stand for: a cube cast as a sphere, a monkey as a plane, a floor without end."""
+    """Cast As sets an object's shape: a cube is cast as a sphere, a monkey as a plane, the floor as an infinite plane,
+    and a sphere is ignored.
+    """
     things = (
         ("INFINITE_PLANE", add(scene, "Floor", square(), color="d9d2c6", index=1)),
         ("SPHERE", add(scene, "Cube", mesh("cube", size=1.2), (-1.3, 0, 1.1), color="e2674a", index=2)),
@@ -87,7 +93,9 @@ def cast_as(scene):
 
 
 def view_layers(scene):
-    """two view layers, one of the spheres with all passes, one of the planes with few: each has its own shapes."""
+    """Two view layers have their own shapes. One contains the sphere and has all passes; the other contains the plane
+    and has few passes.
+    """
     for name in ("Spheres", "Planes"):
         scene.collection.children.link(bpy.data.collections.new(name))
     floor = add(scene, "Floor", square(), scale=3, color="d9d2c6", index=1)
@@ -106,6 +114,6 @@ def view_layers(scene):
 
 
 def empty(scene):
-    """a camera and nothing else: all of the picture is background."""
+    """The scene has a camera and no other objects. The whole picture is background."""
     camera(scene, (0, -5, 1))
     render(scene)

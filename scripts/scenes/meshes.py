@@ -1,4 +1,4 @@
-"""Scenes of real-looking meshes, each seen by the cameras that show it best."""
+"""Scenes of realistic meshes, each seen by suitable cameras."""
 
 from __future__ import annotations
 
@@ -18,20 +18,24 @@ from .solids import block, monkey, turned
 from .time import driven
 
 SKY, DAYLIGHT, STUDIO = "86aed0", "9ca8ae", "848f9c"
-"""Worlds: what is behind everything, and light from all around."""
+"""Colors of the world: the background, and light from all directions."""
 
 picture = partial(photograph, shading="MATERIAL")
-"""Colors of materials, without a grid."""
+"""Take a picture with the colors of materials, without a grid."""
 
 
 def toys(scene):
-    """blocks, cylinders, rings, a cone, a subdivided monkey are triangles, balls exact spheres: an index for each."""
+    """Blocks, cylinders, rings, a cone and a subdivided monkey are cast as triangles, balls as exact spheres. Each
+    object has its own pass index.
+    """
     toy_table(scene)
     picture(scene, (0.3, -9.6, 4.2), (0.1, 0, 0.75), 800, 450, world=STUDIO, lens=43)
 
 
 def toys_cross_slit(scene):
-    """the same toys through an upright slit behind them all: what is far is wide, and blocks show both their sides."""
+    """The same toys are seen by a cross-slit camera with a vertical slit behind them. Farther objects are wider, and
+    blocks show both of their sides.
+    """
     toy_table(scene)
     upright, level = slit(scene, "Upright slit", (0, 8.8, 0), (0, -90, 0)), slit(scene, "Level slit", (0, -18, 8.0))
     own = {"model": "CROSS_SLIT", "slit_1": upright, "slit_2": level}
@@ -39,47 +43,61 @@ def toys_cross_slit(scene):
 
 
 def living_room(scene):
-    """two hundred meshes by arrays, bevels, lathes and cushions: pass indices tell kinds of furniture apart."""
+    """Two hundred meshes are made with arrays, bevels, lathes and cushions. Pass indices distinguish the kinds of
+    furniture.
+    """
     furnish(scene)
     picture(scene, (2.3, -2.7, 1.65), (-0.42, 1.0, 1.02), 560, 350, world=DAYLIGHT, lens=18.5)
 
 
 def living_room_equirectangular(scene):
-    """the same room, all of it, as panoramas for VR show it: straight beams are arches, the floor fills the foot."""
+    """An equirectangular panorama for VR shows the whole room. Straight beams appear as arches, and the floor fills the
+    bottom of the picture.
+    """
     furnish(scene)
     kind = {"type": "PANO", "panorama_type": "EQUIRECTANGULAR"}
     picture(scene, (0.95, -1.1, 1.45), (0.5, 2.2, 1.45), 720, 360, world=DAYLIGHT, **kind)
 
 
 def living_room_omnimax(scene):
-    """and as a dome's film has it: tilted, most of the picture overhead; the table's far edge and the beams bend."""
+    """A camera for IMAX Dome films, tilted up by 15 degrees, shows the same room, mostly overhead. Beams and the far
+    edge of the table appear curved.
+    """
     furnish(scene)
     own = {"model": "OMNIMAX", "tilt": radians(15)}
     picture(scene, (-0.25, -1.55, 1.3), (-0.25, 2.2, 1.3), 480, 374, world=DAYLIGHT, own=own)
 
 
 def rotunda_fisheye(scene):
-    """an equidistant fisheye of 190 degrees sees floor, columns and dome at once; the dome's ribs are a wireframe."""
+    """An equidistant fisheye of 190 degrees shows the floor, the columns and the dome in one picture. The ribs of the
+    dome are a wireframe.
+    """
     rotunda(scene)
     kind = {"type": "PANO", "panorama_type": "FISHEYE_EQUIDISTANT", "fisheye_fov": radians(190)}
     picture(scene, (1.2, -4.2, 1.7), (0, 2.0, 2.6), 400, 400, world=SKY, **kind)
 
 
 def rotunda_panorama(scene):
-    """a full turn on a cylinder, between the columns: they stay upright, the round beam becomes a wave."""
+    """A cylindrical panorama covers 360 degrees between the columns. The columns stay vertical, and the round beam
+    above them appears as a wave.
+    """
     rotunda(scene)
     angles = {"pan_min": -pi, "pan_max": pi, "latitude_bottom": radians(-35), "latitude_top": radians(50)}
     picture(scene, (1.2, -3.6, 1.7), (0.3, 2.0, 1.7), 800, 256, world=SKY, own={"model": "CYLINDRICAL", **angles})
 
 
 def street(scene):
-    """a street in perspective: the nearest house is taller than the picture, the farthest a few pixels wide."""
+    """A perspective camera shows a street. The nearest house is taller than the picture, and the farthest house is only
+    a few pixels wide.
+    """
     houses(scene)
     picture(scene, (-13.6, -3.8, 2.3), (-2, 0.4, 2.7), 640, 400, world=SKY, lens=21, shift_y=0.05)
 
 
 def street_pushbroom(scene):
-    """the same street from an eye that drives along it: all its fronts face us; what is near is tall, but not wide."""
+    """A pushbroom camera moves along the same street. All houses are seen from the front, and near objects are taller
+    but not wider.
+    """
     houses(scene)
     eye = 0, -6.5, 3.2
     own = {"model": "PUSHBROOM", "slit_1": slit(scene, "Slit", eye)}
@@ -88,13 +106,17 @@ def street_pushbroom(scene):
 
 
 def sculpture_garden(scene):
-    """letters, a knotted curve, metaballs, a NURBS canopy, and a wood that geometry nodes put on a subdivided hill."""
+    """The garden contains letters, a knotted curve, metaballs and a NURBS canopy. Geometry nodes place trees on a
+    subdivided hill.
+    """
     garden(scene)
     picture(scene, (1.1, -6.4, 1.75), (0.3, 0.6, 1.6), 640, 400, world=SKY, lens=26)
 
 
 def propeller(scene):
-    """a rolling shutter, each row later than the one above: straight blades that turn once are bent, and gather."""
+    """A rolling shutter reads each row later than the one above. The straight blades of a propeller that turns once
+    look bent and gathered on one side.
+    """
     driven(airfield(scene), "rotation_euler", 1, f"-frame * {2 * pi:.6f}")
     scene.render.motion_blur_shutter = 1
     scene.cycles.rolling_shutter_duration = 0
@@ -102,7 +124,8 @@ def propeller(scene):
 
 
 def twisted_monkey(scene):
-    """a slit scan of a bust that turns: each row of the picture shows it a little later than the row below."""
+    """A slit scan shows a bust that turns. Each row of the picture shows the bust a little later than the row below it.
+    """
     backdrop(scene)
     axis = add(scene, "Turntable")
     monkey(scene, (0, 0, 2.35), (-14, 0, 0), 1.15, levels=3, color="e2674a", index=2, parent=axis)
@@ -113,7 +136,9 @@ def twisted_monkey(scene):
 
 
 def unrolled_monkey(scene):
-    """a strip from a path around a bust: face, ears and the back of the head side by side, pillars swept past them."""
+    """A strip camera moves around a bust. The face, the ears and the back of the head appear side by side, with pillars
+    in the background.
+    """
     add(scene, "Lawn", square(), (0, 0, -0.02), scale=60, color="9ab97b", index=1)
     turned(scene, "Plaza", [(0, 0), (6, 0), (6, -0.02)], steps=64, color="d8ccb4", index=1)
     monkey(scene, (0, 0, 2.35), (-14, 0, 0), 1.0, levels=1, color="e2674a", index=2)
@@ -126,6 +151,6 @@ def unrolled_monkey(scene):
     sun(scene, (48, 0, -46), 2.2, "fff0d8")
     sun(scene, (70, 0, 130), 1.0, "ffe6cc")
     path = circle(scene, (0, 0, 2.1), 2.6)
-    path.rotation_euler.z = pi  # it begins behind the head
+    path.rotation_euler.z = pi  # the path begins behind the head
     own = {"model": "STRIP", "path": path, "follow_path": True}
     picture(scene, (0, 2.6, 2.1), (0, 0, 2.1), 720, 280, world=SKY, own=own, lens=11, shift_y=0.045)

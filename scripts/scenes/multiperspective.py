@@ -1,4 +1,4 @@
-"""Cameras without one eye. Their slits are empties, their paths curves: grab one, move it, and the picture follows."""
+"""Cameras without a single eye. Slits are empties and paths are curves: the picture follows when they are moved."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ BEHIND, AHEAD = (0, -5.2, 2.5), (0, 6, 2.5)
 
 
 def slit(scene, name: str, location, turn=(0, 0, 0)):
-    """Add an empty whose X axis is a slit, drawn as long as the room."""
+    """Add an empty whose X axis is a slit, with arrows of length 3."""
     made = add(scene, name, None, location, turn)
     made.empty_display_type, made.empty_display_size = "ARROWS", 3
     return made
 
 
 def circle(scene, center, radius: float, corners: int = 128):
-    """Add a closed curve, anticlockwise as seen from above, that starts before its center (at -Y)."""
+    """Add a closed curve, counterclockwise as seen from above, that starts at -Y of its center."""
     data = bpy.data.curves.new("Path", "CURVE")
     data.dimensions = "3D"
     spline = data.splines.new("POLY")
@@ -33,21 +33,27 @@ def circle(scene, center, radius: float, corners: int = 128):
 
 
 def general_linear(scene):
-    """all affine combinations of three rays: these meet no two lines in space, and bend straight edges (bilinear)."""
+    """All rays are affine combinations of three rays. In this bilinear case, no two lines meet all of the rays, and
+    straight edges appear curved.
+    """
     room(scene)
     rays = {"ray_1": (-0.6, -0.9, -1.3, -1.2), "ray_2": (1.4, -0.3, 1.9, -0.9), "ray_3": (-1.4, 0.9, -1.8, 1.0)}
     photograph(scene, BEHIND, AHEAD, own={"model": "GENERAL_LINEAR", **rays})
 
 
 def pushbroom(scene):
-    """the eye flies along a slit: across it near balls are large, along it all balls are as wide as they are."""
+    """The viewpoint moves along a horizontal slit. Near balls are larger in height, but the width of every ball is
+    independent of its distance.
+    """
     room(scene)
     own = {"model": "PUSHBROOM", "slit_1": slit(scene, "Slit", BEHIND)}
     photograph(scene, BEHIND, AHEAD, own=own, lens=24, ortho_scale=11.6)
 
 
 def cross_slit(scene):
-    """all rays meet two slits, the upright one farther behind than the level one: depth shrinks heights, not widths."""
+    """All rays meet two slits; the vertical one is farther behind than the horizontal one. With distance, heights
+    shrink more than widths.
+    """
     room(scene)
     upright = slit(scene, "Upright slit", (0, -16, 0), (0, -90, 0))
     own = {"model": "CROSS_SLIT", "slit_1": upright, "slit_2": slit(scene, "Level slit", (0, -8.4, 2.5))}
@@ -55,21 +61,27 @@ def cross_slit(scene):
 
 
 def pencil(scene):
-    """each line of the picture has its eye elsewhere on a slit: seen from the left above and from the right below."""
+    """Each row of the picture has its own viewpoint on a slit. The upper rows are seen from the left, and the lower
+    rows from the right.
+    """
     room(scene)
     own = {"model": "PENCIL", "slit_1": slit(scene, "Slit", BEHIND), "pencil_slide": -4.0}
     photograph(scene, BEHIND, AHEAD, own=own, lens=22)
 
 
 def twisted_orthographic(scene):
-    """parallel rays whose direction turns along an axis: to the left above it, to the right below."""
+    """The rays of each row are parallel. Their direction turns along a vertical axis: to the left in the upper rows, to
+    the right in the lower rows.
+    """
     room(scene)
     own = {"model": "TWISTED_ORTHOGRAPHIC", "slit_1": slit(scene, "Axis", (0, 0, 2.5), (0, -90, 0)), "twist": 0.08}
     photograph(scene, BEHIND, AHEAD, own=own, ortho_scale=7.5)
 
 
 def strip(scene):
-    """each column from another place on a circle around a figure: all its sides unrolled, the room swept behind it."""
+    """Each column is seen from another point on a circle around a figure. All sides of the figure are unrolled, with
+    the room in the background.
+    """
     room(scene)
     clear_middle(scene)
     add(scene, "Body", uv_sphere(), (0, 0, 1.3), scale=(0.9, 0.6, 1.3), color="e2674a", index=20)

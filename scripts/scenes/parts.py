@@ -1,4 +1,4 @@
-"""What the example scenes are made of: meshes, points, lights and cameras, named and linked to the scene."""
+"""Parts of the example scenes: meshes, points, lights and cameras, named and linked to the scene."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ def linear(hexadecimal: str) -> tuple[float, float, float, float]:
 
 
 def material(color: str):
-    """Return the Principled material of an sRGB color, made once; pass indices count the materials from 1."""
+    """Return the Principled material of an sRGB color, made once; pass indices number the materials from 1."""
     found = bpy.data.materials.get(color)
     if found is None:
         found = bpy.data.materials.new(color)
@@ -33,7 +33,7 @@ def material(color: str):
 def add(
     scene, name: str, data=None, location=(0, 0, 0), turn=(0, 0, 0), scale=(1, 1, 1), *, color="", index=0, parent=None
 ):
-    """Link an object to the scene; ``turn`` is Euler XYZ in degrees, ``index`` its pass index.
+    """Add an object to the scene and return it; ``turn`` is Euler XYZ in degrees, ``index`` the pass index.
 
     The material belongs to the object, so that objects of different colors share their data.
     """
@@ -52,7 +52,7 @@ def add(
 
 
 def mesh(shape: str, **arguments):
-    """Return the mesh of a function of bmesh.ops, such as create_monkey, made once and shared."""
+    """Return the mesh that ``bmesh.ops.create_{shape}`` makes, for example "monkey"; made once and shared."""
     name = " ".join([shape, *map(str, arguments.values())])
     if name not in bpy.data.meshes:
         built = bmesh.new()
@@ -79,7 +79,7 @@ def square():
 
 
 def points(positions, radii):
-    """Return a mesh of loose vertices that carry a radius each: what ``spheres_of_points`` draws."""
+    """Return a mesh of loose vertices with a radius each, for ``spheres_of_points``."""
     data = bpy.data.meshes.new("points")
     data.from_pydata(positions, [], [])
     data.attributes.new("radius", "FLOAT", "POINT").data.foreach_set("value", radii)
@@ -87,7 +87,7 @@ def points(positions, radii):
 
 
 def spheres_of_points(thing) -> None:
-    """Let geometry nodes turn an object's vertices into a point cloud with its radii and first material."""
+    """Add geometry nodes that turn an object's vertices into a point cloud with their radii and its first material."""
     to_points, tree = geometry_nodes(thing, "GeometryNodeMeshToPoints", "GeometryNodeSetMaterial")
     radius = tree.nodes.new("GeometryNodeInputNamedAttribute")
     radius.inputs["Name"].default_value = "radius"
@@ -96,7 +96,7 @@ def spheres_of_points(thing) -> None:
 
 
 def instances_of_points(thing, instance) -> None:
-    """Let geometry nodes put an instance of another object, with its scale, on each of an object's vertices."""
+    """Add geometry nodes that put an instance of another object, with its scale, on each vertex of an object."""
     on_points, tree = geometry_nodes(thing, "GeometryNodeInstanceOnPoints")
     source = tree.nodes.new("GeometryNodeObjectInfo")
     source.inputs["Object"].default_value = instance
@@ -106,7 +106,7 @@ def instances_of_points(thing, instance) -> None:
 
 
 def geometry_nodes(thing, *kinds: str):
-    """Give an object geometry nodes that pass its geometry through these kinds; return the first of them, the tree."""
+    """Add a chain of geometry nodes of these kinds to an object; return the first of these nodes and the node tree."""
     tree = bpy.data.node_groups.new("Points", "GeometryNodeTree")
     for in_out in ("INPUT", "OUTPUT"):
         tree.interface.new_socket("Geometry", in_out=in_out, socket_type="NodeSocketGeometry")
@@ -119,7 +119,7 @@ def geometry_nodes(thing, *kinds: str):
 
 
 def camera(scene, location, target=(0, 0, 0), *, type="PERSP", **settings):
-    """Make the scene's camera, looking from a place at another with world Z up; settings are Blender's."""
+    """Add the scene's camera, which looks at ``target`` with world Z up; ``settings`` are Blender's."""
     data = bpy.data.cameras.new("Camera")
     data.type = type
     for name, value in settings.items():
@@ -131,7 +131,7 @@ def camera(scene, location, target=(0, 0, 0), *, type="PERSP", **settings):
 
 
 def sun(scene, turn, energy: float, color: str = "ffffff"):
-    """Add sunlight that falls along -Z of Euler angles in degrees; energy in W/m^2."""
+    """Add sunlight along the -Z axis turned by Euler angles in degrees; energy in W/m^2."""
     data = bpy.data.lights.new("Sun", "SUN")
     data.energy, data.color = energy, linear(color)[:3]
     return add(scene, "Sun", data, (0, 0, 8), turn)
@@ -145,7 +145,7 @@ def lamp(scene, location, energy: float, color: str = "ffffff"):
 
 
 def render(scene, width: int = 640, height: int = 360, world: str = "8d99ae", **settings) -> None:
-    """Set the engine, the picture's size and further render settings, the background and the view layers' passes."""
+    """Set the engine, the picture's size, other render settings, the background and the view layers' passes."""
     scene.render.engine = ENGINE
     scene.render.resolution_x, scene.render.resolution_y = width, height
     for name, value in settings.items():

@@ -1,4 +1,4 @@
-"""The two places that most pictures of the gallery are taken in, so that cameras can be compared."""
+"""The two places of most pictures in the gallery, so that cameras can be compared."""
 
 from __future__ import annotations
 
@@ -18,11 +18,11 @@ BALLS = (
     ("Lamp", (1.4, 0.6, 4.6), 0.5, "f2a65a"),
     ("Moon", (-2.2, 3.0, 4.2), 0.7, "c65d7b"),
 )
-"""Balls all around: name, center, radius, color."""
+"""Name, center, radius and color of each ball in the room."""
 
 
 def room(scene) -> None:
-    """Fill the scene with a room, |x| and |y| <= 6, 0 <= z <= 6: panels with square grid cells of 1/2, and balls."""
+    """Fill the scene with a room, |x| <= 6, |y| <= 6, 0 <= z <= 6: panels with square grid cells of 1/2, and balls."""
     panels = (
         ("Front", (0, 6, 3), (90, 0, 0), "8fabc4"),
         ("Back", (0, -6, 3), (90, 0, 180), "c3a5a0"),
@@ -34,7 +34,7 @@ def room(scene) -> None:
         ("Ceiling", (0, -3, 6), (180, 0, 0), "eceae6"),
     )
     for index, (name, place, turn, color) in enumerate(panels, 1):
-        overlapping = 6.001, 3.001, 1  # no ray slips out
+        overlapping = 6.001, 3.001, 1  # so that no ray escapes between panels
         add(scene, name, square(), place, turn, overlapping, color=color, index=index)
     for index, (name, place, radius, color) in enumerate(BALLS, len(panels) + 1):
         add(scene, name, uv_sphere(), place, (12 * index, 0, 31 * index), radius, color=color, index=index)
@@ -43,13 +43,13 @@ def room(scene) -> None:
 
 
 def clear_middle(scene) -> None:
-    """Take away the balls in the middle of the room: something else stands there."""
+    """Remove the balls in the middle of the room, to make space for other objects."""
     for name in ("Red", "Teal", "Yellow", "Lamp"):
         bpy.data.objects.remove(scene.objects[name])
 
 
 def meadow(scene) -> None:
-    """Fill the scene with a ground without end, cells of 2, a ring of trees around the origin, hills and clouds."""
+    """Fill the scene with an infinite ground, grid cells of 2, a ring of trees around the origin, hills and clouds."""
     ground = add(scene, "Ground", square(), scale=(24, 12, 1), color="a9c08a", index=1)
     ground.camera_ray_caster.primitive = "INFINITE_PLANE"
     for k in range(11):
@@ -81,7 +81,7 @@ def photograph(
     shading="GRID",
     **settings,
 ):
-    """Take the picture: camera, its own ``own`` settings of the add-on, size, shading and smooth edges."""
+    """Set up the picture: add the camera, with its add-on settings ``own``, and set size, shading and 16 samples."""
     made = camera(scene, location, target, **settings)
     for name, value in (own or {}).items():
         setattr(made.data.camera_ray_caster, name, value)

@@ -1,4 +1,4 @@
-"""The picture that stands for the program."""
+"""The main picture of the project."""
 
 from __future__ import annotations
 
@@ -8,7 +8,9 @@ from .parts import add, camera, ico_sphere, lamp, points, render, spheres_of_poi
 
 
 def spheres_and_planes(scene):
-    """every kind of shape at once: UV and ico spheres, ellipsoids, a point cloud, a floor and walls, two lights."""
+    """The scene has every kind of shape: UV and ico spheres, ellipsoids, a point cloud, a floor and walls. There are
+    two lights.
+    """
     add(scene, "Floor", square(), (0, 0, 0), scale=(7, 6, 1), color="d9d2c6", index=1)
     add(scene, "Back wall", square(), (-1.5, 6, 1.5), (90, 0, 0), (5.5, 1.5, 1), color="64819f", index=2)
     add(scene, "Side wall", square(), (-7, 1.5, 1.5), (90, 0, 90), (4.5, 1.5, 1), color="9db5a2", index=3)

@@ -1,4 +1,4 @@
-"""Solids of a few vertices and Blender's modifiers: what furniture, houses and toys are made of. Sizes in meters."""
+"""Solids of few vertices with Blender's modifiers, for furniture, houses and toys. Sizes are in meters."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from .parts import add, geometry_nodes, mesh
 
 
 def modified(thing, kind: str, **settings):
-    """Give an object a modifier with these settings; return the object."""
+    """Add a modifier with these settings to an object; return the object."""
     modifier = thing.modifiers.new(kind.title(), kind)
     for name, value in settings.items():
         setattr(modifier, name, value)
@@ -19,7 +19,7 @@ def modified(thing, kind: str, **settings):
 
 
 def drawn(name: str, vertices, edges=(), faces=()):
-    """Return a smooth mesh, made once and shared by all that ask for the same."""
+    """Return a smooth-shaded mesh; equal meshes are made once and shared."""
     name = f"{name} {blake2b(repr((vertices, edges, faces)).encode(), digest_size=4).hexdigest()}"
     if name not in bpy.data.meshes:
         data = bpy.data.meshes.new(name)
@@ -29,23 +29,23 @@ def drawn(name: str, vertices, edges=(), faces=()):
 
 
 def sheet(name: str, places, across: int):
-    """Return the mesh of the quads between places that come in rows of ``across``."""
+    """Return the mesh of the quads between points that are given in rows of ``across`` points."""
     corners = [k for k in range(len(places) - across) if (k + 1) % across]
     return drawn(name, places, faces=[(k, k + 1, k + 1 + across, k + across) for k in corners])
 
 
 def line(name: str, places):
-    """Return the mesh of the edges from place to place: a profile for a screw."""
+    """Return the mesh of the edges from point to point: a profile for the Screw modifier."""
     return drawn(name, places, edges=[(k, k + 1) for k in range(len(places) - 1)])
 
 
 def block(scene, name: str, size, place=(0, 0, 0), turn=(0, 0, 0), *, edge: float = 0.01, **look):
-    """Add a box of a size along x, y and z, centered, with round edges."""
+    """Add a centered box with the given size along x, y and z, with round edges."""
     return rounded(add(scene, name, box(size), place, turn, **look), edge)
 
 
 def box(size):
-    """Return the mesh of a box of a size along x, y and z, centered."""
+    """Return the mesh of a centered box with the given size along x, y and z."""
     x, y, z = (side / 2 for side in size)
     corners = [(a * x, b * y, c * z) for a in (-1, 1) for b in (-1, 1) for c in (-1, 1)]
     sides = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
@@ -53,7 +53,7 @@ def box(size):
 
 
 def prism(scene, name: str, outline, depth: float, place=(0, 0, 0), turn=(0, 0, 0), *, edge: float = 0.01, **look):
-    """Add a flat outline of (x, z), as thick as ``depth`` along y, with round edges."""
+    """Add a prism: an outline of (x, z), extruded by ``depth`` along y, with round edges."""
     count = len(outline)
     ends = [(x, y, z) for y in (-depth / 2, depth / 2) for x, z in outline]
     sides = [(k, (k + 1) % count, (k + 1) % count + count, k + count) for k in range(count)]
@@ -62,14 +62,14 @@ def prism(scene, name: str, outline, depth: float, place=(0, 0, 0), turn=(0, 0, 
 
 
 def rounded(thing, edge: float):
-    """Round an object's edges; its flat faces stay flat."""
+    """Round an object's edges, if ``edge`` is not 0; flat faces keep flat shading."""
     if edge:
         return modified(thing, "BEVEL", width=edge, segments=2, harden_normals=True)
     return modified(thing, "EDGE_SPLIT")
 
 
 def turned(scene, name: str, profile, place=(0, 0, 0), turn=(0, 0, 0), *, steps: int = 48, sharp: float = 35, **look):
-    """Add what a lathe makes of a profile of (radius, height); corners of more than ``sharp`` degrees stay sharp."""
+    """Add a solid of revolution of a profile of (radius, height); corners above ``sharp`` degrees stay sharp."""
     data = line(name, [(radius, 0, height) for radius, height in profile])
     thing = add(scene, name, data, place, turn, **look)
     modified(thing, "SCREW", steps=steps, render_steps=steps, use_merge_vertices=True, use_normal_calculate=True)
@@ -84,13 +84,13 @@ def soft(scene, name: str, size, place=(0, 0, 0), turn=(0, 0, 0), *, crease: flo
 
 
 def monkey(scene, place, turn=(0, 0, 0), scale=1.0, *, levels: int = 2, **look):
-    """Add a subdivided Suzanne, who looks along -y."""
+    """Add a subdivided Suzanne that looks along -y."""
     thing = add(scene, "Suzanne", mesh("monkey"), place, turn, scale, **look)
     return modified(thing, "SUBSURF", levels=levels, render_levels=levels)
 
 
 def repeated(thing, *steps):
-    """Repeat an object by arrays, each of (count, offset)."""
+    """Repeat an object by Array modifiers, each given as (count, offset); return the object."""
     for count, offset in steps:
         modified(thing, "ARRAY", count=count, use_relative_offset=False, use_constant_offset=True)
         thing.modifiers[-1].constant_offset_displace = offset
@@ -111,7 +111,7 @@ def tube(scene, name: str, points, radius: float, place=(0, 0, 0), turn=(0, 0, 0
 
 
 def letters(scene, text: str, place=(0, 0, 0), turn=(0, 0, 0), *, size: float = 1.0, **look):
-    """Add thick letters with round edges, centered on their ground line; they lie flat unless they are turned."""
+    """Add thick letters with round edges, centered on their baseline; they lie flat unless they are turned."""
     data = bpy.data.curves.new(text, "FONT")
     data.body, data.size, data.align_x = text, size, "CENTER"
     data.extrude, data.bevel_depth, data.bevel_resolution = 0.12 * size, 0.02 * size, 2
@@ -119,7 +119,7 @@ def letters(scene, text: str, place=(0, 0, 0), turn=(0, 0, 0), *, size: float = 
 
 
 def blob(scene, name: str, balls, place=(0, 0, 0), turn=(0, 0, 0), *, resolution: float = 0.06, **look):
-    """Add metaballs, (x, y, z, radius) each, that run into each other."""
+    """Add merging metaballs, each given as (x, y, z, radius)."""
     data = bpy.data.metaballs.new(name)
     data.resolution = data.render_resolution = resolution
     for *at, radius in balls:
@@ -129,9 +129,9 @@ def blob(scene, name: str, balls, place=(0, 0, 0), turn=(0, 0, 0), *, resolution
 
 
 def scattered(thing, collection, density: float, seed: int = 0) -> None:
-    """Let geometry nodes put a collection's objects, one at a time and each turned anew, on an object's faces.
+    """Add geometry nodes that scatter a collection's objects, each with a random turn, on an object's faces.
 
-    Its faces themselves are gone: show them by another object.
+    The faces themselves are no longer shown: use another object for them.
     """
     spread, tree = geometry_nodes(thing, "GeometryNodeDistributePointsOnFaces", "GeometryNodeInstanceOnPoints")
     spread.inputs["Density"].default_value, spread.inputs["Seed"].default_value = density, seed
@@ -147,7 +147,7 @@ def scattered(thing, collection, density: float, seed: int = 0) -> None:
 
 
 def assembled(scene, name: str, things):
-    """Move objects to a collection of their own, which the scene does not show; return it."""
+    """Move objects to a new collection that is not linked to the scene; return the collection."""
     made = bpy.data.collections.new(name)
     for thing in things:
         scene.collection.objects.unlink(thing)
@@ -156,7 +156,7 @@ def assembled(scene, name: str, things):
 
 
 def stand(scene, collection, place, turn=(0, 0, 0), scale=(1, 1, 1)):
-    """Show a collection at a place."""
+    """Add an instance of a collection at a place."""
     made = add(scene, collection.name, None, place, turn, scale)
     made.instance_type, made.instance_collection = "COLLECTION", collection
     return made

@@ -1,4 +1,4 @@
-"""Time as a dimension of the picture: each row, column or pixel at a frame of its own. Drivers move the scene."""
+"""Time as a dimension of the picture: each row, column or pixel has its own frame. Drivers move the scene."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ STAND, AHEAD = (0, -5.4, 2.6), (0, 6, 2.6)
 
 
 def driven(thing, path: str, axis: int, expression: str) -> None:
-    """Let a coordinate of an object follow an expression of ``frame``."""
+    """Drive a coordinate of an object by an expression of ``frame``."""
     thing.driver_add(path, axis).driver.expression = expression
 
 
@@ -30,7 +30,8 @@ def tower(scene, place, half: float = 1.1, high: float = 2.4):
 
 
 def slit_scan_rows(scene):
-    """each row is later than the one below it: a square tower that turns once in 24 frames is a twisted column."""
+    """Each row is later than the row below it. A square tower that turns once in 48 frames appears as a twisted column.
+    """
     room(scene)
     clear_middle(scene)
     driven(tower(scene, (0, 1.8, 0.3)), "rotation_euler", 2, f"frame * {pi / 24:.6f}")
@@ -39,7 +40,9 @@ def slit_scan_rows(scene):
 
 
 def slit_scan_columns(scene):
-    """each column is later than the one on its left: balls that fly with the scan are long, those against it thin."""
+    """Each column is later than the one on its left. Balls that move with the scan are stretched, and those that move
+    against it are narrowed.
+    """
     room(scene)
     clear_middle(scene)
     flights = (4.5, 0.22, "e2674a"), (3.2, 0.11, "f0b941"), (1.9, 0.0, "eae1d0"), (0.62, -0.3, "2a9d8f")
@@ -51,7 +54,9 @@ def slit_scan_columns(scene):
 
 
 def time_displacement(scene):
-    """a gray image of rings tells each pixel's frame, black early and white late: a turning tower seen as in water."""
+    """A grayscale image of rings sets the frame of each pixel, from early (black) to late (white). A turning tower
+    looks as if seen through water.
+    """
     room(scene)
     clear_middle(scene)
     driven(tower(scene, (0, 1.8, 0.3)), "rotation_euler", 2, f"frame * {pi / 24:.6f}")
@@ -60,7 +65,7 @@ def time_displacement(scene):
 
 
 def rings(width: int, height: int):
-    """Return a packed image of three waves from its middle to its sides, in 32 grays: each is a cast of its own."""
+    """Return a packed image of three waves from its center to its sides, in 32 grays: each gray needs its own cast."""
     y, x = np.mgrid[:height, :width]
     away = np.hypot(x + 0.5 - width / 2, y + 0.5 - height / 2) / (width / 2)
     gray = np.rint((1 - np.cos(6 * pi * away)) / 2 * 31) / 31
@@ -72,7 +77,9 @@ def rings(width: int, height: int):
 
 
 def rolling_shutter(scene):
-    """the sensor reads its rows one after another: a fan that turns once in two frames has bent and floating blades."""
+    """The sensor reads its rows one after another. The blades of a fan that turns once in two frames look bent and
+    differ in width.
+    """
     room(scene)
     clear_middle(scene)
     fan = add(scene, "Fan", None, (0, 1.5, 2.7), (90, 0, 0))

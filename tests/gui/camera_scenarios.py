@@ -92,8 +92,8 @@ def told(user, scenes):
         user.picture(f"told_{view}_{shading}_{has_overlays}".lower())
         if (view, shading, has_overlays) in told:
             time, blur = written[-1]
-            assert time.startswith(f"Every pixel at frame {scene.frame_current}; a render has each"), time
-            assert blur.startswith("Rays through the center of the lens only, as in a render"), blur
+            assert time.startswith(f"Every pixel is shown at frame {scene.frame_current}; in a render, each"), time
+            assert blur.startswith("Only rays through the center of the lens are shown, as in a render"), blur
         else:
             assert not written, (view, shading, written)
     text.write = write

@@ -10,19 +10,19 @@ PAUSE = 2.0
 """Seconds that the window may stand still beside a cast that takes many times as long, on busy cores."""
 
 
-def begin(user, scenes, size):
-    """Load the example and press Cast for its depth, in a picture of size x size pixels."""
+def begin(user, scenes, size, name="depth"):
+    """Load the example and press Cast for one of its passes, in a picture of size x size pixels."""
     yield from load(user, scenes, "spheres_and_planes")
     scene = bpy.context.scene
     scene.render.resolution_x = scene.render.resolution_y = size
-    addon("engine.passes").tick(scene, bpy.context.view_layer, ["depth"])
+    addon("engine.passes").tick(scene, bpy.context.view_layer, [name])
     yield from user.press(f"{BUTTON}cast(")
     yield from user.until(lambda: (addon("ui.cast_operator").fraction() or 0) > 0, "it has begun")
 
 
 def stop(user, scenes):
-    """A cast of 16384 x 16384 pixels leaves the window alive, shows how far it is, and Esc stops it."""
-    yield from begin(user, scenes, 16384)
+    """A cast of 16384 x 16384 error bounds leaves the window alive, shows how far it is, and Esc stops it."""
+    yield from begin(user, scenes, 16384, "distance_bound")
     times = [time.monotonic()]
     while times[-1] - times[0] < 2:
         yield
@@ -33,7 +33,7 @@ def stop(user, scenes):
     yield from user.key("Escape")
     yield from user.until(lambda: addon("ui.cast_operator").fraction() is None, "it has stopped", 5)
     assert addon("output.reports").latest() is None
-    assert "Ray Caster depth" not in bpy.data.images
+    assert "Ray Caster distance_bound" not in bpy.data.images
 
 
 def stop_samples(user, scenes):

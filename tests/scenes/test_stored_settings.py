@@ -147,7 +147,7 @@ def test_objects_are_cast_as_they_were_told(blender, is_registered):
     shapes = found.shapes
     kinds = {shapes.names[k]: int(kind) for k, kind in zip(shapes.name_index, shapes.kind, strict=True)}
     assert kinds == {"Floor": 2, "Cube": 0, "Monkey": 1}
-    assert dict(shapes.left_out) == {"Nothing": "it is ignored by its own setting"}
+    assert dict(shapes.left_out) == {"Nothing": "its Cast As setting is Ignore"}
     if is_registered:
         objects = blender.context.scene.objects
         assert {name: objects[name].camera_ray_caster.primitive for name in PRIMITIVES} == PRIMITIVES

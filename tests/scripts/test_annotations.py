@@ -66,7 +66,7 @@ def test_a_data_set_has_one_file_of_them_too_whatever_shows_the_picture(scene, t
 @pytest.mark.parametrize(("words", "said"), [
     (["--keypoints", "Nobody"], "no key point 'Nobody'"),
     (["--keypoints", "Top"], "no key point 'Top'"),
-    (["--keypoints", "ALL", "Below"], "ALL stands alone"),
+    (["--keypoints", "ALL", "Below"], "ALL already includes all names"),
 ])  # fmt: skip
 def test_bad_names_are_refused_in_one_line(scene, tmp_path, words, said):
     done = script("cast", scene, *words, "--output", tmp_path / "out")

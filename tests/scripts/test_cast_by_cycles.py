@@ -55,8 +55,8 @@ def test_our_own_picture_says_so(command, scene, tmp_path):
 
 WRONG = {
     "no such engine": (["--engine", "EEVEE"], "CYCLES"),
-    "samples of our own": (["--samples", "4"], "--samples is for --engine CYCLES"),
-    "no samples": (["--engine", "CYCLES", "--samples", "0"], "no number of samples"),
+    "samples of our own": (["--samples", "4"], "--samples applies to --engine CYCLES only"),
+    "no samples": (["--engine", "CYCLES", "--samples", "0"], "not a number of samples"),
     "half a sample": (["--engine", "CYCLES", "--samples", "0.5"], "'0.5'"),
 }
 
@@ -124,5 +124,5 @@ sys.exit(through("cast"))
             assert run.wait(60) == 130
         finally:
             run.kill()
-        assert unread or run.stderr.read() == "cast.py: stopped; what was under way has left nothing\n"
+        assert unread or run.stderr.read() == "cast.py: stopped; no unfinished files were left behind\n"
     assert not out.exists()

@@ -105,7 +105,7 @@ def test_finished_files_are_taken(command, scene, tmp_path):
     (out / "Top_0001.json").write_text('{"made": [')
     done = command("cast", scene, *WORDS, "--skip-existing", "--output", out)
     assert (done.returncode, done.stderr) == (0, "")
-    assert done.stdout == f"Wrote 3 of 4 pictures into {out}; the others were finished\n"
+    assert done.stdout == f"Wrote 3 of 4 pictures into {out}; the other pictures were already finished\n"
     after = states(out)
     assert after.keys() == before.keys()
     kept = {name for name in after if after[name] == before[name]}

@@ -68,13 +68,13 @@ def test_cameras_and_frames_are_the_file_s_where_none_are_named(command, blender
 @pytest.mark.parametrize("case", ["passes", "sha256", "a word", "a list"])
 def test_the_folder_of_another_data_set_is_refused(command, blender, scene, out, case):
     command("dataset", scene, *WORDS, "--output", out)
-    words, said = WORDS, "of no data set"
+    words, said = WORDS, "not the file of a data set"
     if case == "passes":
-        words, said = (*WORDS[:-1], "depth"), "a data set of other passes:"
+        words, said = (*WORDS[:-1], "depth"), "a data set with a different passes:"
     elif case == "sha256":
         blender.data.objects["Sphere"].location.x = 0.25
         blender.ops.wm.save_as_mainfile(filepath=str(scene))
-        said = "a data set of other sha256:"
+        said = "a data set with a different sha256:"
     else:
         (out / "dataset.json").write_text({"a word": "word", "a list": "[1]"}[case])
     before = {path.name: path.stat().st_mtime_ns for path in out.iterdir()}
@@ -117,8 +117,8 @@ def test_a_scene_without_a_view_layer_is_refused_before_anything_is_made(command
 REFUSED = {
     "--workers 0": "give 1 or more",
     "--workers 2 --scheduler tcp://127.0.0.1:1": "not allowed with",
-    "--scheduler tcp://127.0.0.1:1": "no scheduler of Dask answers at 'tcp://127.0.0.1:1'",
-    "--scheduler nothing://x": "'nothing://x' is no address: give one such as tcp://HOST:PORT",
+    "--scheduler tcp://127.0.0.1:1": "no Dask scheduler answers at 'tcp://127.0.0.1:1'",
+    "--scheduler nothing://x": "'nothing://x' is not an address: give an address such as tcp://HOST:PORT",
     "--shard 1/2": "unrecognized arguments",
 }
 

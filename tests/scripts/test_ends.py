@@ -113,7 +113,7 @@ def test_a_stop_during_the_imports_is_one_line(name, tmp_path):
         # -n: at its very end, when Python has given the signals back
         assert run.returncode == 130 or (run.returncode <= 0 and name != "cast"), said
         if run.returncode == 130:
-            assert said == f"{name}.py: stopped; what was under way has left nothing\n"
+            assert said == f"{name}.py: stopped; no unfinished files were left behind\n"
     assert name != "cast" or list(tmp_path.iterdir()) == []
 
 

@@ -43,7 +43,7 @@ WRONG = {
     "no format": ([], "--format"),
     "no such format": (["--format", "fbx"], "'fbx'"),
     "no such camera": (["--format", "json", "--cameras", "Top", "Front"], "no camera 'Front'"),
-    "a target for no map": (["--format", "json", "--to", "Side"], "a camera to lead to is for maps"),
+    "a target for no map": (["--format", "json", "--to", "Side"], "only maps have a target"),
     "a file for a folder": (["--format", "json", "--output", "small.blend"], "cannot write into 'small.blend'"),
 }
 

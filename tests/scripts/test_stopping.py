@@ -50,7 +50,7 @@ def test_a_signal_within_a_callback_of_blenders_ends_the_run_in_one_line(blender
         handlers.remove(interrupted)
     assert called
     assert status == 130
-    assert capfd.readouterr().err == "cast.py: stopped; what was under way has left nothing\n"
+    assert capfd.readouterr().err == "cast.py: stopped; no unfinished files were left behind\n"
     assert not (tmp_path / "out").exists()
     assert not signals.is_stopping()
 
@@ -74,7 +74,7 @@ def test_a_signal_ends_the_reading_of_a_camera_that_moves(blender, tmp_path, cap
     finally:
         blender.app.handlers.frame_change_post.remove(interrupted)
     assert status == 130
-    assert capfd.readouterr().err == "it: stopped; what was under way has left nothing\n"
+    assert capfd.readouterr().err == "it: stopped; no unfinished files were left behind\n"
     assert len(visited) <= 2  # the second puts the frame back
     assert not (tmp_path / "out").exists()
 

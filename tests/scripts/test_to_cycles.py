@@ -46,7 +46,7 @@ def test_what_was_changed_in_the_scene_is_printed(command, blender, tmp_path):
     blender.ops.wm.save_as_mainfile(filepath=str(path))
     done = command("to_cycles", path, "--output", tmp_path / "copy.blend")
     assert (done.returncode, done.stderr) == (0, "")
-    assert "Motion Blur is switched on" in done.stdout
+    assert "Motion Blur was enabled" in done.stdout
     blender.ops.wm.open_mainfile(filepath=str(tmp_path / "copy.blend"))
     scene = blender.context.scene
     assert (scene.render.engine, scene.camera.data.type) == ("CYCLES", "CUSTOM")
@@ -56,8 +56,8 @@ def test_what_was_changed_in_the_scene_is_printed(command, blender, tmp_path):
 
 WRONG = {
     "no output": ([], "--output"),
-    "no .blend": (["--output", "copy.png"], "let it end in .blend"),
-    "the file itself": (["--output", "small.blend"], "give its copy another name"),
+    "no .blend": (["--output", "copy.png"], "give a name that ends in .blend"),
+    "the file itself": (["--output", "small.blend"], "give the copy another name"),
     "no folder": (["--output", "nowhere/copy.blend"], "cannot write 'nowhere/copy.blend': "),
     "no camera": (["--output", "copy.blend", "--camera", "Front"], "no camera 'Front'"),
 }

@@ -13,7 +13,7 @@ def test_verify_prints_its_verdict(command, scene):
     done = script("verify", scene, "--frame", "1.25")
     assert (done.returncode, done.stderr) == (0, "")
     assert done.stdout.splitlines()[0] == "Camera 'Top', Perspective, frame 1.25"
-    assert done.stdout.splitlines()[-1] == "All witnesses agree"
+    assert done.stdout.splitlines()[-1] == "All reference checks passed"
     report = json.loads(command("verify", scene, "--json").stdout)
     assert all(finding["passed"] for finding in report["findings"])
 

@@ -118,7 +118,7 @@ def test_a_blender_file_is_a_scene_too(blender, tmp_path):
 @pytest.mark.parametrize(("words", "said"), [
     (["nothing like it"], "no extreme case has 'nothing like it' in its name"),
     (["missing.blend"], "there is no file 'missing.blend'"),
-    (["text.blend"], "'text.blend' is no .blend that this Blender can open"),
+    (["text.blend"], "'text.blend' is not a .blend file that this Blender can open"),
     (["planet", "--only", "speed"], "arithmetic"),
     (["planet", "--output", "text.blend/out"], "cannot write into 'text.blend/out'"),
 ])  # fmt: skip

@@ -1,1 +1,1 @@
-"""The only folder that imports bpy: Blender's data in, Blender's pictures and panels out."""
+"""The only folder that imports bpy: it reads Blender's data and makes Blender's images and panels."""

@@ -1,4 +1,4 @@
-"""The gallery that comes with the extension: example scenes of camera models, times and places, and their pictures."""
+"""The extension's gallery: example scenes of camera models, pixel times and places, with a picture of each scene."""
 
 from __future__ import annotations
 
@@ -11,33 +11,33 @@ from ..core.cameras.model import GROUPS
 
 PACKAGE = Path(__file__).resolve().parents[1]
 FOLDERS = (PACKAGE / "gallery", PACKAGE.parents[1] / "blend_scenes")
-"""Where the scenes are, with their pictures in ``pictures``: in the extension, and in the project itself."""
+"""Folders of the scenes in the extension and in the source tree. The pictures are in the subfolder ``pictures``."""
 
 NAMES = {
     "BLENDER": "pinhole", "PERSP": "pinhole", "ORTHO": "orthographic", "EQUIANGULAR_CUBEMAP_FACE": "cubemap_face",
     "FISHEYE_LENS_POLYNOMIAL": "fisheye_polynomial", "STEREOGRAPHIC_PANORAMA": "little_planet",
 }  # fmt: skip
-"""The scene of a camera model by its key; of all others the scene is called as the model."""
+"""Scene names by model key. Any other model's scene is named after its key, in lower case."""
 
 LECTURE = {
     "Camera Obscura": "camera_obscura", "Pinhole": "pinhole", "Thin Lens": "thin_lens", "Orthographic": "orthographic",
     "Fisheye": "fisheye_equidistant", "Omnimax": "omnimax", "Slit Scan": "slit_scan_rows",
 }  # fmt: skip
-"""The scenes of an introduction to cameras, in its order, by what it calls them."""
+"""Scenes of an introduction to cameras, by label, in the order of the introduction."""
 TIMES = "slit_scan_rows", "slit_scan_columns", "time_displacement", "rolling_shutter", "twisted_monkey", "propeller"
-"""Scenes whose pixels have each their own time."""
+"""Scenes in which each pixel has its own time."""
 PLACES = (
     "spheres_and_planes", "toys", "toys_cross_slit", "living_room", "living_room_equirectangular",
     "living_room_omnimax", "rotunda_fisheye", "rotunda_panorama", "street", "street_pushbroom", "sculpture_garden",
     "unrolled_monkey",
 )  # fmt: skip
-"""Scenes of every kind of shape, most of meshes."""
+"""Scenes with all kinds of shapes, mostly meshes."""
 
 _previews: list[bpy.utils.previews.ImagePreviewCollection] = []
 
 
 def folder() -> Path | None:
-    """Return the folder of the example scenes; None in an extension that was built without them."""
+    """Return the folder of the example scenes, or None if the extension was built without them."""
     return next((folder for folder in FOLDERS if folder.is_dir()), None)
 
 
@@ -47,7 +47,7 @@ def scene_name(key: str) -> str:
 
 
 def groups() -> dict[str, dict[str, str]]:
-    """Return the names of the scenes that menus offer, by label, in groups."""
+    """Return the scene names that the menus offer, by group and label."""
     return {
         "Introduction": LECTURE,
         "Time": {_label(name): name for name in TIMES},
@@ -61,13 +61,13 @@ def _label(name: str) -> str:
 
 
 def scenes() -> list[Path]:
-    """Return the files of the example scenes, in the order of their names."""
+    """Return the files of the example scenes, sorted by name."""
     found = folder()
     return sorted(found.glob("*.blend")) if found else []
 
 
 def icon(name: str) -> int:
-    """Return the icon that shows a scene's picture, 0 without one. It is read when it is first asked for."""
+    """Return the icon of a scene's picture, or 0 without a picture. The picture is loaded on the first call."""
     if not _previews:
         _previews.append(bpy.utils.previews.new())
     known, found = _previews[0], folder()
@@ -80,7 +80,7 @@ def icon(name: str) -> int:
 
 
 def register(undo) -> None:
-    """See ``registration``."""
+    """Register this module; see ``registration``."""
     undo.callback(_forget)
 
 

@@ -48,24 +48,24 @@ CLASSES = (
     *left_out_panels.CLASSES, *lesson_operators.CLASSES, *point_operators.CLASSES, *gallery_operators.CLASSES,
     *lesson_panels.CLASSES, *facts_panels.CLASSES, *overlay_panels.CLASSES, *object_panels.CLASSES,
 )  # fmt: skip
-"""Blender's types, in the order in which they are registered: a panel comes after the panel that it is in."""
+"""Blender types in registration order: a panel comes after its parent panel."""
 
 MODULES = (
     groups, kept, follow, reports, images, gallery, scene_cache, viewport, cast_operator, overlay, lesson, notice,
     render_panels, menus, gallery_operators, presets, export_operators, commands,
 )  # fmt: skip
-"""Modules that add more than classes. ``register(undo)`` adds it and gives ``undo`` the callbacks that remove it."""
+"""Modules that register more than classes. Their ``register(undo)`` gives ``undo`` the callbacks that undo it."""
 
 
 class Undo(ExitStack):
-    """Callbacks that each remove one thing, the last first; what another add-on or script has removed is gone."""
+    """Callbacks that each remove one thing, last in first out. Things that other code has removed are skipped."""
 
     def callback(self, remove, *arguments):
-        """Add one."""
+        """Add a callback."""
         return super().callback(_unless_gone, remove, *arguments)
 
     def add_handlers(self, handlers) -> None:
-        """Add functions to the lists of these names in ``bpy.app.handlers``, until this is undone."""
+        """Append functions to the named lists in ``bpy.app.handlers``, until they are undone."""
         for name, function in handlers:
             own = getattr(bpy.app.handlers, name)
             own.append(function)
@@ -73,16 +73,16 @@ class Undo(ExitStack):
 
 
 def _unless_gone(remove, *arguments) -> None:
-    with suppress(AttributeError, RuntimeError, ValueError):  # what Blender and lists raise where there is nothing
+    with suppress(AttributeError, RuntimeError, ValueError):  # raised if it is already removed
         remove(*arguments)
 
 
 _registered: list[Undo] = []
-"""The callbacks that remove everything again; empty where nothing is registered."""
+"""The callbacks that remove everything again; empty if nothing is registered."""
 
 
 def register() -> None:
-    """Register everything, if nothing is. Where that fails nothing stays registered, and the error is raised."""
+    """Register everything, unless it is registered already. On an error, undo the registration and raise the error."""
     if _registered:
         return
     with Undo() as undo:
@@ -92,12 +92,12 @@ def register() -> None:
         for module in MODULES:
             module.register(undo)
         _registered.append(undo.pop_all())
-    if not bpy.app.binary_path:  # Blender disables add-ons before it ends; pip's bpy crashes on what is left
+    if not bpy.app.binary_path:  # unlike Blender, pip's bpy does not disable add-ons, and crashes at exit
         atexit.register(unregister)
 
 
 def unregister() -> None:
-    """Remove all that is registered and still there, the last first."""
+    """Remove everything that is registered and still there, in reverse order."""
     atexit.unregister(unregister)
     if _registered:
         _registered.pop().close()

@@ -1,1 +1,1 @@
-"""The ray caster itself: numpy and the standard library only, so that it runs where no Blender is installed."""
+"""The ray caster. It imports only numpy and the standard library, so it runs without Blender."""

@@ -1,4 +1,4 @@
-"""What a caller may give, one check for each kind of argument: its value, or InputError in one line that names it."""
+"""Checks of arguments, one per kind. Each returns the value, or raises InputError with one line that names it."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from .records import InputError
 
 
 def shown(value) -> str:
-    """Return what a value looks like, in one short line, whatever it is."""
+    """Return any value as one short line of text."""
     return " ".join(shortened(value).split())
 
 
@@ -32,9 +32,9 @@ def count(value, name: str, most: float = inf) -> int:
 
 
 def number(value, name: str, most: float) -> float:
-    """Return a number from -most to most, of Python or numpy."""
+    """Return a Python or numpy number from -most to most as a float."""
     is_number = isinstance(value, int | float | np.integer | np.floating) and not isinstance(value, bool)
-    if not is_number or not abs(value) <= most:  # NaN is not
+    if not is_number or not abs(value) <= most:  # refuses NaN, too
         raise _refusal(name, value, f"a number from -{most} to {most}")
     return float(value)
 
@@ -47,21 +47,21 @@ def flag(value, name: str) -> bool:
 
 
 def word(value, name: str, known: Collection[str] | None = None) -> str:
-    """Return a string, one of those that are known; None for any."""
+    """Return a string; it must be one of ``known``, unless that is None."""
     if not isinstance(value, str) or (known is not None and value not in known):
         raise _refusal(name, value, "a string" if known is None else f"one of {', '.join(known)}")
     return value
 
 
 def words(value: str | Iterable[str], name: str, known: Collection[str]) -> tuple[str, ...]:
-    """Return some of the strings that are known, each once: from one string, or from what gives some."""
+    """Return the names in one string or in an iterable of strings, each name once; all must be in ``known``."""
     if isinstance(value, str):
         value = (value,)
     try:
         given_one_by_one = iter(value)
     except TypeError as error:
         raise _refusal(name, value, f"some of {', '.join(known)}") from error
-    most = 100 * len(known)  # what never ends is not waited for
+    most = 100 * len(known)  # an iterator without end is refused
     given = list(islice(given_one_by_one, most + 1))
     if len(given) > most:
         raise _refusal(name, value, f"at most {most} names")
@@ -69,10 +69,10 @@ def words(value: str | Iterable[str], name: str, known: Collection[str]) -> tupl
 
 
 def real_type(value, name: str) -> np.dtype:
-    """Return a floating-point type of numpy."""
+    """Return a numpy floating-point type."""
     try:
         dtype = np.dtype(value)
-    except Exception as error:  # numpy asks the value itself, and has TypeError, ValueError, SyntaxError and others
+    except Exception as error:  # numpy calls the value's own methods: TypeError, ValueError, SyntaxError and others
         raise _refusal(name, value, "float16, float32 or float64") from error
     if value is None or dtype.kind != "f" or dtype.shape:
         raise _refusal(name, value, "float16, float32 or float64")
@@ -89,9 +89,12 @@ def function(value, name: str) -> Callable[..., Any] | None:
 def numbers(value, name: str) -> np.ndarray:
     """Return numbers as a float64 array."""
     try:
-        return np.asarray(value, dtype=np.float64)
-    except Exception as error:  # what numpy says of it may be anything, on several lines
-        raise _refusal(name, value, "numbers") from error
+        given = np.asanyarray(value)
+        if given.dtype.kind in "cmM" or isinstance(given, np.ma.MaskedArray):
+            raise TypeError
+        return np.asarray(given, dtype=np.float64)
+    except Exception as error:  # numpy may raise anything, with several lines of text
+        raise _refusal(name, value, "real numbers, without a mask") from error
 
 
 def _refusal(name: str, value, allowed: str) -> InputError:

@@ -1,4 +1,4 @@
-"""Cast a camera's rays at shapes: plan, nearest hits, passes, tile by tile."""
+"""Cast the rays of a camera at shapes: make the plan, then find the nearest hits and write the passes, tile by tile."""
 
 from __future__ import annotations
 
@@ -19,11 +19,11 @@ from .maths.speed import Scratch, processors
 from .records import Shapes
 
 MOST_SAMPLES = 1 << 24
-"""Rays a pixel, as many as Cycles allows: more are no closer to the mean than a stored float32."""
+"""Maximum number of rays per pixel, as in Cycles. More rays do not make a mean that is stored as float32 more exact."""
 
 
 class Images(dict[str, np.ndarray]):
-    """The passes by name, (rows, columns[, channels]) arrays, row 0 at the bottom; beside them how they were made."""
+    """The passes by name, (rows, columns[, channels]) arrays with row 0 at the bottom, and how they were made."""
 
     camera: Camera
     shapes: Shapes
@@ -46,16 +46,16 @@ def cast(
 ) -> Images:
     """Return the passes of the camera's render window as a mapping of name to array.
 
-    dtype is what passes of real numbers are stored as; the arithmetic is float64, but ``precision="FAST"`` searches for
-    hits with float32. object_index, material_index and shape_index are int32, valid is bool. With ``samples`` above 1
-    the combined pass is the mean of as many rays a pixel, all over the pixel and the camera's aperture; all other
-    passes are of the chief rays. ``threads``: so many at most, one a processor if None; fewer where they
-    would wait for each other. ``progress(fraction)`` is called in the calling thread after each tile, and twenty
-    times a second; where it returns False the cast stops within the shapes under way and raises Cancelled.
-    ``cull=False`` tests every shape at every pixel: the same picture, slower.
-    Raises InputError for an unknown pass, shading or precision, for a dtype that is no floating-point number, for a
-    number of samples or threads that is not whole, below 1, or above MOST_SAMPLES, for flow to frames that were not
-    read, and for passes that take more memory than there is.
+    Passes of real numbers are stored as ``dtype``. The arithmetic is float64, except that ``precision="FAST"`` searches
+    for hits in float32. The index passes are int32, valid and flow_hidden are bool. With ``samples`` above 1 the
+    combined pass is the mean of that number of rays per pixel, spread over the pixel and the camera's aperture; all
+    other passes show the chief rays. ``threads`` is the maximum number of threads, by default one per processor; fewer
+    are used if they would wait for each other. ``progress(fraction)`` is called in the calling thread after each tile,
+    and twenty times a second; if it returns False, the cast stops before the next shape and raises Cancelled.
+    ``cull=False`` tests every shape at every pixel: the same picture, but slower.
+    Raises InputError for an unknown pass, shading or precision, for a dtype that is not a floating-point type, for a
+    number of samples or threads that is not whole or below 1, for more than MOST_SAMPLES samples, for flow to frames
+    that were not read, and for passes that need more memory than is available.
     """
     if not (isinstance(camera, Camera) and isinstance(shapes, Shapes)):
         raise TypeError(f"cast takes a camera and shapes as they are read, not {type(camera)} and {type(shapes)}")
@@ -87,7 +87,7 @@ def cast(
     def run(tile: Tile, scratch: Scratch) -> np.ndarray:
         seconds = np.zeros(len(STEPS))
         then = _moment(camera, shapes, tile.frame)
-        with np.errstate(all="ignore"):  # NaN and inf are answers here: no ray, no hit
+        with np.errstate(all="ignore"):  # NaN and inf mean no ray and no hit
             for part, count in parts:
                 if part.passes:
                     plan = plans.get(part) or make_plan(*then, part)
@@ -96,7 +96,7 @@ def cast(
         return seconds
 
     began = perf_counter()
-    others = round(whole.work.sum() / len(tiles) / tuning.SERIAL_WORK)  # may hold the interpreter meanwhile
+    others = round(whole.work.sum() / len(tiles) / tuning.SERIAL_WORK)  # may hold the interpreter in turn
     busy = in_threads(run, tiles, min(threads, 1 + others), request.real, effort, progress)
     share = (perf_counter() - began) / max(busy.sum(), np.finfo(float).tiny)
     images.seconds |= dict(zip(STEPS, busy * share, strict=True))
@@ -104,7 +104,7 @@ def cast(
 
 
 def _moment(camera: Camera, shapes: Shapes, frame: float | None) -> tuple[Camera, Shapes]:
-    """Return both as they are at a frame; None for a picture that has one time."""
+    """Return camera and shapes at a frame, or as they are if ``frame`` is None: the picture has one time."""
     if frame is None:
         return camera, shapes
     return camera.at(frame), shapes if shapes.motion is None else shapes.motion.shapes_at(frame)

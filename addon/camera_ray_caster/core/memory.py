@@ -1,4 +1,4 @@
-"""How much memory work takes and how much there is: asked before anything is allocated, not after half of it."""
+"""Checks, before anything is allocated, of whether the system has enough memory for it."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ import platform
 from .records import InputError
 
 ALWAYS_THERE = 1 << 28
-"""Bytes for which nobody asks."""
+"""Number of bytes up to which ``require`` does not ask the system."""
 
 
 class _Status(ctypes.Structure):
-    """Windows' MEMORYSTATUSEX."""
+    """The structure MEMORYSTATUSEX of Windows."""
 
     _fields_ = [("length", ctypes.c_ulong), ("load", ctypes.c_ulong)] + [
         (name, ctypes.c_ulonglong)
@@ -22,10 +22,10 @@ class _Status(ctypes.Structure):
 
 
 def available() -> int | None:
-    """Return the bytes that can still be had without harm to others; None where the system does not say.
+    """Return the number of bytes available without harm to other processes; None if the system does not report it.
 
-    Linux: what it estimates, and free swap. Windows: what a process may still commit. Elsewhere, as on macOS, all that
-    is built in: what others hold of it is not known.
+    Linux: its own estimate plus the free swap. Windows: the bytes that a process may still commit. Elsewhere, as on
+    macOS, all physical memory, since the part that other processes use is not known.
     """
     try:
         system = platform.system()
@@ -46,14 +46,14 @@ LESS = "render a border of the frame (Ctrl B, and crop to it), fewer pixels or f
 
 
 def require(needed: int, what: str, cure: str = LESS) -> None:
-    """Raise InputError where something, named in the plural, needs more bytes than there are."""
+    """Raise InputError if ``what``, named in the plural, needs more bytes than are available."""
     there = available() if needed > ALWAYS_THERE else None
     if there is not None and needed > there:
         raise InputError(
-            f"{what} take {needed / 2**30:.3g} GiB of memory and {there / 2**30:.3g} GiB are there: {cure}"
+            f"{what} take {needed / 2**30:.3g} GiB of memory and {there / 2**30:.3g} GiB are available: {cure}"
         )
 
 
 def of_pixels(what: str, shape: tuple[int, ...]) -> str:
-    """Return words for what there is of rows and columns of pixels."""
+    """Return ``what`` followed by its size in pixels, as text; ``shape`` is (rows, columns)."""
     return f"{what} of {' x '.join(str(side) for side in reversed(shape))} pixels"

@@ -1,4 +1,4 @@
-"""Names of files that are made of names in Blender: of each camera and frame its own, and none that leads elsewhere."""
+"""File names made from names in Blender: unique for each camera and frame, and without a path to another folder."""
 
 from __future__ import annotations
 
@@ -8,18 +8,18 @@ from collections.abc import Iterable
 from .records import InputError
 
 UNSAFE = re.compile(r'[\x00-\x1f\x7f/\\:*?"<>|]|^\.')
-"""What a file's name may not have on some system; a dot in front would hide it."""
+"""Characters that a file name may not contain on some system, and a leading dot, which would hide the file."""
 
 
 def file_name(name: str) -> str:
-    """Return a name with ``_`` for what no file's name may have."""
+    """Return a name with ``_`` in place of characters that a file name may not contain."""
     return UNSAFE.sub("_", name).rstrip(". ") or "_"
 
 
 def file_names(names: Iterable[str]) -> dict[str, str]:
     """Return ``file_name`` of each name.
 
-    Raises InputError where two names would have the same file, also where only small and capital letters differ.
+    Raises InputError if two names would have the same file, also if they differ only in upper and lower case.
     """
     found = {name: file_name(name) for name in names}
     owners: dict[str, str] = {}
@@ -31,6 +31,6 @@ def file_names(names: Iterable[str]) -> dict[str, str]:
 
 
 def frame_digits(frame: float) -> str:
-    """Return a frame as file names have it: four digits or more, and up to six decimals of one between frames."""
+    """Return a frame for a file name: four digits or more, and up to six decimals if it lies between whole frames."""
     whole, point, rest = f"{frame:.6f}".rstrip("0").partition(".")
     return whole.zfill(4) + (point + rest if rest else "")

@@ -1,4 +1,4 @@
-"""The plain records that are handed from step to step. They hold values; the steps hold the arithmetic."""
+"""The plain records that the steps of a cast exchange. They hold values; the steps hold the arithmetic."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ import numpy as np
 
 
 class InputError(ValueError):
-    """What the user gave cannot be cast. The message is one line that says what is wrong and what to do."""
+    """Input of the user that cannot be cast. The message is one line that says what is wrong and what to do."""
 
     def __init__(self, message: str):
-        super().__init__(" ".join(message.splitlines()))  # what it quotes may have several
+        super().__init__(" ".join(message.splitlines()))  # quoted text may have several lines
 
 
 class Cancelled(Exception):
@@ -23,10 +23,10 @@ class Cancelled(Exception):
 
 @dataclass(frozen=True)
 class BlenderCamera:
-    """A camera and its render settings as Blender has them: copied, nothing derived.
+    """A camera and its render settings, copied from Blender; nothing is derived.
 
-    Names, units and meaning are those of Blender's Python API (Camera, RenderSettings). ``matrix_world`` is the
-    evaluated object's, (4, 4) float64. ``settings`` holds what only some models have, by the property's name.
+    Names, units and meanings are those of Blender's Python API (Camera, RenderSettings). ``matrix_world`` is the matrix
+    of the evaluated object, (4, 4) float64. ``settings`` holds the properties that only some models have, by name.
     """
 
     name: str
@@ -52,13 +52,13 @@ class BlenderCamera:
     border_min_y: float = 0.0
     border_max_y: float = 1.0
     model: str = ""
-    """Key of the model that was chosen in place of Blender's type; empty: Blender's."""
+    """Key of the model chosen in place of Blender's camera type; empty if Blender's type is used."""
     settings: Mapping[str, Any] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
 class Raster:
-    """The full frame in pixels, and the window of it that is rendered: columns x0 .. x1 - 1, rows y0 .. y1 - 1."""
+    """The full frame in pixels, and its window that is rendered: columns x0 .. x1 - 1, rows y0 .. y1 - 1."""
 
     width: int
     height: int
@@ -90,10 +90,10 @@ class Raster:
 
 @dataclass(frozen=True)
 class Pose:
-    """Where the camera is: world = eye + basis @ camera."""
+    """Position and orientation of the camera: world = eye + basis @ camera."""
 
     eye: np.ndarray
-    """(3,) float64, world."""
+    """(3,) float64: the camera's origin in the world."""
     basis: np.ndarray
     """(3, 3) float64: the columns are the camera's X, Y and Z axes in the world, each of unit length."""
 
@@ -103,25 +103,23 @@ class Rays:
     """The chief rays of a picture, in the world; see the conventions."""
 
     origins: np.ndarray
-    """(rows, columns, 3) float64; a read-only broadcast view where all rays leave one eye."""
+    """(rows, columns, 3) float64; a read-only broadcast view if all rays leave one eye."""
     directions: np.ndarray
     """(rows, columns, 3) float64, unit length to 8 EPS, NaN where there is no ray."""
     valid: np.ndarray
     """(rows, columns) bool."""
     time: np.ndarray | None = None
-    """(rows, columns) float64: the frame at which each ray is cast; None where the picture has one time."""
+    """(rows, columns) float64: the frame at which each ray is cast; None if the picture has one time."""
 
 
 @dataclass(frozen=True)
 class RaysJacobian:
-    """How the chief rays of a picture change from pixel to pixel, in the world: the last axis counts the derivatives by
-    the pixel's x and y.
-    """
+    """The derivatives of a picture's chief rays, in the world, with respect to the pixel's x and y: the last axis."""
 
     origins: np.ndarray
-    """(rows, columns, 3, 2) float64; a read-only broadcast view of 0 where all rays leave one eye."""
+    """(rows, columns, 3, 2) float64; a read-only broadcast view of 0 if all rays leave one eye."""
     directions: np.ndarray
-    """(rows, columns, 3, 2) float64, of the unit directions; NaN where there is no ray."""
+    """(rows, columns, 3, 2) float64: derivatives of the unit directions; NaN where there is no ray."""
 
 
 SPHERE, PLANE, INFINITE_PLANE, MESH = 0, 1, 2, 3
@@ -130,38 +128,38 @@ SPHERE, PLANE, INFINITE_PLANE, MESH = 0, 1, 2, 3
 
 @dataclass(frozen=True, eq=False)
 class Mesh:
-    """The triangles of an evaluated mesh in its object's space; its instances share it. A loop is a corner of a face.
+    """The triangles of an evaluated mesh in its object's space; instances share one mesh. A loop is a corner of a face.
 
-    Components of vertices and corners of triangles are rows, of which each lies in one piece; what loops have is read
-    here and there, so that it is the components of a loop that lie in one.
+    Data of vertices and triangles have one contiguous row per component or corner. Data of loops are read at scattered
+    loops; the components of a loop are therefore contiguous.
     """
 
     vertices: np.ndarray
     """(3, v) float32."""
     triangles: np.ndarray
-    """(3, k) int32: the vertices of each triangle, in the order that turns to the left as seen from its front."""
+    """(3, k) int32: the vertices of each triangle, counterclockwise as seen from its front."""
     polygon: np.ndarray
-    """(k,) int32: the face that each triangle is a part of."""
+    """(k,) int32: the face to which each triangle belongs."""
     loops: np.ndarray | None = None
-    """(3, k) int32: the loops of each triangle; None where neither normals nor uv are asked for by loop."""
+    """(3, k) int32: the loops of each triangle; None if neither normals nor uv are stored by loop."""
     normals: np.ndarray | None = None
-    """(l, 3) float32: the unit normals at the loops; None where every face is flat, whose triangles' normals count."""
+    """(l, 3) float32: unit normals at the loops; None if all faces are flat and have the normals of their triangles."""
     uv: np.ndarray | None = None
-    """(l, 2) float32: the render UV map at the loops; None without one."""
+    """(l, 2) float32: the render UV map at the loops; None without a UV map."""
     slot: np.ndarray | None = None
-    """(k,) int16: the material slot of each triangle; None where all have the first one."""
+    """(k,) int16: the material slot of each triangle; None if all have the first slot."""
 
     def __len__(self) -> int:
         return self.triangles.shape[1]
 
     @cached_property
     def middle(self) -> np.ndarray:
-        """(3,) float64: of the bounding box."""
+        """(3,) float64: the middle of the bounding box."""
         return (self.vertices.min(axis=1) / 2.0 + self.vertices.max(axis=1) / 2.0).astype(np.float64)
 
     @cached_property
     def is_outer(self) -> np.ndarray:
-        """(3, k) bool: whether the side opposite to each corner is an edge of the face, not within it."""
+        """(3, k) bool: whether the side opposite each corner is an edge of the face, not a diagonal within the face."""
         ends = np.sort([self.triangles[[1, 2, 0]], self.triangles[[2, 0, 1]]], axis=0).reshape(2, -1)
         sides = np.vstack((np.tile(self.polygon, 3), ends))
         order = np.lexsort(sides)
@@ -172,28 +170,28 @@ class Mesh:
 
     @cached_property
     def half_size(self) -> np.ndarray:
-        """(3,) float64: how far the vertices reach from the middle along each axis."""
+        """(3,) float64: the largest distance of a vertex from the middle along each axis."""
         return np.abs(self.vertices - self.middle[:, None]).max(axis=1)
 
 
 @dataclass(frozen=True, eq=False)
 class Slots:
-    """The materials of meshes that have several: row k of ``Shapes`` has those from ``first[k]`` on."""
+    """The materials of meshes that have several: those of row k of ``Shapes`` begin at ``first[k]``."""
 
     first: np.ndarray
-    """(n,) int64; -1 for shapes that have one material, which ``Shapes`` has."""
+    """(n,) int64; -1 for shapes with one material, which is stored in ``Shapes``."""
     material_index: np.ndarray
-    """(s,) int32: pass indices."""
+    """(s,) int32: pass indices of the materials."""
     color: np.ndarray
-    """(s, 4) float32."""
+    """(s, 4) float32: linear RGBA, as ``Shapes.color``."""
 
 
 @dataclass(frozen=True)
 class Lights:
-    """Sun and point lights: ``position[k]`` is a place, or with ``is_sun`` the unit direction towards the sun.
+    """Sun and point lights: ``position[k]`` is a point, or with ``is_sun`` the unit direction towards the sun.
 
-    (n, 3), (n,) and (n, 3) arrays; ``color`` is the light's color times its strength as Blender states it: watts
-    for a point light, watts a square meter for a sun.
+    The arrays are (n, 3), (n,) and (n, 3). ``color`` is the light's color times its strength in Blender's units: watts
+    for a point light, watts per square meter for a sun.
     """
 
     position: np.ndarray = field(default_factory=lambda: np.zeros((0, 3)))
@@ -202,7 +200,7 @@ class Lights:
 
 
 class MovingShapes(Protocol):
-    """What knows shapes at any frame, as ``Motion`` does."""
+    """An object that returns the shapes at any frame, such as ``Motion``."""
 
     def shapes_at(self, frame: float) -> Shapes:
         """Return the shapes at a frame."""
@@ -210,12 +208,11 @@ class MovingShapes(Protocol):
 
 @dataclass(frozen=True)
 class Shapes:
-    """The spheres, planes and meshes of a scene, one row a shape; ``shape_index`` of a pixel is the row.
+    """The spheres, planes and meshes of a scene, one row per shape; ``shape_index`` of a pixel is the row.
 
-    world = center + axes @ q with the unit sphere or unit square in q (see the conventions), so that every affine
-    image of a sphere is an ellipsoid and every plane a parallelogram. An infinite plane ignores the lengths of its
-    first two axes for what it covers; they scale its uv. Of a mesh q is a vertex less the mesh's ``middle``; its axes
-    may lie in one plane.
+    world = center + axes @ q with the unit sphere or square in q (see the conventions): a sphere may be any ellipsoid,
+    a plane any parallelogram. The lengths of an infinite plane's first two axes do not limit it; they scale its uv. For
+    a mesh q is a vertex minus the mesh's ``middle``; the axes of a mesh may lie in one plane.
     """
 
     kind: np.ndarray
@@ -223,8 +220,8 @@ class Shapes:
     center: np.ndarray
     """(n, 3) float64, world."""
     axes: np.ndarray
-    """(n, 3, 3) float64: the columns are the images of the shape's axes. Invertible (the reader sees to it), but of
-    meshes.
+    """(n, 3, 3) float64: the columns are the images of the shape's axes. Invertible, which the reader ensures, except
+    for meshes.
     """
     object_index: np.ndarray
     """(n,) int32: the object's pass index."""
@@ -233,32 +230,32 @@ class Shapes:
     color: np.ndarray
     """(n, 4) float32: linear RGBA for the combined pass."""
     name_index: np.ndarray
-    """(n,) int32 into ``names``: instances and points share their object's name."""
+    """(n,) int32: indices into ``names``; instances and points share the name of their object."""
     names: tuple[str, ...] = ()
     materials: tuple[tuple[int, str], ...] = ()
-    """Pass index and name of each material that a shape has."""
+    """Pass index and name of each material of the shapes."""
     lights: Lights = field(default_factory=Lights)
     world_color: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 1.0)
     motion: MovingShapes | None = None
-    """What knows the shapes at other frames, for cameras whose pixels have each their own; else None."""
+    """The shapes at other frames, for cameras whose pixels have times of their own; else None."""
     left_out: tuple[tuple[str, str], ...] = ()
-    """Objects that are not cast, each with the reason, in one line."""
+    """Objects that are not cast, each with the reason in one line."""
     meshes: tuple[Mesh, ...] = ()
     mesh: np.ndarray = field(default_factory=lambda: np.zeros(0, np.int32))
-    """(n,) int32 into ``meshes``, -1 for other shapes; empty where there are no meshes."""
+    """(n,) int32: indices into ``meshes``, -1 for other shapes; empty if there are no meshes."""
     shared: np.ndarray = field(default_factory=lambda: np.zeros(0, bool))
-    """(n,) bool: whether normals of the mesh are interpolated in its own frame, as Cycles does of one that several
-    objects show, not in the world; empty where there are no meshes.
+    """(n,) bool: whether normals of the mesh are interpolated in its own frame, as in Cycles for a mesh that several
+    objects share, and not in the world; empty if there are no meshes.
     """
     slots: Slots | None = None
-    """None where no mesh has more than one material."""
+    """Materials of meshes that have several; None if no mesh has more than one."""
     exact: tuple[tuple[str, float], ...] = ()
-    """Objects whose mesh is cast as the sphere or plane that it is, and how far both are apart at most, over the radius
-    or the plane's longer half side.
+    """Objects whose mesh is cast as an exact sphere or plane, each with the largest distance between the two, over the
+    radius or the plane's longer half side.
     """
 
     next: Shapes | None = None
-    """At the next frame, and ``previous`` at the previous one: see ``casting.flow``. None where they are not read."""
+    """The shapes at the next frame, and in ``previous`` at the previous one: see ``casting.flow``. None if not read."""
     previous: Shapes | None = None
 
     def __len__(self) -> int:
@@ -274,7 +271,7 @@ def no_shapes() -> Shapes:
 
 @dataclass(frozen=True)
 class Finding:
-    """What one witness says of a camera's rays: the errors beside the bound that the witness itself can reach."""
+    """The errors of a camera's rays against one independent reference, and the bounds that the reference can reach."""
 
     witness: str
     points: int
@@ -285,11 +282,11 @@ class Finding:
     median_radians: float
     bound_radians: float
     not_compared: str = ""
-    """Why nothing was compared; empty where it was."""
+    """Reason why nothing was compared; empty if there was a comparison."""
 
     @property
     def passed(self) -> bool:
-        """Whether no error exceeds its bound, NaN does; what was not compared fails nothing."""
+        """Whether no error exceeds its bound. NaN fails; a finding without a comparison passes."""
         if self.not_compared:
             return True
         return self.worst_pixels <= self.bound_pixels and self.worst_radians <= self.bound_radians

@@ -1,77 +1,83 @@
 """The tuned constants of a cast, each with the measurement that gave it. They change its speed, never its picture.
 
-Times are of whole casts at 1920 x 1080 with two threads, in pairs of runs with and without, medians of 15; passes are
-four (depth, normal, position, object_index) or two (depth, shape_index). N spheres stand before a wall.
+Unless said otherwise, times are those of whole casts at 1920 x 1080 with two threads, medians of 15 pairs of runs, one
+with the constant as it is and one with it changed. The passes are four (depth, normal, position, object_index) or two
+(depth, shape_index). "N spheres" are spheres in front of a wall.
 """
 
 SMALL_PIXELS = 1 << 13
-"""A shape with fewer pixels in its bounds is tested in a batch with others, since a call of numpy costs more than its
-pixels. No batches at all: 1.4 to 1.5 times the time for 1,000 spheres, 4.4 to 5.6 for 10,000. 2**15: 1.3 to 1.5 times
-for 100 spheres; 2**11: within 6 %.
+"""Number of pixels in a shape's bounds below which it is tested in a batch with others, since a numpy call costs more
+than its pixels. Without batches: 1.4 to 1.5 times the time for 1,000 spheres, 4.4 to 5.6 for 10,000. 2**15: 1.3 to 1.5
+times for 100 spheres; 2**11: within 6 %.
 """
 
 BATCH_PIXELS = 1 << 18
-"""Pixels of the bounds of the small shapes that are tested at once. 2**15: 1.2 to 1.5 times the time for 1,000 and
-10,000 spheres, since threads wait for each other; no limit: within 5 %, but memory without limit.
+"""Number of pixels, over the bounds of small shapes, in one batch. 2**15: 1.2 to 1.5 times the time for 1,000 and
+10,000 spheres, since threads wait for each other; no limit: within 5 %, but the memory is unlimited, too.
 """
 
 PREPARED_PIXELS = 1 << 16
-"""Rows and columns of large shapes whose terms are made at once. One shape at a time: 1.2 times the time for 100
-spheres and two passes, 1.03 to 1.06 otherwise.
+"""Number of rows plus columns, over all shapes of a group, whose terms are computed at once for large shapes. One shape
+at a time: 1.2 times the time for 100 spheres and two passes, 1.03 to 1.06 otherwise.
 """
 
 FAR = 1e4
-"""Radii. The normal of a sphere nearer than that has unit length to 1e-11 as it comes, and is not divided by its
-length. Always divided: 1.2 to 1.4 times the time where normals are asked for.
+"""Distance of a sphere in radii. The computed normal of a nearer sphere has unit length to 1e-11, and is not divided by
+its length. Always divided: 1.2 to 1.4 times the time of casts with normals.
 """
 
 BLOCK_PIXELS = 1 << 17
-"""Pixels whose passes are made at once: fewer calls of numpy, between which threads wait for each other, gain more than
-arrays that stay in a core's cache. 2**15: 1.2 to 1.3 times the time of meshes and of 10 spheres, 1.4 to 1.6 times that
-of error bounds; 2**16: 1.0 to 1.1 and 1.2 times; of 1,000 and 10,000 spheres both within 7 %.
+"""Number of pixels whose passes are written at once. Fewer numpy calls, between which threads wait for each other, gain
+more than arrays that stay in a core's cache. 2**15: 1.2 to 1.3 times the time of meshes and of 10 spheres, 1.4 to 1.6
+times that of error bounds; 2**16: 1.0 to 1.1 and 1.2 times; for 1,000 and 10,000 spheres both within 7 %.
 """
 
 TILE_PIXELS = 1 << 18, 1 << 20
-"""The fewest and the most pixels of a tile, the unit of threads, progress and canceling."""
+"""Minimum and maximum number of pixels in a tile, the unit of threads, progress and canceling."""
 
 TILE_WORK = 1 << 23
-"""The most work of a tile, all its samples counted: a tenth of a second. Below that a thread has one tile."""
+"""Maximum work of a tile, counting all its samples: a tenth of a second. With less work each thread has one tile."""
 
 SERIAL_WORK = 1 << 18
-"""Work that takes as long as what threads do one at a time for a tile, holding the interpreter: 0.4 to 3 ms, measured
-with 1 to 15 tiles. Without heed to it 16 threads took two to four times as long as two.
+"""Work that takes as long as the part of a tile that threads do one at a time, holding the interpreter: 0.4 to 3 ms,
+measured with 1 to 15 tiles. If this part is ignored, 16 threads take two to four times as long as two.
 """
 
 CHUNK = 1 << 16
-"""Vertices or triangles of meshes that are placed at once. Times as below: 2**14 within 6 %, 2**20 up to 1.1 times."""
+"""Number of mesh vertices or triangles placed at once. In the casts of SLABS: 2**14 within 6 %, 2**20 up to 1.1."""
 
 BOUNDED = 1 << 12
-"""Triangles whose balls are bounded at once: a strip's takes some microseconds, and a stop is heard between them."""
+"""Number of triangles whose bounding balls are bounded at once. With a strip camera each takes some microseconds, and
+the cast can be stopped only between two calls.
+"""
 
 SURFACES = 1 << 12
-"""Triangles whose normals are made constants at once. 2**10 to 2**18: within the noise, but memory without limit."""
+"""Number of triangles whose normals are computed at once. 2**10 to 2**18: within the noise; no limit: more memory."""
 
 SLABS, SLAB_PIXELS = 2, 1 << 17
-"""Parts in which triangles are tested, the nearest first: what they hide is not tested. They are SLABS times the root
-of the triangles' work over the tile's pixels, since before each the whole tile is asked what is hidden, and SLAB_PIXELS
-more for numpy's calls. Processor time of depth and shape index of a monkey of 1,000, 63,000 and a million triangles
-before a wall, and of a thousand monkeys: SLABS 1: 0.95, 1.04, 1.24 and 1.19 times; 3: 1.04, 1.05, 1.01 and 1.09. Always
-four parts, and what is larger than a cell never hidden: 1.1 to 1.4 times, of the thousand 3 times. SLAB_PIXELS 0: 1.5
-times the time of 60 monkeys of 3,936 in 200 x 119 pixels; up to 2**18: within the noise of those casts.
+"""Factors of the number of slabs in which triangles are tested, the nearest first; triangles behind a tested slab are
+skipped. The number is SLABS times the square root of the triangles' work over (the tile's pixels plus SLAB_PIXELS):
+before each slab all pixels of the tile are checked, and SLAB_PIXELS stands for the numpy calls. Processor time of depth
+and shape index for a monkey head of 1,000, 63,000 and a million triangles before a wall, and for a thousand heads:
+SLABS 1: 0.95, 1.04, 1.24 and 1.19 times; 3: 1.04, 1.05, 1.01 and 1.09. Always four slabs, without skipping triangles
+larger than a cell: 1.1 to 1.4 times, for the thousand 3 times. SLAB_PIXELS 0: 1.5 times the time for 60 heads of 3,936
+triangles in 200 x 119 pixels; up to 2**18: within the noise.
 """
 
 TRIANGLE_PIXELS = 16
-"""Pixels whose test takes about as long as what a triangle takes beside them; profiles of these casts say 8 to 20."""
+"""Number of pixel tests that take as long as the other work for a triangle: 8 to 20 in profiles of these casts."""
 
 CELL = 8
-"""Pixels of the sides of the smallest cells whose farthest t is asked for. 4: 1.2 to 1.3 times the time of one monkey,
-0.9 of a thousand; 16: 0.95 of these.
+"""Side, in pixels, of the smallest cells whose farthest t is computed. 4: 1.2 to 1.3 times the time of one monkey head,
+0.9 times that of a thousand; 16: 0.95 times that of a thousand.
 """
 
 SPANNED, SPANNED_PIXELS = 1 << 15, 1 << 19
-"""Triangles whose spans are found at once, and pixels of their bounds. An eighth and a quarter: 1.1 to 1.25 times the
-time of those casts and of a thousand monkeys; twice: within 4 %, but more memory.
+"""Number of triangles whose spans are computed at once, and number of pixels in their bounds. An eighth and a quarter
+of them: 1.1 to 1.25 times the time of the casts of SLABS; twice as many: within 4 %, but more memory.
 """
 
 TRACED_PIXELS = 1 << 17
-"""The same of triangles that are tested ray by ray. 2**15: 1.1 times the time of a fisheye; 2**18: within 3 %."""
+"""Number of pixels in the bounds of triangles that are tested ray by ray at once. 2**15: 1.1 times the time of a
+fisheye; 2**18: within 3 %.
+"""

@@ -1,4 +1,4 @@
-"""Which version this is: what Blender's manifest says."""
+"""The version of the add-on, read from Blender's manifest."""
 
 import tomllib
 from pathlib import Path

@@ -1,1 +1,1 @@
-"""Places to be photographed, one a file, all of them meshes that have few vertices before their modifiers."""
+"""Places to be photographed, one per file, mostly of meshes with few vertices before their modifiers."""

@@ -1,4 +1,4 @@
-"""A biplane on its runway."""
+"""A biplane on a runway."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from ..solids import block, modified, prism, repeated, sheet, soft, tube, turned
 
 
 def airfield(scene):
-    """Fill the scene with a propeller plane on its runway, nose to -y; return the empty that turns the propeller."""
+    """Fill the scene with a biplane on a runway, nose to -y; return the empty that turns the propeller."""
     add(scene, "Grass", square(), scale=90, color="93b06f", index=1)
     block(scene, "Runway", (12, 90, 0.02), (0, 30, 0.01), edge=0, color="85888c", index=1)
     repeated(block(scene, "Dash", (0.3, 3, 0.01), (0, 4, 0.025), edge=0, color="f2efe8", index=1), (10, (0, 7, 0)))
@@ -72,7 +72,7 @@ def airfield(scene):
 
 
 def wing(scene, name: str, half: float, deep: float, place, raised: float) -> None:
-    """Add a wing: a subdivided slab with round tips whose sides rise by ``raised`` degrees."""
+    """Add a wing: two subdivided slabs with round tips that rise outward by ``raised`` degrees."""
     for side in (-1, 1):
         at = place[0] + side * half / 2 * cos(radians(raised)), place[1], place[2] + half / 2 * sin(radians(raised))
         size, turn = (half + 0.1, deep, 0.16), (0, -side * raised, 0)

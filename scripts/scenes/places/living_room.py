@@ -1,4 +1,4 @@
-"""A living room: |x| <= 3.2, |y| <= 3, 0 <= z <= 2.7. Pass indices tell kinds of things apart."""
+"""A living room: |x| <= 3.2, |y| <= 3, 0 <= z <= 2.7. Each kind of object has its own pass index."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ def living_room(scene) -> None:
 
 
 def shell(scene) -> None:
-    """Add floor boards, walls, a window with curtains, a ceiling with beams."""
+    """Add floor boards, walls, a window with curtains, and a ceiling with beams."""
     add(scene, "Ground", square(), (0, 0, -0.03), scale=(3.3, 3.1, 1), color="5b4532", index=FLOOR)
     for k, color in enumerate(("c29669", "b58859", "caa075")):
         plank = block(scene, "Plank", (1.29, 0.194, 0.03), (-3.63 + 0.43 * k, -2.9 + 0.2 * k, -0.015), edge=0.004,
@@ -74,7 +74,7 @@ def shell(scene) -> None:
 
 
 def outside(scene) -> None:
-    """Add what the window shows: a meadow, hills and trees."""
+    """Add the view from the window: a meadow, hills and trees."""
     add(scene, "Meadow", square(), (-60, 0, -0.4), scale=56, color="a9c47f", index=OUTSIDE)
     for k in range(5):
         hill = (-34 - 4 * sin(2 * k), -26 + 13 * k, -2), (0, 0, 0), (9, 11, 3.4 + cos(2 * k))
@@ -85,7 +85,7 @@ def outside(scene) -> None:
 
 
 def dining(scene) -> None:
-    """Add a rug, a table that is laid, four chairs and a lamp above it."""
+    """Add a rug, a laid table, four chairs and a lamp above the table."""
     at = -0.3, 0
     for radius, high, color in ((1.75, 0.008, "3f6f8f"), (1.55, 0.012, "e9dcc3"), (1.45, 0.016, "5f8fa8")):
         edge = [(0, high), (radius, high), (radius, 0)]
@@ -124,7 +124,7 @@ def dining(scene) -> None:
 
 
 def bookshelf(scene) -> None:
-    """Add a shelf at the back wall, books of many sizes, a figure and a vase."""
+    """Add a shelf at the back wall, with books of many sizes, a figure, a vase and a globe."""
     x, y, width = 1.15, 2.82, 2.0
     side = block(scene, "Side", (0.04, 0.32, 2.1), (x - width / 2, y, 1.05), edge=0.005, color=WOOD, index=SHELF)
     repeated(side, (2, (width, 0, 0)))
@@ -152,7 +152,7 @@ VASE = (
 
 
 def lounge(scene) -> None:
-    """Add a sofa with pillows at the right wall, a picture above it, and a lamp that stands beside."""
+    """Add a sofa with pillows at the right wall, a picture above it, and a floor lamp next to it."""
     gray, x = "7d8ca3", 2.68
     soft(scene, "Base", (0.85, 2.1, 0.3), (x, -0.35, 0.26), crease=0.8, color=gray, index=SOFA)
     soft(scene, "Rest", (0.26, 2.1, 0.75), (x + 0.33, -0.35, 0.5), color=gray, index=SOFA)

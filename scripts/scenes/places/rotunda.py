@@ -12,7 +12,7 @@ STONE, PALE = "d8cbb2", "ece4d3"
 
 
 def rotunda(scene) -> None:
-    """Fill the scene with twelve columns around a fountain, r <= 6, under a ribbed dome that is open in the middle."""
+    """Fill the scene with twelve columns around a fountain, r <= 6, under a ribbed dome with an opening at the top."""
     add(scene, "Lawn", square(), (0, 0, -0.35), scale=99, color="93b06f", index=1)
     for k, radius in enumerate((7.8, 7.4, 7.0)):
         disc = [(0, 0.12 * (k - 2)), (radius, 0.12 * (k - 2)), (radius, 0.12 * (k - 3))]
@@ -43,7 +43,7 @@ def rotunda(scene) -> None:
 
 
 def tiles(scene) -> None:
-    """Add a floor of rings whose tiles are light and dark in turn."""
+    """Add a floor of rings with alternating light and dark tiles."""
     rings = 1.6, 2.5, 3.4, 4.3, 5.2
     for k, inner in enumerate(rings):
         outer, count = inner + 0.9, 36
@@ -59,7 +59,7 @@ def tiles(scene) -> None:
 
 
 def dome(scene) -> None:
-    """Add the dome: a shell with a hole, and ribs before it by the wireframe of a coarser one."""
+    """Add the dome: a shell with a hole, and ribs inside it, the wireframe of a coarser dome."""
 
     def arc(radius, count):
         angles = [radians(2 + 72 * k / count) for k in range(count + 1)]
@@ -71,7 +71,7 @@ def dome(scene) -> None:
 
 
 def fountain(scene) -> None:
-    """Add three basins with water, and a monkey of gold."""
+    """Add a basin and a bowl with water, and a golden monkey."""
     basin = [
         (0, 0),
         (1.5, 0),

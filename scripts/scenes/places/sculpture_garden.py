@@ -12,7 +12,7 @@ from .tree import tree
 
 
 def sculpture_garden(scene) -> None:
-    """Fill the scene with letters, a knot, metaballs, a canopy and a hill with trees by geometry nodes."""
+    """Fill the scene with letters, a knot, metaballs, a canopy, and a hill with trees placed by geometry nodes."""
     add(scene, "Lawn", square(), scale=90, color="9ab97b", index=1)
     hill(scene)
     path = [(0, 0.012), (3.3, 0.012), (3.3, 0)]
@@ -39,12 +39,12 @@ def sculpture_garden(scene) -> None:
 
 
 def plinth(scene, x: float, y: float, half: float, high: float) -> None:
-    """Add a stone block to stand something on."""
+    """Add a stone block as a base."""
     block(scene, "Plinth", (2 * half, 2 * half, high), (x, y, high / 2), edge=0.04, color="c9bfae", index=2)
 
 
 def hill(scene) -> None:
-    """Add hills, and trees that geometry nodes put on them."""
+    """Add hills, and trees placed on them by geometry nodes."""
     count = 19
     places = []
     for j in range(count):

@@ -1,4 +1,4 @@
-"""A street of narrow houses along x, 32 meters long, its fronts at y = 4."""
+"""A street of narrow houses along x, 30 meters long, with fronts at y = 4."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ HOUSES = (
     (4.0, 6.6, "steps", "c98f6a", 3), (4.6, 5.8, "bell", "8aa07f", 3), (3.8, 7.2, "point", "a8485a", 3),
     (4.4, 6.4, "steps", "e2cfa6", 3),
 )  # fmt: skip
-"""Width, height of the eaves, gable, color, windows side by side."""
+"""Width, height of the eaves, gable, color and number of windows per floor of each house."""
 
 GABLES = {"steps": 2.2, "bell": 2.0, "point": 2.4}
-"""How high each kind is."""
+"""Height of each kind of gable."""
 
 
 def street(scene) -> None:
@@ -54,7 +54,7 @@ def street(scene) -> None:
 
 
 def window(scene):
-    """Return a collection: a window, 0.9 by 1.4, its middle at the origin."""
+    """Return a collection with a window, 0.9 by 1.4, centered at the origin."""
     return assembled(scene, "Window", [
         block(scene, "Glass", (0.86, 0.04, 1.36), edge=0, color=GLASS, index=WINDOW),
         repeated(block(scene, "Upright", (0.06, 0.1, 1.4), (-0.42, -0.02, 0), edge=0.008, color=WHITE, index=WINDOW),
@@ -66,7 +66,7 @@ def window(scene):
 
 
 def house(scene, number, x, width, eaves, gable, color, count, windows) -> None:
-    """Add a house in the row."""
+    """Add a house to the row."""
     half, top = width / 2, eaves + GABLES[gable]
     right = {
         "steps": [(half * (1 - 0.225 * k), eaves + 0.55 * (k + j)) for k in range(4) for j in (0, 1)],
@@ -95,7 +95,7 @@ def house(scene, number, x, width, eaves, gable, color, count, windows) -> None:
 
 
 def entry(scene, x: float, color: str) -> None:
-    """Add a door with steps before it."""
+    """Add a door with a step in front of it."""
     block(scene, "Door frame", (1.14, 0.12, 2.36), (x, 3.97, 1.28), color=WHITE, index=DOOR)
     block(scene, "Door", (0.9, 0.12, 2.1), (x, 3.94, 1.2), color=color, index=DOOR)
     add(scene, "Knob", uv_sphere(), (x + 0.35, 3.85, 1.15), scale=0.05, color="e0b040", index=DOOR)
@@ -103,7 +103,7 @@ def entry(scene, x: float, color: str) -> None:
 
 
 def car(scene, name: str, place, color: str) -> None:
-    """Add a small car that stands along x."""
+    """Add a small car parallel to x."""
     x, y, _ = place
     soft(scene, name, (3.9, 1.6, 0.66), (x, y, 0.58), crease=0.5, color=color, index=CAR)
     outline = [(-1.25, 0), (1.05, 0), (0.45, 0.55), (-0.95, 0.55)]

@@ -11,7 +11,7 @@ RED, TEAL, YELLOW, BLUE, PURPLE, PINK = "e2674a", "2a9d8f", "f0b941", "3f7cc0", 
 
 
 def backdrop(scene) -> None:
-    """Add a floor that rises behind in a smooth curve, and two lights."""
+    """Add a floor that curves up smoothly at the back, and two lights."""
     bend = [(6 + 3 * sin(radians(angle)), 3 - 3 * cos(radians(angle))) for angle in range(0, 91, 6)]
     profile = [(-14, 0), (2, 0), (4, 0), *bend, (9, 5), (9, 12)]
     floor = add(scene, "Backdrop", line("backdrop", [(-20, y, z) for y, z in profile]), color="d5d3ce", index=1)
@@ -21,7 +21,7 @@ def backdrop(scene) -> None:
 
 
 def toy_table(scene) -> None:
-    """Fill the scene with blocks, cylinders, balls, rings and a monkey, each with a pass index of its own."""
+    """Fill the scene with blocks, cylinders, balls, a cone, rings and a monkey, each with its own pass index."""
     backdrop(scene)
     monkey(scene, (0.05, 0.55, 1.03), (-18, 0, 12), 1.1, color=RED, index=2)
     block(scene, "Cube", (1.3, 1.3, 1.3), (-2.5, 1.0, 0.65), (0, 0, 28), edge=0.08, color=BLUE, index=3)

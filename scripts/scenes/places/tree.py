@@ -1,4 +1,4 @@
-"""A tree, for all places that are outdoors."""
+"""A tree, for outdoor places."""
 
 from __future__ import annotations
 

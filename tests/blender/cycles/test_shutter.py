@@ -135,6 +135,6 @@ def test_a_slit_scan_by_rows_is_the_rolling_shutter_of_a_custom_camera(osl, blen
 
 def test_rows_from_the_bottom_up_are_not_cycles_order(osl, scene):
     scene.camera.data.camera_ray_caster.time_mode = "ROWS"
-    with pytest.raises(InputError, match="end at an earlier frame"):
+    with pytest.raises(InputError, match="set End to an earlier frame"):
         to_cycles(scene)
     assert scene.camera.data.type == "ORTHO"

@@ -83,9 +83,9 @@ def bound(camera, found):
 
 def sides(ahead, model):
     """The unit vectors to the right of directions in the camera's frame."""
-    x, y, _ = np.moveaxis(ahead @ np.array(model.upright).T, -1, 0)
-    side = np.stack((y, -x, np.zeros_like(x)), axis=-1)
-    return side / np.linalg.norm(side, axis=-1, keepdims=True) @ np.array(model.tilted).T
+    upright, tilted = (np.eye(3) if turn is None else np.array(turn) for turn in (model.upright, model.tilted))
+    side = np.cross(ahead @ upright.T, (0, 1, 0))
+    return side / np.linalg.norm(side, axis=-1, keepdims=True) @ tilted.T
 
 
 @pytest.mark.parametrize("view", ["left", "right"])

@@ -127,7 +127,7 @@ def test_animation_is_keyframes_that_need_no_add_on(scene, monkeypatch):
     scene.frame_start, scene.frame_end = 1, 5
     scene.frame_set(1)
     (said,) = to_cycles(scene)
-    assert "keyframes at the frames 1 to 5" in said
+    assert "keyframes at frames 1 to 5" in said
     monkeypatch.setattr(follow, "update", lambda *given: None)
     scene.frame_set(4)
     assert 40 < camera.data.lens < 60
@@ -161,7 +161,7 @@ def test_it_goes_back_and_leaves_nothing(scene):
     assert (camera.data.type, camera.data.custom_shader) == ("PANO", None)
     assert not camera.data.cycles_custom.keys()
     assert set(bpy.data.texts) == texts
-    with pytest.raises(InputError, match="nothing to take back"):
+    with pytest.raises(InputError, match="nothing to undo"):
         from_cycles(camera)
 
 
@@ -235,7 +235,6 @@ def test_an_engine_that_does_not_know_custom_cameras_is_named(scene):
     scene.render.engine = "BLENDER_WORKBENCH"
     (said,) = to_cycles(scene)
     assert "choose Cycles" in said
-
 
 
 def test_the_file_renders_the_same_without_the_add_on(scene, tmp_path):

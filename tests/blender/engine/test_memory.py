@@ -13,7 +13,7 @@ from camera_ray_caster.core.records import InputError
 
 from ..pictures import picture
 
-SAID = r"the passes of {0} x {0} pixels take [\d.]+ GiB of memory and 1 GiB are there: render a border"
+SAID = r"the passes of {0} x {0} pixels take [\d.]+ GiB of memory and 1 GiB are available: render a border"
 
 
 @pytest.fixture
@@ -64,7 +64,7 @@ def test_more_triangles_than_the_memory_holds_are_refused_in_one_line(blender, s
     scene.collection.objects.link(points)
     points.instance_type, monkey.parent = "VERTS", points
     monkeypatch.setattr(memory, "available", lambda: 8 << 30)
-    said = r"100,\d\d\d,\d\d\d triangles in view take [\d.]+ GiB of memory and 8 GiB are there: show "
+    said = r"100,\d\d\d,\d\d\d triangles in view take [\d.]+ GiB of memory and 8 GiB are available: show "
     with pytest.raises(InputError, match=said):
         files.render(scene, tmp_path / "out", "frame")
     with pytest.raises(RuntimeError, match=said) as refused:

@@ -81,7 +81,7 @@ def test_what_cannot_be_said_or_written_leaves_nothing(scene, tmp_path):
         exports.write(scene, "colmap", find_cameras(scene, ["ALL"]), [1, 2], out)
     with pytest.raises(InputError, match="format is 'fbx'"):
         exports.write(scene, "fbx", [scene.camera], [1], out)
-    with pytest.raises(InputError, match="a camera to lead to is for maps"):
+    with pytest.raises(InputError, match="only maps have a target"):
         exports.write(scene, "json", [scene.camera], [1], out, scene.camera)
     scene.camera.data.type = "PERSP"
     scene.camera.scale.x = -1

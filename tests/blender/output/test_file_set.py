@@ -1,6 +1,7 @@
 """Sets of files that appear together or not at all: failures, kills at every step, several writers. Without Blender."""
 
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -47,6 +48,17 @@ def test_a_failure_leaves_what_was_there_and_no_new_folder(tmp_path):
     with pytest.raises(KeyError):
         fail(tmp_path)
     assert content(tmp_path) == dict.fromkeys(NAMES, "old")
+
+
+def test_a_folder_of_somebody_else_stays_whatever_it_is_called(tmp_path):
+    mine = tmp_path / "out" / ".writing_mine"
+    mine.mkdir(parents=True)
+    (mine / "thesis.txt").write_text("mine")
+    (tmp_path / "docs").mkdir()
+    (tmp_path / "out" / ".writing_link").symlink_to(tmp_path / "docs")
+    write(tmp_path / "out", "new")
+    assert content(mine) == {"thesis.txt": "mine"}
+    assert content(tmp_path / "docs") == {}
 
 
 def test_a_folder_that_another_run_has_begun_to_use_stays(tmp_path):
@@ -128,6 +140,21 @@ def test_what_a_killed_run_left_is_completed_or_undone_by_the_next(tmp_path, the
         if status == 0:
             break
     assert ends == {(-signal.SIGKILL, "old"), (-signal.SIGKILL, "new"), (0, "new")}
+
+
+def test_a_run_that_ends_while_another_begins_is_no_error(tmp_path, monkeypatch):
+    other, listed = tmp_path / ".writing_other", os.listdir
+    other.mkdir()
+
+    def ended(path):
+        if Path(path) == other:
+            shutil.rmtree(other)
+        return listed(path)
+
+    monkeypatch.setattr(os, "listdir", ended)
+    with appearing(tmp_path) as new:
+        (new / NAMES[0]).write_text("new")
+    assert content(tmp_path) == {NAMES[0]: "new"}
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="Windows has no locks of this kind")

@@ -190,7 +190,7 @@ def test_the_focus_bone_is_read_where_it_is_in_the_world(scene):
 
 def test_no_camera_is_one_clear_line(scene):
     scene.camera = None
-    with pytest.raises(InputError, match="has no active camera: add one"):
+    with pytest.raises(InputError, match="has no active camera: add a camera"):
         read_camera(scene)
 
 
@@ -211,7 +211,7 @@ def test_what_is_no_camera_is_refused_by_name(scene, data, kind):
 
 
 def test_a_name_is_no_camera(scene):
-    with pytest.raises(InputError, match=r"'Camera' is no object: give one, such as scene\.objects"):
+    with pytest.raises(InputError, match=r"'Camera' is not an object: give an object such as scene\.objects"):
         read_camera(scene, "Camera")
 
 

@@ -16,6 +16,12 @@ def scene():
     return bpy.context.scene
 
 
+def triangle():
+    mesh = bpy.data.meshes.new("Triangle")
+    mesh.from_pydata([(-1, -1, 0), (1, -1, 0), (0, 1, 0.5)], [], [(0, 1, 2)])
+    return mesh
+
+
 def test_a_collection_instance_holds_what_its_collection_renders(scene):
     inner = new_collection("Inner")
     ball("Deep", inner).location = 0, 0, 1
@@ -132,6 +138,34 @@ def test_what_a_render_hides_is_left_out_and_what_only_it_shows_is_named(scene):
     rendered = in_a_render(scene)
     assert counts(rendered) == {"Shown": 1, "Not in the viewport": 1, "Closed eye": 1}
     assert rendered.left_out == ()
+
+
+@pytest.mark.parametrize("kind", ["VERTS", "FACES"])
+@pytest.mark.parametrize("hide", ["hide_render", "hide_viewport"])
+def test_the_collection_of_an_instanced_child_is_hidden(scene, kind, hide):
+    parent = new_object("Parent", triangle())
+    parent.instance_type, parent.show_instancer_for_render = kind, False
+    hidden = new_collection("Hidden", scene.collection)
+    child = new_object("Child", triangle(), hidden)
+    child.parent = parent
+    setattr(hidden, hide, True)
+    shapes, rendered = read_shapes(scene), in_a_render(scene)
+    assert counts(shapes) == {}
+    assert counts(rendered) == ({} if hide == "hide_render" else {"Child": {"VERTS": 3, "FACES": 1}[kind]})
+    assert [name for name, _ in shapes.left_out] == ([] if hide == "hide_render" else ["Child"])
+    assert rendered.left_out == ()
+
+
+def test_an_object_in_an_instanced_collection_that_the_viewport_hides_is_named(scene):
+    collection = new_collection("Collection")
+    ball("Shown", collection)
+    ball("Not in the viewport", collection).hide_viewport = True
+    empty = new_object("Empty")
+    empty.instance_type, empty.instance_collection = "COLLECTION", collection
+    shapes, rendered = read_shapes(scene), in_a_render(scene)
+    assert counts(shapes) == {"Shown": 1}
+    assert [name for name, _ in shapes.left_out] == ["Not in the viewport"]
+    assert counts(rendered) == {"Shown": 1, "Not in the viewport": 1}
 
 
 def test_an_object_in_a_hidden_and_a_shown_collection_is_shown(scene):

@@ -85,5 +85,5 @@ def test_the_shapes_of_an_eye_are_read_for_that_eye(scene, sphere):
     np.testing.assert_array_equal(found.camera.pose.eye, read_camera(scene, view="right").pose.eye)
     assert read_shapes(scene, view="right").motion.camera_at(3.0).pose.eye[0] == found.camera.at(3.0).pose.eye[0]
     assert found.camera.pose.eye[0] != read_camera(scene).pose.eye[0]
-    with pytest.raises(InputError, match="'middle' is no eye"):
+    with pytest.raises(InputError, match="'middle' is not an eye"):
         read_shapes(scene, view="middle")

@@ -159,7 +159,7 @@ def test_a_setting_keeps_what_is_recognized(scene):
 
 def test_what_is_set_to_be_ignored_is_named(scene):
     ball("Thing").camera_ray_caster.primitive = "IGNORE"
-    assert read_shapes(scene).left_out == (("Thing", "it is ignored by its own setting"),)
+    assert read_shapes(scene).left_out == (("Thing", "its Cast As setting is Ignore"),)
 
 
 def test_a_setting_belongs_to_the_object_not_to_the_mesh(scene):
@@ -201,7 +201,7 @@ def test_points_that_are_too_small_to_be_are_counted(scene):
     points(new_object("Cloud", mesh_of((0, 0, 0), (1, 0, 0))), radius=0)
     shapes = read_shapes(scene)
     assert len(shapes) == 0
-    assert shapes.left_out[0][1].startswith("2 of its points have no radius")
+    assert shapes.left_out[0][1].startswith("2 of its points have a radius that is not above zero")
 
 
 def test_the_materials_that_shapes_have_are_known_by_their_pass_indices(blender, camera_scene):

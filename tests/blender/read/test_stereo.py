@@ -202,7 +202,7 @@ def test_an_eye_is_verified_by_its_round_trip(scene):
 
 
 def test_what_is_no_eye_is_refused(scene):
-    with pytest.raises(InputError, match="'middle' is no eye"):
+    with pytest.raises(InputError, match="'middle' is not an eye"):
         read_camera(scene, view="middle")
     scene.render.views_format = "MULTIVIEW"
     with pytest.raises(InputError, match="no view 'middle': its views are left, right"):
@@ -221,6 +221,26 @@ def test_both_eyes_of_spherical_stereo_are_rendered(blender, scene, tmp_path, ki
     assert all((eye.pose.eye == (0.5, -1, 6)).all() for eye in eyes)
     assert np.abs(left - right).max() > 0.1
     assert all(finding.passed for view in VIEWS for finding in verify_camera(scene, view=view))
+
+
+@pytest.mark.parametrize(
+    ("path", "before", "after"), [("stereo.use_pole_merge", True, False), ("type", "PERSP", "PANO")]
+)
+def test_an_eye_whose_pole_merge_or_type_changes_during_a_slit_scan(scene, path, before, after):
+    data = scene.camera.data
+    data.stereo.use_spherical_stereo = True
+    owner, name = (data.stereo, "use_pole_merge") if "." in path else (data, path)
+    for frame, value in ((1, before), (13, after)):
+        setattr(owner, name, value)
+        data.keyframe_insert(path, frame=frame)
+    own = data.camera_ray_caster
+    own.time_mode, own.time_start, own.time_end = "ROWS", 1.0, 25.0
+    rays = read_camera(scene, view="left").rays()
+    own.time_mode = "NONE"
+    for row in (1, 6, 9, 14):
+        still = read_camera(scene, frame=float(rays.time[row, 0]), view="left").rays()
+        np.testing.assert_allclose(rays.origins[row], still.origins[row], rtol=0, atol=1e-12)
+        np.testing.assert_allclose(rays.directions[row], still.directions[row], rtol=0, atol=1e-12)
 
 
 def test_spherical_stereo_of_a_model_that_blender_does_not_have_is_refused_by_name(blender, scene):

@@ -81,7 +81,7 @@ def test_what_is_stored_as_an_image_and_is_none_is_refused(scene):
     data.camera_ray_caster.time_mode = "IMAGE"
     properties = data.bl_system_properties_get() if bpy.app.version >= (5, 0, 0) else data
     properties["camera_ray_caster"]["time_image"] = scene.camera
-    with pytest.raises(crc.InputError, match="has none: choose a gray image"):
+    with pytest.raises(crc.InputError, match="has no image: choose a grayscale image"):
         crc.read_camera(scene)
 
 
@@ -175,7 +175,7 @@ def test_a_model_of_a_newer_version_is_never_another_one(blender, scene, reopene
     assert [reason for _, reason in crc.read_shapes(again).left_out] == [LEFT_OUT]
 
 
-LEFT_OUT = "its Cast As is 99, which this version does not know: choose another one"
+LEFT_OUT = "its Cast As is 99, which this version does not know: choose another shape"
 
 
 def test_a_calibration_file_beside_the_file_is_found(blender, scene, reopened, tmp_path):

@@ -26,7 +26,7 @@ def test_cast_leaves_its_three_files(cast, tmp_path):
     assert done.returncode == 0, done.stderr
     assert sorted(path.name for path in tmp_path.iterdir()) == ["orthographic.exr", "orthographic.png", "report.json"]
     assert json.loads((tmp_path / "report.json").read_text())["passed"] is True
-    assert "Witness" in done.stdout
+    assert "Reference check" in done.stdout
 
 
 def test_bad_input_is_status_2(cast, tmp_path):

@@ -232,12 +232,12 @@ def test_lengths_in_millimeters_are_blender_s_own_and_the_panel_says_so(blender,
 
     own = data.camera_ray_caster
     data.type, own.model = "PANO", "DIVISION"
-    assert said() == "Pixels of a picture of 1920 × 1080, scaled to the frame"
+    assert said() == "In pixels of a picture of 1920 × 1080, scaled to the frame"
     own.calibration_unit = "MILLIMETERS"
-    assert said() == "Millimeters on Blender's sensor, the center by its Shift"
+    assert said() == "In millimeters on Blender's sensor; Shift sets the center"
     assert drawn(blender, ModelPanel, data)[0] == ("model", *FILE, "lens", "division_lambda")
     own.calibration_file = "//lens.yml"
-    assert said() == "Pixels of the file's picture, scaled to the frame"
+    assert said() == "In pixels of the file's picture, scaled to the frame"
     assert drawn(blender, ModelPanel, data)[1] == ("calibration_unit", *MATRIX, "division_lambda")
 
 

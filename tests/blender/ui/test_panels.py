@@ -53,7 +53,7 @@ def test_the_panels_say_what_the_camera_is_and_why_it_is_none(blender, scene):
     for panel in (*sidebar, camera_panels.SidebarSettings, *cast_panels.CLASSES[3:]):
         drawn(blender, panel)
     assert "Suzanne" in drawn(blender, left_out_panels.SidebarLeftOut)
-    assert "All witnesses agree" in drawn(blender, verify)
+    assert "All reference checks passed" in drawn(blender, verify)
     scene.camera.location.x = 1
     assert "has changed since" in drawn(blender, verify)
     scene.camera = None

@@ -68,7 +68,7 @@ def test_a_result_is_shown_in_colors(blender, scene):
     assert shown[near][0] == 1
     assert not shown[depth > 1e9][:, :3].any()
     assert images.show_in_colors(images.image_name("combined"))[0].name == images.image_name("combined")
-    with pytest.raises(RuntimeError, match="there is no image 'Cat' of a cast"):
+    with pytest.raises(RuntimeError, match="no cast has made an image 'Cat'"):
         blender.ops.camera_ray_caster.show_result(name="Cat")
 
 

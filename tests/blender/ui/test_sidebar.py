@@ -134,7 +134,7 @@ def test_select_what_was_left_out_for_one_reason(blender, scene):
     assert {item.name for item in blender.context.selected_objects} == set(names)
     assert len(names) == 4
     assert blender.context.view_layer.objects.active.name == names[0]
-    with pytest.raises(RuntimeError, match="None of them is in this view layer"):
+    with pytest.raises(RuntimeError, match="None of these objects is in this view layer"):
         blender.ops.camera_ray_caster.select(reason="another")
 
 

@@ -5,14 +5,19 @@ import pytest
 
 from camera_ray_caster.blender.view3d.scene_cache import cached_scene
 
-LENS = "Rays through the center of the lens only"
+LENS = "Only rays through the center of the lens are shown"
 
 
 @pytest.mark.parametrize(
     ("mode", "has_lens", "samples", "said"),
     [
         ("NONE", False, 16, ()),
-        ("ROWS", False, 16, ("Every pixel at frame 5; a render has each at its own, from frame 1.024 to 24.98",)),
+        (
+            "ROWS",
+            False,
+            16,
+            ("Every pixel is shown at frame 5; in a render, each pixel has its own time, from frame 1.024 to 24.98",),
+        ),
         ("NONE", True, 16, (f"{LENS}; a render with 16 samples has depth of field",)),
         ("NONE", True, 1, (f"{LENS}, as in a render with 1 sample",)),
     ],

@@ -90,7 +90,7 @@ def test_a_panel_that_has_rays_beyond_its_nearest_point_is_no_empty_one():
     assert_same(cam.rays_at(x, y), by_pixel(cam, x, y))
 
 
-@pytest.mark.parametrize("key", ["PERSP", "EQUIRECTANGULAR", "MIRRORBALL", "FISHEYE_EQUISOLID"])
+@pytest.mark.parametrize("key", ["PERSP", "EQUIRECTANGULAR", "MIRRORBALL", "FISHEYE_EQUIDISTANT", "FISHEYE_EQUISOLID"])
 def test_a_picture_of_an_eye_of_spherical_stereo_has_the_rays_of_its_pixels(key):
     """Also where the offset is faded, with kinks; and far from the world's origin, which hides no error."""
     for settings in ({}, {"use_pole_merge": True}):
@@ -113,6 +113,23 @@ def test_a_fisheye_that_goes_around_more_than_once_has_all_its_rays():
     exact = np.stack((a / r * np.sin(theta), b / r * np.sin(theta), -np.cos(theta)), axis=-1)
     rounded = 5 * half_fov * EPS  # 2 of each of the two angles, and what polynomials add
     np.testing.assert_allclose(rays.directions[rays.valid], exact[rays.valid], rtol=0, atol=rounded)
+
+
+@pytest.mark.parametrize("key", ["PERSP", "FISHEYE_EQUIDISTANT", "EQUIRECTANGULAR", "PUSHBROOM"])
+def test_many_scattered_pixels_and_points_are_those_of_their_parts(key):
+    """Far more than a block that a thread takes at once, of any shape; one is not finite."""
+    cam = camera(key, LARGE)
+    x, y = np.random.default_rng(0).uniform(0, 1000, (2, 3, 60_000))
+    x[1, 40_000] = np.nan
+    rays = cam.rays_at(x, y)
+    points = rays.origins + 7 * rays.directions
+    pixels = cam.project(points)
+    for part in (np.s_[0, :100], np.s_[1, 39_950:40_050], np.s_[2, -100:]):
+        own = cam.rays_at(x[part], y[part])
+        for name in ("origins", "directions", "valid"):
+            np.testing.assert_array_equal(getattr(own, name), getattr(rays, name)[part])
+        np.testing.assert_array_equal(cam.project(points[part]), pixels[part])
+    assert not rays.valid[1, 40_000]
 
 
 @pytest.mark.parametrize("key", ["PERSP", "MIRRORBALL", "FISHEYE_EQUIDISTANT", "PUSHBROOM"])

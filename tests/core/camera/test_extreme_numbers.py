@@ -33,7 +33,7 @@ def made(kind, settings):
 @pytest.mark.parametrize(
     ("kind", "settings", "said"),
     [
-        ("PERSP", {"lens": HUGE, "matrix_world": placed()}, "not told apart: lens is 1e.30"),
+        ("PERSP", {"lens": HUGE, "matrix_world": placed()}, "cannot be distinguished: lens is 1e.30"),
         ("PERSP", {"lens": float("inf")}, "lens .* is inf"),
         ("PERSP", {"sensor_width": HUGE}, "along the image plane, .*: sensor_width is 1e.30"),
         ("PERSP", {"lens": TINY}, "along the image plane, .*: lens is 1e-38"),
@@ -43,19 +43,19 @@ def made(kind, settings):
         (
             "ORTHO",
             {"matrix_world": placed(location=1e20)},
-            "not told apart: its distance from the world's origin is 1e.20",
+            "cannot be distinguished: its distance from the world's origin is 1e.20",
         ),
-        ("ORTHO", {"ortho_scale": TINY, "matrix_world": placed()}, "not told apart: ortho_scale is 1e-38"),
+        ("ORTHO", {"ortho_scale": TINY, "matrix_world": placed()}, "cannot be distinguished: ortho_scale is 1e-38"),
         ("TWISTED_ORTHOGRAPHIC", {"ortho_scale": HUGE}, "along the image plane, .*: ortho_scale is 1e.30"),
         ("TWISTED_ORTHOGRAPHIC", {"twist": HUGE}, "along the image plane, .*: twist is 1e.30"),
         ("CAMERA_OBSCURA", {"obscura_width": HUGE}, "along the image plane, .*: obscura_width is 1e.30"),
         ("OPENCV_PINHOLE", {"cx": HUGE}, "cx .* is 1e.30: it must be from"),
         ("OPENCV_FISHEYE", {"cy": HUGE}, "cy .* is 1e.30: it must be from"),
-        ("STRIP", {"matrix_world": placed(location=1e12)}, "path .* away, where float32 does not tell its ends apart"),
+        ("STRIP", {"matrix_world": placed(location=1e12)}, "path .* away, where float32 cannot distinguish its ends"),
         (
             "PENCIL",
             {"matrix_world": placed(location=1e12)},
-            "slit_1 .* away, where float32 does not tell its ends apart",
+            "slit_1 .* away, where float32 cannot distinguish its ends",
         ),
         ("PUSHBROOM", {"sensor_width": HUGE}, "along the image plane, .*: sensor_width is 1e.30"),
     ],

@@ -26,12 +26,12 @@ def test_a_ray_through_the_lens_has_an_eye_beside_it(key, mode):
         lens_origin, lens_direction = (np.stack(np.broadcast_arrays(*part), axis=-1) for part in
                                        plain.sample_rays(x, y, sample))  # fmt: skip
         origin, direction = (np.stack(np.broadcast_arrays(*part), axis=-1) for part in cam.sample_rays(x, y, sample))
-        upright = np.array(model.upright)
+        upright = np.eye(3) if model.upright is None else np.array(model.upright)
         ahead = lens_direction @ upright.T
         ahead /= np.linalg.norm(ahead, axis=-1, keepdims=True)
-        side = np.cross(ahead, (0, 0, 1))
+        side = np.cross(ahead, (0, 1, 0))
         side /= np.linalg.norm(side, axis=-1, keepdims=True)
-        altitude, fade = np.abs(np.arcsin(ahead[..., 2:])), 1.0
+        altitude, fade = np.abs(np.arcsin(ahead[..., 1:2])), 1.0
         if model.merge is not None:
             begin, end = model.merge
             fade = np.where(altitude > end, 0, np.cos(pi / 2 * np.clip((altitude - begin) / (end - begin), 0, 1)))

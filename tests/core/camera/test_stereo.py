@@ -117,6 +117,6 @@ def test_a_camera_with_eyes_of_its_own_is_moved_once(mode, shown):
 @pytest.mark.parametrize("layout", ["TOP_BOTTOM", "SIDE_BY_SIDE"])
 def test_both_eyes_in_one_picture_are_no_view_of_a_stereo_scene(layout):
     record = replace(raw(eye=layout), model="OMNIDIRECTIONAL_STEREO")
-    with pytest.raises(InputError, match="both eyes in one picture: let it show one, or switch Stereoscopy off"):
+    with pytest.raises(InputError, match="both eyes in one picture: choose one eye, or disable Stereoscopy"):
         eye_record(record, "left")
     assert eye_record(record, "") is record

@@ -232,7 +232,7 @@ def test_settings_without_meaning_are_refused_by_name(key, refusal):
         ({"shift_x": np.nan}, "shift_x"),
         ({"shift_y": np.inf}, "shift_y"),
         (BORDER | {"border_max_x": np.nan}, "border_max_x"),
-        ({"clip_start": 5.0, "clip_end": 5.0}, "leave no depth"),
+        ({"clip_start": 5.0, "clip_end": 5.0}, "leave no range of depths"),
         ({"matrix_world": np.diag([1.0, 0.0, 1.0, 1.0])}, "scale of zero"),
         ({"matrix_world": np.diag([1.0, np.nan, 1.0, 1.0])}, "not finite"),
         ({"matrix_world": [[1, 1, 0, 0], [0, 0, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]}, "one plane"),

@@ -10,6 +10,7 @@ from camera_ray_caster.core.cameras import MODELS
 from camera_ray_caster.core.cast import cast
 from camera_ray_caster.core.casting import aimed
 from camera_ray_caster.core.casting.visibility import Visibility, visible
+from camera_ray_caster.core.exports.camera_json import camera_to_json
 from camera_ray_caster.core.motion.evaluations import resolve
 from camera_ray_caster.core.records import PLANE, SPHERE, InputError
 
@@ -100,7 +101,17 @@ def test_a_rolling_shutter_is_asked_at_the_time_of_the_row():
 @pytest.mark.parametrize(("points", "tolerance", "words"), [
     ([(1, 2)], 0.0, "x, y, z"), ("here", 0.0, "points"),
     ([(0, 0, 0)], -1.0, "tolerance"), ([(0, 0, 0)], "x", "tolerance"),
+    (np.ones((2, 3), complex), 0.0, "points .* real numbers"), (np.ones((2, 3), "datetime64[s]"), 0.0, "real numbers"),
+    (np.ma.masked_less(np.ones((2, 3)), 2), 0.0, "without a mask"),
 ])  # fmt: skip
 def test_bad_input_is_named(points, tolerance, words):
     with pytest.raises(InputError, match=words):
         visible(camera_at(), shapes_of((SPHERE, (0, 0, -5), 1.0)), points, tolerance)
+
+
+def test_what_is_no_camera_or_no_shapes_is_refused():
+    for camera, shapes in ((None, shapes_of()), (camera_at(), None), (shapes_of(), camera_at())):
+        with pytest.raises(TypeError, match="visible takes a camera and shapes"):
+            visible(camera, shapes, [(0, 0, 0)])
+    with pytest.raises(TypeError, match="camera_to_json takes a camera"):
+        camera_to_json(None)

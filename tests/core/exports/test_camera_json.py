@@ -148,7 +148,7 @@ GOOD = crc.camera_to_json(camera("PERSP"))
     ("change", "asked", "says"),
     [
         (lambda text: text[:-9], {}, "is damaged"),
-        (lambda text: "{}", {}, "no camera.json, and no report.json, of the Camera"),
+        (lambda text: "{}", {}, "neither a camera.json nor a report.json of the Camera"),
         (lambda text: text.replace('"format_version": 1', '"format_version": 2'), {}, "of version 2: update"),
         (lambda text: text.replace('"lens": 50.0', '"lens": -50.0'), {}, "lens of camera 'Camera' is -50"),
         (lambda text: text.replace('"lens": 50.0', '"lens": "wide"'), {}, "lens of camera 'Camera' is 'wide'"),
@@ -157,7 +157,7 @@ GOOD = crc.camera_to_json(camera("PERSP"))
         (lambda text: "missing.json", {}, "cannot read 'missing.json': No such file"),
         (lambda text: "\0", {}, "cannot read"),
         (lambda text: 3, {}, "cannot read"),
-        (lambda text: text, {"frame": 7}, "no frame 7 here: its frames go from 0 to 0"),
+        (lambda text: text, {"frame": 7}, "no frame 7 in this file: the nearest is 0"),
         (lambda text: text, {"frame": "first"}, "frame is 'first': it must be a number"),
         (lambda text: text, {"camera": "Side"}, "has the cameras 'Camera': set camera"),
         (lambda text: text, {"camera": 3}, "camera is 3: it must be a string"),

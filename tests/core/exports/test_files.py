@@ -58,7 +58,7 @@ def test_bop_projects_as_we_do(name):
 def test_bop_has_a_file_for_each_of_several_cameras():
     both = [*shots("perspective"), *shots("shifted")]
     assert list(files("bop", both)) == ["scene_camera_perspective.json", "scene_camera_shifted.json"]
-    with pytest.raises(InputError, match="whose frame is no whole number"):
+    with pytest.raises(InputError, match="whose frame is not a whole number"):
         export("bop", shots("perspective", [1.5]))
 
 
@@ -83,7 +83,7 @@ def test_transforms_json_projects_as_we_do(name):
 
 
 def test_transforms_json_has_one_model():
-    with pytest.raises(InputError, match="'radtan' is OPENCV and 'fisheye' is OPENCV_FISHEYE: export them apart"):
+    with pytest.raises(InputError, match="'radtan' is OPENCV and 'fisheye' is OPENCV_FISHEYE: export them separately"):
         files("nerfstudio", [*shots("radtan"), *shots("fisheye")])
 
 

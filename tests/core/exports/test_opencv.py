@@ -37,7 +37,7 @@ def project(file, row, points):
         if not hasattr(cv2, "omnidir"):
             pytest.skip("this OpenCV has no omnidir")
         return cv2.omnidir.projectPoints(points, turn, move, K, file["xi"], terms)[0].reshape(-1, 2)
-    if "fisheye_model" in file:
+    if file.get("fisheye_model"):
         return cv2.fisheye.projectPoints(points, turn, move, K, terms)[0].reshape(-1, 2)
     return cv2.projectPoints(points, turn, move, K, terms)[0].reshape(-1, 2)
 

@@ -86,8 +86,8 @@ def test_a_pixel_without_a_place_says_so():
 def test_what_the_places_of_the_eyes_mean_is_said():
     _, _, said = maps(("PERSP", TURNED), ("PERSP", FRAME))
     (line,) = said
-    assert "'Camera' and 'Camera' stand " in line
-    assert line.endswith(" apart: the maps are right for what is far away")
+    assert "'Camera' and 'Camera' are " in line
+    assert line.endswith(" apart: the maps are exact for distant objects only")
 
 
 @pytest.mark.parametrize(

@@ -87,5 +87,5 @@ def test_what_lies_outside_of_the_clip_range_says_so():
 
 
 def test_a_pixel_outside_of_the_frame_is_refused():
-    with pytest.raises(InputError, match=r"pixel 40,0 is outside of the frame: give 0,0 \(bottom left\) to 39,29"):
+    with pytest.raises(InputError, match=r"pixel 40,0 is outside the frame: give 0,0 \(bottom left\) to 39,29"):
         lesson(camera(), scene(), 40, 0)

@@ -115,11 +115,11 @@ def test_the_table_says_all_and_fits(report):
     lines = as_lines(replace(report, findings=(GOOD, BAD)))
     assert max(map(len, lines)) <= WIDTH
     table = " ".join(" ".join(lines).split())
-    for word in ("'Camera'", "frame 1.5", "Perspective", "good witness", "read", "0.5000", "Suzanne", "not asked for"):
+    for word in ("'Camera'", "frame 1.5", "Perspective", "good witness", "read", "0.5000", "Suzanne", "not requested"):
         assert word in table
     verdicts = {line.split()[0]: line.split()[-1] for line in lines if "witness" in line}
     assert verdicts == {"good": "ok", "bad": "FAILED"}
-    assert "2 meshes cast as spheres or planes: at most 0.96% of the radius off, 'Sphere'" in table
+    assert "2 meshes cast as spheres or planes, with a deviation of at most 0.96% of the radius, in 'Sphere'" in table
 
 
 def test_settings_and_formula_of_the_model_are_in_the_report(report):
@@ -177,7 +177,7 @@ def test_where_nothing_is_hit_the_report_says_so(report):
 
 def test_the_table_leaves_out_what_was_not_done():
     lines = as_lines(Report(camera=camera_facts(camera()), frame=1))
-    assert not any(line.startswith(("Witness", "Hits", "Step", "Left out")) for line in lines)
+    assert not any(line.startswith(("Reference check", "Hits", "Step", "Left out")) for line in lines)
 
 
 def test_facts_of_a_pinhole_by_hand():

@@ -60,7 +60,7 @@ class Disc(AffineKind):
 
     def root_error(self, hits):
         """The residual over the slope."""
-        (d, n, d_error, n_error), tau = hits.local.component(2), np.abs(hits.tau)
+        (d, n, d_error, n_error), tau = hits.local.z(), np.abs(hits.tau)
         residual = np.abs(hits.tau * d - n) + tau * d_error + n_error
         residual = residual + gamma(2) * (tau * np.abs(d) + np.abs(n))
         return residual / (np.abs(d) - d_error)
@@ -71,7 +71,7 @@ class Disc(AffineKind):
 
     def decide(self, shapes, local):
         """How far inside of the edge."""
-        (d, _, d_error, _), across = local.component(2), local.cross
+        (d, _, d_error, _), across = local.z(), local.cross
         return np.abs(d) - np.hypot(across[0], across[1]), d_error + 2 * local.product_error()
 
 

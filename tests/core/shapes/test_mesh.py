@@ -142,9 +142,7 @@ def test_normals_are_of_the_side_that_is_hit_smooth_or_flat_and_right_to_their_b
         expected = area * toward
         if mesh.normals is not None:
             to_world = np.linalg.inv(axes).T * np.sign(np.linalg.det(axes))
-            parts = [
-                (mesh.normals[loop[images["face_index"][hit]]].astype(float) @ to_world.T) for loop in mesh.loops
-            ]
+            parts = [(mesh.normals[loop[images["face_index"][hit]]].astype(float) @ to_world.T) for loop in mesh.loops]
             parts = [part / np.linalg.norm(part, axis=1, keepdims=True) for part in parts]
             square = (area * area).sum(axis=1)
             p = images["position"][hit]
@@ -250,7 +248,7 @@ def test_more_triangles_than_the_memory_holds_are_refused_before_any_is_placed(m
     monkeypatch.setattr(memory, "available", lambda: 8 << 30)
     monkeypatch.setattr(np, "empty", None)
     many = shapes_of(*[(ball(100, 100), (0, 0, -5), 1.0)] * 5050)
-    with pytest.raises(InputError, match=r"^99,990,000 triangles in view take .* GiB are there: show"):
+    with pytest.raises(InputError, match=r"^99,990,000 triangles in view take .* GiB are available: show"):
         make_plan(camera_at(), many, Request(("depth",), tuple(PASSES)))
 
 

@@ -150,7 +150,7 @@ def test_half_a_sphere_is_no_sphere_open_or_doubled():
     seam = range(1 + 7 * 32, 1 + 8 * 32)  # the ring where both sheets meet
     other = {k: k if k in seam else k + len(vertices) for k in range(len(vertices))}
     sheets = half + [tuple(other[k] for k in face[::-1]) for face in half]
-    assert "do not go round it once" in recognize(mesh(doubled, sheets))
+    assert "do not cover the sphere exactly once" in recognize(mesh(doubled, sheets))
 
 
 def test_one_vertex_out_of_place_is_seen():
@@ -161,7 +161,7 @@ def test_one_vertex_out_of_place_is_seen():
 
 def test_a_sphere_that_rounding_has_eaten_is_named():
     vertices, faces = uv_sphere()
-    assert "rounded its shape away" in recognize(mesh(1e-3 * vertices + (100, 0, 0), faces))
+    assert "float32 rounding has destroyed its shape" in recognize(mesh(1e-3 * vertices + (100, 0, 0), faces))
 
 
 @pytest.mark.parametrize("bad", [np.nan, np.inf])
@@ -225,7 +225,7 @@ def folded():
 @pytest.mark.parametrize(
     ("vertices", "faces", "reason"),
     [
-        (SQUARE * [[1], [1], [0.5], [1]], [(0, 1, 2, 3)], "no parallelogram"),
+        (SQUARE * [[1], [1], [0.5], [1]], [(0, 1, 2, 3)], "not a parallelogram"),
         (np.add(SQUARE, [[0, 0, 0.05], [0, 0, 0], [0, 0, 0], [0, 0, 0]]), [(0, 1, 2, 3)], "not flat"),
         (SQUARE[:3], [(0, 1, 2)], "3 corners"),
         (*flat_with_a_hole(), "holes or parts"),
@@ -250,4 +250,4 @@ def test_a_folded_strip_is_no_plane():
 def test_a_trapezoid_beyond_rounding_is_told_from_a_parallelogram():
     vertices = SQUARE.copy()
     vertices[2, 0] += 1e-5
-    assert "no parallelogram" in recognize(mesh(vertices, [(0, 1, 2, 3)]))
+    assert "not a parallelogram" in recognize(mesh(vertices, [(0, 1, 2, 3)]))

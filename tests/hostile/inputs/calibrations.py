@@ -63,6 +63,27 @@ OCAM = """#polynomial coefficients for the DIRECT mapping function (ocam_model.s
 #image size
 480 640
 """
+CAMCHAIN = """cam0:
+  camera_model: pinhole
+  distortion_model: radtan
+  distortion_coeffs: [-0.2, 0.1, 0.001, 0.002]
+  intrinsics: [500.0, 501.0, 320.5, 240.5]
+  resolution: [640, 480]
+"""
+MRCAL = """{
+  'lensmodel': 'LENSMODEL_OPENCV4',
+  'intrinsics': [500.0, 501.0, 320.5, 240.5, -0.2, 0.1, 0.001, 0.002],
+  'imagersize': [640, 480],
+}
+"""
+COLMAP = "# Camera list\n1 OPENCV 640 480 500.0 501.0 320.5 240.5 -0.2 0.1 0.001 0.002\n"
+NERFSTUDIO = {
+    "camera_model": "OPENCV", "w": 640, "h": 480, "fl_x": 500.0, "cx": 320.5, "k1": -0.2,
+    "frames": [{"file_path": "a.png", "k2": 0.1}],
+}  # fmt: skip
+ARIA = {"CameraCalibrations": [
+    {"Label": "rgb", "Projection": {"Name": "KannalaBrandtK3", "Params": [500.0, 501, 320.5, 240.5, 0.1, 0, 0, 0]}}
+]}  # fmt: skip
 OPENCV = "OPENCV_PINHOLE", "OPENCV_FISHEYE"
 FILES = (
     ("lens.yml", YAML, OPENCV),
@@ -70,6 +91,11 @@ FILES = (
     ("ncore.json", json.dumps(F_THETA), ("FTHETA",)),
     ("rig.json", json.dumps({"rig": {"sensors": [{"name": "camera", "properties": RIG}]}}), ("FTHETA",)),
     ("calib_results.txt", OCAM, ("OCAM",)),
+    ("camchain.yaml", CAMCHAIN, OPENCV),
+    ("lens.cameramodel", MRCAL, OPENCV),
+    ("cameras.txt", COLMAP, OPENCV),
+    ("transforms.json", json.dumps(NERFSTUDIO), OPENCV),
+    ("aria.json", json.dumps(ARIA), OPENCV),
 )
 
 
@@ -79,7 +105,7 @@ def make(chance, number, folder):
 
     way = WAYS[number % len(WAYS)]
     name, text, models = chance.choice(FILES)
-    said, content = way(chance, text, name.endswith(".yml"))
+    said, content = way(chance, text, name.endswith((".yml", ".yaml")))
     path = folder / name
     path.write_bytes(content)
     own = bpy.context.scene.camera.data.camera_ray_caster
@@ -93,6 +119,12 @@ def _number(chance, text, is_yaml):
     old = chance.choice(re.findall(r"-?\d+\.?\d*(?:e-?\d+)?", text))
     new = chance.choice(NUMBERS)
     return f"{new[:20]} for {old}", text.replace(old, new, chance.choice((1, 2))).encode()
+
+
+def _kind(chance, text, is_yaml):
+    old = chance.choice(re.findall(r"""(?<=[:,\[] )(?:-?\d[\d.e-]*|"[^"]*"|'[^']*'|[a-z]+)""", text) or ["0"])
+    new = chance.choice(("[1]", '{"a": 1}', "null", "true", '"x"', "[[]]", "{}", "1e400", "-1", "0", "[[1], 2]", "{1}"))
+    return f"{new} for {old[:20]}", text.replace(old, new, 1).encode()
 
 
 def _deep(chance, text, is_yaml):
@@ -137,4 +169,4 @@ def _other(chance, text, is_yaml):
     return encoding, text.encode(encoding)
 
 
-WAYS = (*[_number] * 4, _deep, _long, _binary, _cut, *[_mutated] * 4, _other)
+WAYS = (*[_number] * 4, *[_kind] * 3, _deep, _long, _binary, _cut, *[_mutated] * 4, _other)

@@ -1,4 +1,4 @@
-"""Any camera model as a camera of Cycles: its rays as a shader in the file."""
+"""Any camera model as a custom camera of Cycles: its rays as a shader in the file."""
 
 from .convert import from_cycles, to_cycles
 

@@ -1,4 +1,4 @@
-"""The animation of a shader's inputs: keyframes, which every Blender evaluates."""
+"""The animation of a shader's inputs: keyframes, which Blender evaluates without the add-on."""
 
 from collections.abc import Mapping
 
@@ -7,11 +7,11 @@ import bpy
 from ...core.shaders.camera_shader import CameraShader
 
 CURVES = 'cycles_custom["'
-"""How the data paths of the inputs' curves begin."""
+"""Prefix of the data paths of the inputs' curves."""
 
 
 def insert_keyframes(camera, shaders: Mapping[int, CameraShader]) -> None:
-    """Give the inputs that differ between frames a keyframe at each of them, straight lines between."""
+    """Insert keyframes with linear interpolation at each frame, for the inputs that differ between frames."""
     first, *others = (shader.values for shader in shaders.values())
     moving = [name for name in first if any(values[name] != first[name] for values in others)]
     for name in moving:
@@ -26,7 +26,7 @@ def insert_keyframes(camera, shaders: Mapping[int, CameraShader]) -> None:
 
 
 def remove_keyframes(camera) -> None:
-    """Remove the animation of the inputs, and the action where nothing else is left of it."""
+    """Remove the animation of the inputs, and the action if nothing else is left in it and nothing else uses it."""
     for bag in channel_bags(camera):
         for curve in [each for each in bag.fcurves if each.data_path.startswith(CURVES)]:
             bag.fcurves.remove(curve)
@@ -36,7 +36,7 @@ def remove_keyframes(camera) -> None:
 
 
 def channel_bags(camera) -> list:
-    """Return what holds the curves of a camera's action."""
+    """Return the channel bags, which hold the curves of a camera's action."""
     animation = camera.animation_data
     if animation is None or animation.action is None or animation.action_slot is None:
         return []

@@ -1,4 +1,4 @@
-"""From a camera to a custom one of Cycles with the same rays, and back."""
+"""Conversion of a camera to a custom camera of Cycles with the same rays, and back."""
 
 import numpy as np
 
@@ -19,25 +19,26 @@ from .rolling import check_time, set_up_time
 from .shader import check_cycles, check_enabled, clear_shader, set_inputs, set_shader
 
 MOST_FRAMES = 10_000
-"""Almost seven minutes of a film, in about 20 s: each frame is evaluated for its keyframes."""
+"""Maximum number of frames with keyframes: almost seven minutes of film. Evaluating them takes about 20 s."""
 
 GRID = 5
-"""Pixels a side at which an eye is compared with the camera."""
+"""Number of pixels per side at which an eye is compared with the camera."""
 
 
 def to_cycles(scene, camera_object=None) -> list[str]:
-    """Make a camera a custom one of Cycles, with a shader whose rays are those that ``read_camera`` gives.
+    """Make a camera a custom camera of Cycles, with a shader that gives the rays of ``read_camera`` in float32.
 
-    camera_object: default the scene's active camera. The shader is a text of the file, so that the file renders in a
-    Blender without this add-on; what is animated in the scene's frame range becomes keyframes of its inputs. The model,
-    its settings and its pose stay where they are, and ``read_camera`` gives the same camera afterwards; Cycles computes
-    the rays in float32. A camera that is one already gets its shader and its keyframes anew.
-    Rows that are exposed one after another from the top down are Cycles' own rolling shutter; a slit scan, which shows
-    the same frames whatever the current one is, at one frame, to which the scene goes. ``picture_of`` renders others.
-    Returns what follows only where the add-on is enabled, what was changed in the scene, and where the engine or the
-    device will not show it, in lines.
-    Raises InputError for what ``read_camera`` refuses, for a camera of a library, for spherical stereo, for pixel times
-    in another order than Cycles', and where this Blender has no OSL. The camera is as it was then.
+    camera_object: default the scene's active camera. The shader is a text in the file, so that the file renders in a
+    Blender without this add-on. Animation within the scene's frame range becomes keyframes of the shader's inputs. The
+    model, its settings and its pose are not changed, and ``read_camera`` still returns the same camera. A camera that
+    is already converted gets a new shader and new keyframes.
+    Rows that are exposed one after another from the top down use Cycles' own rolling shutter. A slit scan, which shows
+    the same frames whatever the current frame is, renders correctly at one frame only, to which the scene is set.
+    ``picture_of`` renders other orders.
+    Returns lines on changes that are followed only while the add-on is enabled, on changes made to the scene, and on an
+    engine or device that cannot show the camera.
+    Raises InputError for cameras that ``read_camera`` refuses, for linked cameras, for spherical stereo, for pixel
+    times in another order than Cycles', and if this Blender has no OSL. The camera is then unchanged.
     """
     check_cycles()
     with evaluated_camera(scene, camera_object) as (active, depsgraph):
@@ -52,31 +53,31 @@ def to_cycles(scene, camera_object=None) -> list[str]:
     shader = shaders[now]
     set_shader(active.data, shader)
     if any(each.source != shader.source for each in shaders.values()):
-        said = ["The formula itself changes over time: that follows only where the add-on is enabled"]
+        said = ["The formula of the camera changes over time: Cycles follows this change only if the add-on is enabled"]
     else:
         insert_keyframes(active.data, shaders)
-        said = _said_of_keyframes(active.data, shaders)
+        said = _said_of_keyframes(shaders)
     set_inputs(active.data, shader)
     return said + set_up_time(scene, raw, camera) + _engine_said(scene) + said_of_device(scene)
 
 
 def from_cycles(camera_object) -> None:
-    """Give a camera that ``to_cycles`` has made a custom one its own type back.
+    """Restore the type of a camera that ``to_cycles`` has converted.
 
-    Raises InputError for any other, and for one of a library, and where Cycles is disabled.
+    Raises InputError for any other camera, for a linked camera, and if Cycles is disabled.
     """
     check_enabled()
     camera = camera_object.data
     mark = shader_mark(camera)
     if mark is None:
-        raise InputError(f"camera {camera_object.name!r} has no shader of this add-on: there is nothing to take back")
+        raise InputError(f"camera {camera_object.name!r} has no shader of this add-on: there is nothing to undo")
     _check_editable(camera_object)
     clear_shader(camera)
     camera.type = mark.blender_type
 
 
 def shader_of(raw: BlenderCamera, camera: Camera, places: frozenset[int] = frozenset()) -> CameraShader:
-    """Return the shader of a camera that was made of a record."""
+    """Return the shader of a camera and the record that it was made from."""
     return camera_shader(camera, raw.type, (raw.shift_x, raw.shift_y), places)
 
 
@@ -85,42 +86,42 @@ def _frames(scene) -> range:
     frames = range(scene.frame_start, scene.frame_end + 1)
     if len(frames) > MOST_FRAMES:
         raise InputError(
-            f"the camera may change in each of the scene's {len(frames)} frames, and at most {MOST_FRAMES} get "
-            "keyframes: set a shorter frame range (Output properties)"
+            f"the camera may change in each of the scene's {len(frames)} frames, but at most {MOST_FRAMES} frames can "
+            "get keyframes: set a shorter frame range (Output properties)"
         )
     return frames
 
 
 def _may_move(scene, camera_object, raw: BlenderCamera) -> bool:
-    """Whether the shader may be another one at another frame: settings are animated, or objects count for it."""
+    """Whether the shader may change between frames: settings are animated, or it depends on other objects."""
     lines = any(isinstance(setting, Line) for setting in find_model(raw).SETTINGS)
     focused = bool(raw.settings["use_dof"]) and raw.settings["focus_position"] is not None
     return lines or focused or is_animated(camera_object.data) or is_animated(scene)
 
 
-def _said_of_keyframes(camera, shaders) -> list[str]:
+def _said_of_keyframes(shaders) -> list[str]:
     moves = len({tuple(shader.values.items()) for shader in shaders.values()}) > 1
     return [
-        f"Its inputs have keyframes at the frames {min(shaders):.9g} to {max(shaders):.9g}: other frames, and what is "
-        "changed from now on, follow only where the add-on is enabled"
+        f"The shader's inputs have keyframes at frames {min(shaders):.9g} to {max(shaders):.9g}: Cycles follows other "
+        "frames and later changes of the camera only if the add-on is enabled"
     ] * moves
 
 
 def _engine_said(scene) -> list[str]:
-    """Return what other engines show of a custom camera; the add-on's own and Cycles know what it is."""
+    """Return a line on an engine that cannot show a custom camera; none for Cycles and the add-on's engine."""
     engine = scene.render.engine
     if engine in ("CYCLES", ENGINE):
         return []
-    return [f"The render engine is {engine}, which shows a perspective camera: choose Cycles"]
+    return [f"The render engine is {engine}, which shows the camera as a perspective camera: choose Cycles"]
 
 
 def _check(raw: BlenderCamera, camera: Camera, camera_object) -> None:
-    """Raise InputError for a camera that cannot be a custom one."""
+    """Raise InputError for a camera that cannot become a custom camera."""
     _check_editable(camera_object)
     if raw.settings["use_spherical_stereo"] and raw.type in ("PERSP", "PANO") and not raw.model:
         raise InputError(
-            f"camera {raw.name!r} has Spherical Stereo, which Cycles has for its own cameras only: leave it as it is, "
-            "and Cycles renders it"
+            f"camera {raw.name!r} has Spherical Stereo, which Cycles supports for its own camera types only: keep the "
+            "camera's type, and Cycles renders it"
         )
     check_time(raw, camera)
     if raw.settings["use_multiview"] and raw.settings["views_format"] == "STEREO_3D":
@@ -136,9 +137,9 @@ def _check_editable(camera_object) -> None:
 
 
 def _check_eye(raw: BlenderCamera, camera: Camera, eye: BlenderCamera) -> None:
-    """Raise InputError for an eye of Stereo 3D that is more than the camera moved, turned and shifted as Cycles does.
+    """Raise InputError for a Stereo 3D eye that is not simply the camera, moved, turned and shifted as by Cycles.
 
-    Cycles shifts an eye by fractions of the frame's width, whatever the sensor is fitted to.
+    Cycles shifts an eye by fractions of the frame's width, whatever Sensor Fit is.
     """
     width, height = camera.raster.size
     x, y = np.linspace(0, width, GRID)[None, :], np.linspace(0, height, GRID)[:, None]
@@ -148,6 +149,6 @@ def _check_eye(raw: BlenderCamera, camera: Camera, eye: BlenderCamera) -> None:
         one, two = (np.stack(np.broadcast_arrays(*vector)) for vector in (part, other))
         if not np.allclose(one, two, rtol=EPS32, atol=EPS32 * np.nanmax(np.abs(two)), equal_nan=True):
             raise InputError(
-                f"the eyes of camera {raw.name!r} are not those that Cycles makes of a custom camera: switch "
-                "Stereoscopy off and render one eye at a time, or for Off-Axis set Sensor Fit to the frame's width"
+                f"the eyes of camera {raw.name!r} differ from the eyes that Cycles makes of a custom camera: disable "
+                "Stereoscopy and render one eye at a time, or for Off-Axis set Sensor Fit to the frame's width"
             )

@@ -1,4 +1,4 @@
-"""Shaders of cameras follow their settings: when lens, shift, a slit or the resolution change, so do the inputs."""
+"""Handlers that update the shaders of cameras when their settings change: lens, shift, a slit or the resolution."""
 
 import pickle
 
@@ -13,12 +13,12 @@ from .convert import shader_of
 from .shader import CUSTOM, has_inputs, is_enabled, rewrite, set_inputs
 
 _known: dict[int, tuple[bytes, CameraShader]] = {}
-"""The shaders of camera objects and what they were made of, by the objects' session_uid."""
+"""Shaders of camera objects and the states that they were made from, by the objects' session_uid."""
 
 
 @persistent
 def follow(scene, depsgraph):
-    """Bring the shaders of a scene's custom cameras up to date; where there is no such camera nothing is done."""
+    """Update the shaders of a scene's custom cameras, if there are any."""
     customs = {camera.session_uid for camera in bpy.data.cameras if camera.type == CUSTOM}
     if not customs or not is_enabled():
         return
@@ -28,12 +28,12 @@ def follow(scene, depsgraph):
 
 
 def _is_shared(item, active) -> bool:
-    """Whether the active camera has the same data, whose shader is then that of the active one."""
+    """Whether the active camera is another object with the same data. The shader is then that of the active camera."""
     return active is not None and item != active and item.data == active.data
 
 
 def update(camera_object, depsgraph) -> None:
-    """Bring a camera's shader up to date, if it has one of ours. What cannot be cast keeps the shader that it has."""
+    """Update a camera's shader, if it is one of ours. A camera that cannot be cast keeps its shader."""
     camera = camera_object.data
     mark, known = shader_mark(camera), _known.get(camera_object.session_uid)
     if mark is None:
@@ -43,13 +43,13 @@ def update(camera_object, depsgraph) -> None:
         state = _state(raw)
         if known is None or known[0] != state:
             known = state, shader_of(raw, camera_from(raw), mark.places)
-    except InputError:  # the sidebar says why
+    except InputError:  # the sidebar shows the reason
         return
     _known[camera_object.session_uid] = known
     _, shader = known
     if camera.custom_shader.as_string() == shader.source:
-        set_inputs(camera, shader)  # which a user may have changed
-        if not has_inputs(camera_object.evaluated_get(depsgraph).data, shader):  # keyframes of other settings
+        set_inputs(camera, shader)  # a user may have changed them
+        if not has_inputs(camera_object.evaluated_get(depsgraph).data, shader):  # keyframes override them
             camera.update_tag()
     else:
         rewrite(camera, shader)
@@ -62,7 +62,7 @@ def _state(raw: BlenderCamera) -> bytes:
 
 @persistent
 def forget(*_):
-    """Another file, or an undo: anything may be another one than it was."""
+    """Forget all shaders: after an undo or in another file, any object may have changed."""
     _known.clear()
 
 

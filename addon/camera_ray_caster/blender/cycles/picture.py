@@ -1,10 +1,10 @@
-"""Cycles' picture of a scene through its camera: float pixels, which lie on those of a cast.
+"""Cycles' picture of a scene through its camera: float pixels that coincide with those of a cast.
 
-The camera is a custom one only for as long as Cycles renders, and the scene is as it was afterwards. Pixels that have
-each their own time: a rolling shutter is Cycles' own; so is a slit scan, by rows or by columns, whose picture may be
-rendered turned; the times of an image are rendered one by one, each only where it is seen. A model's settings count as
-they are at the current frame, or at each time of an image: Cycles' shutter sees poses and shapes move, not lenses.
-Adaptive subdivision, which depends on the engine that renders, is left out, as it is in a cast.
+The camera is a custom camera only while Cycles renders; the scene is restored afterwards. If pixels have their own
+times, a rolling shutter is Cycles' own. So is a slit scan by rows or by columns, whose picture may be rendered turned.
+The times of an image are rendered one by one, each only in the box of its pixels. A model's settings are those of the
+current frame, or of each time of an image: Cycles' shutter moves poses and shapes, but not lenses. Adaptive
+subdivision, which depends on the render engine, is left out, as in a cast.
 """
 
 from collections.abc import Iterator, Mapping
@@ -39,9 +39,9 @@ class Picture:
     """The combined pass of every view layer and view."""
 
     pixels: Mapping[tuple[str, str], np.ndarray]
-    """(rows, columns, 4) float32 of the render window, row 0 at the bottom, by the names of view layer and view."""
+    """Pixels (rows, columns, 4) float32 of the render window, row 0 at the bottom, by names of view layer and view."""
     made_by: Mapping[str, object]
-    """The engine, its device and its samples, for the report."""
+    """Engine, device and samples, for the report."""
     seconds: float
 
 
@@ -53,16 +53,16 @@ class Eye:
     raw: BlenderCamera
     camera: Camera
     moved: bool
-    """Whether it is one of Blender's Stereo 3D, which moves and shifts the camera object for it."""
+    """Whether it is an eye of Blender's Stereo 3D, for which Blender moves and shifts the camera object."""
     shift_x: float
-    """What Cycles adds to the raster, in widths of the frame; not all models take the shift of an eye."""
+    """Cycles' shift of the raster, in widths of the frame; not all models use the shift of an eye."""
 
 
 def picture_of(scene) -> Picture:
-    """Render a scene's current frame with Cycles, by the file's settings, with the rays of its camera.
+    """Render a scene's current frame with Cycles, with the file's settings and the rays of its camera.
 
-    Raises InputError where Cycles is disabled or has no OSL, for what ``read_camera`` refuses, for a camera object of a
-    library, where Blender cannot render, and Cancelled where it is stopped between two renders.
+    Raises InputError if Cycles is disabled or has no OSL, if ``read_camera`` refuses the camera, for a linked camera
+    object, and if Blender cannot render; Cancelled if stopped between two renders.
     """
     check_cycles()
     started, pixels = perf_counter(), {}
@@ -97,7 +97,7 @@ def _eye(scene, view: str, frame: float | None = None) -> Eye:
 
 
 def _rolled(scene, eye: Eye, time: LinearTime, render: Render) -> Mapping[str, np.ndarray]:
-    """Render through Cycles' rolling shutter: the scene's own, or one that takes the time of a slit scan."""
+    """Render through Cycles' rolling shutter: with the scene's own settings, or set to the time of a slit scan."""
     with ExitStack() as stack:
         change = partial(changed, stack)
         for owner, values in blur_settings(scene, eye.raw, eye.camera, bpy.data.objects):
@@ -115,7 +115,7 @@ def _rolled(scene, eye: Eye, time: LinearTime, render: Render) -> Mapping[str, n
 
 
 def _one_by_one(scene, eye: Eye, time, view: str, render: Render) -> Mapping[str, np.ndarray]:
-    """Render each time in the box of the pixels that have it."""
+    """Render each time separately, in the box of the pixels that have this time."""
     raster, pixels = eye.camera.raster, {}
     for frame, rows, columns, where in groups(time, raster.columns(), raster.rows()):
         raise_if_stopping()
@@ -134,7 +134,7 @@ def _one_by_one(scene, eye: Eye, time, view: str, render: Render) -> Mapping[str
 
 @contextmanager
 def _only(scene, eye: Eye, view: str) -> Iterator[None]:
-    """Let a render show one view alone: an eye of Blender's as such, any other as if there were no views."""
+    """Restrict a render to one view: an eye of Blender's Stereo 3D as such, any other as if multi-view were off."""
     with ExitStack() as stack:
         if eye.moved:
             for other in scene.render.views:
@@ -147,7 +147,7 @@ def _only(scene, eye: Eye, view: str) -> Iterator[None]:
 
 @contextmanager
 def _custom(eye: Eye, turn: Turn = UPRIGHT) -> Iterator[None]:
-    """Let a camera object be a custom camera, by a copy of its data, whose shader nothing that follows ours knows."""
+    """Make a camera object a custom camera temporarily, by a copy of its data with a shader that no handler updates."""
     shader = camera_shader(eye.camera, eye.raw.type, (eye.shift_x, eye.raw.shift_y), turn=turn)
     item = eye.camera_object
     if not item.is_editable:

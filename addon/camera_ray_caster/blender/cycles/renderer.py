@@ -1,4 +1,4 @@
-"""Cycles as a function: a render whose float pixels are taken before anything else is done with them."""
+"""Cycles as a function: a render that returns its float pixels before Blender processes them."""
 
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import ExitStack, contextmanager, redirect_stdout
@@ -11,17 +11,18 @@ from ..terminal.opening import reported
 from ..terminal.signals import raise_if_stopping
 
 INSIDE = 0.25
-"""Of a pixel: a border that far behind a pixel's edge begins with this pixel, however its product is rounded."""
+"""Offset of a border from a pixel's edge, in pixels, so that rounding cannot move it to the next pixel."""
 
 Render = Callable[[], Mapping[str, np.ndarray]]
-"""Renders the scene with Cycles: the pixels by view layer."""
+"""Function that renders the scene with Cycles and returns the pixels by view layer."""
 
 
 @contextmanager
 def cycles_engine(scene) -> Iterator[Render]:
-    """Yield what renders the scene with Cycles, once or several times, without compositor, sequencer and Freestyle.
+    """Yield a function that renders the scene with Cycles, without compositor, sequencer and Freestyle.
 
-    What it yields raises InputError where Blender cannot render, and Cancelled where a stop was asked for.
+    The function may be called several times. It raises InputError if Blender cannot render, and Cancelled if the user
+    has asked to stop.
     """
     from cycles import CyclesRender, engine
 
@@ -32,7 +33,7 @@ def cycles_engine(scene) -> Iterator[Render]:
         bl_label = "Cycles for Camera Ray Caster"
 
         def render(self, depsgraph):
-            layer = depsgraph.view_layer_eval.name  # Cycles frees the depsgraph
+            layer = depsgraph.view_layer_eval.name  # read before Cycles frees the depsgraph
             super().render(depsgraph)
             result = self.get_result()
             (view,) = result.views
@@ -45,19 +46,19 @@ def cycles_engine(scene) -> Iterator[Render]:
             engine.free(self)
 
         def __del__(self):
-            """Do nothing: here Cycles would ask for its session, when Blender has taken the engine away already."""
+            """Do nothing: Cycles' method would access its session after Blender has freed the engine."""
 
     def render() -> Mapping[str, np.ndarray]:
         found.clear()
         try:
             with redirect_stdout(None), ExitStack() as stack:
-                changed(stack, scene.render, engine=Pixels.bl_idname)  # not before: it would compile shaders, too
+                changed(stack, scene.render, engine=Pixels.bl_idname)  # not before: Blender would compile shaders, too
                 bpy.ops.render.render(scene=scene.name)
         except RuntimeError as error:
             raise InputError(reported(error)) from error
         raise_if_stopping()
         if not found:
-            raise RuntimeError("Cycles has failed: what went wrong stands above")
+            raise RuntimeError("Cycles returned no pixels: see the messages in the terminal")
         return dict(found)
 
     with ExitStack() as stack:
@@ -70,7 +71,7 @@ def cycles_engine(scene) -> Iterator[Render]:
 
 
 def border(window: Raster) -> dict[str, object]:
-    """Return the render settings that let Blender render a window of the frame and nothing else."""
+    """Return the render settings with which Blender renders only a window of the frame."""
     (width, height), within = window.size, INSIDE
     return {
         "use_border": True,
@@ -83,7 +84,7 @@ def border(window: Raster) -> dict[str, object]:
 
 
 def changed(stack: ExitStack, owner, **values) -> None:
-    """Give a struct of Blender's other values until a stack is left."""
+    """Set properties of a Blender struct until the stack is closed."""
     for name, value in values.items():
         stack.callback(setattr, owner, name, getattr(owner, name))
         setattr(owner, name, value)

@@ -1,4 +1,4 @@
-"""Cameras of Cycles whose rows are exposed one after another: by Cycles' own rolling shutter, from the top row down."""
+"""Cycles cameras whose rows are exposed one after another, by Cycles' own rolling shutter from the top row down."""
 
 from typing import Any
 
@@ -9,30 +9,30 @@ from ...core.shaders.turn import UPRIGHT, Turn, shutter_of
 from ..read.scene import go_to
 
 MOTION_STEPS = 7
-"""Of every object in a slit scan: 2^7 + 1 places over its frames, the most that Cycles takes."""
+"""Motion steps of every object in a slit scan: 2^7 + 1 places over its frames, Cycles' maximum."""
 
 
 def check_time(raw: BlenderCamera, camera: Camera) -> None:
-    """Raise InputError for pixel times in another order than Cycles exposes rows."""
+    """Raise InputError for pixel times whose order is not Cycles' order of rows."""
     time = camera.pixel_time
     if time is None or (isinstance(time, LinearTime) and Turn.of(time) == UPRIGHT):
         return
-    other = "read them from Top to Bottom" if is_shutter(raw) else "let Rows end at an earlier frame than they start"
+    other = "set Readout to Top to Bottom" if is_shutter(raw) else "set End to an earlier frame than Start"
     raise InputError(
-        f"the pixels of camera {raw.name!r} have each their own time, and Cycles exposes rows from the top down: "
-        f"render it by cast.py --engine CYCLES, or {other}"
+        f"each pixel of camera {raw.name!r} has its own time, but Cycles exposes rows from the top down: render the "
+        f"camera with cast.py --engine CYCLES, or {other}"
     )
 
 
 def is_shutter(raw: BlenderCamera) -> bool:
-    """Whether a camera's pixel times are those of the scene's own shutter."""
+    """Whether a camera's pixel times come from the scene's own rolling shutter."""
     return bool(raw.settings["time_mode"] == ROLLING_SHUTTER)
 
 
 def blur_settings(scene, raw: BlenderCamera, camera: Camera, objects) -> list[tuple[Any, dict[str, Any]]]:
-    """Return the settings with which Cycles' rolling shutter takes the times of a camera's rows: owners and values.
+    """Return the settings, as owners and values, that give Cycles' rolling shutter the times of a camera's rows.
 
-    objects: those that may move in a slit scan.
+    objects: the objects that may move in a slit scan.
     """
     settings = [(scene.cycles, {"rolling_shutter_type": "TOP"}), (scene.render, {"use_motion_blur": True})]
     if is_shutter(raw):
@@ -48,10 +48,10 @@ def blur_settings(scene, raw: BlenderCamera, camera: Camera, objects) -> list[tu
 
 
 def set_up_time(scene, raw: BlenderCamera, camera: Camera) -> list[str]:
-    """Set Cycles' rolling shutter to the times of a camera's rows; return what was changed, in lines.
+    """Set Cycles' rolling shutter to the times of a camera's rows; return lines on the changes.
 
-    A slit scan shows the same frames whatever the current frame is, and Cycles' shutter opens at the current one: the
-    scene goes to the frame at which both are the same.
+    A slit scan shows the same frames whatever the current frame is, but Cycles' shutter opens at the current frame. The
+    scene is therefore set to the frame at which the slit scan begins.
     """
     if camera.pixel_time is None:
         return []
@@ -59,11 +59,11 @@ def set_up_time(scene, raw: BlenderCamera, camera: Camera) -> list[str]:
         for name, value in values.items():
             setattr(owner, name, value)
     if is_shutter(raw):
-        return ["Motion Blur is switched on, with Cycles' Rolling Shutter from top to bottom"]
+        return ["Motion Blur was enabled, with Cycles' Rolling Shutter from top to bottom"]
     begin, frames = shutter_of(camera.pixel_time, camera.raster)
     go_to(scene, begin)
     return [
         f"The slit scan is Cycles' Rolling Shutter, open for {frames:g} frames from frame {begin:g} on, where the "
-        "scene is now: at any other frame Cycles shows other times",
-        "Motion Blur is switched on, and all objects have 7 Motion Steps",
+        "scene is now: at other frames, Cycles shows other times",
+        "Motion Blur was enabled, and the Motion Steps of all objects were set to 7",
     ]

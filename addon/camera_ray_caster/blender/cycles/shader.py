@@ -1,4 +1,4 @@
-"""The shader of a custom camera: its text in the file, its compiled form and the values of its inputs.
+"""The shader of a custom camera: its text in the file, its compiled form, and the values of its inputs.
 
 Blender keeps the inputs of a custom camera as ID properties of ``camera.cycles_custom``, which can be animated.
 """
@@ -18,33 +18,34 @@ CUSTOM = "CUSTOM"
 
 
 def is_enabled() -> bool:
-    """Whether Cycles is: cameras have inputs then."""
+    """Whether Cycles is enabled: only then do cameras have inputs."""
     return hasattr(bpy.types.Camera, "cycles_custom")
 
 
 def check_enabled() -> None:
-    """Raise InputError where Cycles is disabled."""
+    """Raise InputError if Cycles is disabled."""
     if not is_enabled():
         raise InputError("Cycles is disabled: enable Cycles Render Engine in the Preferences, Add-ons")
 
 
 def check_cycles() -> None:
-    """Raise InputError where this Blender cannot compile shaders of cameras."""
+    """Raise InputError if this Blender cannot compile shaders of cameras."""
     check_enabled()
     import _cycles
 
     if not _cycles.with_osl:
-        raise InputError("this Blender was built without the Open Shading Language: take an official build")
+        raise InputError("this Blender was built without the Open Shading Language: use an official build")
 
 
 def set_shader(camera, shader: CameraShader) -> None:
-    """Make a camera a custom one with this shader, and give its inputs their values, without animation.
+    """Make a camera a custom camera with this shader, and set its inputs to their values, without animation.
 
-    Raises InputError where Cycles does not compile it; the camera is as it was then.
+    Raises InputError if Cycles cannot compile the shader; type and shader of the camera are then unchanged. The text of
+    a camera that already has a shader of ours is replaced without this check.
     """
-    _let_cycles_query()  # Blender compiles, too, as soon as a camera has another text, where Cycles is the engine
-    remove_keyframes(camera)
+    _let_cycles_query()  # if Cycles is the engine, Blender also compiles as soon as the text changes
     if shader_mark(camera) is not None:
+        remove_keyframes(camera)
         rewrite(camera, shader)
         return
     text, before = bpy.data.texts.new(f"{camera.name}.osl"), (camera.type, camera.custom_mode, camera.custom_shader)
@@ -53,13 +54,16 @@ def set_shader(camera, shader: CameraShader) -> None:
     if not _compile(camera):
         camera.type, camera.custom_mode, camera.custom_shader = before
         bpy.data.texts.remove(text)
-        raise InputError(f"Cycles cannot compile the shader of camera {camera.name!r}: the terminal says why")
+        raise InputError(
+            f"Cycles cannot compile the shader of camera {camera.name!r}: see the messages in the terminal"
+        )
     text.use_fake_user = False
+    remove_keyframes(camera)
     set_inputs(camera, shader)
 
 
 def clear_shader(camera) -> None:
-    """Take a camera's shader away: its inputs with their animation, and its text where nothing else uses it."""
+    """Remove a camera's shader: its inputs with their animation, and its text if nothing else uses it."""
     text, camera.custom_shader = camera.custom_shader, None
     camera.custom_bytecode = camera.custom_bytecode_hash = ""
     remove_keyframes(camera)
@@ -70,7 +74,7 @@ def clear_shader(camera) -> None:
 
 
 def rewrite(camera, shader: CameraShader) -> None:
-    """Give a camera's text another shader, and its inputs their values. A text of several cameras is copied first."""
+    """Replace the shader in a camera's text, and set its inputs. A text that other cameras share is copied first."""
     _let_cycles_query()
     if any(other != camera and other.custom_shader == camera.custom_shader for other in bpy.data.cameras):
         camera.custom_shader = camera.custom_shader.copy()
@@ -80,7 +84,7 @@ def rewrite(camera, shader: CameraShader) -> None:
 
 
 def set_inputs(camera, shader: CameraShader) -> None:
-    """Give the inputs of a camera's shader their values, where they have others."""
+    """Set the inputs of a camera's shader to its values, if they differ."""
     if not has_inputs(camera, shader):
         for name, value in stored(shader).items():
             camera.cycles_custom[name] = value
@@ -88,7 +92,7 @@ def set_inputs(camera, shader: CameraShader) -> None:
 
 
 def has_inputs(camera, shader: CameraShader) -> bool:
-    """Whether the inputs of a camera, or of an evaluated one, have the values of a shader. Integers do not count."""
+    """Whether the inputs of a camera, original or evaluated, have the values of a shader. Integers do not count."""
     inputs = camera.cycles_custom
     return all(isinstance(inputs.get(name), float) and inputs[name] == value for name, value in stored(shader).items())
 
@@ -99,17 +103,17 @@ def stored(shader: CameraShader) -> dict[str, float]:
 
 
 def _compile(camera) -> bool:
-    """Compile a camera's text with Cycles, under any engine; return whether it worked."""
+    """Compile a camera's text with Cycles, whatever the render engine is; return whether it succeeded."""
     from cycles import osl
 
     return bool(osl.update_custom_camera_shader(camera, lambda kind, text: None))
 
 
 def _let_cycles_query() -> None:
-    """Import the module with which Cycles reads a shader's inputs, and the OpenImageIO that it was built with, from
-    where Blender keeps them: a Python that imports bpy does not know that place, and may have another OpenImageIO.
+    """Import oslquery, with which Cycles reads a shader's inputs, and its OpenImageIO from Blender's folder.
 
-    Raises InputError where that one was imported before.
+    A Python that imports bpy does not search that folder, and may have another OpenImageIO. Raises InputError if the
+    other OpenImageIO was imported before.
     """
     before = list(sys.path)
     folders = list(Path(bpy.utils.system_resource("PYTHON")).glob("lib/python*/site-packages"))
@@ -121,4 +125,6 @@ def _let_cycles_query() -> None:
         sys.path[:] = before
     taken = Path(OpenImageIO.__file__)
     if any((folder / "OpenImageIO").is_dir() and not taken.is_relative_to(folder) for folder in folders):
-        raise InputError(f"Cycles needs Blender's OpenImageIO, and this Python has imported {taken}: import that later")
+        raise InputError(
+            f"Cycles needs Blender's own OpenImageIO, but {taken} is already imported: import it after this call"
+        )

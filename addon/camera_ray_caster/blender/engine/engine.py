@@ -1,4 +1,4 @@
-"""The render engine: Blender asks for a picture, ``job`` casts it, Blender stores, shows and writes it."""
+"""The render engine: Blender requests a picture, ``job`` casts it, and Blender stores, shows and writes it."""
 
 import math
 from collections.abc import Mapping
@@ -24,8 +24,8 @@ from .passes import stored, ticked
 from .viewport import Viewport
 
 BAND_PIXELS = 1 << 18
-"""Pixels that are handed over to Blender at once, whose copies take the memory of those before. 18 passes of 3840 x
-2160 pixels take 1.5 to 2 s of processor time; all at once 4.5 to 7.2 s, 2**16 1.2 to 1.9 s.
+"""Number of pixels passed to Blender at once. The copies of a band reuse the memory of the band before. 18 passes of
+3840 x 2160 pixels take 1.5 to 2 s of processor time; all at once 4.5 to 7.2 s, in bands of 2**16 pixels 1.2 to 1.9 s.
 """
 
 
@@ -36,13 +36,13 @@ class CameraRayCaster(Viewport, bpy.types.RenderEngine):
     bl_label = "Camera Ray Caster"
     bl_use_eevee_viewport = True
     done: Mapping[str, Report] = {}
-    """The reports of this frame's view layers."""
+    """Reports of this frame's view layers, by name."""
     stopped = False
-    """Whether a render was stopped since whoever asks has set it False."""
+    """Whether a render was stopped since the caller last set this to False."""
     picture: Picture | None = None
-    """Another engine's picture, which takes the place of the combined pass; None for our own."""
+    """Another engine's picture, which replaces the combined pass; None for our own."""
     images: dict[tuple[str, str], Images] | None = None
-    """Keeps what a render casts, by layer and view; None keeps nothing."""
+    """Images of a render, by layer and view; None if they are not kept."""
 
     def update_render_passes(self, scene=None, renderlayer=None):
         """Tell the compositor which sockets a view layer has."""
@@ -62,17 +62,17 @@ class CameraRayCaster(Viewport, bpy.types.RenderEngine):
             self.keep(report, depsgraph.view_layer_eval.name)
 
     def render_layer(self, depsgraph) -> Report:
-        """Cast the ticked passes of a view layer, for every eye, and store them in Blender's result."""
+        """Cast the enabled passes of a view layer, for every eye, and store them in Blender's result."""
         layer = depsgraph.view_layer_eval
         wanted = ticked(depsgraph.scene_eval, layer)
         for entry in wanted:
-            if entry.key != "combined":  # Blender adds that one
+            if entry.key != "combined":  # Blender adds combined itself
                 self.add_pass(entry.label, len(entry.channels), entry.channels, layer=layer.name)
         eyes = [self.render_eye(depsgraph, wanted, view.name) for view in self.get_result().views]
         return reduce(add, eyes)
 
     def render_eye(self, depsgraph, wanted, view: str) -> Report:
-        """Cast and store one eye; the view is empty where the scene is not a stereo one."""
+        """Cast and store one eye; the view's name is empty if the scene is not multi-view."""
         layer = depsgraph.view_layer_eval.name
         self.active_view_set(view)
         self.update_stats(layer, f"Casting rays {view}".rstrip())
@@ -93,7 +93,7 @@ class CameraRayCaster(Viewport, bpy.types.RenderEngine):
         return report.with_seconds(write=perf_counter() - started)
 
     def store(self, passes: Mapping[str, tuple[str, np.ndarray]], layer: str, view: str) -> None:
-        """Hand passes, their keys and images by their labels in Blender, over to Blender's result, in bands of rows."""
+        """Store passes, given as (key, image) by Blender's labels, in Blender's result, in bands of rows."""
         height, width = next(iter(passes.values()))[1].shape[:2]
         step = max(1, BAND_PIXELS // width)
         for first in range(0, height, step):
@@ -105,13 +105,13 @@ class CameraRayCaster(Viewport, bpy.types.RenderEngine):
             self.end_result(result)
 
     def visit(self, depsgraph, frame: float):
-        """Evaluate the scene at another frame."""
+        """Evaluate the scene at another frame; return the depsgraph."""
         self.frame_set(math.floor(frame), frame - math.floor(frame))
         return depsgraph
 
     def eye(self, raw: BlenderCamera, view: str) -> BlenderCamera:
-        """Return the record of a stereo eye with the matrix and the shift that Blender hands over for it."""
-        ours = eye_record(raw, view)  # which refuses what has no model, and keeps the matrix where nothing moves
+        """Return the record of a stereo eye with the matrix and the shift that Blender provides for it."""
+        ours = eye_record(raw, view)  # raises for eyes without a model; keeps the matrix of eyes that are not moved
         if ours.matrix_world is raw.matrix_world:
             return ours
         camera = self.camera_override
@@ -119,23 +119,23 @@ class CameraRayCaster(Viewport, bpy.types.RenderEngine):
         return replace(raw, matrix_world=np.array(self.camera_model_matrix(camera), np.float64), shift_x=shift_x)
 
     def keep(self, report: Report, layer: str) -> None:
-        """Warn of what was left out, and add the report to those of this frame's other view layers.
+        """Warn of omissions and failures, and add the report to those of this frame's other view layers.
 
-        With Persistent Data an engine renders one frame after the other: a layer that comes again begins a new one.
+        With Persistent Data an engine renders several frames in succession: a repeated layer starts a new frame.
         """
         if report.left_out:
-            self.report({"WARNING"}, f"{reports.left_out_line(report.left_out)}; the report says why")
+            self.report({"WARNING"}, f"{reports.left_out_line(report.left_out)}; the report gives the reasons")
         for line in report.motion:
             if line.startswith(UNRESOLVED):
                 self.report({"WARNING"}, line)
         for finding in report.findings:
             if not finding.passed:
-                self.report({"WARNING"}, f"{finding.witness} disagrees with the rays: see the report")
+                self.report({"WARNING"}, f"the reference check {finding.witness} failed: see the report")
         self.done = {layer: report} if layer in self.done else {**self.done, layer: report}
         reports.keep(reduce(add, self.done.values()))
 
     def advance(self, fraction: float) -> bool:
-        """Show how far the cast is; return whether to go on."""
+        """Show the progress of the cast; return whether to continue."""
         self.update_progress(fraction)
         return not signals.is_stopping()
 

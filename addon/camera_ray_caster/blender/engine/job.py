@@ -1,4 +1,4 @@
-"""The steps from an evaluated scene to images and a report, the same for panel, F12 and terminal."""
+"""The steps from an evaluated scene to images and a report. They are the same for panel, F12 and terminal."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ from ..verification.check import verify_evaluated
 
 @dataclass(frozen=True)
 class Job:
-    """All that a cast needs of Blender, read and verified; the cast itself may run in another thread."""
+    """All data that a cast needs from Blender, read and verified. The cast itself may run in another thread."""
 
     camera: Camera
     shapes: Shapes
@@ -40,9 +40,9 @@ class Job:
     frame: float
     layer: str
     stored: tuple[int, int]
-    """Rows and columns of what Blender makes of the picture: of a border that it does not crop to, the whole frame."""
+    """Rows and columns of the picture that Blender stores: the whole frame, unless Blender crops to a border."""
     host: dict[str, object]
-    """Blender's version, and how long a Blender unit is."""
+    """Blender's version, and the length of a Blender unit in meters."""
     several: bool
     """Whether the layer is one of several that are rendered."""
 
@@ -58,10 +58,10 @@ class Job:
     ) -> Job:
         """Read an evaluated scene with one camera, and verify the camera.
 
-        Reads the depsgraph only, so that a render's thread may call it. ``visit(frame)`` evaluates the scene at another
-        frame and returns its depsgraph: for a camera whose pixels have each their own time, and for flow; the default
-        sets the scene's frame, which a render may not. ``view`` names a multi-view eye, ``eye(raw)`` is the record of
-        that eye; the default is ours. Raises InputError where the camera cannot be cast.
+        Only the depsgraph is read, so that a render's thread may call this. ``visit(frame)`` evaluates the scene at
+        another frame and returns its depsgraph, for pixels with their own times and for flow; the default sets the
+        scene's frame, which a render must not do. ``view`` names a multi-view eye, and ``eye(raw)`` returns the record
+        of that eye; the default is ``eye_record``. Raises InputError if the camera cannot be cast.
         """
         scene = depsgraph.scene_eval
         started = perf_counter()
@@ -101,7 +101,7 @@ class Job:
         )
 
     def cast(self, progress: Callable[[float], bool] | None = None) -> tuple[Images, Report]:
-        """Cast the passes and report. ``progress`` is as in ``cast``, and so is Cancelled."""
+        """Cast the passes; return images and report. ``progress`` and Cancelled are as in ``cast``."""
         settings = {"shading": self.shading, "samples": self.samples, "precision": self.precision}
         shapes = [self.camera.raster.shape, self.stored]
         needed = sum(image_bytes(shape, self.passes, np.float32) for shape in shapes)
@@ -118,5 +118,5 @@ class Job:
 
 
 def run(depsgraph, camera_object, passes: Sequence[str], progress=None, **eye) -> tuple[Images, Report]:
-    """Read and cast in one go: see ``Job``."""
+    """Read and cast in one call: see ``Job``."""
     return Job.read(depsgraph, camera_object, passes, **eye).cast(progress)

@@ -1,4 +1,4 @@
-"""The passes as Blender has them: their names in its result, their channels, and the tick box that asks for each."""
+"""The passes in Blender's terms: their names in the render result, their channels, and their checkboxes."""
 
 from dataclasses import dataclass
 
@@ -8,12 +8,12 @@ import numpy as np
 FROM_5_0 = bpy.app.version >= (5, 0, 0)
 
 FAR = 1e10
-"""Blender's depth where nothing is hit: what EEVEE and Cycles store and the compositor takes for the background."""
+"""Blender's depth where nothing is hit. EEVEE and Cycles store it, and the compositor takes it for the background."""
 
 
 @dataclass(frozen=True)
 class RenderPass:
-    """``key`` is the caster's name of the pass; ``label``, ``channels`` and ``kind`` are those of ``register_pass``."""
+    """A pass: ``key`` is the caster's name; ``label``, ``channels`` and ``kind`` are arguments of ``register_pass``."""
 
     key: str
     label: str
@@ -21,10 +21,10 @@ class RenderPass:
     kind: str
     tick: str
     own: bool = False
-    """Whether the tick box is the scene's, in the add-on's settings, not the view layer's."""
+    """Whether the checkbox is in the add-on's settings of the scene instead of in the view layer."""
 
     def settings(self, scene, view_layer):
-        """Return the struct that holds the tick box."""
+        """Return the struct that holds the checkbox."""
         return scene.camera_ray_caster if self.own else view_layer
 
 
@@ -54,17 +54,17 @@ PASSES = (
 
 
 def ticked(scene, view_layer) -> list[RenderPass]:
-    """Return the passes that the user has ticked; combined, which Blender always stores, where that is none."""
+    """Return the passes that the user has enabled; if there are none, combined, which Blender always stores."""
     return [entry for entry in PASSES if getattr(entry.settings(scene, view_layer), entry.tick)] or [PASSES[0]]
 
 
 def tick(scene, view_layer, keys) -> None:
-    """Tick these passes and no others."""
+    """Enable these passes and disable all others."""
     for entry in PASSES:
         setattr(entry.settings(scene, view_layer), entry.tick, entry.key in keys)
 
 
 def stored(key: str, image: np.ndarray) -> np.ndarray:
-    """Return an image as Blender stores it: flat float32, rows from the bottom, depth FAR where nothing is hit."""
+    """Return an image as Blender stores it: flat float32, rows from the bottom; depth is FAR where nothing is hit."""
     flat = np.ascontiguousarray(image, dtype=np.float32).ravel()
     return np.where(np.isinf(flat), np.float32(FAR), flat) if key == "depth" else flat

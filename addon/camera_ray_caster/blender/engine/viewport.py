@@ -1,4 +1,4 @@
-"""Rendered shading in the 3D View: a coarse picture at once, then finer ones from a thread while nothing moves."""
+"""Rendered shading in the 3D View: a coarse picture at once, then finer pictures by a thread until a change."""
 
 from __future__ import annotations
 
@@ -23,15 +23,15 @@ from ..view3d.camera_frame import camera_frame
 from ..view3d.scene_cache import CachedScene, cached_scene
 
 STEPS = (8, 2, 1)
-"""Pixels of the window to a side of the picture's, from coarse to fine. The first is cast at once."""
+"""Side of a picture's pixel in pixels of the window, from coarse to fine. The first picture is cast at once."""
 
 QUICK = 0.06
-"""Seconds of the first within which the last follows it at once. Of 60 monkeys of 3,936 triangles each, 1600 x 950, the
-three take 48, 178 and 327 ms of processor time.
+"""If the first picture takes less than this time in seconds, the last picture follows it directly. The three pictures
+take 48, 178 and 327 ms of processor time for 60 monkeys of 3,936 triangles each, at 1600 x 950 pixels.
 """
 
 INTERVAL = 0.03
-"""Seconds between two checks whether a finer picture is finished."""
+"""Interval in seconds of the checks whether a finer picture is finished."""
 
 _workers: list[Worker] = []
 
@@ -46,36 +46,36 @@ class Target:
     height: float
     raw: BlenderCamera
     seen: tuple[float, float, float, float]
-    """The part of the camera's frame that the region shows, in fractions: left, bottom, right, top."""
+    """Part of the camera's frame that the region shows, in fractions: left, bottom, right, top."""
 
     def camera(self, step: int) -> Camera:
-        """Return the camera with pixels of ``step`` pixels of the window."""
+        """Return the camera with pixels whose side is ``step`` pixels of the window."""
         width, height = (max(1, round(side / step)) for side in (self.width, self.height))
         return replace(camera_from(frame_record(self.raw, width, height, self.seen)), pixel_time=None)
 
     def rectangle(self, raster) -> tuple[float, float, float, float]:
-        """Return left, bottom, width and height in the region of a raster's render window."""
+        """Return left, bottom, width and height of a raster's render window in the region."""
         x, y = self.width / raster.width, self.height / raster.height
         rows, columns = raster.shape
         return self.left + raster.x0 * x, self.bottom + raster.y0 * y, columns * x, rows * y
 
 
 class Viewport:
-    """What the engine does in a 3D View."""
+    """The part of the engine that draws in a 3D View."""
 
     _key: Any = None
-    """What the latest picture is of."""
+    """Scene, view and settings of the latest picture."""
     _step = 0
-    """The place in STEPS of the picture that is being cast, or was cast last."""
+    """Index in STEPS of the picture that is being cast, or was cast last."""
     _worker: Worker | None = None
     _picture: tuple | None = None
-    """(texture, its rectangle)."""
+    """Latest texture and its rectangle in the region."""
 
     def view_update(self, context, depsgraph):
-        """Something has changed: ``cached_scene`` knows what."""
+        """Do nothing: ``cached_scene`` detects changes."""
 
     def view_draw(self, context, depsgraph):
-        """Draw the latest picture of this view, and have a finer one cast."""
+        """Draw the latest picture of this view, and start the cast of a finer picture."""
         scene = cached_scene(context)
         region_data = context.region_data
         settings = context.scene.camera_ray_caster
@@ -94,14 +94,14 @@ class Viewport:
             self._draw(depsgraph.scene)
 
     def _begin(self, context, scene: CachedScene, shown) -> None:
-        """Cast the coarsest picture at once, and start on the next."""
+        """Cast the coarsest picture at once, and start the cast of a finer picture."""
         try:
             self._target = _target(context, scene.raw)
             if self._target is None:
                 return
             self._target.camera(1)
         except InputError:
-            return  # the sidebar says why
+            return  # the sidebar shows the reason
         self._cast = partial(_cast, self._target, scene.shapes, shown)
         started = perf_counter()
         self._show(self._cast(STEPS[0]))
@@ -142,7 +142,7 @@ class Viewport:
 
 
 def _target(context, raw: BlenderCamera | None) -> Target | None:
-    """Return what fills the region; None where it looks through a camera that cannot be cast."""
+    """Return the camera and rectangle for the region; None if it looks through a camera that cannot be cast."""
     region, region_data = context.region, context.region_data
     if region_data.view_perspective != "CAMERA":
         record = view_record(region_data.view_matrix, region_data.window_matrix, region.width, region.height)
@@ -157,14 +157,14 @@ def _target(context, raw: BlenderCamera | None) -> Target | None:
 
 
 def _cast(target: Target, shapes, shown: dict[str, str], step: int, progress=None):
-    """Return the combined pass at a step, (rows, columns, 4) float32, and its rectangle. It may run on a thread."""
+    """Return the combined pass at a step, (rows, columns, 4) float32, and its rectangle. This may run in a thread."""
     camera = target.camera(step)
     images = cast(camera, shapes, ("combined",), np.float32, **shown, progress=progress)
     return images["combined"], target.rectangle(camera.raster)
 
 
 def redraw_if_finished() -> float | None:
-    """Redraw the 3D Views once a finer picture is there; Blender calls this until there is none to wait for."""
+    """Redraw the 3D Views when a finer picture is finished; Blender calls this while any picture is being cast."""
     finished = [worker for worker in _workers if worker.done]
     if finished:
         _workers[:] = [worker for worker in _workers if worker not in finished]
@@ -176,7 +176,7 @@ def redraw_if_finished() -> float | None:
 
 
 def stop() -> None:
-    """Stop what is under way."""
+    """Stop all casts that are running."""
     while _workers:
         _workers.pop().stop()
     if bpy.app.timers.is_registered(redraw_if_finished):

@@ -1,1 +1,1 @@
-"""What leaves Blender: image datablocks, files, reports."""
+"""Results: image datablocks, files and reports."""

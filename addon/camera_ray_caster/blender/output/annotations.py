@@ -1,4 +1,4 @@
-"""Annotations of pictures as files: one beside each picture, and one of a whole run."""
+"""Annotations of pictures in COCO files: one for each picture, and one for a whole run."""
 
 from __future__ import annotations
 
@@ -16,25 +16,25 @@ from ..read.keypoints import key_points
 from .file_set import appearing
 
 ENDING = "_coco.json"
-"""Of the name of a picture's own file."""
+"""Ending of the name of a picture's annotation file."""
 
 WHOLE = "annotations.json"
-"""The file of a run."""
+"""Name of the annotation file of a run."""
 
 CATEGORY = "category"
-"""The custom property of objects that names what they are."""
+"""Name of the custom property that holds an object's category."""
 
 
 def check_annotations(scene) -> None:
-    """Raise InputError where a frame has no one picture that annotations could be of."""
+    """Raise InputError if a frame has several views: annotations belong to one picture."""
     if scene.render.use_multiview:
-        raise InputError("--annotations are of one view: switch off Stereoscopy (Output properties)")
+        raise InputError("--annotations supports a single view only: disable Stereoscopy (Output properties)")
 
 
 def annotated(scene, images: Images, file_name: str, keypoints: Sequence[str] = ()) -> str:
-    """Return the annotations of the picture in a file, which a render has just made of the scene, as COCO's JSON.
+    """Return the annotations of a picture that was just rendered from the scene, as JSON in COCO's format.
 
-    ``keypoints``: see ``read.keypoints``.
+    ``file_name`` is the picture's file; for ``keypoints``, see ``read.keypoints``.
     """
     camera, render = images.camera, scene.render
     raster = camera.raster
@@ -49,7 +49,7 @@ def annotated(scene, images: Images, file_name: str, keypoints: Sequence[str] = 
 
 
 def category_of(name: str) -> str:
-    """Return what an object is: its custom property CATEGORY, else the name of its data, which copies share."""
+    """Return an object's category: its custom property CATEGORY, or else the name of its data, which copies share."""
     item = bpy.data.objects.get(name)
     if item is None:
         return name
@@ -57,7 +57,7 @@ def category_of(name: str) -> str:
 
 
 def collect(folder: Path, names: Iterable[str]) -> Path:
-    """Write the annotations of pictures, which are there, as one file of the folder, and return its path."""
+    """Merge the annotation files of the named pictures into one file in the folder, and return its path."""
     own = (json.loads((folder / f"{name}{ENDING}").read_text(encoding="utf-8")) for name in names)
     whole = merged(own)
     with appearing(folder) as temporary:

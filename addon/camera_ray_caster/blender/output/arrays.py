@@ -1,4 +1,4 @@
-"""Passes as NumPy's NPZ files: an array a pass, rows from the bottom, as they were cast."""
+"""Passes as NPZ files of NumPy: one array per pass, with rows from the bottom, as they were cast."""
 
 from __future__ import annotations
 
@@ -11,18 +11,18 @@ import numpy as np
 from ..terminal.signals import raise_if_stopping
 
 LEVEL = 1
-"""Of deflate. All passes of a picture of meshes take 0.52 s of processor time and 11.5 MB; at numpy's level, 6, it is
-1.1 s and 11.2 MB; a cast takes 0.25 s.
+"""Level of deflate compression. All passes of a picture of meshes take 0.52 s of processor time and 11.5 MB; at
+numpy's level, 6, they take 1.1 s and 11.2 MB. A cast takes 0.25 s.
 """
 
 
 def save(
     path: Path, images: Mapping[tuple[str, str], Mapping[str, np.ndarray]], suffixes: Mapping[str, str], half: bool
 ) -> None:
-    """Write the images of each layer and view: a file for each view, with its suffix.
+    """Write the images of each layer and view: one file per view, with the view's suffix.
 
-    Arrays have the names of their passes, and their layer's in front where there are several: "Layer.depth". ``half``
-    stores real numbers as float16.
+    Arrays are named after their passes, with the layer's name in front if there are several layers: "Layer.depth".
+    ``half`` stores real numbers as float16.
     """
     layers = {layer for layer, _ in images}
     for view in dict.fromkeys(view for _, view in images):

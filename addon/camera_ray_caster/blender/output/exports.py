@@ -1,4 +1,4 @@
-"""Cameras, by frame, as other programs' files; see ``core.exports``. They appear whole or not at all."""
+"""Export of cameras, by frame, to files of other programs; see ``core.exports``. All files appear, or none."""
 
 import os
 from collections.abc import Iterable, Sequence
@@ -18,15 +18,15 @@ from .file_set import appearing
 
 
 def write(scene, key: str, cameras: Sequence, frames: Iterable[float], folder: Path, target=None):
-    """Export camera objects of a scene at frames, in the format of this key, into ``folder``; return what is to be said
-    of it, in lines, and the files' paths.
+    """Export camera objects of a scene at some frames, in the format ``key``, into ``folder``; return lines of messages
+    and the paths of the files.
 
-    Of a scene with Stereo 3D each camera has the eyes that are rendered, with the suffixes of their views. ``target``:
-    the camera object to which maps lead. The scene is as it was afterwards. Raises InputError for what cannot be read
-    or represented, and for a folder that cannot be written, Cancelled where it is stopped: nothing is left behind then.
+    In a scene with Stereo 3D, each rendered eye of a camera is exported, with the suffix of its view. ``target`` is the
+    camera object to which maps lead. The scene is restored afterwards. Raises InputError if a camera cannot be read or
+    represented or the folder cannot be written, and Cancelled if stopped; then no files are left behind.
     """
     if target is not None and not find_format(key).takes_target:
-        raise InputError(f"a camera to lead to is for maps: format {key} has none")
+        raise InputError(f"format {key} has no target camera: only maps have a target")
     files, said = export(key, shots(scene, cameras, frames, target))
     with appearing(folder) as temporary:
         for name, content in files:
@@ -37,9 +37,9 @@ def write(scene, key: str, cameras: Sequence, frames: Iterable[float], folder: P
 
 
 def shots(scene, cameras: Sequence, frames: Iterable[float], target=None) -> list[Shot]:
-    """Return the cameras, or their eyes, at frames, frame by frame; see ``write``."""
+    """Return the cameras, or their eyes, at each frame, in the order of the frames; see ``write``."""
     eyes = [(camera, suffix, view) for camera in cameras for suffix, view in _eyes(scene)]
-    file_names(f"{camera.name}{suffix}" for camera, suffix, _ in eyes)  # no two are alike
+    file_names(f"{camera.name}{suffix}" for camera, suffix, _ in eyes)  # raises if two names are equal
     found = []
     with evaluated(scene):
         for frame in frames:
@@ -54,7 +54,7 @@ def shots(scene, cameras: Sequence, frames: Iterable[float], target=None) -> lis
 
 
 def _eyes(scene) -> list[tuple[str, str]]:
-    """Return suffix and name of each view that is rendered of a camera."""
+    """Return the suffix and the name of each rendered view."""
     render = scene.render
     if not render.use_multiview or render.views_format != "STEREO_3D":
         return [("", "")]
@@ -71,7 +71,7 @@ def _write(path: Path, content: Content) -> None:
 
 
 def _write_image(path: Path, pixels: np.ndarray) -> None:
-    """Let Blender write pixels (rows, columns, 3) float32 to an EXR as they are."""
+    """Let Blender write pixels, (rows, columns, 3) float32, to an EXR file without color conversion."""
     height, width, _ = pixels.shape
     image = bpy.data.images.new(path.stem, width, height, alpha=False, float_buffer=True)
     try:

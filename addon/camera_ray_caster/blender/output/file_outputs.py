@@ -1,4 +1,4 @@
-"""The compositor's File Output nodes, which write where the file says: only where the user lets them."""
+"""The compositor's File Output nodes. They write to any path in the file, so they run only if the user allows it."""
 
 from __future__ import annotations
 
@@ -10,13 +10,13 @@ from pathlib import Path
 
 
 def writing(scene) -> list:
-    """Return the File Output nodes that a render of the scene runs, those of node groups too."""
+    """Return the File Output nodes that a render of the scene runs, including nodes in groups."""
     if not scene.render.use_compositing:
         return []
     from_5_0 = hasattr(scene, "compositing_node_group")
     trees = [scene.compositing_node_group if from_5_0 else scene.node_tree if scene.use_nodes else None]
     found = []
-    for tree in trees:  # which grows
+    for tree in trees:  # the list grows during the loop
         nodes = [node for node in tree.nodes if not node.mute] if tree is not None else []
         found += [node for node in nodes if node.type == "OUTPUT_FILE"]
         trees += [node.node_tree for node in nodes if node.type == "GROUP" and node.node_tree not in trees]
@@ -25,7 +25,7 @@ def writing(scene) -> list:
 
 @contextmanager
 def muted(nodes: Sequence) -> Iterator[None]:
-    """Keep nodes from doing anything."""
+    """Mute nodes inside the context."""
     for node in nodes:
         node.mute = True
     try:
@@ -36,7 +36,7 @@ def muted(nodes: Sequence) -> Iterator[None]:
 
 
 def files(scene, nodes: Sequence) -> dict[Path, tuple]:
-    """Return what is in the folders into which nodes write, each file with what changes when it is written."""
+    """Return the files in the nodes' output folders, each with its inode, time of change and size."""
     found = {}
     for folder in {folder for node in nodes for folder in _folders(scene, node)}:
         if folder.is_dir():
@@ -49,12 +49,12 @@ def files(scene, nodes: Sequence) -> dict[Path, tuple]:
 
 
 def changed(before: Mapping[Path, tuple], after: Mapping[Path, tuple]) -> tuple[str, ...]:
-    """Return the paths of the files that have been written between two times."""
+    """Return the sorted paths of the files that were written between two calls of ``files``."""
     return tuple(sorted(str(path) for path, state in after.items() if before.get(path) != state))
 
 
 def _folders(scene, node) -> set[Path]:
-    """Return the folders of a node's files, as Blender makes paths of what the node says."""
+    """Return the folders of a node's files, with paths expanded by Blender."""
     if hasattr(node, "directory"):  # from 5.0 on
         names = ["", *(item.name for item in node.file_output_items)]
         paths = [os.path.join(node.directory, node.file_name + name) for name in names]
@@ -67,7 +67,7 @@ def _folders(scene, node) -> set[Path]:
         try:
             scene.render.filepath = path.replace("{node_name}", re.sub(r"[/\\]", "_", node.name))
             folders.add(Path(scene.render.frame_path(frame=scene.frame_current)).absolute().parent)
-        except RuntimeError:  # a word in braces that Blender does not know: it writes nothing then
+        except RuntimeError:  # unknown template variable in braces: Blender writes nothing
             continue
         finally:
             scene.render.filepath = kept

@@ -1,9 +1,9 @@
-"""A set of files that appears in a folder together or not at all, whatever ends the run that writes them.
+"""Sets of files that appear in a folder all together or not at all, even if the writing process is killed.
 
-New files are written into a folder of their own, ``.writing_*``, which its run holds a lock on. When all are there, a
-journal names them, and they are moved to their places one by one, with the files that they replace kept beside. A run
-that fails on the way puts those back. A run that was killed is undone or completed by the next one into the folder:
-without a journal nothing had appeared, with one all new files exist. Needs no Blender.
+A run writes new files into its own subfolder ``.writing_*`` and holds a lock on it. When all files are written, the run
+lists them in a journal and moves them to their places one by one, keeping the files that they replace. If a move
+fails, the run restores the old files. If a run was killed, the next run in the folder undoes or completes it: without
+a journal no file was moved yet; with a journal all new files exist. This module does not need Blender.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from ...core.records import InputError
 
 try:
     from fcntl import LOCK_EX, LOCK_NB, flock
-except ImportError:  # Windows: two runs into one folder at the same time are not told apart there
+except ImportError:  # Windows: no protection against two simultaneous runs in one folder
     LOCK_EX = LOCK_NB = 0
 
     def flock(file: int, how: int) -> None:
@@ -30,13 +30,16 @@ except ImportError:  # Windows: two runs into one folder at the same time are no
 
 PREFIX = ".writing_"
 NEW, OLD, JOURNAL, LOCK = "new", "old", "journal.json", "lock"
+DRAFT = JOURNAL + ".draft"
+OURS = {NEW, OLD, JOURNAL, DRAFT, LOCK}
+"""What may stand in a folder of a run; a folder with anything else is somebody's own."""
 
 
 @contextmanager
 def appearing(folder: Path) -> Iterator[Path]:
-    """Yield an empty folder whose files move into ``folder`` in the end; if anything fails nothing is left of them.
+    """Yield an empty folder whose files move into ``folder`` at the end; if anything fails, none of them are left.
 
-    Raises InputError, in one line, where the folder cannot be written.
+    Raises InputError, in one line, if the folder cannot be written.
     """
     made: list[Path] = []
     try:
@@ -48,7 +51,7 @@ def appearing(folder: Path) -> Iterator[Path]:
                 _commit(folder, work)
     except BaseException as error:
         for path in made:
-            with suppress(OSError):  # another run has begun to use it
+            with suppress(OSError):  # another run uses it already
                 path.rmdir()
         if isinstance(error, OSError):
             raise InputError(_refusal(folder, error)) from error
@@ -56,7 +59,7 @@ def appearing(folder: Path) -> Iterator[Path]:
 
 
 def clear_up(folder: Path) -> None:
-    """Complete or undo what runs that were killed have left in a folder. Raises InputError where that cannot be."""
+    """Complete or undo killed runs in a folder. Raises InputError if the folder cannot be written."""
     try:
         if folder.is_dir():
             with _locked(folder):
@@ -72,7 +75,7 @@ def _refusal(folder: Path, error: OSError) -> str:
 
 @contextmanager
 def _workplace(folder: Path) -> Iterator[Path]:
-    """Yield a new folder in which a set is written, after what killed runs have left was dealt with."""
+    """Recover from killed runs, then yield a new folder in which a set is written."""
     with _locked(folder):
         _recover(folder)
         work = Path(mkdtemp(prefix=PREFIX, dir=folder))
@@ -89,7 +92,7 @@ def _workplace(folder: Path) -> Iterator[Path]:
 
 @contextmanager
 def _locked(folder: Path) -> Iterator[None]:
-    """Keep other runs from beginning or ending in a folder."""
+    """Prevent other runs from starting or finishing in a folder."""
     if not LOCK_EX:
         yield
         return
@@ -102,9 +105,11 @@ def _locked(folder: Path) -> Iterator[None]:
 
 
 def _recover(folder: Path) -> None:
-    """Complete or undo what runs that were killed have left; what a run that is alive writes stays."""
+    """Complete or undo killed runs; leave the files of running ones."""
     for work in folder.glob(PREFIX + "*"):
-        with suppress(OSError):  # it is locked, or not ours
+        with suppress(OSError):  # it is locked, or its run has just removed it
+            if work.is_symlink() or not work.is_dir() or not set(os.listdir(work)) <= OURS:
+                continue
             lock = os.open(work / LOCK, os.O_CREAT | os.O_RDWR)  # a run that was killed while it cleared up has none
             try:
                 flock(lock, LOCK_EX | LOCK_NB)
@@ -116,19 +121,19 @@ def _recover(folder: Path) -> None:
 
 
 def _commit(folder: Path, work: Path) -> None:
-    """Move the new files to their places, all or none."""
+    """Move all new files to their places, or none of them."""
     names = sorted(os.listdir(work / NEW))
     for name in names:
         if (folder / name).is_dir():
             raise IsADirectoryError(EISDIR, f"{name!r} is a folder there")
-    draft = work / (JOURNAL + ".draft")
+    draft = work / DRAFT
     draft.write_text(json.dumps(names), encoding="utf-8")
     os.replace(draft, work / JOURNAL)
     _move(folder, work)
 
 
 def _move(folder: Path, work: Path) -> None:
-    """Move what is still to be moved; where that fails put everything back."""
+    """Move the remaining new files; if that fails, put everything back."""
     names = json.loads((work / JOURNAL).read_text(encoding="utf-8"))
     try:
         for name in sorted(os.listdir(work / NEW)):
@@ -148,7 +153,7 @@ def _move(folder: Path, work: Path) -> None:
 
 
 def _keep(file: Path, kept: Path) -> None:
-    """Let a file stand in another place, too."""
+    """Link or copy a file to a second path."""
     try:
         os.link(file, kept)
     except OSError:  # file systems without links

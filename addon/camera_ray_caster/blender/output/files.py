@@ -1,4 +1,4 @@
-"""A rendered frame as files: a picture, its passes as EXR or NPZ, and the report. They appear whole or not at all."""
+"""A rendered frame as files: a picture, its passes as EXR or NPZ, and the report. All files appear, or none."""
 
 import os
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -37,18 +37,18 @@ PICTURE = {
 LAYERS = {
     "media_type": "MULTI_LAYER_IMAGE",
     "file_format": "OPEN_EXR_MULTILAYER",
-    "views_format": "INDIVIDUAL",  # of several views a file each: what every reader reads
+    "views_format": "INDIVIDUAL",  # one file per view: every reader supports it
     "color_depth": "32",
     "exr_codec": "ZIP",
-    "use_exr_interleave": True,  # one part: what every reader reads, at any pixel aspect
+    "use_exr_interleave": True,  # one part: every reader supports it, at any pixel aspect
 }
-"""Image settings by Blender's names, in the order in which they have to be set."""
+"""Image settings by Blender's names, in the order in which they must be set."""
 
 EXR, NPZ = "EXR", "NPZ"
 FORMATS = EXR, NPZ
-"""What passes are written as: a multilayer EXR, or NumPy's arrays."""
+"""File formats of passes: a multilayer EXR, or NumPy arrays."""
 
-NOT_WRITTEN = "the compositor's File Output nodes have written nothing: --file-output lets them write where they say"
+NOT_WRITTEN = "the compositor's File Output nodes were not run: --file-output makes them write their files"
 
 
 def render(
@@ -66,17 +66,15 @@ def render(
     keypoints: Sequence[str] | None = None,
     beside: Iterable[Path] = (),
 ) -> tuple[Report, list[Path]]:
-    """Render the scene's current frame into ``folder`` and return the report and the files.
+    """Render the scene's current frame into ``folder`` and return the report and the paths of the files.
 
-    They are NAME.png, NAME.exr (or .npz, as ``layers`` says) and REPORT_NAME.json; of several views NAME_L.png,
-    NAME_R.png and so on, by the views' suffixes. ``half`` stores real numbers of passes with 16 bits; without
-    ``shown`` there is no NAME.png.
-    The compositor's File Output nodes write, where they say, only with ``file_output``.
-    ``picture`` takes the place of the combined pass. ``stamp`` stands in the report, with the files and those
-    ``beside`` them: see ``stamps``. ``keypoints``: not None for NAME_coco.json, of the first view layer: see
-    ``annotations``.
-    Leaves all as it was and raises InputError where Blender cannot render or the folder
-    cannot be written, Cancelled where it is stopped.
+    The files are NAME.png, NAME.exr (or .npz, depending on ``layers``) and REPORT_NAME.json; with several views,
+    NAME_L.png, NAME_R.png and so on, by the views' suffixes. ``half`` stores real numbers of passes with 16 bits.
+    NAME.png is written only if ``shown``. The compositor's File Output nodes write only with ``file_output``.
+    ``picture`` replaces the combined pass. ``stamp`` is stored in the report, with the sizes of the files and of the
+    files in ``beside``; see ``stamps``. If ``keypoints`` is not None, NAME_coco.json is written for the first view
+    layer; see ``annotations``. Raises InputError if Blender cannot render or the folder cannot be written, and
+    Cancelled if stopped; then no files are left behind.
     """
     check(scene)
     keeps = layers == NPZ or keypoints is not None
@@ -105,7 +103,7 @@ def render(
 
 
 def check(scene) -> None:
-    """Raise InputError for what ``render`` refuses before it begins."""
+    """Raise InputError for input that ``render`` refuses before it starts."""
     _check_layers(scene)
     _check_suffixes(scene.render)
     _check_memory(scene)
@@ -113,7 +111,7 @@ def check(scene) -> None:
 
 @contextmanager
 def _engine_has(picture: Picture | None, images: dict | None) -> Iterator[dict | None]:
-    """Let our engine show another one's picture, and keep the images that it casts in a dict; yield that."""
+    """Let the engine show another engine's picture and store its cast images in ``images``; yield ``images``."""
     CameraRayCaster.picture, CameraRayCaster.images = picture, images
     try:
         yield images
@@ -122,7 +120,7 @@ def _engine_has(picture: Picture | None, images: dict | None) -> Iterator[dict |
 
 
 def _composited(scene, file_output: bool) -> Report:
-    """Render the current frame, let File Output nodes write or not, and return the report."""
+    """Render the current frame, with File Output nodes writing only if ``file_output``, and return the report."""
     nodes = file_outputs.writing(scene)
     if file_output:
         before = file_outputs.files(scene, nodes)
@@ -135,15 +133,15 @@ def _composited(scene, file_output: bool) -> Report:
 
 
 def _rendered(scene) -> Report:
-    """Render the current frame and return its report, with Blender's share of the time; Cancelled where it stopped."""
+    """Render the current frame and return its report, with Blender's share of the time. Raises Cancelled if stopped."""
     reports.forget()
     CameraRayCaster.stopped = False
-    scene.render.use_sequencer = False  # a strip would be shown in place of the cast
+    scene.render.use_sequencer = False  # strips would replace the cast picture
     if hasattr(scene.render, "use_render_cache"):  # before 5.2
-        scene.render.use_render_cache = False  # its files lie where the scene's name leads them
+        scene.render.use_render_cache = False  # cache files are placed by the scene's name
     started = perf_counter()
     try:
-        with redirect_stdout(None):  # warnings and errors are in the report and in the exception
+        with redirect_stdout(None):  # warnings go into the report, errors into the exception
             bpy.ops.render.render(scene=scene.name)
     except RuntimeError as error:
         raise InputError(reported(error)) from error
@@ -152,15 +150,15 @@ def _rendered(scene) -> Report:
     if CameraRayCaster.stopped:
         raise Cancelled
     if report is None:
-        raise RuntimeError("the render failed: what went wrong stands above")
+        raise RuntimeError("the render failed: see the messages in the terminal")
     return report.with_seconds(blender=elapsed - sum(report.seconds.values()))
 
 
 def _save(scene, path: Path, settings) -> None:
-    """Let Blender write the render to a file."""
+    """Let Blender write the render result to a file."""
     signals.raise_if_stopping()
     for name, value in settings.items():
-        if hasattr(scene.render.image_settings, name):  # media_type: from 5.0 on; use_exr_interleave: not everywhere
+        if hasattr(scene.render.image_settings, name):  # media_type: since 5.0; use_exr_interleave: in some versions
             setattr(scene.render.image_settings, name, value)
     try:
         bpy.data.images["Render Result"].save_render(str(path), scene=scene)
@@ -170,13 +168,13 @@ def _save(scene, path: Path, settings) -> None:
 
 
 def _check_layers(scene) -> None:
-    """Raise InputError where there is nothing to render."""
+    """Raise InputError if no view layer is enabled for rendering."""
     if not any(layer.use for layer in scene.view_layers):
         raise InputError(f"no view layer of scene {scene.name!r} is used for rendering: enable one")
 
 
 def _check_memory(scene) -> None:
-    """Raise InputError where Blender's own copy of the passes takes more memory than there is: it makes that first."""
+    """Raise InputError if there is not enough memory for Blender's copy of the passes, which it allocates first."""
     render = scene.render
     shape = [side * render.resolution_percentage // 100 for side in (render.resolution_y, render.resolution_x)]
     if render.use_border and render.use_crop_to_border:
@@ -188,16 +186,16 @@ def _check_memory(scene) -> None:
 
 
 def _check_suffixes(render) -> None:
-    """Raise InputError where the suffix of a view would put its files elsewhere."""
+    """Raise InputError if a view's file suffix would lead to another folder."""
     for view in render.views if render.use_multiview else ():
         if view.use and any(sign in view.file_suffix for sign in "/\\\0"):
             raise InputError(
-                f"the file suffix {view.file_suffix!r} of view {view.name!r} leads to another folder: "
-                "take its slashes out (Output properties, Stereoscopy)"
+                f"the file suffix {view.file_suffix!r} of view {view.name!r} leads to another folder: remove its "
+                "slashes (Output properties, Stereoscopy)"
             )
 
 
 def _views_written(scene, path: Path) -> bool:
-    """Return whether each of several views has its file: Blender then misses one without a view's suffix."""
+    """Return whether all views' files exist. With several views, Blender raises an error although it wrote them."""
     files = [path.with_stem(path.stem + view.file_suffix) for view in views_of(scene)]
     return bool(files) and all(file.is_file() for file in files)

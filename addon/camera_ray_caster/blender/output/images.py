@@ -1,4 +1,4 @@
-"""Cast passes as Image datablocks: float pictures, one a pass, saved with the file; the next cast replaces them."""
+"""Cast passes as float Image datablocks, one per pass. They are saved in the .blend and replaced by the next cast."""
 
 from __future__ import annotations
 
@@ -13,18 +13,18 @@ from ..engine.passes import PASSES, stored
 
 PREFIX = "Ray Caster "
 VIEW = "Ray Caster: Shown"
-"""The image that shows a pass in colors."""
+"""Name of the image that shows a pass in colors."""
 
 
 def image_name(key: str, view: str = "") -> str:
-    """Return the name of a pass's Image datablock; ``view``: of a stereo scene."""
+    """Return the name of a pass's Image datablock; ``view`` is the view's name in a stereo scene."""
     return f"{PREFIX}{key.replace('_', ' ')} {view}".rstrip()
 
 
 def store(images: Mapping[tuple[str, str], np.ndarray]) -> Iterator[str]:
-    """Write passes, by their keys and views, into their Image datablocks; yield the name of each that is written.
+    """Write passes, given by (key, view), into their Image datablocks; yield the name of each image once it is written.
 
-    Only the main thread may.
+    Call this only on the main thread.
     """
     lent = None
     for (key, view), pixels in images.items():
@@ -39,14 +39,14 @@ def store(images: Mapping[tuple[str, str], np.ndarray]) -> Iterator[str]:
 
 
 def _datablock(name: str, width: int, height: int, is_data: bool):
-    """Return the float image of that name and size: the one that an earlier cast has made, if it has.
+    """Return the float image of a name and size; reuse the image of an earlier cast if there is one.
 
-    What is set of an image that is there makes Blender free its pixels and fill it anew.
+    Setting a property of an existing image makes Blender free and refill its pixels, so only changes are set.
     """
     image = bpy.data.images.get(name)
     if image is None or not (image.is_float and (image.source == "GENERATED" or image.packed_file)):
         image = bpy.data.images.new(name, width, height, alpha=True, float_buffer=True, is_data=is_data)
-        image.use_fake_user = True  # it is saved also where nothing uses it
+        image.use_fake_user = True  # save the image even if nothing uses it
         return image
     if image.packed_file:
         _unpack(image)
@@ -56,15 +56,15 @@ def _datablock(name: str, width: int, height: int, is_data: bool):
 
 
 def _unpack(image) -> None:
-    """Make an image that was packed one of pixels in memory."""
+    """Turn a packed image into a generated image with its pixels in memory."""
     image.source = "GENERATED"
     if image.packed_file:
         image.unpack(method="REMOVE")
 
 
 def results() -> dict[str, str]:
-    """Return the names of the images that casts have made, each with the key of its pass."""
-    keys = sorted((entry.key for entry in PASSES), key=len, reverse=True)  # distance bound is no view of distance
+    """Return the key of the pass by name, for all images that casts have made."""
+    keys = sorted((entry.key for entry in PASSES), key=len, reverse=True)  # else "distance bound" is "distance"
     found = {}
     for name in [image.name for image in bpy.data.images]:
         key = next((key for key in keys if f"{name} ".startswith(f"{image_name(key)} ")), None)
@@ -74,9 +74,9 @@ def results() -> dict[str, str]:
 
 
 def show_in_colors(name: str) -> tuple[bpy.types.Image, str]:
-    """Return an image that shows the result of that name in what a screen can show, and in words what its colors mean.
+    """Return an image that shows the named result in displayable colors, and a description of the colors.
 
-    That of the combined pass is the result itself.
+    For the combined pass, the image is the result itself.
     """
     result, key = bpy.data.images[name], results()[name]
     if key == "combined":
@@ -97,7 +97,7 @@ def show_in_colors(name: str) -> tuple[bpy.types.Image, str]:
 
 @persistent
 def pack(*_) -> None:
-    """The file is about to be saved: put what was cast since the last time into it."""
+    """Pack images that were cast since the last save into the file, before it is saved."""
     for name in results():
         image = bpy.data.images[name]
         if image.source == "GENERATED" and image.is_dirty:
@@ -105,24 +105,24 @@ def pack(*_) -> None:
 
 
 def register(undo) -> None:
-    """See ``registration``."""
+    """Register this module; see ``registration``."""
     undo.add_handlers([("save_pre", pack)])
 
 
 def _rgba(pixels: np.ndarray, lent: np.ndarray | None = None) -> np.ndarray:
-    """Return (n, 4) float32: gray where a pass, (n, channels), has one channel, no blue where it has two; alpha 1.
+    """Return a pass, (n, channels), as (n, 4) float32: gray for one channel, blue 0 for two channels, alpha 1.
 
-    ``lent``: what was returned before, to be overwritten. System memory that is new takes longer than the copy.
+    ``lent`` is an earlier result to overwrite: allocating new memory takes longer than the copy.
     """
     count, channels = pixels.shape
     rgba = np.ones((count, 4), np.float32) if lent is None or len(lent) != count else lent
-    for k in range(3):  # a channel at a time: a broadcast to all takes four times as long
+    for k in range(3):  # one channel at a time: a broadcast to all takes four times as long
         rgba[:, k] = pixels[:, min(k, channels - 1)] if channels != 2 or k < 2 else 0
     return rgba
 
 
 def show(window_manager, names: list[str]) -> None:
-    """Show the first of these images in every Image Editor that is open, unless it shows another of them."""
+    """Show the first of these images in every open Image Editor, unless the editor already shows one of them."""
     for window in window_manager.windows:
         for area in window.screen.areas:
             space = area.spaces.active

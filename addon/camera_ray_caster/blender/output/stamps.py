@@ -1,6 +1,6 @@
-"""What a finished frame says of itself, so that a later run knows it: what it was made of, and its files' sizes.
+"""Stamps, by which a later run recognizes a finished frame: its inputs and settings, and the sizes of its files.
 
-The stamp stands in the frame's report, and appears together with the files beside it.
+The stamp is stored in the frame's report, which appears together with the other files.
 """
 
 from __future__ import annotations
@@ -18,9 +18,10 @@ from ...core.version import VERSION
 
 
 def stamp_of(settings: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the stamp of the open file, cast with some settings: values that JSON has.
+    """Return the stamp of the open file, cast with some settings, as values that JSON can hold.
 
-    It holds the file's SHA-256, and of other files that it uses (libraries, images, caches) size and time of change.
+    It holds the file's SHA-256, and a SHA-256 of the names, sizes and times of change of the other files that it uses
+    (libraries, images, caches).
     """
     path = Path(bpy.data.filepath)
     others = sorted(set(map(Path, bpy.utils.blend_paths(absolute=True, packed=False))))
@@ -37,13 +38,13 @@ def stamp_of(settings: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def differing(one: Mapping[str, Any], other: Mapping[str, Any]) -> list[str]:
-    """Return in what two stamps differ, settings by their names. Raises KeyError or TypeError where one is none."""
+    """Return the keys in which two stamps or their settings differ. Raises KeyError or TypeError for invalid stamps."""
     first, second = ({**stamp, **stamp["settings"]} for stamp in (one, other))
     return [key for key in first if key != "settings" and first[key] != second[key]]
 
 
 def file_hash(path: Path) -> str:
-    """Return the SHA-256 of a file. Raises InputError where it cannot be read."""
+    """Return the SHA-256 of a file. Raises InputError if it cannot be read."""
     try:
         with path.open("rb") as file:
             return hashlib.file_digest(file, "sha256").hexdigest()
@@ -52,16 +53,16 @@ def file_hash(path: Path) -> str:
 
 
 def made(stamp: Mapping[str, Any], paths: Iterable[Path]) -> dict[str, Any]:
-    """Return what a report says of the files that were made under a stamp."""
+    """Return the report's entry on files: the stamp, and the sizes of the files."""
     return {"of": stamp, "files": {path.name: path.stat().st_size for path in paths}}
 
 
 def finished(report: Path, stamp: Mapping[str, Any]) -> dict[str, Any] | None:
-    """Return what a report says, if it is of a frame with this stamp and all of its files; None otherwise."""
+    """Return a report's content if it has this stamp and all its files are complete; otherwise return None."""
     try:
         found = json.loads(report.read_text(encoding="utf-8"))
         made = found["made"]
         whole = all((report.parent / name).stat().st_size == size for name, size in made["files"].items())
         return found if whole and made["of"].items() >= stamp.items() else None
-    except (OSError, ValueError, KeyError, TypeError, AttributeError):  # none, or not ours
+    except (OSError, ValueError, KeyError, TypeError, AttributeError):  # no report, or not ours
         return None

@@ -1,1 +1,1 @@
-"""What the add-on stores in a .blend."""
+"""The add-on's settings, which are stored in a .blend."""

@@ -1,4 +1,4 @@
-"""A calibration file chosen for a camera: the model follows from it."""
+"""Choosing a calibration file for a camera, which also sets the camera's model."""
 
 from ...core.camera.calibration_file import chosen_lens
 from ...core.cameras import MODELS
@@ -6,17 +6,17 @@ from ...core.cameras.parts.calibration import FILE, FILE_CAMERA
 from .declared import GROUP, MODEL
 
 READING = {model.key: model.label for model in MODELS if FILE in model.SETTINGS}
-"""The models that read calibration files."""
+"""Labels of the models that read calibration files, by key."""
 
 PLAIN = "OPENCV_PINHOLE"
-"""Whose coefficients those of a file are that does not say its model, unless one of READING is chosen already."""
+"""Model assumed for a file that does not name its model, unless a model of READING is already chosen."""
 
 
 def set_calibration(camera, path: str, name: str = "") -> str:
-    """Give a camera's data the model that a calibration file is for, and the file; return what was read, in a line.
+    """Set the calibration file and the matching model of a camera's data; return a line about the values read.
 
-    name: of the camera in a file with several. Raises InputError for a file that cannot be read, and for one with
-    several cameras of which none is chosen: it names them. Nothing is changed then.
+    ``name`` is the name of the camera in a file with several cameras. Raises InputError if the file cannot be read, or
+    if it has several cameras and none is chosen; the message names them. Nothing is changed then.
     """
     own = getattr(camera, GROUP)
     lens = chosen_lens(path, own.model if own.model in READING else PLAIN, name)

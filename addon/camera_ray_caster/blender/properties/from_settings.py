@@ -1,4 +1,4 @@
-"""Blender's properties, made from declared settings."""
+"""Blender properties made from declared settings."""
 
 from itertools import groupby
 
@@ -10,19 +10,19 @@ from ...core.cameras.parts.settings import Setting
 
 LARGEST, LARGEST_INT = float(np.finfo(np.float32).max), 2**31 - 1
 SMALLEST = float(np.finfo(np.float32).tiny)
-"""The minimum of a property in place of a smaller number above 0, which float32 cannot hold."""
+"""Minimum of a property whose declared minimum is positive but too small for float32."""
 
 UNITS = {"angle": {"subtype": "ANGLE", "step": 100}, "length": {"unit": "LENGTH"}}
 
 
 def property_of(setting: Setting):
-    """Return the property that holds a setting, for a class's annotations."""
+    """Return the Blender property of a setting, for a class's annotations."""
     named = {"name": setting.label, "description": setting.text, "update": _tag}
     return KINDS[setting.kind](setting, named)
 
 
 def _tag(self, context):
-    """Have the depsgraph evaluate what a script has changed; what is changed in a window it evaluates by itself."""
+    """Tag the data-block for the depsgraph: a change by a script is otherwise not evaluated, unlike one in a window."""
     self.id_data.update_tag()
 
 
@@ -48,7 +48,7 @@ def _boolean(setting, named):
 def _enum(setting, named):
     items = []
     for group, members in groupby(setting.items, lambda item: item.group):
-        items += [("", group, "", 0)] if group else []  # an item without a key is a heading
+        items += [("", group, "", 0)] if group else []  # an item with an empty key is a heading
         items += [(item.key, item.label, item.text, item.number) for item in members]
     return props.EnumProperty(**named, default=setting.default, items=items)
 
@@ -78,4 +78,4 @@ KINDS = {
     "FLOAT": _float, "INT": _int, "BOOLEAN": _boolean, "ENUM": _enum, "VECTOR": _vector, "TEXT": _text,
     "FILE": _file, "OBJECT": _object, "IMAGE": _image,
 }  # fmt: skip
-"""How the property of each kind of setting is made."""
+"""Functions that make the property, by kind of setting."""

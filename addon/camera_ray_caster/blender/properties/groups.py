@@ -1,4 +1,4 @@
-"""The property groups of objects, cameras and scenes, in which a .blend stores the add-on's settings."""
+"""The property groups of objects, cameras and scenes that store the add-on's settings in a .blend."""
 
 import bpy
 
@@ -7,19 +7,19 @@ from .from_settings import property_of
 
 
 class ObjectProperties(bpy.types.PropertyGroup):
-    """``object.camera_ray_caster``"""
+    """The type of ``object.camera_ray_caster``."""
 
     __annotations__ = {setting.name: property_of(setting) for setting in OBJECT}
 
 
 class CameraProperties(bpy.types.PropertyGroup):
-    """``camera.camera_ray_caster``"""
+    """The type of ``camera.camera_ray_caster``."""
 
     __annotations__ = {setting.name: property_of(setting) for setting in CAMERA}
 
 
 class SceneProperties(bpy.types.PropertyGroup):
-    """``scene.camera_ray_caster``"""
+    """The type of ``scene.camera_ray_caster``."""
 
     __annotations__ = {setting.name: property_of(setting) for setting in SCENE}
 
@@ -34,7 +34,7 @@ OWNERS = {
 
 
 def register(undo) -> None:
-    """Give every object, camera and scene its properties; what is stored in a file outlives them."""
+    """Add the property groups to objects, cameras and scenes. Values stored in a file survive unregistering."""
     for owner, group in OWNERS.items():
         setattr(owner, GROUP, bpy.props.PointerProperty(type=group))
         undo.callback(delattr, owner, GROUP)

@@ -1,13 +1,13 @@
-"""Which of Blender's structs has a declared setting of a camera."""
+"""The Blender struct that owns a declared camera setting."""
 
 from ...core.cameras.parts.settings import CAMERA, CYCLES, OWN, RENDER, STEREO, Setting
 from .declared import GROUP
 
 
 def owner_of(setting: Setting, camera, scene):
-    """Return the struct that has a setting as a property of its name; None for one of Cycles while that is disabled.
+    """Return the struct with a setting's property, or None for a setting of Cycles while Cycles is disabled.
 
-    ``camera``: its data. The add-on's own settings need to be registered.
+    ``camera`` is the camera's data. The add-on's own settings must be registered.
     """
     return OWNERS[setting.owner](camera, scene)
 

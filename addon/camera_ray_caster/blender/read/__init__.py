@@ -1,4 +1,4 @@
-"""Blender in, plain records out. The scene is as it was afterwards."""
+"""Reading of Blender's scenes as plain records. The scene is restored afterwards."""
 
 from .scene import read_camera, read_scene, read_shapes
 

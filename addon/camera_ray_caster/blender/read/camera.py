@@ -1,4 +1,4 @@
-"""A camera and its render settings as Blender has them: copied by their names, nothing computed."""
+"""A camera and its render settings, copied from Blender under Blender's own names."""
 
 from collections.abc import Sequence
 from dataclasses import replace
@@ -39,10 +39,10 @@ MULTIVIEW = ("use_multiview", "views_format")
 def camera_record(camera_object, depsgraph) -> BlenderCamera:
     """Return the record of a camera object as the depsgraph evaluated it, with its scene's render settings.
 
-    ``settings`` holds, by name, what the camera's model and the mode of its pixel times declare, and of every camera
-    ``time_mode``, ``panorama_type``, DEPTH_OF_FIELD, STEREO, MULTIVIEW, ``frame`` and ``focus_position``, the
-    focus object's place in the world (3,) or None. Raises InputError where there is no camera, the object is none, or
-    there is no model for it.
+    ``settings`` holds, by name, the settings that the camera's model and the mode of its pixel times declare, and for
+    every camera ``time_mode``, ``panorama_type``, DEPTH_OF_FIELD, STEREO, MULTIVIEW, ``frame`` and ``focus_position``,
+    the focus object's place in the world (3,) or None. Raises InputError if there is no camera, if the object is not a
+    camera, and if there is no model for it.
     """
     scene = depsgraph.scene_eval
     check_camera(scene, camera_object)
@@ -74,21 +74,21 @@ def camera_record(camera_object, depsgraph) -> BlenderCamera:
 
 
 def shader_mark(camera) -> Mark | None:
-    """Return what the shader of a custom camera says of the camera that it was; None where it has none of ours."""
+    """Return the mark of a custom camera's shader, with the original camera type; None if it is not one of ours."""
     if camera.type != "CUSTOM" or camera.custom_mode != "INTERNAL" or camera.custom_shader is None:
         return None
     return read_mark(camera.custom_shader.as_string())
 
 
 def has_pixel_times(camera_object, depsgraph) -> bool:
-    """Return whether an object is a camera whose pixels have each their own time."""
+    """Return whether an object is a camera whose pixels have their own times."""
     if camera_object is None or camera_object.type != "CAMERA":
         return False
     return own_value(camera_object.evaluated_get(depsgraph).data, pixel_time.MODE) != pixel_time.NONE
 
 
 def _value(setting: Setting, data, depsgraph):
-    """Return what a record has of a setting of a camera's evaluated data."""
+    """Return the value of a setting of a camera's evaluated data, as records store it."""
     if setting.owner == OWN:
         value = own_value(data, setting)
     else:
@@ -103,7 +103,7 @@ KINDS = {
     "OBJECT": lambda setting, value, data, depsgraph: line_record(setting, value, depsgraph),
     "IMAGE": lambda setting, value, data, depsgraph: _gray(value),
 }
-"""From what Blender has of a kind of setting to what a record has, where that is something else."""
+"""Conversions of a setting's value from Blender to a record, by kind of setting; other kinds need no conversion."""
 
 
 def copied(source, names) -> dict[str, object]:
@@ -112,7 +112,7 @@ def copied(source, names) -> dict[str, object]:
 
 
 def find_camera(scene, name):
-    """Return the scene's camera object of that name. Raises InputError that says which cameras there are."""
+    """Return the scene's camera object of that name. Raises InputError that lists the cameras for an unknown name."""
     cameras = {item.name: item for item in scene.objects if item.type == "CAMERA"}
     if name not in cameras:
         known = ", ".join(repr(known) for known in sorted(cameras)) or "none at all"
@@ -121,13 +121,13 @@ def find_camera(scene, name):
 
 
 ALL = "ALL"
-"""In place of names: every camera of a scene."""
+"""Word that stands for all cameras of a scene in place of names."""
 
 
 def find_cameras(scene, names: Sequence[str]) -> list:
-    """Return the scene's camera objects of these names, each once, or with ALL every one, by name.
+    """Return the scene's camera objects of these names, each once; for ALL, all of them sorted by name.
 
-    Raises InputError for a name that is none's, and where there is no camera.
+    Raises InputError for an unknown name, and if there is no camera.
     """
     if ALL in names:
         names = sorted(item.name for item in scene.objects if item.type == "CAMERA") or [ALL]
@@ -135,19 +135,22 @@ def find_cameras(scene, names: Sequence[str]) -> list:
 
 
 def views_of(scene) -> list:
-    """Return the views that Blender renders of a multi-view scene; none of any other."""
+    """Return the views that Blender renders of a scene; none if the scene is not multi-view."""
     render = scene.render
     views = render.stereo_views if render.views_format == "STEREO_3D" else render.views
     return [view for view in views if view.use and render.use_multiview]
 
 
 def view_names(scene) -> list[str]:
-    """Return the names of a scene's views: one empty name where it is not multi-view."""
+    """Return the names of a scene's views; one empty name if the scene is not multi-view."""
     return [view.name for view in views_of(scene)] or [""]
 
 
 def eye_object(scene, view: str):
-    """Return the camera object of a multi-view view: the active camera, or in the Multi-View format another one."""
+    """Return the camera object of a multi-view view: the active camera, or in the Multi-View format the view's own.
+
+    Raises InputError in the Multi-View format for an unknown view.
+    """
     camera, views = scene.camera, scene.render.views
     if not view or scene.render.views_format != "MULTIVIEW" or camera is None:
         return camera
@@ -158,7 +161,7 @@ def eye_object(scene, view: str):
 
 
 def is_removed(item) -> bool:
-    """Whether Blender has freed what a Python object stands for."""
+    """Whether Blender has freed the data of a Python object."""
     try:
         item.name  # noqa: B018 (asking is what raises)
     except ReferenceError:
@@ -167,20 +170,24 @@ def is_removed(item) -> bool:
 
 
 def check_camera(scene, camera_object) -> None:
-    """Raise InputError unless the object is a camera of this file. Blender itself takes any object for one."""
+    """Raise InputError unless the object is a camera of this file. Blender itself accepts any object as a camera."""
     if camera_object is None:
-        raise InputError(f"scene {scene.name!r} has no active camera: add one, or set one in the Scene properties")
+        raise InputError(
+            f"scene {scene.name!r} has no active camera: add a camera, or set a camera in the Scene properties"
+        )
     if not isinstance(camera_object, bpy.types.Object):
-        raise InputError(f"{shown(camera_object)} is no object: give one, such as scene.objects['Camera']")
+        raise InputError(f"{shown(camera_object)} is not an object: give an object such as scene.objects['Camera']")
     if is_removed(camera_object):
-        raise InputError("the camera object has been removed from the file: give one that is there")
+        raise InputError("the camera object has been removed from the file: give an existing object")
     if camera_object.type != "CAMERA":
         kind = camera_object.type.replace("_", " ").lower()
-        raise InputError(f"{camera_object.name!r} is of type {kind}, not a camera: set one in the Scene properties")
+        raise InputError(
+            f"{camera_object.name!r} is of type {kind}, not a camera: set a camera in the Scene properties"
+        )
 
 
 def _focus_position(dof, depsgraph):
-    """Return where the focus object, or its bone, is in the world; None without one."""
+    """Return the world position of the focus object or its bone, (3,); None without a focus object."""
     if dof.focus_object is None:
         return None
     matrix = dof.focus_object.evaluated_get(depsgraph).matrix_world
@@ -192,9 +199,9 @@ def _focus_position(dof, depsgraph):
 def _gray(image):
     """Return the mean of an image's red, green and blue, (rows, columns) from the bottom; None without an image.
 
-    Raises InputError where Blender finds no pixels.
+    Raises InputError if Blender cannot load the pixels.
     """
-    if not isinstance(image, bpy.types.Image):  # a file may store anything else there
+    if not isinstance(image, bpy.types.Image):  # a file may store anything there
         return None
     width, height = image.size
     if not width * height:

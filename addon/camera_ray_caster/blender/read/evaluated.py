@@ -11,27 +11,27 @@ from .camera import camera_record
 from .shapes import shapes_record
 
 Eye = Callable[[BlenderCamera], BlenderCamera]
-"""From the record of a camera object to that of the eye that is read."""
+"""Function from the record of a camera object to the record of the eye that is read."""
 
 
 @dataclass(frozen=True)
 class SceneRecord:
-    """What a cast needs of a scene."""
+    """Data that a cast needs from a scene."""
 
     raw: BlenderCamera
-    """What the camera was made of."""
+    """Record that the camera was made from."""
     camera: Camera
     shapes: Shapes
 
     def with_motion(self, motion: Motion | None) -> "SceneRecord":
-        """Return the record of a scene whose motion is known."""
+        """Return the record with a motion."""
         return replace(self, camera=replace(self.camera, motion=motion), shapes=replace(self.shapes, motion=motion))
 
 
 def camera_at(camera_object, depsgraph, eye: Eye | None = None) -> tuple[BlenderCamera, Camera]:
-    """Return the record of a camera object, or of an eye of it, and the camera: both at the depsgraph's frame.
+    """Return the record of a camera object or of one of its eyes, and the camera, both at the depsgraph's frame.
 
-    Raises InputError where there is no camera, and for what cannot be cast.
+    Raises InputError if there is no camera, and for a camera that cannot be cast.
     """
     raw = camera_record(camera_object, depsgraph)
     raw = raw if eye is None else eye(raw)
@@ -39,5 +39,5 @@ def camera_at(camera_object, depsgraph, eye: Eye | None = None) -> tuple[Blender
 
 
 def scene_at(camera_object, depsgraph, eye: Eye | None = None) -> SceneRecord:
-    """Return camera and shapes at the depsgraph's frame, without motion. Raises what ``camera_at`` raises."""
+    """Return camera and shapes at the depsgraph's frame, without motion. Raises the errors of ``camera_at``."""
     return SceneRecord(*camera_at(camera_object, depsgraph, eye), shapes_record(depsgraph))

@@ -1,4 +1,4 @@
-"""What evaluated data stands for: exact shapes, triangles, or nothing that can be cast."""
+"""Shapes of evaluated data: exact shapes, triangles, or nothing that can be cast."""
 
 from dataclasses import replace
 from hashlib import blake2b
@@ -13,25 +13,25 @@ from .kept import Found
 from .meshes import fetched, is_smooth, mesh_arrays, mesh_record, vertices
 
 FORCED = {"SPHERE": SPHERE, "PLANE": PLANE, "INFINITE_PLANE": INFINITE_PLANE}
-"""What an object's own setting makes of it, whatever its geometry is."""
+"""Kinds of shapes that an object's own setting can force, whatever its geometry is."""
 
 COARSE = 0.02
-"""How far from a sphere, over its radius, the flat faces of a mesh may be that is still cast as one. A coarser one is a
-solid of its own: Blender's ico sphere of 80 faces is 0.066 off, that of 320 is 0.017.
+"""Largest distance from a sphere, divided by its radius, of the flat faces of a mesh that is cast as a sphere. A
+coarser mesh is cast as it is: Blender's ico sphere of 80 faces deviates by 0.066, that of 320 by 0.017.
 """
 
 DEFAULT_RADIUS = 0.01
-"""Of the points of a cloud without a radius, as Cycles renders them."""
+"""Radius of the points of a cloud without radii, as rendered by Cycles."""
 
 REMEMBERED = 1024
-"""Meshes whose shapes are kept in mind: a scene is evaluated again and again, and few of its meshes change."""
+"""Maximum number of meshes whose recognized shapes are cached: few meshes change between evaluations of a scene."""
 
 NOTHING = None, ""
-"""The answer for data that a render shows nothing of."""
+"""Result for data of which a render shows nothing."""
 
 
 def shapes_of(item, setting: str) -> Found:
-    """Return what the data of an evaluated object stands for, in object space.
+    """Return the shapes of an evaluated object's data, in object space, or the reason why it cannot be cast.
 
     ``setting`` is AUTOMATIC, MESH or a key of FORCED.
     """
@@ -39,15 +39,15 @@ def shapes_of(item, setting: str) -> Found:
     if isinstance(data, bpy.types.PointCloud):
         return _of_points(data, FORCED.get(setting))
     if not isinstance(data, bpy.types.Mesh):
-        return None, f"it is of type {data.bl_rna.name.lower()}: only surfaces and point clouds are cast"
-    try:  # a mesh that is being edited has its faces only there
+        return None, f"it is of type {data.bl_rna.name.lower()}, but only surfaces and point clouds are cast"
+    try:  # a mesh in Edit Mode has its faces only there
         return mesh_shapes(item.to_mesh(), setting)
     finally:
         item.to_mesh_clear()
 
 
 def mesh_shapes(mesh, setting: str) -> Found:
-    """Return what an evaluated mesh stands for."""
+    """Return the shapes of an evaluated mesh, or the reason why it cannot be cast."""
     if not len(mesh.vertices):
         return NOTHING
     kind = FORCED.get(setting)
@@ -73,7 +73,7 @@ def _enclosing(kind, places: np.ndarray) -> Found:
 
 
 def _is_solid(found: Primitive, mesh) -> bool:
-    """Return whether what might be a sphere is a solid with faces that are meant as they are."""
+    """Return whether a mesh recognized as a sphere is too coarse for a sphere, with faces that are not all smooth."""
     return found.kind == SPHERE and found.apart > COARSE and not is_smooth(mesh)
 
 
@@ -81,7 +81,7 @@ _known: dict[bytes, Primitive | str] = {}
 
 
 def _recognized(mesh: MeshArrays) -> Primitive | str:
-    """Return what ``recognize`` does, which is asked once for the same arrays."""
+    """Return the result of ``recognize``, which is called once for equal arrays."""
     if reason := exclude(mesh):
         return reason
     content = blake2b(f"{len(mesh.vertices)} {len(mesh.loop_vertices)} {mesh.edge_count}".encode())
@@ -105,4 +105,6 @@ def _of_points(cloud, kind) -> Found:
     radii = fetched(radius.data, "value", np.float32) if radius else np.full(len(positions), DEFAULT_RADIUS, np.float32)
     primitive = points_primitive(positions, radii)
     missing = len(radii) - len(primitive)
-    return primitive, f"{missing} of its points have no radius above zero or no finite position" if missing else ""
+    return primitive, (
+        f"{missing} of its points have a radius that is not above zero, or a position that is not finite"
+    ) if missing else ""

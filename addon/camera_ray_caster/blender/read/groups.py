@@ -1,4 +1,4 @@
-"""Instances that have everything but their place in common, and the record that they make."""
+"""Groups of instances that differ only in their placement, and the record made from them."""
 
 from collections import Counter
 from collections.abc import Callable, Hashable, Iterable, Iterator
@@ -16,7 +16,7 @@ SINGULAR = "its size is zero in some direction, or not finite: clear its scale (
 
 
 LISTEN = 256
-"""Instances or groups after which a reading asks whether to go on: some hundredths of a second."""
+"""Number of instances or groups between two checks for a request to stop: some hundredths of a second."""
 
 
 @dataclass
@@ -28,12 +28,12 @@ class Group:
     reason: str = ""
     object_index: int = 0
     looks: tuple[Look, ...] = ()
-    """Of the shape; of a mesh of several materials that of each slot; of a light its color."""
+    """Look of the shape; for a mesh of several materials the look of each slot; for a light its color."""
     is_sun: bool | None = None
     flattened: Callable[[], Found] | None = None
-    """Returns the triangles that stand in for an exact shape where its matrix lies in one plane."""
+    """Function that returns the triangles that replace an exact shape if its matrix is singular."""
     geometry: Hashable | None = None
-    """Equal for groups whose geometry Cycles has once; None where it has none of a group."""
+    """Key that is equal for groups whose geometry Cycles shares; None if Cycles has no geometry of the group."""
     matrices: list[tuple[float, ...]] = field(default_factory=list)
 
     def placings(self) -> np.ndarray:
@@ -42,7 +42,7 @@ class Group:
 
 
 def heeding(items: Iterable) -> Iterator:
-    """Yield items, and raise Cancelled where what is running has been asked to end."""
+    """Yield items; raise Cancelled if a request to stop has arrived."""
     for count, item in enumerate(items):
         if count % LISTEN == 0:
             raise_if_stopping()
@@ -50,7 +50,7 @@ def heeding(items: Iterable) -> Iterator:
 
 
 def gathered(groups: list[Group], left_out: Counter, world: tuple[float, float, float, float]) -> Shapes:
-    """Return the record of all groups: their instances placed in the world, one row a shape."""
+    """Return the record of all groups: their instances placed in the world, one row per shape."""
     lights = [group for group in groups if group.is_sun is not None]
     parts = list(_castable([group for group in heeding(groups) if group.primitive is not None], left_out))
     cast, placings = zip(*parts, strict=True) if parts else ((), ())
@@ -92,9 +92,9 @@ def gathered(groups: list[Group], left_out: Counter, world: tuple[float, float, 
 
 
 def _castable(groups: list[Group], left_out: Counter) -> Iterator[tuple[Group, np.ndarray]]:
-    """Yield groups with the matrices under which they can be cast, and as triangles with the others where they can be.
+    """Yield groups with the matrices with which they can be cast, if necessary as triangles.
 
-    What remains is named.
+    Instances that cannot be cast either way are added to ``left_out``.
     """
     placed = [(group, group.placings()) for group in groups]
     usable = castable([(group.primitive, matrices) for group, matrices in placed])
@@ -113,7 +113,7 @@ def _castable(groups: list[Group], left_out: Counter) -> Iterator[tuple[Group, n
 
 
 def _slots(groups, column) -> Slots | None:
-    """Return the looks of the groups that have several."""
+    """Return the looks of the groups that have several looks; None if there are no such groups."""
     several = [group.looks if len(group.looks) > 1 else () for group in groups]
     looks = [look for looks in several for look in looks]
     if not looks:

@@ -1,14 +1,15 @@
-"""What was read of evaluated geometry, kept until Blender tells of a change.
+"""Cache of the shapes of evaluated geometry, kept until Blender reports a change.
 
-A reading keeps what it has used, and the next one of a depsgraph of the same mode finds it by the address of the
-evaluated data and by the object that Blender evaluated it for. Blender tells handlers which objects got another
-geometry; what it has told of is read again. Three things it does not tell, and then everything is:
+A reading keeps the entries that it has used. The next reading of a depsgraph of the same mode finds an entry by the
+address of the evaluated data and the object that Blender evaluated the data for. Blender reports to handlers which
+objects have new geometry; such geometry is read again. In three cases Blender reports nothing or reports may be
+missed, and all geometry is read again:
 
-* handlers of others may change something, after which Blender evaluates once more without calling handlers;
-* sculpting and painting change evaluated data in place, and so does editing that of the mesh that is edited;
+* handlers of other add-ons may change something, after which Blender evaluates once more without calling handlers;
+* sculpting and painting change evaluated data in place, and so does editing the data of the edited mesh;
 * without registration there are no handlers.
 
-What is read again is compared with what was kept, so that the same triangles stay the same record.
+Meshes that are read again are compared with the cached meshes, so that equal triangles keep the same record.
 """
 
 from collections.abc import Callable
@@ -23,10 +24,10 @@ from ...core.records import Mesh
 from ...core.shapes.instances import Primitive, mesh_primitive
 
 Found = tuple[Primitive | None, str]
-"""What data stands for, and in words what of it cannot be cast."""
+"""Shapes of evaluated data, and a text on the parts that cannot be cast."""
 
 STEADY = {"OBJECT", "POSE", "EDIT"}
-"""Modes of the active object in which Blender tells of every change."""
+"""Modes of the active object in which Blender reports every change."""
 
 PACKAGE = __name__.rpartition("blender.")[0]
 
@@ -35,7 +36,7 @@ PACKAGE = __name__.rpartition("blender.")[0]
 class _Entry:
     found: Found
     owners: set[int] = field(default_factory=set)
-    """The session_uid of the objects that Blender evaluated it for; none where something may have changed since."""
+    """The session_uid of the objects that the data was evaluated for; empty if something may have changed since."""
 
     @property
     def mesh(self) -> Mesh | None:
@@ -44,7 +45,7 @@ class _Entry:
 
 
 _entries: dict[str, dict[tuple[int, str], _Entry]] = {}
-"""By the depsgraph's mode: VIEWPORT or RENDER. A render's thread and the window's do not meet here."""
+"""Entries by the depsgraph's mode, VIEWPORT or RENDER: a render's thread and the window's share no entries."""
 
 
 class Reading:
@@ -58,7 +59,7 @@ class Reading:
         self._used: dict[tuple[int, str], _Entry] = {}
 
     def find(self, data, owner, setting: str, read: Callable[[], Found]) -> Found:
-        """Return what evaluated data of an original object stands for: what was kept, or what ``read`` gives."""
+        """Return the shapes of an original object's evaluated data, from the cache or from ``read``."""
         key, uid = (data.as_pointer(), setting), owner.session_uid
         entry = self._used.get(key)
         if entry is None:
@@ -71,7 +72,7 @@ class Reading:
         return entry.found
 
     def _shared(self, entry: _Entry) -> _Entry:
-        """Return an entry with the record of the same triangles, if there is one."""
+        """Return an entry with the cached record of the same triangles, if there is one; otherwise ``entry`` itself."""
         mesh = entry.mesh
         if mesh is None:
             return entry
@@ -83,12 +84,12 @@ class Reading:
         return {_sample(entry.mesh): entry.mesh for entry in self._before.values() if entry.mesh is not None}
 
     def keep(self) -> None:
-        """Keep what was used, and nothing else."""
+        """Keep the entries that were used and discard all others."""
         _entries[self._mode] = self._used
 
 
 def _sample(mesh: Mesh) -> tuple:
-    """Return what two meshes that are the same have in common."""
+    """Return a key that is the same for equal meshes: sizes and some of the vertices."""
     vertices = mesh.vertices[:, :: max(1, mesh.vertices.shape[1] // 64)]
     return len(mesh), mesh.vertices.shape[1], vertices.tobytes()
 
@@ -99,7 +100,7 @@ def _same(one: Mesh, other: Mesh) -> bool:
 
 
 def _is_told() -> bool:
-    """Whether this module's handlers are there, and none of others that may change what they were told."""
+    """Whether this module's handlers are registered, and no handlers of others, whose changes it may miss."""
     for event in ("depsgraph_update_post", "frame_change_post"):
         handlers = getattr(bpy.app.handlers, event)
         if tag not in handlers or not all(str(getattr(one, "__module__", "")).startswith(PACKAGE) for one in handlers):
@@ -109,7 +110,7 @@ def _is_told() -> bool:
 
 @persistent
 def tag(scene, depsgraph):
-    """Something was evaluated: distrust what got another geometry."""
+    """Distrust the entries of objects whose evaluation gave them new geometry."""
     if not _is_told():
         distrust()
         return
@@ -121,14 +122,14 @@ def tag(scene, depsgraph):
 
 @persistent
 def watch(*_):
-    """Something is going to be evaluated: a handler of others may have gone when that is done."""
+    """Check the handlers before an evaluation, since another handler may be removed during it."""
     if not _is_told():
         distrust()
 
 
 @persistent
 def distrust(*_):
-    """Everything may be another one than it was."""
+    """Distrust all entries, since any object may have changed."""
     for entries in _entries.values():
         for entry in entries.values():
             entry.owners.clear()
@@ -136,7 +137,7 @@ def distrust(*_):
 
 @persistent
 def forget(*_):
-    """Another file: keep nothing of this one."""
+    """Discard all entries when another file is loaded."""
     _entries.clear()
 
 

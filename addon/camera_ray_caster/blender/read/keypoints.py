@@ -11,22 +11,24 @@ from .meshes import vertices
 
 
 def check_key_points(scene, names: Sequence[str]) -> None:
-    """Raise InputError for a name that is neither an empty's nor that of a mesh with vertex groups, nor ALL."""
+    """Raise InputError for a name that is not ALL, an empty or a mesh with vertex groups, and for ALL with others."""
     if ALL in names and len(names) > 1:
-        raise InputError(f"--keypoints {ALL} stands alone: leave out the names")
+        raise InputError(f"--keypoints {ALL} already includes all names: leave out the other names")
     known = {ALL, *(item.name for item in scene.objects if _has_points(item))}
     for name in names:
         if name not in known:
             raise InputError(
-                f"the scene has no key point {name!r}: name empties, or meshes with vertex groups, or give {ALL}"
+                f"the scene has no key point {name!r}: give the names of empties or of meshes with vertex groups, or "
+                f"{ALL}"
             )
 
 
 def key_points(scene, depsgraph, names: Sequence[str]) -> list[KeyPoint]:
-    """Return the key points of objects at the depsgraph's frame, in their order; for ALL of all objects, by name.
+    """Return the key points of objects at the depsgraph's frame, in the order of names; ALL gives all, sorted by name.
 
-    An empty is one, at its origin, and belongs to the mesh that it is parented to, if any. A vertex group is one, at
-    the mean of its vertices by their weights, after the modifiers, and belongs to its object.
+    An empty is a key point at its origin, and belongs to its nearest ancestor that is a mesh, if any. A vertex group is
+    a key point at the weighted mean of its vertices after the modifiers, and belongs to its object. A group without
+    weights, and one that only a modifier makes, have none.
     """
     if ALL in names:
         names = sorted(item.name for item in scene.objects if _has_points(item))
@@ -47,13 +49,11 @@ def _points_of(item, evaluated) -> list[KeyPoint]:
         return [KeyPoint(item.name, owner.name if owner else "", tuple(matrix[:3, 3].tolist()))]
     mesh = evaluated.data
     places = vertices(mesh) @ matrix[:3, :3].T + matrix[:3, 3]
-    total, weight = np.zeros((len(item.vertex_groups), 3)), np.zeros(len(item.vertex_groups))
+    index = {group.name: group.index for group in evaluated.vertex_groups}  # modifiers may add groups, also before
+    total, weight = np.zeros((len(index), 3)), np.zeros(len(index))
     for place, vertex in zip(places, mesh.vertices, strict=True):
         for entry in vertex.groups:
             total[entry.group] += entry.weight * place
             weight[entry.group] += entry.weight
-    return [
-        KeyPoint(group.name, item.name, tuple((total[group.index] / weight[group.index]).tolist()))
-        for group in item.vertex_groups
-        if weight[group.index] > 0
-    ]
+    named = [(group.name, index[group.name]) for group in item.vertex_groups if group.name in index]
+    return [KeyPoint(name, item.name, tuple((total[k] / weight[k]).tolist())) for name, k in named if weight[k] > 0]

@@ -1,11 +1,11 @@
-"""Lights and the world as a depsgraph evaluated them."""
+"""Lights and the world, as evaluated by a depsgraph."""
 
 import numpy as np
 
 from .materials import shown, surface_node
 
 USED = {"SUN": True, "POINT": False}
-"""The types that the combined pass uses, each with whether it is a sun."""
+"""Types of lights that the combined pass uses, and whether each is a sun."""
 
 
 def light_color(light) -> tuple[float, float, float]:
@@ -19,8 +19,8 @@ def light_color(light) -> tuple[float, float, float]:
 def world_color(depsgraph) -> tuple[float, float, float, float]:
     """Return the color behind everything: (0, 0, 0, 0) under a transparent film, black without a world.
 
-    A world that is one Background of plain color and strength shows that; any other shows its viewport color. The view
-    layer may have another one than the scene.
+    The color of a world with a single Background node of plain color and strength is that color times the strength; any
+    other world shows its viewport color. The view layer's world override takes precedence over the scene's world.
     """
     scene = depsgraph.scene_eval
     world = depsgraph.view_layer_eval.world_override or scene.world
@@ -33,7 +33,7 @@ def world_color(depsgraph) -> tuple[float, float, float, float]:
 
 
 def _background(world) -> tuple[float, ...] | None:
-    """Return the plain color that the world's nodes emit, None where they do not or depend on something."""
+    """Return the plain color that the world's nodes emit; None if there is none or if it depends on other nodes."""
     node = surface_node(world, "ShaderNodeBackground")
     if node is None:
         return None

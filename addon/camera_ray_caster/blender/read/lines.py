@@ -1,4 +1,4 @@
-"""Slits and paths as Blender has them: points in an object's space and its world matrix, copied, nothing computed."""
+"""Slits and paths, copied from Blender: points in an object's space and the object's world matrix."""
 
 import numpy as np
 
@@ -10,11 +10,11 @@ X_AXIS = ((0.0, 0.0, 0.0), (1.0, 0.0, 0.0))
 def line_record(setting: Line, item, depsgraph):
     """Return the line that an object stands for, as the depsgraph evaluated it; see ``core.cameras.parts.lines``.
 
-    It is (points, matrix_world), with the first and the last control point of a curve's first spline, or the ends of
-    any other object's X axis; of a ``sampled`` setting (points, matrix_world, edges) as Blender samples the curve. None
-    for a sampled object that is no curve, and where there is no object that Blender evaluates: one that was deleted
-    from the scene is still referred to here, and one that is disabled, for renders or in viewports, is not where its
-    matrix says.
+    The line is (points, matrix_world), with the first and the last control point of a curve's first spline, or the ends
+    of any other object's X axis. For a ``sampled`` setting it is (points, matrix_world, edges), as Blender samples the
+    curve. None for a sampled object that is not a curve, and if Blender does not evaluate the object: a setting may
+    still refer to an object deleted from the scene, and the matrix of an object that is disabled, for renders or in
+    viewports, is not up to date.
     """
     evaluated = depsgraph.view_layer_eval.objects.get(item.name) if item else None
     if evaluated is None or evaluated.original != item.original:
@@ -23,7 +23,7 @@ def line_record(setting: Line, item, depsgraph):
 
 
 def _ends(item):
-    """Return the two ends of an object's line, and its matrix."""
+    """Return the two ends of an object's line, and its matrix; no points for a curve without any."""
     ends = X_AXIS
     if item.type == "CURVE":
         splines = item.data.splines
@@ -33,10 +33,10 @@ def _ends(item):
 
 
 def _sampled(item):
-    """Return a curve's sampled points, its matrix, and the edges between the points; None for what is no curve."""
+    """Return a curve's sampled points, its matrix, and the edges between the points; None for any other object."""
     if item.type != "CURVE":
         return None
-    mesh = item.to_mesh()  # None where no spline has two points
+    mesh = item.to_mesh()  # None if no spline has two points
     counts = (len(mesh.vertices), len(mesh.edges)) if mesh else (0, 0)
     points, edges = np.empty((counts[0], 3), np.float32), np.empty((counts[1], 2), np.int32)
     if mesh:

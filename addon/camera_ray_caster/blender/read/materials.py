@@ -1,4 +1,4 @@
-"""How materials look in the combined pass, and their pass indices."""
+"""Looks of materials in the combined pass, and their pass indices."""
 
 import math
 from collections.abc import Iterable
@@ -7,25 +7,25 @@ import bpy
 import numpy as np
 
 ALWAYS_NODES = bpy.app.version >= (5, 0, 0)
-"""Whether materials and worlds have no other way than nodes."""
+"""Whether materials and worlds always use nodes."""
 
 UNCHANGED = (float(np.float32(0.8)),) * 3
-"""The Base Color that a Principled BSDF is made with."""
+"""Default Base Color of a new Principled BSDF."""
 
 Look = tuple[int, tuple[float, ...]]
-"""A pass index and linear RGBA."""
+"""Pass index and linear RGBA color."""
 
 
 class Looks:
-    """The looks of objects in a view layer, each material looked up once."""
+    """Looks of objects in a view layer; each material is looked up once."""
 
     def __init__(self, override=None):
-        """Take the material that stands in for all of a view layer, if there is one."""
+        """Take the view layer's material override, if there is one."""
         self._override = override
         self._known: dict[object, Look] = {}
 
     def of_slots(self, item, slots: Iterable[int]) -> tuple[Look, ...]:
-        """Return the looks of what has an evaluated object's material slots; one where one stands in for all."""
+        """Return the looks of an evaluated object's material slots; a single look if there is an override."""
         if self._override is not None:
             return (self._of(self._override),)
         return tuple(self._of_slot(item, slot) for slot in slots)
@@ -36,10 +36,7 @@ class Looks:
         return tuple((index, material.name) for material, (index, _) in self._known.items())
 
     def _of_slot(self, item, slot: int) -> Look:
-        """Return the look of a slot; behind the last one it is the last one's.
-
-        Without a material it is the object's own color.
-        """
+        """Return the look of a slot, or of the last one for slots after it; the object's color without a material."""
         slots = item.material_slots
         material = slots[min(slot, len(slots) - 1)].material if len(slots) else None
         return (0, shown(item.color)) if material is None else self._of(material)
@@ -57,17 +54,17 @@ def first_slot(item) -> int:
 
 
 def is_finite(color) -> bool:
-    """Return whether all parts of a color are numbers that light can be."""
+    """Return whether all components of a color are finite."""
     return all(map(math.isfinite, color))
 
 
 def shown(color) -> tuple[float, ...]:
-    """Return a color of three or four parts; black where one is NaN or infinite, which would spread to every pixel."""
+    """Return a color of three or four components; black if any is NaN or infinite, which would spread to all pixels."""
     return tuple(color) if is_finite(color) else (0.0, 0.0, 0.0, 1.0)[: len(color)]
 
 
 def surface_node(owner, kind: str):
-    """Return the node of that kind that is a material's or a world's surface; None where another one is, or none."""
+    """Return the node that is a material's or a world's surface, if it is of that kind; None otherwise."""
     uses_nodes = owner.node_tree is not None and (ALWAYS_NODES or owner.use_nodes)
     output = owner.node_tree.get_output_node("ALL") if uses_nodes else None
     links = output.inputs["Surface"].links if output else ()
@@ -75,7 +72,7 @@ def surface_node(owner, kind: str):
 
 
 def _look(material) -> Look:
-    """Return a material's look: a plain Base Color of a Principled BSDF that was changed, else its viewport color."""
+    """Return a material's look: the Base Color of a Principled BSDF, if plain and changed, else the viewport color."""
     node = surface_node(material, "ShaderNodeBsdfPrincipled")
     base = node.inputs["Base Color"] if node else None
     *viewport, alpha = material.diffuse_color

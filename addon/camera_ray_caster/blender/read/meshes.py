@@ -1,4 +1,4 @@
-"""Blender's meshes in bulk: the arrays that a shape is recognized by, and the record of the triangles."""
+"""Bulk reading of Blender's meshes: arrays for the recognition of shapes, and the record of the triangles."""
 
 from ctypes import c_char
 
@@ -9,7 +9,7 @@ from ...core.shapes.recognize import MeshArrays
 
 
 def vertices(mesh) -> np.ndarray:
-    """Return the vertices of a mesh that has some, (n, 3) float32."""
+    """Return the vertices of a mesh that has vertices, (n, 3) float32."""
     return fetched(mesh.attributes["position"].data, "vector", np.float32, 3).reshape(-1, 3)
 
 
@@ -25,9 +25,10 @@ def mesh_arrays(mesh) -> MeshArrays:
 
 
 def mesh_record(mesh, arrays: MeshArrays) -> Mesh:
-    """Return the record of an evaluated mesh from its arrays, which are whole: Blender triangulates the faces.
+    """Return the record of an evaluated mesh and its arrays, which must be valid. Blender triangulates the faces.
 
-    Normals are those of Blender 5.2 in every version: at the corners of flat faces the face's, unless all are flat.
+    In every Blender version the normals are those of Blender 5.2: corners of flat faces have the face's normal. There
+    are no normals if all faces are flat.
     """
     loops = _triangle_loops(mesh)
     uv = next((layer for layer in mesh.uv_layers if layer.active_render), None)
@@ -64,9 +65,10 @@ def _triangle_loops(mesh) -> np.ndarray:
 
 
 def _normals(mesh, arrays: MeshArrays, by_vertex: bool) -> np.ndarray | None:
-    """Return the normals at the loops, (l, 3) float32, or ``by_vertex``; None where all faces are flat.
+    """Return the normals at the loops, (l, 3) float32, or at the vertices if ``by_vertex``; None if all faces are flat.
 
-    Where corners have no normal of their own, those of the vertices take Blender a tenth of the time.
+    If corners have no normals of their own, the vertices' normals are used: Blender computes them in a tenth of the
+    time.
     """
     domain, free = mesh.normals_domain, mesh.attributes.get("custom_normal")
     if free is not None and free.data_type != "FLOAT_VECTOR":
@@ -76,7 +78,7 @@ def _normals(mesh, arrays: MeshArrays, by_vertex: bool) -> np.ndarray | None:
     corners = mesh.vertex_normals if domain == "POINT" else mesh.corner_normals
     if free is None:
         normals = copied(corners, "vector", np.float32, 3).reshape(-1, 3)
-    else:  # of any length; as corners Blender 4.5 and 5.0 hand over what they have freed
+    else:  # of any length; as corner normals, Blender 4.5 and 5.0 return freed memory
         normals = fetched(free.data, "vector", np.float32, 3).reshape(-1, 3)
         lengths = np.sqrt((normals * normals).sum(axis=1, keepdims=True))
         normals /= np.where(lengths > 0, lengths, 1)
@@ -84,7 +86,7 @@ def _normals(mesh, arrays: MeshArrays, by_vertex: bool) -> np.ndarray | None:
 
 
 def _slots(slots: np.ndarray, polygon: np.ndarray) -> np.ndarray | None:
-    """Return the slot of each triangle, (k,) int16, None where it is the first; Blender shows no others' either."""
+    """Return the slot of each triangle, (k,) int16, clipped to Blender's range 0 .. 32767; None if all are 0."""
     slots = np.clip(slots, 0, np.iinfo(np.int16).max).astype(np.int16)
     return slots[polygon] if slots.any() else None
 
@@ -95,17 +97,18 @@ def _rows(values: np.ndarray) -> np.ndarray:
 
 
 def fetched(collection, name: str, dtype, width: int = 1) -> np.ndarray:
-    """Return a property of all members of a collection as one flat array; ``width`` values each."""
+    """Return a property of all members of a collection as one flat array, ``width`` values per member."""
     values = np.empty(len(collection) * width, dtype)
     collection.foreach_get(name, values)
     return values
 
 
 def copied(collection, name: str, dtype, width: int = 1) -> np.ndarray:
-    """Return what ``fetched`` does of a property that is all that a member has.
+    """Return the same as ``fetched``, for a property that is the whole content of each member.
 
-    Of some collections Blender asks each member for it, which takes 0.2 s a million. They are copied in one piece where
-    the addresses of the first, the second and the last member and the last one's value say that they are one.
+    For some collections ``foreach_get`` reads each member separately, which takes 0.2 s per million members. Such a
+    collection is copied as one block, if the addresses of its first, second and last member and the last member's value
+    show that it is contiguous.
     """
     count, size = len(collection), width * np.dtype(dtype).itemsize
     if count > 1:

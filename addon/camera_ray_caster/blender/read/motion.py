@@ -1,4 +1,4 @@
-"""Other frames of a scene: those that pixels with times of their own need, and the neighbors that flow looks into."""
+"""Other frames of a scene: the frames that pixels with their own times need, and the neighboring frames for flow."""
 
 from collections.abc import Callable, Collection
 from dataclasses import replace
@@ -13,17 +13,19 @@ from ..terminal.signals import raise_if_stopping
 from .evaluated import Eye, SceneRecord, scene_at
 
 CHECKS = 4
-"""Frames at which the interpolation is compared with the scene itself, beside those that resolved it."""
+"""Number of frames at which the interpolation is compared with the scene, in addition to those that resolved it."""
 
 STEPS = {NEXT: 1.0, PREVIOUS: -1.0}
-"""Frames from one that is read to its neighbors."""
+"""Steps from the frame that is read to its neighbors, in frames."""
 
 
 def with_other_frames(
     found: SceneRecord, camera_object, frame: float, passes: Collection[str], visit: Callable, eye: Eye | None = None
 ) -> SceneRecord:
-    """Return the record of a scene at a frame with its motion, where pixels have times of their own, and with the next
-    and the previous frame, where passes look into them: of the same camera object. See ``motion_of`` for ``visit``.
+    """Return the record of a scene with its motion, and with its next and previous frame if passes need them.
+
+    The motion is None unless pixels have their own times. All frames are of the same camera object. See ``motion_of``
+    for ``visit``.
     """
     found = found.with_motion(motion_of(found.camera, camera_object, visit, eye))
     for name in frames_of(passes):
@@ -38,9 +40,9 @@ def with_other_frames(
 
 
 def motion_of(camera: Camera, camera_object, visit: Callable, eye: Eye | None = None) -> Motion | None:
-    """Return the motion of a camera and its scene over the times of its pixels; None where they share one time.
+    """Return the motion of a camera and its scene over the times of its pixels; None if all pixels have the same time.
 
-    ``visit(frame)`` evaluates the scene at a frame and returns its depsgraph; the frame is not put back.
+    ``visit(frame)`` evaluates the scene at a frame and returns its depsgraph. The frame is not restored.
     """
     pixel_time = camera.pixel_time
     if pixel_time is None:

@@ -1,4 +1,4 @@
-"""Blender in, plain records out. The scene is as it was afterwards."""
+"""Reading of a scene's camera and shapes as plain records. The scene is restored afterwards."""
 
 import math
 from contextlib import contextmanager
@@ -21,10 +21,11 @@ from .shapes import shapes_record
 
 
 def read_scene(scene, frame=None, camera_object=None, view="", passes=()) -> SceneRecord:
-    """Return camera and shapes, and the record that the camera was made of: what ``read_camera`` and ``read_shapes``
-    return for the same arguments, read once. Where ``passes`` have names of flow, ``camera.next``, ``shapes.next`` and
-    ``previous`` are those of the neighbors of the frame that these passes look into. Raises what they raise, and
-    InputError for an unknown pass.
+    """Return camera and shapes, and the record that the camera was made from, in one reading.
+
+    Camera and shapes are those of ``read_camera`` and ``read_shapes`` for the same arguments. If ``passes`` include
+    flow, ``next`` and ``previous`` of camera and shapes are set to those of the neighboring frames that these passes
+    need. Raises the errors of ``read_camera``, and InputError for an unknown pass.
     """
     passes = words(passes, "passes", PASSES)
     with evaluated_camera(scene, camera_object, frame, view, bool(frames_of(passes))) as (active, depsgraph):
@@ -32,12 +33,13 @@ def read_scene(scene, frame=None, camera_object=None, view="", passes=()) -> Sce
 
 
 def read_camera(scene, camera_object=None, frame=None, view="") -> Camera:
-    """Return the scene's camera as it is evaluated: parents, constraints, drivers, animation, timeline markers.
+    """Return the scene's camera as evaluated, with parents, constraints, drivers, animation and timeline markers.
 
-    ``camera_object``: default the scene's active camera at that frame. ``frame``: default the current one; its
-    fraction is the subframe. ``view``: "" for the camera itself, else the name of a multi-view eye, "left" or "right".
-    A camera whose pixels have each their own time comes with its motion: the scene is evaluated for it.
-    Raises InputError where there is no camera, for what no model here can do, and for parameters without meaning.
+    ``camera_object``: default the scene's active camera at that frame. ``frame``: default the current frame; its
+    fraction is the subframe. ``view``: "" for the camera itself, else the name of a multi-view eye, such as "left" or
+    "right".
+    If pixels have their own times, the scene is also evaluated at other times, and the camera has its motion. Raises
+    InputError if there is no camera or no model for it, and for invalid parameters.
     """
     with evaluated_camera(scene, camera_object, frame, view) as (active, depsgraph):
         eye = partial(eye_record, view=view)
@@ -46,12 +48,12 @@ def read_camera(scene, camera_object=None, frame=None, view="") -> Camera:
 
 
 def read_shapes(scene, frame=None, camera_object=None, view="") -> Shapes:
-    """Return the scene's shapes as they are evaluated, in the world, and the names of what cannot be cast.
+    """Return the scene's shapes as evaluated, in the world, and the names of objects that cannot be cast.
 
-    The arguments are as in ``read_camera``. The camera counts only where its pixels have each their own time: the
-    shapes then come with their motion, and InputError is raised for a camera that cannot be cast.
-    Outside a render Blender has evaluated what the viewport shows, with the viewport's modifier and particle settings;
-    what only a render shows is named among ``left_out``.
+    The arguments are as in ``read_camera``. The camera matters only if its pixels have their own times: the shapes then
+    have their motion, and InputError is raised for a camera that cannot be cast.
+    Outside a render, Blender evaluates the objects that the viewport shows, with the viewport's modifier and particle
+    settings. Objects that only a render shows are named in ``left_out``.
     """
     with evaluated_camera(scene, camera_object, frame, view) as (active, depsgraph):
         if has_pixel_times(active, depsgraph):
@@ -66,16 +68,16 @@ def _with_motion(scene, camera_object, depsgraph, view: str, passes=()) -> Scene
 
 
 _readings: list[bool] = []
-"""One for the reading that is under way: what it evaluates calls handlers, which may read, too."""
+"""One entry during a reading: the evaluation calls handlers, which may start a reading, too."""
 
 
 @contextmanager
 def evaluated_camera(scene, camera_object=None, frame=None, view="", goes_on=False):
     """Yield the camera object that ``read_camera`` reads for these arguments, and the depsgraph that evaluates it.
 
-    Within another reading, in a handler that this one calls, the scene is read as it is evaluated then. Raises
-    InputError where that would not do: for another frame, another camera or a view, for pixel times, and where the
-    reading ``goes_on`` to other frames.
+    If a handler calls this during another reading, the scene is read in its current evaluation. InputError is raised if
+    that is not sufficient: for another frame, another camera or a view, for pixel times, and if the reading ``goes_on``
+    to other frames.
     """
     _check_scene(scene)
     frame = None if frame is None else number(frame, "frame", LAST_FRAME)
@@ -103,36 +105,36 @@ def evaluated_camera(scene, camera_object=None, frame=None, view="", goes_on=Fal
 
 @contextmanager
 def evaluated(scene, frame=None, camera_object=None):
-    """Yield the scene's depsgraph at a frame with a camera active, and put frame and camera back in the end."""
+    """Yield the scene's depsgraph at a frame with a camera active; restore frame and camera afterwards."""
     layer = _layer(scene)
     before = scene.frame_current, scene.frame_subframe, scene.camera
     try:
         if frame is not None:
             go_to(scene, frame)
         if camera_object is not None and camera_object != scene.camera:
-            scene.camera = camera_object  # a camera that is hidden is evaluated only while it is the active one,
-            scene.frame_current = scene.frame_current  # and animated only when the time is told to it
+            scene.camera = camera_object  # a hidden camera is evaluated only while it is active,
+            scene.frame_current = scene.frame_current  # and animated only when the frame is set
         layer.update()
         yield layer.depsgraph
     finally:
         if (scene.frame_current, scene.frame_subframe) != before[:2]:
             scene.frame_set(before[0], subframe=before[1])
         if scene.camera != before[2]:
-            scene.camera = before[2]  # also where a timeline marker has bound another one
+            scene.camera = before[2]  # also if a timeline marker has bound another camera
             layer.update()
 
 
 def go_to(scene, frame: float):
-    """Set a scene to a frame, its fraction the subframe, and return the depsgraph evaluated there."""
+    """Set a scene to a frame, whose fraction is the subframe, and return the depsgraph evaluated there."""
     scene.frame_set(math.floor(frame), subframe=frame - math.floor(frame))
     return _layer(scene).depsgraph
 
 
 def _check_scene(scene) -> None:
     if not isinstance(scene, bpy.types.Scene):
-        raise InputError(f"{shown(scene)} is no scene: give one, such as bpy.context.scene")
+        raise InputError(f"{shown(scene)} is not a scene: give a scene such as bpy.context.scene")
     if is_removed(scene):
-        raise InputError("the scene has been removed from the file: give one that is there")
+        raise InputError("the scene has been removed from the file: give an existing scene")
 
 
 def _layer(scene):

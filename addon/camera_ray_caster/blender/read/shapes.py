@@ -1,4 +1,4 @@
-"""The shapes and lights that a depsgraph shows to a renderer; geometry that cannot be cast is named."""
+"""The shapes and lights that a depsgraph gives to a renderer, and the names of geometry that cannot be cast."""
 
 from collections import Counter
 from collections.abc import Hashable, Iterable
@@ -18,18 +18,18 @@ from .visibility import Visibility, original_source
 NO_SURFACE = frozenset(
     {"EMPTY", "CAMERA", "LIGHT", "ARMATURE", "SPEAKER", "LIGHT_PROBE", "LATTICE", "CURVE", "SURFACE", "FONT", "META"}
 )
-"""Object types to pass over. The surface of curves, texts and metaballs is listed apart, as a mesh of their object."""
+"""Object types to skip. Surfaces of curves, texts and metaballs are listed separately, as meshes of their objects."""
 
-HIDDEN = "it is hidden in the viewport, so that Blender evaluates it only in a render: show it, or render (F12)"
-DAZZLING = "its strength or color is not finite: set them anew"
-HAIR = "its hair {!r} is no surface"
+HIDDEN = "it is hidden in the viewport, so Blender evaluates it only in a render: show it, or render (F12)"
+DAZZLING = "its strength or color is not finite: set both again"
+HAIR = "its hair {!r} is not a surface"
 
 
 def shapes_record(depsgraph) -> Shapes:
-    """Return what can be cast of a depsgraph, the viewport's or a render's: every instance by itself, in the world.
+    """Return the shapes of a depsgraph, the viewport's or a render's: every instance separately, in the world.
 
-    Rows stand together by object and mesh, in the order in which the depsgraph lists them first. What a render hides is
-    passed over; geometry that cannot be cast is in ``left_out``, once for each object and reason.
+    Rows are grouped by object and mesh, in the order in which the depsgraph first lists them. Objects that a render
+    hides are skipped. Geometry that cannot be cast is in ``left_out``, once for each object and reason.
     """
     scene = _Scene(depsgraph)
     for instance in heeding(depsgraph.object_instances):
@@ -40,7 +40,7 @@ def shapes_record(depsgraph) -> Shapes:
 
 
 class _Scene:
-    """What is found while a depsgraph lists its instances."""
+    """Collector of the groups in a depsgraph's list of instances."""
 
     def __init__(self, depsgraph):
         self.world = world_color(depsgraph)
@@ -50,24 +50,24 @@ class _Scene:
         self.exact = own_value(depsgraph.scene_eval, EXACT_SHAPES)
         self.groups: dict[tuple, Group] = {}
         self.left_out: Counter[tuple[str, str]] = Counter()
-        self.listed = set()
+        self.listed, self.instanced = set(), set()
 
     def add(self, instance) -> None:
-        """Add an instance to its group, which the first one opens."""
-        item = instance.object  # for an instance, a stand-in that the next one overwrites
+        """Add an instance to its group; the first instance of a group creates it."""
+        item = instance.object  # for an instance, temporary data that the next instance overwrites
         owner = instance.parent
         key = instance.instance_object or item, owner, item.data
         group = self.groups.get(key)
         if group is None:
             group = self.groups[key] = self.opened(instance)
+            (self.listed if owner is None else self.instanced).add(original_source(instance))
             if owner is None:
-                self.listed.add(item.original)
                 self.left_out.update((group.name, HAIR.format(name)) for name in self.visibility.strands(item))
         matrix = instance.matrix_world
         group.matrices.append((*matrix[0], *matrix[1], *matrix[2]))
 
     def opened(self, instance) -> Group:
-        """Return a group, still empty."""
+        """Return the group of an instance, without any matrices."""
         item = instance.object
         group = Group(original_source(instance).name)
         if not self.visibility.is_rendered(instance):
@@ -79,7 +79,7 @@ class _Scene:
         return group
 
     def light(self, group: Group, data) -> None:
-        """Set what a light is, or why it is not used."""
+        """Set the kind and color of a light, or the reason why it is not used."""
         color = light_color(data)
         if data.type not in USED:
             group.reason = f"it is a light of type {data.type.lower()}: only sun and point lights are used"
@@ -89,11 +89,11 @@ class _Scene:
             group.is_sun, group.looks = USED[data.type], ((0, color),)
 
     def fill(self, group: Group, instance) -> None:
-        """Set what the geometry of an instance stands for, or why it cannot be cast."""
+        """Set the primitive of an instance's geometry, or the reason why it cannot be cast."""
         item, source = instance.object, original_source(instance)
         if self.visibility.is_met(instance):
             group.geometry = self.geometry(instance)
-        setting = own_value(source, PRIMITIVE)  # the file's own: setting it evaluates nothing anew
+        setting = own_value(source, PRIMITIVE)  # of the original: a change of it does not cause an evaluation
         group.reason = _refusal(setting) or self.visibility.objection(instance)
         if group.reason:
             return
@@ -111,19 +111,18 @@ class _Scene:
             group.looks = tuple((index, (0.0,) * 4) for index, _ in group.looks)
 
     def geometry(self, instance) -> Hashable:
-        """Return what Cycles knows the geometry of an instance by: its data, or its object where that has a material
-        slot of its own.
+        """Return a key of Cycles' geometry of an instance: its data, or its object if that has its own material slots.
         """
         data, item = instance.object.data, instance.instance_object or instance.object
         own = item.data == data and any(slot.link == "OBJECT" for slot in item.material_slots)
         return item.original.session_uid if own else data.as_pointer()
 
     def record(self) -> Shapes:
-        """Return all of it."""
+        """Return the record of all groups."""
         for group in self.groups.values():
             if group.reason:
                 self.left_out[group.name, group.reason] += len(group.matrices)
-        for item in self.visibility.unlisted(self.listed):
+        for item in self.visibility.unlisted(self.listed, self.instanced):
             if _may_have_surface(item) or item.instance_type == "COLLECTION":
                 self.left_out[item.name, HIDDEN] += 1
         shapes = gathered(list(self.groups.values()), self.left_out, self.world)
@@ -140,15 +139,15 @@ def _may_have_surface(item) -> bool:
 
 
 def _slots(item, mesh: Mesh | None) -> Iterable[int]:
-    """Return the material slots of an evaluated object that count: the first face's, or all that a mesh has."""
+    """Return the material slots that are needed: the object's first face's, or 0 .. the largest of a mesh record."""
     if mesh is None:
         return (first_slot(item),)
     return (0,) if mesh.slot is None else range(mesh.slot.max() + 1)
 
 
 def _refusal(setting: str) -> str:
-    """Return why an object is not cast by its own setting; "" if it is."""
+    """Return the reason why an object's own setting excludes it; "" if it does not."""
     if setting == "IGNORE":
-        return "it is ignored by its own setting"
+        return "its Cast As setting is Ignore"
     known = setting in {item.key for item in PRIMITIVE.items}
-    return "" if known else f"its Cast As is {setting}, which this version does not know: choose another one"
+    return "" if known else f"its Cast As is {setting}, which this version does not know: choose another shape"

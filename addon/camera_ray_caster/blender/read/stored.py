@@ -1,7 +1,7 @@
-"""The add-on's own settings of a camera or an object: from its property group, or as the file stores them without one.
+"""The add-on's own settings of a camera or an object, from its property group or else from the file's ID properties.
 
-Where the add-on is not registered, as in a script that only imports it, Blender still has what a file has stored: a
-group of ID properties that holds what was ever set, enums by their numbers. What is not in it has its default.
+If the add-on is not registered, as in a script that only imports it, Blender still has the stored values: a group of ID
+properties with the settings that were ever set, enums as numbers. Other settings have their defaults.
 """
 
 from collections.abc import Iterator
@@ -14,21 +14,22 @@ from ...core.records import InputError
 from ..properties.declared import GROUP
 
 HAS_SYSTEM_PROPERTIES = bpy.app.version >= (5, 0, 0)
-"""Whether the properties of add-ons are stored apart from those that a user adds."""
+"""Whether Blender stores the properties of add-ons separately from those that a user adds."""
 
 
 def own_value(owner, setting: Setting):
     """Return the value of a setting of a camera's data or of an object, as Blender has evaluated it.
 
-    A number of an enum that has no item here, as one of a newer version, is returned as a word. Raises InputError where
-    the setting is animated and the add-on is not registered: Blender cannot evaluate it then.
+    An unknown number of an enum, as from a newer version, is returned as a string of digits. Raises InputError if the
+    setting is animated and the add-on is not registered, since Blender cannot evaluate it then, and for a text that is
+    not UTF-8.
     """
     group = getattr(owner, GROUP, None)
     if group is not None:
         try:
             value = getattr(group, setting.name)
         except UnicodeDecodeError as error:
-            raise InputError(f"{setting.name} of {owner.name!r} is no text in UTF-8: type it anew") from error
+            raise InputError(f"{setting.name} of {owner.name!r} is not valid UTF-8 text: type it again") from error
         return _stored(owner, setting) if setting.kind == "ENUM" and not value else value
     if f"{GROUP}.{setting.name}" in _animated(owner):
         raise InputError(
@@ -59,7 +60,7 @@ KINDS = {
     "BOOLEAN": lambda setting, value: bool(value),
     "ENUM": _word,
 }
-"""From what is stored, or from the default, to what the property would say: its numbers are float32."""
+"""Conversions of a stored or default value to the value that the property would have: its numbers are float32."""
 
 
 def _animated(owner) -> Iterator[str]:

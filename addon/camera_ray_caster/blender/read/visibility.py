@@ -1,18 +1,19 @@
-"""Which of the objects that a depsgraph lists a render would show its camera.
+"""Visibility in a render: which of the objects that a depsgraph lists the camera would see.
 
-A render's own depsgraph has hidden the others by itself. The viewport's has not, so the rules are applied here; what it
-does not list at all can only be named. One case it cannot tell: objects that are hidden from render inside a whole
-collection that geometry nodes or particles instance count as shown, like the hidden prototypes of single objects.
+A render's own depsgraph has already hidden the others. The viewport's depsgraph has not, so the rules are applied here;
+objects that it does not list at all can only be named. One case cannot be decided: if geometry nodes or particles
+instance a whole collection, objects in it that are hidden from render count as shown, like the hidden prototypes of
+single objects.
 """
 
 from collections.abc import Iterator
 
 RAYS = "camera", "diffuse", "glossy", "transmission", "volume_scatter", "shadow"
-"""The kinds in an object's Ray Visibility."""
+"""Kinds of rays in an object's Ray Visibility."""
 
 
 class Visibility:
-    """The answers for one depsgraph. Every question is about an item of its ``object_instances``."""
+    """Visibility of the items of a depsgraph's ``object_instances``."""
 
     def __init__(self, depsgraph):
         self.layer = depsgraph.view_layer
@@ -20,7 +21,7 @@ class Visibility:
         self.rendered = set(_of_scene(depsgraph.scene, self.layer)) if self.in_viewport else set()
 
     def is_rendered(self, instance) -> bool:
-        """Return whether a render shows it: what the user has hidden is left out without a word."""
+        """Return whether a render shows an instance. Instances that the user has hidden are not reported."""
         if not self.in_viewport:
             return instance.show_self
         if not instance.is_instance:
@@ -33,24 +34,24 @@ class Visibility:
             return source in set(_of_collection(collection)) or source not in set(
                 _of_collection(collection, every=True)
             )
-        return owner.instance_type == "NONE" or not source.hide_render
+        return owner.instance_type == "NONE" or source in self.rendered
 
     def objection(self, instance) -> str:
-        """Return in words why the camera does not see what a render shows otherwise; "" if it does."""
+        """Return the reason why the camera does not see an instance that a render shows; "" if the camera sees it."""
         objects = _involved(instance)
         if not all(item.visible_camera for item in objects):
             return "it is hidden from the camera by its Ray Visibility"
         if objects[-1].indirect_only_get(view_layer=self.layer):
-            return "its collection is indirect only"
+            return "its collection is set to Indirect Only"
         return ""
 
     def is_met(self, instance) -> bool:
-        """Return whether any kind of ray meets what a render shows: Cycles has no geometry of anything else."""
+        """Return whether any kind of ray can hit an instance: otherwise Cycles has no geometry of it."""
         objects = _involved(instance)
         return any(all(getattr(item, f"visible_{ray}") for item in objects) for ray in RAYS)
 
     def is_holdout(self, instance) -> bool:
-        """Return whether it cuts a hole into the picture instead of showing itself."""
+        """Return whether an instance is a holdout, which cuts a hole into the picture."""
         objects = _involved(instance)
         return any(item.is_holdout for item in objects) or objects[-1].holdout_get(view_layer=self.layer)
 
@@ -59,10 +60,17 @@ class Visibility:
         systems = () if self.in_viewport and item.original not in self.rendered else item.particle_systems
         return [one.name for one in systems if one.settings.type == "HAIR" and one.settings.render_type == "PATH"]
 
-    def unlisted(self, listed: set) -> list:
-        """Return the objects that a render shows and the viewport has not evaluated, by name."""
-        missing = [item for item in self.rendered - listed if item.is_instancer or _shows_itself(item)]
-        return sorted(missing, key=lambda item: item.name)
+    def unlisted(self, listed: set, instanced: set) -> list:
+        """Return the objects that a render shows and the viewport has not evaluated, by name.
+
+        listed: the objects that the depsgraph lists where they stand; instanced: those whose instances it lists.
+        """
+        own = {item for item in self.rendered - listed if item.is_instancer or _shows_itself(item)}
+        sources = {item for item in self.rendered if _is_instanced(item) and item.parent in self.rendered}
+        for item in self.rendered:
+            if item.instance_type == "COLLECTION" and item.instance_collection is not None:
+                sources.update(_of_collection(item.instance_collection))
+        return sorted(own | (sources - instanced), key=lambda item: item.name)
 
 
 def original_source(instance):
@@ -71,23 +79,28 @@ def original_source(instance):
 
 
 def _involved(instance) -> list:
-    """Return the object and, last, the one that instances it."""
+    """Return the object of an instance and, if there is one, the object that instances it."""
     owner = [instance.parent.original] if instance.is_instance else []
     return [original_source(instance), *owner]
 
 
 def _shows_itself(item) -> bool:
-    """Return whether a render shows the object where it stands, apart from where it is instanced."""
+    """Return whether a render shows an object at its own place, regardless of its instances."""
     if item.is_instancer and not item.show_instancer_for_render:
         return False
-    return item.parent is None or item.parent.instance_type not in {"VERTS", "FACES"}
+    return not _is_instanced(item)
+
+
+def _is_instanced(item) -> bool:
+    """Return whether its parent instances it at vertices or faces."""
+    return item.parent is not None and item.parent.instance_type in {"VERTS", "FACES"}
 
 
 def _of_scene(scene, view_layer) -> Iterator:
-    """Yield the objects of a view layer that a render shows, and those of the scenes that are its background set."""
+    """Yield the objects of a view layer that a render shows, and those of the scene's background set."""
     yield from _of_layer(view_layer.layer_collection)
     behind = scene.background_set
-    if behind is not None:  # Blender shows the first of its layers that is rendered
+    if behind is not None:  # Blender shows its first layer that is rendered
         yield from _of_scene(behind, next((one for one in behind.view_layers if one.use), behind.view_layers[0]))
 
 
@@ -102,7 +115,7 @@ def _of_layer(layer) -> Iterator:
 
 
 def _of_collection(collection, every: bool = False) -> Iterator:
-    """Yield the objects of an instanced collection and of those that it instances itself: every, or what renders."""
+    """Yield the objects of an instanced collection and of collections instanced in it: all, or those that render."""
     if collection.hide_render and not every:
         return
     for item in collection.objects:

@@ -1,1 +1,1 @@
-"""The commands for a terminal."""
+"""The terminal commands."""

@@ -1,4 +1,4 @@
-"""The command that renders pictures of a Blender file: files of pictures and passes, and reports."""
+"""The command that renders a Blender file into pictures, passes and reports."""
 
 from collections.abc import Sequence
 
@@ -10,23 +10,27 @@ from .words import add_frames, share
 
 
 def run(arguments: Sequence[str], prog: str) -> int:
-    """Render cameras and frames of a file to pictures, EXR or NPZ files and reports."""
+    """Render cameras and frames of a file into pictures, EXR or NPZ files and reports; return the exit status."""
     parser = command_parser(
         prog,
         "Cast the rays of a Blender file's cameras at what they show.",
         f"{prog} blend_scenes/spheres_and_planes.blend --output out --passes combined,depth",
-        "writes out/spheres_and_planes.png, the 32-bit multilayer out/spheres_and_planes.exr with a layer a pass, and "
-        "out/report.json; with --frames each name ends in its frame's number, with --cameras it is CAMERA_FRAME.",
+        "writes out/spheres_and_planes.png, the 32-bit multilayer out/spheres_and_planes.exr with one layer per "
+        "pass, and out/report.json. With --frames, each file name ends in the frame number; with --cameras, it is "
+        "CAMERA_FRAME.",
     )
     frames = parser.add_mutually_exclusive_group()
     add_frame(frames)
     add_frames(frames)
-    parser.add_argument("--shard", type=share, metavar="K/N", help="of the frames, the K-th, the K+N-th and so on")
+    parser.add_argument(
+        "--shard", type=share, metavar="K/N", help="make only every N-th of the frames, from the K-th on"
+    )
     add_words(parser)
     parser.add_argument("--skip-existing", action="store_true",
-                        help="take what is finished, of the same file and settings")  # fmt: skip
+                        help="skip pictures that are already finished, from the same file and settings")  # fmt: skip
     parser.add_argument("--file-output", action="store_true",
-                        help="let the compositor's File Output nodes write; default: they do not")  # fmt: skip
+                        help="also write the files of the compositor's File Output nodes; default: the "
+                             "nodes write nothing")  # fmt: skip
     add_json(parser)
     parser.set_defaults(pictures=True)
     options = parsed(parser, arguments)

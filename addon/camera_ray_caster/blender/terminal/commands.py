@@ -1,7 +1,7 @@
-"""The commands for a terminal: arguments in, files and a table out, and an exit status.
+"""The entry point of the terminal commands.
 
-Status 0: done; 1: done, but a witness disagrees with the camera's rays; 2: bad input, one line on standard error;
-130: stopped by Ctrl C or another signal that ends a process.
+Exit status 0: done; 1: done, but an independent reference disagrees with the camera's rays; 2: bad input, with one
+line on standard error; 130: stopped by Ctrl C or another signal that ends a process.
 """
 
 import sys
@@ -36,7 +36,7 @@ def main(command: str, arguments: Sequence[str], prog: str) -> int:
 
 
 def register(undo) -> None:
-    """Add ``blender --command camera_ray_caster cast FILE.blend``; see ``registration``."""
+    """Register ``blender --command camera_ray_caster cast FILE.blend``; see ``registration``."""
     command = bpy.utils.register_cli_command("camera_ray_caster", _from_blender)
     undo.callback(bpy.utils.unregister_cli_command, command)
 

@@ -1,9 +1,9 @@
-"""The command that makes a data set: pictures of cameras and frames in one folder, by one process or by many.
+"""The command that makes a data set: pictures of cameras and frames in one folder, made by one or more processes.
 
-Each camera and frame has CAMERA_FRAME.npz (or .exr), CAMERA_FRAME.json, its report, of which ``camera_from_json`` makes
-the camera, and CAMERA_FRAME.png where the combined pass is asked for. Ray passes of a camera that stands still are in
-CAMERA_rays.npz, once: reports list it among a frame's files. dataset.json says what all of it is made of. A second run
-makes what is missing.
+Each camera and frame has the passes CAMERA_FRAME.npz (or .exr), the report CAMERA_FRAME.json, from which
+``camera_from_json`` makes the camera, and CAMERA_FRAME.png if the combined pass is requested. The ray passes of a
+camera that stands still are written once, to CAMERA_rays.npz; reports list it among a frame's files. dataset.json
+records the inputs and settings. A second run makes only the missing pictures.
 """
 
 from __future__ import annotations
@@ -33,22 +33,27 @@ NAME = "dataset.json"
 
 
 def run(arguments: Sequence[str], prog: str) -> int:
-    """Make the pictures of a data set that are not there."""
+    """Make the missing pictures of a data set; return the exit status."""
     parser = command_parser(
         prog,
-        "Make a data set of cameras and frames of a Blender file; a second run makes what is missing.",
+        "Make a data set of cameras and frames of a Blender file; a second run makes the missing pictures.",
         f"{prog} blend_scenes/toys.blend --cameras ALL --frames 1:100 --passes combined,depth,normal --workers 4",
-        "writes out/CAMERA_FRAME.png, .npz and .json in four processes; out/dataset.json says what they are made of.",
+        "writes out/CAMERA_FRAME.png, .npz and .json in four processes; out/dataset.json lists the settings and "
+        "files that they are made from.",
     )
     add_frames(parser)
     add_words(parser)
     parser.set_defaults(format=files.NPZ, skip_existing=True, file_output=False, shard=None, frame=None)
     where = parser.add_mutually_exclusive_group()
     where.add_argument(
-        "--workers", type=count, metavar="N", help="processes of Dask on this machine; default: this one"
+        "--workers",
+        type=count,
+        metavar="N",
+        help="number of Dask processes on this machine; default: no Dask, only this process",
     )
     where.add_argument("--scheduler", type=scheduler_address, metavar="tcp://HOST:PORT",
-                       help="of a Dask cluster; workers need this package, bpy, the file and the folder")  # fmt: skip
+                       help="address of the scheduler of a Dask cluster; its workers need this package, "
+                            "bpy, the file and the folder")  # fmt: skip
     options = parsed(parser, arguments)
     pictures = Pictures(options)
     for line in pictures.warnings:
@@ -57,7 +62,7 @@ def run(arguments: Sequence[str], prog: str) -> int:
     jobs, stamp = pictures.jobs(), pictures.stamp()
     first = {job.camera: job for job in reversed(jobs)}
     for job in first.values():
-        pictures.camera_at(job)  # what cannot be cast is refused before anything is made
+        pictures.camera_at(job)  # refuse bad input before anything is made
         files.check(pictures.scene)
     passed, made = True, 0
     try:
@@ -76,13 +81,13 @@ def run(arguments: Sequence[str], prog: str) -> int:
         if pictures.keypoints is not None:
             collect(options.output, [job.name for job in jobs])
     finally:
-        clear_up(options.output)  # what workers have left that were ended
+        clear_up(options.output)  # files left behind by killed workers
     print(summary(made, len(jobs), options.output), flush=True)
     return int(not passed)
 
 
 def _complete(options: Namespace, pictures: Pictures) -> None:
-    """Fill in what the options leave to the file, and make paths those of every process."""
+    """Fill in missing options from the file, and make all paths absolute, so that they hold in every process."""
     scene = pictures.scene
     if options.cameras is None:
         check_camera(scene, scene.camera)
@@ -94,7 +99,7 @@ def _complete(options: Namespace, pictures: Pictures) -> None:
 
 
 def _claim(folder: Path, stamp: dict[str, Any]) -> None:
-    """Make a folder that of a data set. Raises InputError where it is that of another one."""
+    """Mark a folder as that of a data set. Raises InputError if it belongs to another data set."""
     clear_up(folder)
     path = folder / NAME
     try:
@@ -105,7 +110,7 @@ def _claim(folder: Path, stamp: dict[str, Any]) -> None:
         return
     except (OSError, ValueError, KeyError, TypeError) as error:
         raise InputError(
-            f"{str(path)!r} is of no data set that this version has made: choose another folder"
+            f"{str(path)!r} is not the file of a data set made by this version: choose another folder"
         ) from error
     if others:
-        raise InputError(f"{str(folder)!r} has a data set of other {', '.join(others)}: choose another folder")
+        raise InputError(f"{str(folder)!r} has a data set with a different {', '.join(others)}: choose another folder")

@@ -1,4 +1,4 @@
-"""The command that prints a pixel step by step."""
+"""The command that explains a pixel step by step."""
 
 from argparse import ArgumentTypeError
 from collections.abc import Sequence
@@ -12,7 +12,7 @@ from .options import add_frame, command_parser, go_to, open_scene
 
 
 def run(arguments: Sequence[str], prog: str) -> int:
-    """Print the steps from a pixel to its color."""
+    """Print the steps from a pixel to its color; return the exit status."""
     parser = command_parser(
         prog,
         "Explain a pixel of a Blender file: raster, view coordinates, the model's formula, ray, shapes, hit.",
@@ -21,7 +21,13 @@ def run(arguments: Sequence[str], prog: str) -> int:
         "exit status: 0 done; 2 bad input.",
     )
     add_frame(parser)
-    parser.add_argument("--pixel", type=pixel, required=True, metavar="X,Y", help="column and row from the bottom left")
+    parser.add_argument(
+        "--pixel",
+        type=pixel,
+        required=True,
+        metavar="X,Y",
+        help="column and row of the pixel, counted from the bottom left",
+    )
     options = parser.parse_args(arguments)
     scene = open_scene(options)
     go_to(scene, options.frame)
@@ -41,5 +47,5 @@ def pixel(text: str) -> tuple[int, int]:
     """Return the column and the row of "X,Y"."""
     column, _, row = text.partition(",")
     if not (column.strip().isdecimal() and row.strip().isdecimal()):
-        raise ArgumentTypeError(f"{text!r} is no pixel: give column and row from the bottom left, such as 120,80")
+        raise ArgumentTypeError(f"{text!r} is not a pixel: give column and row from the bottom left, such as 120,80")
     return int(column), int(row)

@@ -1,4 +1,4 @@
-"""The command that writes cameras, by frame, as other programs' files."""
+"""The command that exports cameras, by frame, to files of other programs."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -12,10 +12,10 @@ from .words import add_cameras, add_frames, joined
 
 
 def run(arguments: Sequence[str], prog: str) -> int:
-    """Export cameras of a file."""
+    """Export cameras of a file; return the exit status."""
     parser = command_parser(
         prog,
-        "Write the cameras of a Blender file, by frame, for other programs.",
+        "Write the cameras of a Blender file, at one or more frames, for other programs.",
         f"{prog} blend_scenes/toys.blend --format colmap --cameras ALL --frames 1:100:10 --output out",
         "writes cameras.txt, images.txt and points3D.txt; cameras that COLMAP cannot represent are refused.",
         ends="exit status: 0 done; 2 bad input.",
@@ -25,8 +25,8 @@ def run(arguments: Sequence[str], prog: str) -> int:
                         help="; ".join(f"{key}: {one.description}" for key, one in formats.items()))  # fmt: skip
     add_cameras(parser)
     add_frames(parser)
-    parser.add_argument("--to", metavar="NAME", help="of stmap: the camera to which the maps lead; default: the "
-                        "perspective of the same lens")  # fmt: skip
+    parser.add_argument("--to", metavar="NAME", help="target camera of the maps, for stmap only; "
+                                                     "default: a perspective camera with the same lens")  # fmt: skip
     parser.add_argument("--output", type=Path, default=Path("out"), metavar="FOLDER", help="default: %(default)s")
     options = parser.parse_args(joined(arguments, "--frames"))
     scene = open_scene(options)

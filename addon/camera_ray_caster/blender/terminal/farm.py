@@ -1,8 +1,8 @@
-"""Pictures made by many processes, of this machine or of a cluster: by Dask, which is imported when it is asked for.
+"""Pictures made by several processes on this machine or a cluster, with Dask, which is imported only when needed.
 
-A worker opens the file once and makes a few pictures at a time. One that is killed leaves nothing, or whole files, and
-what it had yet to make is given to another. Nothing here imports bpy before a worker works: Blender has to be used by
-the thread that imports it.
+A worker opens the file once and makes a few pictures at a time. A killed worker leaves only complete files, and its
+unfinished pictures go to another worker. Importing this module does not import bpy, because Blender must be used in
+the thread that imports bpy.
 """
 
 from __future__ import annotations
@@ -26,25 +26,25 @@ from . import signals
 from .standard_output import keep_output
 
 CHUNK = 4
-"""Pictures that a worker is given at a time."""
+"""Number of pictures per task of a worker."""
 ANSWER = "10s"
-"""How long a scheduler is waited for."""
+"""Time to wait for a scheduler to answer."""
 POLL = 0.05
-"""Seconds between looks at what is done."""
+"""Seconds between two checks for finished tasks."""
 
 ENVIRONMENT = {"MALLOC_TRIM_THRESHOLD_": 128 << 20, "MALLOC_MMAP_THRESHOLD_": 32 << 20}
-"""Of workers: glibc keeps the memory of arrays that go for those that come, where Dask would have it handed back."""
+"""Environment of workers: glibc keeps freed memory for new arrays, while Dask's default returns it to the system."""
 
 _blender = Lock()
 _opened: dict[str, Any] = {}
-"""What this worker has open: ``pictures``, and what they are ``of``, options and stamp."""
+"""File that this worker has open: ``pictures`` is the Pictures object, ``of`` its options and stamp."""
 
 
 @contextmanager
 def cluster(options) -> Iterator[Any]:
-    """Yield a client of the Dask cluster that the options ask for, made for this run or there before; None for none.
+    """Yield a client of the Dask cluster that the options name, a new local or a running one; None without a cluster.
 
-    Raises InputError where there is no Dask, or no scheduler.
+    Raises InputError if Dask is not installed, no scheduler answers, or a worker lacks a package.
     """
     if not (options.workers or options.scheduler):
         yield None
@@ -52,30 +52,32 @@ def cluster(options) -> Iterator[Any]:
     try:
         import distributed
     except ModuleNotFoundError as error:
-        raise InputError("--workers and --scheduler need Dask: pip install '.[farm]' adds it") from error
+        raise InputError("--workers and --scheduler need Dask: install it with pip install '.[farm]'") from error
     with ExitStack() as stack:
         address = options.scheduler or stack.enter_context(_local(options.workers))
         try:
             client = stack.enter_context(distributed.Client(address, timeout=ANSWER, set_as_default=False))
         except (OSError, ValueError) as error:
-            raise InputError(f"no scheduler of Dask answers at {address!r}: start one, or look at its log") from error
+            raise InputError(
+                f"no Dask scheduler answers at {address!r}: start the scheduler, or look at its log"
+            ) from error
         if options.workers:
             client.register_plugin(_preparing(options.workers))
         for worker, missing in client.run(_missing()).items():
             if missing:
-                raise InputError(f"worker {worker} has no {missing[0]}: install it there, in the worker's Python")
+                raise InputError(f"worker {worker} has no {missing[0]}: install it in the worker's Python")
         yield client
 
 
 @contextmanager
 def _local(workers: int) -> Iterator[str]:
-    """Yield the address of a cluster of this machine, with a process for each worker."""
+    """Yield the address of a new cluster on this machine, with a process for each worker."""
     import bpy
     import dask
     import distributed
 
     if bpy.app.binary_path:
-        raise InputError("--workers starts processes of Python, which Blender is none of: run this with pip's bpy")
+        raise InputError("--workers starts Python processes and cannot start Blender: run the script with pip's bpy")
     own = {"distributed.nanny.pre-spawn-environ": ENVIRONMENT}
     limits = {
         "threads_per_worker": 1,
@@ -88,8 +90,8 @@ def _local(workers: int) -> Iterator[str]:
 
 
 def _preparing(workers: int):
-    """Return a plugin that holds each worker of this machine to its share of the processors that this process has, and
-    takes from its path what Blender has put on this one's: there is a package bpy that only works within a Blender.
+    """Return a plugin that limits each worker to its share of this process's processors, and removes Blender's script
+    folders from the worker's path: they contain a package bpy that only works inside Blender.
     """
     import bpy
     import distributed
@@ -108,7 +110,7 @@ def _preparing(workers: int):
 
 
 def _missing():
-    """Return a function that returns what a Python lacks. Another machine's need not have this module."""
+    """Return a function that lists the missing packages of a worker; it does not need this module on the worker."""
 
     def missing() -> list[str]:
         from importlib.util import find_spec
@@ -119,9 +121,9 @@ def _missing():
 
 
 def outcomes(client, options, stamp: Mapping[str, Any], maps: Mapping[str, Any], jobs: Sequence) -> Iterator:
-    """Yield what comes of jobs, in chunks, as workers have made them.
+    """Yield the outcomes of jobs as workers finish them, chunk by chunk.
 
-    Raises InputError for what a worker refuses, or cannot do, and where the scheduler has gone.
+    Raises InputError if a worker refuses a job, if a job kills its workers, and if the scheduler is lost.
     """
     import distributed
 
@@ -136,34 +138,34 @@ def outcomes(client, options, stamp: Mapping[str, Any], maps: Mapping[str, Any],
                 yield from future.result()
             time.sleep(POLL)
     except distributed.KilledWorker as error:
-        raise InputError(f"pictures that end the worker that makes them, also another one: {error.task}") from error
+        raise InputError(f"these pictures crashed several workers in turn: {error.task}") from error
     except (OSError, CancelledError) as error:
-        raise InputError("the scheduler of Dask has gone: start again, what is finished is taken") from error
+        raise InputError("the Dask scheduler has ended: start again; finished pictures are kept") from error
 
 
 def work(options, stamp: Mapping[str, Any], maps: Mapping[str, Any], jobs: Sequence) -> list:
-    """Make pictures in a worker; return what came of them."""
-    with _blender:  # which does one thing at a time
+    """Make pictures in a worker; return their outcomes."""
+    with _blender:  # Blender does one thing at a time
         if (options, stamp) != _opened.get("of"):
             if current_thread() is not main_thread():
-                atexit.register(_leave)  # before bpy is imported: what comes later is done before it
+                atexit.register(_leave)  # before bpy's import: exit handlers run in reverse order
             keep_output()
             from ..output.stamps import differing
             from .pictures import Pictures
 
-            import_module(__name__.partition(".blender.")[0]).register()  # what registers commands imports this module
+            import_module(__name__.partition(".blender.")[0]).register()  # not at the top: circular import
             _opened.clear()
             _opened["pictures"] = pictures = Pictures(options)
             others = differing(stamp, pictures.stamp())
             if others:
-                raise InputError(f"a worker has other {', '.join(others)} than this machine: make it the same")
+                raise InputError(f"a worker differs from this machine in {', '.join(others)}: make them equal")
             _opened["of"] = options, stamp
         made = (_opened["pictures"].make(job, stamp, "dataset.py", maps[job.camera]) for job in jobs)
         return [replace(outcome, report=None, paths=()) for outcome in made]
 
 
 def _leave() -> None:
-    """End this process without Blender's own end, which crashes in another thread than the one that has imported it."""
+    """End this process without Blender's own exit, which crashes outside the thread that imported bpy."""
     logging.shutdown()
     for stream in (sys.stdout, sys.stderr):
         stream.flush()

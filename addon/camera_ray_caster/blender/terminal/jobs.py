@@ -1,4 +1,4 @@
-"""What is said of pictures between processes. No bpy here: records come and go in threads that may not import it."""
+"""Records that processes exchange about pictures. No bpy here: some threads that handle them may not import it."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from ...core.report.report import Report
 
 @dataclass(frozen=True)
 class Job:
-    """One picture: a camera, None for the scene's own; a frame, None for the file's; the names of its files."""
+    """One picture. ``camera`` None is the scene's camera, ``frame`` None the file's frame; the rest are file names."""
 
     camera: str | None
     frame: float | None
@@ -21,8 +21,8 @@ class Job:
 
 @dataclass(frozen=True)
 class Outcome:
-    """What came of a job: whether no witness disagrees, and whether it was made, not finished before. Then it has the
-    report, and the paths of the files.
+    """Result of a job. ``passed``: no independent reference disagrees. ``made``: the picture was made now, not in an
+    earlier run; then the report and the paths of the files are set.
     """
 
     passed: bool
@@ -34,7 +34,7 @@ class Outcome:
 
 @dataclass(frozen=True)
 class RayMap:
-    """A file, and the digest of the rays in it."""
+    """A file of rays, and the digest of the rays."""
 
     file: str
     digest: str

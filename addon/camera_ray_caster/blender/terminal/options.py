@@ -1,4 +1,4 @@
-"""What the commands for a terminal share: their parser, the file that they open, and what they print."""
+"""Shared parts of the terminal commands: the parser, opening the file, and printing."""
 
 import argparse
 import math
@@ -18,22 +18,29 @@ from . import signals
 from .opening import open_file
 from .words import Parser, frame_number
 
-ENDS = "exit status: 0 done; 1 done, but the camera's rays disagree with a witness; 2 bad input."
+ENDS = "exit status: 0 done; 1 done, but a reference check of the camera's rays failed; 2 bad input."
 
 
 def command_parser(prog: str, purpose: str, example: str, result: str, ends: str = ENDS) -> Parser:
-    """Return a parser with the words that every command has; ``result`` says what the example does."""
+    """Return a parser with the options that all commands share; ``result`` says what the example does."""
     parser = Parser(
         prog=prog,
         description=purpose,
         epilog=f"example:\n  {example}\n{fill(result, WIDTH)}\n\n{fill(ends, WIDTH)}",
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    parser.add_argument("file", nargs="?", type=Path, metavar="FILE.blend", help="default: the file that is open")
-    parser.add_argument("--camera", metavar="NAME", help="default: the scene's active camera")
+    parser.add_argument(
+        "file", nargs="?", type=Path, metavar="FILE.blend", help="Blender file to open; default: the file that is open"
+    )
+    parser.add_argument("--camera", metavar="NAME", help="name of the camera; default: the scene's active camera")
     parser.add_argument("--calibration", type=Path, metavar="FILE",
-                        help=f"of {FILE_WRITERS}: the camera's model follows from it")  # fmt: skip
-    parser.add_argument("--calibration-camera", default="", metavar="NAME", help="of a file with several cameras")
+                        help=f"calibration file of {FILE_WRITERS}; it determines the camera's model")  # fmt: skip
+    parser.add_argument(
+        "--calibration-camera",
+        default="",
+        metavar="NAME",
+        help="name of the camera in a calibration file that has several cameras",
+    )
     parser.add_argument("--enable-autoexec", action="store_true",
                         help="run the Python scripts and drivers of FILE.blend; default: they do not run")  # fmt: skip
     return parser
@@ -41,16 +48,18 @@ def command_parser(prog: str, purpose: str, example: str, result: str, ends: str
 
 def add_json(parser) -> None:
     """Add --json."""
-    parser.add_argument("--json", action="store_true", help="print the report as JSON in place of the table")
+    parser.add_argument("--json", action="store_true", help="print the report as JSON instead of a table")
 
 
 def add_frame(parser) -> None:
     """Add --frame."""
-    parser.add_argument("--frame", type=frame_number, help="default: the file's; a fraction is between frames")
+    parser.add_argument(
+        "--frame", type=frame_number, help="frame, which may have a fraction; default: the current frame of the file"
+    )
 
 
 def open_scene(options):
-    """Open the file that the options name, and return its scene with our engine and the camera that they ask for."""
+    """Open the file that the options name; return its scene, set to this engine and to the chosen camera."""
     path = options.file
     if path is not None:
         open_file(path, options.enable_autoexec)
@@ -65,19 +74,19 @@ def open_scene(options):
         check_camera(scene, scene.camera)
         set_calibration(scene.camera.data, str(options.calibration.absolute()), options.calibration_camera)
     elif options.calibration_camera:
-        raise InputError("--calibration-camera names one of --calibration FILE: give that, too")
+        raise InputError("--calibration-camera needs a calibration file: add --calibration FILE")
     return scene
 
 
 def use_camera(scene, camera) -> None:
-    """Make a camera the scene's own at every frame."""
+    """Make a camera the scene's active camera at every frame."""
     for marker in scene.timeline_markers:
-        marker.camera = None  # it would take the camera's place at its frame
+        marker.camera = None  # a marker's camera would become active at its frame
     scene.camera = camera
 
 
 def go_to(scene, frame: float | None) -> None:
-    """Set the scene's frame, if one is asked for."""
+    """Set the scene's frame, unless ``frame`` is None."""
     if frame is not None:
         scene.frame_set(math.floor(frame), subframe=frame - math.floor(frame))
 
@@ -88,10 +97,10 @@ def warn(prog: str, line: str) -> None:
 
 
 def stem() -> str:
-    """Return what the open file's outputs are called."""
+    """Return the base name of the open file's outputs."""
     return Path(bpy.data.filepath).stem or "untitled"
 
 
 def show(report: Report, json: bool, last_line: str) -> None:
-    """Print a report."""
+    """Print a report, as JSON or as a table with a last line."""
     print(as_json(report) if json else "\n".join((*as_lines(report), "", last_line)), flush=True)

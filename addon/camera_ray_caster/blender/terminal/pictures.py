@@ -1,4 +1,4 @@
-"""The pictures that a command line asks for: of each camera and frame one, made, or taken where it is finished."""
+"""The pictures that a command line requests, one per camera and frame: made, or skipped if already finished."""
 
 from __future__ import annotations
 
@@ -34,56 +34,65 @@ CYCLES = "CYCLES"
 ENGINES = CameraRayCaster.bl_idname, CYCLES
 
 DEFAULT_PASSES = ("combined", "depth", "normal", "position", "object_index")
-"""What is cast of a view layer that ticks nothing beside combined."""
+"""Passes that are cast if a view layer has only the combined pass enabled."""
 
 SETTINGS = (
     "passes", "shading", "precision", "engine", "samples", "resolution", "format", "half", "calibration_camera",
     "enable_autoexec", "annotations", "keypoints",
 )  # fmt: skip
-"""The options that pictures depend on, beside the file, camera and frame."""
+"""Options that pictures depend on, in addition to the file, camera and frame."""
 
 
 def add_words(parser) -> None:
-    """Add the options that say what pictures are made of, and where they go."""
+    """Add the options for the content and the folder of pictures."""
     add_cameras(parser)
     parser.add_argument("--resolution", type=picture_size, metavar="WxH", help="default: the file's")
-    parser.add_argument("--passes", type=pass_names, metavar="A,B,...", help=f"of {', '.join(PASSES)}; default: what "
-                        f"the file ticks, or {', '.join(DEFAULT_PASSES)} where it ticks only combined")  # fmt: skip
-    parser.add_argument("--shading", type=str.upper, choices=SHADINGS, help="of the combined pass; default: the file's")
+    parser.add_argument("--passes", type=pass_names, metavar="A,B,...", help=
+        f"passes to write, out of {', '.join(PASSES)}; default: the passes enabled in the file, or "
+        f"{', '.join(DEFAULT_PASSES)} if only combined is enabled")  # fmt: skip
+    parser.add_argument(
+        "--shading", type=str.upper, choices=SHADINGS, help="shading of the combined pass; default: the file's"
+    )
     parser.add_argument("--precision", type=str.upper, choices=PRECISIONS,
-                        help="what hits are searched with; default: the file's")  # fmt: skip
+                        help="precision of the search for hits; default: the file's")  # fmt: skip
     parser.add_argument("--engine", type=str.upper, choices=ENGINES, default=ENGINES[0],
-                        help="of the combined pass; our passes stand beside it; default: %(default)s")  # fmt: skip
-    parser.add_argument("--samples", type=sample_count, metavar="N", help="of Cycles, a pixel; default: the file's")
+                        help="engine that renders the combined pass; the add-on casts the other passes; "
+                             "default: %(default)s")  # fmt: skip
+    parser.add_argument(
+        "--samples", type=sample_count, metavar="N", help="samples per pixel of Cycles; default: the file's"
+    )
     parser.add_argument("--format", type=str.upper, choices=files.FORMATS, default=files.EXR,
-                        help="of the passes: a multilayer EXR, or NumPy's arrays; default: %(default)s")  # fmt: skip
-    parser.add_argument("--half", action="store_true", help="16 bits: real numbers of arrays, colors of EXR files")
+                        help="file format of the passes: a multilayer EXR file, or NumPy arrays; "
+                             "default: %(default)s")  # fmt: skip
+    parser.add_argument(
+        "--half", action="store_true", help="write floating-point arrays, and the colors of EXR files, with 16 bits"
+    )
     parser.add_argument("--annotations", action="store_true",
-                        help="write boxes and masks of objects beside each picture, in COCO's form")  # fmt: skip
-    parser.add_argument("--keypoints", nargs="+", metavar="NAME", help="annotate these, too: empties, meshes with "
-                        f"vertex groups, or {ALL}")  # fmt: skip
+                        help="write the boxes and masks of objects next to each picture, in COCO format")  # fmt: skip
+    parser.add_argument("--keypoints", nargs="+", metavar="NAME", help=
+        f"also annotate these key points: empties, meshes with vertex groups, or {ALL}")  # fmt: skip
     parser.add_argument("--output", type=Path, default=Path("out"), metavar="FOLDER", help="default: %(default)s")
 
 
 def parsed(parser: Parser, arguments: Sequence[str]) -> Namespace:
-    """Return the options of a command line. Raises InputError for those that do not go together."""
+    """Return the options of a command line. Raises InputError for options that cannot be combined."""
     options = parser.parse_args(joined(arguments, "--frames"))
     if options.cameras and options.camera:
-        raise InputError("--cameras names several in place of one: leave out --camera")
+        raise InputError("--camera and --cameras exclude each other: leave out --camera")
     if options.cameras and options.calibration:
-        raise InputError("--calibration is of one camera: name it with --camera, in place of --cameras")
+        raise InputError("--calibration applies to one camera: name the camera with --camera instead of --cameras")
     if options.samples and options.engine != CYCLES:
-        raise InputError(f"--samples is for --engine {CYCLES}: the file has our own samples")
+        raise InputError(f"--samples applies to --engine {CYCLES} only: the samples of the add-on are set in the file")
     if options.shard and options.frames is None:
-        raise InputError("--shard is a share of the frames of --frames: give that, too")
+        raise InputError("--shard selects a share of the frames of --frames: add --frames")
     return options
 
 
 class Pictures:
-    """Opens a file and sets it up as a command line asks; then makes its pictures."""
+    """A file, opened and set up for the options of a command line, and its pictures."""
 
     def __init__(self, options):
-        """Raise InputError for what cannot be cast."""
+        """Open the file and set up its scene. Raises InputError for bad input."""
         by_cycles = options.engine == CYCLES
         if by_cycles:
             check_cycles()
@@ -96,7 +105,7 @@ class Pictures:
         if by_cycles:
             scene.cycles.samples = options.samples or scene.cycles.samples
             self.warnings += said_of_device(scene)
-        # Blender keeps what it has evaluated for the next picture: 0.3 s less of 1.2 for six subdivided monkeys
+        # Blender keeps evaluated data for the next picture: 0.3 s less of 1.2 s for six subdivided monkeys
         scene.render.use_persistent_data = True
         if options.resolution:
             scene.render.resolution_x, scene.render.resolution_y = options.resolution
@@ -111,17 +120,17 @@ class Pictures:
 
     @property
     def keypoints(self) -> list[str] | None:
-        """The names of the key points to be annotated; None for no annotations."""
+        """Names of the key points to annotate; None without annotations."""
         return self.options.keypoints or ([] if self.options.annotations else None)
 
     def stamp(self) -> dict[str, Any]:
-        """Return what every picture is made of; see ``stamps``."""
+        """Return the stamp that all pictures share; see ``stamps``."""
         settings = {name: getattr(self.options, name) for name in SETTINGS}
         calibration = self.options.calibration
         return stamp_of(settings | {"calibration": calibration and file_hash(calibration)})
 
     def jobs(self) -> list[Job]:
-        """Return a job for each camera and frame that is asked for; cameras of --cameras give files their names."""
+        """Return a job for each requested camera and frame; with --cameras, files are named after the cameras."""
         asked, shard, scene = self.options, self.options.shard, self.scene
         frames = asked.frames if shard is None else asked.frames[shard[0] - 1 :: shard[1]]
         if asked.cameras is None:
@@ -136,13 +145,13 @@ class Pictures:
         ]
 
     def make(self, job: Job, stamp: dict[str, Any], prog: str, ray_map: RayMap | None = None) -> Outcome:
-        """Make a picture, or take it where --skip-existing lets it and it is finished; with ``ray_map`` without the
-        passes of a camera's rays where they are those of the map.
+        """Make a picture, or skip it if it is finished and --skip-existing is given. If the camera's rays are those of
+        ``ray_map``, leave out the ray passes.
         """
         taken = self.finished(job, stamp, ray_map) if self.options.skip_existing else None
         if taken is not None:
             return taken
-        camera = self.camera_at(job)  # which is refused before anything is made, if it cannot be cast
+        camera = self.camera_at(job)  # refuses bad input before anything is made
         left_out, beside = (), []
         if ray_map is not None and ray_maps.digest_of(camera) == ray_map.digest:
             left_out, beside = ray_maps.PASSES, [self.options.output / ray_map.file]
@@ -155,7 +164,7 @@ class Pictures:
         return Outcome(report.passed, True, report.warnings, report, paths)
 
     def render(self, job: Job, of: dict[str, Any], **more) -> tuple[Report, list[Path]]:
-        """Write the files of a job as the scene is set to it; ``of`` is their stamp, for the rest see ``files``."""
+        """Write the files of a job from the current state of the scene; ``of`` is their stamp; see ``files.render``."""
         asked = self.options
         return files.render(
             self.scene, asked.output, job.name, job.report,
@@ -163,36 +172,36 @@ class Pictures:
         )  # fmt: skip
 
     def finished(self, job: Job, stamp: dict[str, Any], ray_map: RayMap | None = None) -> Outcome | None:
-        """Return what came of a job that is finished; None of one that is not."""
+        """Return the outcome of a finished job, or None if it is not finished."""
         found = finished(self.options.output / f"{job.report}.json", _of(stamp, job, ray_map))
         return None if found is None else Outcome(found["passed"])
 
     def camera_at(self, job: Job) -> Camera:
-        """Set the scene to a job's camera and frame, and return the camera. Raises InputError for what none is."""
+        """Set the scene to a job's camera and frame, and return the camera. Raises InputError if it cannot be cast."""
         if job.camera is not None:
             use_camera(self.scene, find_camera(self.scene, job.camera))
         go_to(self.scene, job.frame)
         return read_camera(self.scene)
 
     def tick(self, wanted: Callable[[str], bool]) -> None:
-        """Tick the wanted ones of the passes that are asked for, in every view layer."""
+        """Enable those requested passes for which ``wanted`` is true, in every view layer."""
         for layer, keys in self.passes.items():
             tick(self.scene, self.scene.view_layers[layer], [key for key in keys if wanted(key)])
 
     def _by_cycles(self, prog: str) -> Picture:
-        """Render the current frame with Cycles, whose work no signal's handler can end."""
+        """Render the current frame with Cycles, which a Python signal handler cannot interrupt."""
         files.check(self.scene)
         with signals.leaving(f"{prog}: {signals.STOPPED}"):
             return picture_of(self.scene)
 
 
 def _of(stamp: dict[str, Any], job: Job, ray_map: RayMap | None) -> dict[str, Any]:
-    """Return what a job's files are made of."""
+    """Return the stamp of a job's files."""
     return {**stamp, "camera": job.camera, "frame": job.frame, "rays": ray_map and ray_map.digest}
 
 
 def follow(outcomes: Iterable[Outcome], count: int, prog: str) -> Iterator[Outcome]:
-    """Yield outcomes as they come, show how far they are where there are several, and warn once of each warning."""
+    """Yield outcomes as they come; show the progress if there are several jobs, and print each warning once."""
     progress, warned = Progress(count, prog), set()
     for outcome in outcomes:
         for line in outcome.warnings:
@@ -205,7 +214,7 @@ def follow(outcomes: Iterable[Outcome], count: int, prog: str) -> Iterator[Outco
 
 
 def summary(made: int, count: int, folder: Path) -> str:
-    """Return in words what was made of so many pictures."""
+    """Return a sentence about how many of ``count`` pictures were made."""
     if made == count:
         return f"Wrote {made} pictures into {folder}"
-    return f"Wrote {made} of {count} pictures into {folder}; the others were finished"
+    return f"Wrote {made} of {count} pictures into {folder}; the other pictures were already finished"

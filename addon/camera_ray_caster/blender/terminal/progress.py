@@ -1,15 +1,15 @@
-"""How far a long run is, on standard error: a bar with the time left on a terminal, a line now and then elsewhere."""
+"""Progress on standard error: a bar with the remaining time on a terminal, otherwise a line every EVERY seconds."""
 
 import sys
 from time import monotonic
 
 COLUMNS = 30
 EVERY = 10.0
-"""Seconds between lines where there is no terminal."""
+"""Minimum number of seconds between lines without a terminal."""
 
 
 class Progress:
-    """Counts what is done of ``total``. What was there before counts, but says nothing of the time that is left."""
+    """Counter of ``total`` items. Items from an earlier run count, but do not affect the estimated remaining time."""
 
     def __init__(self, total: int, prog: str):
         self.total, self.prog = total, prog
@@ -17,7 +17,7 @@ class Progress:
         self.began = self.said = monotonic()
 
     def add(self, made: bool) -> None:
-        """Count one more, and show it."""
+        """Count one more item and show the progress."""
         self.done += 1
         self.made += made
         now, left = monotonic(), ""

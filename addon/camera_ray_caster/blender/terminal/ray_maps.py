@@ -1,4 +1,4 @@
-"""The rays of a camera that stands still, written once: frames with these rays leave them out of their own files."""
+"""Ray maps: the rays of a camera that stands still are written once, and its frames leave them out of their files."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ PASSES = "ray_origin", "ray_direction"
 
 
 def digest_of(camera: Camera) -> str:
-    """Return the SHA-256 of a camera's rays, with their times: equal of cameras whose rays are."""
+    """Return the SHA-256 of a camera's rays and their times; cameras with equal rays have equal digests."""
     rays, found = camera.rays(), hashlib.sha256()
     for array in (rays.origins, rays.directions, rays.time):
         if array is not None:
@@ -24,8 +24,9 @@ def digest_of(camera: Camera) -> str:
 
 
 def made_map(pictures, first: Job, stamp: dict) -> RayMap | None:
-    """Return the map of the rays of a camera, which the job ``first`` of ``pictures`` is one of; make it there where
-    it is missing. None where there is no use for one: no ray pass is asked for, or no other pass, or several eyes are.
+    """Return the ray map of a camera, whose first job is ``first``; make the map from that job if it is missing.
+
+    Return None if no map is useful: in a multi-view scene, or unless every view layer has ray passes and other passes.
     """
     asked = [set(keys) for keys in pictures.passes.values()]
     if pictures.scene.render.use_multiview or not all(own & set(PASSES) and own - set(PASSES) for own in asked):

@@ -1,7 +1,7 @@
-"""Whether what is running has been asked to stop: by a signal, or by Blender's window.
+"""Requests to stop the running work, by a signal or by Blender's window.
 
-A signal's handler raises nothing at first: Python may run it in a callback of Blender's, which prints an exception and
-drops it. It remembers that it was called, and work that takes long asks. A second signal ends the process at once.
+The signal handler raises no exception at first, because Python may run it in a callback of Blender's, which prints and
+drops exceptions. It sets a flag, which long work polls. A second signal ends the process at once.
 """
 
 import os
@@ -12,15 +12,15 @@ from threading import Thread, current_thread, local, main_thread
 
 from ...core.records import Cancelled
 
-STOPPED = "stopped; what was under way has left nothing"
+STOPPED = "stopped; no unfinished files were left behind"
 
 _stopping = False
 _others = local()
-"""``asks``: who is asked beside the signals in a thread; a render has one of its own."""
+"""``asks``: further functions that a thread polls in addition to the signals; a render has its own thread."""
 
 
 def stop(*_) -> None:
-    """Ask what is running to end; the second time, raise KeyboardInterrupt. For ``signal.signal``."""
+    """Request a stop; on the second call, raise KeyboardInterrupt. A handler for ``signal.signal``."""
     global _stopping
     if _stopping:
         raise KeyboardInterrupt
@@ -28,13 +28,13 @@ def stop(*_) -> None:
 
 
 def is_stopping() -> bool:
-    """Return whether what is running has been asked to end."""
+    """Return whether a stop has been requested."""
     return _stopping or any(ask() for ask in getattr(_others, "asks", ()))
 
 
 @contextmanager
 def heard(ask: Callable[[], bool]) -> Iterator[None]:
-    """Ask another one, too, for the work of this thread that is going on: a window in which Esc is pressed."""
+    """Also poll ``ask`` during this thread's work inside the context, for example for Esc in a window."""
     before = getattr(_others, "asks", ())
     _others.asks = (*before, ask)
     try:
@@ -45,10 +45,10 @@ def heard(ask: Callable[[], bool]) -> Iterator[None]:
 
 @contextmanager
 def leaving(words: str) -> Iterator[None]:
-    """End the process at once, with these words and status 130, where a signal arrives that it handles.
+    """End the process at once, with a message and status 130, if a handled signal arrives inside the context.
 
-    For long work in C that asks nobody, and lets no handler run in the meantime. In other threads than the main one,
-    which hear no signals, it does nothing.
+    This is for long work in C code that does not poll and lets no Python handler run. It does nothing outside the main
+    thread, because other threads receive no signals.
     """
     if current_thread() is not main_thread():
         yield
@@ -58,7 +58,7 @@ def leaving(words: str) -> Iterator[None]:
 
     def leave() -> None:
         if os.read(reading, 1):
-            with suppress(OSError):  # nobody reads it any more
+            with suppress(OSError):  # standard error is closed
                 os.write(2, f"{words}\n".encode())
             os._exit(130)
 
@@ -75,12 +75,12 @@ def leaving(words: str) -> Iterator[None]:
 
 
 def raise_if_stopping() -> None:
-    """Raise Cancelled where what is running has been asked to end."""
+    """Raise Cancelled if a stop has been requested."""
     if is_stopping():
         raise Cancelled
 
 
 def reset() -> None:
-    """Forget what was asked: what runs next is not concerned."""
+    """Forget a requested stop, so that it does not affect later work."""
     global _stopping
     _stopping = False

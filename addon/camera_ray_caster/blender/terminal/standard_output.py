@@ -1,6 +1,6 @@
-"""Keeps what Blender prints by itself (frames, saved files, settings that it found) out of a command's output.
+"""Keeps Blender's own messages (frames, saved files, settings found) out of a command's output.
 
-No bpy here: it prints from its first import on.
+No bpy here: it prints as soon as it is imported.
 """
 
 import os
@@ -8,7 +8,7 @@ import sys
 
 
 def keep_output() -> None:
-    """Leave standard output to Python and send nowhere what others write to it, to the end of this process."""
+    """Keep standard output for Python and discard what other code writes to it, until the process ends."""
     sys.stdout = os.fdopen(os.dup(1), "w", encoding="utf-8", errors="replace")
     nowhere = os.open(os.devnull, os.O_WRONLY)
     os.dup2(nowhere, 1)

@@ -1,4 +1,4 @@
-"""The command that compares a file's camera with Blender's own answers."""
+"""The command that compares a file's camera with Blender's own results."""
 
 from collections.abc import Sequence
 from dataclasses import replace
@@ -10,16 +10,20 @@ from .options import add_frame, add_json, command_parser, go_to, open_scene, sho
 
 
 def run(arguments: Sequence[str], prog: str) -> int:
-    """Compare a file's camera with Blender's own answers."""
+    """Compare a file's camera with Blender's own results; return the exit status."""
     parser = command_parser(
         prog,
         "Compare the rays of a Blender file's camera with Blender's own frame.",
         f"{prog} blend_scenes/spheres_and_planes.blend --frame 12.5",
-        "prints the largest and the median error of the rays beside the bound that each witness can reach.",
+        "prints the largest and the median error of the rays, and the error bound of each reference check.",
     )
     add_frame(parser)
     add_json(parser)
-    parser.add_argument("--cycles", action="store_true", help="compare with what Cycles renders of the camera's shader")
+    parser.add_argument(
+        "--cycles",
+        action="store_true",
+        help="also compare the rays with a picture that Cycles renders with the camera's shader",
+    )
     options = parser.parse_args(arguments)
     scene = open_scene(options)
     go_to(scene, options.frame)
@@ -27,5 +31,11 @@ def run(arguments: Sequence[str], prog: str) -> int:
     signals.raise_if_stopping()
     for line in report.warnings:
         warn(prog, line)
-    show(report, options.json, "All witnesses agree" if report.passed else "A witness disagrees")
+    show(
+        report,
+        options.json,
+        "All reference checks passed"
+        if report.passed
+        else "A reference check failed: the rays differ by more than its error bound",
+    )
     return int(not report.passed)

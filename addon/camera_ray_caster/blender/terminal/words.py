@@ -1,8 +1,10 @@
-"""The words of a command line: a parser that refuses in one line, and what turns words into values."""
+"""Parsing of the command line: a parser with one-line errors, and functions that convert arguments to values."""
 
 import argparse
 import re
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from functools import wraps
+from typing import TypeVar
 
 from ...core.camera.pixel_time import LAST_FRAME
 from ...core.cast import MOST_SAMPLES
@@ -11,19 +13,19 @@ from ...core.records import InputError
 from ..read.camera import ALL
 
 LEAST_SIDE, LARGEST_SIDE = 4, 65536
-"""Pixels of a picture's width and height in Blender."""
+"""Blender's limits of a picture's width and height, in pixels."""
 
 
 class Parser(argparse.ArgumentParser):
-    """A parser that refuses in one line."""
+    """A parser that reports errors in one line."""
 
     def error(self, message):
         """Raise InputError."""
-        raise InputError(f"{message} (--help shows what can be given)")
+        raise InputError(f"{message} (--help lists the options)")
 
 
 def joined(arguments: Sequence[str], option: str) -> list[str]:
-    """Return the arguments with an option and its value as one word: argparse would take -3:-1 for an option."""
+    """Return the arguments with an option and its value joined by "=": argparse would take -3:-1 for an option."""
     words = list(arguments)
     if option in words[:-1]:
         at = words.index(option)
@@ -31,20 +33,43 @@ def joined(arguments: Sequence[str], option: str) -> list[str]:
     return words
 
 
+T = TypeVar("T")
+
+
+def of_form(form: str) -> Callable[[Callable[[str], T]], Callable[[str], T]]:
+    """Return a decorator for a function that converts an argument: a ValueError becomes the message that an argument of
+    this form is wanted.
+    """
+
+    def decorator(convert: Callable[[str], T]) -> Callable[[str], T]:
+        @wraps(convert)
+        def converted(text: str) -> T:
+            try:
+                return convert(text)
+            except ValueError as error:
+                raise argparse.ArgumentTypeError(f"{text!r} is not {form}") from error
+
+        return converted
+
+    return decorator
+
+
+@of_form("a frame number")
 def frame_number(text: str) -> float:
-    """Return a frame; argparse names this function where the text is none."""
+    """Return a frame number."""
     frame = float(text)
     if not abs(frame) <= LAST_FRAME:
         raise argparse.ArgumentTypeError(f"{text} is beyond Blender's last frame, {LAST_FRAME}")
     return frame
 
 
+@of_form("a range of frames: give A:B, or A:B:S for every S-th frame")
 def frame_range(text: str) -> range:
-    """Return the frames of "A:B" or "A:B:S", each S-th from A on."""
+    """Return the frames of "A:B" or "A:B:S": every S-th frame from A to B."""
     first, last, step = (int(part) for part in (text if text.count(":") > 1 else f"{text}:1").split(":"))
     frame_number(str(first)), frame_number(str(last))
     if first > last:
-        raise argparse.ArgumentTypeError(f"{text} holds no frame: give the first one first")
+        raise argparse.ArgumentTypeError(f"{text} has no frames: give the first frame before the last")
     if step < 1:
         raise argparse.ArgumentTypeError(f"{text} has the step {step}: it must be 1 or more")
     return range(first, last + 1, step)
@@ -52,58 +77,65 @@ def frame_range(text: str) -> range:
 
 def add_frames(parser) -> None:
     """Add --frames A:B[:S]."""
-    parser.add_argument("--frames", type=frame_range, metavar="A:B[:S]", help="every whole frame from A to B, or each "
-                        "S-th of them")  # fmt: skip
+    parser.add_argument("--frames", type=frame_range, metavar="A:B[:S]", help=
+        "frames A to B, in steps of S (default: 1)")  # fmt: skip
 
 
 def add_cameras(parser) -> None:
     """Add --cameras NAME ...; see ``find_cameras``."""
-    parser.add_argument("--cameras", nargs="+", metavar="NAME", help=f"several of the scene's cameras, or {ALL}")
+    parser.add_argument(
+        "--cameras", nargs="+", metavar="NAME", help=f"names of several of the scene's cameras, or {ALL}"
+    )
 
 
+@of_form("a whole number")
 def count(text: str) -> int:
-    """Return how many of something; argparse names this function where the text is none."""
+    """Return a number of things, 1 or more."""
     number = int(text)
     if number < 1:
-        raise argparse.ArgumentTypeError(f"{text} is none: give 1 or more")
+        raise argparse.ArgumentTypeError(f"{text} is not a positive whole number: give 1 or more")
     return number
 
 
 def scheduler_address(text: str) -> str:
-    """Return the address of a scheduler; argparse names this function where the text is none."""
+    """Return the address of a scheduler."""
     if not re.fullmatch(r"\w+://[^\s:]\S*:\d+", text):
-        raise argparse.ArgumentTypeError(f"{text!r} is no address: give one such as tcp://HOST:PORT")
+        raise argparse.ArgumentTypeError(f"{text!r} is not an address: give an address such as tcp://HOST:PORT")
     return text
 
 
 def share(text: str) -> tuple[int, int]:
-    """Return K and N of "K/N"; argparse names this function where the text is none."""
+    """Return K and N of "K/N"; argparse puts this function's name into the error message."""
     number, of = (int(part) for part in text.split("/"))
     if not 1 <= number <= of:
-        raise argparse.ArgumentTypeError(f"{text} is no share: shares of {of} are 1/{of} to {of}/{of}")
+        raise argparse.ArgumentTypeError(f"{text} is not a share: shares of {of} are 1/{of} to {of}/{of}")
     return number, of
 
 
+@of_form("a size: give WxH, such as 640x480")
 def picture_size(text: str) -> tuple[int, int]:
-    """Return width and height of "WxH"; argparse names this function where the text is none."""
+    """Return width and height of "WxH"."""
     width, height = (int(part) for part in text.split("x"))
     if not all(LEAST_SIDE <= side <= LARGEST_SIDE for side in (width, height)):
-        raise argparse.ArgumentTypeError(f"{text} has a side beyond Blender's {LEAST_SIDE} to {LARGEST_SIDE} pixels")
+        raise argparse.ArgumentTypeError(
+            f"{text} has a side outside Blender's range of {LEAST_SIDE} to {LARGEST_SIDE} pixels"
+        )
     return width, height
 
 
+@of_form("a whole number")
 def sample_count(text: str) -> int:
-    """Return samples a pixel; argparse names this function where the text is none."""
+    """Return the samples per pixel."""
     samples = int(text)
     if not 1 <= samples <= MOST_SAMPLES:
-        raise argparse.ArgumentTypeError(f"{text} is no number of samples from 1 to {MOST_SAMPLES}")
+        raise argparse.ArgumentTypeError(f"{text} is not a number of samples: give 1 to {MOST_SAMPLES}")
     return samples
 
 
 def pass_names(text: str) -> list[str]:
-    """Return the passes of "A,B,..."."""
-    names = text.split(",")
+    """Return the pass names of "A,B,..."."""
+    names = [name.strip() for name in text.split(",")]
     unknown = [name for name in names if name not in PASSES]
     if unknown:
-        raise argparse.ArgumentTypeError(f"no pass is called {unknown[0]!r}: choose from {', '.join(PASSES)}")
+        raise argparse.ArgumentTypeError(f"there is no pass {unknown[0]!r}: choose from {', '.join(PASSES)}")
     return names

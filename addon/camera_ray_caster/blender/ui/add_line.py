@@ -1,4 +1,4 @@
-"""Operators that add a slit or a path for a camera that has none, where it gives a full picture, and select it."""
+"""Operators that add a missing slit or path to a camera, placed so that the picture is filled, and that select it."""
 
 import bpy
 from bpy.props import EnumProperty
@@ -11,34 +11,35 @@ from .needs import OfCamera, camera_object_of, select_alone
 
 QUARTER = 1.5707963267948966
 PATH_HALF = 5.0
-"""Blender units that an added path reaches to either side of the eye."""
+"""Half the length of an added path, in Blender units."""
 
 PLACES = {
     SLIT.name: Matrix(),
     SECOND_SLIT.name: Matrix.LocRotScale(Vector((0, 0, -0.5)), Euler((0, 0, QUARTER)), None),
     PATH.name: Matrix(),
 }
-"""Where each line is added, in the camera's frame, its X axis along the line: level through the eye, or upright,
-halfway to the window of a cross-slit camera, which then sees about twice as wide.
+"""Matrix of each added line in the camera's frame; the line lies along its X axis. The slit and the path pass
+horizontally through the eye. The second slit is upright, halfway to the window of a cross-slit camera, which then sees
+about twice as wide.
 """
 SETTINGS = {setting.name: setting for setting in (SLIT, SECOND_SLIT, PATH)}
 
 
 class OfLine(OfCamera):
-    """An operator on a slit or the path of the camera of the panel."""
+    """Base of the operators on a slit or the path of the panel's camera."""
 
     setting: EnumProperty(name="Line", items=[(it.name, it.label, it.text) for it in SETTINGS.values()])
 
 
 class AddLine(OfLine, bpy.types.Operator):
-    """Add this line to the scene, parented to the camera, and choose it"""
+    """Add this line to the scene, parented to the camera, and assign it to the camera"""
 
     bl_idname = "camera_ray_caster.add_line"
     bl_label = "Add Slit or Path"
     bl_options = {"REGISTER", "UNDO"}
 
     def execute(self, context):
-        """Add it beside the camera, in the same collection."""
+        """Add the line to the collections of the camera."""
         camera = camera_object_of(context)
         name = f"{camera.name} {SETTINGS[self.setting].label}"
         line = bpy.data.objects.new(name, _path(name) if self.setting == PATH.name else None)
@@ -48,23 +49,23 @@ class AddLine(OfLine, bpy.types.Operator):
             collection.objects.link(line)
         line.parent, line.matrix_local = camera, PLACES[self.setting]
         setattr(getattr(camera.data, GROUP), self.setting, line)
-        if context.area is not None and context.area.type == "VIEW_3D":  # a camera's properties stay with the camera
+        if context.area is not None and context.area.type == "VIEW_3D":  # the Properties editor stays with the camera
             select_alone(context, line)
         return {"FINISHED"}
 
 
 class SelectLine(OfLine, bpy.types.Operator):
-    """Select this line alone, to move it"""
+    """Select only this line, to move it"""
 
     bl_idname = "camera_ray_caster.select_line"
     bl_label = "Select Slit or Path"
     bl_options = {"REGISTER", "UNDO"}
 
     def execute(self, context):
-        """Select it, and make it the active object."""
+        """Select the line and make it active."""
         line = getattr(getattr(camera_object_of(context).data, GROUP), self.setting)
         if line is None or line.name not in context.view_layer.objects:
-            self.report({"ERROR"}, "It is not in this view layer")
+            self.report({"ERROR"}, "The object is not in this view layer")
             return {"CANCELLED"}
         select_alone(context, line)
         return {"FINISHED"}

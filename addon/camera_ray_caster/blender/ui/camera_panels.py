@@ -1,4 +1,4 @@
-"""The camera in the 3D View's sidebar: which, its model with the settings, and what is done with it."""
+"""Sidebar panels of the active camera: its choice, its model and settings, and its operators."""
 
 import bpy
 
@@ -21,15 +21,15 @@ class SidebarCamera(Sidebar, bpy.types.Panel):
     bl_label = "Camera"
 
     def draw_header_preset(self, context):
-        """The presets of the model."""
+        """Draw the button of the model presets."""
         camera = context.scene.camera
         if camera is not None and camera.type == "CAMERA":
-            self.layout.context_pointer_set("camera", camera.data)  # which they are for
+            self.layout.context_pointer_set("camera", camera.data)  # the presets' target
             self.layout.emboss = "NONE"
             self.layout.popover(PRESETS, icon="PRESET", text="")
 
     def draw(self, context):
-        """Which camera, its model and what that lacks, or why it cannot be cast; what is done with cameras."""
+        """Draw the camera and its model, missing objects or the reason why it cannot be cast, and the operators."""
         layout, camera = self.layout, context.scene.camera
         layout.prop(context.scene, "camera", text="")
         if camera is not None and camera.type == "CAMERA":
@@ -44,21 +44,21 @@ class SidebarCamera(Sidebar, bpy.types.Panel):
             seen = is_seen_through(context)
             layout.operator(SeeThrough.bl_idname, icon="CAMERA_DATA", depress=seen)
             if seen and not drawn_alike(camera):
-                draw_message(layout, context, "Grid, outlines and gizmos are Blender's: in perspective")
+                draw_message(layout, context, "Blender draws grid, outlines and gizmos in perspective")
         row = layout.row(align=True)
         row.menu(ExportMenu.bl_idname, text="Export", icon="EXPORT")
         row.menu(ExamplesMenu.bl_idname, text="Examples", icon="FILE_BLEND")
 
 
 def drawn_alike(camera) -> bool:
-    """Whether Blender's overlays lie where the model of a camera object sees things."""
+    """Return whether Blender's overlays match the picture of a camera object's model."""
     if camera is None or camera.type != "CAMERA":
         return True
     return getattr(camera.data, GROUP).model == BLENDERS_OWN and camera.data.type in {"PERSP", "ORTHO"}
 
 
 def missing(camera) -> list[Setting]:
-    """Return the settings of a camera object's model that are objects and not there."""
+    """Return the object settings of a camera object's model that are not set."""
     if camera is None or camera.type != "CAMERA":
         return []
     own = getattr(camera.data, GROUP)
@@ -66,7 +66,7 @@ def missing(camera) -> list[Setting]:
 
 
 class SidebarSettings(Sidebar, bpy.types.Panel):
-    """What the model reads of the camera, and the time of its pixels."""
+    """The settings that the model reads, and the times of the pixels."""
 
     bl_idname = "CAMERA_RAY_CASTER_PT_settings"
     bl_label = "Settings"
@@ -75,11 +75,11 @@ class SidebarSettings(Sidebar, bpy.types.Panel):
 
     @classmethod
     def poll(cls, context):
-        """Show it for cameras."""
+        """Show the panel for cameras."""
         return context.scene.camera is not None and context.scene.camera.type == "CAMERA"
 
     def draw(self, context):
-        """The model's settings, or the lens where the model is Blender's own; the times."""
+        """Draw the settings of the model, or the lens for Blender's own models; then the pixel times."""
         layout, camera = self.layout, context.scene.camera.data
         put_labels(layout, context)
         layout.use_property_decorate = False

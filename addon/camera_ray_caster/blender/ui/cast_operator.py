@@ -1,4 +1,4 @@
-"""Cast from a button: the passes of the view layer into Image datablocks, while the window stays alive."""
+"""The Cast operator: it casts the passes of the view layer into images without blocking the window."""
 
 from __future__ import annotations
 
@@ -23,27 +23,27 @@ from ..read.scene import evaluated_camera
 from .needs import NO_CAMERA, reporting
 
 INTERVAL = 0.1
-"""Seconds between two updates of the progress."""
+"""Seconds between two timer events, which update the progress and store images."""
 
 STORING = 0.05
-"""Seconds of these in which images are written, at least one: the window is drawn in the others."""
+"""Seconds of each interval spent on storing images, at least one image; the rest is for drawing the window."""
 
 _running: list[Running] = []
 _shown: list[str | None] = []
-"""What the status bar was last told."""
+"""The latest text in the status bar; empty before the first."""
 
 
 @dataclass(frozen=True)
 class Running:
-    """The cast that is running, and the timer that asks for its progress."""
+    """The running cast, and the timer that polls it."""
 
     worker: Worker
     timer: Any
     stored: list[str] = field(default_factory=list)
-    """The names of the images that are written."""
+    """Names of the images stored so far."""
 
     def store(self) -> bool:
-        """Write some images of a cast that has ended; return whether they are all. Raises what the cast has raised."""
+        """Store some images of a finished cast; return whether all are stored. Raises any error of the cast."""
         end = perf_counter() + STORING
         for name in self._storing:
             self.stored.append(name)
@@ -58,12 +58,12 @@ class Running:
 
 
 def fraction() -> float | None:
-    """Return how far the cast is that is running, 0 to 1; None where none is."""
+    """Return the progress of the running cast, 0 to 1, or None if no cast is running."""
     return _running[0].worker.fraction if _running else None
 
 
 class Cast(bpy.types.Operator):
-    """Cast the chosen passes of the active camera into images, in a stereo scene of each eye"""
+    """Cast the chosen passes of the active camera into images; in a stereo scene, for each eye"""
 
     bl_idname = "camera_ray_caster.cast"
     bl_label = "Cast"
@@ -71,18 +71,18 @@ class Cast(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        """Grayed out without a camera, and while a cast is running."""
-        cls.poll_message_set("A cast is running: Esc stops it" if _running else NO_CAMERA)
+        """Gray out the operator without a camera and during a cast."""
+        cls.poll_message_set("A cast is running: press Esc to stop it" if _running else NO_CAMERA)
         return context.scene.camera is not None and not _running
 
     @reporting
     def execute(self, context):
-        """Cast at once and wait for it."""
+        """Cast and wait for the result."""
         passes, report = cast_views(self.read(context))
         return self.finish(context, list(images.store(passes)), report)
 
     def invoke(self, context, event):
-        """Read the scene, then cast on a thread; Blender calls ``modal`` until that has ended."""
+        """Read the scene, then cast on a thread; Blender calls ``modal`` until the cast has ended."""
         try:
             jobs = self.read(context)
         except InputError as error:
@@ -95,11 +95,11 @@ class Cast(bpy.types.Operator):
         return {"RUNNING_MODAL"}
 
     def modal(self, context, event):
-        """Show how far it is, take Esc while it casts, then store images; let every other event pass to Blender."""
+        """Show the progress, stop on Esc during the cast, then store the images; pass other events to Blender."""
         running = _running[0]
         if event.type == "ESC" and event.value == "PRESS" and not running.worker.done:
             stop()
-            self.report({"INFO"}, "Stopped: the images are as they were")
+            self.report({"INFO"}, "Stopped: the images were not changed")
             return {"CANCELLED"}
         if event.type != "TIMER":
             return {"PASS_THROUGH"}
@@ -115,15 +115,17 @@ class Cast(bpy.types.Operator):
             except InputError as error:
                 self.report({"ERROR"}, str(error))
             except MemoryError:
-                self.report({"ERROR"}, "There is not enough memory for these passes: choose fewer, or fewer pixels")
+                self.report(
+                    {"ERROR"}, "There is not enough memory for these passes: choose fewer passes, or fewer pixels"
+                )
         return {"CANCELLED"}
 
     def cancel(self, context):
-        """Stop; Blender calls this when it ends the operator itself, to load another file say."""
+        """Stop the cast. Blender calls this when it ends the operator itself, for example to load another file."""
         stop()
 
     def read(self, context) -> dict[str, Job]:
-        """Read the scene as the window shows it, for each view."""
+        """Return a job for each view, read from the scene as the window shows it."""
         keys, jobs = [entry.key for entry in ticked(context.scene, context.view_layer)], {}
         for view in view_names(context.scene):
             with evaluated_camera(context.scene, view=view) as (camera, depsgraph):
@@ -131,21 +133,21 @@ class Cast(bpy.types.Operator):
         return jobs
 
     def finish(self, context, made: list[str], report: Report):
-        """Show the images of these names, and keep the report."""
+        """Show the named images and keep the report."""
         images.show(context.window_manager, made)
         reports.keep(report)
         if report.shapes == 0:
-            self.report({"WARNING"}, "There is no surface to cast at: the images show the background")
+            self.report({"WARNING"}, "The scene has no surface to cast: the images show the background")
         else:
             others = f" and {len(made) - 1} more" if len(made) > 1 else ""
-            self.report({"INFO"}, f"{report.pixels} rays cast: image {made[0]!r}{others}, by Show Result")
+            self.report({"INFO"}, f"{report.pixels} rays cast: open image {made[0]!r}{others} with Show Result")
         return {"FINISHED"}
 
 
 def cast_views(jobs: Mapping[str, Job], progress=None) -> tuple[dict[tuple[str, str], Any], Report]:
-    """Cast one view after the other; return the passes by their keys and views, and the report of all.
+    """Cast the views one by one; return the passes by (key, view) and the sum of the reports.
 
-    ``progress`` is as in ``cast``, and so is Cancelled.
+    ``progress`` and the exception Cancelled are the same as in ``cast``.
     """
     passes, made = {}, []
     for i, (view, job) in enumerate(jobs.items()):
@@ -157,7 +159,7 @@ def cast_views(jobs: Mapping[str, Job], progress=None) -> tuple[dict[tuple[str, 
 
 
 def show_progress() -> None:
-    """Show in the status bar and in the sidebars how far the cast is, where that has changed: to draw takes time."""
+    """Show the progress in the status bar and the sidebars. Redraw only if the text has changed: drawing takes time."""
     done = fraction()
     text = None if done is None else "Storing Images" if done == 1 else f"Casting Rays  {done:.0%}      Esc: Stop"
     if _shown == [text]:
@@ -173,7 +175,7 @@ def show_progress() -> None:
 
 
 def stop() -> None:
-    """End the cast that is running, if one is."""
+    """Stop the running cast, if there is one."""
     while _running:
         running = _running.pop()
         running.worker.stop()
@@ -185,5 +187,5 @@ CLASSES = (Cast,)
 
 
 def register(undo) -> None:
-    """See ``registration``."""
+    """Register this module; see ``registration``."""
     undo.callback(stop)

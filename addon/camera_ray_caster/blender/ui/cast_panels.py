@@ -1,4 +1,4 @@
-"""Casting in the 3D View's sidebar: which passes, the button, and the report of what was done."""
+"""Sidebar panels for casting: the passes, the button and the report."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ class SidebarCast(Sidebar, bpy.types.Panel):
     bl_label = "Cast"
 
     def draw(self, context):
-        """The button, or how far the cast is; below it what was made, in one line."""
+        """Draw the button or the progress; below it a menu of the images and one line about the latest cast."""
         layout, fraction = self.layout, cast_operator.fraction()
         row = layout.row()
         row.scale_y = 1.4
@@ -27,7 +27,7 @@ class SidebarCast(Sidebar, bpy.types.Panel):
             row.operator("camera_ray_caster.cast", text=f"Cast {count} {'Pass' if count == 1 else 'Passes'}",
                          icon="RENDER_STILL")  # fmt: skip
         else:
-            row.progress(factor=fraction, text=f"{fraction:.0%}, Esc stops")
+            row.progress(factor=fraction, text=f"{fraction:.0%}, Esc: stop")
         if images.results():
             layout.menu(ResultsMenu.bl_idname, icon="IMAGE_DATA")
         report = reports.latest()
@@ -38,7 +38,7 @@ class SidebarCast(Sidebar, bpy.types.Panel):
 
 
 class SidebarPasses(Sidebar, bpy.types.Panel):
-    """The tick boxes of the passes: the same as in the View Layer properties."""
+    """Check boxes of the passes, the same as in the View Layer properties."""
 
     bl_idname = "CAMERA_RAY_CASTER_PT_cast_passes"
     bl_label = "Passes"
@@ -46,14 +46,14 @@ class SidebarPasses(Sidebar, bpy.types.Panel):
     bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context):
-        """As many columns as there is room for."""
+        """Draw the check boxes in as many columns as fit."""
         grid = self.layout.grid_flow(columns=0, even_columns=True, align=True)
         for entry in PASSES:
             grid.prop(entry.settings(context.scene, context.view_layer), entry.tick)
 
 
 class SidebarQuality(Sidebar, bpy.types.Panel):
-    """How it is cast."""
+    """Shading, samples and precision."""
 
     bl_idname = "CAMERA_RAY_CASTER_PT_cast_settings"
     bl_label = "Shading and Precision"
@@ -61,7 +61,7 @@ class SidebarQuality(Sidebar, bpy.types.Panel):
     bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context):
-        """How the combined pass is made, and how exactly."""
+        """Draw the settings."""
         layout, settings = self.layout, context.scene.camera_ray_caster
         layout.row().prop(settings, "shading", expand=True)
         for name in ("samples", "precision", "exact_shapes"):
@@ -69,7 +69,7 @@ class SidebarQuality(Sidebar, bpy.types.Panel):
 
 
 class SidebarReport(Sidebar, bpy.types.Panel):
-    """The numbers of the latest cast or render."""
+    """Times and error bounds of the latest cast or render."""
 
     bl_idname = "CAMERA_RAY_CASTER_PT_report"
     bl_label = "Report"
@@ -78,28 +78,28 @@ class SidebarReport(Sidebar, bpy.types.Panel):
 
     @classmethod
     def poll(cls, context):
-        """Show it once there is one."""
+        """Show the panel if there is a report."""
         return reports.latest() is not None
 
     def draw_header_preset(self, context):
-        """A button that writes all of it into a text."""
+        """Draw a button that writes the whole report into a text datablock."""
         self.layout.operator("camera_ray_caster.write_report", text="", icon="TEXT", emboss=False)
 
     def draw(self, context):
-        """Seconds a step, rays a second, and the error bounds of the distances, in parts of these."""
+        """Draw the seconds per step, the rays per second and the relative error bounds of the distances."""
         report = reports.latest()
         box = self.layout.box().column(align=True)
         for step, seconds in report.seconds.items():
             draw_row(box, step.capitalize(), [f"{seconds:.4f} s"], 0.5)
         if report.rays_per_second is not None:
             draw_row(box, "Rays per Second", [f"{report.rays_per_second / 1e6:.3g} million"], 0.5)
-        box.label(text="Error of the distances, relative")
+        box.label(text="Relative error of the distances")
         for name in ("median", "worst"):
             draw_row(box, name.capitalize(), [reports.relative_error(report, name)], 0.5)
 
 
 class SidebarNotDone(Sidebar, bpy.types.Panel):
-    """What the latest cast had no need to do, and why."""
+    """Steps that the latest cast did not need, and why."""
 
     bl_idname = "CAMERA_RAY_CASTER_PT_not_done"
     bl_label = "Not Needed"
@@ -107,7 +107,7 @@ class SidebarNotDone(Sidebar, bpy.types.Panel):
     bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context):
-        """A line each."""
+        """Draw a message for each step."""
         for line in reports.latest().not_done:
             draw_message(self.layout, context, line.replace("_", " "), "DOT")
 

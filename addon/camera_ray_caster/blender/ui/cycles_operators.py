@@ -1,4 +1,4 @@
-"""The operators that make a camera one of Cycles, and take that back."""
+"""Operators that turn a camera into a custom camera of Cycles, and back."""
 
 import bpy
 
@@ -8,7 +8,7 @@ from .needs import OfCamera, camera_object_of, reporting
 
 
 class UseInCycles(OfCamera, bpy.types.Operator):
-    """Let Cycles render this camera's own rays: the camera becomes a custom one, with a shader that is stored in the
+    """Let Cycles render this camera's rays: the camera becomes a custom camera, with a shader that is stored in the
     file"""
 
     bl_idname = "camera_ray_caster.use_in_cycles"
@@ -17,7 +17,7 @@ class UseInCycles(OfCamera, bpy.types.Operator):
 
     @reporting
     def execute(self, context):
-        """Do it, and say what will not follow by itself."""
+        """Convert the camera, and report what will not update by itself."""
         said = to_cycles(context.scene, camera_object_of(context))
         for line in said:
             self.report({"INFO"}, line)
@@ -25,7 +25,7 @@ class UseInCycles(OfCamera, bpy.types.Operator):
 
 
 class BackToBlender(bpy.types.Operator):
-    """Give the camera its own type back, and remove the shader that the add-on made"""
+    """Restore the camera's former type, and remove the shader that the add-on made"""
 
     bl_idname = "camera_ray_caster.back_to_blender"
     bl_label = "Back to Blender's Camera"
@@ -33,14 +33,14 @@ class BackToBlender(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        """Grayed out where there is nothing to take back."""
-        cls.poll_message_set("The camera has no shader that the add-on made")
+        """Gray out the operator for a camera without the add-on's shader."""
+        cls.poll_message_set("The camera has no shader made by the add-on")
         camera = camera_object_of(context)
         return camera is not None and shader_mark(camera.data) is not None
 
     @reporting
     def execute(self, context):
-        """Do it."""
+        """Restore the camera's type."""
         from_cycles(camera_object_of(context))
         return {"FINISHED"}
 

@@ -1,19 +1,19 @@
-"""What panels draw with: sentences in lines, rows of tables, lengths in the scene's units."""
+"""Helpers for drawing panels: wrapped sentences, table rows, lengths in the scene's units."""
 
 from textwrap import wrap
 
 import bpy
 
 LETTER = 6.0
-"""About the width of a letter in a panel, in units of the interface's scale."""
+"""Approximate width of a letter in a panel, in pixels at interface scale 1."""
 MARGIN = 20.0
-"""About the width beside a panel's fields, in the same units."""
+"""Approximate margin on each side of a panel's fields, in pixels at interface scale 1."""
 NARROW = 280
-"""Width up to which a label beside its field would be cut off, in the same units."""
+"""Region width up to which a label next to its field would be cut off, in pixels at interface scale 1."""
 
 
 class Sidebar:
-    """What our panels in the 3D View's sidebar have in common."""
+    """Base of the panels in the 3D View's sidebar."""
 
     bl_space_type = "VIEW_3D"
     bl_region_type = "UI"
@@ -21,21 +21,21 @@ class Sidebar:
 
 
 def width_of(context) -> float:
-    """Return the width of the region in units of the interface's scale."""
-    return context.region.width / (context.preferences.system.ui_scale or 1.0)  # 0 without a window
+    """Return the width of the region in pixels at interface scale 1."""
+    return context.region.width / (context.preferences.system.ui_scale or 1.0)  # the scale is 0 without a window
 
 
 def put_labels(layout, context) -> None:
-    """Put labels beside the fields, as Blender does, where there is room for them."""
+    """Put labels next to the fields, as Blender does, if the region is wide enough."""
     layout.use_property_split = width_of(context) > NARROW
 
 
 def draw_field(layout, context, owner, name: str):
-    """Draw a property, where labels are not put beside fields with as much room for its own as it needs; return the
-    layout of its field.
+    """Draw a property and return the layout of its field. Without ``use_property_split``, give the label the width that
+    it needs, up to 60 percent of the row.
     """
     kind = owner.bl_rna.properties[name]
-    if layout.use_property_split or kind.type in {"BOOLEAN", "FLOAT", "INT"}:  # Blender puts the label into these
+    if layout.use_property_split or kind.type in {"BOOLEAN", "FLOAT", "INT"}:  # Blender labels these
         row = layout.row(align=True)
         row.prop(owner, name)
         return row
@@ -48,7 +48,7 @@ def draw_field(layout, context, owner, name: str):
 
 
 def draw_message(layout, context, text: str, icon: str = "INFO") -> None:
-    """Draw a sentence in as many lines as the panel needs, its first letter a capital; a formula as it is."""
+    """Draw a sentence, wrapped to the panel's width, with a capital first letter; leave a formula as it is."""
     text = text if text[1:4] == " = " else text[:1].upper() + text[1:]
     column = layout.column(align=True)
     column.scale_y = 0.85
@@ -57,7 +57,7 @@ def draw_message(layout, context, text: str, icon: str = "INFO") -> None:
 
 
 def length(context, value: float) -> str:
-    """Return a length in the scene's units."""
+    """Return a length as text in the scene's units."""
     units = context.scene.unit_settings
     if units.system == "NONE":
         return f"{value:.5g}"
@@ -65,7 +65,7 @@ def length(context, value: float) -> str:
 
 
 def draw_row(layout, name: str, cells, factor: float) -> None:
-    """Draw a row of a table: its name, then its cells in columns of equal width."""
+    """Draw a table row: its name, then its cells in columns of equal width."""
     row = layout.split(factor=factor, align=True)
     row.label(text=name)
     row = row.split(align=True)

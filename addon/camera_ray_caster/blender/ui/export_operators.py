@@ -1,4 +1,4 @@
-"""Cameras out of Blender: the export menu, and matrices to the clipboard."""
+"""Operators that export cameras to files and copy matrices to the clipboard, and the export menu."""
 
 from pathlib import Path
 
@@ -18,11 +18,11 @@ CHOSEN = {
     "SELECTED": lambda context: [item for item in context.selected_objects if item.type == "CAMERA"],
     "ALL": lambda context: find_cameras(context.scene, [ALL]),
 }
-"""Camera objects by the item of ``Export.cameras``."""
+"""Functions that return the camera objects, by item of ``Export.cameras``."""
 
 
 class Export(OfScene, ExportHelper, bpy.types.Operator):
-    """Write cameras, by frame, as files of another program into a folder"""
+    """Write cameras, by frame, to a folder, as files for another program"""
 
     bl_idname = "camera_ray_caster.export"
     bl_label = "Export Cameras"
@@ -36,33 +36,36 @@ class Export(OfScene, ExportHelper, bpy.types.Operator):
         items=[
             ("ACTIVE", "Active", "The scene's active camera"),
             ("SELECTED", "Selected", "The selected cameras"),
-            ("ALL", "All", "Every camera of the scene"),
+            ("ALL", "All", "All cameras of the scene"),
         ],
     )
     frames: EnumProperty(
         name="Frames",
         items=[
             ("CURRENT", "Current", "The current frame"),
-            ("RANGE", "Range", "From the scene's start to its end, by its frame step"),
+            ("RANGE", "Range", "The scene's frame range, with its frame step"),
         ],
     )
-    target: StringProperty(name="To", description="The camera to which maps lead; empty: the perspective of the lens")
+    target: StringProperty(
+        name="To",
+        description="Name of the target camera of the maps. If empty, a perspective camera with the same lens",
+    )
 
     check_extension = None
-    """The file dialog's name is that of a folder."""
+    """None: the name in the file dialog is a folder name, without an extension."""
 
     @property
     def filename_ext(self) -> str:
-        """What is added to the .blend's name for the folder that the dialog proposes."""
+        """Suffix that the dialog adds to the .blend's name to propose a folder."""
         return f"_{self.format}"
 
     @classmethod
     def description(cls, context, properties):
-        """Say what the files are."""
+        """Return the tooltip: the description of the format."""
         return find_format(properties.format).description
 
     def draw(self, context):
-        """Draw what may be chosen beside the folder."""
+        """Draw the options in the file dialog."""
         layout = self.layout
         layout.use_property_split = True
         layout.prop(self, "format")
@@ -73,7 +76,7 @@ class Export(OfScene, ExportHelper, bpy.types.Operator):
 
     @reporting
     def execute(self, context):
-        """Export, and say what was written."""
+        """Write the files and report the result."""
         scene = context.scene
         cameras = CHOSEN[self.cameras](context)
         if not cameras:
@@ -90,21 +93,21 @@ class Export(OfScene, ExportHelper, bpy.types.Operator):
 
 
 class ExportMenu(bpy.types.Menu):
-    """The formats"""
+    """The export formats"""
 
     bl_idname = "CAMERA_RAY_CASTER_MT_export"
     bl_label = "Cameras (Ray Caster)"
 
     def draw(self, context):
-        """An entry a format."""
+        """Draw an entry for each format."""
         self.layout.operator_context = "INVOKE_DEFAULT"
         for one in FORMATS:
             self.layout.operator(Export.bl_idname, text=one.label).format = one.key
 
 
 class CopyK(OfScene, bpy.types.Operator):
-    """Copy the active camera's matrix K to the clipboard, as OpenCV has it: y down, the origin in the center of the top
-    left pixel"""
+    """Copy the active camera's matrix K to the clipboard, in OpenCV's convention: y down, the origin at the center of
+    the top left pixel"""
 
     bl_idname = "camera_ray_caster.copy_k"
     bl_label = "Copy K"
@@ -112,16 +115,16 @@ class CopyK(OfScene, bpy.types.Operator):
 
     @reporting
     def execute(self, context):
-        """Copy it."""
+        """Copy the matrix."""
         camera = read_camera(context.scene)
         if camera.K is None:
-            raise InputError(f"{camera.model.label} has no K: Copy Camera has all of its numbers")
+            raise InputError(f"{camera.model.label} has no K matrix: use Copy Camera to copy all its numbers")
         context.window_manager.clipboard = _as_text(camera.K)
         return {"FINISHED"}
 
 
 class CopyWorldToCamera(OfScene, bpy.types.Operator):
-    """Copy the matrix from the world to the active camera's frame, as OpenCV has it: x right, y down, z ahead"""
+    """Copy the world-to-camera matrix of the active camera, in OpenCV's convention: x right, y down, z forward"""
 
     bl_idname = "camera_ray_caster.copy_world_to_camera"
     bl_label = "Copy World to Camera"
@@ -129,13 +132,13 @@ class CopyWorldToCamera(OfScene, bpy.types.Operator):
 
     @reporting
     def execute(self, context):
-        """Copy it."""
+        """Copy the matrix."""
         context.window_manager.clipboard = _as_text(read_camera(context.scene).world_to_opencv)
         return {"FINISHED"}
 
 
 def _as_text(matrix) -> str:
-    """Return a matrix as Python, and JSON, have it, with all digits."""
+    """Return a matrix as a nested list in the syntax of Python and JSON, with all digits."""
     rows = ",\n ".join(map(str, matrix.tolist()))
     return f"[{rows}]"
 
@@ -145,7 +148,7 @@ def _draw_in_file_menu(menu, context) -> None:
 
 
 def register(undo) -> None:
-    """See ``registration``."""
+    """Register this module; see ``registration``."""
     bpy.types.TOPBAR_MT_file_export.append(_draw_in_file_menu)
     undo.callback(bpy.types.TOPBAR_MT_file_export.remove, _draw_in_file_menu)
 

@@ -1,4 +1,4 @@
-"""What the camera is, as the lecture describes it, in the 3D View's sidebar and in the camera's own properties."""
+"""The camera's numbers, in the 3D View's sidebar and in the camera's tab of the Properties editor."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from .drawing import Sidebar, draw_message, draw_row, length
 
 
 def camera_of(context, camera_object) -> tuple[Camera | None, str]:
-    """Return a camera as the window shows it, or None and in one line why there is none."""
+    """Return a camera as the window shows it and "", or None and the reason in one line."""
     try:
         return camera_at(camera_object, context.evaluated_depsgraph_get())[1], ""
     except InputError as error:
@@ -21,16 +21,16 @@ def camera_of(context, camera_object) -> tuple[Camera | None, str]:
 
 
 def facts_of(context, camera_object) -> tuple[dict[str, object] | None, str]:
-    """Return the facts of a camera as the window shows it, or None and in one line why there are none.
+    """Return the facts of a camera as the window shows it and "", or None and the reason in one line.
 
-    Half a millisecond: cheap enough to be read at every redraw, so that nothing has to be kept up to date.
+    This takes half a millisecond, so the facts are read at every redraw and need no cache.
     """
     camera, reason = camera_of(context, camera_object)
     return (None if camera is None else camera_facts(camera)), reason
 
 
 def draw_facts(layout, context, facts, camera) -> None:
-    """Draw the facts of a camera object: one table, lengths and angles in the scene's units."""
+    """Draw the facts of a camera object as tables, with lengths in the scene's units and angles in degrees."""
     box = layout.box().column(align=True)
     vectors = [("Eye", [length(context, value) for value in facts["eye"]])]
     vectors += [(name, [f"{value:.4f}" for value in facts[name]]) for name in "uvw"]
@@ -47,7 +47,7 @@ def draw_facts(layout, context, facts, camera) -> None:
 
 
 def scalars(context, facts, camera):
-    """Yield the facts beside vectors and K, by Blender's names for them."""
+    """Yield (label, text) of the facts other than the vectors and K."""
     across, up = facts["raster"]
     yield "Model", facts["model"]
     own = getattr(camera.data, GROUP)
@@ -72,22 +72,22 @@ def scalars(context, facts, camera):
 
 
 class SidebarFacts(Sidebar, bpy.types.Panel):
-    """What the camera is, in numbers."""
+    """The numbers of the active camera."""
 
     bl_idname = "CAMERA_RAY_CASTER_PT_facts"
     bl_label = "Camera in Numbers"
 
     @classmethod
     def poll(cls, context):
-        """Show it where there is a camera."""
+        """Show the panel if there is a camera."""
         return context.scene.camera is not None
 
     def draw_header_preset(self, context):
-        """A button that copies all of it."""
+        """Draw a button that copies all facts."""
         self.layout.operator("camera_ray_caster.copy_facts", text="", icon="COPYDOWN", emboss=False)
 
     def draw(self, context):
-        """The facts; nothing where the camera cannot be cast."""
+        """Draw the facts, or nothing if the camera cannot be cast."""
         layout, camera = self.layout, context.scene.camera
         facts, _ = facts_of(context, camera)
         if facts is not None:
@@ -110,11 +110,11 @@ class CameraData(bpy.types.Panel):
 
     @classmethod
     def poll(cls, context):
-        """Show it for camera objects."""
+        """Show the panel for camera objects."""
         return context.object is not None and context.object.type == "CAMERA"
 
     def draw(self, context):
-        """What this camera is, or why it is none."""
+        """Draw the facts, or the reason why the camera cannot be cast."""
         facts, reason = facts_of(context, context.object)
         if facts is None:
             draw_message(self.layout, context, reason, "ERROR")

@@ -1,4 +1,4 @@
-"""The gallery's scenes: opened, or their camera taken into the scene that is open."""
+"""Operators and menus that open a scene of the gallery, or append its camera to the current scene."""
 
 import bpy
 from bpy.props import StringProperty
@@ -7,18 +7,18 @@ from .. import gallery
 from .needs import select_alone
 
 CAMERA = "Camera"
-"""What the camera of every scene of the gallery is called."""
+"""Name of the camera object in every scene of the gallery."""
 LINES = 15
-"""Of a column of the menus."""
+"""Number of lines in a column of the menus."""
 
 
 class OfGallery:
-    """An operator on a scene of the gallery."""
+    """Base of the operators on a scene of the gallery."""
 
-    name: StringProperty(name="Scene", description="Its name in the gallery", options={"SKIP_SAVE"})
+    name: StringProperty(name="Scene", description="Name of the scene in the gallery", options={"SKIP_SAVE"})
 
     def path(self) -> str | None:
-        """Return the path of the scene; report an error and return None where there is none of that name."""
+        """Return the path of the scene; report an error and return None if there is no scene of that name."""
         found = {path.stem: str(path) for path in gallery.scenes()}.get(self.name)
         if found is None:
             self.report({"ERROR"}, f"the gallery has no scene {self.name!r}")
@@ -33,7 +33,7 @@ class OpenExample(OfGallery, bpy.types.Operator):
     bl_options = {"INTERNAL"}
 
     def execute(self, context):
-        """Open it."""
+        """Open the scene."""
         path = self.path()
         if path is None:
             return {"CANCELLED"}
@@ -41,14 +41,14 @@ class OpenExample(OfGallery, bpy.types.Operator):
 
 
 class AppendCamera(OfGallery, bpy.types.Operator):
-    """Add this camera of the gallery, with the slits or the path that it needs, and make it the scene's camera"""
+    """Add this camera from the gallery, with the slits or the path that it needs, and make it the scene's camera"""
 
     bl_idname = "camera_ray_caster.append_camera"
     bl_label = "Add Camera of the Gallery"
     bl_options = {"REGISTER", "UNDO"}
 
     def execute(self, context):
-        """Append it to the active collection."""
+        """Append the camera to the active collection."""
         path = self.path()
         if path is None:
             return {"CANCELLED"}
@@ -61,15 +61,15 @@ class AppendCamera(OfGallery, bpy.types.Operator):
         (camera,) = wanted.objects
         select_alone(context, camera)
         context.scene.camera = camera
-        self.report({"INFO"}, f"{camera.name!r} is the scene's camera")
+        self.report({"INFO"}, f"{camera.name!r} is now the scene's camera")
         return {"FINISHED"}
 
 
 class GalleryMenu:
-    """A menu of the gallery's scenes, in groups."""
+    """Base of the menus of the gallery's scenes, in groups."""
 
     def draw(self, context):
-        """Columns of groups, small groups below each other, an entry a scene."""
+        """Draw an entry for each scene, in columns; small groups share a column."""
         row, free = self.layout.row(), 0
         for group, entries in gallery.groups().items():
             if len(entries) >= free:
@@ -81,7 +81,7 @@ class GalleryMenu:
 
 
 class ExamplesMenu(GalleryMenu, bpy.types.Menu):
-    """Scenes to open."""
+    """Menu of the scenes to open."""
 
     bl_idname = "CAMERA_RAY_CASTER_MT_examples"
     bl_label = "Example Scenes"
@@ -89,7 +89,7 @@ class ExamplesMenu(GalleryMenu, bpy.types.Menu):
 
 
 class CamerasMenu(GalleryMenu, bpy.types.Menu):
-    """Cameras to add."""
+    """Menu of the cameras to add."""
 
     bl_idname = "CAMERA_RAY_CASTER_MT_cameras"
     bl_label = "Camera of the Gallery"
@@ -97,7 +97,7 @@ class CamerasMenu(GalleryMenu, bpy.types.Menu):
 
 
 def draw_menu(self, context) -> None:
-    """Draw our menu in Blender's menu Add > Camera."""
+    """Draw the menu of cameras in Blender's menu Add > Camera."""
     if gallery.folder() is not None:
         self.layout.menu(CamerasMenu.bl_idname)
 
@@ -106,6 +106,6 @@ CLASSES = (OpenExample, AppendCamera, ExamplesMenu, CamerasMenu)
 
 
 def register(undo) -> None:
-    """See ``registration``."""
+    """Register this module; see ``registration``."""
     bpy.types.VIEW3D_MT_camera_add.append(draw_menu)
     undo.callback(bpy.types.VIEW3D_MT_camera_add.remove, draw_menu)

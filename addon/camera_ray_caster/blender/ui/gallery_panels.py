@@ -1,4 +1,4 @@
-"""The gallery: camera models to choose by their pictures, and the menu of example scenes."""
+"""The gallery panel: camera models to choose by their pictures."""
 
 from itertools import groupby
 
@@ -10,14 +10,14 @@ from ..properties.declared import GROUP, MODEL
 from .needs import camera_object_of
 
 POINTER = "camera_ray_caster_data"
-"""What a button of the gallery calls the camera that it is about."""
+"""Name of the context pointer to the camera that a gallery button changes."""
 COLUMNS = 8
 WIDTH = 4.5
-"""Of a picture, in units of the interface."""
+"""Width of a picture, in interface units."""
 
 
 class ModelGallery(bpy.types.Panel):
-    """Choose the camera model by a picture of what it sees"""
+    """Choose the camera model by an example picture"""
 
     bl_idname = "CAMERA_RAY_CASTER_PT_gallery"
     bl_label = "Camera Models"
@@ -26,7 +26,7 @@ class ModelGallery(bpy.types.Panel):
     bl_ui_units_x = int(COLUMNS * WIDTH) + 1
 
     def draw(self, context):
-        """A heading for each group; below it a picture and a button for each model. Small groups share a row."""
+        """Draw each group: a heading, and a picture with a button for each model. Small groups share a row."""
         camera = getattr(context, POINTER, None) or camera_object_of(context).data
         free = 0
         for group, items in groupby(MODEL.items, lambda item: item.group):
@@ -43,7 +43,7 @@ class ModelGallery(bpy.types.Panel):
 
 
 def draw_pictures(layout, own, members) -> None:
-    """Draw the items of a group, each with its picture."""
+    """Draw the models of a group, each with its picture."""
     grid = layout.grid_flow(row_major=True, columns=min(len(members), COLUMNS), even_columns=True)
     for item in members:
         cell = grid.column(align=True)
@@ -52,8 +52,8 @@ def draw_pictures(layout, own, members) -> None:
 
 
 def draw_model(layout, camera, **options):
-    """Draw the chooser of a camera's model, a menu and the gallery beside it, and return its row. ``options``: those of
-    Blender's ``prop`` for the menu.
+    """Draw the menu of a camera's models with the gallery button next to it, and return their row. ``options`` are
+    passed to Blender's ``prop`` for the menu.
     """
     row = layout.row(align=True)
     row.context_pointer_set(POINTER, camera)

@@ -1,4 +1,4 @@
-"""What the latest cast left out, in the 3D View's sidebar."""
+"""The sidebar panel of the objects that the latest cast left out."""
 
 import bpy
 
@@ -7,26 +7,26 @@ from .drawing import Sidebar, draw_message
 from .object_panels import draw_cast_as
 
 LISTED = 6
-"""Objects that the panel names for each reason; the report has them all."""
+"""Maximum number of objects that the panel names for each reason; the report has all of them."""
 
 
 class SidebarLeftOut(Sidebar, bpy.types.Panel):
-    """What the latest cast left out of the scene, by reason."""
+    """Objects that the latest cast left out, by reason."""
 
     bl_idname = "CAMERA_RAY_CASTER_PT_left_out"
     bl_label = "Left Out"
 
     @classmethod
     def poll(cls, context):
-        """Show it where something was left out."""
+        """Show the panel if something was left out."""
         return reports.latest() is not None and len(reports.latest().left_out) > 0
 
     def draw_header_preset(self, context):
-        """How many."""
+        """Draw the number of objects."""
         self.layout.label(text=str(len(reports.latest().left_out)))
 
     def draw(self, context):
-        """Each reason once, with a button that selects its objects; below it their names, and what each is cast as."""
+        """Draw each reason with a button that selects its objects; below it each object's name and Cast As setting."""
         for reason, names in reports.by_reason(reports.latest()).items():
             column = self.layout.column(align=True)
             draw_message(column, context, reason, "DOT")

@@ -1,4 +1,4 @@
-"""Step Through: pixels are clicked in the camera's view or in an Image Editor, and their steps can be copied."""
+"""Operators that choose pixels by clicks in the camera's view or an Image Editor, and copy or clear their steps."""
 
 from math import floor
 
@@ -20,7 +20,7 @@ class StepThrough(OfScene, bpy.types.Operator):
     bl_options = {"REGISTER"}
 
     def invoke(self, context, event):
-        """Wait for clicks; a 3D View that no camera is seen through looks through it from now on."""
+        """Wait for clicks. If no 3D View is in camera view, put the first one into camera view."""
         views = [area for area in context.screen.areas if area.type == "VIEW_3D"]
         through = [area for area in views if area.spaces.active.region_3d.view_perspective == "CAMERA"]
         if views and not through:
@@ -31,7 +31,7 @@ class StepThrough(OfScene, bpy.types.Operator):
         return {"RUNNING_MODAL"}
 
     def modal(self, context, event):
-        """Take clicks on pixels; let every other event pass to Blender."""
+        """Handle clicks on pixels; pass all other events to Blender."""
         if event.type in {"ESC", "RET", "RIGHTMOUSE"} and event.value == "PRESS":
             self.cancel(context)
             return {"FINISHED"}
@@ -47,13 +47,13 @@ class StepThrough(OfScene, bpy.types.Operator):
         return {"RUNNING_MODAL"}
 
     def cancel(self, context):
-        """Give status bar and cursor back."""
+        """Restore the status bar and the cursor."""
         context.workspace.status_text_set(None)
         context.window.cursor_modal_restore()
 
 
 def pixel_at(context, x: int, y: int) -> tuple[int, int] | None:
-    """Return column and row of the pixel at a place in the window; None beside the camera's picture."""
+    """Return column and row of the pixel at a position in the window, or None outside the camera's picture."""
     camera = cached_scene(context).camera
     for area in context.screen.areas:
         for region in area.regions:
@@ -61,7 +61,7 @@ def pixel_at(context, x: int, y: int) -> tuple[int, int] | None:
             if beside or camera is None:
                 continue
             if region.type != "WINDOW":
-                return None  # the sidebar and other regions lie over the view
+                return None  # the sidebar or another region covers the view
             with context.temp_override(area=area, region=region):
                 frame = frame_in(bpy.context, camera.raster)
             if frame is None:
@@ -75,7 +75,7 @@ def pixel_at(context, x: int, y: int) -> tuple[int, int] | None:
 
 
 def redraw(context) -> None:
-    """Redraw what shows these pixels: every 3D View and Image Editor, with its sidebar."""
+    """Redraw every 3D View and Image Editor, with their sidebars: they show the pixels."""
     for window in context.window_manager.windows:
         for area in window.screen.areas:
             if area.type in {"VIEW_3D", "IMAGE_EDITOR"}:
@@ -83,14 +83,14 @@ def redraw(context) -> None:
 
 
 class OfLesson:
-    """An operator on the pixels that are stepped through."""
+    """Base of the operators on the clicked pixels."""
 
     bl_options = {"REGISTER"}
 
     @classmethod
     def poll(cls, context):
-        """Grayed out without any."""
-        cls.poll_message_set("Click a pixel with Step Through first")
+        """Gray out the operator if no pixel was clicked."""
+        cls.poll_message_set("First click a pixel with Step Through")
         return bool(lesson.pixels)
 
 
@@ -101,20 +101,20 @@ class CopySteps(OfLesson, bpy.types.Operator):
     bl_label = "Copy Steps"
 
     def execute(self, context):
-        """Copy them."""
+        """Copy the steps."""
         texts = ["\n".join(one.lines()) for one in lesson.lessons(context).values()]
         context.window_manager.clipboard = "\n\n".join(texts) + "\n"
         return {"FINISHED"}
 
 
 class ClearSteps(OfLesson, bpy.types.Operator):
-    """Forget the pixels that are stepped through"""
+    """Forget the clicked pixels and their steps"""
 
     bl_idname = "camera_ray_caster.clear_steps"
     bl_label = "Clear Steps"
 
     def execute(self, context):
-        """Forget them."""
+        """Forget the pixels."""
         lesson.forget()
         redraw(context)
         return {"FINISHED"}

@@ -1,4 +1,4 @@
-"""The steps of a pixel, in the sidebars of the 3D View and of an Image Editor that shows a picture of the camera."""
+"""Sidebar panels that show the steps of a pixel, in the 3D View and in an Image Editor with the camera's picture."""
 
 import bpy
 
@@ -9,16 +9,16 @@ from .lesson_operators import ClearSteps, CopySteps, StepThrough
 from .point_operators import EmptyAtHit, PixelOfPoint
 
 OPEN = ("Ray", "Ray in the world", "Seen")
-"""The steps that are not folded at first."""
+"""Titles of the steps that are open at first."""
 
 
 class Steps:
-    """From a pixel to its color, step by step."""
+    """Base of the panels that explain a pixel step by step."""
 
     bl_label = "Step Through"
 
     def draw(self, context):
-        """The buttons; the steps of the latest pixel, each of which can be folded."""
+        """Draw the buttons, and the steps of the latest pixel in foldable panels."""
         layout = self.layout
         layout.operator(StepThrough.bl_idname, icon="EYEDROPPER", text="Click a Pixel")
         layout.operator(PixelOfPoint.bl_idname, icon="PIVOT_CURSOR", text="Pixel of 3D Cursor")
@@ -32,7 +32,7 @@ class Steps:
         *others, latest = found.values()
         if others:
             pixels = ", ".join(f"({x}, {y})" for x, y in (one.seen.pixel for one in others))
-            draw_message(layout, context, f"Drawn, too: {pixels}")
+            draw_message(layout, context, f"Also drawn: {pixels}")
         for title, lines in latest.steps:
             header, body = layout.panel(f"camera_ray_caster {title}", default_closed=title not in OPEN)
             header.label(text=f"{title} {latest.seen.pixel[0]}, {latest.seen.pixel[1]}" if title == "Pixel" else title)
@@ -42,20 +42,20 @@ class Steps:
 
 
 class SidebarLesson(Sidebar, Steps, bpy.types.Panel):
-    """Beside the 3D View."""
+    """The steps in the 3D View's sidebar."""
 
     bl_idname = "CAMERA_RAY_CASTER_PT_lesson"
 
 
 class ImageLesson(Sidebar, Steps, bpy.types.Panel):
-    """Beside a picture of the camera."""
+    """The steps in the sidebar of an Image Editor."""
 
     bl_idname = "CAMERA_RAY_CASTER_PT_image_lesson"
     bl_space_type = "IMAGE_EDITOR"
 
     @classmethod
     def poll(cls, context):
-        """Only there."""
+        """Show the panel if the image is a picture of a camera."""
         return is_picture(context.space_data.image)
 
 

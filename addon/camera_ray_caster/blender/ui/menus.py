@@ -1,4 +1,4 @@
-"""The menu in Blender's Render menu, through which a search (F3) finds the operators."""
+"""The add-on's menu in Blender's Render menu, where menu search (F3) finds the operators."""
 
 import bpy
 
@@ -14,13 +14,13 @@ LISTED = (Cast, Verify, StepThrough, PixelOfPoint, LoadCalibration, UseInCycles,
 
 
 class RayCasterMenu(bpy.types.Menu):
-    """What the sidebar's buttons do."""
+    """The operators of the sidebar."""
 
     bl_idname = "CAMERA_RAY_CASTER_MT_render"
     bl_label = "Camera Ray Caster"
 
     def draw(self, context):
-        """A line each."""
+        """Draw an entry for each operator and submenu."""
         for operator in LISTED:
             self.layout.operator(operator.bl_idname)
         for menu in (ExportMenu, ExamplesMenu):
@@ -28,7 +28,7 @@ class RayCasterMenu(bpy.types.Menu):
 
 
 def draw_menu(self, context) -> None:
-    """Draw our menu in Blender's."""
+    """Draw the add-on's menu in Blender's Render menu."""
     self.layout.separator()
     self.layout.menu(RayCasterMenu.bl_idname)
 
@@ -37,6 +37,6 @@ CLASSES = (RayCasterMenu,)
 
 
 def register(undo) -> None:
-    """See ``registration``."""
+    """Register this module; see ``registration``."""
     bpy.types.TOPBAR_MT_render.append(draw_menu)
     undo.callback(bpy.types.TOPBAR_MT_render.remove, draw_menu)

@@ -1,4 +1,4 @@
-"""The settings of a camera's model and its lens, as the panels of its properties and of the sidebar draw them."""
+"""Functions that draw the settings of a camera's model and lens, in the Properties editor and in the sidebar."""
 
 from ...core.camera import pixel_time
 from ...core.cameras.parts.calibration import UNIT
@@ -12,12 +12,12 @@ from .drawing import draw_field, draw_message
 from .model_settings import lengths_in_words, not_used, of_type, read_settings, shown
 
 PRESETS = "CAMERA_RAY_CASTER_PT_presets"
-"""The panel of the presets."""
+"""Identifier of the presets' panel."""
 
 
 def draw_model_settings(layout, context, camera, beside_lens: bool = True) -> None:
-    """Draw what the chosen model needs, beside a panel of the lens not what that has. A calibration file grays out the
-    numbers that it replaces.
+    """Draw the settings of the chosen model; next to a panel of the lens (``beside_lens``), without the settings of
+    that panel. A calibration file grays out the numbers that it replaces.
     """
     own = getattr(camera, GROUP)
     column, settings = layout.column(align=True), read_settings(camera)
@@ -34,8 +34,8 @@ def draw_model_settings(layout, context, camera, beside_lens: bool = True) -> No
 
 
 def draw_lens(layout, context, camera) -> None:
-    """Draw Blender's type of camera and its settings, and those of Blender's that the model reads; gray what it does
-    not read.
+    """Draw Blender's camera type with its settings, and the other Blender settings that the model reads. Settings that
+    the model does not read are gray.
     """
     read, offered = read_settings(camera), of_type(camera)
     column = layout.column()
@@ -57,7 +57,7 @@ def draw_lens(layout, context, camera) -> None:
 
 
 def draw_times(layout, context, camera) -> None:
-    """Draw the list of the times of pixels; below it what the chosen one needs."""
+    """Draw the list of pixel time modes; below it the settings of the chosen mode."""
     own = getattr(camera, GROUP)
     draw_field(layout, context, own, pixel_time.MODE.name)
     for setting in pixel_time.SETTINGS.get(own.time_mode, ()):
@@ -65,7 +65,7 @@ def draw_times(layout, context, camera) -> None:
 
 
 def draw_setting(layout, context, camera, setting: Setting) -> None:
-    """Draw a setting of a camera; nothing for one of Cycles while that is disabled."""
+    """Draw a setting of a camera, or nothing for a setting of Cycles while Cycles is disabled."""
     owner = owner_of(setting, camera, context.scene)
     if owner is not None:
         KINDS.get(setting.kind, _draw_property)(layout, context, owner, setting)
@@ -86,7 +86,7 @@ def _draw_vector(layout, context, owner, setting) -> None:
 
 
 def _draw_object(layout, context, owner, setting) -> None:
-    """Draw the object with a button that selects it; where there is none, what it should be, and one that adds it."""
+    """Draw the object with a button that selects it. If no object is set, draw a message and a button that adds one."""
     row = draw_field(layout, context, owner, setting.name)
     if getattr(owner, setting.name) is not None:
         row.operator(SelectLine.bl_idname, text="", icon="RESTRICT_SELECT_OFF").setting = setting.name
@@ -96,4 +96,4 @@ def _draw_object(layout, context, owner, setting) -> None:
 
 
 KINDS = {"IMAGE": _draw_image, "VECTOR": _draw_vector, "OBJECT": _draw_object}
-"""How the kinds of settings are drawn that are not drawn as a plain property."""
+"""Drawing functions by kind of setting; other kinds are drawn as plain properties."""

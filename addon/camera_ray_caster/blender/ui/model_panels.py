@@ -1,4 +1,4 @@
-"""The panels in the camera's tab where a model is chosen, with the settings of the chosen one only."""
+"""Panels in the camera's tab: the choice of a model and the settings of the chosen model, lens, sensor and time."""
 
 import bpy
 
@@ -14,7 +14,7 @@ from .operators import LoadCalibration
 
 
 class CameraPanel:
-    """What the panels of a camera's properties have in common."""
+    """Base of the panels in the camera's tab."""
 
     bl_space_type = "PROPERTIES"
     bl_region_type = "WINDOW"
@@ -22,7 +22,7 @@ class CameraPanel:
 
     @classmethod
     def poll(cls, context):
-        """Show it for cameras."""
+        """Show the panel for cameras."""
         return context.camera is not None
 
 
@@ -34,12 +34,12 @@ class ModelPanel(CameraPanel, bpy.types.Panel):
     bl_parent_id = "DATA_PT_context_camera"
 
     def draw_header_preset(self, context):
-        """The presets."""
+        """Draw the button of the model presets."""
         self.layout.emboss = "NONE"
         self.layout.popover(PRESETS, icon="PRESET", text="")
 
     def draw(self, context):
-        """The list; below it what the chosen model needs."""
+        """Draw the list of models; below it the settings of the chosen model and the Cycles buttons."""
         layout, camera = self.layout, context.camera
         row = draw_model(layout, camera, text="")
         row.operator(LoadCalibration.bl_idname, text="", icon="FILEBROWSER")
@@ -49,8 +49,8 @@ class ModelPanel(CameraPanel, bpy.types.Panel):
 
 
 class LensPanel(CameraPanel, bpy.types.Panel):
-    """Camera properties with our engine: what Blender's own panel of that name has, and the settings of panoramas,
-    which that shows for Cycles only. What the model does not read is gray.
+    """Camera properties with this engine: the settings of Blender's own Lens panel, and the panorama settings that
+    Blender shows for Cycles only. Settings that the model does not read are gray.
     """
 
     bl_idname = "CAMERA_RAY_CASTER_PT_lens"
@@ -59,11 +59,11 @@ class LensPanel(CameraPanel, bpy.types.Panel):
 
     @classmethod
     def poll(cls, context):
-        """Show it with this engine only, in place of Blender's."""
+        """Show the panel with this engine only, in place of Blender's panel."""
         return super().poll(context) and context.engine == ENGINE
 
     def draw(self, context):
-        """The type of Blender's, its settings and those of the model that Blender has; shift; clip."""
+        """Draw Blender's camera type, the lens settings, shift and clipping."""
         layout, camera = self.layout, context.camera
         put_labels(layout, context)
         draw_lens(layout, context, camera)
@@ -77,7 +77,7 @@ class LensPanel(CameraPanel, bpy.types.Panel):
 
 
 class SensorPanel(CameraPanel, bpy.types.Panel):
-    """Camera properties with our engine: the sensor, gray where the model does not read it, and Blender's presets."""
+    """Camera properties with this engine: the sensor, gray if the model does not read it, and Blender's presets."""
 
     bl_idname = "CAMERA_RAY_CASTER_PT_sensor"
     bl_label = "Camera"
@@ -85,15 +85,15 @@ class SensorPanel(CameraPanel, bpy.types.Panel):
 
     @classmethod
     def poll(cls, context):
-        """Show it with this engine only, in place of Blender's."""
+        """Show the panel with this engine only, in place of Blender's panel."""
         return super().poll(context) and context.engine == ENGINE
 
     def draw_header_preset(self, context):
-        """Blender's presets of sensors."""
+        """Draw Blender's sensor presets."""
         bpy.types.CAMERA_PT_presets.draw_panel_header(self.layout)
 
     def draw(self, context):
-        """How the sensor is fitted, and the side that counts."""
+        """Draw the sensor fit and the sensor size that it uses."""
         layout, camera = self.layout.column(), context.camera
         put_labels(layout, context)
         layout.active = SENSOR_FIT in read_settings(camera)
@@ -102,7 +102,7 @@ class SensorPanel(CameraPanel, bpy.types.Panel):
 
 
 def draw_cycles(layout, camera) -> None:
-    """Draw what makes a camera one of Cycles; of one that it is already, what makes it anew and takes it back."""
+    """Draw the button that makes a custom camera of Cycles, or the buttons that revert and update such a camera."""
     if shader_mark(camera) is None:
         layout.operator(UseInCycles.bl_idname, icon="SHADING_RENDERED")
         return
@@ -120,7 +120,7 @@ class TimePanel(CameraPanel, bpy.types.Panel):
     bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context):
-        """The list; below it what the chosen mode needs."""
+        """Draw the list of modes; below it the settings of the chosen mode."""
         put_labels(self.layout, context)
         draw_times(self.layout, context, context.camera)
 

@@ -1,4 +1,4 @@
-"""Which settings of a camera count: by its model, or by its type where that is Blender's."""
+"""Which settings a camera uses: those of its model, or of its type for Blender's own models."""
 
 from ...core.cameras import MODELS
 from ...core.cameras.parts.calibration import IN_PIXELS, MILLIMETERS, SIZE, UNIT
@@ -11,11 +11,11 @@ from ..read.camera import shader_mark
 SETTINGS = {model.key: model.SETTINGS for model in MODELS}
 
 SHOWN_FOR = {"lens": "PERSP", "ortho_scale": "ORTHO"}
-"""Blender's own settings that its panel shows for one type of camera only. Those of the film it always shows."""
+"""Camera types by Blender setting, for settings that Blender's panel shows for one type only; film is always shown."""
 
 
 def shown(setting: Setting, camera, engine: str) -> bool:
-    """Return whether the panel shows a setting: the add-on's own, and Blender's that no panel of the lens shows."""
+    """Return whether the model panel shows a setting: the add-on's own, or Blender's if no lens panel shows it."""
     if setting.owner == CAMERA:
         if engine == ENGINE:
             return False
@@ -26,8 +26,8 @@ def shown(setting: Setting, camera, engine: str) -> bool:
 
 
 def settings_of(camera) -> tuple[Setting, ...]:
-    """Return the settings of a camera's model, or of its type where that is Blender's; of a custom camera that we made,
-    those of the type that it was of.
+    """Return the settings of a camera's model, or of its type for Blender's own models. For a custom camera that this
+    add-on made, use the type before.
     """
     mark, own = shader_mark(camera), getattr(camera, GROUP)
     if own.model != BLENDERS_OWN:
@@ -37,19 +37,19 @@ def settings_of(camera) -> tuple[Setting, ...]:
 
 
 def read_settings(camera) -> list[Setting]:
-    """Return those of a model's settings that count, as the unit of its lengths is."""
+    """Return the settings of a camera's model that are used with its unit of length."""
     settings = settings_of(camera)
     hidden = not_counted(settings, getattr(camera, GROUP))
     return [setting for setting in settings if setting not in hidden]
 
 
 def of_type(camera) -> tuple[Setting, ...]:
-    """Return the settings of the type that Blender gives a camera, whatever its model is."""
+    """Return the settings of a camera's Blender type, whatever its model is."""
     return SETTINGS.get(camera.panorama_type if camera.type == "PANO" else camera.type, ())
 
 
 def not_used(camera) -> list[str]:
-    """Return the labels of Blender's settings of a camera's lens that its model does not use."""
+    """Return the labels of the Blender lens settings that a camera's model does not use."""
     if getattr(camera, GROUP).model == BLENDERS_OWN:
         return []
     read = read_settings(camera)
@@ -58,22 +58,22 @@ def not_used(camera) -> list[str]:
 
 
 def not_counted(settings, own) -> tuple[Setting, ...]:
-    """Return what does not count of a model's settings, by the unit of its lengths where it has one."""
+    """Return the settings of a model that are not used with its unit of length; () if it has no unit."""
     if UNIT not in settings:
         return ()
     return IN_PIXELS if in_millimeters(own) else (LENS,)
 
 
 def in_millimeters(own) -> bool:
-    """Whether the lengths of a calibrated model are: a calibration file's are in pixels."""
+    """Return whether a calibrated model's lengths are in millimeters; those of a calibration file are in pixels."""
     return own.calibration_unit == MILLIMETERS and not own.calibration_file
 
 
 def lengths_in_words(own) -> str:
-    """Return what the lengths of a calibrated model are measured in."""
+    """Return a description of the unit of a calibrated model's lengths."""
     if own.calibration_file:
-        return "Pixels of the file's picture, scaled to the frame"
+        return "In pixels of the file's picture, scaled to the frame"
     if in_millimeters(own):
-        return "Millimeters on Blender's sensor, the center by its Shift"
+        return "In millimeters on Blender's sensor; Shift sets the center"
     sides = [str(getattr(own, side.name) or "the frame's") for side in SIZE]
-    return f"Pixels of a picture of {' × '.join(sides)}, scaled to the frame"
+    return f"In pixels of a picture of {' × '.join(sides)}, scaled to the frame"

@@ -1,14 +1,14 @@
-"""What operators share: which camera they are about, when they are grayed out, and errors in one line."""
+"""Shared parts of operators: the camera that they work on, when they are grayed out, and error messages."""
 
 from functools import wraps
 
 from ...core.records import InputError
 
-NO_CAMERA = "The scene has no active camera: add one, or set one in the Scene properties"
+NO_CAMERA = "The scene has no active camera: add a camera, or set a camera in the Scene properties"
 
 
 def camera_object_of(context):
-    """Return the camera object that a panel is about: the active object, or else the scene's camera."""
+    """Return the camera object that a panel shows: the active object if it is a camera, else the scene's camera."""
     item = context.object
     return item if item is not None and item.type == "CAMERA" else context.scene.camera
 
@@ -23,27 +23,27 @@ def select_alone(context, *items) -> None:
 
 
 class OfScene:
-    """An operator on the camera of the scene."""
+    """Base of the operators on the scene's camera."""
 
     @classmethod
     def poll(cls, context):
-        """Grayed out without a camera."""
+        """Gray out the operator without a camera."""
         cls.poll_message_set(NO_CAMERA)
         return context.scene.camera is not None
 
 
 class OfCamera:
-    """An operator on the camera of the panel."""
+    """Base of the operators on the panel's camera."""
 
     @classmethod
     def poll(cls, context):
-        """Grayed out without a camera in the context."""
+        """Gray out the operator without a camera in the context."""
         cls.poll_message_set("Select a camera object first")
         return camera_object_of(context) is not None
 
 
 def reporting(execute):
-    """Let an operator's ``execute`` show an InputError as Blender shows errors, and change nothing then."""
+    """Decorate an operator's ``execute`` so that it reports an InputError as a Blender error and returns CANCELLED."""
 
     @wraps(execute)
     def reported(self, context):

@@ -1,15 +1,15 @@
-"""What the rays meet in place of an object: in its properties, and beside its name wherever it is named."""
+"""The Cast As setting of an object, in the object's tab and in lists of objects."""
 
 import bpy
 
 from ..properties.declared import GROUP, PRIMITIVE
 
 CASTABLE = {"MESH", "CURVE", "SURFACE", "FONT", "META", "POINTCLOUD"}
-"""Types of objects whose setting says what they are cast as."""
+"""Object types that have a Cast As setting."""
 
 
 def draw_cast_as(layout, item, **options) -> None:
-    """Draw an object's Cast As; nothing for what is cast as nothing in any case."""
+    """Draw an object's Cast As setting, or nothing for types that are never cast."""
     if item is not None and item.type in CASTABLE:
         layout.prop(getattr(item, GROUP), PRIMITIVE.name, **options)
 
@@ -25,11 +25,11 @@ class ObjectPanel(bpy.types.Panel):
 
     @classmethod
     def poll(cls, context):
-        """Show it for what has a surface or points."""
+        """Show the panel for objects that can be cast."""
         return context.object is not None and context.object.type in CASTABLE
 
     def draw(self, context):
-        """The one setting."""
+        """Draw the setting."""
         self.layout.use_property_split = True
         draw_cast_as(self.layout, context.object)
 

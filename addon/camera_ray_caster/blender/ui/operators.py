@@ -1,4 +1,4 @@
-"""The operators: verify, copy, select, write."""
+"""Operators: verify the camera, copy it, load a calibration, select what was left out, write the report."""
 
 import bpy
 from bpy.props import BoolProperty, StringProperty
@@ -25,30 +25,32 @@ class Verify(OfScene, bpy.types.Operator):
 
     with_cycles: BoolProperty(
         name="With Cycles",
-        description="Render a small picture of a box by Cycles with the camera's shader, and compare its rays too",
+        description="Also render a small picture of a box in Cycles with the camera's shader, and compare the rays "
+        "of Cycles with the rays of the add-on",
         options={"SKIP_SAVE"},
     )
 
     @classmethod
     def description(cls, context, properties):
-        """Say of the button with Cycles what that does."""
+        """Return the tooltip, which differs for the button with Cycles."""
         return cls.bl_rna.properties["with_cycles"].description if properties.with_cycles else cls.__doc__
 
     @reporting
     def execute(self, context):
-        """Verify, keep what was found for the panel, and say it in one line."""
+        """Verify, keep the report for the panel, and report the result in one line."""
         report = verified(context.scene, self.with_cycles)
         reports.keep_verified(report)
         if report.passed:
-            self.report({"INFO"}, "The rays agree with every witness")
+            self.report({"INFO"}, "All reference checks passed")
         else:
-            self.report({"WARNING"}, "A witness disagrees with the rays: see the sidebar")
+            self.report(
+                {"WARNING"}, "A reference check failed: the rays differ by more than its error bound. See the sidebar"
+            )
         return {"FINISHED"}
 
 
 class CopyFacts(OfScene, bpy.types.Operator):
-    """Copy what the active camera is to the clipboard, as JSON with all digits, of which camera_from_json makes its
-    rays"""
+    """Copy the active camera to the clipboard, as JSON with all digits, from which camera_from_json makes its rays"""
 
     bl_idname = "camera_ray_caster.copy_facts"
     bl_label = "Copy Camera"
@@ -56,7 +58,7 @@ class CopyFacts(OfScene, bpy.types.Operator):
 
     @reporting
     def execute(self, context):
-        """Copy it."""
+        """Copy the camera."""
         camera, frame = read_camera(context.scene), context.scene.frame_current_final
         report = Report(camera=camera_facts(camera), frame=frame, record=recorded(camera))
         context.window_manager.clipboard = as_json(report)
@@ -64,15 +66,17 @@ class CopyFacts(OfScene, bpy.types.Operator):
 
 
 class LoadCalibration(OfCamera, bpy.types.Operator):
-    """The camera model follows from a calibration file"""
+    """Choose a calibration file, which sets the camera model"""
 
     bl_idname = "camera_ray_caster.load_calibration"
     bl_label = "Load Calibration"
-    bl_description = f"Choose a calibration file of {FILE_WRITERS}: the camera model follows from it"
+    bl_description = f"Choose a calibration file of {FILE_WRITERS}. The file determines the camera model"
     bl_options = {"REGISTER", "UNDO"}
 
-    filepath: StringProperty(name="File", description="The calibration file", subtype="FILE_PATH")
-    camera: StringProperty(name="Camera in File", description="Of a file with several: its name there")
+    filepath: StringProperty(name="File", description="Path of the calibration file", subtype="FILE_PATH")
+    camera: StringProperty(
+        name="Camera in File", description="Name of the camera in a calibration file that has several cameras"
+    )
 
     def invoke(self, context, event):
         """Ask for the file."""
@@ -81,7 +85,7 @@ class LoadCalibration(OfCamera, bpy.types.Operator):
 
     @reporting
     def execute(self, context):
-        """Read it, and say what was read."""
+        """Read the file, set the model and report the values."""
         said = set_calibration(camera_object_of(context).data, bpy.path.abspath(self.filepath), self.camera)
         self.report({"INFO"}, said)
         return {"FINISHED"}
@@ -94,20 +98,24 @@ class SelectLeftOut(bpy.types.Operator):
     bl_label = "Select"
     bl_options = {"REGISTER", "UNDO"}
 
-    reason: StringProperty(name="Reason", description="As the report says it", options={"SKIP_SAVE"})
+    reason: StringProperty(
+        name="Reason", description="Reason for which the report lists the objects as left out", options={"SKIP_SAVE"}
+    )
 
     @classmethod
     def poll(cls, context):
-        """Grayed out before the first cast."""
+        """Gray out the operator before the first cast."""
         cls.poll_message_set(NO_REPORT)
         return reports.latest() is not None
 
     def execute(self, context):
-        """Select them alone, where the view layer has them and they can be selected."""
+        """Select only these objects, as far as they are in the view layer."""
         names = reports.by_reason(reports.latest()).get(self.reason, ())
         found = [context.view_layer.objects[name] for name in names if name in context.view_layer.objects]
         if not found:
-            self.report({"ERROR"}, "None of them is in this view layer: they were renamed, removed or excluded")
+            self.report(
+                {"ERROR"}, "None of these objects is in this view layer: they were renamed, removed or excluded"
+            )
             return {"CANCELLED"}
         select_alone(context, *found)
         return {"FINISHED"}
@@ -122,14 +130,14 @@ class WriteReport(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        """Grayed out before the first render."""
+        """Gray out the operator before the first render."""
         cls.poll_message_set(NO_REPORT)
         return reports.latest() is not None
 
     def execute(self, context):
-        """Write it, and say where it is."""
+        """Write the report into the text datablock and report its name."""
         text = reports.write_text(reports.latest())
-        self.report({"INFO"}, f"The report is the text {text.name!r}, in the Text Editor")
+        self.report({"INFO"}, f"The report is in the text {text.name!r}: open it in the Text Editor")
         return {"FINISHED"}
 
 

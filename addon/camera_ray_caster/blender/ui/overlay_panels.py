@@ -1,4 +1,4 @@
-"""The overlay's switches in the 3D View's sidebar."""
+"""The sidebar panel of the overlay's settings."""
 
 import bpy
 
@@ -7,17 +7,17 @@ from .drawing import Sidebar, draw_message
 
 
 class SidebarOverlay(Sidebar, bpy.types.Panel):
-    """What the overlay shows."""
+    """The parts that the overlay shows."""
 
     bl_idname = "CAMERA_RAY_CASTER_PT_overlay"
     bl_label = "Overlay"
 
     def draw_header(self, context):
-        """The switch of all of it."""
+        """Draw the check box of the whole overlay."""
         self.layout.prop(context.scene.camera_ray_caster_overlay, "show", text="")
 
     def draw(self, context):
-        """The switches of its parts."""
+        """Draw the check boxes of its parts."""
         layout, settings = self.layout, context.scene.camera_ray_caster_overlay
         layout.active = settings.show
         grid = layout.grid_flow(columns=2, even_columns=True, align=True)

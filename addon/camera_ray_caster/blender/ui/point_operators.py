@@ -1,4 +1,4 @@
-"""From a point of the scene to its pixel, and from a pixel to the point that it sees."""
+"""Operators from a point in the scene to its pixel, and from a pixel to the point that it shows."""
 
 import bpy
 import numpy as np
@@ -11,24 +11,24 @@ from .needs import OfScene
 
 
 class PixelOfPoint(OfScene, bpy.types.Operator):
-    """Step through the pixel of the 3D cursor, or in Edit Mode of the selected vertices"""
+    """Step through the pixel of the 3D cursor or, in Edit Mode, the pixels of the selected vertices"""
 
     bl_idname = "camera_ray_caster.pixel_of_point"
     bl_label = "Pixel of 3D Cursor or Vertices"
     bl_options = {"REGISTER"}
 
     def execute(self, context):
-        """Find the pixels, and say where they are and whether the points are seen."""
+        """Step through the pixels; report the position of the last one, and what hides its point."""
         camera = cached_scene(context).camera
         if camera is None:
-            self.report({"ERROR"}, "the camera cannot be cast: the sidebar says why")
+            self.report({"ERROR"}, "the camera cannot be cast: see the reason in the sidebar")
             return {"CANCELLED"}
         what, points = points_of(context)
         places = camera.project(points)
         size = camera.raster.width, camera.raster.height
         inside = np.isfinite(places).all(axis=1) & ((places >= 0) & (places < size)).all(axis=1)
         if not inside.any():
-            self.report({"WARNING"}, f"{what}: the camera has no pixel that looks there")
+            self.report({"WARNING"}, f"{what}: no pixel of the camera sees this point")
             return {"CANCELLED"}
         lesson.pixels[:] = dict.fromkeys((int(x), int(y)) for x, y in places[inside])
         x, y = places[inside][-1]
@@ -39,7 +39,7 @@ class PixelOfPoint(OfScene, bpy.types.Operator):
 
 
 def points_of(context) -> tuple[str, np.ndarray]:
-    """Return what the points are, and the points, (n, 3), world."""
+    """Return a description of the points, and the points, (n, 3), in world space."""
     item = context.edit_object
     if item is not None and item.type == "MESH":
         item.update_from_editmode()
@@ -50,24 +50,24 @@ def points_of(context) -> tuple[str, np.ndarray]:
 
 
 def hidden_by(context, point) -> str:
-    """Return what the last point's pixel sees before it, as the end of a sentence; empty where that is nothing."""
+    """Return the end of a sentence that names the object hiding the last point, or "" if the point is visible."""
     seen = list(lesson.lessons(context).values())[-1].seen
     away = np.linalg.norm(point - seen.origin)
     return f"; hidden by {seen.name!r}" if seen.distance < away * (1 - 1e-3) else ""
 
 
 class EmptyAtHit(OfLesson, bpy.types.Operator):
-    """Add an empty where the ray of each of these pixels hits, its Z axis along the normal"""
+    """Add an empty at the hit point of each pixel's ray, with its Z axis along the normal"""
 
     bl_idname = "camera_ray_caster.empty_at_hit"
     bl_label = "Empty at Hit"
     bl_options = {"REGISTER", "UNDO"}
 
     def execute(self, context):
-        """Add them."""
+        """Add the empties."""
         found = [one for one in lesson.lessons(context).values() if one.point is not None]
         if not found:
-            self.report({"WARNING"}, "the rays of these pixels hit nothing")
+            self.report({"WARNING"}, "the rays of these pixels hit no surface")
             return {"CANCELLED"}
         for one in found:
             empty = bpy.data.objects.new(f"Pixel {one.seen.pixel[0]}, {one.seen.pixel[1]}", None)

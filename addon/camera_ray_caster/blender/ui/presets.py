@@ -1,4 +1,4 @@
-"""Presets of the camera model, as Blender has presets: those of the extension and the user's own."""
+"""Blender presets of the camera model: those of the extension and the user's own."""
 
 from pathlib import Path
 
@@ -12,11 +12,11 @@ from .model_drawing import PRESETS
 from .model_settings import settings_of
 
 FOLDER = Path(__file__).resolve().parents[1]
-"""Where ``presets`` is."""
+"""Parent folder of ``presets``."""
 OWNERS = {OWN: "own", CAMERA: "camera"}
-"""What a preset calls the structs of the settings that it keeps."""
+"""Variable names in a preset, by owner of the settings that it stores."""
 KEPT = {"FLOAT", "INT", "BOOLEAN", "ENUM", "VECTOR", "TEXT", "FILE"}
-"""Kinds of settings that a preset holds; objects and images belong to a file."""
+"""Kinds of settings that a preset stores; objects and images belong to a .blend file."""
 
 
 class ModelPresets(PresetPanel, bpy.types.Panel):
@@ -40,13 +40,13 @@ class AddModelPreset(AddPresetBase, bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        """Grayed out beside a camera's tab."""
+        """Gray out the operator outside a camera's tab."""
         cls.poll_message_set("Open the camera's tab in the Properties editor first")
         return getattr(context, "camera", None) is not None
 
     @property
     def preset_values(self) -> list[str]:
-        """The model, Blender's type where that is the model, and what the model reads of the camera."""
+        """The values to store: the model, Blender's camera type for its own models, and the settings of the model."""
         camera = bpy.context.camera
         types = ["camera.type", "camera.panorama_type"] if getattr(camera, GROUP).model == BLENDERS_OWN else []
         kept = [it for it in settings_of(camera) if it.owner in OWNERS and it.kind in KEPT]
@@ -57,6 +57,6 @@ CLASSES = (ModelPresets, AddModelPreset)
 
 
 def register(undo) -> None:
-    """See ``registration``."""
+    """Register this module; see ``registration``."""
     bpy.utils.register_preset_path(str(FOLDER))
     undo.callback(bpy.utils.unregister_preset_path, str(FOLDER))

@@ -1,4 +1,4 @@
-"""The engine's panels in the Properties editor, and Blender's own panels that are shown for it too."""
+"""The engine's panels in the Properties editor, and Blender's panels that are also shown for this engine."""
 
 from collections.abc import Iterator
 
@@ -12,26 +12,26 @@ ENGINE = CameraRayCaster.bl_idname
 
 
 class EnginePanel:
-    """What a panel of the engine has in common: it shows only where the engine is chosen."""
+    """Base of the panels that are shown for this engine only."""
 
     bl_space_type = "PROPERTIES"
     bl_region_type = "WINDOW"
 
     @classmethod
     def poll(cls, context):
-        """Show it with this engine only."""
+        """Show the panel with this engine only."""
         return context.engine == ENGINE
 
 
 class RenderPanel(EnginePanel, bpy.types.Panel):
-    """Render properties: how shapes are shown, and what the latest render took."""
+    """Render properties: the settings of the scene, and the time and accuracy of the latest render."""
 
     bl_idname = "CAMERA_RAY_CASTER_PT_render"
     bl_label = "Camera Ray Caster"
     bl_context = "render"
 
     def draw(self, context):
-        """The settings, what the latest render took and how right it is, one button."""
+        """Draw the settings, the time and the worst error of the latest render, and the report button."""
         layout = self.layout
         layout.use_property_split = True
         layout.use_property_decorate = False
@@ -52,7 +52,7 @@ class PassesPanel(EnginePanel, bpy.types.Panel):
     bl_context = "view_layer"
 
     def draw(self, context):
-        """The tick boxes: Blender's of this view layer, then our own of the scene."""
+        """Draw the check boxes: Blender's passes of this view layer, then the add-on's passes of the scene."""
         layout = self.layout
         layout.use_property_split = True
         layout.use_property_decorate = False
@@ -69,16 +69,16 @@ BORROWED = {
     "EEVEE_MATERIAL_PT_context_material", "DATA_PT_EEVEE_light", "EEVEE_WORLD_PT_surface",
     "DATA_PT_camera_dof", "DATA_PT_camera_dof_aperture",
 }  # fmt: skip
-"""Panels of Blender's engines that are shown here too: material slots, a light's strength, the world's color, depth of
-field.
+"""Panels of Blender's engines that are also shown for this engine: material slots, a light's strength, the world's
+color, depth of field.
 """
 
 REPLACED = {"DATA_PT_camera", "DATA_PT_lens"}
-"""Panels of Blender's in whose place this engine has its own."""
+"""Blender panels that this engine replaces with its own."""
 
 
 def compatible() -> Iterator[set[str]]:
-    """Yield the engines of each panel that is for every engine (those name BLENDER_RENDER) or BORROWED."""
+    """Yield the COMPAT_ENGINES of each panel that is BORROWED or for all engines (these panels name BLENDER_RENDER)."""
     for name in set(dir(bpy.types)) - REPLACED:
         engines = getattr(getattr(bpy.types, name), "COMPAT_ENGINES", ())
         if "BLENDER_RENDER" in engines or name in BORROWED:
@@ -86,7 +86,7 @@ def compatible() -> Iterator[set[str]]:
 
 
 def register(undo) -> None:
-    """See ``registration``."""
+    """Register this module; see ``registration``."""
     for engines in compatible():
         engines.add(ENGINE)
         undo.callback(engines.discard, ENGINE)

@@ -1,4 +1,4 @@
-"""Show Result: a pass that was cast, in an Image Editor, in colors that a screen can show."""
+"""The Show Result operator: it shows a cast pass in an Image Editor, in displayable colors."""
 
 import bpy
 from bpy.props import StringProperty
@@ -7,18 +7,18 @@ from ..output import images
 
 
 class ShowResult(bpy.types.Operator):
-    """Show this pass in an Image Editor: one that is open, or a new one"""
+    """Show this pass in an open Image Editor, or in a new one"""
 
     bl_idname = "camera_ray_caster.show_result"
     bl_label = "Show Result"
     bl_options = {"REGISTER"}
 
-    name: StringProperty(name="Image", description="One that a cast has made", options={"SKIP_SAVE"})
+    name: StringProperty(name="Image", description="Name of an image made by a cast", options={"SKIP_SAVE"})
 
     def execute(self, context):
-        """Show it, and say what the colors mean."""
+        """Show the pass and report the meaning of the colors."""
         if self.name not in images.results():
-            self.report({"ERROR"}, f"there is no image {self.name!r} of a cast: cast first")
+            self.report({"ERROR"}, f"no cast has made an image {self.name!r}: cast first")
             return {"CANCELLED"}
         image, said = images.show_in_colors(self.name)
         editor = open_editor(context)
@@ -29,7 +29,7 @@ class ShowResult(bpy.types.Operator):
 
 
 def open_editor(context):
-    """Return an Image Editor, opened as Blender opens it for a render where there is none; None without a window."""
+    """Return an Image Editor; if there is none, open one as for a render. Return None without a window."""
     if not bpy.app.background and not _editors(context):
         bpy.ops.render.view_show("INVOKE_DEFAULT")
     return next(iter(_editors(context)), None)
@@ -41,13 +41,13 @@ def _editors(context) -> list:
 
 
 class ResultsMenu(bpy.types.Menu):
-    """The images that casts have made."""
+    """Menu of the images that casts have made."""
 
     bl_idname = "CAMERA_RAY_CASTER_MT_results"
     bl_label = "Show Result"
 
     def draw(self, context):
-        """A line each."""
+        """Draw an entry for each image."""
         for name in images.results():
             text = name.removeprefix(images.PREFIX).capitalize()
             self.layout.operator(ShowResult.bl_idname, text=text).name = name

@@ -1,4 +1,4 @@
-"""The verdict of Blender's own answers on the camera, in the 3D View's sidebar."""
+"""The sidebar panel of the verification: the camera compared with Blender's own results."""
 
 import bpy
 
@@ -13,17 +13,17 @@ WITNESSES = {
     "round trip": "Round Trip",
     "Cycles": "Cycles",
 }
-"""What the panel calls a witness, by its name in the report."""
+"""Labels of the independent references, by name in the report."""
 
 
 class SidebarVerify(Sidebar, bpy.types.Panel):
-    """The camera compared with Blender's own answers."""
+    """The camera compared with Blender's own results."""
 
     bl_idname = "CAMERA_RAY_CASTER_PT_verify"
     bl_label = "Verification"
 
     def draw(self, context):
-        """The button and the verdict; folded below them each witness's worst error beside its bound."""
+        """Draw the buttons and the verdict; in a folded panel, the worst error and the bound of each reference."""
         layout = self.layout
         row = layout.row(align=True)
         row.operator("camera_ray_caster.verify", icon="CHECKMARK")
@@ -32,10 +32,14 @@ class SidebarVerify(Sidebar, bpy.types.Panel):
         if report is None:
             return
         if report.camera != facts_of(context, context.scene.camera)[0]:
-            draw_message(layout, context, "The camera has changed since it was verified")
+            draw_message(layout, context, "The camera has changed since the last verification")
             layout = layout.column()
             layout.active = False
-        said = "All witnesses agree" if report.passed else "A witness disagrees with the rays"
+        said = (
+            "All reference checks passed"
+            if report.passed
+            else "A reference check failed: the rays differ by more than its error bound"
+        )
         draw_message(layout, context, said, "CHECKMARK" if report.passed else "ERROR")
         header, body = layout.panel("camera_ray_caster errors", default_closed=True)
         header.label(text="Errors in Pixels")
@@ -44,7 +48,7 @@ class SidebarVerify(Sidebar, bpy.types.Panel):
 
 
 def draw_findings(layout, findings) -> None:
-    """Draw a table of what each witness found."""
+    """Draw a table of the findings of each reference."""
     box = layout.box().column(align=True)
     draw_row(box, "", ["Worst", "Bound"], 0.46)
     for finding in findings:

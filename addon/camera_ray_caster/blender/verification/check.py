@@ -16,17 +16,18 @@ from . import witness
 from .cycles_witness import cycles_finding
 
 MOVING_GRID = 2
-"""Pixels a side at which a moving camera is asked: each answer is sought through all of its times."""
+"""Number of pixels per side at which a moving camera is verified: each projection is searched over all of its times."""
 
 
 def verify_camera(scene, camera_object=None, frame=None, view="") -> list[Finding]:
-    """Return the findings on the camera that ``read_camera`` returns for these arguments, or raise what that raises."""
+    """Return the findings on the camera that ``read_camera`` returns for these arguments; raises the same errors."""
     return _read_and_verified(scene, camera_object, frame, view)[1]
 
 
 def verified(scene, with_cycles: bool = False) -> Report:
-    """Return the report on the scene's camera: what it is, and the findings; with what Cycles renders of its shader,
-    where that is asked for. Raises what ``read_camera`` raises, and ``cycles_finding``.
+    """Return the report on the scene's camera, its facts and findings; ``with_cycles`` adds ``cycles_finding``.
+
+    Raises the errors of ``read_camera`` and ``cycles_finding``.
     """
     camera, findings = _read_and_verified(scene)
     if with_cycles:
@@ -35,7 +36,7 @@ def verified(scene, with_cycles: bool = False) -> Report:
 
 
 def _read_and_verified(scene, camera_object=None, frame=None, view="") -> tuple[Camera, list[Finding]]:
-    """Return a camera and the findings on it: on one with a motion at its frame, the round trip over all its times."""
+    """Return a camera and the findings on it. For a camera with motion, the round trip covers all of its times."""
     eye = partial(eye_record, view=view)
     with evaluated_camera(scene, camera_object, frame, view) as (active, depsgraph):
         _, camera = camera_at(active, depsgraph, eye)
@@ -47,9 +48,9 @@ def _read_and_verified(scene, camera_object=None, frame=None, view="") -> tuple[
 
 
 def verify_evaluated(camera: Camera, camera_object, depsgraph, view="") -> list[Finding]:
-    """Return the findings on a camera that was read of this object, at the depsgraph's frame.
+    """Return the findings on a camera that was read from this object, at the depsgraph's frame.
 
-    Blender answers for its own models alone, and for an eye only where that is a camera object of its own.
+    Blender answers only for its own models, and for an eye only if the eye is a camera object of its own.
     """
     apart = not view or depsgraph.scene_eval.render.views_format == "MULTIVIEW"
     by_blender = camera.model.key == camera_object.data.type and apart

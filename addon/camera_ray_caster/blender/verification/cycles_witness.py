@@ -1,8 +1,8 @@
-"""Cycles as a witness of any model: where the rays of a camera's shader end, on a box around it.
+"""Cycles as an independent reference for any model: the points where a camera's shader rays hit a box around it.
 
-A scene of its own has a custom camera with the shader, and a box whose faces emit where they are hit. One sample is
-taken in the middle of each pixel of a picture that is larger or smaller than the render: its rays lie between the
-render's pixels as well as on them.
+A separate scene has a custom camera with the shader, and a box whose faces emit the position of the hit as a color.
+Each pixel of its picture takes one sample in its middle. The picture is larger or smaller than the render, so that its
+rays lie between the render's pixels as well as on them.
 """
 
 from collections.abc import Iterator
@@ -26,34 +26,36 @@ from ..cycles.shader import check_cycles, set_shader
 CYCLES = "Cycles"
 
 LONGER_SIDE = 288
-"""Pixels of the picture."""
+"""Size of the picture's longer side in pixels."""
 
 ROOM = 64.0
-"""Half the side of the box, Blender units, or as many times as far as rays begin from the eye."""
+"""Half the side of the box in Blender units, times the largest offset of a ray's origin from the eye if over 1."""
 
 STORED = 4 * EPS32
-"""Of half the box's side: a place within it is stored in 24 bits of four times that, once rounded, twice computed."""
+"""Error of a stored place, as a fraction of half the box's side: it is stored in 24 bits of four times half the side,
+after two computations and one rounding.
+"""
 
 STEP = 2.0**-4
-"""Pixels between neighboring rays, whose angle tells how an error in radians counts in pixels."""
+"""Distance in pixels between neighboring rays, whose angle converts an error in radians to pixels."""
 
 
 def cycles_finding(camera: Camera) -> Finding:
-    """Return what Cycles says of a camera's rays through its shader, all over the full frame, at one time.
+    """Return the finding on a camera's rays in Cycles, from its shader, all over the full frame, at one time.
 
-    Where float32 decides whether a pixel has a ray nothing is compared; anywhere else one that has a ray in one of both
-    only fails (NaN). Where a pixel exceeds its own bound, the worst one alone is told. Raises InputError where this
-    Blender has no Cycles or no OSL.
+    Pixels for which float32 leaves open whether there is a ray are not compared. Any other pixel fails (NaN) if only
+    one of camera and Cycles has a ray. If pixels exceed their own bounds, only the worst pixel is reported. Raises
+    InputError if this Blender has no Cycles or no OSL.
     """
     camera = replace(camera, pixel_time=None, motion=None, aperture=None)
     shift = tuple(float(camera.settings.get(name, 0.0)) for name in ("shift_x", "shift_y"))
     shader = camera_shader(camera, "PERSP", shift)
-    shader = replace(shader, source=shader.source.partition("\n")[2])  # without its mark it follows no settings
+    shader = replace(shader, source=shader.source.partition("\n")[2])  # without a mark it does not follow settings
     return compared(camera, shift, lambda center, half, size: _ends(camera, shader, shift, center, half, size))
 
 
 def compared(camera: Camera, shift: tuple[float, float], ends_of) -> Finding:
-    """Return the finding on a camera; ``ends_of(center, half, size)`` gives where its rays end on a box."""
+    """Return the finding on a camera; ``ends_of(center, half, size)`` returns the points where rays hit the box."""
     frame = np.array(camera.model.frame)
     size = np.maximum(np.rint(frame * (LONGER_SIDE / frame.max())), 1).astype(int)
     x, y = ((np.arange(count) + 0.5) * (side / count) for count, side in zip(size, frame, strict=True))
@@ -64,7 +66,7 @@ def compared(camera: Camera, shift: tuple[float, float], ends_of) -> Finding:
     ends = ends_of(eye, half, size.tolist())
     decided = ~np.isinf(bounds.direction)
     if not (decided & rays.valid).any():
-        return not_compared(CYCLES, "float32 does not carry these rays")
+        return not_compared(CYCLES, "float32 cannot represent these rays")
     differs = decided & (rays.valid == np.isnan(ends[..., 0]))
     both = decided & (rays.valid | differs)
     pixels = np.stack(np.broadcast_arrays(x, y), axis=-1)[both]
@@ -74,13 +76,13 @@ def compared(camera: Camera, shift: tuple[float, float], ends_of) -> Finding:
     bound = bounds.direction[both] + (bounds.origin[both] + STORED * half) / distance
     turned = _turned(camera, pixels, rays.origins[both], rays.directions[both], distance)
     worst = np.argmax(np.where(np.isnan(angles), np.inf, angles / bound))
-    told = slice(None) if angles[worst] <= bound[worst] else [worst]  # each has a bound of its own
+    told = slice(None) if angles[worst] <= bound[worst] else [worst]  # each pixel has its own bound
     errors = np.stack((angles / turned, np.zeros_like(angles)), axis=1)[told]
     return finding(CYCLES, errors, angles[told], (bound / turned)[told], bound[told], (0.0, 0.0))
 
 
 def _turned(camera: Camera, pixels, origins, directions, distance) -> np.ndarray:
-    """Return by how many radians, as seen from where it begins, the end of a ray moves for a pixel, at least (n,)."""
+    """Return the smallest angle, (n,), in radians per pixel, by which a ray's end moves as seen from its origin."""
     moves = []
     for step in STEP * np.concatenate((np.eye(2), -np.eye(2))):
         near = camera.rays_at(*(pixels + step).T)
@@ -89,8 +91,9 @@ def _turned(camera: Camera, pixels, origins, directions, distance) -> np.ndarray
 
 
 def _ends(camera: Camera, shader: CameraShader, shift, center, half: float, size) -> np.ndarray:
-    """Return where the rays of a shader meet a box, a cube along the world's axes, (height, width, 3) float64, world;
-    NaN where there is no ray.
+    """Return the world points where the rays of a shader hit the box, an axis-aligned cube, (height, width, 3) float64.
+
+    Pixels without a ray are NaN.
     """
     check_cycles()
     with _witness_scene(camera, shader, shift, center, half, size) as scene, TemporaryDirectory() as folder:
@@ -103,7 +106,7 @@ def _ends(camera: Camera, shader: CameraShader, shift, center, half: float, size
 
 @contextmanager
 def _witness_scene(camera: Camera, shader: CameraShader, shift, center, half: float, size) -> Iterator:
-    """Yield a scene with the camera and the box, and take all that was made away again."""
+    """Yield a scene with the camera and the box; remove all new data-blocks afterwards."""
     made = []
 
     def new(collection, *given):
@@ -115,7 +118,7 @@ def _witness_scene(camera: Camera, shader: CameraShader, shift, center, half: fl
         data, parent = new(bpy.data.cameras, "Witness"), new(bpy.data.objects, "Witness", None)
         item = new(bpy.data.objects, "Witness", data)
         item.parent = parent
-        item.matrix_parent_inverse = Matrix(_matrix(camera).tolist())  # which may be sheared
+        item.matrix_parent_inverse = Matrix(_matrix(camera).tolist())  # the matrix may be sheared
         mesh, material = new(bpy.data.meshes, "Witness"), new(bpy.data.materials, "Witness")
         mesh.from_pydata((center + half * CORNERS).tolist(), [], FACES)
         mesh.materials.append(material)
@@ -146,7 +149,7 @@ def _matrix(camera: Camera) -> np.ndarray:
 
 
 def _emit_position(material, center, half: float) -> None:
-    """Let a material emit the place that is hit, as fractions of four halves of the box about its middle."""
+    """Make a material emit the position of the hit: its offset from the center / (4 half) + 0.5."""
     if bpy.app.version < (5, 0):
         material.use_nodes = True  # from 5.0 on every material has nodes
     nodes, links = material.node_tree.nodes, material.node_tree.links
@@ -178,7 +181,7 @@ def _set_up(scene, size) -> None:
 def _pixels(path: Path) -> np.ndarray:
     """Return the pixels of an EXR file, (height, width, 3) float64, the bottom row first."""
     if not path.exists():
-        raise InputError("Cycles has rendered nothing: render the scene with Cycles to see why")
+        raise InputError("Cycles returned no pixels: render the scene with Cycles to see the reason")
     image = bpy.data.images.load(str(path))
     try:
         width, height = image.size

@@ -1,4 +1,4 @@
-"""Blender's own answers on where a perspective or orthographic camera's pixels look: plain arrays, nothing computed."""
+"""Blender's own answers on where the pixels of a perspective or orthographic camera look, as plain arrays."""
 
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -10,39 +10,38 @@ from bpy_extras.object_utils import world_to_camera_view
 from mathutils import Vector
 
 TYPES = ("PERSP", "ORTHO")
-"""Camera types that Blender answers for. Of any other it describes the perspective camera with the same lens."""
+"""Camera types that Blender answers for. For any other it describes the perspective camera with the same lens."""
 
 SMALLEST, LARGEST = 4, 65536
-"""What resolution_x and resolution_y can be set to; a percentage makes frames beyond that."""
+"""Range of the properties resolution_x and resolution_y; with a percentage, frames can lie outside of it."""
 
 
 @dataclass(frozen=True)
 class Witness:
-    """The answers on one evaluated camera at the effective raster, float32 widened to float64."""
+    """Blender's answers for one evaluated camera at the effective raster, float32 widened to float64."""
 
     size: tuple[int, int]
     """Width and height of the full frame in pixels."""
     matrix_world: np.ndarray
-    """(4, 4): the evaluated object's."""
+    """World matrix of the evaluated object, (4, 4)."""
     frame: np.ndarray
-    """(4, 3) Camera.view_frame: top right, bottom right, bottom left, top left, in the camera's frame."""
+    """Camera.view_frame, (4, 3): top right, bottom right, bottom left, top left, in the camera's frame."""
     matrix: np.ndarray
-    """(4, 4) Object.calc_matrix_camera: clip from camera coordinates."""
+    """Object.calc_matrix_camera, (4, 4): from camera coordinates to clip coordinates."""
     camera: Any
     depsgraph: Any
 
     def view_coordinates(self, points: np.ndarray) -> np.ndarray:
-        """Return world_to_camera_view of world points (n, 3), which Blender takes as float32: (n, 3); NaN where it
-        fails.
+        """Return world_to_camera_view of world points, (n, 3) each; NaN where it fails. Points are rounded to float32.
         """
         with _frame_of(self.size, self.depsgraph.scene_eval) as scene:
             return _widened([_seen(scene, self.camera, Vector(point)) for point in points]).reshape(-1, 3)
 
 
 def ask(camera_object, depsgraph) -> Witness | None:
-    """Return Blender's answers on a camera as the depsgraph evaluated it.
+    """Return Blender's answers for a camera as the depsgraph evaluated it.
 
-    None where Blender has none: for other TYPES, and for frames wider than LARGEST.
+    Return None if Blender has no answers: for types not in TYPES, and for frames with a side larger than LARGEST.
     """
     camera = camera_object.evaluated_get(depsgraph)
     render = depsgraph.scene_eval.render
@@ -71,15 +70,15 @@ def _widened(answer) -> np.ndarray:
 
 
 def _enlarged(size) -> int:
-    """Return the factor that makes a frame one that can be set: a power of two, which changes no bit of the answer."""
+    """Return the factor that enlarges a frame to a valid size: a power of two, which changes no bit of the answer."""
     return SMALLEST if min(size) < SMALLEST else 1
 
 
 @contextmanager
 def _frame_of(size, scene):
-    """Yield the evaluated scene with the rendered frame's aspect: view_frame knows the resolution without percentage.
+    """Yield the evaluated scene with the rendered frame's aspect, since view_frame ignores the percentage.
 
-    Only the depsgraph's own copy of the scene is changed, and put back; the user's scene is not touched.
+    Only the depsgraph's own copy of the scene is changed, and restored afterwards; the user's scene is not touched.
     """
     render = scene.render
     before = render.resolution_x, render.resolution_y

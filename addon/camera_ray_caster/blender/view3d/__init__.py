@@ -1,1 +1,1 @@
-"""What is drawn in the 3D View."""
+"""Drawing in the 3D View and in Image Editors."""

@@ -1,6 +1,6 @@
-"""The pixels that are stepped through: which they are, their lessons, and their rays drawn in every 3D View.
+"""The pixels chosen by Step Through, their step-by-step explanations, and their rays drawn in every 3D View.
 
-In an Image Editor that shows a picture of the camera, each has a frame around it and its numbers beside it.
+An Image Editor with a picture of the camera shows a frame and the coordinates at each of these pixels.
 """
 
 from __future__ import annotations
@@ -19,19 +19,19 @@ from .overlay import draw_batch, shader
 from .scene_cache import CachedScene, cached_scene
 
 FAR = 100.0
-"""Lengths of the camera's display that a ray is drawn where it meets nothing."""
+"""Drawn length of a ray that hits nothing, in units of the camera's display size."""
 RAY, OTHERS, SEEN, NORMAL = (1.0, 0.45, 0.1, 1.0), (0.7, 0.7, 0.7, 0.9), (1.0, 0.9, 0.2, 1.0), (0.3, 0.9, 0.95, 1.0)
 GROUND = (0.0, 0.0, 0.0, 1.0)
 WIDTH, POINT, MARK, TEXT = 2.5, 8.0, 5.0, 12.0
-"""Pixels, at the interface's scale 1: of lines, of points, from a mark's middle to its sides at least, of letters."""
+"""Sizes in pixels at interface scale 1: line width, point size, minimum half side of a mark, font size."""
 
 pixels: list[tuple[int, int]] = []
-"""Those that were clicked, the latest last."""
+"""Clicked pixels (column, row), the latest last."""
 _read: list[tuple[CachedScene, dict[tuple[int, int], Lesson]]] = []
 
 
 def lessons(context) -> dict[tuple[int, int], Lesson]:
-    """Return the lessons of the pixels that are in the frame, read again after a change of the scene."""
+    """Return the explanations of the pixels inside the frame, updated after a change of the scene."""
     scene = cached_scene(context)
     if not _read or _read[0][0] is not scene:
         _read[:] = [(scene, {})]
@@ -47,7 +47,7 @@ def lessons(context) -> dict[tuple[int, int], Lesson]:
 
 
 def draw() -> None:
-    """Draw rays, pixels on the image and places on the rays; called by Blender for each 3D View."""
+    """Draw the rays, the outlines of the pixels and the points on the rays; called by Blender for each 3D View."""
     context = bpy.context
     if not pixels:
         return
@@ -64,7 +64,7 @@ def draw() -> None:
 
 
 def _parts(camera, one: Lesson, size: float):
-    """Yield (kind of shader, form, points, color, width) of what is drawn of a pixel."""
+    """Yield (kind of shader, primitive type, points, color, width) of each part drawn for a pixel."""
     yield "POLYLINE", "LINES", pixel_outline(camera, size, *one.seen.pixel), RAY, WIDTH
     origin, direction = one.seen.origin, one.seen.direction
     end = one.seen.distance if np.isfinite(one.seen.distance) else FAR * size
@@ -79,7 +79,7 @@ def _parts(camera, one: Lesson, size: float):
 
 
 def draw_marks() -> None:
-    """Draw a frame around each pixel in its picture; called by Blender for each Image Editor."""
+    """Draw a frame around each pixel in the picture; called by Blender for each Image Editor."""
     context = bpy.context
     found = lessons(context) if pixels else {}
     frame = image_frame(context, cached_scene(context).camera.raster) if found else None
@@ -106,13 +106,13 @@ def draw_marks() -> None:
 
 @persistent
 def forget(*_):
-    """Another file: nothing of this one counts."""
+    """Forget the pixels: another file is loaded."""
     pixels.clear()
     _read.clear()
 
 
 def register(undo) -> None:
-    """See ``registration``."""
+    """Register this module; see ``registration``."""
     undo.callback(forget)
     undo.add_handlers([("load_pre", forget)])
     for space, function, when in (

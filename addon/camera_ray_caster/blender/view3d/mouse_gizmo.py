@@ -1,4 +1,4 @@
-"""In camera view, what the ray of the pixel under the mouse hits: a gizmo, since those receive the mouse's moves."""
+"""In camera view, text about the ray of the pixel under the mouse. It is a gizmo, to receive mouse moves."""
 
 from __future__ import annotations
 
@@ -13,23 +13,23 @@ from .camera_frame import camera_frame
 from .scene_cache import cached_scene
 
 MARGIN = 14
-"""Pixels between mouse and text, at the interface's scale 1."""
+"""Distance between mouse and text, in pixels at interface scale 1."""
 
 
 class RayUnderMouse(bpy.types.Gizmo):
-    """Draws the text; it can neither be hit nor dragged."""
+    """A gizmo that only draws the text; it cannot be selected or dragged."""
 
     bl_idname = "CAMERA_RAY_CASTER_GT_ray"
     mouse: tuple[int, int] | None = None
 
     def test_select(self, context, location):
-        """Blender asks whether the mouse at this place of the region is over the gizmo: it never is."""
+        """Remember the mouse position; return -1, since the mouse is never over the gizmo."""
         self.mouse = tuple(location)
         context.region.tag_redraw()
         return -1
 
     def draw(self, context):
-        """Write what the ray meets beside the mouse, where that is inside the camera's frame."""
+        """Write what the ray hits next to the mouse, if the mouse is inside the camera's frame."""
         frame = camera_frame(context)
         scene = cached_scene(context)
         if self.mouse is None or frame is None or scene.camera is None:
@@ -44,7 +44,7 @@ class RayUnderMouse(bpy.types.Gizmo):
 
 
 class RayUnderMouseGroup(bpy.types.GizmoGroup):
-    """The gizmo, in every 3D View that looks through the camera while the overlay is on."""
+    """The gizmo group, shown in every 3D View in camera view while the overlay is on."""
 
     bl_idname = "CAMERA_RAY_CASTER_GGT_ray"
     bl_label = "Ray under Mouse"
@@ -54,13 +54,13 @@ class RayUnderMouseGroup(bpy.types.GizmoGroup):
 
     @classmethod
     def poll(cls, context):
-        """With the overlay on, in camera view."""
+        """Show the gizmo in camera view with the overlay on."""
         settings = context.scene.camera_ray_caster_overlay
         wanted = settings.show and settings.show_ray and context.space_data.overlay.show_overlays
         return wanted and context.region_data.view_perspective == "CAMERA"
 
     def setup(self, context):
-        """Add the one gizmo."""
+        """Add the gizmo."""
         self.gizmos.new(RayUnderMouse.bl_idname)
 
 
@@ -78,7 +78,7 @@ def _lines(context, found: Probe) -> list[tuple[str, str]]:
 
 
 def _write(context, mouse, lines) -> None:
-    """Write lines beside the mouse, on the side where there is room."""
+    """Write lines next to the mouse, on the side where they fit."""
     margin = MARGIN * context.preferences.system.ui_scale
 
     def place(width, height):

@@ -1,7 +1,7 @@
-"""What a render shows otherwise than a 3D View does, written at the bottom of it.
+"""A notice at the bottom of a 3D View about differences between the view and a render.
 
-A view that is drawn may not evaluate the scene at other frames. Outside of drawing that would set what the user has
-moved and not keyed back to its animation. So the view has one frame for all pixels, and says so.
+The scene cannot be evaluated at other frames while a view is drawn. Doing it at other times would reset objects that
+the user has moved without a keyframe. So the view shows all pixels at one frame, and the notice tells this.
 """
 
 from __future__ import annotations
@@ -13,11 +13,11 @@ from . import text
 from .scene_cache import cached_scene
 
 MARGIN = 28
-"""Pixels between the text and the edge, at the interface's scale 1."""
+"""Distance between the text and the edge, in pixels at interface scale 1."""
 
 
 def draw() -> None:
-    """Write it where the view shows the camera's picture, or the overlay; called by Blender for each 3D View."""
+    """Write the notice if the view shows the camera's picture or the overlay; called by Blender for each 3D View."""
     context = bpy.context
     lines = [("", line) for line in cached_scene(context).differences] if _shows_camera(context) else []
     if lines:
@@ -34,6 +34,6 @@ def _shows_camera(context) -> bool:
 
 
 def register(undo) -> None:
-    """See ``registration``."""
+    """Register this module; see ``registration``."""
     handle = bpy.types.SpaceView3D.draw_handler_add(draw, (), "WINDOW", "POST_PIXEL")
     undo.callback(bpy.types.SpaceView3D.draw_handler_remove, handle, "WINDOW")

@@ -1,4 +1,4 @@
-"""The overlay in the 3D View: the camera's image in space with its orthobasis, some of its rays, what they hit."""
+"""The overlay in the 3D View: the camera's image plane in space, its orthobasis, some of its rays, and their hits."""
 
 from __future__ import annotations
 
@@ -12,20 +12,33 @@ from .scene_cache import CachedScene, cached_scene
 
 
 class OverlayProperties(bpy.types.PropertyGroup):
-    """``scene.camera_ray_caster_overlay``"""
+    """The type of ``scene.camera_ray_caster_overlay``."""
 
-    show: BoolProperty(name="Overlay", description="Draw in the 3D View what the active camera's rays do")
-    show_frustum: BoolProperty(name="Frustum", description="The image in space, and the orthobasis", default=True)
-    show_rays: BoolProperty(name="Rays", description="Some of the rays, up to what they hit", default=True)
-    show_hits: BoolProperty(name="Hit Points", description="Where these rays hit", default=True)
-    show_normals: BoolProperty(name="Normals", description="The surface normals there", default=True)
-    show_ray: BoolProperty(name="Ray under Mouse", description="In camera view, what its ray hits", default=True)
-    rays: IntProperty(name="Rays Across", description="Of the picture", default=12, min=1, soft_max=32, max=128)
+    show: BoolProperty(name="Overlay", description="Draw the rays of the active camera in the 3D View")
+    show_frustum: BoolProperty(
+        name="Frustum", description="Draw the image plane in space, and the camera's axes u, v and w", default=True
+    )
+    show_rays: BoolProperty(name="Rays", description="Draw some of the rays, up to their hit points", default=True)
+    show_hits: BoolProperty(name="Hit Points", description="Draw the hit points of these rays", default=True)
+    show_normals: BoolProperty(name="Normals", description="Draw the surface normals at the hit points", default=True)
+    show_ray: BoolProperty(
+        name="Ray under Mouse",
+        description="In camera view, draw the ray under the mouse and its hit point",
+        default=True,
+    )
+    rays: IntProperty(
+        name="Rays Across",
+        description="Number of drawn rays across the width of the picture",
+        default=12,
+        min=1,
+        soft_max=32,
+        max=128,
+    )
 
 
 WIDE, THIN = 2.0, 1.0
 AXES = ((1.0, 0.2, 0.32, 1.0), (0.545, 0.863, 0.0, 1.0), (0.157, 0.565, 1.0, 1.0))
-"""u, v and w in the colors of Blender's X, Y and Z."""
+"""Colors of u, v and w: those of Blender's X, Y and Z axes."""
 STYLES = {
     "grid": ((0.9, 0.9, 0.9, 0.3), THIN),
     "border": ((0.95, 0.95, 0.95, 0.8), WIDE),
@@ -34,10 +47,10 @@ STYLES = {
     "normals": ((0.3, 0.9, 0.95, 0.95), WIDE),
     "hits": ((1.0, 0.85, 0.3, 1.0), 6.0),
 }
-"""Color, and width of lines or points in pixels, in the order in which they are drawn."""
+"""Color and width in pixels of lines or points, in drawing order."""
 
 _drawn: list[tuple] = []
-"""The latest (what it was made of, batches)."""
+"""The latest batches, as (inputs, batches)."""
 
 
 def draw() -> None:
@@ -66,7 +79,7 @@ def draw() -> None:
 
 
 def _wanted(settings, in_camera: bool) -> list[str]:
-    """Return the parts to draw: from the eye itself rays are points, and the frustum is the camera's frame."""
+    """Return the parts to draw. In camera view, rays would be points and the frustum the frame: leave both out."""
     shown = {
         "grid": settings.show_frustum and not in_camera,
         "border": settings.show_frustum and not in_camera,
@@ -79,7 +92,7 @@ def _wanted(settings, in_camera: bool) -> list[str]:
 
 
 def _batches(scene: CachedScene, size: float, rays: int) -> dict:
-    """Return the batches of the diagram, made anew after a change."""
+    """Return the batches of the diagram; make them again after a change."""
     made_of = scene, size, rays
     if not _drawn or _drawn[0][0] != made_of:
         _drawn[:] = [(made_of, _made(diagram(scene.camera, scene.shapes, size, rays)))]
@@ -87,7 +100,7 @@ def _batches(scene: CachedScene, size: float, rays: int) -> dict:
 
 
 def _made(parts: Diagram) -> dict:
-    """Return the batches by the names of STYLES, None where a part is empty, and those of u, v and w."""
+    """Return the batches by the names of STYLES, None for empty parts, and a list of the axes' batches as "basis"."""
 
     def batch(kind: str, form: str, points):
         return batch_for_shader(shader(kind), form, {"pos": points.reshape(-1, 3)}) if len(points) else None
@@ -99,12 +112,12 @@ def _made(parts: Diagram) -> dict:
 
 
 def shader(kind: str):
-    """Return Blender's shader of a color for POLYLINE or POINT."""
+    """Return Blender's shader of uniform color for POLYLINE or POINT."""
     return gpu.shader.from_builtin(f"{kind}_UNIFORM_COLOR")
 
 
 def draw_batch(batch, kind: str, color, width: float) -> None:
-    """Draw lines or points of a color and a width in pixels; nothing where the batch is None."""
+    """Draw lines or points in a color and a width in pixels; draw nothing if the batch is None."""
     if batch is None:
         return
     bound = shader(kind)
@@ -122,7 +135,7 @@ CLASSES = (OverlayProperties,)
 
 
 def register(undo) -> None:
-    """See ``registration``."""
+    """Register this module; see ``registration``."""
     undo.callback(_drawn.clear)
     bpy.types.Scene.camera_ray_caster_overlay = PointerProperty(type=OverlayProperties)
     undo.callback(delattr, bpy.types.Scene, "camera_ray_caster_overlay")

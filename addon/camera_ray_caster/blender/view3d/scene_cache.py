@@ -1,4 +1,4 @@
-"""Camera and shapes as the window shows them now: read again only after something of them has changed."""
+"""Cache of the camera and the shapes that the window shows; they are read again only after a change."""
 
 from __future__ import annotations
 
@@ -16,17 +16,17 @@ from ..read.shapes import shapes_record
 
 @dataclass(frozen=True, eq=False)
 class CachedScene:
-    """What ``cached_scene`` has read: a new one after every change, and equal to itself alone."""
+    """The result of ``cached_scene``: a new object after every change, compared by identity."""
 
     key: tuple
-    """The scene, the view layer and the camera that it was read of."""
+    """Pointers of the scene, the view layer and the camera."""
     raw: BlenderCamera | None
-    """What the camera was made of; None where there is no camera that can be cast."""
+    """The record from which the camera was made; None if there is no camera that can be cast."""
     camera: Camera | None
-    """At the current frame, without pixel times; None where there is no camera that can be cast."""
+    """The camera at the current frame, without pixel times; None if there is no camera that can be cast."""
     shapes: Shapes
     differences: tuple[str, ...] = ()
-    """What a render shows otherwise than the window."""
+    """Differences between a render and the window, in sentences."""
 
 
 _read: list[CachedScene] = []
@@ -54,25 +54,31 @@ def _camera(camera_object, depsgraph) -> tuple[BlenderCamera | None, Camera | No
     try:
         return camera_at(camera_object, depsgraph)
     except InputError:
-        return None, None  # the sidebar says why
+        return None, None  # the sidebar shows the reason
 
 
 def _differences(camera: Camera | None, scene) -> Iterator[str]:
-    """Yield in what a render differs from what the window shows."""
+    """Yield sentences about how a render differs from the window."""
     if camera is None:
         return
     if camera.pixel_time is not None:
         now, first, last = scene.frame_current_final, camera.pixel_time.first, camera.pixel_time.last
-        yield f"Every pixel at frame {now:g}; a render has each at its own, from frame {first:.4g} to {last:.4g}"
+        yield (
+            f"Every pixel is shown at frame {now:g}; in a render, each pixel has its own time, from frame {first:.4g} "
+            f"to {last:.4g}"
+        )
     if camera.aperture is not None:
         samples = scene.camera_ray_caster.samples
         blurred = f"; a render with {samples} samples has depth of field"
-        yield f"Rays through the center of the lens only{blurred if samples > 1 else ', as in a render with 1 sample'}"
+        yield (
+            "Only rays through the center of the lens are "
+            f"shown{blurred if samples > 1 else ', as in a render with 1 sample'}"
+        )
 
 
 @persistent
 def tag(scene, depsgraph):
-    """Something was evaluated: where it is cameras alone, the shapes are what they were."""
+    """Mark the camera as changed after an evaluation, and the shapes too unless only cameras were updated."""
     _stale.add("camera")
     for update in depsgraph.updates:
         source = update.id.original
@@ -83,13 +89,13 @@ def tag(scene, depsgraph):
 
 @persistent
 def tag_all(*_):
-    """Another frame, an undo or another file: nothing is what it was."""
+    """Mark everything as changed: after a frame change, an undo or redo, or a new file."""
     _stale.update(("camera", "shapes"))
 
 
 @persistent
 def forget(*_):
-    """Another file: keep nothing of this one."""
+    """Forget the cached scene: another file is loaded."""
     _read.clear()
     tag_all()
 
@@ -104,6 +110,6 @@ HANDLERS = (
 
 
 def register(undo) -> None:
-    """See ``registration``."""
+    """Register this module; see ``registration``."""
     undo.callback(forget)
     undo.add_handlers(HANDLERS)

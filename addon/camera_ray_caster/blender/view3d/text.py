@@ -1,4 +1,4 @@
-"""Text on a dark ground in a 3D View: a table of two columns."""
+"""Text on a dark background in a 3D View, as a table of two columns."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ import gpu
 from gpu_extras.batch import batch_for_shader
 
 SIZE = 12
-"""Pixels, at the interface's scale 1."""
+"""Font size in pixels at interface scale 1."""
 
 
 def write(context, lines: Sequence[tuple[str, str]], place: Callable[[float, float], tuple[float, float]]) -> None:
-    """Write (name, text) lines; ``place`` is given their width and height and returns left and top in the region."""
+    """Write (name, text) lines; ``place(width, height)`` returns the left and top of the text in the region."""
     font, size = 0, SIZE * context.preferences.system.ui_scale
     blf.size(font, size)
     longest = max(blf.dimensions(font, name)[0] for name, _ in lines)
@@ -30,7 +30,7 @@ def write(context, lines: Sequence[tuple[str, str]], place: Callable[[float, flo
 
 
 def visible_width(context) -> int:
-    """Return how many pixels of its width a region shows: a sidebar may lie over the others."""
+    """Return the visible width of the region in pixels: a sidebar may cover a part of it."""
     region = context.region
     sidebars = [other.x - region.x for other in context.area.regions if other.type == "UI" and other.width > 1]
     return min([region.width, *(left for left in sidebars if left > 0)])

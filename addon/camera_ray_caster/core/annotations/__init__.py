@@ -1,1 +1,1 @@
-"""What pictures show, in words for machines that learn: boxes, masks and key points."""
+"""Annotations of pictures for machine learning: boxes, masks and key points."""

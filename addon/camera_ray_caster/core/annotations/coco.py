@@ -1,9 +1,9 @@
-"""COCO's form of annotations: images, categories, boxes, masks and key points, as one document a picture or of many.
+"""Annotations in COCO's format: images, categories, boxes, masks and key points, of one picture or of many.
 
-Boxes are x, y, width and height in pixels from the top left corner of the picture, y down; key points are x, y and
-visibility: 0 outside, 1 hidden, 2 seen; a pixel's center is at + 0.5. Masks are run lengths, column by column. Beside
-COCO's own words stand ``bbox_whole`` and ``area_whole``, of the object were it alone in the picture,
-``visible_fraction``, ``object``, ``shape_index``; and the lists ``hidden``, of objects of which no pixel is seen, and
+Boxes are x, y, width and height in pixels from the top left corner of the picture, y down. Key points are x, y and
+visibility: 0 outside, 1 hidden, 2 seen; a pixel's center is at + 0.5. Masks are run lengths, column by column. Besides
+COCO's own keys there are ``bbox_whole`` and ``area_whole``, of the object if it were alone in the picture,
+``visible_fraction``, ``object`` and ``shape_index``; and the lists ``hidden``, of objects without visible pixels, and
 ``keypoints``, of all key points with their world coordinates and depth.
 Reference: https://cocodataset.org/#format-data.
 """
@@ -26,23 +26,23 @@ from .silhouettes import Box, Silhouette, silhouettes
 Document = dict[str, Any]
 
 NO_POINT: list[float] = [0, 0, 0]
-"""COCO's key point of an object that has none of this name, and of one that is outside."""
+"""COCO's entry for a key point that an object does not have, or that is outside of the picture."""
 
 
 @dataclass(frozen=True)
 class Sheet:
-    """A picture's file: its size in pixels, and the column and row of the full frame at which it begins."""
+    """A picture's file: its size in pixels, and the column and row of the full frame at its bottom left corner."""
 
     width: int
     height: int
     corner: tuple[int, int] = (0, 0)
 
     def box(self, x0: int, x1: int, y0: int, y1: int) -> list[int]:
-        """Return pixels x0 .. x1 - 1, y0 .. y1 - 1 of the full frame, y up, as COCO's box."""
+        """Return pixels x0 .. x1 - 1, y0 .. y1 - 1 of the full frame, y up, as a box of COCO."""
         return [x0 - self.corner[0], self.height - (y1 - self.corner[1]), x1 - x0, y1 - y0]
 
     def point(self, pixel: tuple[float, float]) -> list[float]:
-        """Return pixel coordinates of the full frame, y up, as COCO's."""
+        """Return pixel coordinates of the full frame, y up, as pixel coordinates of COCO."""
         return [pixel[0] - self.corner[0], self.height - (pixel[1] - self.corner[1])]
 
 
@@ -56,7 +56,7 @@ def document(
 ) -> Document:
     """Return the annotations of one picture.
 
-    image: ``file_name``, and what else is to be said of it. ``category_of``: from an object's name to its category.
+    image: ``file_name``, and any further entries of the image. category_of: maps an object's name to its category.
     """
     found, index = silhouettes(camera, shapes)
     raster = camera.raster
@@ -112,7 +112,7 @@ def document(
 
 
 def merged(documents: Iterable[Document]) -> Document:
-    """Return one document of several, with numbers of its own; categories of the same name are one."""
+    """Return several documents as one, numbered anew; categories of the same name are merged."""
     result: Document = {"info": {}, "images": [], "categories": [], "annotations": [], "hidden": [], "keypoints": []}
     key_names: dict[str, list[str]] = {}
     for one in documents:
@@ -142,7 +142,7 @@ def merged(documents: Iterable[Document]) -> Document:
 
 
 def run_lengths(mask: np.ndarray) -> dict[str, Any]:
-    """Return a mask (rows, columns), row 0 at the top, as COCO's run lengths: of 0, of 1 and so on, by columns."""
+    """Return a mask (rows, columns), row 0 at the top, as COCO's run lengths by columns, alternately of 0 and of 1."""
     flat = mask.ravel(order="F")
     changes = np.flatnonzero(np.diff(flat, prepend=False))
     return {"size": list(mask.shape), "counts": np.diff(changes, prepend=0, append=len(flat)).tolist()}
@@ -160,7 +160,7 @@ def _triple(sheet: Sheet, seen: SeenKeyPoint) -> list[float]:
 
 
 def _key_points(own: dict[str, list[float]], names: list[str]) -> Document:
-    """Return COCO's words for the key points of an object, in the order of its category, where this has any."""
+    """Return COCO's entries for an object's key points, in the order of its category; none if the category has none."""
     triples = [own.get(name, NO_POINT) for name in names]
     said = {"keypoints": list(chain(*triples)), "num_keypoints": sum(triple[2] > 0 for triple in triples)}
     return said if names else {}

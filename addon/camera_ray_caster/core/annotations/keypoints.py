@@ -1,4 +1,4 @@
-"""Key points: named places in the world, and where a picture shows them."""
+"""Key points: named places in the world, and their pixels in a picture."""
 
 from __future__ import annotations
 
@@ -14,18 +14,18 @@ from ..maths.vector import components, norm
 from ..records import Shapes
 
 ROUNDING = 8 * EPS32
-"""Of coordinates that are stored as float32, and turned by matrices that are."""
+"""Relative rounding of coordinates that are stored as float32 and transformed by float32 matrices."""
 
 
 @dataclass(frozen=True)
 class KeyPoint:
-    """A named place."""
+    """A named place in the world."""
 
     name: str
     owner: str
-    """The name of the object that it belongs to; "" for none."""
+    """Name of the object that the key point belongs to; "" for none."""
     place: tuple[float, float, float]
-    """In the world."""
+    """World coordinates."""
 
 
 @dataclass(frozen=True)
@@ -34,15 +34,16 @@ class SeenKeyPoint:
 
     point: KeyPoint
     pixel: tuple[float, float] | None
-    """Pixel coordinates in the full frame; None where it has none."""
+    """Pixel coordinates in the full frame; None if the key point has none."""
     depth: float | None
-    """What the depth pass would show of it."""
+    """Depth as in the depth pass; None without a pixel."""
     visibility: Visibility
 
 
 def seen_key_points(camera: Camera, shapes: Shapes, points: Sequence[KeyPoint]) -> list[SeenKeyPoint]:
-    """Return where key points are seen. A point within ROUNDING of a surface is not hidden by it; one inside of a body
-    is. ``visible`` says more.
+    """Return key points with their pixels, depths and visibility.
+
+    A surface does not hide a point within ROUNDING of it; a point inside of a body is hidden. See ``visible``.
     """
     places = np.array([point.place for point in points], float).reshape(-1, 3)
     pixels = camera.project(places)

@@ -1,4 +1,4 @@
-"""Which pixels each shape has in a picture: those in which it is seen, and those that it would have alone."""
+"""Pixels of each shape in a picture: its visible pixels, and the pixels that it would have alone."""
 
 from __future__ import annotations
 
@@ -16,15 +16,15 @@ Box = tuple[int, int, int, int]
 
 @dataclass(frozen=True)
 class Silhouette:
-    """A shape in a picture: a pixel is its own where the pixel's chief ray hits it."""
+    """A shape in a picture. A pixel belongs to the shape if the pixel's chief ray hits it."""
 
     row: int
-    """In ``Shapes``."""
+    """Row in ``Shapes``."""
     whole: Box
-    """Of the pixels that it would have alone."""
+    """Box of the pixels that the shape would have alone."""
     whole_pixels: int
     visible: Box | None = None
-    """Of the pixels in which it is seen; None where there are none."""
+    """Box of the shape's visible pixels; None if there are none."""
     visible_pixels: int = 0
 
 
@@ -55,7 +55,7 @@ def silhouettes(camera: Camera, shapes: Shapes) -> tuple[list[Silhouette], np.nd
 
 
 def _boxes(index: np.ndarray, columns: np.ndarray, rows: np.ndarray) -> tuple[list[int], list[tuple[Box, int]]]:
-    """Return the shapes that pixels (m,) have, and the box of each one's pixels and their number."""
+    """Return the shapes of pixels (m,) by index, and for each shape the box and the number of its pixels."""
     order = np.argsort(index, kind="stable")
     which, first, counts = np.unique(index[order], return_index=True, return_counts=True)
     if not which.size:
@@ -69,7 +69,7 @@ def _boxes(index: np.ndarray, columns: np.ndarray, rows: np.ndarray) -> tuple[li
 
 @dataclass(frozen=True)
 class _MovingAlone:
-    """One of the shapes that move."""
+    """Motion of a single shape."""
 
     motion: MovingShapes
     row: int
@@ -79,7 +79,7 @@ class _MovingAlone:
 
 
 def _only(shapes: Shapes, row: int) -> Shapes:
-    """Return one of the shapes."""
+    """Return the record of a single shape."""
     one = slice(row, row + 1)
     columns = "kind", "center", "axes", "object_index", "material_index", "color", "name_index", "mesh", "shared"
     motion = None if shapes.motion is None else _MovingAlone(shapes.motion, row)

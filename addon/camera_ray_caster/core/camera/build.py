@@ -1,4 +1,4 @@
-"""From a record to a camera: its model, pose, raster, aperture and pixel times."""
+"""Construction of a camera from a record: its model, pose, raster, aperture and pixel times."""
 
 from __future__ import annotations
 
@@ -17,20 +17,22 @@ from .pixel_time import pixel_time_from
 from .spherical_stereo import with_eye
 
 APART = 2.0**-40
-"""Of a coordinate: what lies nearer together is told apart by few of float64's digits, and by none of float32's, which
-is what Blender has.
+"""Fraction of a coordinate: closer points differ in only the last few digits of float64, and not at all in float32, the
+type that Blender uses.
 """
 
 
 def camera_from(raw: BlenderCamera) -> Camera:
     """Return the camera that a record describes.
 
-    Raises InputError, in one line, for a type without a model (it names those that have one) and for settings without
-    meaning, also where they are so large or small together that neighboring pixels have the same ray.
+    Raises InputError, in one line, for a type without a model (the message names the types that have one) and for
+    invalid settings, such as numbers so large or small together that neighboring pixels have the same ray.
     """
     kind, raster = find_model(raw), raster_from(raw)
     if not 0 <= raw.clip_start < raw.clip_end:
-        raise InputError(f"clip start {raw.clip_start}, clip end {raw.clip_end} of camera {raw.name!r} leave no depth")
+        raise InputError(
+            f"clip start {raw.clip_start}, clip end {raw.clip_end} of camera {raw.name!r} leave no range of depths"
+        )
     given, raw = raw, with_file(raw, kind, raster)
     try:
         lens, pose = kind.from_blender(raw, raster), pose_from(raw)
@@ -54,8 +56,8 @@ def camera_from(raw: BlenderCamera) -> Camera:
 
 
 def _check_apart(raw: BlenderCamera, model: Model, pose: Pose) -> None:
-    """Raise InputError where the pixels around the middle of the frame have one ray in the world, and one point at the
-    clip start; it says which number is farthest from 1. A middle without rays is none.
+    """Raise InputError if the pixels around the middle of the frame have the same direction in the world and the same
+    point at the clip start. The message names the number that is farthest from 1. A middle without rays is accepted.
     """
     half = np.array((-0.5, 0.5))
     x, y = model.frame[0] / 2 + half[None, :], model.frame[1] / 2 + half[:, None]
@@ -70,6 +72,6 @@ def _check_apart(raw: BlenderCamera, model: Model, pose: Pose) -> None:
     numbers = {one.name: one.read(raw) for one in model.SETTINGS if isinstance(one, Number)}
     numbers["its distance from the world's origin"] = float(np.abs(pose.eye).max())
     raise InputError(
-        f"rays of neighboring pixels of camera {raw.name!r} are not told apart: {farthest_from_one(numbers)}, "
-        "too large or too small for the rest"
+        f"rays of neighboring pixels of camera {raw.name!r} cannot be distinguished: {farthest_from_one(numbers)}, too "
+        "large or too small for the rest"
     )

@@ -1,4 +1,4 @@
-"""The calibration file that a camera names: its numbers take the place of the settings, with all their digits."""
+"""The calibration file of a camera: its numbers replace the settings, with all their digits."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ from ..records import BlenderCamera, InputError, Raster
 
 
 def with_file(raw: BlenderCamera, model: type[Model], raster: Raster) -> BlenderCamera:
-    """Return the record with the settings of the file that it names; itself where it names none.
+    """Return the record with the settings of its calibration file, or the record itself if it names no file.
 
-    Raises InputError for a file that cannot be read, that is for another model, for pictures of another shape than the
-    frame, or has several cameras of which none is chosen.
+    Raises InputError for a file that cannot be read, is for another model or for pictures of another shape than the
+    frame, or has several cameras if none of them is chosen.
     """
     path = FILE.read(raw) if FILE in model.SETTINGS else ""
     if not path:
@@ -31,9 +31,9 @@ def with_file(raw: BlenderCamera, model: type[Model], raster: Raster) -> Blender
 
 
 def _check_shape(path: str, lens: Lens, raster: Raster) -> None:
-    """Raise InputError where a calibrated picture has another shape than a frame of square pixels, by more than the
-    pixel that a percentage of the resolution may have cut off. Other pixels may have been calibrated as they are, or as
-    they are seen.
+    """Raise InputError if the shape of the calibrated picture differs from a frame of square pixels by more than the
+    pixel that a percentage of the resolution may have cut off. Frames of other pixels are not checked: they may have
+    been calibrated with their own or with square pixels.
     """
     width, height = (lens.settings[side.name] for side in SIZE)
     if raster.pixel_aspect != 1 or abs(raster.width * height - raster.height * width) <= width + height:
@@ -46,13 +46,18 @@ def _check_shape(path: str, lens: Lens, raster: Raster) -> None:
 
 
 def chosen_lens(path: str, key: str, name: str = "") -> Lens:
-    """Return the lens of this name in a calibration file, or the only one; ``key``: the model's, for formats that do
-    not say theirs. Raises InputError for a file that cannot be read, and where none is chosen: it says which there are.
+    """Return the lens of this name in a calibration file, or its only lens. ``key`` is the model's key, for formats
+    that do not state a model. Raises InputError for a file that cannot be read, and for a missing or ambiguous choice;
+    its message names the lenses in the file.
     """
     lenses = lenses_of(path, key)
     chosen = [lens for lens in lenses if name in ("", lens.name)]
     if len(chosen) != 1:
-        names = ", ".join(lens.name for lens in lenses)
+        names = [repr(lens.name)[1:-1] for lens in lenses]  # what is not printable is escaped
+        if not names or len(set(names)) < len(names):
+            said = "two cameras of one name: give each its own" if names else "no camera: choose another file"
+            raise InputError(f"calibration file {path!r} has {said}")
         said = f"no camera {name!r}" if name and not chosen else f"{len(chosen)} cameras"
-        raise InputError(f"calibration file {path!r} has {said}: set {FILE_CAMERA.name} to one of {names}")
+        setting = f"{FILE_CAMERA.label} (--calibration-camera)"
+        raise InputError(f"calibration file {path!r} has {said}: set {setting} to one of {', '.join(names)}")
     return chosen[0]

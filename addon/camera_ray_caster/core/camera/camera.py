@@ -1,10 +1,9 @@
-"""A camera: a model of its lens, a pose, a raster and a clip range. Pixels become world rays here, and nowhere else."""
+"""A camera: a lens model, a pose, a raster and a clip range."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from contextlib import nullcontext
 from dataclasses import dataclass, replace
 from typing import Any, Literal, overload
 
@@ -16,32 +15,21 @@ from ..cameras.model import Model
 from ..cameras.parts.aperture import Aperture
 from ..cameras.parts.settings import values_of
 from ..conventions import gamma
-from ..maths.panels import ROWS, is_raster, on_raster
-from ..maths.speed import lazy, whole_rows
-from ..maths.vector import components, dot, inverse, is_grid, matvec, norm
+from ..maths.speed import lazy
+from ..maths.vector import inverse, matvec, norm
 from ..memory import of_pixels, require
 from ..records import BlenderCamera, InputError, Pose, Raster, Rays, RaysJacobian
+from .evaluation import pixels_of, rays_through
 from .jacobian import of_projection, of_rays
 from .meeting import meeting
 from .pixel_time import CameraMotion, PixelTime
-from .pixels import by_time, given, in_blocks
+from .pixels import by_time, given
 from .sampling import in_opening, sub_pixel
-
-FARTHEST = 1e15
-"""Pixels, or Blender units, within which no length or polynomial overflows."""
-
-BLOCK_PIXELS = 1 << 17
-"""Pixels whose rays are made at once where a thread's share has as many: of fewer, threads wait at numpy's calls."""
-
-BY_POLYNOMIALS = 8
-"""As many times more where polynomials give most pixels, and the formula is asked for few. 4: 1.1 to 1.25 times the
-time of rays that iterate.
-"""
 
 
 @dataclass(frozen=True)
 class Camera:
-    """What ``read_camera`` returns. Its public interface: rays, rays_at, project, K and world_to_opencv."""
+    """The result of ``read_camera``. Its main interface: rays, rays_at, project, K and world_to_opencv."""
 
     name: str
     model: Model
@@ -50,15 +38,15 @@ class Camera:
     clip_start: float
     clip_end: float
     record: BlenderCamera
-    """What it was made of; the numbers of a calibration file are in it."""
+    """The record that the camera was made from, including the numbers of a calibration file."""
     aperture: Aperture | None = None
-    """What lets rays beside the chief ray in; None for a pinhole."""
+    """The opening that admits rays other than the chief ray; None for a pinhole."""
     pixel_time: PixelTime | None = None
-    """The frame of each pixel; None where the picture has one time."""
+    """The frame of each pixel; None if the picture has one time."""
     motion: CameraMotion | None = None
-    """With pixel times, what knows the camera at other frames; None for a camera that stands still."""
+    """With pixel times, the camera at other frames; None for a camera that stands still."""
     next: Camera | None = None
-    """At the next frame, and ``previous`` at the previous one: see ``casting.flow``. None where they are not read."""
+    """The camera at the next frame, and in ``previous`` at the previous one: see ``casting.flow``. None if not read."""
     previous: Camera | None = None
 
     @property
@@ -69,7 +57,7 @@ class Camera:
     @property
     def K(self) -> np.ndarray | None:
         """The camera matrix, (3, 3) float64, in OpenCV's convention: y down, the origin in the center of the top left
-        pixel. Where a lens distorts, it applies to the distorted coordinates. None for models without one.
+        pixel. With lens distortion K applies to the distorted coordinates. None for models without a camera matrix.
         """
         return self.model.K
 
@@ -77,10 +65,10 @@ class Camera:
     def world_to_opencv(self) -> np.ndarray:
         """(4, 4) float64: from the world to OpenCV's camera frame, x right, y down, z ahead.
 
-        It is a rigid transform to the rounding of the matrix that Blender stores (float32, 1e-7), unless the camera is
-        sheared. Each entry is right to gamma(8) of the sum of the magnitudes times the condition of the basis.
+        It is rigid up to the rounding of the matrix that Blender stores (float32, 1e-7), unless the camera is sheared.
+        The error of each entry is at most gamma(8) of the sum of the magnitudes times the basis's condition number.
         """
-        result = np.diag([1.0, -1.0, -1.0, 1.0])  # from the camera
+        result = np.diag([1.0, -1.0, -1.0, 1.0])  # from the camera's frame
         result[:3, :3] = result[:3, :3] @ inverse(self.pose.basis)
         result[:3, 3] = -result[:3, :3] @ self.pose.eye
         return result
@@ -90,11 +78,11 @@ class Camera:
         return replace(self, pixel_time=None, motion=None) if self.motion is None else self.motion.camera_at(frame)
 
     def from_eye(self, sampled: bool) -> bool:
-        """Whether all rays leave the eye: the chief rays, or also those all over the aperture where it is sampled."""
+        """Whether all rays leave the eye: the chief rays, or if ``sampled`` those through the whole aperture."""
         return self.model.central and not (sampled and self.aperture is not None)
 
     def pixel_rounding(self, x, y) -> tuple[Any, Any]:
-        """Return what rounding before the model's own formula amounts to, in pixels; see ``Model``."""
+        """Return the effect of rounding before the model's own formula, in pixels along x and y; see ``Model``."""
         return self.model.pixel_rounding(x, y)
 
     @property
@@ -105,7 +93,7 @@ class Camera:
     def camera_rays(self, x, y):
         """Return the camera-frame (origin, direction) components for pixel coordinates, scaled so that t is depth.
 
-        x and y broadcast; so do the components, which is what lets a pinhole stay rows and columns.
+        x and y broadcast, and so do the components, so that those of a pinhole stay a row and a column.
         """
         origin, direction = self.model.rays(x, y)
         if not self.model.planar and not self.is_rigid:
@@ -114,8 +102,8 @@ class Camera:
         return origin, direction
 
     def sample_rays(self, x, y, sample: int):
-        """Return what ``camera_rays`` does for a sample within the pixels with the centers x, y: the sample has its
-        own place in the pixel, the same in all of them, and its own in the aperture.
+        """Return the rays of a sample in the pixels with the centers x, y, in the form of ``camera_rays``. The sample
+        has the same place in every pixel, and in each pixel another point of the aperture.
         """
         off_x, off_y = sub_pixel(sample)
         place = x + off_x, y + off_y
@@ -126,16 +114,16 @@ class Camera:
 
     @property
     def parallel(self):
-        """The direction that all chief rays have, three numbers in the camera frame; None where they differ."""
+        """The common direction of all chief rays, three numbers in the camera frame; None if the directions differ."""
         return self.model.rays(0.0, 0.0)[1] if self.model.parallel else None
 
     @lazy
     def stretch(self) -> float:
-        """How many times as long vectors become at most, from the camera's frame to the world: 1 without shear."""
+        """The largest factor by which vectors grow from the camera's frame to the world: 1 without shear."""
         return float(np.linalg.norm(self.pose.basis, 2))
 
     def length_of(self, direction):
-        """Return the world's length of what ``camera_rays`` gives; of a row and a column it is one sum."""
+        """Return the length in the world of a direction from ``camera_rays``; a row and a column take only one sum."""
         return norm(direction if self.is_rigid else matvec(self.pose.basis, direction))
 
     @property
@@ -147,8 +135,8 @@ class Camera:
     def rays_at(self, x, y) -> Rays:
         """Return the world rays through pixel coordinates x, y (scalars or arrays that broadcast), as ``rays`` does.
 
-        Pixel coordinates that are not finite have no ray. Raises InputError for what are no numbers, for shapes that do
-        not go together, and for rays that take more memory than there is.
+        Pixel coordinates that are not finite have no ray. Raises InputError for values that are not numbers, for shapes
+        that do not broadcast, and for rays that need more memory than is available.
         """
         x, y, shape = given(x, y)
         timed = self.pixel_time is not None
@@ -156,51 +144,7 @@ class Camera:
         if self.pixel_time is not None:
             time, (origins, directions) = self._timed(Camera.rays_at, x, y, (3,))
             return Rays(origins, directions, ~np.isnan(directions[..., 0]), time)
-        directions = np.empty((*shape, 3))
-        origins = np.broadcast_to(self.pose.eye, directions.shape) if self.model.central else np.empty((*shape, 3))
-        valid = np.empty(shape, bool)
-        near = _is_near(x) and _is_near(y)
-
-        def put(part) -> None:
-            with _quiet(near):
-                self._write(x, y[part], origins[part], directions[part], valid[part])
-
-        if is_grid(x, y) and y.ndim == 2:
-            pixels = BLOCK_PIXELS * (BY_POLYNOMIALS if self.model.by_polynomials else 1)
-            in_blocks(put, valid.shape, pixels, ROWS)  # whole panels
-        else:
-            put(...)
-        if not near:
-            is_unit = norm(components(directions)) > 0.5  # 0 or NaN where something overflowed
-            lost = ~(np.isfinite(x) & np.isfinite(y) & is_unit)
-            directions[lost], valid[...] = np.nan, ~lost
-        return Rays(origins, directions, valid)
-
-    def _write(self, x, y, origins, directions, valid) -> None:
-        """Write the world rays through pixel coordinates; the origins only where there is more than the eye."""
-        if self.model.by_polynomials and is_raster(x, y):
-            parts = (directions,) if self.model.central else (directions, origins)
-            out = [np.moveaxis(part, -1, 0) for part in parts]
-            on_raster(replace(self, model=self.model.endless)._at_points, x, y, self.model.disc, 3 * len(out), out)
-        else:
-            with whole_rows(valid.shape[-1] if valid.ndim else 1):
-                self._write_by_formula(x, y, origins, directions)
-        np.equal(directions[..., 0], directions[..., 0], out=valid)  # NaN is not
-
-    def _write_by_formula(self, x, y, origins, directions) -> None:
-        origin, direction = self.camera_rays(x, y)
-        scale = 1.0 / self.length_of(direction) if self.model.planar else 1.0
-        for axis, row in enumerate(self.pose.basis):
-            np.multiply(dot(row, direction), scale, out=directions[..., axis])
-            if not self.model.central:
-                np.add(dot(row, origin), self.pose.eye[axis], out=origins[..., axis])
-
-    def _at_points(self, x, y):
-        """Return the components of the directions, and unless all leave the eye of the origins, by the formula."""
-        directions, origins = np.empty((2, *np.broadcast_shapes(x.shape, y.shape), 3))
-        with np.errstate(all="ignore"):  # beyond the model's disc there may be no value
-            self._write_by_formula(x, y, origins, directions)
-        return (*components(directions), *components(origins)) if not self.model.central else components(directions)
+        return rays_through(self, x, y, shape)
 
     @property
     def _moves(self) -> bool:
@@ -208,8 +152,8 @@ class Camera:
         return self.pixel_time is not None and self.motion is not None
 
     def _timed(self, ask: Callable, x, y, axes: tuple[int, ...]) -> tuple[np.ndarray, Any]:
-        """Return the times of pixels, and the origins and directions, (2, ..., *axes), that ``ask(camera, x, y)`` gives
-        of the camera at each pixel's own time.
+        """Return the times of pixels, and the origins and directions, (2, ..., *axes), that ``ask(camera, x, y)``
+        returns for the camera at each pixel's own time.
         """
         pixel_time: Any = self.pixel_time
         time = np.broadcast_to(pixel_time.frame_at(x, y), np.broadcast_shapes(x.shape, y.shape))
@@ -223,10 +167,10 @@ class Camera:
     def rays(self) -> Rays:
         """Return the chief rays of the render window: through its pixel centers, world frame, unit directions.
 
-        With pixel times each ray is the camera's at the pixel's own time. Undefined (NaN, valid False) where the model
-        has no ray. Each component of a direction is right to a few EPS relative to the unit length, amplified by the
-        frame's offset (shift) over the pixel's own. Where a model's formula takes polynomials for whole pictures
-        (see ``maths.panels``), a ray that is asked for alone may differ by as much.
+        With pixel times each ray is that of the camera at the pixel's own time. Undefined (NaN, valid False) where the
+        model has no ray. The error of each component of a direction is a few EPS of the unit length, amplified by the
+        frame's offset (shift) over the pixel's own. Some models evaluate polynomials for whole pictures (see
+        ``maths.panels``): a ray computed by itself may differ by the same amount.
         """
         return self.rays_at(self.raster.columns(), self.raster.rows())
 
@@ -246,8 +190,8 @@ class Camera:
         """Return how the rays of ``rays`` change from pixel to pixel: the derivatives of the origins and of the unit
         directions by the pixel's x and y, world frame.
 
-        They come from the model's own formula, for every model alike: see ``camera.jacobian``, also for how exact they
-        are. With pixel times they are those of the camera at the pixel's own time: a pixel has one time all over.
+        They follow from the formula of each model: see ``camera.jacobian``, also for their accuracy. With pixel times
+        they belong to the camera at the pixel's own time, which is constant within a pixel.
         """
         return self.rays_jacobian_at(self.raster.columns(), self.raster.rows())
 
@@ -256,12 +200,12 @@ class Camera:
     @overload
     def project(self, points, jacobian: Literal[True]) -> tuple[np.ndarray, np.ndarray]: ...
     def project(self, points, jacobian=False):
-        """Return the pixel coordinates (..., 2) in the full frame of world points (..., 3); NaN where none sees it, and
-        for points that are not finite. With ``jacobian`` return also their derivatives by the points, (..., 2, 3):
-        pixels per world unit, for every model alike; see ``camera.jacobian``.
+        """Return the pixel coordinates (..., 2) in the full frame of world points (..., 3); NaN for points that are not
+        seen or not finite. With ``jacobian`` return also the derivatives with respect to the points, (..., 2, 3), in
+        pixels per world unit, for every model; see ``camera.jacobian``.
 
-        With pixel times and a moving camera the points, taken to stand still, are sought: see ``meeting``; their
-        derivatives are refused. Raises InputError for them, and for an array of another shape.
+        With pixel times and a moving camera the pixels are found by a search, with points that stand still: see
+        ``meeting``. Raises InputError for derivatives in this case, and for an array of another shape.
         """
         points = numbers(points, "points")
         if points.shape[-1:] != (3,):
@@ -282,19 +226,4 @@ class Camera:
             motion: Any = self.motion
             sought = meeting(time, lambda frame, some: self.at(frame).project(each[some]), len(each), motion.cuts)
             return sought.reshape(*points.shape[:-1], 2)
-        near = _is_near(points)
-        with _quiet(near):
-            pixels = self.model.project((points - self.pose.eye) @ inverse(self.pose.basis).T)
-        if not near:
-            pixels[~(np.isfinite(points).all(axis=-1) & np.isfinite(pixels).all(axis=-1))] = np.nan
-        return pixels
-
-
-def _is_near(places) -> bool:
-    """Whether all coordinates are finite, and none is farther out than what follows is sure to be a number."""
-    return bool(-FARTHEST < places.min(initial=0.0) <= places.max(initial=0.0) < FARTHEST)
-
-
-def _quiet(near: bool):
-    """Let numbers overflow, and NaN come of them, only where that is meant: far out it is an answer."""
-    return nullcontext() if near else np.errstate(all="ignore")
+        return pixels_of(self, each).reshape(*points.shape[:-1], 2)

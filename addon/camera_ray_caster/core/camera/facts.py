@@ -1,4 +1,4 @@
-"""What a camera is, in the words of the lecture and of computer vision: for the report and the panels."""
+"""The properties of a camera, in the terms of ray tracing and computer vision: for the report and the panels."""
 
 from __future__ import annotations
 
@@ -9,26 +9,26 @@ from ..maths.vector import inverse
 from .camera import Camera
 
 CONVENTIONS = {
-    "lengths": "Blender units, but millimeters for lenses, sensors and film; meters: how long a Blender unit is",
-    "angles": "radians, but degrees for field_of_view",
+    "lengths": "Blender units, except millimeters for lenses, sensors and film; meters: the length of a Blender unit",
+    "angles": "radians, except degrees for field_of_view",
     "pixels": "(0, 0) is the bottom left corner of the full frame, y up; pixels have their centers at + 1/2",
     "camera": "x right, y up, it looks along -z; u, v and -w are these axes in the world, eye is the origin",
     "K": "as OpenCV: y down, (0, 0) is the center of the top left pixel; of the full frame",
     "world_to_opencv": "rows; from the world to x right, y down, z ahead",
-    "plane_from_pixels": "rows; from (x, y, 1) of a pixel to the image plane that the formula begins with",
+    "plane_from_pixels": "rows; from (x, y, 1) of a pixel to the image plane with which the formula begins",
 }
-"""What the numbers of files mean; ``core.conventions`` has the reasons."""
+"""Meaning of the numbers in exported files; for details see ``core.conventions``."""
 
 
 def camera_facts(camera: Camera) -> dict[str, object]:
     """Return names, numbers and lists of numbers, in the order in which they are shown.
 
-    Every camera: its model, eye (world), orthobasis u, v and w = -Z (world, unit), raster (pixels), window (the columns
-    x0 .. x1 and rows y0 .. y1 that are rendered), pixel aspect, clip range. A central camera with rays at the middles
-    of the frame's edges: the field of view across and up, in degrees, from edge to middle to edge. Then what the model
-    says of itself (``Model.facts``): a pinhole its field of view, d and aspect, an orthographic camera its frame, a
-    general linear one its kind; K, of models that have one; the affine map from the pixel to the image plane, of those
-    that begin with one. Last the model's settings by name (``Camera.settings``) and its formula, step by step.
+    For every camera: its model, eye (world), orthobasis u, v and w = -Z (world, unit), raster (pixels), window (the
+    columns x0 .. x1 and rows y0 .. y1 that are rendered), pixel aspect and clip range. For a central camera with rays
+    at the middles of the frame's edges: the horizontal and vertical field of view in degrees, from edge to middle to
+    edge. Then the facts of the model (``Model.facts``), such as d and aspect of a pinhole; K and the affine map from
+    the pixel to the image plane, for models that have them. Last the transform from the world to OpenCV's camera frame,
+    the model's settings by name (``Camera.settings``) and its formula, step by step.
     """
     raster, basis = camera.raster, camera.pose.basis
     own = camera.model.facts()
@@ -55,14 +55,14 @@ def camera_facts(camera: Camera) -> dict[str, object]:
 
 
 def _plane(model: WindowModel) -> list[list[float]]:
-    """Return the window's affine map, (2, 3)."""
+    """Return the window's affine map from the pixel to the image plane, (2, 3)."""
     K = model.window.matrix(model.frame[1])
     opencv_from_pixels = np.array([[1.0, 0.0, -0.5], [0.0, -1.0, model.frame[1] - 0.5], [0.0, 0.0, 1.0]])
     return (np.diag([1.0, -1.0]) @ (inverse(K) @ opencv_from_pixels)[:2]).tolist()
 
 
 def _field_of_view(camera: Camera) -> dict[str, object]:
-    """Return the field of view, (across, up) in degrees, as a fact; nothing where there is none."""
+    """Return the fact of the field of view, (horizontal, vertical) in degrees; an empty dict if it is undefined."""
     if not camera.model.central:
         return {}
     x, y = np.array([0.0, 0.5, 1.0, 0.5, 0.5]), np.array([0.5, 0.5, 0.5, 0.0, 1.0])
@@ -73,5 +73,5 @@ def _field_of_view(camera: Camera) -> dict[str, object]:
 
 
 def _angle(a, b) -> float:
-    """Return the angle between two directions in degrees, exact to rounding for all of them."""
+    """Return the angle between two directions in degrees, exact to rounding for all angles."""
     return float(np.degrees(np.arctan2(np.linalg.norm(np.cross(a, b)), a @ b)))

@@ -1,19 +1,19 @@
-"""How rays change from pixel to pixel, and pixels with the points that they see: exact derivatives, not differences.
+"""Exact derivatives: of rays with respect to the pixel, and of pixels with respect to the points that they see.
 
-They follow from the model's own formula, recorded and differentiated (``core.maths.recording``), for every model alike.
+For every model they follow from its own formula, which is recorded and differentiated (``core.maths.recording``).
 With o and d the origin and the direction of a ray in the camera's frame, o' and d' their derivatives by a coordinate of
 the pixel, and B the camera's axes:
-    The unit direction B d / |B d| changes by (cof(B) (d x d')) x B d / |B d|^3, with cof(B) the cofactors of B: no part
-    of d' along d is left to cancel, however long d is.
-    A pixel is the solid angle |det B  d . (d_x x d_y)| / |B d|^3, and at t along the ray, between the rays around it,
-    the area |det B  d . (v_x x v_y)| / |B d| across it, v = o' + t d'.
+    The unit direction B d / |B d| has the derivative (cof(B) (d x d')) x B d / |B d|^3, with cof(B) the cofactors of B:
+    the part of d' along d drops out without cancellation, for any length of d.
+    A pixel covers the solid angle |det B  d . (d_x x d_y)| / |B d|^3, and at t along the ray the area
+    |det B  d . (v_x x v_y)| / |B d| perpendicular to the ray, v = o' + t d'.
     A point p = o + t d moves its pixel by (v_y x d) . dp / D in x and (d x v_x) . dp / D in y, D = d . (v_x x v_y):
     Cramer's rule for the implicit function.
-Rounding: the derivative of a direction is right to 16 EPS of its length, that of an origin to 16 EPS of the length of
-both, that of a pixel by points to 16 EPS of its length, times the distances of the point and of the ray's origin from
-the world's origin over t. To that comes what a move of the pixel by ``Model.pixel_rounding`` does to them: where rays
-turn ever faster, as at the rim of a mirror ball, that is most of it. Where a formula has a kink, as between two
-stretches of a strip camera's path, they are the derivatives to one side.
+Rounding: the error of a direction's derivative is at most 16 EPS of its length; that of an origin's, 16 EPS of the
+length of both derivatives; that of a pixel's with respect to points, 16 EPS of its length times the distances of the
+point and of the ray's origin from the world's origin over t. A move of the pixel by ``Model.pixel_rounding`` adds its
+own effect, which is the largest part where rays turn ever faster, as at the rim of a mirror ball. Where a formula has a
+kink, as between two stretches of a strip camera's path, the derivatives are one-sided.
 Reference: H. Igehy, Tracing Ray Differentials, SIGGRAPH 1999.
 """
 
@@ -44,11 +44,11 @@ from ..records import Pose, RaysJacobian
 from .pixels import in_blocks
 
 BLOCK_PIXELS = 1 << 14
-"""Pixels that are differentiated at once: half as many or four times as many take 1.0 to 1.6 times the time."""
+"""Number of pixels differentiated at once: half as many or four times as many take 1.0 to 1.6 times the time."""
 
 
 class RayDerivatives:
-    """The chief rays at pixel coordinates with their derivatives; vectors are three components that broadcast."""
+    """The chief rays at pixel coordinates and their derivatives; vectors are three components that broadcast."""
 
     def __init__(self, model: Model, pose: Pose, x, y):
         """Differentiate at x and y, arrays that broadcast."""
@@ -62,7 +62,7 @@ class RayDerivatives:
 
     @lazy
     def length(self) -> Any:
-        """Of the direction in the world."""
+        """The length of the direction in the world."""
         return norm(matvec(self.pose.basis, self.direction))
 
     @lazy
@@ -83,15 +83,15 @@ class RayDerivatives:
 
     @property
     def solid_angle(self) -> Any:
-        """Of a pixel, steradians, to first order."""
+        """The solid angle of a pixel, steradians, to first order."""
         return self._volume(self.direction_by) / self._cube
 
     def area_at(self, distance: Any) -> Any:
-        """Return the area across the ray that a pixel covers at a distance in the world, to first order."""
+        """Return the area perpendicular to the ray that a pixel covers at a distance in the world, to first order."""
         return self._volume(self._at(distance / self.length)) / self.length
 
     def by_point(self, point: Any) -> tuple[Any, Any]:
-        """Return the derivatives of the pixel's x and y by the points in the camera's frame that the rays meet."""
+        """Return the derivatives of the pixel's x and y with respect to the seen points, all in the camera's frame."""
         beside = difference(point, self.origin)
         by_x, by_y = self._at(dot(beside, self.direction) / dot(self.direction, self.direction))
         to_x, to_y = cross(by_y, self.direction), cross(self.direction, by_x)
@@ -99,17 +99,17 @@ class RayDerivatives:
         return tuple(part / volume for part in to_x), tuple(part / volume for part in to_y)
 
     def _at(self, t: Any) -> list[Any]:
-        """Return how the points of the rays at t change, by x and by y."""
+        """Return the derivatives by x and by y of the points of the rays at t."""
         return [along(o, d, t) for o, d in zip(self.origin_by, self.direction_by, strict=True)]
 
     def _volume(self, sides: list[Any]) -> Any:
-        """Return the volume in the world over the direction and two sides of the camera's frame."""
+        """Return the volume in the world of the parallelepiped of the direction and two sides in the camera's frame."""
         basis = self.pose.basis
         return np.abs(dot(basis[0], cofactors(basis)[0]) * dot(self.direction, cross(*sides)))
 
 
 def of_rays(model: Model, pose: Pose, x, y, shape: tuple[int, ...]) -> RaysJacobian:
-    """Return how world rays change at pixel coordinates that broadcast to a shape; see ``Camera.rays_jacobian_at``."""
+    """Return the derivatives of rays at coordinates that broadcast to a shape; see ``Camera.rays_jacobian_at``."""
     directions = np.empty((*shape, 3, 2))
     origins = np.broadcast_to(0.0, directions.shape) if model.central else np.empty(directions.shape)
     if not (is_grid(x, y) and len(shape) == 2):
@@ -119,7 +119,7 @@ def of_rays(model: Model, pose: Pose, x, y, shape: tuple[int, ...]) -> RaysJacob
 
     def put(rows: slice) -> None:
         window = rows, ALL
-        with np.errstate(all="ignore"):  # NaN is an answer: no ray
+        with np.errstate(all="ignore"):  # NaN means no ray
             rays = RayDerivatives(model, pose, cut(x, window), cut(y, window))
             none = lost[rows] | np.isnan(rays.length)
             for result, vectors in ((directions, rays.directions), (origins, rays.origins)):
@@ -136,15 +136,15 @@ def of_rays(model: Model, pose: Pose, x, y, shape: tuple[int, ...]) -> RaysJacob
 
 
 def of_projection(model: Model, pose: Pose, points: np.ndarray, pixels: np.ndarray) -> np.ndarray:
-    """Return the derivatives (n, 2, 3) of the pixels (n, 2) at which world points (n, 3) are seen, by the points.
+    """Return the derivatives (n, 2, 3) of the pixels (n, 2) that see world points (n, 3), with respect to the points.
 
-    NaN where the pixel is NaN or has no ray; not finite where all pixels of a line see the point.
+    NaN if the pixel is NaN or has no ray; not finite if all pixels of a line see the point.
     """
     result = np.empty((len(points), 2, 3))
     camera_from_world = inverse(pose.basis)
 
     def put(part: slice) -> None:
-        with np.errstate(all="ignore"):  # NaN is an answer: no pixel
+        with np.errstate(all="ignore"):  # NaN means no pixel
             local = components((points[part] - pose.eye) @ camera_from_world.T)
             rays = RayDerivatives(model, pose, pixels[part, 0], pixels[part, 1])
             for row, gradient in enumerate(rays.by_point(local)):

@@ -1,7 +1,7 @@
-"""The pixels that see points at the pixels' own times: where a moving camera's clock and the points' images agree.
+"""The pixels that see points at the pixels' own times: where the times of a moving camera and the points' images agree.
 
-The image of a point is a polynomial of the frame, piece by piece: it is fitted at a few nodes of each piece, and where
-its last coefficients have not sunk to rounding, the piece is halved.
+The image of a point is approximated by a polynomial of the frame, piece by piece. It is fitted at a few nodes of each
+piece; if its last coefficients have not decreased to rounding, the piece is halved.
 Reference: L. Trefethen, Approximation Theory and Approximation Practice (2013), chapters 3, 8 and 18.
 """
 
@@ -17,24 +17,24 @@ from numpy.polynomial.chebyshev import chebpts2, chebval, chebvander
 from .pixel_time import ImageTime, LinearTime, PixelTime
 
 NODES = chebpts2(12)
-"""Of a piece, from -1 to 1."""
+"""Nodes of a piece, from -1 to 1."""
 
 FIT = np.linalg.inv(chebvander(NODES, len(NODES) - 1))
 
 PLACES = np.linspace(-1, 1, 65)
-"""Of a piece whose polynomials are known, between which a change of sign is looked for."""
+"""Places in a piece, from -1 to 1, between which the polynomials are searched for a change of sign."""
 
 RESOLVED = 1e-10, 1e-13
-"""What last coefficients have to sink to: pixels, and a part of the largest coordinate."""
+"""Bound of the last coefficients of a resolved piece: in pixels, plus a fraction of the largest coordinate."""
 
 LONGEST = 1 / 6
-"""Of the clock: longer pieces that are not resolved are halved even where no point is seen to agree with it."""
+"""Fraction of the time range: longer unresolved pieces are halved even if no sign of an agreement is seen in them."""
 
 SHORTEST = 2.0**-14
-"""Of the clock, at which halving ends: less than a row."""
+"""Fraction of the time range at which halving ends: less than a row."""
 
 HALVINGS = 54
-"""Of the interval in which a polynomial has a root, until no number lies within."""
+"""Number of halvings of an interval with a root, until no number lies within it."""
 
 Project = Callable[[float, np.ndarray], np.ndarray]
 """Given a frame and the indices (k,) of points, the pixels (k, 2) at which the camera of that frame sees them then."""
@@ -43,15 +43,16 @@ Project = Callable[[float, np.ndarray], np.ndarray]
 def meeting(
     pixel_time: PixelTime, project: Project, count: int, cuts: Iterable[float] = (), around: float | None = None
 ) -> np.ndarray:
-    """Return the pixels (count, 2) that see points at the pixels' own times; NaN where none does, the earliest of
-    several. ``cuts``: frames at which motion may change abruptly. ``around``: a frame that is looked at first, so that
-    of several pixels one between the same cuts is found, if there is one.
+    """Return the pixels (count, 2) that see points at the pixels' own times: of several pixels the earliest, NaN if no
+    pixel does. ``cuts``: frames at which motion may change abruptly. ``around``: a frame; the interval between the cuts
+    around it is searched first, so that a pixel with a time in that interval is preferred.
 
-    Right to RESOLVED but at other abrupt changes, around which it is right to SHORTEST. A point whose image agrees with
-    the clock twice within 1/64 of a piece may be missed. On an ImageTime the frames are those of the image.
+    The error is at most RESOLVED, except near abrupt changes that are not in ``cuts``, where it is that of SHORTEST. A
+    point whose image agrees with the pixels' times twice within 1/64 of a piece may be missed. For an ImageTime the
+    frames of the image are tried one by one.
     """
     found, everyone = np.full((count, 2), np.nan), np.arange(count)
-    with np.errstate(invalid="ignore"):  # NaN is an answer: not seen
+    with np.errstate(invalid="ignore"):  # NaN means not seen
         if isinstance(pixel_time, ImageTime):
             for frame in np.unique(pixel_time.frames).tolist():
                 left = everyone[np.isnan(found[:, 0])]
@@ -78,10 +79,10 @@ class _Search:
     clock: LinearTime
     project: Project
     length: float
-    """Of the clock, in frames."""
+    """Length of the time range in frames."""
 
     def within(self, a: float, b: float, some: np.ndarray) -> np.ndarray:
-        """Return the pixels (k, 2) of points whose images agree with the clock between two frames; NaN of others."""
+        """Return the pixels (k, 2) of points whose images agree with the clock between two frames; else NaN."""
         found = np.full((len(some), 2), np.nan)
         middle, half = (a + b) / 2, (b - a) / 2
         pixels = np.stack([self.project(middle + half * node, some) for node in NODES.tolist()])
@@ -93,11 +94,11 @@ class _Search:
             found[clear] = self._root(middle, half, series[:, clear], pixels[0, clear])
         if b - a <= SHORTEST * self.length:
             change = (late[:-1] * late[1:] <= 0) & ~clear
-            rest = np.flatnonzero(change.any(axis=0))
-            k = change[:, rest].argmax(axis=0)
-            before, after = late[k, rest], late[k + 1, rest]
+            at = np.flatnonzero(change.any(axis=0))
+            k = change[:, at].argmax(axis=0)
+            before, after = late[k, at], late[k + 1, at]
             share = np.where(before == after, 0.0, before / (before - after))[:, None]
-            found[rest] = (1 - share) * pixels[k, rest] + share * pixels[k + 1, rest]
+            found[at] = (1 - share) * pixels[k, at] + share * pixels[k + 1, at]
             return found
         rest = ~clear
         if b - a <= LONGEST * self.length:
@@ -109,11 +110,11 @@ class _Search:
         return found
 
     def _late(self, pixels: np.ndarray, frame) -> np.ndarray:
-        """Return by how much the times of pixels (..., 2) are later than frames."""
+        """Return the times of pixels (..., 2) minus ``frame``."""
         return self.clock.frame_at(pixels[..., 0], pixels[..., 1]) - frame
 
     def _root(self, middle: float, half: float, series: np.ndarray, start: np.ndarray) -> np.ndarray:
-        """Return the first pixels (k, 2) of points whose images are polynomials that agree with the clock; else NaN."""
+        """Return the first pixels (k, 2) at which polynomial images agree with the clock; NaN if none does."""
         found = np.full(start.shape, np.nan)
         at_places = start + np.tensordot(chebvander(PLACES, len(series) - 1), series, 1)
         late = self._late(at_places, middle + half * PLACES[:, None])

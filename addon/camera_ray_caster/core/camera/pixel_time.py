@@ -1,12 +1,12 @@
 """Time as a dimension of the picture: the frame at which each pixel's ray is cast.
 
-Slit scan: the time is a linear function of the row or the column; time displacement: it is read from a gray image;
-a rolling shutter is the slit scan of the rows, or columns, that a sensor reads one after another.
-Sources: the lecture; G. Levin, An Informal Catalogue of Slit-Scan Video Artworks (2005); the rolling shutter as
-Cycles has it (type Top-Bottom): the row that is read as number k of H, from 1 on, is cast at the fraction k / H of the
-shutter interval, by row index and not by row center; with a duration d each row is exposed for d of the interval, all
-are read within the rest, and the chief ray is in the middle of its row's. Other orders of reading are the same picture
-turned.
+Slit scan: the time is a linear function of the row or the column. Time displacement: the time is read from a gray
+image. Rolling shutter: a slit scan of the rows, or columns, that a sensor reads one after another, as in Cycles (type
+Top-Bottom). Row number k of H, counted from 1 in the order of reading, is cast at the fraction k / H of the shutter
+interval, by row index and not by row center. With a duration d each row is exposed for the fraction d of the interval,
+all rows are read within the rest, and the chief ray has the middle of its row's exposure. Other orders of reading give
+the same picture turned.
+Source: G. Levin, An Informal Catalogue of Slit-Scan Video Artworks (2005).
 """
 
 from __future__ import annotations
@@ -23,50 +23,55 @@ from ..records import BlenderCamera, InputError, Raster
 
 NONE, ROWS, COLUMNS, IMAGE, ROLLING_SHUTTER = "NONE", "ROWS", "COLUMNS", "IMAGE", "ROLLING_SHUTTER"
 MODE = Choice(
-    "time_mode", "Time", "The frame at which each pixel's ray is cast",
+    "time_mode", "Time", "Frame at which the ray of each pixel is cast",
     NONE,
     (
         Item(NONE, "One Time", "All pixels show the current frame", 0),
-        Item(ROWS, "Rows", "Slit scan: from the first row, at the bottom, to the last one", 1),
-        Item(COLUMNS, "Columns", "Slit scan: from the left column to the right one", 2),
-        Item(IMAGE, "Image", "Time displacement: black pixels of an image show the start, white ones the end", 3),
+        Item(ROWS, "Rows", "Slit scan: from the first row, at the bottom, to the last row", 1),
+        Item(COLUMNS, "Columns", "Slit scan: from the left column to the right column", 2),
+        Item(IMAGE, "Image", "Time displacement: black pixels of an image show the start, white pixels the end", 3),
         Item(
             ROLLING_SHUTTER, "Rolling Shutter",
-            "Rows or columns as a sensor reads them, in the shutter of motion blur", 4,
+            "Rows or columns in the order in which a sensor reads them, within the shutter interval of motion blur", 4,
         ),
     ),
 )  # fmt: skip
-START = Number("time_start", "Start", "Frame of the first row, column or of black", 1.0)
-END = Number("time_end", "End", "Frame of the last row, column or of white", 25.0)
-GRAY = Image("time_image", "Image", "Gray image, stretched over the frame", None)
+START = Number("time_start", "Start", "Frame of the first row, the first column, or black pixels", 1.0)
+END = Number("time_end", "End", "Frame of the last row, the last column, or white pixels", 25.0)
+GRAY = Image("time_image", "Image", "Grayscale image with the time of each pixel, stretched over the frame", None)
 TOLERANCE = Number(
-    "time_tolerance", "Tolerance", "Pixels by which motion between evaluations of the scene may be off",
+    "time_tolerance", "Tolerance", "Maximum error, in pixels, of motion interpolated between two evaluations of the "
+                                   "scene",
     0.1, 1e-4, soft_high=10.0,
 )  # fmt: skip
 EVALUATIONS = Whole(
-    "time_evaluations", "Most Evaluations",
-    "Times at which the scene may be evaluated; what that leaves is reported", 256, 2, soft_high=4096,
+    "time_evaluations", "Max Evaluations",
+    "Maximum number of frames at which the scene is evaluated. The report says in how many "
+    "intervals the tolerance is not reached", 256, 2, soft_high=4096,
 )  # fmt: skip
 POSITION = Choice(
-    "motion_blur_position", "Position", "Which part of the shutter interval the frame is",
+    "motion_blur_position", "Position", "Position of the frame in the shutter interval",
     "CENTER",
     (
         Item("START", "Start on Frame", "The shutter opens at the frame", 0),
-        Item("CENTER", "Center on Frame", "The frame is in the middle", 1),
+        Item("CENTER", "Center on Frame", "The frame is in the middle of the shutter interval", 1),
         Item("END", "End on Frame", "The shutter closes at the frame", 2),
     ),
     owner=RENDER,
 )  # fmt: skip
-SHUTTER = Number("motion_blur_shutter", "Shutter", "Frames for which it is open", 0.5, ABOVE_ZERO, owner=RENDER)
+SHUTTER = Number(
+    "motion_blur_shutter", "Shutter", "Time for which the shutter is open, in frames", 0.5, ABOVE_ZERO, owner=RENDER
+)
 DURATION = Number(
     "rolling_shutter_duration", "Rolling Shutter Duration",
-    "Of a row's exposure, in parts of the shutter interval; 0 without Cycles", 0.0, 0.0, 1.0, owner=CYCLES,
+    "Exposure time of each row, as a fraction of the shutter interval. 0 if Cycles is "
+    "disabled", 0.0, 0.0, 1.0, owner=CYCLES,
 )  # fmt: skip
 READOUT = Choice(
-    "readout", "Readout", "Order of the rows or columns, which are read within the shutter",
+    "readout", "Readout", "Order in which rows or columns are read within the shutter interval",
     "TOP_TO_BOTTOM",
     (
-        Item("TOP_TO_BOTTOM", "Top to Bottom", "Rows, as Cycles has it", 0),
+        Item("TOP_TO_BOTTOM", "Top to Bottom", "Rows are read from top to bottom, as in Cycles", 0),
         Item("BOTTOM_TO_TOP", "Bottom to Top", "Rows", 1),
         Item("LEFT_TO_RIGHT", "Left to Right", "Columns", 2),
         Item("RIGHT_TO_LEFT", "Right to Left", "Columns", 3),
@@ -83,15 +88,15 @@ SETTINGS: dict[str, tuple[Setting, ...]] = {
 """The settings that each item of MODE reads, in the order of the panel."""
 
 SHUTTER_STARTS = {"START": 0.0, "CENTER": -0.5, "END": -1.0}
-"""Where the shutter interval begins, in lengths of itself."""
+"""Start of the shutter interval relative to the frame, in lengths of the interval."""
 
 LAST_FRAME = 1048574
-"""Blender knows no frame beyond it, on either side of 0."""
+"""Largest frame number in Blender; the smallest is its negative."""
 
-WHOLE_FRAME = "take fewer pixels: an image gives all pixels of the frame a time, also beyond a border"
+WHOLE_FRAME = "use fewer pixels: an image gives a time to all pixels of the frame, even outside a render border"
 
 LEVELS = 256
-"""Times that a gray image is rounded to, from black to white: what an 8 bit image holds."""
+"""Number of times to which a gray image is rounded, from black to white: the values of an 8 bit image."""
 
 
 @dataclass(frozen=True)
@@ -102,12 +107,12 @@ class LinearTime:
     per_column: float
     per_row: float
     first: float
-    """The earliest frame of a pixel center; ``last`` the latest."""
+    """The earliest frame of a pixel center; ``last`` is the latest."""
     last: float
     tolerance: float
-    """Pixels by which motion between evaluations of the scene may be off."""
+    """Allowed error, in pixels, of motion between evaluations of the scene."""
     most: int
-    """Evaluations of the scene that are allowed."""
+    """Maximum number of evaluations of the scene."""
 
     def frame_at(self, x, y):
         """Return the frame at pixel coordinates, in their broadcast shape or one that broadcasts to it."""
@@ -118,7 +123,7 @@ class LinearTime:
 
 @dataclass(frozen=True)
 class ImageTime:
-    """The frame of every pixel of the full raster, (height, width); the rest as in ``LinearTime``."""
+    """The frame of every pixel of the full raster, (height, width); other fields as in ``LinearTime``."""
 
     frames: np.ndarray
     tolerance: float
@@ -135,7 +140,7 @@ class ImageTime:
         return float(self.frames.max())
 
     def frame_at(self, x, y):
-        """Return the frame of the pixels that hold these pixel coordinates; beyond the raster, of the nearest one."""
+        """Return the frame of the pixels that contain the coordinates; beyond the raster, that of the nearest pixel."""
         row, column = np.floor(y).astype(int), np.floor(x).astype(int)
         height, width = self.frames.shape
         return self.frames[np.clip(row, 0, height - 1), np.clip(column, 0, width - 1)]
@@ -145,7 +150,7 @@ PixelTime = LinearTime | ImageTime
 
 
 class CameraMotion(Protocol):
-    """What knows a camera at other frames."""
+    """An object that returns a camera at any frame."""
 
     def camera_at(self, frame: float) -> Any:
         """Return the ``Camera`` at a frame, without its pixel times."""
@@ -155,12 +160,12 @@ class CameraMotion(Protocol):
         """The frames at which motion may change abruptly."""
 
     def in_words(self) -> list[str]:
-        """Return how well it is known, in lines for the report."""
+        """Return lines for the report on the accuracy of the motion."""
 
 
 def groups(pixel_time: PixelTime, x, y):
-    """Yield (frame, rows, columns, where) for each frame of pixels x (1, columns), y (rows, 1): the slices hold all
-    pixels of that frame, and ``where``, bool in their shape, tells which those are.
+    """Yield (frame, rows, columns, where) for each frame of the pixels x (1, columns), y (rows, 1). The slices contain
+    all pixels of the frame, and ``where``, a bool array of their shape, marks these pixels.
     """
     frames = np.broadcast_to(pixel_time.frame_at(x, y), np.broadcast_shapes(x.shape, y.shape))
     if isinstance(pixel_time, LinearTime):
@@ -178,10 +183,10 @@ def groups(pixel_time: PixelTime, x, y):
 
 
 def pixel_time_from(raw: BlenderCamera, raster: Raster) -> PixelTime | None:
-    """Return the clock that a camera's settings describe; None where all pixels share one time.
+    """Return the pixel times that a camera's settings describe; None if all pixels have one time.
 
-    Slit scan: row or column centers span ``time_start`` .. ``time_end``, bottom or left first. IMAGE: black is the
-    start, white the end; the image is stretched over the frame, nearest pixel. Raises InputError for an unknown
+    Slit scan: the bottom or left edge of the frame has ``time_start``, the opposite edge ``time_end``. IMAGE: black is
+    the start, white the end; the image is stretched over the frame, nearest pixel. Raises InputError for an unknown
     mode, equal or non-finite ends, and an image that is missing or has pixels that are not finite.
     """
     if MODE.name not in raw.settings or MODE.read(raw) == NONE:
@@ -210,7 +215,7 @@ def _rolling_shutter(raw: BlenderCamera, raster: Raster) -> LinearTime:
     by_rows = readout in ("TOP_TO_BOTTOM", "BOTTOM_TO_TOP")
     count = raster.height if by_rows else raster.width
     step = shutter * (1 - duration) / count
-    # the row or column that is read as number k has its center k - 1/2 from the edge that is read first
+    # row or column number k in the order of reading has its center k - 1/2 from the edge that is read first
     if readout in ("TOP_TO_BOTTOM", "RIGHT_TO_LEFT"):
         origin, step = opened + step * (count + 0.5), -step
     else:
@@ -243,8 +248,8 @@ def _linear(raw: BlenderCamera, origin: float, per_column: float, per_row: float
     first, last = min(corners), max(corners)
     if not -LAST_FRAME <= first <= last <= LAST_FRAME:
         raise InputError(
-            f"the times of camera {raw.name!r} are frames {first:g} to {last:g}: "
-            f"keep them between -{LAST_FRAME} and {LAST_FRAME}, beyond which Blender has none"
+            f"the times of camera {raw.name!r} are frames {first:g} to {last:g}: keep them between -{LAST_FRAME} and "
+            f"{LAST_FRAME}, Blender's first and last frames"
         )
     return LinearTime(origin, per_column, per_row, first, last, *_effort(raw))
 
@@ -252,7 +257,9 @@ def _linear(raw: BlenderCamera, origin: float, per_column: float, per_row: float
 def _image_share(raw: BlenderCamera, raster: Raster) -> np.ndarray:
     gray = GRAY.given(raw)
     if gray is None:
-        raise InputError(f"camera {raw.name!r} reads its time from an image, but has none: choose a gray image")
+        raise InputError(
+            f"camera {raw.name!r} reads its time from an image, but has no image: choose a grayscale image"
+        )
     gray = np.asarray(gray, np.float64)
     if not np.isfinite(gray).all():
         lost = f"{np.count_nonzero(~np.isfinite(gray))} of {gray.size} pixels are NaN or infinite"

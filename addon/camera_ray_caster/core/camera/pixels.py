@@ -1,4 +1,4 @@
-"""Pixel coordinates that are asked for: as they are given, in blocks for threads, and time by time."""
+"""Pixel coordinates given by a caller: checked, divided into blocks for threads, and divided by time."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ from ..records import InputError
 from .pixel_time import PixelTime, groups
 
 SHARED_PIXELS = 1 << 17
-"""Pixels whose rays take as long as what threads do one at a time for a share: see ``sharing``."""
+"""Number of pixels whose rays take as long as the serial part of a thread's share: see ``sharing``."""
 
 
 def given(x, y) -> tuple[np.ndarray, np.ndarray, tuple[int, ...]]:
-    """Return pixel coordinates as float64 arrays, and the shape to which they broadcast. Raises InputError for what are
-    no numbers and for shapes that do not go together.
+    """Return pixel coordinates as float64 arrays, and the shape to which they broadcast. Raises InputError for values
+    that are not numbers and for shapes that do not broadcast.
     """
     x, y = numbers(x, "x"), numbers(y, "y")
     try:
@@ -30,18 +30,21 @@ def given(x, y) -> tuple[np.ndarray, np.ndarray, tuple[int, ...]]:
 
 
 def in_blocks(put: Callable[[slice], None], shape: tuple[int, ...], pixels: int, rows: int = 1) -> None:
-    """Call ``put`` with all rows of a picture, about so many pixels at a time, a multiple of ``rows``, in threads."""
+    """Call ``put`` in threads with the rows of a picture, in blocks of about ``pixels``, multiples of ``rows``."""
     height, width = shape
     threads = sharing(processors(), height * width / SHARED_PIXELS)
     step = rows * max(1, round(min(pixels / max(width, 1), height / threads) / rows))
     blocks = [slice(*ends) for ends in pairwise([*range(0, height, step), height])]
+    if len(blocks) == 1:
+        put(blocks[0])
+        return
     with ThreadPoolExecutor(threads) as pool:  # numpy releases the interpreter
         list(pool.map(put, blocks))
 
 
 def by_time(pixel_time: PixelTime, time: np.ndarray, x, y) -> Iterator[tuple]:
-    """Yield (frame, x, y, place, where) of pixel coordinates and their times, frame by frame: those that are meant lie
-    at ``place`` in an array of all, and ``where`` in it, bool.
+    """Yield (frame, x, y, place, where) for pixel coordinates and their times, frame by frame: ``x`` and ``y`` lie at
+    ``place`` in an array of all coordinates, and the bool array ``where`` marks those that have this frame.
     """
     if is_grid(x, y):
         for frame, rows, columns, where in groups(pixel_time, x, y):

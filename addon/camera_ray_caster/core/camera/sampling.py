@@ -1,8 +1,8 @@
-"""Sample positions: the same for every run, spread evenly however many are taken.
+"""Sample positions: the same in every run, and evenly spread for any number of samples.
 
-The additive sequence of M. Roberts, The Unreasonable Effectiveness of Quasirandom Sequences (2018), whose steps are
-powers of the plastic number; each pixel's opening is shifted by a hash of the pixel (Cranley and Patterson, 1976),
-so that what is left of the error looks like fine noise and not like ghost images.
+They form the additive sequence of M. Roberts, The Unreasonable Effectiveness of Quasirandom Sequences (2018), whose
+steps are powers of the plastic number. In the opening they are shifted by a hash of the pixel (Cranley and Patterson,
+1976), so that the remaining error looks like fine noise and not like ghost images.
 """
 
 from __future__ import annotations

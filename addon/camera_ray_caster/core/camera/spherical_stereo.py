@@ -1,17 +1,18 @@
-"""Blender's spherical stereo: each ray of a central camera begins beside the eye, across the way it looks.
+"""Blender's spherical stereo: each ray of a central camera begins to the left or right of the eye.
 
-Assumption: D is the camera's own ray, in a frame whose z is up: that of the world for perspective cameras, that of the
-camera, y up, for panoramas. It has unit length; the central cylindrical panorama has it as long as 1 across instead.
+Assumption: D is the direction of the camera's own ray, in a frame whose y is up: the world's frame, turned, for
+perspective cameras, the camera's frame for panoramas. D has unit length; for the central cylindrical panorama its
+horizontal part has unit length instead.
 Formula: side = (D x up) / |D x up|, offset e = -+ interocular distance / 2 for the left and the right eye; between the
-altitudes |asin(D_up)| ``from`` and ``to`` of a pole merge it is faded by cos(pi/2 (altitude - from) / (to - from)),
-and 0 above. Origin e side, direction D - (e / convergence distance) side, or D where the eyes are parallel.
-As in Cycles, off-axis and toe-in are the same, the pivot and the shift of an eye do not count, and the eyes of the
-mirror ball are swapped. Depth is the distance from the ray's origin, also of perspective cameras. With depth of field D
-is a ray through the lens, which has unit length, and the eye moves with it.
+altitudes |asin(D_up)| ``from`` and ``to`` of a pole merge, e is faded by cos(pi/2 (altitude - from) / (to - from)); it
+is 0 above. Origin e side, direction D - (e / convergence distance) side, or D if the eyes are parallel.
+As in Cycles, off-axis and toe-in are the same, the pivot and the shift of an eye are ignored, and the eyes of the
+mirror ball are swapped. Depth is the distance from the ray's origin, also for perspective cameras. With depth of field
+D is a ray through the lens, of unit length, and the eye moves with it.
 Singular: straight up and down, where there is no side and no ray.
-Inverse: with u the length along D, a point p = e side + u (D - (e / c) side) lies at |p|^2 = u^2 + (1 - u / c)^2 e^2,
-which has one positive u for points farther away than e; with a pole merge the altitude, on which e depends, is sought
-by bisection.
+Inverse: with u the length along D and c the convergence distance, a point p = e side + u (D - (e / c) side) has
+|p|^2 = u^2 + (1 - u / c)^2 e^2, which has one positive u for points farther away than e. With a pole merge e depends on
+the altitude, which is found by bisection.
 References: Blender manual, Stereoscopy; source of Cycles, kernel/camera; rays read out of Cycles.
 """
 
@@ -29,106 +30,112 @@ from ..cameras.parts.aperture import Aperture
 from ..cameras.perspective import Perspective
 from ..conventions import gamma
 from ..maths.panels import Disc
-from ..maths.speed import lazy
-from ..maths.vector import along, components, difference, inverse, matvec, norm, unit
+from ..maths.vector import along, components, difference, dot, inverse, matvec, norm
 from ..records import BlenderCamera, Pose
 
 EYE = "spherical_eye"
-"""Of a record's settings: -1.0 for the left eye, 1.0 for the right one; without it the camera has one eye."""
+"""Key in a record's settings: -1.0 for the left eye, 1.0 for the right eye; without it the camera has one eye."""
 
-Y_UP = (1.0, 0.0, 0.0), (0.0, 0.0, -1.0), (0.0, 1.0, 0.0)
-"""From the camera's frame to x right, y ahead, z up."""
+TO_Y_UP = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]])
+"""Matrix from the world's frame to a frame whose y is the world's up."""
 
 HALVINGS = 60
-"""Of the altitudes of a pole merge: down to rounding."""
+"""Number of halvings of the altitude range of a pole merge: down to rounding."""
 
 MET = 1e-9
-"""Radians of altitude within which a ray found by bisection is one; else the offset jumps there."""
+"""Largest error of the altitude, radians, at which bisection has found a ray; beyond it the offset jumps there."""
+
+SHORTEST = 1e-300
+"""Range of altitudes, radians, in place of an empty one: the offset jumps there."""
 
 STEP = 2.0**-10
-"""Pixels between rays that tell how far a pixel turns them."""
+"""Distance in pixels between the rays that measure how far a move of the pixel turns a ray."""
 
 Matrix = tuple[tuple[float, ...], ...]
 
 
 @dataclass(frozen=True)
 class SphericalStereo(Model):
-    """An eye: a central model, and where the eye is beside each of its rays."""
+    """An eye: a central model, and the offset of the eye from each of its rays."""
 
     lens: Model
-    upright: Matrix
-    """(3, 3), from the camera's frame to that in which z is up."""
-    tilted: Matrix
+    upright: Matrix | None
+    """(3, 3), from the camera's frame to a frame whose y is the world's up; None if the camera's y is up."""
+    tilted: Matrix | None
     """Its inverse."""
     offset: float
-    """To the right of a ray; Blender units."""
+    """Distance of the eye to the right of a ray; Blender units."""
     nearness: float
     """1 over the convergence distance; 0 for parallel eyes."""
     merge: tuple[float, float] | None
-    """The altitudes, rad, at which the offset begins to fade and ends, in this order; None without pole merge."""
+    """The altitudes, rad, at which the offset begins to fade and at which it ends; None without pole merge."""
     on_tube: bool
-    """Whether D is as long as 1 across instead of 1."""
-    in_world: bool
-    """Whether up is the world's, so that ``upright`` goes with the pose."""
+    """Whether the horizontal part of D has unit length, instead of D."""
     opening: Aperture | None = None
-    """The lens's; None for a pinhole."""
+    """The aperture of the lens; None for a pinhole."""
 
     key = "SPHERICAL_STEREO"
     label = "Spherical Stereo"
-    description = "An eye that stands beside each of the camera's rays"
+    description = "An eye offset sideways from each of the camera's rays"
     group = "Blender's Own"
     central = False
-    smooth = False  # where the offset ends
-    by_polynomials = True
+    smooth = False  # not where the offset ends
     FORMULA = (
-        Step("Direction without stereo, in a frame whose z is up", "D"),
-        Step("To its right", "side = D x up / |D x up|"),
+        Step("Direction without stereo, in a frame whose y is up", "D"),
+        Step("Unit vector to the right of the direction", "side = D x up / |D x up|"),
         Step("Offset, faded by the pole merge", "e = -+ distance/2 cos(pi/2 (|asin(D_up)| - from) / (to - from))"),
         Step("Origin", "o = e side"),
         Step("Direction, of any length; parallel eyes: D", "d = D - (e / convergence distance) side"),
     )
 
     def rays(self, x, y):
-        """See Model: unit length; without a ray where the lens has none, and straight up and down."""
-        return self._beside(self.lens.rays(x, y)[1], self.on_tube)
+        """See Model: unit length; no ray where the lens has none, and straight up and down."""
+        return self._beside(self.lens.rays(x, y)[1], not self.lens.planar, self.on_tube)
 
     def through(self, aperture, chief, x, y, point):
-        """See Model: the eye is beside the ray that has passed the lens."""
-        origin, direction = self.lens.through(aperture, self.lens.rays(x, y), x, y, point)
-        beside, direction = self._beside(direction, False)
+        """See Model: the eye is offset from the ray that has passed the lens."""
+        origin, ahead = self.lens.through(aperture, self.lens.rays(x, y), x, y, point)
+        beside, direction = self._beside(ahead, False, False)
         return along(origin, beside, 1.0), direction
 
     def aperture(self, raw, pose):
         """See Model."""
         return self.opening
 
-    def _beside(self, direction, on_tube: bool):
-        """Return origin and direction of the ray of an eye beside one of the lens, from the eye's place on."""
-        ahead = unit(matvec(self.upright, direction))
-        across = np.sqrt(ahead[0] * ahead[0] + ahead[1] * ahead[1])
+    def _beside(self, ahead, is_unit: bool, on_tube: bool):
+        """Return origin and unit direction of the eye's ray that belongs to a ray of the lens with the direction
+        ``ahead`` = ``size`` D, in the camera's frame. ``is_unit``: whether ``ahead`` has unit length.
+        """
+        x, up, z = upright = _turned(self.upright, ahead)
+        across = np.sqrt(x * x + z * z)
         across = np.where(across > 0, across, np.nan)
-        share = self._offset_at(_altitude(across, np.abs(ahead[2]), on_tube)) / across
-        beside = ahead[1] * share, -ahead[0] * share, 0.0
-        turn = self.nearness * across if on_tube else self.nearness
-        turned = difference(ahead, tuple(turn * component for component in beside))
-        return matvec(self.tilted, beside), unit(matvec(self.tilted, turned))
+        square = 1.0 if is_unit else dot(upright, upright)
+        size = across if on_tube else np.sqrt(square)
+        offset = self._offset_at(_altitude(across, np.abs(up), on_tube)) if self.merge else self.offset
+        share = offset / across
+        beside = _turned(self.tilted, (-z * share, 0.0 * share, x * share))  # all NaN straight up and down
+        turn = self.nearness * size
+        scale = 1 / np.sqrt(square + (turn * offset) ** 2)  # the side is perpendicular to D
+        turn = turn * scale
+        return beside, tuple(scale * a - turn * b for a, b in zip(ahead, beside, strict=True))
 
     def project(self, points):
-        """See Model: in closed form, with a pole merge by bisection; NaN also where no ray comes as near to the axis.
-        Points no farther than the offset from the camera (from its axis, for the central cylindrical panorama) may have
-        no pixel, and those that a ray grazes only to the root of EPS.
+        """See Model: in closed form, with a pole merge by bisection; NaN also for points nearer to the axis than any
+        ray. Points within the offset of the camera (of its axis, for the central cylindrical panorama) may have no
+        pixel; the pixel of a point that a ray grazes is right only to the square root of EPS.
         """
-        with np.errstate(all="ignore"):  # NaN is an answer
-            x, y, z = matvec(self.upright, components(np.asarray(points, np.float64)))
-            across = np.hypot(x, y)
-            flat, aside = self._flat_and_aside(across, z, self._offset_towards(across, np.abs(z)))
+        with np.errstate(all="ignore"):  # NaN means no pixel
+            x, up, z = _turned(self.upright, components(np.asarray(points, np.float64)))
+            across = np.hypot(x, z)
+            flat, aside = self._flat_and_aside(across, up, self._offset_towards(across, np.abs(up)))
             scale = np.where(across > 0, flat / np.where(across > 0, across, 1.0) ** 2, 0.0)
-            ahead = (x * flat - y * aside) * scale, (y * flat + x * aside) * scale, np.where(np.isnan(flat), flat, z)
-            return self.lens.project(np.stack(matvec(self.tilted, ahead), axis=-1))
+            ahead = (x * flat + z * aside) * scale, np.where(np.isnan(flat), flat, up), (z * flat - x * aside) * scale
+            return self.lens.project(np.stack(_turned(self.tilted, ahead), axis=-1))
 
     def bounds(self, centers, radii):
-        """See Model: u D lies no farther from a point that it sees than (1 - u / c) e, which the lens blurs, too."""
-        there, back = (float(np.linalg.norm(matrix, 2)) for matrix in (self.upright, self.tilted))
+        """See Model: u D is at most (1 - u / c) e away from the seen point; the lens blurs this distance, too."""
+        there, back = (1.0 if matrix is None else float(np.linalg.norm(matrix, 2))
+                       for matrix in (self.upright, self.tilted))  # fmt: skip
         offset, wide = abs(self.offset), self.opening.widest if self.opening else 0.0
         blur = wide / abs(self.opening.focus) if self.opening else 0.0
         farthest = there * (np.sqrt((centers * centers).sum(axis=1)) + radii + wide) + self.nearness * offset**2
@@ -137,7 +144,10 @@ class SphericalStereo(Model):
 
     def posed(self, pose):
         """See Model."""
-        return replace(self, upright=_rows(pose.basis), tilted=_rows(inverse(pose.basis))) if self.in_world else self
+        if not isinstance(self.lens, Perspective):
+            return self
+        upright = _rows(TO_Y_UP @ pose.basis)
+        return replace(self, upright=upright, tilted=_rows(inverse(upright)))
 
     def facts(self):
         """See Model."""
@@ -148,7 +158,12 @@ class SphericalStereo(Model):
         """See Model."""
         return self.lens.disc
 
-    @lazy
+    @property
+    def by_polynomials(self) -> bool:  # type: ignore[override]
+        """See Model: not for the mirror ball: most panels lie at rim or poles; 1.9 times the time with polynomials."""
+        return not isinstance(self.lens, Mirrorball)
+
+    @property
     def endless(self) -> Model:
         """See Model."""
         return replace(self, lens=self.lens.endless)
@@ -159,7 +174,7 @@ class SphericalStereo(Model):
         return self.lens.ray_rounding + gamma(32)
 
     def pixel_rounding(self, x, y):
-        """See Model: that of the lens, and what the rounding of D is in pixels, since a side turns fast near a pole."""
+        """See Model: the rounding of the lens, plus that of D in pixels, since ``side`` turns fast near a pole."""
         here = self.lens.rays(x, y)[1]
         moves = [norm(difference(self.lens.rays(*near)[1], here)) for near in ((x + STEP, y), (x, y + STEP))]
         rounding = gamma(32) * norm(here) * STEP / np.maximum(*moves)
@@ -169,11 +184,12 @@ class SphericalStereo(Model):
         if self.merge is None:
             return self.offset
         begin, end = self.merge
-        fade = np.cos(pi / 2 * np.maximum(altitude - begin, 0.0) / (end - begin if end > begin else 1.0))
-        return self.offset * np.where(altitude > end, 0.0, fade)
+        quarter = pi / 4 / max(end - begin, SHORTEST)
+        half = np.tan(np.minimum(np.maximum((end - altitude) * quarter, 0.0), pi / 4))
+        return 2 * self.offset * half / (1 + half * half)  # sin of twice the angle: np.sin takes 9 times as long
 
     def _flat_and_aside(self, across, z, offset):
-        """Return how far across a point is along its direction D, and how far to the side of it."""
+        """Return the horizontal distance of a point along its direction D, and the distance to the side of D."""
         size = across if self.on_tube else np.hypot(across, z)
         near, square = self.nearness, offset * offset
         stretch = 1 + near * near * square
@@ -197,7 +213,7 @@ class SphericalStereo(Model):
 
 
 def with_eye(lens: Model, raw: BlenderCamera, pose: Pose) -> Model:
-    """Return the model of an eye of spherical stereo, where the record is one of those; else the lens."""
+    """Return the model of an eye of spherical stereo if the record describes such an eye; else the lens."""
     settings = raw.settings
     side, distance = settings.get(EYE, 0.0), float(settings.get("interocular_distance", 0.0))
     if not side * distance:
@@ -207,21 +223,24 @@ def with_eye(lens: Model, raw: BlenderCamera, pose: Pose) -> Model:
     eye = SphericalStereo(
         frame=lens.frame,
         lens=lens,
-        upright=Y_UP,
-        tilted=_rows(inverse(Y_UP)),
+        upright=None,
+        tilted=None,
         offset=side * distance / 2 * (-1 if isinstance(lens, Mirrorball) else 1),
         nearness=1 / convergence,
         merge=(min(begin, end), end) if settings["use_pole_merge"] and end > 0 else None,
         on_tube=isinstance(lens, CentralCylindrical),
-        in_world=isinstance(lens, Perspective),
         opening=lens.aperture(raw, pose),
     )
     return eye.posed(pose)
 
 
 def _altitude(across, up, on_tube: bool):
-    """Return what Cycles takes for the altitude of a direction, given across and up."""
-    return np.arcsin(np.minimum(up / across, 1.0)) if on_tube else np.arctan2(up, across)
+    """Return the altitude of a direction as Cycles computes it, from its horizontal and vertical parts."""
+    return np.arcsin(np.minimum(up / across, 1.0)) if on_tube else np.arctan(up / across)
+
+
+def _turned(matrix: Matrix | None, vector):
+    return vector if matrix is None else matvec(matrix, vector)
 
 
 def _rows(matrix) -> Matrix:

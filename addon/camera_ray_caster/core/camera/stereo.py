@@ -1,15 +1,15 @@
-"""The eyes of a stereo camera: from a camera's record and the name of a view to the record of that eye.
+"""The eyes of a stereo camera: the record of an eye, from the camera's record and the name of a view.
 
-With s = +1 for the left eye and -1 for the right one, iod the interocular and cv the convergence distance (Blender
-units), k the share of the pivot that an eye bears (CENTER 1/2 each; LEFT and RIGHT: that eye 0, the other one 1) and
-the camera's axes normalized each for itself:
+Let s be +1 for the left eye and -1 for the right eye, iod the interocular distance, cv the convergence distance
+(Blender units), and k the eye's part of the offset, given by the pivot (CENTER: 1/2 for both; LEFT and RIGHT: 0 for
+that eye, 1 for the other). The camera's axes are normalized one by one.
     PARALLEL  the eye moves by -s k iod along the camera's X.
     OFFAXIS   the same, and the shift grows by s k (iod / sensor width) (lens / cv), whatever the sensor fit.
     TOE       alpha = atan(iod / (2 cv)). CENTER: the eye moves as above and turns by alpha about its Y, inwards. LEFT
               and RIGHT: the other eye stands at (-s iod cos alpha, 0, -iod sin alpha) and turns by 2 alpha.
-Orthographic cameras take the off-axis shift with their lens, which they do not use otherwise; panoramas take none.
-Spherical stereo moves no camera: its eyes turn with every ray (see ``spherical_stereo``).
-A model that has eyes of its own (omnidirectional stereo) stays where it is, and the view tells which eye it is.
+Orthographic cameras take the off-axis shift with their lens, which they do not use otherwise; panoramas take no shift.
+Spherical stereo does not move the camera: its eyes turn with every ray (see ``spherical_stereo``).
+A model with eyes of its own (omnidirectional stereo) is not moved either; the view selects its eye.
 Source: Blender manual, Stereoscopy; measured against RenderEngine.camera_model_matrix and camera_shift_x.
 """
 
@@ -30,24 +30,24 @@ SIDES = {"left": 1.0, "right": -1.0}
 
 
 def eye_record(raw: BlenderCamera, view: str) -> BlenderCamera:
-    """Return the record of an eye; the empty view is the camera itself, and so are those of the Multi-View format.
+    """Return the record of an eye. For the empty view and for the views of Multi-View it is the record itself.
 
-    In Multi-View each view is a camera object of its own: the record is already that object's. Raises InputError for
-    another view, for spherical stereo of a model that Blender does not have, and for one that shows both eyes in one
-    picture.
+    In Multi-View each view has a camera object of its own, and the record is already that of this object. Raises
+    InputError for another view, for spherical stereo of a model that is not Blender's own, and for an eye of a model
+    that shows both eyes in one picture.
     """
     settings = raw.settings
     if not view or settings["views_format"] == "MULTIVIEW":
         return raw
     if view not in SIDES:
-        raise InputError(f"view {shown(view)} is no eye of Stereo 3D: choose one of {', '.join(SIDES)}")
+        raise InputError(f"view {shown(view)} is not an eye of Stereo 3D: choose one of {', '.join(SIDES)}")
     own = find_model(raw).eye(raw, view)
     if own is not None:
         return own
     if settings["use_spherical_stereo"] and raw.type in ("PERSP", "PANO"):
         if raw.model:
             spherical = f"camera {raw.name!r} has Spherical Stereo, which only Blender's own cameras have"
-            raise InputError(f"{spherical}: switch it off, or take Blender's Own model or Omnidirectional Stereo")
+            raise InputError(f"{spherical}: disable it, or use the model Blender's Own or Omnidirectional Stereo")
         return replace(raw, settings={**settings, EYE: -SIDES[view]})
     side, mode, pivot = SIDES[view], settings["convergence_mode"], settings["pivot"]
     distance, convergence = float(settings["interocular_distance"]), float(settings["convergence_distance"])
@@ -65,9 +65,9 @@ def eye_record(raw: BlenderCamera, view: str) -> BlenderCamera:
 
 
 def camera_name(name: str, suffix: str, suffixes: list[str]) -> str:
-    """Return the name of the camera that stands in for another in a view of Multi-View, by the views' suffixes.
+    """Return the name of the camera that replaces another in a view of Multi-View, by the suffixes of the views.
 
-    The longest suffix in which the name ends is replaced; a name that ends in none has no stand-in.
+    The longest suffix at the end of the name is replaced; a name without a suffix is returned unchanged.
     """
     ends = [end for end in suffixes if name.endswith(end)]
     return name.removesuffix(max(ends, key=len)) + suffix if ends else name
@@ -77,7 +77,7 @@ def _moved(raw: BlenderCamera, x: float, z: float, turn: float) -> BlenderCamera
     """Return the camera moved along its own normalized axes, and turned about its Y."""
     world_from_camera = np.array(raw.matrix_world, np.float64)
     axes = world_from_camera[:3, :3]
-    with np.errstate(invalid="ignore"):  # an axis of no length is refused with the camera
+    with np.errstate(invalid="ignore"):  # ``camera_from`` refuses an axis of length 0
         axes /= np.linalg.norm(axes, axis=0)
     world_from_camera[:3, 3] += axes @ (x, 0.0, z)
     world_from_camera[:3, :3] = axes @ [[cos(turn), 0.0, sin(turn)], [0.0, 1.0, 0.0], [-sin(turn), 0.0, cos(turn)]]

@@ -1,4 +1,4 @@
-"""What a window shows, as camera records: a free view by its matrices, and a camera's frame at the size it is drawn."""
+"""Camera records for a window: of a free view, from its matrices, and of a camera's frame at its size on screen."""
 
 from __future__ import annotations
 
@@ -9,14 +9,14 @@ import numpy as np
 from ..records import BlenderCamera
 
 SENSOR = 36.0
-"""mm: any sensor will do, as long as the lens goes with it."""
+"""Width of the sensor in mm; any width would do, since the lens is derived from it."""
 
 
 def view_record(view_matrix, window_matrix, width: int, height: int) -> BlenderCamera:
-    """Return the record of a view that is perspective or orthographic, in width x height pixels.
+    """Return the record of a perspective or orthographic view of width x height pixels.
 
-    view_matrix (4, 4): view from world; window_matrix (4, 4): clip from view, as OpenGL has it, with any offset.
-    A parallel view that begins behind its own origin is moved back, so that its rays begin where it does.
+    view_matrix (4, 4): view from world; window_matrix (4, 4): clip from view, as in OpenGL, with any offset. An
+    orthographic view whose near plane lies behind its origin is moved back, so that its rays begin at that plane.
     """
     world_from_view = np.linalg.inv(np.asarray(view_matrix, np.float64))
     p = np.asarray(window_matrix, np.float64)
@@ -51,9 +51,9 @@ def view_record(view_matrix, window_matrix, width: int, height: int) -> BlenderC
 
 
 def frame_record(raw: BlenderCamera, width: int, height: int, seen: tuple[float, float, float, float]) -> BlenderCamera:
-    """Return a camera whose whole frame has width x height pixels, of which those in a part of it are rendered.
+    """Return a camera whose whole frame has width x height pixels, and of which only a part is rendered.
 
-    ``seen`` is that part: left, bottom, right, top in fractions of the frame; the camera's own border cuts it further.
+    ``seen`` is that part: left, bottom, right, top in fractions of the frame. The camera's own border cuts it further.
     """
     sides = [raw.resolution_x * raw.pixel_aspect_x, raw.resolution_y * raw.pixel_aspect_y]
     parts = [(0.0, 0.0, 1.0, 1.0), seen]

@@ -1,4 +1,4 @@
-"""The camera models, one file each. A new model is its file and one word in MODELS."""
+"""The camera models, one file each. A new model needs its own file and one word in MODELS."""
 
 from __future__ import annotations
 
@@ -49,20 +49,20 @@ MODELS: tuple[type[Model], ...] = (
     StereographicPanorama,
     GeneralLinear, CrossSlit, Pushbroom, Pencil, TwistedOrthographic, Strip, OmnidirectionalStereo,
 )  # fmt: skip
-"""Every model. ``key`` is Blender's camera or panorama type, or the name of a model that Blender does not have."""
+"""All models. ``key`` is Blender's camera or panorama type, or the name of a model that Blender does not have."""
 
-REFUSED = {"CUSTOM": "it is an OSL shader, which only Cycles can run and nobody can invert"}
-"""Blender's types that no model can stand for, and why."""
+REFUSED = {"CUSTOM": "it is an OSL shader, which only Cycles can run and which cannot be inverted"}
+"""Blender's types that no model can represent, and why."""
 
 
 def find_model(raw: BlenderCamera) -> type[Model]:
-    """Return the model of a record: the one that was chosen, or that of Blender's type.
+    """Return the model of a record: the chosen model of the add-on, or the model of Blender's type.
 
-    Raises InputError for a type without a model; it names those that have one.
+    Raises InputError, which lists the known types, for a type without a model.
     """
     key = raw.model or str(raw.settings["panorama_type"] if raw.type == "PANO" else raw.type)
     models = {model.key: model for model in MODELS}
     if key not in models:
-        reason = REFUSED.get(key, "there is no model for it")
+        reason = REFUSED.get(key, "the add-on has no model for it")
         raise InputError(f"camera {raw.name!r} is of type {key}: {reason}: choose one of {', '.join(models)}")
     return models[key]

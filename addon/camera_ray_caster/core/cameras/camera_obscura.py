@@ -1,12 +1,13 @@
-"""The camera obscura: a dark box with a tiny hole, and on its back wall the world upside down.
+"""The camera obscura: a dark box with a tiny hole, which projects the world upside down onto the back wall.
 
 Assumption: light goes straight through the hole; diffraction is left out, so the picture only gets sharper as the hole
 closes. The wall is perpendicular to the viewing direction, ``depth`` behind the hole.
 Formula: the wall's point (X, Y, depth) sees along (-X, -Y, -depth): similar triangles, both axes inverted. A hole of
-diameter h blurs a far point to h on the wall, and one at the distance s to h (1 + depth / s).
-The picture shows the wall with u to the right and v up, as a ground glass is seen from behind: what the eye sees,
-turned by half a turn. (Somebody inside who turns round to the wall sees it upside down, with left and right in place.)
-References: the lecture (Gemma Frisius 1545); E. Hecht, Optics, 5th ed., section 5.7.6 (the pinhole camera).
+diameter h blurs a far point to a spot of diameter h on the wall, and a point at the distance s to h (1 + depth / s).
+The picture shows the wall with u to the right and v up, like a ground glass seen from behind: it is the pinhole's
+picture, turned by 180 degrees. (Somebody inside who faces the wall sees it upside down, but not mirrored.)
+References: Gemma Frisius, De Radio Astronomico et Geometrico (1545); E. Hecht, Optics, 5th ed., section 5.7.6 (the
+pinhole camera).
 """
 
 from __future__ import annotations
@@ -20,20 +21,21 @@ from .parts.film import FILM, Window
 from .parts.settings import Number
 from .perspective import Perspective
 
-DEPTH = Number("obscura_depth", "Box Depth", "From the hole to the back wall", 2.0, 1e-6, unit="length")
+DEPTH = Number("obscura_depth", "Box Depth", "Distance from the hole to the back wall", 2.0, 1e-6, unit="length")
 WIDTH = Number(
-    "obscura_width", "Wall Size", "The fitted side of the picture on the back wall", 3.0, 1e-6, unit="length"
+    "obscura_width", "Wall Size", "Length of the fitted side of the picture on the back wall", 3.0, 1e-6, unit="length"
 )
 HOLE = Number(
-    "obscura_hole", "Hole Diameter", "A larger hole lets in more light and blurs the picture", 0.02, 1e-9,
+    "obscura_hole", "Hole Diameter", "Diameter of the hole. A larger hole lets in more light and blurs "
+                                     "the picture", 0.02, 1e-9,
     unit="length", digits=4,
 )  # fmt: skip
 
 
 @dataclass(frozen=True)
 class CameraObscura(Perspective):
-    """The box: its picture is the pinhole's, turned by half a turn. The window is the wall, turned over and brought to
-    unit depth before the hole.
+    """A box whose picture is the pinhole's, turned by 180 degrees. The window is the wall, inverted through the hole
+    and scaled to unit depth before it.
     """
 
     hole: Aperture
@@ -55,9 +57,9 @@ class CameraObscura(Perspective):
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> CameraObscura:
-        """Build it from depth, width (the wall's fitted side) and hole (its diameter), all in Blender units.
+        """Build the camera from the box's depth, the wall's fitted side and the hole's diameter, in Blender units.
 
-        Shift moves the film on the wall, in lengths of its fitted side.
+        Shift moves the film on the wall, in units of its fitted side.
         """
         depth = DEPTH.read(raw)
         wall = Window.before_eye(raw, raster, WIDTH.read(raw) / depth, (WIDTH, DEPTH))
@@ -69,5 +71,5 @@ class CameraObscura(Perspective):
         return self.hole
 
     def facts(self) -> dict[str, object]:
-        """Return nothing: an inverted picture has no K in OpenCV's sense."""
+        """Return nothing: the facts of the perspective camera do not apply to an inverted picture."""
         return {}

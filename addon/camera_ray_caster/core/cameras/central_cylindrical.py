@@ -1,8 +1,8 @@
 """The central cylindrical panorama: Blender's CENTRAL_CYLINDRICAL, the world seen from the middle of a tube.
 
-Formula: the frame spans the longitudes u_min .. u_max and the heights v_min .. v_max on a tube of the given radius;
-with h = height / radius the direction is (sin lon, h, -cos lon) / sqrt(1 + h^2). Vertical lines stay straight.
-Singular: straight up and down, which no row reaches.
+Formula: the frame spans the longitudes u_min .. u_max and the heights v_min .. v_max on a tube of the given radius.
+With h = height / radius, the direction is (sin lon, h, -cos lon) / sqrt(1 + h^2). Vertical lines stay straight.
+Singular: the directions straight up and down, which no row reaches.
 Reference: Blender manual, Cameras > Panoramic; Snyder (1987), page 105; rays read out of Cycles.
 """
 
@@ -21,37 +21,51 @@ from .parts.settings import ABOVE_ZERO, CAMERA, Number, span
 
 PREFIX = "central_cylindrical_"
 LONGITUDES = tuple(
-    Number(PREFIX + f"range_u_{end}", label, f"Of the frame's {side} edge, 0 is ahead", low, unit="angle", owner=CAMERA)
+    Number(
+        PREFIX + f"range_u_{end}",
+        label,
+        f"Longitude of the frame's {side} edge; 0 is straight ahead",
+        low,
+        unit="angle",
+        owner=CAMERA,
+    )
     for end, label, side, low in (("min", "Min Longitude", "left", -pi), ("max", "Max Longitude", "right", pi))
 )
 HEIGHTS = tuple(
     Number(
-        PREFIX + f"range_v_{end}", label, f"Of the frame's {side} edge on the tube", low, unit="length", owner=CAMERA
+        PREFIX + f"range_v_{end}",
+        label,
+        f"Height of the frame's {side} edge on the cylinder",
+        low,
+        unit="length",
+        owner=CAMERA,
     )
     for end, label, side, low in (("min", "Min Height", "lower", -1.0), ("max", "Max Height", "upper", 1.0))
 )
-TUBE = Number(PREFIX + "radius", "Cylinder Radius", "Of the tube", 1.0, ABOVE_ZERO, unit="length", owner=CAMERA)
+TUBE = Number(
+    PREFIX + "radius", "Cylinder Radius", "Radius of the cylinder", 1.0, ABOVE_ZERO, unit="length", owner=CAMERA
+)
 
 
 @dataclass(frozen=True)
 class CentralCylindrical(Meridians):
-    """Height is the tangent of the latitude."""
+    """A panorama whose height on the image plane is the tangent of the latitude."""
 
     key = "CENTRAL_CYLINDRICAL"
     label = "Central Cylindrical"
-    description = "The world from the middle of a tube: vertical lines stay straight"
+    description = "The world seen from the center of a cylinder: vertical lines stay straight"
     group = "Blender's Own"
     SETTINGS = (*LONGITUDES, *HEIGHTS, TUBE, *SHIFT)
     FORMULA = (
         longitude("u_min", "u_max"),
-        Step("Height on the tube over its radius", "h = (v_min + (y/H + shift_y) (v_max - v_min)) / radius"),
+        Step("Height on the cylinder over its radius", "h = (v_min + (y/H + shift_y) (v_max - v_min)) / radius"),
         Step("Latitude", "lat = atan(h)"),
         RAY,
     )
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> CentralCylindrical:
-        """Build it from the ranges, the radius and the shift; InputError for an empty range or a radius of 0."""
+        """Build the camera from ranges, radius and shift. Raises InputError for an empty range or a radius of 0."""
         radius, (low, high) = TUBE.read(raw), span(raw, *HEIGHTS)
         return cls.over_frame(raw, raster, span(raw, *LONGITUDES), (low / radius, high / radius))
 

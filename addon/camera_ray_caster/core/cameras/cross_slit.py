@@ -1,12 +1,13 @@
 """The cross-slit camera: all rays meet two slits.
 
-A pixel's ray passes through its point on the perspective window, at unit depth before the camera, and meets both
-slits: it is where the planes through that point and each slit cross, so its direction is the product of their normals.
-A point of the scene has its pixel where the planes through it and each slit cross on the window. Rays start on the
-camera's plane z = 0.
-Where the slits meet it is the pinhole at that point. Slits parallel to the image plane give a general linear camera.
-Singular: points on a slit; a plane through one slit that is parallel to the other; z = 0 and the window, where a slit
-crosses it.
+A pixel's ray passes through its point on the perspective window, at unit depth before the camera, and meets both slits.
+It is the intersection of the two planes through that point and each slit, so its direction is the cross product of
+their normals. A point of the scene is projected along the intersection of the planes through it and each slit onto the
+window. Rays start on the camera's plane z = 0.
+If the slits meet, the camera is the pinhole at that point. Slits parallel to the image plane give a general linear
+camera.
+Singular: points on a slit; a plane through one slit that is parallel to the other; the planes z = 0 and the window's
+where a slit crosses them.
 Reference: A. Zomet, D. Feldman, S. Peleg and D. Weinshall, Mosaicing New Views: The Crossed-Slits Projection, PAMI 25
 (2003).
 """
@@ -26,12 +27,12 @@ from .parts.silhouette import pinhole_interval, pixel_bounds
 from .perspective import Perspective
 
 MIDDLE = np.array((0.0, 0.0, -1.0))
-"""Of the window's plane."""
+"""Middle of the window's plane."""
 
 
 @dataclass(frozen=True)
 class CrossSlit(WindowModel):
-    """Two slits, each a point, the nearest to the window's middle, and a unit direction, camera frame."""
+    """Two slits, each given by its point nearest to the window's middle and a unit direction, camera frame."""
 
     slits: tuple[tuple[np.ndarray, np.ndarray], tuple[np.ndarray, np.ndarray]]
 
@@ -52,9 +53,9 @@ class CrossSlit(WindowModel):
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> CrossSlit:
-        """Build it from lens, sensor, shift, slit_1 and slit_2.
+        """Build the camera from lens, sensor, shift, slit_1 and slit_2.
 
-        Raises InputError for slits that are parallel, or that lie in the window's plane, through which no ray leads.
+        Raises InputError for slits that are parallel, or in the window's plane, where they determine no ray.
         """
         slits = []
         for slit in (SLIT, SECOND_SLIT):
@@ -63,7 +64,7 @@ class CrossSlit(WindowModel):
             if max(abs(direction[2]), abs(point[2] + 1)) <= ROUNDING:
                 raise InputError(
                     f"{slit.name} of camera {raw.name!r} lies in the picture's own plane, at depth {-point[2]:.6g}: it "
-                    "must be nearer or farther than 1, or not parallel to it"
+                    "must be nearer or farther than depth 1, or not parallel to the picture"
                 )
             slits.append((point, direction))
         first, second = slits
@@ -77,10 +78,10 @@ class CrossSlit(WindowModel):
         return max(float(np.linalg.norm(point)) for point, _ in self.slits)
 
     def rays(self, x, y):
-        """Return origin and direction, each a tuple of three broadcastable arrays, camera frame, unit length.
+        """Return origin and unit direction, each a tuple of three broadcastable arrays, camera frame.
 
-        x and y are pixel coordinates of broadcastable shapes. NaN where the ray would be parallel to the image plane,
-        or the point lies on a slit. Both are right to some EPS over the sine of the two planes' angle.
+        x and y are pixel coordinates of broadcastable shapes. NaN if the ray would be parallel to the image plane, or
+        the pixel's point lies on a slit. Both are right to some EPS over the sine of the angle between the two planes.
         """
         plane_x, plane_y = self.window.plane_from_pixels(x, y)
         direction = cross(*self._normals((plane_x, plane_y, -1.0)))
@@ -99,14 +100,14 @@ class CrossSlit(WindowModel):
     def bounds(self, centers, radii):
         """Return (n, 4) pixel bounds x0, x1, y0, y1 outside of which no point of the spheres (camera frame) is seen.
 
-        The planes through a slit that touch a sphere are the two tangents of a disc as seen from a point.
+        Seen along a slit, the two planes through it that touch a sphere are tangents from a point to a disc.
         """
         normals = []
         for point, direction in self.slits:
             across, ahead = _axes_about(direction)
             beside = centers - point
             rise, depth = beside @ across, beside @ ahead
-            side = np.where(depth < 0, -1.0, 1.0)  # a plane goes on behind its slit
+            side = np.where(depth < 0, -1.0, 1.0)  # a plane continues behind its slit
             tangent = Interval(*pinhole_interval(side * rise, side * depth, radii))
             normals.append(tuple(a - tangent * b for a, b in zip(across.tolist(), ahead.tolist(), strict=True)))
         across, up, scale = self._crossing(*normals)
@@ -120,14 +121,16 @@ class CrossSlit(WindowModel):
         return (cross(direction, difference(point, start)) for start, direction in self.slits)
 
     def _crossing(self, first, second):
-        """Return s X, s Y and s of the place where planes with these normals, numbers or intervals, meet the window."""
+        """Return s X, s Y and s of the point (X, Y) where planes with these normals, numbers or intervals, intersect on
+        the window.
+        """
         (a, b, _), (c, d, _) = first, second
         e, f = (dot(n, start - MIDDLE) for n, (start, _) in zip((first, second), self.slits, strict=True))
         return e * d - f * b, f * a - e * c, a * d - b * c
 
 
 def _axes_about(direction):
-    """Return two unit vectors across a direction, the first in the image plane, the second ahead."""
+    """Return two unit vectors perpendicular to a direction: the first in the image plane, the second pointing ahead."""
     across = np.array((-direction[1], direction[0], 0.0))
     length = np.linalg.norm(across)
     across = across / length if length > ROUNDING else np.array((1.0, 0.0, 0.0))

@@ -1,10 +1,10 @@
 """One face of an equiangular cube map: Blender's EQUIANGULAR_CUBEMAP_FACE.
 
-Assumption: columns are even in the angle to the left and right of the viewing direction, rows in the one above and
-below, 90 degrees each over the frame.
+Assumption: columns are evenly spaced in the angle to the left and right of the viewing direction, rows in the angle
+above and below it. Both angles span 90 degrees over the frame.
 Formula: direction ~ (tan alpha, tan beta, -1), alpha = (u - 1/2) pi/2, beta = (v - 1/2) pi/2. Shift moves the angles;
 beyond 90 degrees the tangent begins again and the picture repeats, as in Cycles.
-Singular: angles of 90 degrees, which only shift reaches.
+Singular: angles of 90 degrees, which are reached only by shift.
 Reference: Blender manual, Cameras > Panoramic; rays read out of Cycles.
 """
 
@@ -25,11 +25,11 @@ from .parts.silhouette import pinhole_interval, pixel_bounds, turned
 
 @dataclass(frozen=True)
 class CubemapFace(WindowModel):
-    """A window of the two angles, rad."""
+    """A camera whose window has the two angles, rad."""
 
     key = "EQUIANGULAR_CUBEMAP_FACE"
     label = "Equiangular Cubemap Face"
-    description = "90 degrees across and up, columns and rows even in the angle"
+    description = "90 degrees across and up, with columns and rows at equal angles"
     group = "Blender's Own"
     by_polynomials = True
     SETTINGS = SHIFT
@@ -40,7 +40,7 @@ class CubemapFace(WindowModel):
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> CubemapFace:
-        """Build it from the shift alone."""
+        """Build the camera from the shift alone."""
         return cls(raster.size, Window.over_frame(raw, raster, (-pi / 4, pi / 4), (-pi / 4, pi / 4)))
 
     @cached_property
@@ -49,7 +49,7 @@ class CubemapFace(WindowModel):
         return self.window.extent(self.frame)
 
     def rays(self, x, y):
-        """Return origin and direction, each a tuple of three broadcastable arrays, camera frame, of unit length.
+        """Return origin and unit direction, each a tuple of three broadcastable arrays, camera frame.
 
         x and y are pixel coordinates of broadcastable shapes. Each component is right to some EPS.
         """
@@ -60,7 +60,7 @@ class CubemapFace(WindowModel):
     def project(self, points):
         """Return the pixel coordinates (..., 2) of camera-frame points (..., 3); NaN at and behind the eye's plane.
 
-        Of the images that a shifted frame repeats, the nearest to its middle.
+        If a shifted frame repeats a point, the result is the image nearest to its middle.
         """
         x, y, z = components(np.asarray(points, np.float64))
         depth = np.where(z < 0, -z, np.nan)

@@ -1,8 +1,8 @@
-"""The cylindrical panorama over chosen angles, as stitched photographs have it.
+"""The cylindrical panorama over chosen angles, as in stitched photographs.
 
-Formula: longitudes from ``pan_min`` to ``pan_max`` across, up to whole turns and more; up, the tangent of the latitude,
-from that of ``latitude_bottom`` to that of ``latitude_top``: vertical lines stay straight, and so does the horizon.
-Singular: straight up and down, which no row reaches.
+Formula: the frame spans the longitudes ``pan_min`` .. ``pan_max``, also whole turns and more. Its height is the tangent
+of the latitude, from ``latitude_bottom`` to ``latitude_top``. Vertical lines and the horizon stay straight.
+Singular: the directions straight up and down, which no row reaches.
 Reference: Snyder (1987), page 105; R. Szeliski, Image Alignment and Stitching (2006), section 2.
 """
 
@@ -20,24 +20,42 @@ from .parts.settings import Number, span
 
 STEEPEST, WIDEST = radians(89), 10 * pi
 PAN = (
-    Number("pan_min", "Pan Min", "Longitude of the picture's left edge, 0 is ahead", -pi, -WIDEST, WIDEST, "angle", 4),
-    Number("pan_max", "Max", "Longitude of the picture's right edge, 0 is ahead", pi, -WIDEST, WIDEST, "angle", 4),
+    Number(
+        "pan_min",
+        "Pan Min",
+        "Longitude of the picture's left edge; 0 is straight ahead",
+        -pi,
+        -WIDEST,
+        WIDEST,
+        "angle",
+        4,
+    ),
+    Number(
+        "pan_max", "Max", "Longitude of the picture's right edge; 0 is straight ahead", pi, -WIDEST, WIDEST, "angle", 4
+    ),
 )
 LATITUDES = (
     Number(
-        "latitude_bottom", "Latitude Bottom", "Of the picture's lower edge", -pi / 4, -STEEPEST, STEEPEST, "angle", 4
+        "latitude_bottom",
+        "Latitude Bottom",
+        "Latitude of the picture's lower edge",
+        -pi / 4,
+        -STEEPEST,
+        STEEPEST,
+        "angle",
+        4,
     ),
-    Number("latitude_top", "Top", "Of the picture's upper edge", pi / 4, -STEEPEST, STEEPEST, "angle", 4),
+    Number("latitude_top", "Top", "Latitude of the picture's upper edge", pi / 4, -STEEPEST, STEEPEST, "angle", 4),
 )
 
 
 @dataclass(frozen=True)
 class Cylindrical(CentralCylindrical):
-    """Height is the tangent of the latitude."""
+    """A panorama whose height on the image plane is the tangent of the latitude."""
 
     key = "CYLINDRICAL"
     label = "Panorama Cylindrical"
-    description = "Over chosen angles; vertical lines and the horizon stay straight"
+    description = "A range of longitudes and latitudes; vertical lines and the horizon stay straight"
     group = "Panorama"
     number = 8
     SETTINGS = (*PAN, *LATITUDES, *SHIFT)
@@ -50,6 +68,6 @@ class Cylindrical(CentralCylindrical):
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> Cylindrical:
-        """Build it from the angles and shift; InputError where they are equal or too steep."""
+        """Build the camera from the angles and shift. Raises InputError for equal or too steep angles."""
         low, high = span(raw, *LATITUDES)
         return cls.over_frame(raw, raster, span(raw, *PAN), (tan(low), tan(high)))

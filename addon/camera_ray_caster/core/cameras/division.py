@@ -1,9 +1,9 @@
-"""The division model: the undistorted radius is the distorted one over a quadratic polynomial of it.
+"""The division model: the undistorted radius is the distorted radius over a quadratic polynomial of the latter.
 
-Assumption: the ray of the distorted coordinates (a, b) is (a, b, -(1 + lambda r^2)). With lambda below 0 that goes on
-behind the eye; above 0 it turns back at r = 1 / sqrt(lambda), where the picture ends.
+Assumption: the ray of the distorted coordinates (a, b) is (a, b, -(1 + lambda r^2)). With lambda below 0 the angle of
+rays goes on behind the eye. With lambda above 0 it turns back at r = 1 / sqrt(lambda), where the picture ends.
 Formula: tan(theta) = r / (1 + lambda r^2), in focal lengths, then K; the inverse is the root of a quadratic equation.
-Singular: where it turns back, and with lambda below 0 the point straight behind the eye.
+Singular: the angle at which rays turn back, and with lambda below 0 the point straight behind the eye.
 References: A. Fitzgibbon, Simultaneous Linear Estimation of Multiple View Geometry and Lens Distortion (2001); COLMAP
 documentation, Camera Models, where lambda is k.
 """
@@ -23,21 +23,22 @@ from .parts.radial import COORDINATES
 from .parts.settings import Number
 
 LAMBDA = Number(
-    "division_lambda", "Lambda", "Of r^2 in the denominator: below 0 barrel, above 0 pincushion distortion", 0.0,
+    "division_lambda", "Lambda", "Coefficient of r^2 in the denominator: below 0 barrel distortion, above 0 "
+                                 "pincushion distortion", 0.0,
     -1e6, 1e6, digits=6, step=0.1,
 )  # fmt: skip
 
 
 @dataclass(frozen=True)
 class Division(Calibrated):
-    """See the module's page."""
+    """A lens with tan(theta) = r / (1 + bend r^2)."""
 
     bend: float
-    """Lambda."""
+    """The coefficient lambda."""
 
     key = "DIVISION"
     label = "Division"
-    description = "A calibrated lens: one number for its distortion, also of a fisheye"
+    description = "A calibrated lens or fisheye with a single distortion coefficient"
     number = 23
     by_polynomials = True
     SETTINGS = (*CALIBRATION, LAMBDA)
@@ -49,7 +50,7 @@ class Division(Calibrated):
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> Division:
-        """Build it from the settings of the same names; InputError for one without meaning."""
+        """Build the camera from its settings. Raises InputError for an invalid setting."""
         window, bend = Calibration.from_blender(raw, raster).window(), LAMBDA.read(raw)
         return cls(raster.size, window, 1 / sqrt(bend) if bend > 0 else inf, bend)
 
@@ -60,7 +61,7 @@ class Division(Calibrated):
         return scale, ahead * scale
 
     def radius(self, theta):
-        """See Radial: the lesser root of lambda s r^2 - c r + s = 0, in the form that does not cancel."""
+        """See Radial: the smaller positive root of lambda s r^2 - c r + s = 0, in the form that does not cancel."""
         s, c = np.sin(theta), np.cos(theta)
         root = np.sqrt(np.maximum(c * c - 4 * self.bend * s * s, 0.0))
         ahead = 2 * s / np.where(c >= 0, c + root, 1.0)

@@ -1,10 +1,10 @@
-"""The dome master: what a planetarium's projectors are given, the half sphere above the audience as a disc.
+"""The dome master: the input of a planetarium's projectors, the half sphere above the audience as a disc.
 
-Assumption: the camera is level and looks to the audience's front; the center of the picture is the dome's zenith, the
-rim its edge, the bottom the front. ``tilt`` tips the dome towards the front, as over rising seats.
-Formula: an equidistant fisheye, theta = r fov / 2 from the zenith, round, touching the nearer sides of the frame (which
-should be square); no ray beyond. fov is 180 degrees for a half sphere.
-Singular: with fov 360, the rim.
+Assumption: the camera is level and looks to the audience's front. The center of the picture is the dome's zenith, the
+rim is the dome's edge, the bottom is the front. ``tilt`` tips the dome towards the front, as over rising seats.
+Formula: an equidistant fisheye, theta = r fov / 2 from the zenith, whose circle touches the nearer sides of the frame
+(which should be square); no ray beyond. fov is 180 degrees for a half sphere.
+Singular: the rim, if fov is 360 degrees.
 Reference: E. Lantz, A Survey of Large-Scale Immersive Displays (2007); IMERSA, Dome Master standard (2012).
 """
 
@@ -27,7 +27,7 @@ class DomeMaster(Pitched, FisheyeEquidistant):
 
     key = "DOME_MASTER"
     label = "Dome Master"
-    description = "A planetarium's picture: the zenith in the middle, the front at the bottom"
+    description = "The picture of a planetarium dome: the zenith in the middle, the front at the bottom"
     group = "Dome"
     number = 7
     SETTINGS = (FOV, TILT, *SHIFT)
@@ -38,6 +38,6 @@ class DomeMaster(Pitched, FisheyeEquidistant):
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> DomeMaster:
-        """Build it from ``fov``, ``tilt`` and shift; InputError for an angle without meaning."""
+        """Build the camera from ``fov``, ``tilt`` and shift. Raises InputError for an invalid angle."""
         window = Window.inscribed_circle(raw, raster, 1.0)
         return cls(raster.size, window, 1.0, half_fov=FOV.read(raw) / 2, elevation=pi / 2 - TILT.read(raw))

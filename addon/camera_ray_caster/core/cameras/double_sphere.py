@@ -1,9 +1,9 @@
-"""The double sphere camera: of fisheyes, with two parameters and without a distortion.
+"""The double sphere camera: a model of fisheyes with two parameters and without further distortion.
 
-Assumption: a point is brought to the unit sphere about the eye, from there to one about a center xi behind, and is seen
-from behind that; then K applies.
+Assumption: a point is projected onto the unit sphere about the eye, from there onto a sphere about a center xi away,
+and is seen from behind that center; then K applies.
 Formula: see parts/unified.py with beta = 1.
-Singular: the edge of the picture, at r = 1 / sqrt(2 alpha - 1) from alpha = 1/2 on.
+Singular: the edge of the picture, at r = 1 / sqrt(2 alpha - 1) if alpha > 1/2.
 Reference: V. Usenko, N. Demmel and D. Cremers, The Double Sphere Camera Model (2018).
 """
 
@@ -20,7 +20,7 @@ from .parts.unified import ALPHA, XI, Unified
 
 @dataclass(frozen=True)
 class DoubleSphere(Unified):
-    """r = sin(theta) / (alpha sqrt(sin(theta)^2 + (xi + cos(theta))^2) + (1 - alpha) (xi + cos(theta)))."""
+    """A lens with r = sin(theta) / (alpha sqrt(sin(theta)^2 + (xi + cos(theta))^2) + (1 - alpha) (xi + cos(theta)))."""
 
     key = "DOUBLE_SPHERE"
     label = "Double Sphere"
@@ -32,12 +32,12 @@ class DoubleSphere(Unified):
         RADIUS,
         Step("Lengths", "D = alpha sqrt(1 + (1 - 2 alpha) r²) + 1 - alpha, N = 1 - alpha² r²"),
         Step("On the second sphere", "s = D r / sqrt(D² r² + N²), c = N / sqrt(D² r² + N²)"),
-        Step("From the eye", "t = xi c + sqrt(1 - xi² s²)"),
+        Step("Distance from the second sphere's center to the first sphere", "t = xi c + sqrt(1 - xi² s²)"),
         Step("Direction", "d = (a/r t s, b/r t s, xi - t c)"),
     )
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> DoubleSphere:
-        """Build it from the settings of the same names; InputError for one without meaning."""
+        """Build the camera from its settings. Raises InputError for an invalid setting."""
         calibration = Calibration.from_blender(raw, raster)
         return cls.of(raw, raster, calibration, xi=XI.read(raw, high=-XI.low), alpha=ALPHA.read(raw))

@@ -1,7 +1,7 @@
 """The equirectangular panorama: Blender's EQUIRECTANGULAR, longitude and latitude on a square grid.
 
-Formula: the frame spans longitude_min .. longitude_max and latitude_min .. latitude_max; shift moves it by fractions of
-the whole and may bring rows beyond a pole, which look over it at what other rows see, too.
+Formula: the frame spans longitude_min .. longitude_max and latitude_min .. latitude_max. Shift moves it by fractions of
+its size. It may bring rows beyond a pole; these look over the pole at points that other rows see, too.
 Singular: the poles, each a whole row; the seam, half a turn from the frame's middle, where the column jumps.
 Reference: Blender manual, Cameras > Panoramic; Snyder (1987), chapter 12; rays read out of Cycles.
 """
@@ -21,11 +21,27 @@ from .parts.settings import CAMERA, Number, span
 from .parts.silhouette import everywhere
 
 LONGITUDES = tuple(
-    Number(f"longitude_{end}", label, f"Of the frame's {side} edge, 0 is ahead", default, unit="angle", owner=CAMERA)
+    Number(
+        f"longitude_{end}",
+        label,
+        f"Longitude of the frame's {side} edge; 0 is straight ahead",
+        default,
+        unit="angle",
+        owner=CAMERA,
+    )
     for end, label, side, default in (("min", "Min Longitude", "left", -pi), ("max", "Max Longitude", "right", pi))
 )
 LATITUDES = tuple(
-    Number(f"latitude_{end}", label, f"Of the frame's {side} edge", default, -pi / 2, pi / 2, "angle", owner=CAMERA)
+    Number(
+        f"latitude_{end}",
+        label,
+        f"Latitude of the frame's {side} edge",
+        default,
+        -pi / 2,
+        pi / 2,
+        "angle",
+        owner=CAMERA,
+    )
     for end, label, side, default in (
         ("min", "Min Latitude", "lower", -pi / 2),
         ("max", "Max Latitude", "upper", pi / 2),
@@ -35,7 +51,7 @@ LATITUDES = tuple(
 
 @dataclass(frozen=True)
 class Equirectangular(Meridians):
-    """Height is latitude, rad."""
+    """A panorama whose height on the image plane is the latitude, rad."""
 
     key = "EQUIRECTANGULAR"
     label = "Equirectangular"
@@ -50,7 +66,7 @@ class Equirectangular(Meridians):
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> Equirectangular:
-        """Build it from the ranges and the shift; InputError for an empty range and a latitude beyond the poles."""
+        """Build the camera from ranges and shift. Raises InputError for empty ranges and latitudes beyond the poles."""
         return cls.over_frame(raw, raster, span(raw, *LONGITUDES), span(raw, *LATITUDES))
 
     def latitude(self, height):
@@ -58,11 +74,11 @@ class Equirectangular(Meridians):
         return np.cos(height), np.sin(height)
 
     def height(self, cosine, sine):
-        """See Meridians; between the poles, though rows may lie beyond."""
+        """See Meridians; the result lies between the poles, though rows may lie beyond them."""
         return np.arctan2(sine, cosine)
 
     def bounds(self, centers, radii):
-        """See Meridians; everywhere in a frame that looks over a pole."""
+        """See Meridians; the bounds are everywhere in a frame that looks over a pole."""
         bounds = super().bounds(centers, radii)
         farthest_row = max(-self.extent[2], self.extent[3]) - abs(self.window.pitch_y) / 2
         return everywhere(len(bounds)) if farthest_row > pi / 2 else bounds

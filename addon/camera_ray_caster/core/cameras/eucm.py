@@ -1,9 +1,9 @@
-"""The enhanced unified camera: of fisheyes, with two parameters and without a distortion.
+"""The enhanced unified camera: a model of fisheyes with two parameters and without further distortion.
 
-Assumption: a point is brought to an ellipsoid about the eye and seen from behind it; then K applies.
+Assumption: a point is projected onto an ellipsoid about the eye and seen from behind the eye; then K applies.
 Formula: see parts/unified.py with xi = 0. beta = 1 is the unified camera with xi = alpha / (1 - alpha), its focal
 lengths divided by 1 - alpha.
-Singular: the edge of the picture, at r = 1 / sqrt(beta (2 alpha - 1)) from alpha = 1/2 on.
+Singular: the edge of the picture, at r = 1 / sqrt(beta (2 alpha - 1)) if alpha > 1/2.
 Reference: B. Khomutenko, G. Garcia and P. Martinet, An Enhanced Unified Camera Model (2016).
 """
 
@@ -20,7 +20,7 @@ from .parts.unified import ALPHA, BETA, Unified
 
 @dataclass(frozen=True)
 class EnhancedUnifiedCamera(Unified):
-    """r = sin(theta) / (alpha sqrt(beta sin(theta)^2 + cos(theta)^2) + (1 - alpha) cos(theta))."""
+    """A lens with r = sin(theta) / (alpha sqrt(beta sin(theta)^2 + cos(theta)^2) + (1 - alpha) cos(theta))."""
 
     key = "EUCM"
     label = "Enhanced Unified (EUCM)"
@@ -36,6 +36,6 @@ class EnhancedUnifiedCamera(Unified):
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> EnhancedUnifiedCamera:
-        """Build it from the settings of the same names; InputError for one without meaning."""
+        """Build the camera from its settings. Raises InputError for an invalid setting."""
         calibration = Calibration.from_blender(raw, raster)
         return cls.of(raw, raster, calibration, alpha=ALPHA.read(raw), beta=BETA.read(raw))

@@ -1,11 +1,11 @@
-"""Fisheye624 of Project Aria: Kannala and Brandt's with six coefficients, two tangential and four of a thin prism.
+"""Fisheye624 of Project Aria: Kannala and Brandt's model with 6 radial, 2 tangential and 4 thin prism coefficients.
 
-COLMAP has it as RAD_TAN_THIN_PRISM_FISHEYE. Its k0 .. k5 and s0 .. s3 are k1 .. k6 and s1 .. s4 here; its p0 and p1
-stand in the other order than OpenCV's, whose names are used here: they are p2 and p1.
-Assumption: the radius is an odd polynomial of the angle from the axis; the picture of that is distorted further.
+COLMAP calls it RAD_TAN_THIN_PRISM_FISHEYE. Aria's k0 .. k5 and s0 .. s3 are k1 .. k6 and s1 .. s4 here. Its p0 and p1
+are p2 and p1 in OpenCV's naming, which is used here.
+Assumption: the radius is an odd polynomial of the angle from the axis, and the resulting picture is distorted further.
 Formula: r = theta (1 + k1 theta^2 + ... + k6 theta^12), in focal lengths, then the tangential and thin prism terms of
-parts/radial_tangential.py, then K. Both are inverted by Newton's method, to full precision. Pixels and points beyond
-the angle up to which these are one-to-one have no ray and no pixel.
+parts/radial_tangential.py, then K. Both are inverted by Newton's method, to full precision. Beyond the angle up to
+which both are one-to-one, pixels have no ray and points have no pixel.
 Singular: that angle, and the point straight behind the eye.
 References: Project Aria documentation, Camera Intrinsic Models; COLMAP documentation, Camera Models.
 """
@@ -27,7 +27,7 @@ REST = P1, P2, S1, S2, S3, S4
 
 @dataclass(frozen=True)
 class Fisheye624(KannalaBrandt):
-    """Six radial, two tangential and four thin prism coefficients."""
+    """A fisheye with six radial, two tangential and four thin prism coefficients."""
 
     key = "FISHEYE624"
     label = "Fisheye624"
@@ -37,14 +37,14 @@ class Fisheye624(KannalaBrandt):
     FORMULA = (
         COORDINATES,
         Step("Undistorted across, by Newton's method", "a + 2 p1 a b + p2 (r² + 2 a²) + s1 r² + s2 r⁴, r² = a² + b²"),
-        Step("Undistorted down, b down, too", "b + p1 (r² + 2 b²) + 2 p2 a b + s3 r² + s4 r⁴"),
+        Step("Undistorted down, b also down", "b + p1 (r² + 2 b²) + 2 p2 a b + s3 r² + s4 r⁴"),
         Step("Angle, by Newton's method", "r = theta (1 + k1 theta² + k2 theta⁴ + ... + k6 theta¹²)"),
         RAY,
     )
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> Fisheye624:
-        """Build it from the settings of the same names; InputError for one without meaning."""
+        """Build the camera from its settings. Raises InputError for an invalid setting."""
         calibration = Calibration.from_blender(raw, raster, (*RADIAL, *REST))
         radial, rest = ({one.name: calibration.coefficients[one.name] for one in part} for part in (RADIAL, REST))
         return cls.of(calibration, raster, list(radial.values()), RadialTangential(**rest))

@@ -1,9 +1,9 @@
 """The equidistant fisheye: Blender's FISHEYE_EQUIDISTANT.
 
 Assumption: the angle from the axis grows evenly with the radius, on an ellipse that touches all four sides of the frame
-(sensor, pixel aspect and the frame's shape do not count, so that a frame that is not square squeezes the picture).
+(sensor, pixel aspect and the frame's shape are ignored, so that a frame that is not square squeezes the picture).
 Formula: theta = r fov / 2 with r = 1 at the rim; no ray beyond. A fov above 360 degrees goes around more than once.
-Singular: the point straight behind the eye, which is a whole circle in the picture.
+Singular: the point straight behind the eye, which appears as a whole circle in the picture.
 Reference: Blender manual, Cameras > Panoramic; rays read out of Cycles.
 """
 
@@ -23,14 +23,14 @@ from .parts.settings import Setting
 
 @dataclass(frozen=True)
 class FisheyeEquidistant(Radial):
-    """theta = half_fov r, r up to 1."""
+    """A fisheye with theta = half_fov r, r up to 1."""
 
     half_fov: float
-    """Radians."""
+    """Half the field of view, radians."""
 
     key = "FISHEYE_EQUIDISTANT"
     label = "Fisheye Equidistant"
-    description = "The angle from the axis grows evenly with the radius"
+    description = "The angle from the axis is proportional to the radius"
     group = "Blender's Own"
     factors_by_polynomials = True
     by_polynomials = True
@@ -39,7 +39,7 @@ class FisheyeEquidistant(Radial):
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> FisheyeEquidistant:
-        """Build it from fisheye_fov and shift; InputError where the field of view has no meaning."""
+        """Build the camera from fisheye_fov and shift. Raises InputError for an invalid field of view."""
         fov = FISHEYE_FOV.read(raw)
         return cls(raster.size, Window.over_frame(raw, raster, (-1.0, 1.0), (-1.0, 1.0)), 1.0, fov / 2)
 

@@ -1,8 +1,8 @@
 """The equisolid fisheye: Blender's FISHEYE_EQUISOLID, the usual photographic lens.
 
-Assumption: equal areas of the sensor see equal solid angles; the sensor is fitted to the frame as a pinhole's is.
-Formula: r = 2 f sin(theta / 2), r and f in millimeters; no ray beyond r = 2 f sin(fov / 4), which Cycles keeps for a
-fov above 360 degrees, too, where it shrinks again, to nothing at 720.
+Assumption: equal areas of the sensor see equal solid angles; the sensor is fitted to the frame as for a pinhole.
+Formula: r = 2 f sin(theta / 2), r and f in millimeters; no ray beyond r = 2 f sin(fov / 4). As in Cycles, that limit
+also holds for a fov above 360 degrees, where it shrinks again, to nothing at 720 degrees.
 No angle is computed: with s = r / 2f, sin(theta) / r = sqrt(1 - s^2) / f and cos(theta) = 1 - 2 s^2.
 Singular: r = 2 f, the point straight behind the eye.
 Reference: Blender manual, Cameras > Panoramic; rays read out of Cycles.
@@ -25,7 +25,7 @@ from .parts.settings import Setting
 
 @dataclass(frozen=True)
 class FisheyeEquisolid(Radial):
-    """s = r / 2f = sin(theta / 2); the window gives s."""
+    """A fisheye with s = r / 2f = sin(theta / 2); the window gives s."""
 
     key = "FISHEYE_EQUISOLID"
     label = "Fisheye Equisolid"
@@ -41,7 +41,7 @@ class FisheyeEquisolid(Radial):
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> FisheyeEquisolid:
-        """Build it from fisheye_lens (mm), fisheye_fov, sensor and shift; InputError where one has no meaning."""
+        """Build the camera from fisheye_lens, fisheye_fov, sensor and shift. Raises InputError for invalid settings."""
         film = Film.from_blender(raw, raster)
         diameter = 2 * FISHEYE_LENS.read(raw)
         fov = FISHEYE_FOV.read(raw)

@@ -1,8 +1,8 @@
-"""The orthographic fisheye: the half sphere before the eye, seen from far away; what a gazing ball shows from above.
+"""The orthographic fisheye: the half sphere before the eye, as if seen from far away.
 
-Assumption: a round picture that touches the nearer sides of the frame.
-Formula: sin(theta) = r sin(fov / 2) with r = 1 at the rim; no ray beyond. fov up to 180 degrees.
-Singular: 90 degrees from the axis, where the angle runs away from the radius.
+Assumption: the picture is round and touches the nearer sides of the frame.
+Formula: sin(theta) = r sin(fov / 2) with r = 1 at the rim; no ray beyond. fov is at most 180 degrees.
+Singular: 90 degrees from the axis, where the angle's derivative by the radius is infinite.
 Reference: Snyder (1987), chapter 20; H. Bettonvil, Fisheye Lenses (2005).
 """
 
@@ -21,7 +21,7 @@ from .parts.radial import FOV, RADIUS, RAY, ROUND_PLANE, Radial
 
 @dataclass(frozen=True)
 class FisheyeOrthographic(Radial):
-    """The window gives sin(theta); the rim is sin(fov / 2)."""
+    """A fisheye whose window gives sin(theta); the rim is sin(fov / 2)."""
 
     key = "FISHEYE_ORTHOGRAPHIC"
     label = "Fisheye Orthographic"
@@ -32,7 +32,7 @@ class FisheyeOrthographic(Radial):
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> FisheyeOrthographic:
-        """Build it from ``fov`` and shift; InputError for a field of view without meaning."""
+        """Build the camera from ``fov`` and shift. Raises InputError for an invalid field of view."""
         rim = sin(min(FOV.read(raw, high=pi), pi) / 2)
         return cls(raster.size, Window.inscribed_circle(raw, raster, rim), rim)
 

@@ -1,11 +1,11 @@
 """The fisheye of a measured lens: Blender's FISHEYE_LENS_POLYNOMIAL.
 
 Assumption: the angle from the axis is a polynomial of the radius on the sensor, in millimeters; the sensor is fitted
-to the frame as a pinhole's is.
+to the frame as for a pinhole.
 Formula: theta = -(k0 + k1 r + k2 r^2 + k3 r^3 + k4 r^4); no ray where abs(theta) > fov / 2. The minus is Blender's: an
-upright picture needs k1 < 0. A negative theta lies on the other side of the axis. The inverse is Newton's.
-Singular: r = 0 with k0 not 0, where the lens is not smooth: theta is -k0 there, the azimuth anything (Cycles has what
-its rounding gives, we look up). With k0 < 0 nothing sees the cone of -k0 about the axis.
+upright picture needs k1 < 0. A negative theta lies on the other side of the axis. Newton's method gives the inverse.
+Singular: r = 0 if k0 is not 0. The lens is not smooth there: theta is -k0 and the azimuth is undefined (in Cycles
+rounding decides; here the ray is turned up). With k0 < 0 no pixel sees the cone of half angle -k0 about the axis.
 A polynomial that turns back inside the frame would fold the picture and is refused.
 Reference: Blender manual, Cameras > Panoramic; rays read out of Cycles.
 """
@@ -29,8 +29,8 @@ from .parts.settings import CAMERA, FULL_TURN, Number
 from .parts.silhouette import pixel_bounds, radial_intervals
 
 BEYOND = 1 + 1e-6
-"""The rim, in radii at which theta leaves the field of view, which ends the picture: where theta is flat, its inverse
-errs by the root of EPS.
+"""The rim over the radius at which theta leaves the field of view, and the picture ends. The margin covers the error of
+the inverse, which is the square root of EPS where theta is flat.
 """
 
 COEFFICIENTS = tuple(
@@ -42,13 +42,13 @@ COEFFICIENTS = tuple(
 
 @dataclass(frozen=True)
 class FisheyePolynomial(Radial):
-    """theta = polynomial(r), which grows (or falls, and the picture is turned by half a turn) up to ``limit``."""
+    """A lens with theta = polynomial(r), monotone up to ``limit``; falling theta turns the picture by 180 degrees."""
 
     coefficients: tuple[float, ...]
-    """Of theta, from the constant up, per mm: Blender's, negated."""
+    """Coefficients of theta, from the constant up, in rad / mm^i: Blender's, negated."""
     half_fov: float
     limit: float
-    """Radius in mm up to which theta is monotone and has a ray somewhere."""
+    """Radius in mm up to which theta is monotone: its first turning point, or the corner of the frame."""
 
     key = "FISHEYE_LENS_POLYNOMIAL"
     label = "Fisheye Lens Polynomial"
@@ -63,9 +63,9 @@ class FisheyePolynomial(Radial):
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> FisheyePolynomial:
-        """Build it from the coefficients, fisheye_fov, sensor and shift.
+        """Build the camera from the coefficients, fisheye_fov, sensor and shift.
 
-        Raises InputError for a number without meaning and for a polynomial that folds the picture.
+        Raises InputError for an invalid number and for a polynomial that folds the picture.
         """
         film = Film.from_blender(raw, raster)
         window = Window.round_pixels(raw, raster, film.size / film.fitted_pixels)
@@ -84,7 +84,7 @@ class FisheyePolynomial(Radial):
         lens = cls(raster.size, window, np.inf, coefficients, half_fov, limit)
         if lens.widest < half_fov or lens.widest == np.inf:
             return lens
-        return replace(lens, rim=float(np.fmax(lens._inverse(half_fov), 0.0)) * BEYOND)  # 0 where theta begins beyond
+        return replace(lens, rim=float(np.fmax(lens._inverse(half_fov), 0.0)) * BEYOND)  # 0 if theta begins beyond
 
     def angle(self, r):
         """Return theta (rad) of radii in mm."""
@@ -92,7 +92,7 @@ class FisheyePolynomial(Radial):
         return k0 + r * (k1 + r * (k2 + r * (k3 + r * k4)))
 
     def _plane(self, x, y):
-        """At r = 0 with k0 not 0 the ray is turned up."""
+        """Return the point on the plane; at r = 0 with k0 not 0 it is moved up a little, which turns the ray up."""
         a, b = super()._plane(x, y)
         return a, b + np.where(b == 0, TINY, 0.0) if self.coefficients[0] else b
 
@@ -115,7 +115,7 @@ class FisheyePolynomial(Radial):
         return Inverse(lambda r: sign * self.angle(r), slope, 0.0, self.limit)
 
     def radius(self, theta):
-        """See Radial: negative where theta is seen on the other side of the axis."""
+        """See Radial; r is negative if theta is seen on the other side of the axis."""
         start, sign = self.coefficients[0], self._sign
         same, across = (sign * start + _turned(sign * (one - start)) for one in (theta, -theta))
         target = np.minimum(same, across)
@@ -123,24 +123,24 @@ class FisheyePolynomial(Radial):
         return np.where(same <= across, r, -r)
 
     def bounds(self, centers, radii):
-        """See Radial; the cone about the axis that nothing sees counts as the center of the picture."""
+        """See Radial; the cone about the axis that no pixel sees counts as the center of the picture."""
         seen = lambda theta: self.radius(np.maximum(theta, self.coefficients[0]))  # noqa: E731
         return pixel_bounds(self.window, *radial_intervals(centers, radii, seen, self.widest))
 
     @property
     def widest(self) -> float:
-        """See Radial; inf where the picture is turned or crosses the axis, so that it has no simple bounds."""
+        """See Radial; inf if the picture is turned by 180 degrees or crosses the axis: it has no simple bounds then."""
         rim = self.angle(self.limit)
         return min(rim, self.half_fov) if rim > self.coefficients[0] >= 0 else np.inf
 
 
 def _turned(theta):
-    """Return angles in one full turn from 0 on; those that rounding has put before 0 are 0."""
+    """Return angles reduced to [0, FULL_TURN); angles within rounding of 0 become 0."""
     return np.mod(np.where(np.abs(theta) <= gamma(16), 0.0, theta), FULL_TURN)
 
 
 def _turns(coefficients, corner: float):
-    """Return the radii inside (0, corner) where theta turns back, from the axis out; 0 where it is constant."""
+    """Return the radii inside (0, corner) where theta turns back, from the axis out; 0 if theta is constant."""
     slope = np.polynomial.Polynomial(coefficients).deriv()
     if not slope.coef.any():
         return np.zeros(1)
@@ -151,6 +151,6 @@ def _turns(coefficients, corner: float):
 
 
 def _is_seen_beyond(coefficients, turns, corner: float, half_fov: float) -> bool:
-    """Return whether theta comes within the field of view behind its first turning point."""
+    """Return whether theta comes within the field of view beyond its first turning point."""
     theta = np.polynomial.Polynomial(coefficients)(np.append(turns, corner))
     return bool((np.abs(theta) <= half_fov).any() or (np.sign(theta[1:]) != np.sign(theta[:-1])).any())

@@ -1,9 +1,9 @@
-"""The stereographic fisheye: angles between lines are kept, circles on the sphere stay circles.
+"""The stereographic fisheye: angles between lines are kept, and circles on the sphere stay circles.
 
-Assumption: a round picture that touches the nearer sides of the frame.
-Formula: tan(theta / 2) = r tan(fov / 4) with r = 1 at the rim; no ray beyond. fov below 360 degrees. No angle is
+Assumption: the picture is round and touches the nearer sides of the frame.
+Formula: tan(theta / 2) = r tan(fov / 4) with r = 1 at the rim; no ray beyond. fov is below 360 degrees. No angle is
 computed: with w = tan(theta / 2), sin(theta) / w = 2 / (1 + w^2) and cos(theta) = (1 - w^2) / (1 + w^2).
-Singular: the point straight behind the eye, which lies infinitely far out.
+Singular: the point straight behind the eye, whose image is infinitely far out.
 Reference: Snyder (1987), chapter 21.
 """
 
@@ -26,7 +26,7 @@ WIDEST = radians(359)
 
 @dataclass(frozen=True)
 class FisheyeStereographic(Radial):
-    """The window gives tan(theta / 2); the rim is tan(fov / 4), or inf where the frame alone ends the picture."""
+    """A fisheye whose window gives tan(theta / 2); the rim is tan(fov / 4), or inf if there is no rim."""
 
     key = "FISHEYE_STEREOGRAPHIC"
     label = "Fisheye Stereographic"
@@ -42,7 +42,7 @@ class FisheyeStereographic(Radial):
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> FisheyeStereographic:
-        """Build it from ``fov`` and shift; InputError for a field of view without meaning."""
+        """Build the camera from ``fov`` and shift. Raises InputError for an invalid field of view."""
         rim = tan(FOV.read(raw, high=WIDEST) / 4)
         return cls(raster.size, Window.inscribed_circle(raw, raster, rim), rim)
 

@@ -1,8 +1,8 @@
 """The field-of-view camera: one parameter, the angle of an ideal fisheye.
 
-Assumption: the radius grows with the angle that a pinhole's picture is seen under.
-Formula: r = atan(2 tan(omega / 2) tan(theta)) / omega, in focal lengths, then K; the inverse is closed. It ends 90
-degrees from the axis, where r = pi / (2 omega).
+Assumption: the radius is proportional to the angle at which a pinhole's picture is seen.
+Formula: r = atan(2 tan(omega / 2) tan(theta)) / omega, in focal lengths, then K; the inverse has a closed form. The
+picture ends 90 degrees from the axis, where r = pi / (2 omega).
 Singular: that angle.
 References: F. Devernay and O. Faugeras, Straight Lines Have to Be Straight (2001); COLMAP documentation, Camera Models.
 """
@@ -22,19 +22,19 @@ from .parts.radial import COORDINATES, RADIUS, RAY, radii_of
 from .parts.settings import Number
 
 OMEGA = Number(
-    "fov_omega", "Omega", "The angle of the fisheye; the least is a pinhole", 1.0, 1e-6, radians(179), "angle", digits=4
+    "fov_omega", "Omega", "Angle of the fisheye; the minimum is a pinhole", 1.0, 1e-6, radians(179), "angle", digits=4
 )
 
 
 @dataclass(frozen=True)
 class FieldOfView(Calibrated):
-    """See the module's page."""
+    """A lens with r = atan(2 tan(omega / 2) tan(theta)) / omega."""
 
     omega: float
 
     key = "FOV"
     label = "Field of View (FOV)"
-    description = "A calibrated wide lens: one angle for its distortion"
+    description = "A calibrated wide-angle lens whose distortion is given by a single angle"
     number = 22
     by_polynomials = True
     SETTINGS = (*CALIBRATION, OMEGA)
@@ -47,7 +47,7 @@ class FieldOfView(Calibrated):
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> FieldOfView:
-        """Build it from the settings of the same names; InputError for one without meaning."""
+        """Build the camera from its settings. Raises InputError for an invalid setting."""
         window = Calibration.from_blender(raw, raster).window()
         omega = OMEGA.read(raw)
         return cls(raster.size, window, pi / (2 * omega), omega)

@@ -1,12 +1,12 @@
 """The f-theta camera of NVIDIA's simulators and recordings: a polynomial between the angle and the radius.
 
-Assumption: the azimuth is kept, but for a linear map of the picture, for a sensor that is not square to the lens.
-Formula: with (u, v) the pixels from the center, v down, (u, v) = ((c, d), (e, 1)) (u', v'), and r the length of
-(u', v'): r is a polynomial of the angle theta (angle to pixel distance, "forward"), or theta one of r (pixel distance
-to angle, "backward"), of any degree, without a constant. Files have both; the one that is the model is declared, and
-the other is its inverse here, by Newton's method to full precision, not the polynomial that approximates it.
-It ends where the polynomial stops to grow, at ``ftheta_max_angle``, or at 180 degrees.
-Singular: where it stops to grow, and the point straight behind the eye.
+Assumption: the azimuth is kept, except for a linear map of the picture, for a sensor that is not square to the lens.
+Formula: (u, v), v down, is the pixel's offset from the center; (u, v) = ((c, d), (e, 1)) (u', v'), and r is the length
+of (u', v'). Either r is a polynomial of the angle theta (angle to pixel distance, "forward"), or theta is a polynomial
+of r (pixel distance to angle, "backward"), of any degree, without a constant. Files have both polynomials and declare
+one as the model. Here the other is replaced by the exact inverse, by Newton's method to full precision.
+The picture ends where the polynomial stops growing, at ``ftheta_max_angle``, or at 180 degrees.
+Singular: the radius where it stops growing, and the point straight behind the eye.
 References: NVIDIA DriveWorks SDK documentation, Camera Models (FTheta); NVIDIA Omniverse documentation, F-Theta camera.
 """
 
@@ -30,7 +30,8 @@ from .parts.settings import ABOVE_ZERO, Choice, Coefficients, Item, Number
 
 ANGLE_TO_RADIUS = "ANGLE_TO_RADIUS"
 REFERENCE = Choice(
-    "ftheta_reference", "Reference", "Which polynomial is the model; the other is made from it", ANGLE_TO_RADIUS,
+    "ftheta_reference", "Reference", "Polynomial that defines the model; the other polynomial is "
+                                     "computed from it", ANGLE_TO_RADIUS,
     (
         Item(ANGLE_TO_RADIUS, "Angle to Radius", "Forward: the radius is a polynomial of the angle", 0),
         Item("RADIUS_TO_ANGLE", "Radius to Angle", "Backward: the angle is a polynomial of the radius", 1),
@@ -40,32 +41,49 @@ POLYNOMIALS = {
     ANGLE_TO_RADIUS: Coefficients(
         "ftheta_angle_to_radius",
         "Angle to Radius",
-        "Pixels or mm: 0, then the coefficients of theta, theta^2, ...",
+        "Radius in pixels or mm: 0, then the coefficients of theta, theta^2, ...",
         "0 1000",
     ),
     "RADIUS_TO_ANGLE": Coefficients(
-        "ftheta_radius_to_angle", "Radius to Angle", "Radians: 0, then the coefficients of r, r^2, ...", "0 0.001"
+        "ftheta_radius_to_angle",
+        "Radius to Angle",
+        "Angle in radians: 0, then the coefficients of r, r^2, ...",
+        "0 0.001",
     ),
 }
 MAX_ANGLE = Number(
-    "ftheta_max_angle", "Maximum Angle", "From the axis, where the picture ends", pi, ABOVE_ZERO, pi, "angle", digits=4
+    "ftheta_max_angle",
+    "Maximum Angle",
+    "Largest angle from the axis; the picture ends there",
+    pi,
+    ABOVE_ZERO,
+    pi,
+    "angle",
+    digits=4,
 )
 C, D, E = (
-    Number(f"ftheta_{name}", name.upper(), "Of ((c, d), (e, 1)), x right, y down", default, digits=6, step=0.1)
+    Number(
+        f"ftheta_{name}",
+        name.upper(),
+        "Entry of the affine matrix ((c, d), (e, 1)), x right, y down",
+        default,
+        digits=6,
+        step=0.1,
+    )
     for name, default in (("c", 1.0), ("d", 0.0), ("e", 0.0))
 )
 
 
 @dataclass(frozen=True)
 class FTheta(Calibrated):
-    """See the module's page. The plane is in pixels of the calibrated picture, or in millimeters."""
+    """An f-theta lens. Its plane is in pixels of the calibrated picture, or in millimeters."""
 
     polynomial: tuple[float, ...]
-    """The coefficients, from the linear one up."""
+    """Coefficients, from the linear term up."""
     forward: bool
-    """Whether it gives the radius of an angle."""
+    """Whether the polynomial gives the radius of an angle."""
     limit: float
-    """The angle, or the radius, up to which it counts."""
+    """Largest angle (forward) or radius (backward) at which the polynomial is valid."""
 
     key = "FTHETA"
     label = "F-Theta"
@@ -76,7 +94,10 @@ class FTheta(Calibrated):
     SETTINGS = (*PRINCIPAL_POINT, REFERENCE, *POLYNOMIALS.values(), C, D, E, MAX_ANGLE)
     FORMULA = (
         Step("Pixels, or mm, from the center, v down", "u = x - 1/2 - cx, v = H - y - 1/2 - cy"),
-        Step("On a sensor square to the lens", "(u', v') = ((c, d), (e, 1))⁻¹ (u, v), r² = u'² + v'², a = u', b = -v'"),
+        Step(
+            "On a sensor perpendicular to the axis of the lens",
+            "(u', v') = ((c, d), (e, 1))⁻¹ (u, v), r² = u'² + v'², a = u', b = -v'",
+        ),
         Step("Angle, forward, by Newton's method", "r = k1 theta + k2 theta² + ..."),
         Step("Angle, backward", "theta = k1 r + k2 r² + ..."),
         RAY,
@@ -84,9 +105,9 @@ class FTheta(Calibrated):
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> FTheta:
-        """Build it from the settings of the same names.
+        """Build the camera from its settings.
 
-        Raises InputError for one without meaning, and for a polynomial that does not grow from 0 on.
+        Raises InputError for an invalid setting, and for a polynomial that does not start at 0 and grow there.
         """
         reference, (c, d, e) = REFERENCE.read(raw), (one.read(raw) for one in (C, D, E))
         if not c - d * e > 0:
@@ -105,11 +126,11 @@ class FTheta(Calibrated):
 
     @property
     def K(self) -> None:
-        """None: see Model."""
+        """None, since the polynomial replaces the focal lengths; see Model."""
         return None
 
     def value(self, x):
-        """Return the polynomial's."""
+        """Return the values of the polynomial."""
         return x * horner(x, self.polynomial)
 
     def _slope(self, x):

@@ -1,13 +1,13 @@
 """The general linear camera: all affine combinations of three rays.
 
 A ray is given by (s, t, u, v): its points (s, t) on the plane through the camera, z = 0, and (u, v) on the plane at
-unit depth before it, z = -1 (the camera looks along -Z). Ray 1 is the one at the frame's bottom left corner, ray 2 at
-its bottom right corner, ray 3 at its top left corner; pixel (x, y) of W x H has the ray
+unit depth before it, z = -1 (the camera looks along -Z). Ray 1 belongs to the frame's bottom left corner, ray 2 to the
+bottom right corner, ray 3 to the top left corner. Pixel (x, y) of W x H has the ray
 (1 - alpha - beta) ray_1 + alpha ray_2 + beta ray_3 with alpha = x / W, beta = y / H. Rays start on z = 0.
 
-With M(depth) the 2 x 2 matrix that takes (alpha, beta) to the place at a depth, less its constant,
-M = S + depth D, and det M = C + B depth + A depth^2 is the characteristic equation: at its roots the rays meet slits.
-Singular: points at those depths, which no pixel sees or many.
+The place of a ray at a depth is a constant plus M (alpha, beta), with the 2 x 2 matrix M = S + depth D. At the roots of
+det M = C + B depth + A depth^2, the left side of the characteristic equation, the rays meet slits.
+Singular: points at those depths, which no pixel or many pixels see.
 Reference: J. Yu and L. McMillan, General Linear Cameras, ECCV 2004.
 """
 
@@ -28,7 +28,7 @@ from .parts.settings import Numbers, Setting
 from .parts.silhouette import MARGIN
 
 ROUNDING = 16 * EPS32
-"""What is below this, relative to the rays' own numbers, counts as zero: Blender stores the rays as float32."""
+"""Magnitude relative to the rays' numbers below which a value counts as zero: Blender stores the rays as float32."""
 
 RAYS = tuple(
     Numbers(
@@ -50,7 +50,7 @@ class GeneralLinear(Model):
 
     key = "GENERAL_LINEAR"
     label = "General Linear"
-    description = "All affine combinations of three rays"
+    description = "Each ray is an affine combination of three given rays"
     group = "Multiperspective"
     number = 10
     central = False
@@ -64,7 +64,7 @@ class GeneralLinear(Model):
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> GeneralLinear:
-        """Build it from ray_1, ray_2 and ray_3; InputError where one ray is a combination of the others."""
+        """Build the camera from ray_1, ray_2 and ray_3. Raises InputError if, as points, they lie on one line."""
         three = np.array([ray.read(raw) for ray in RAYS])
         if _are_dependent(three):
             names, rays = ", ".join(ray.name for ray in RAYS), ", ".join(str(tuple(ray)) for ray in three.tolist())
@@ -76,17 +76,17 @@ class GeneralLinear(Model):
 
     @property
     def kind(self) -> str:
-        """The name of this camera among the general linear ones."""
+        """The kind of this camera among the general linear cameras."""
         return classify(self.three)
 
     @cached_property
     def affine(self) -> np.ndarray:
-        """(3, 4): s, t and the slopes u - s, v - t of ray 1, and what they grow by over alpha and over beta."""
+        """An array (3, 4): s, t and the slopes u - s, v - t of ray 1, and their derivatives by alpha and by beta."""
         rows = self.three - np.outer((0, 1, 1), self.three[0])
         return np.concatenate((rows[:, :2], rows[:, 2:] - rows[:, :2]), axis=1)
 
     def rays(self, x, y):
-        """Return origin and direction, each a tuple of three broadcastable arrays, camera frame, unit length.
+        """Return origin and unit direction, each a tuple of three broadcastable arrays, camera frame.
 
         x and y are pixel coordinates of broadcastable shapes. The origin and the slopes are right to gamma(5) of the
         sum of the magnitudes of the three rays' numbers.
@@ -99,8 +99,8 @@ class GeneralLinear(Model):
     def project(self, points):
         """Return the pixel coordinates (..., 2) of camera-frame points (..., 3).
 
-        NaN behind z = 0, where no ray starts, and at the depths of the slits. A camera of kind EPI looks along one
-        plane and sees nothing beside it: NaN everywhere.
+        NaN behind z = 0, where there are no rays, and at the depths of the slits. A camera of kind EPI sees a single
+        plane, and all its points are NaN.
         """
         x, y, z = components(np.asarray(points, np.float64))
         across, up, determinant = self._solved(x, y, z)
@@ -116,7 +116,7 @@ class GeneralLinear(Model):
         return bounds
 
     def facts(self) -> dict[str, object]:
-        """Return the kind of the camera among the general linear ones."""
+        """Return the kind of this camera among the general linear cameras."""
         return {"kind": self.kind}
 
     def _solved(self, x, y, z):
@@ -130,9 +130,9 @@ class GeneralLinear(Model):
 def classify(three) -> str:
     """Return the kind of the camera that three rays (3, 4) span, by its characteristic equation.
 
-    Two slits: cross-slit. One, met twice: pinhole if M vanishes there, else pencil. None at a finite depth: bilinear.
-    With A = 0 one slit is at infinity: pushbroom if the other is not, twisted orthographic if it is, orthographic if
-    all slopes are equal; EPI if every depth is a root: the rays lie in one plane.
+    Two real roots are two slits: cross-slit. A double root is a pinhole if M vanishes there, else a pencil. No real
+    root: bilinear. With A = 0, one slit is at infinity: pushbroom if the other is not, twisted orthographic if both
+    are, orthographic if all slopes are equal. EPI: every depth is a root, and the rays lie in one plane.
     """
     rows = np.asarray(three)[1:] - np.asarray(three)[0]
     s, d = rows[:, :2].T, (rows[:, 2:] - rows[:, :2]).T
@@ -153,6 +153,6 @@ def classify(three) -> str:
 
 
 def _are_dependent(three) -> bool:
-    """Whether the rays, as points of four dimensions, lie on one line (or in one point)."""
+    """Return whether the rays, as points in four dimensions, lie on one line (or in one point)."""
     rows = three[1:] - three[0]
     return bool(np.linalg.svd(rows, compute_uv=False)[-1] <= ROUNDING * np.abs(three).max())

@@ -1,9 +1,9 @@
 """The mirror ball: Blender's MIRRORBALL, the picture that a parallel camera takes of a small chrome sphere.
 
-Assumption: the sphere fills the frame, squeezed to it; each ray is the one that leaves the sphere after its reflection,
-with the camera looking from where the viewing direction points to.
+Assumption: the sphere's picture is stretched to the frame. Each ray is a reflected ray of a parallel camera that stands
+ahead in the viewing direction and looks back at the sphere.
 Formula: theta = 2 asin(r) with r = 1 at the rim: an equisolid fisheye of 360 degrees over an ellipse.
-Singular: the rim, all of which is the point straight behind the eye.
+Singular: the rim, which shows the one point straight behind the eye.
 Reference: P. Debevec, Rendering Synthetic Objects into Real Scenes (1998); rays read out of Cycles.
 """
 
@@ -25,16 +25,16 @@ class Mirrorball(FisheyeEquisolid):
 
     key = "MIRRORBALL"
     label = "Mirror Ball"
-    description = "All around, as a small chrome sphere shows it"
+    description = "All directions, as reflected by a small chrome sphere"
     SETTINGS = SHIFT
     FORMULA = (WHOLE_PLANE, RADIUS, Step("Angle from the axis", "theta = 2 asin(r)"), RAY)
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> Mirrorball:
-        """Build it from the shift alone."""
+        """Build the camera from the shift alone."""
         return cls(raster.size, Window.over_frame(raw, raster, (-1.0, 1.0), (-1.0, 1.0)), 1.0)
 
     def aperture(self, raw: BlenderCamera, pose: Pose) -> Aperture | None:
-        """Return the thin lens as Cycles has it for this one panorama: in a mirrored space of its own."""
+        """Return the thin lens in the mirrored space that Cycles uses for this panorama alone."""
         lens = super().aperture(raw, pose)
         return lens and replace(lens, rotation=-lens.rotation, axis=SIDEWAYS)

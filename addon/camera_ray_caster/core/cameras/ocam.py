@@ -1,12 +1,12 @@
-"""OCam of Scaramuzza: of mirror lenses and fisheyes, a polynomial of the radius for how far behind the picture lies.
+"""OCam of Scaramuzza: a model of mirror lenses and fisheyes, whose rays have a polynomial of the radius as component z.
 
-Assumption: the ray of the pixel at (u', v') from the center on a sensor square to the lens is (u', v', f(r)), with the
-third axis towards the back, so that f is below 0 on the axis.
-Formula: the toolbox counts x along the rows' number, down, and y to the right: with its c, d and e the pixels from the
-center are (right, down) = ((1, e), (d, c)) (u', v'), and f(r) = a0 + a1 r + a2 r^2 + ..., in pixels. The inverse is
-Newton's method, to full precision, not the polynomial that the toolbox fits to it.
-It ends where the angle from the axis stops to grow, or at the corner of the frame.
-Singular: where it stops to grow.
+Assumption: on a sensor square to the lens, the ray of the pixel at (u', v') from the center is (u', v', f(r)). The
+third axis points back, so that f is below 0 on the axis.
+Formula: the toolbox has x along the row numbers, down, and y to the right. With its c, d and e, a pixel's offset from
+the center is (right, down) = ((1, e), (d, c)) (u', v'), and f(r) = a0 + a1 r + a2 r^2 + ..., in pixels. The inverse is
+exact, by Newton's method, instead of the polynomial that the toolbox fits to it.
+The picture ends where the angle from the axis stops growing, or at the corner of the frame.
+Singular: the radius where the angle stops growing.
 Reference: D. Scaramuzza, A. Martinelli and R. Siegwart, A Toolbox for Easily Calibrating Omnidirectional Cameras
 (2006).
 """
@@ -29,20 +29,27 @@ from .parts.calibration import PRINCIPAL_POINT, Calibration
 from .parts.settings import Coefficients, Number
 
 POLYNOMIAL = Coefficients(
-    "ocam_polynomial", "Polynomial", "Pixels or mm: a0 (below 0), a1 (0 of most lenses), a2, ...", "-1000 0 0.0004"
+    "ocam_polynomial",
+    "Polynomial",
+    "Coefficients in pixels or mm: a0 (below 0), a1 (0 for most lenses), a2, ...",
+    "-1000 0 0.0004",
 )
 C, D, E = (
-    Number(f"ocam_{name}", name.upper(), f"Affine: {text}", default, digits=6, step=0.1)
-    for name, text, default in (("c", "down by down", 1.0), ("d", "down by right", 0.0), ("e", "right by down", 0.0))
+    Number(f"ocam_{name}", name.upper(), f"Entry of the affine matrix: {text}", default, digits=6, step=0.1)
+    for name, text, default in (
+        ("c", "down from down", 1.0),
+        ("d", "down from right", 0.0),
+        ("e", "right from down", 0.0),
+    )
 )
 
 
 @dataclass(frozen=True)
 class OCam(Calibrated):
-    """See the module's page. The plane is in pixels of the calibrated picture, or in millimeters."""
+    """An OCam lens. Its plane is in pixels of the calibrated picture, or in millimeters."""
 
     polynomial: tuple[float, ...]
-    """The coefficients, from the constant up."""
+    """Coefficients, from the constant up."""
 
     key = "OCAM"
     label = "OCam (Scaramuzza)"
@@ -52,16 +59,18 @@ class OCam(Calibrated):
     SETTINGS = (*PRINCIPAL_POINT, POLYNOMIAL, C, D, E)
     FORMULA = (
         Step("Pixels, or mm, from the center, v down", "u = x - 1/2 - cx, v = H - y - 1/2 - cy"),
-        Step("On a sensor square to the lens", "(u', v') = ((1, e), (d, c))⁻¹ (u, v), r² = u'² + v'²"),
+        Step(
+            "On a sensor perpendicular to the axis of the lens", "(u', v') = ((1, e), (d, c))⁻¹ (u, v), r² = u'² + v'²"
+        ),
         Step("Behind the picture", "f = a0 + a1 r + a2 r² + ..."),
         Step("Direction", "d = (u', -v', f) / sqrt(r² + f²)"),
     )
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> OCam:
-        """Build it from the settings of the same names.
+        """Build the camera from its settings.
 
-        Raises InputError for one without meaning, and for a polynomial that is not below 0 on the axis.
+        Raises InputError for an invalid setting, and for a polynomial that is not below 0 on the axis.
         """
         c, d, e = (one.read(raw) for one in (C, D, E))
         if not c - d * e > 0:
@@ -70,13 +79,13 @@ class OCam(Calibrated):
         if not coefficients[0] < 0:
             raise POLYNOMIAL.refusal(raw, repr(POLYNOMIAL.given(raw)), "a number below 0, and more")
         window = Calibration.from_blender(raw, raster, settings=PRINCIPAL_POINT).window(((1.0, e), (d, c)))
-        turns = positive_roots(Polynomial([(i - 1) * a for i, a in enumerate(coefficients)]))  # of r f' - f
+        turns = positive_roots(Polynomial([(i - 1) * a for i, a in enumerate(coefficients)]))  # roots of r f' - f
         corner = np.hypot(*window.plane_from_pixels(*np.meshgrid(*((0.0, side) for side in raster.size)))).max()
         return cls(raster.size, window, float(min([corner, *turns])), coefficients)
 
     @property
     def K(self) -> None:
-        """None: see Model."""
+        """None, since the polynomial replaces the focal lengths; see Model."""
         return None
 
     def factors(self, r_squared):
@@ -88,7 +97,7 @@ class OCam(Calibrated):
 
     @cached_property
     def radius(self):
-        """Return the inverse of the angle: see Radial."""
+        """Return the inverse of the angle as a function of the radius; see Radial."""
         slopes = [(i - 1) * a for i, a in enumerate(self.polynomial)]
 
         def slope(r):

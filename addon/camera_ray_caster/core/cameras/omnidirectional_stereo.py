@@ -1,12 +1,12 @@
-"""Omnidirectional stereo: the equirectangular panorama of an eye that moves on its circle as the head turns.
+"""Omnidirectional stereo: the equirectangular panorama of an eye that moves on a circle as the head turns.
 
-Each column has its own eye, half the interocular distance to the left or right of the center, and looks straight ahead
-of itself: the rays are tangents of the circle. With side = (cos lon, 0, sin lon), s = -1 the left eye, +1 the right:
-origin = s (d / 2) side, direction = (cos lat sin lon, sin lat, -cos lat cos lon).
-The frame spans 360 x 180 degrees an eye; for both eyes it is halved: TOP_BOTTOM has the left eye's picture above,
-SIDE_BY_SIDE on the left. Shift has no meaning here and is ignored. It is Blender's spherical stereo of a panorama
-without convergence and pole merge. With distance 0 it is the equirectangular panorama.
-Singular: the poles, each a whole row; the seam behind; the circle itself. The cylinder over it, no ray enters.
+Each column has its own eye, half the interocular distance to the left or right of the center, which looks straight
+ahead: the rays are tangents of the circle. With side = (cos lon, 0, sin lon), s = -1 for the left eye, +1 for the
+right: origin = s (d / 2) side, direction = (cos lat sin lon, sin lat, -cos lat cos lon).
+The frame spans 360 x 180 degrees per eye. For both eyes it is halved: TOP_BOTTOM has the left eye's picture above,
+SIDE_BY_SIDE on the left. Shift is ignored. The camera equals Blender's spherical stereo of a panorama without
+convergence and pole merge. With distance 0 it is the equirectangular panorama.
+Singular: the poles, each a whole row; the seam behind; the circle itself. No ray enters the cylinder over the circle.
 References: S. Peleg, M. Ben-Ezra and Y. Pritch, Omnistereo: Panoramic Stereo Imaging, PAMI 23 (2001); Google Inc.,
 Rendering Omni-directional Stereo Content (2015).
 """
@@ -26,62 +26,64 @@ from .parts.settings import FULL_TURN, STEREO, Choice, Item, Number
 from .parts.silhouette import longitude_latitude, pixel_bounds, turned
 
 EYES = {"LEFT": (-1.0, -1.0), "RIGHT": (1.0, 1.0), "TOP_BOTTOM": (1.0, -1.0), "SIDE_BY_SIDE": (-1.0, 1.0)}
-"""The eye, s, of the lower half of the frame (or the left one, side by side) and of the other half."""
+"""The eyes, s, of the lower half of the frame (the left half if side by side) and of the other half."""
 
 
 EYE = Choice(
-    "eye", "Eye", "Whose picture it is; the interocular distance is the camera's stereoscopy setting",
+    "eye", "Eye", "Eye that sees the picture. The interocular distance is in the camera's Stereoscopy settings",
     "LEFT",
     (
-        Item("LEFT", "Left", "The left eye", 0),
-        Item("RIGHT", "Right", "The right eye", 1),
-        Item("TOP_BOTTOM", "Top-Bottom", "Both, the left eye above", 2),
-        Item("SIDE_BY_SIDE", "Side by Side", "Both, the left eye on the left", 3),
+        Item("LEFT", "Left", "Left eye", 0),
+        Item("RIGHT", "Right", "Right eye", 1),
+        Item("TOP_BOTTOM", "Top-Bottom", "Both eyes, the left eye above the right eye", 2),
+        Item("SIDE_BY_SIDE", "Side by Side", "Both eyes side by side, the left eye on the left", 3),
     ),
 )  # fmt: skip
 DISTANCE = Number(
-    "interocular_distance", "Interocular Distance", "From eye to eye", 0.065, 0.0, unit="length", owner=STEREO
+    "interocular_distance", "Interocular Distance", "Distance between the eyes", 0.065, 0.0, unit="length", owner=STEREO
 )
 
 
 @dataclass(frozen=True)
 class OmnidirectionalStereo(WindowModel):
-    """A window of longitude and latitude for one eye; ``radius`` of the eyes' circle; one of EYES."""
+    """A camera whose window has longitude and latitude for one eye."""
 
     radius: float
+    """Radius of the eyes' circle."""
     eyes: str
+    """A key of EYES."""
 
     key = "OMNIDIRECTIONAL_STEREO"
     label = "Omnidirectional Stereo"
-    description = "A panorama for eyes on a turning head"
+    description = "A panorama for the eyes of a turning head"
     group = "Panorama"
     number = 16
     central = False
-    smooth = False  # where both eyes have a picture, it jumps between them
+    smooth = False  # if both eyes have a picture, rays jump between them
     SETTINGS = (EYE, DISTANCE)
     FORMULA = (
         Step("Longitude and latitude in the eye's picture", "lon = (x/W - 1/2) 360°, lat = (y/H - 1/2) 180°"),
-        Step("Origin, s = -1 the left eye, +1 the right one", "o = s distance/2 (cos(lon), 0, sin(lon))"),
+        Step("Origin, s = -1 for the left eye, +1 for the right eye", "o = s distance/2 (cos(lon), 0, sin(lon))"),
         Step("Direction", "d = (cos(lat) sin(lon), sin(lat), -cos(lat) cos(lon))"),
     )
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> OmnidirectionalStereo:
-        """Build it from the interocular distance and the eye."""
+        """Build the camera from the interocular distance and the eye."""
         window = Window(raster.width / 2, raster.height / 2, FULL_TURN / raster.width, pi / raster.height)
         return cls(raster.size, window, DISTANCE.read(raw) / 2, EYE.read(raw))
 
     @classmethod
     def eye(cls, raw: BlenderCamera, view: str) -> BlenderCamera:
-        """Return the record with the eye of that name. Raises InputError for a picture that shows both eyes."""
+        """Return the record of the eye with this name. Raises InputError for a picture that shows both eyes."""
         first, second = EYES[EYE.read(raw)]
         if first != second:
             both = f"camera {raw.name!r} has both eyes in one picture"
-            raise InputError(f"{both}: let it show one, or switch Stereoscopy off")
+            raise InputError(f"{both}: choose one eye, or disable Stereoscopy")
         return replace(raw, settings={**raw.settings, EYE.name: view.upper()})
 
     def rays(self, x, y):
-        """Return origin and direction, each a tuple of three broadcastable arrays, camera frame, unit length.
+        """Return origin and unit direction, each a tuple of three broadcastable arrays, camera frame.
 
         x and y are pixel coordinates of broadcastable shapes. Each component is right to some EPS.
         """
@@ -94,8 +96,8 @@ class OmnidirectionalStereo(WindowModel):
     def project(self, points):
         """Return the pixel coordinates (..., 2) of camera-frame points (..., 3); NaN within the eyes' circle.
 
-        Where both eyes have a picture, the left eye's pixel. At a distance r from the axis the eye looks past the
-        center by asin(d / 2 r), and has sqrt(r^2 - d^2 / 4) to go.
+        If both eyes have a picture, the result is the left eye's pixel. The eye sees a point at the distance r from the
+        axis past the center by the angle asin(d / 2 r), at the horizontal distance sqrt(r^2 - d^2 / 4).
         """
         x, y, z = components(np.asarray(points, np.float64))
         first, second = EYES[self.eyes]
@@ -131,7 +133,7 @@ class OmnidirectionalStereo(WindowModel):
         return np.stack((x0, x1, y0, y1), axis=-1)
 
     def _one_eye(self, x, y):
-        """Return the pixel coordinates in a frame of one eye alone, and the eye."""
+        """Return the pixel coordinates in a frame of one eye alone, and that eye, s."""
         first, second = EYES[self.eyes]
         if first == second:
             return x, y, first
@@ -142,7 +144,7 @@ class OmnidirectionalStereo(WindowModel):
         return (x, place, side) if self.eyes == "TOP_BOTTOM" else (place, y, side)
 
     def _in_frame(self, x, y, later):
-        """Return where pixel coordinates of one eye's frame lie in the frame: in its later half, or in the first."""
+        """Return the frame's pixel coordinates of a place in one eye's frame, which is its second half if ``later``."""
         if self.eyes == "TOP_BOTTOM":
             y = (y + later * self.frame[1]) / 2
         elif self.eyes == "SIDE_BY_SIDE":

@@ -1,10 +1,11 @@
 """Omnimax: the fisheye of IMAX Dome films, whose axis lies below the middle of the frame.
 
 Assumption: the film is seen from the dome's center; the dome's ``tilt`` pitches the lens up from the camera's viewing
-direction. About 180 degrees across; above the axis 90 degrees, below it 45.
+direction. The picture spans about 180 degrees across, 90 degrees above the axis and 45 degrees below it.
 Formula: theta = 1.411269 r - 0.09439 r^3 + 0.25674 r^5, azimuth kept. The circle r = 1 touches the frame's top and
-sides; the film's frame is 1.283458 times as wide as high, a wider one stays empty at the sides, a narrower one shows
-more below the axis, one higher than wide has it in the middle. No ray where r > 1 and more than 45 degrees below it.
+sides. The film's frame is 1.283458 times as wide as high. A wider frame stays empty at the sides, a narrower one shows
+more below the axis, and a frame higher than wide has the axis in the middle. There is no ray where r > 1, nor more than
+45 degrees below the axis.
 Singular: nowhere.
 References: N. Max, Computer Graphics Distortion for IMAX and OMNIMAX Projection (1983); POV-Ray's omnimax camera.
 """
@@ -29,12 +30,12 @@ LINEAR, CUBIC, QUINTIC = 1.411269, -0.09439, 0.25674
 
 
 def angle(r):
-    """Return theta (rad) of radii; those up to 1 are the lens."""
+    """Return theta (rad) of radii; the lens uses radii up to 1."""
     return r * (LINEAR + r * r * (CUBIC + r * r * QUINTIC))
 
 
 def slope(r):
-    """Return the derivative of theta, which is positive."""
+    """Return the derivative of theta by the radius, which is positive."""
     return LINEAR + r * r * (3 * CUBIC + r * r * 5 * QUINTIC)
 
 
@@ -79,7 +80,7 @@ class Omnimax(Pitched, Lens):
 
     key = "OMNIMAX"
     label = "Omnimax"
-    description = "The film of IMAX domes"
+    description = "The film of IMAX Dome theaters"
     group = "Dome"
     number = 6
     factors_by_polynomials = True
@@ -97,7 +98,7 @@ class Omnimax(Pitched, Lens):
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> Omnimax:
-        """Build it from ``tilt`` and shift; InputError for a tilt without meaning."""
+        """Build the camera from ``tilt`` and shift. Raises InputError for an invalid tilt."""
         aspect = raster.width / (raster.height * raster.pixel_aspect)
         across = max(aspect / ASPECT, 1.0)
         bottom, top = (1 - 2 / min(aspect, ASPECT), 1.0) if aspect > 1 else (-1 / aspect, 1 / aspect)

@@ -1,9 +1,9 @@
 """OpenCV's calibrated fisheye, the lens of Kannala and Brandt.
 
-Assumption: the distorted radius is an odd polynomial of the angle from the axis, azimuth is kept.
+Assumption: the distorted radius is an odd polynomial of the angle from the axis; azimuth is kept.
 Formula: r = theta (1 + k1 theta^2 + k2 theta^4 + k3 theta^6 + k4 theta^8), r in focal lengths, K in OpenCV's
-convention. The inverse is Newton's. Pixels and points beyond the angle up to which r grows have no ray and no pixel.
-Unlike OpenCV's own functions, which stop at 90 degrees, angles go up to that limit or 180 degrees.
+convention. Newton's method gives the inverse. Beyond the angle up to which r grows, pixels have no ray and points have
+no pixel. OpenCV's own functions stop at 90 degrees; here angles go up to that limit or 180 degrees.
 Singular: that angle, and the point straight behind the eye.
 Reference: J. Kannala and S. Brandt, A Generic Camera Model and Calibration Method (2006); OpenCV documentation, Fisheye
 camera model.
@@ -22,7 +22,7 @@ from .parts.radial import COORDINATES, RADIUS, RAY
 
 @dataclass(frozen=True)
 class OpencvFisheye(KannalaBrandt):
-    """Four coefficients and no other distortion."""
+    """A fisheye with four coefficients and no other distortion."""
 
     key = "OPENCV_FISHEYE"
     label = "OpenCV Fisheye"
@@ -38,6 +38,6 @@ class OpencvFisheye(KannalaBrandt):
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> OpencvFisheye:
-        """Build it from the settings of the same names or a calibration file; see Calibration for what is refused."""
+        """Build the camera from its settings or a calibration file. Raises InputError; see Calibration."""
         calibration = Calibration.from_blender(raw, raster, FISHEYE)
         return cls.of(calibration, raster, [calibration.coefficients[setting.name] for setting in FISHEYE])

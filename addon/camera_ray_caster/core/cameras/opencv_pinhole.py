@@ -1,9 +1,9 @@
 """OpenCV's calibrated camera: a pinhole whose picture a lens distorts.
 
-Assumption: the distortion of radial_tangential.py, inverted by Newton's method to full precision. Pixels and points
-beyond the radius up to which it is one-to-one have no ray and no pixel, instead of those of a folded picture.
-Formula: K in OpenCV's convention, skew included, brings the pixel to the sensor's coordinates, parts/tilt.py brings
-those to distorted ones; undistorted they are (X, -Y) at unit depth.
+Assumption: the distortion is that of radial_tangential.py, inverted by Newton's method to full precision. Beyond the
+radius up to which it is one-to-one, where the picture would fold, pixels have no ray and points have no pixel.
+Formula: K in OpenCV's convention, skew included, takes the pixel to the sensor's coordinates, and parts/tilt.py takes
+these to distorted coordinates; undistorted, they are (X, -Y) at unit depth.
 Singular: that radius, and the line in which a tilted sensor meets the plane of the eye.
 Reference: OpenCV documentation, Camera Calibration and 3D Reconstruction (calibrateCamera, projectPoints).
 """
@@ -29,7 +29,7 @@ from .parts.tilt import Tilt
 
 @dataclass(frozen=True)
 class OpencvPinhole(WindowModel):
-    """A pinhole behind a window of the sensor's coordinates, y up."""
+    """A pinhole with distortion and tilt, whose window has the sensor's coordinates, y up."""
 
     distortion: RadialTangential
     tilt: Tilt
@@ -53,12 +53,12 @@ class OpencvPinhole(WindowModel):
 
     @property
     def by_polynomials(self) -> bool:  # type: ignore[override]
-        """See Model: where there is more than a window."""
+        """See Model: true if there is distortion or tilt."""
         return self._bends
 
     @property
     def ray_rounding(self) -> float:
-        """See Model; a window alone rounds twice."""
+        """See Model; gamma(2) without distortion and tilt."""
         return gamma(16) if self._bends else gamma(2)
 
     @property
@@ -72,7 +72,7 @@ class OpencvPinhole(WindowModel):
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> OpencvPinhole:
-        """Build it from the settings of the same names or a calibration file; see Calibration for what is refused."""
+        """Build the camera from its settings or a calibration file. Raises InputError; see Calibration."""
         calibration = Calibration.from_blender(raw, raster, PINHOLE)
         coefficients = dict(calibration.coefficients)
         tilt = Tilt(coefficients.pop("tau_x"), coefficients.pop("tau_y"))
@@ -81,7 +81,7 @@ class OpencvPinhole(WindowModel):
     def rays(self, x, y):
         """Return origin and direction, each a tuple of three broadcastable arrays, camera frame, direction_z = -1.
 
-        x and y are pixel coordinates of broadcastable shapes. x and y are NaN where there is no ray.
+        x and y are pixel coordinates of broadcastable shapes. The direction's x and y are NaN where there is no ray.
         """
         straight = self.window.plane_from_pixels
         across, up = on_raster(self._undistorted, x, y) if self._bends else straight(x, y)
@@ -96,13 +96,13 @@ class OpencvPinhole(WindowModel):
     def project(self, points):
         """Return the pixel coordinates (..., 2) of camera-frame points (..., 3).
 
-        NaN at and behind the eye's plane and beyond the radius up to which there are rays.
+        NaN at and behind the eye's plane, and beyond the radius at which rays end.
         """
         x, y, z = components(np.asarray(points, np.float64))
         depth = np.where(z < 0, -z, np.nan)
         across, down = x / depth, -y / depth
         r = np.hypot(across, down)
-        kept = up_to(self.distortion.limit, r) / np.where(r > 0, r, 1.0)  # of radius 1, or less at the rim
+        kept = up_to(self.distortion.limit, r) / np.where(r > 0, r, 1.0)  # 1, or slightly less at the rim
         kept = np.where(r > 0, kept, 1.0)
         across, down = across * kept, down * kept
         u, v = self.distortion.distort(across, down)

@@ -1,8 +1,8 @@
-"""The orthographic camera: Blender's ORTHO, the lecture's parallel projection.
+"""The orthographic camera: Blender's ORTHO, a parallel projection.
 
 Assumption: all rays are parallel to the viewing direction w and leave the camera's plane z = 0.
-Formula: origin (X, Y, 0), direction (0, 0, -1); the fitted side of the frame is ortho_scale long. The lecture
-writes origin = e + x size u + y size v over [-1, 1]^2.
+Formula: origin (X, Y, 0), direction (0, 0, -1); the fitted side of the frame is ortho_scale long. Over [-1, 1]^2 the
+same is often written as origin = e + x size u + y size v.
 Reference: Blender manual, Cameras; measured against Camera.calc_matrix_camera.
 """
 
@@ -21,7 +21,7 @@ from .parts.silhouette import pixel_bounds
 
 @dataclass(frozen=True)
 class Orthographic(WindowModel):
-    """Parallel rays along -Z; the window lies on z = 0, in Blender units."""
+    """A camera with parallel rays along -Z; its window lies on z = 0, in Blender units."""
 
     key = "ORTHO"
     label = "Orthographic"
@@ -35,7 +35,10 @@ class Orthographic(WindowModel):
     SETTINGS = (ORTHO_SCALE, *FILM)
     FORMULA = (
         Step("Pixel on the camera's plane", "X = (x - W/2 + shift_x V) q, Y = ((y - H/2) p + shift_y V) q"),
-        Step("Width of a pixel there, V of them on the fitted side, p times as high", "q = ortho_scale / V"),
+        Step(
+            "Width of a pixel on the plane, V pixels on the fitted side, each p times as high as wide",
+            "q = ortho_scale / V",
+        ),
         Step("Origin", "o = eye + X u + Y v"),
         Step("Direction, the same for all", "r = w"),
         Step("Normalized form over [-1, 1]²", "o = e + x size u + y size v"),
@@ -43,7 +46,7 @@ class Orthographic(WindowModel):
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> Orthographic:
-        """Build it from the orthographic scale and shift."""
+        """Build the camera from the orthographic scale and shift."""
         return cls(raster.size, Window.from_blender(raw, raster, ORTHO_SCALE.read(raw)))
 
     def rays(self, x, y):
@@ -55,7 +58,7 @@ class Orthographic(WindowModel):
         return (*self.window.plane_from_pixels(x, y), 0.0), (0.0, 0.0, -1.0)
 
     def project(self, points):
-        """Return the pixel coordinates (..., 2) of camera-frame points (..., 3): defined for all, behind too."""
+        """Return the pixel coordinates (..., 2) of camera-frame points (..., 3), also of points behind."""
         return np.stack(self.window.pixels_from_plane(points[..., 0], points[..., 1]), axis=-1)
 
     def bounds(self, centers, radii):

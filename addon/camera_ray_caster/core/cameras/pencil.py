@@ -1,9 +1,9 @@
-"""The pencil camera: all rays meet one slit, and those in one plane through it all meet in one point of it.
+"""The pencil camera: all rays meet one slit, and the rays in one plane through the slit meet at one point of it.
 
-Where the plane's tangent from the viewing direction is m, the eye has moved ``slide`` m along the slit from the
-object's point: one pinhole camera a line of the picture. With slide 0 it is the pinhole at that point. A pixel at
-(X, Y) of the perspective window has the direction v = (X, Y, -1) and the eye p + slide m l with
-m = (n . v) / (w . v): l the slit's direction, n across it in the image plane, w across both, ahead.
+In the plane at an angle with the tangent m from the viewing direction, the eye has moved by ``slide`` m along the slit
+from the object's point: each line of the picture has its own pinhole. With slide 0 all are the pinhole at that point.
+A pixel at (X, Y) of the perspective window has the direction v = (X, Y, -1) and the eye p + slide m l, with
+m = (n . v) / (w . v): l is the slit's direction, n is across it in the image plane, w is across both and points ahead.
 A slit parallel to the image plane gives a general linear camera.
 Singular: points and directions in the plane of l and n, where m is infinite.
 Reference: J. Yu and L. McMillan, General Linear Cameras, ECCV 2004.
@@ -26,7 +26,7 @@ from .perspective import Perspective
 
 SLIDE = Number(
     "pencil_slide", "Slide",
-    "How far the eye moves along the slit where rays rise by 45 degrees across it; 0 is a pinhole", 1.0, unit="length",
+    "Distance that the eye moves along the slit for rays at 45 degrees across it; 0 is a pinhole", 1.0, unit="length",
 )  # fmt: skip
 
 
@@ -40,7 +40,7 @@ class Pencil(WindowModel):
 
     key = "PENCIL"
     label = "Pencil"
-    description = "The eye lies elsewhere on a slit for each line of the picture"
+    description = "Each line of the picture has its own eye on a slit"
     group = "Multiperspective"
     number = 13
     central = False
@@ -54,17 +54,17 @@ class Pencil(WindowModel):
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> Pencil:
-        """Build it from lens, sensor, shift, slit_1 and pencil_slide; InputError for what has no meaning."""
+        """Build the camera from lens, sensor, shift, slit_1 and pencil_slide. InputError for invalid settings."""
         point, direction = slit_from(raw)
         _, across = image_axes(raw, direction)
         axes = np.stack((direction, across, np.cross(across, direction)))
         return cls(raster.size, Perspective.from_blender(raw, raster).window, point, axes, SLIDE.read(raw))
 
     def rays(self, x, y):
-        """Return origin and direction, each a tuple of three broadcastable arrays, camera frame, unit length.
+        """Return origin and unit direction, each a tuple of three broadcastable arrays, camera frame.
 
-        x and y are pixel coordinates of broadcastable shapes. NaN where the direction is in the plane of l and n. The
-        origin is right to some EPS of its parts over the cosine of w and v, the direction to some EPS.
+        x and y are pixel coordinates of broadcastable shapes. The direction is NaN in the plane of l and n. The origin
+        is right to some EPS of its parts over the cosine of the angle between w and v, the direction to some EPS.
         """
         direction = *self.window.plane_from_pixels(x, y), -1.0
         origin, known = self._eye(direction)
@@ -95,7 +95,7 @@ class Pencil(WindowModel):
         return bounds
 
     def _eye(self, direction):
-        """Return the eye of rays in a direction, or in the plane of a place as seen from the point; and where it is."""
+        """Return the eye of rays in a direction, or in the plane of a place relative to ``point``; and if it exists."""
         rise, ahead = dot(self.axes[1], direction), dot(self.axes[2], direction)
         known = ahead != 0
         return along(self.point, self.axes[0], self.slide * rise / np.where(known, ahead, 1.0)), known

@@ -1,9 +1,9 @@
-"""The pinhole camera: Blender's PERSP, the lecture's eye-image pyramid.
+"""The pinhole camera: Blender's PERSP.
 
-Assumption: every ray passes through the eye, the image plane is perpendicular to the viewing direction w.
-Formula: direction = X u + Y v + w in camera axes (X, Y, -1), with (X, Y) the pixel on the plane at unit depth,
-so that one sensor of S mm behind a lens of f mm spans S / f there. The lecture writes the same ray as
-x u + aspect y v + d w over [-1, 1]^2, with d = 1 / tan(fov / 2).
+Assumption: every ray passes through the eye; the image plane is perpendicular to the viewing direction w.
+Formula: direction = X u + Y v + w, in camera axes (X, Y, -1), with (X, Y) the pixel on the plane at unit depth. A
+sensor of S mm behind a lens of f mm spans S / f there. Over [-1, 1]^2 the same ray is often written as
+x u + aspect y v + d w, with d = 1 / tan(fov / 2).
 Reference: Blender manual, Cameras; measured against Camera.calc_matrix_camera.
 """
 
@@ -29,7 +29,7 @@ class Perspective(WindowModel):
 
     key = "PERSP"
     label = "Perspective"
-    description = "A pinhole before a film: straight lines stay straight"
+    description = "A pinhole camera: straight lines stay straight"
     group = "Blender's Own"
     planar = True
     straight = True
@@ -37,14 +37,17 @@ class Perspective(WindowModel):
     SETTINGS: ClassVar[tuple[Setting, ...]] = (LENS, *FILM)
     FORMULA: ClassVar[tuple[Step, ...]] = (
         Step("Pixel on the plane at unit depth", "X = (x - W/2 + shift_x V) q, Y = ((y - H/2) p + shift_y V) q"),
-        Step("Width of a pixel there, V of them on the fitted side, p times as high", "q = sensor / (lens V)"),
+        Step(
+            "Width of a pixel on the plane, V pixels on the fitted side, each p times as high as wide",
+            "q = sensor / (lens V)",
+        ),
         Step("Direction along the axes u, v, w", "r = X u + Y v + w"),
         Step("Normalized form over [-1, 1]², moved by the shift", "r = x u + aspect y v + d w, d = 1 / tan(fov / 2)"),
     )
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> Perspective:
-        """Build it from lens, sensor and shift."""
+        """Build the camera from lens, sensor and shift."""
         film = Film.from_blender(raw, raster)
         return cls(raster.size, Window.before_eye(raw, raster, film.size / LENS.read(raw), (LENS, film.sensor)))
 
@@ -73,8 +76,8 @@ class Perspective(WindowModel):
         return self.window.matrix(self.frame[1])
 
     def facts(self) -> dict[str, object]:
-        """Return the field of view across and up (degrees, without shift, as Blender's panel has it), the distance d of
-        the image plane of the lecture's ray x u + aspect y v + d w over [-1, 1]², and that aspect.
+        """Return the field of view across and up (degrees, without shift, as in Blender's panel), and d and aspect of
+        the normalized ray x u + aspect y v + d w over [-1, 1]², d the distance of its image plane.
         """
         width, height = self.frame
         tan_x, tan_y = self.window.pitch_x * width / 2, self.window.pitch_y * height / 2

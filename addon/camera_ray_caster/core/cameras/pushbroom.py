@@ -1,11 +1,13 @@
-"""The pushbroom camera: the eye flies along a slit and sees one line of the picture, across it, at a time.
+"""The pushbroom camera: the eye flies along a slit and sees one line of the picture, across the slit, at a time.
 
-All rays start on the slit and are parallel to one plane. With a the slit's direction as it is seen in the picture and
-n the one across it, both in the image plane, a pixel at (X, Y) of the perspective window has the eye on the slit where
-a . eye = k a . (X, Y) and the direction (n . (X, Y)) n - Z: perspective across, by lens and sensor, and orthographic
-along, by ortho_scale, which is as long there as in Blender's ORTHO (k is its frame over the perspective one).
-A slit parallel to the image plane gives a general linear camera; one that comes nearer is still a pushbroom.
-Singular: points in the plane through the slit that is parallel to the image plane, seen on the slit by all pixels.
+All rays start on the slit and are parallel to one plane. Let a be the slit's direction as seen in the picture, and n
+the direction across it, both in the image plane. A pixel at (X, Y) of the perspective window has the eye on the slit
+where a . eye = k a . (X, Y), and the direction (n . (X, Y)) n - Z. The picture is perspective across the slit, by lens
+and sensor, and orthographic along it, by ortho_scale, which has the same length as in Blender's ORTHO (k is the size of
+the ORTHO frame over that of the perspective frame).
+A slit parallel to the image plane gives a general linear camera; a slit that comes nearer is still a pushbroom.
+Singular: points in the plane through the slit and n. Each point on the slit is the eye of a whole line of pixels; no
+pixel sees the others.
 Reference: R. Gupta and R. Hartley, Linear Pushbroom Cameras, PAMI 19 (1997).
 """
 
@@ -29,10 +31,10 @@ from .perspective import Perspective
 
 @dataclass(frozen=True)
 class Pushbroom(WindowModel):
-    """A slit through ``start``, where a . start = 0, with the eye at start + (a . point) step."""
+    """A slit through ``start``, with a . start = 0; the eye that sees a point is start + (a . point) step."""
 
     stretch: float
-    """k: along the slit, Blender units over the window's."""
+    """The factor k along the slit: Blender units per unit of the window."""
     along: np.ndarray
     across: np.ndarray
     start: np.ndarray
@@ -40,7 +42,7 @@ class Pushbroom(WindowModel):
 
     key = "PUSHBROOM"
     label = "Pushbroom"
-    description = "The eye flies along a slit: perspective across it, orthographic along it"
+    description = "The eye moves along a slit: perspective across it, orthographic along it"
     group = "Multiperspective"
     number = 12
     central = False
@@ -54,7 +56,7 @@ class Pushbroom(WindowModel):
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> Pushbroom:
-        """Build it from lens, sensor, shift, ortho_scale and slit_1; InputError for what has no meaning."""
+        """Build the camera from lens, sensor, shift, ortho_scale and slit_1. Raises InputError for invalid settings."""
         window = Perspective.from_blender(raw, raster).window
         stretch = Orthographic.from_blender(raw, raster).window.pitch_x / window.pitch_x
         point, direction = slit_from(raw)
@@ -63,7 +65,7 @@ class Pushbroom(WindowModel):
         return cls(raster.size, window, stretch, along, across, point - (along @ point) * step, step)
 
     def rays(self, x, y):
-        """Return origin and direction, each a tuple of three broadcastable arrays, camera frame, unit length.
+        """Return origin and unit direction, each a tuple of three broadcastable arrays, camera frame.
 
         x and y are pixel coordinates of broadcastable shapes. The origin is right to some EPS of the slit's length in
         view and its distance, the direction to some EPS.
@@ -84,7 +86,7 @@ class Pushbroom(WindowModel):
 
     def bounds(self, centers, radii):
         """Return (n, 4) pixel bounds x0, x1, y0, y1 outside of which no point of the spheres (camera frame) is seen."""
-        inward = self.along * self.step[2] - (0.0, 0.0, 1.0)  # a point's depth before its eye is a linear form of it
+        inward = self.along * self.step[2] - (0.0, 0.0, 1.0)  # a point's depth before its eye is linear in the point
         length = np.linalg.norm(inward)
         beside = centers - self.start
         slope = pinhole_interval(beside @ self.across, beside @ inward / length, radii)

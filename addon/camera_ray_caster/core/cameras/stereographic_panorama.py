@@ -1,9 +1,10 @@
-"""The stereographic panorama: all around in one picture without a rim. Centered on the ground it is a "little planet".
+"""The stereographic panorama: all directions in one picture without a rim. Centered on the ground, a "little planet".
 
-Assumption: round pixels; the lens looks ``elevation`` above the viewing direction: at -90 degrees the ground lies in
-the middle and the front on top, at 90 degrees the sky and the front at the bottom.
+Assumption: circles are round, whatever the pixel aspect; the lens is turned up by ``elevation`` from the viewing
+direction. At -90 degrees the ground is in the middle and the front on top; at 90 degrees the sky is in the middle and
+the front at the bottom.
 Formula: tan(theta / 2) = r tan(fov / 4) with r = 1 at the nearer sides of the frame; every pixel has a ray.
-Singular: the point opposite to the lens's axis, which lies infinitely far out.
+Singular: the point opposite to the lens's axis, whose image is infinitely far out.
 Reference: Snyder (1987), chapter 21; D. German et al., Flattening the Viewable Sphere (2007).
 """
 
@@ -21,7 +22,7 @@ from .parts.radial import FOV, RAY, ROUND_PLANE
 from .parts.settings import Number
 
 ELEVATION = Number(
-    "elevation", "Elevation", "Of the picture's center: -90 degrees is the ground, a little planet",
+    "elevation", "Elevation", "Elevation of the picture's center; -90 degrees looks down and shows a little planet",
     -pi / 2, -pi / 2, pi / 2, "angle", 4,
 )  # fmt: skip
 
@@ -32,7 +33,7 @@ class StereographicPanorama(Pitched, FisheyeStereographic):
 
     key = "STEREOGRAPHIC_PANORAMA"
     label = "Panorama Stereographic"
-    description = "All around; looking down, a little planet"
+    description = "All directions; looking down, it shows a little planet"
     group = "Panorama"
     number = 9
     by_polynomials = True
@@ -46,6 +47,6 @@ class StereographicPanorama(Pitched, FisheyeStereographic):
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> StereographicPanorama:
-        """Build it from ``fov``, ``elevation`` and shift; InputError for an angle without meaning."""
+        """Build the camera from ``fov``, ``elevation`` and shift. Raises InputError for an invalid angle."""
         window = Window.inscribed_circle(raw, raster, tan(FOV.read(raw, high=WIDEST) / 4))
         return cls(raster.size, window, rim=inf, elevation=ELEVATION.read(raw))

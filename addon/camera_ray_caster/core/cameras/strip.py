@@ -1,12 +1,12 @@
 """The strip camera, a multiple-center-of-projection image: each column is seen from another place on a path.
 
-The path, a curve of the scene, is walked at constant speed from its first point, at the left edge, to its last, at the
-right edge. A column is the middle column of a perspective camera that stands there: its rows are the perspective
-window's, by lens, sensor and shift_y, and its rays lie in one plane through up, the camera's +Y. With ``follow_path``
-the camera turns about up so that it looks to the left of where it is going; else it keeps its orientation.
-Between the points in which Blender samples the curve, the place and the column's normal change evenly.
-Singular: a point about which the columns' planes turn, so that none or many see it. Refused: without ``follow_path`` a
-path along the viewing direction or up, all columns of which see one plane.
+The eye moves along the path, a curve of the scene, at constant speed from its first point, at the left edge, to its
+last, at the right edge. A column is the middle column of a perspective camera at that place: its rows are those of the
+perspective window, by lens, sensor and shift_y, and its rays lie in one plane through the up axis, the camera's +Y.
+With ``follow_path`` the camera turns about the up axis to look to the left of its heading; otherwise it keeps its
+orientation. Between the points at which Blender samples the curve, the place and the column's normal change linearly.
+Singular: a point about which the columns' planes turn, so that no column or many columns see it. Refused: without
+``follow_path``, a path along the viewing direction or up, since all its columns see one plane.
 Reference: P. Rademacher and G. Bishop, Multiple-Center-of-Projection Images, SIGGRAPH 1998.
 """
 
@@ -31,7 +31,7 @@ from .perspective import Perspective
 PATH = Line(
     "path",
     "Path",
-    "The curve along which the eye moves, from the left edge of the picture to the right one",
+    "Curve along which the eye moves, from the left edge of the picture to the right edge",
     None,
     ("CURVE",),
     sampled=True,
@@ -39,35 +39,36 @@ PATH = Line(
 FOLLOW = Flag(
     "follow_path",
     "Follow Path",
-    "Turn about the camera's up axis, to look to the left of where the path leads",
+    "Turn the view about the camera's up axis, to look to the left of the path's direction",
     False,
 )
 
 BESIDE = 1e-9
-"""Fraction of a stretch of the path by which a column may lie beyond its end, where no stretch holds it: rounding must
-not lose one at a joint.
+"""Fraction of a stretch of the path by which a column may lie beyond its end if no stretch holds it: rounding must not
+lose a column at a joint.
 """
 
 PIECES = 64
-"""Parts of the path that are looked at apart for the bounds of a sphere."""
+"""Number of pieces of the path that are examined separately for the bounds of a sphere."""
 
 BALLS = 256
-"""Spheres that are bounded at once, with a kilobyte or more each: 1.5 to 4 microseconds, twice that 4,096 at once."""
+"""Number of spheres bounded at once, a kilobyte or more each. Each takes 1.5 to 4 microseconds, with 4,096 twice that.
+"""
 
 
 @dataclass(frozen=True)
 class Strip(Model):
-    """Knots: columns x (k,), the eye's places there (k, 3), and the column's normals (k, 2), in x and z."""
+    """A path by its knots: columns x (k,), the eye's places (k, 3), and the columns' normals (k, 2), in x and z."""
 
     rows: Window
-    """Of which only the rows are used."""
+    """The perspective window, of which only the rows are used."""
     columns: np.ndarray
     eyes: np.ndarray
     normals: np.ndarray
 
     key = "STRIP"
     label = "Strip"
-    description = "Each column is seen from another place on a path"
+    description = "Each column is seen from a different place on a path"
     group = "Multiperspective"
     number = 15
     central = False
@@ -82,7 +83,7 @@ class Strip(Model):
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> Strip:
-        """Build it from lens, sensor, shift_y, the curve ``path`` and follow_path; InputError for what is no path."""
+        """Build the camera from lens, sensor, shift_y, ``path`` and follow_path. InputError for a refused path."""
         eyes, closed = path_from(raw, PATH)
         lengths = np.linalg.norm(np.diff(eyes, axis=0), axis=1)
         walked = np.concatenate(([0.0], np.cumsum(lengths)))
@@ -98,17 +99,17 @@ class Strip(Model):
             normals = normals / size
         elif np.ptp(eyes[:, 0]) <= ROUNDING * np.ptp(eyes, axis=0).max():
             raise InputError(
-                f"path of camera {raw.name!r} leads nowhere but ahead or up, where all columns see one plane: "
-                "turn it across the view, or set follow_path"
+                f"path of camera {raw.name!r} leads only ahead or up, where all columns see one plane: turn it across "
+                "the view, or set follow_path"
             )
         rows, columns = Perspective.from_blender(raw, raster).window, walked * (raster.width / walked[-1])
         return cls(raster.size, rows, columns, eyes, normals)
 
     def rays(self, x, y):
-        """Return origin and direction, each a tuple of three broadcastable arrays, camera frame, unit length.
+        """Return origin and unit direction, each a tuple of three broadcastable arrays, camera frame.
 
-        x and y are pixel coordinates of broadcastable shapes; the origin has the shape of x. NaN beyond the ends of the
-        path. The origin is right to some EPS of the path's places, the direction to some EPS.
+        x and y are pixel coordinates of broadcastable shapes; the origin has the shape of x. Both are NaN beyond the
+        ends of the path. The origin is right to some EPS of the path's coordinates, the direction to some EPS.
         """
         eye, ahead_x, ahead_z = self._at(x)
         _, slope = self.rows.plane_from_pixels(0.0, y)
@@ -118,8 +119,8 @@ class Strip(Model):
     def project(self, points):
         """Return the pixel coordinates (..., 2) of camera-frame points (..., 3); NaN where no column sees them.
 
-        Of several columns, the lowest. On a stretch of the path a column holds the point where (point - eye) . normal,
-        a quadratic in the place on it, is zero: solved without iteration, right to some EPS of the place.
+        If several columns do, the result is the lowest. A column sees a point if (point - eye) . normal, a quadratic in
+        the place on a stretch of the path, is zero; it is solved without iteration, right to some EPS of the place.
         """
         points = np.asarray(points, np.float64)
         x, least = np.full(points.shape[:-1], np.nan), np.full(points.shape[:-1], np.inf)
@@ -136,8 +137,8 @@ class Strip(Model):
     def bounds(self, centers, radii):
         """Return (n, 4) pixel bounds x0, x1, y0, y1 outside of which no point of the spheres (camera frame) is seen.
 
-        Piece by piece of the path: a piece counts where its columns' planes come within the radius of the center, and
-        the sphere is not behind them all.
+        The path is examined piece by piece: a piece counts if its columns' planes come within the radius of the center,
+        and the sphere is not behind all of them.
         """
         marks = np.union1d(self.columns, np.linspace(0, self.columns[-1], PIECES + 1))
         eyes, normals = (
@@ -182,14 +183,14 @@ class Strip(Model):
         return eye, normal_z / size, -normal_x / size
 
     def _first_on_stretch(self, points, k):
-        """Return the lowest place 0 .. 1 on stretch k whose column sees the points, NaN where none does, and how far
-        beyond the stretch it was before it was put on its end.
+        """Return the lowest place 0 .. 1 on stretch k whose column sees the points, NaN if there is none, and how far
+        that place lay beyond the stretch before it was clipped to its end.
         """
         eye, step = self.eyes[k], self.eyes[k + 1] - self.eyes[k]
         normal, turn = self.normals[k], self.normals[k + 1] - self.normals[k]
         c, b, a = _crossing(points, eye, step, normal, turn)
         first, beyond = np.full(points.shape[:-1], np.nan), np.full(points.shape[:-1], np.inf)
-        with np.errstate(invalid="ignore", divide="ignore"):  # no root, or one at infinity: NaN and inf are answers
+        with np.errstate(invalid="ignore", divide="ignore"):  # no root, or a root at infinity: NaN and inf are valid
             root = -(b + np.copysign(np.sqrt(b * b - 4 * a * c), b)) / 2
             for place in (root / a, c / root):
                 free, place = place, np.clip(place, 0.0, 1.0)
@@ -203,10 +204,11 @@ class Strip(Model):
 
 
 def _from_pieces(eyes, normals):
-    """Return what gives (p - eye) . normal of points (n, 3) on pieces between eyes (k + 1, 3), (2 k + 1, n).
+    """Return a function from points p (n, 3) to coefficients (2 k + 1, n) of (p - eye) . normal on k pieces.
 
-    Both change evenly on a piece, so that it is a quadratic there, which stays between its Bernstein coefficients: its
-    values at both ends, and the mean of those with the eye of one end and the normal of the other.
+    Eyes (k + 1, 3) and normals change linearly on a piece, so that the product is a quadratic, which stays between its
+    Bernstein coefficients: its values at both ends, and the mean of the two products of one end's eye and the other
+    end's normal.
     """
     level = eyes[:, [0, 2]]
     rows, offset = np.empty((2 * len(eyes) - 1, 2)), np.empty((2 * len(eyes) - 1, 1))
@@ -217,13 +219,14 @@ def _from_pieces(eyes, normals):
 
 
 def _on_pieces(holds):
-    """Return whether something holds of any coefficient of each piece, (k, n)."""
+    """Return whether ``holds``, given for the coefficients, is true for any coefficient of each piece, (k, n)."""
     return holds[:-1:2] | holds[1::2] | holds[2::2]
 
 
 def _slopes(centers, radii, before, after):
-    """Return the interval of slopes of rays from eyes between two that meet spheres, (n, 3) each; infinite from inside
-    of the cylinder through the sphere.
+    """Return the intervals of slopes of rays that meet spheres (n, 3), from eyes on lines between two points (n, 3).
+
+    An interval is infinite if the line comes inside the vertical cylinder around the sphere.
     """
     x, y, z = components(centers - (before + after) / 2)
     half_x, half_y, half_z = components((after - before) / 2)
@@ -240,7 +243,7 @@ def _crossing(points, eye, step, normal, turn):
 
 
 def _headings(directions, closed):
-    """Return where the path heads at its points: between the unit directions of the two stretches that meet there."""
+    """Return the path's headings at its points: the mean of the unit directions of the two adjacent stretches."""
     first, last = (directions[-1], directions[0]) if closed else (directions[0], directions[-1])
     around = np.concatenate((first[None], directions, last[None]))
     return (around[1:] + around[:-1]) / 2

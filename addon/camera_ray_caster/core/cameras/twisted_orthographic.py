@@ -1,11 +1,11 @@
-"""The twisted orthographic camera: parallel rays in each of a family of parallel planes, whose direction turns.
+"""The twisted orthographic camera: rays are parallel in each of many parallel planes, and turn from plane to plane.
 
-The planes stand across an axis, a slit object of the scene as it is seen in the picture. In the plane through the
-object's point the rays look along -Z; ``twist`` is what their slope across the axis grows by over one unit along it.
-No two rays of different planes are parallel, and no two rays meet: both slits are at infinity, in one.
-With twist 0 it is the orthographic camera. Rays start on z = 0, whose frame is Blender's ORTHO frame.
+The planes are perpendicular to an axis: the slit, an object of the scene, as seen in the picture. In the plane through
+the object's point the rays look along -Z; ``twist`` is the growth of their slope across the axis per unit along it. No
+two rays of different planes are parallel, and no two rays meet: both slits coincide at infinity.
+With twist 0 it is the orthographic camera. Rays start on z = 0, in Blender's ORTHO frame.
 Singular: nowhere.
-Reference: J. Yu and L. McMillan, General Linear Cameras, ECCV 2004, of which this is one kind.
+Reference: J. Yu and L. McMillan, General Linear Cameras, ECCV 2004, which has this camera as one kind.
 """
 
 from __future__ import annotations
@@ -23,13 +23,16 @@ from .parts.lines import SLIT, image_axes, slit_from
 from .parts.settings import Number
 
 TWIST = Number(
-    "twist", "Twist", "How much steeper rays become across the axis over one unit along it; 0 is orthographic", 0.1
+    "twist",
+    "Twist",
+    "Change of the slope of the rays, across the axis, per unit along the axis; 0 is orthographic",
+    0.1,
 )
 
 
 @dataclass(frozen=True)
 class TwistedOrthographic(GeneralLinear):
-    """The general linear camera of the rays at three corners of the orthographic frame."""
+    """A general linear camera, given by its rays at three corners of the orthographic frame."""
 
     key = "TWISTED_ORTHOGRAPHIC"
     label = "Twisted Orthographic"
@@ -45,7 +48,7 @@ class TwistedOrthographic(GeneralLinear):
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> TwistedOrthographic:
-        """Build it from ortho_scale, shift, the axis slit_1 and twist; InputError for what has no meaning."""
+        """Build the camera from ortho_scale, shift, slit_1 and twist. Raises InputError for invalid settings."""
         window = Orthographic.from_blender(raw, raster).window
         point, direction = slit_from(raw)
         along, across = image_axes(raw, direction)

@@ -1,9 +1,9 @@
-"""The unified camera: of lenses with mirrors and of fisheyes, as OpenCV's omnidir and Kalibr's omni calibrate them.
+"""The unified camera: a model of mirror lenses and fisheyes, as calibrated by OpenCV's omnidir and Kalibr's omni.
 
-Assumption: a point is brought to the unit sphere about the eye and seen from xi behind it; then the picture is
+Assumption: a point is projected onto the unit sphere about the eye and seen from xi behind the eye; then the picture is
 distorted and K applies. xi = 0 is a pinhole, xi = 1 a stereographic fisheye.
 Formula: see parts/unified.py with alpha = 0, and parts/radial_tangential.py.
-Singular: the edge of the picture, where the angle from the axis is acos(-xi), from xi = 1 on acos(-1 / xi).
+Singular: the edge of the picture, where the angle from the axis is acos(-xi), or acos(-1 / xi) from xi = 1 on.
 References: C. Mei and P. Rives, Single View Point Omnidirectional Camera Calibration from Planar Grids (2007); OpenCV
 documentation, Omnidirectional Camera Calibration.
 """
@@ -23,7 +23,7 @@ DISTORTION = K1, K2, P1, P2
 
 @dataclass(frozen=True)
 class UnifiedCamera(Unified):
-    """r = sin(theta) / (xi + cos(theta)), distorted."""
+    """A lens with r = sin(theta) / (xi + cos(theta)), distorted."""
 
     key = "UCM"
     label = "Unified (UCM, Mei)"
@@ -40,6 +40,6 @@ class UnifiedCamera(Unified):
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> UnifiedCamera:
-        """Build it from the settings of the same names; InputError for one without meaning."""
+        """Build the camera from its settings. Raises InputError for an invalid setting."""
         calibration = Calibration.from_blender(raw, raster, DISTORTION)
         return cls.of(raw, raster, calibration, xi=XI.read(raw))

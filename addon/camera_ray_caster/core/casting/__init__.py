@@ -1,1 +1,1 @@
-"""From rays to pictures: the plan, the search for the nearest hits, the passes."""
+"""From rays to pictures: the plan, the search for the nearest hits, and the passes."""

@@ -1,4 +1,4 @@
-"""Rays aimed at points, anywhere between the centers of pixels: what stands before the points."""
+"""Rays aimed at points, anywhere between the pixel centers: whether something is in front of the points."""
 
 from __future__ import annotations
 
@@ -23,34 +23,33 @@ from .request import Request
 from .search import nearest_hits
 
 POINTS = 1 << 15
-"""That are aimed at at once."""
+"""Number of points processed at once."""
 
 CELLS = 1 << 19
-"""Rows times columns of a lattice of rays, about, most of which have none where points are few and far between."""
+"""Approximate number of places in a lattice of rays; most places have no ray if the points are sparse."""
 
 LAYERS = 4
-"""Rays that share a pixel in the first lattice of rays; the next one has as many times as many, of fuller pixels."""
+"""Maximum number of rays per pixel in the first lattice; rays of fuller pixels go to lattices LAYERS times as deep."""
 
 
 def aiming_plan(camera: Camera, shapes: Shapes) -> Plan:
-    """Return the plan for rays anywhere in the full frame of a camera, at one moment; aimed rays are chief rays."""
+    """Return the plan for chief rays anywhere in the full frame of a camera, at one moment."""
     raster = replace(camera.raster, x0=0, y0=0, x1=camera.raster.width, y1=camera.raster.height)
     camera = replace(camera, raster=raster, aperture=None, pixel_time=None, motion=None)
     return make_plan(camera, shapes, Request((), (), sampled=True))
 
 
 def is_before(plan: Plan, pixels: np.ndarray, points: np.ndarray, error: np.ndarray) -> np.ndarray:
-    """Return what stands before world points (n, 3) that the camera of an aiming plan sees at pixels (n, 2) of its
-    frame, (n,): 1 where something does, 0 where nothing does, -1 where the point is nearer or farther than the clip
-    range.
+    """Return whether something is in front of world points (n, 3) that the camera of an aiming plan sees at pixels
+    (n, 2) of its frame, (n,): 1 if so, 0 if not, -1 if the point is nearer or farther than the clip range.
 
-    The ray of each pixel is turned to its point. A hit is before the point where it is nearer by more than both may be
-    wrong: the hit by its error bound, for a ray that passes the exact point as far beside as ``error`` (n,), world
-    units, and rounding allow; the point by ``error``. The surface that a point lies on is thus not before it, however
-    the ray grazes it.
+    The ray of each pixel is turned to its point. A hit is in front of the point if it is nearer by more than the error
+    bounds of both. The bound of the point is ``error`` (n,), world units. The bound of the hit allows for a ray that
+    misses the exact point by ``error`` and rounding. The surface on which a point lies is thus never in front of it,
+    even if the ray grazes the surface.
     """
     found = np.empty(len(points), np.int8)
-    with np.errstate(all="ignore"):  # NaN and inf are answers: no ray, no hit
+    with np.errstate(all="ignore"):  # NaN and inf mean no ray and no hit
         for first in range(0, len(points), POINTS):
             part = slice(first, first + POINTS)
             aim = _Aim(plan, pixels[part], points[part], error[part])
@@ -59,7 +58,7 @@ def is_before(plan: Plan, pixels: np.ndarray, points: np.ndarray, error: np.ndar
 
 
 class _Aim:
-    """Some points, and the rays to them, in the camera's frame; (3, n) and (n,) arrays."""
+    """Points and the rays to them, in the camera's frame; (3, n) and (n,) arrays."""
 
     def __init__(self, plan: Plan, pixels: np.ndarray, points: np.ndarray, error: np.ndarray):
         camera, self.plan = plan.camera, plan
@@ -74,7 +73,7 @@ class _Aim:
         distance = norm(matvec(basis, towards))
         self.t = -towards[2] if camera.model.planar else distance
         self.direction = towards / self.t
-        if camera.model.parallel:  # rays that have one direction keep it
+        if camera.model.parallel:  # parallel rays keep their direction
             self.direction = _whole(direction, len(x))
             self.origin = np.array(local) - self.t * self.direction
         self.length = norm(matvec(basis, self.direction))
@@ -85,7 +84,7 @@ class _Aim:
         self.t_error = beside * np.sqrt((camera_from_world * camera_from_world).sum())
 
     def answer(self) -> np.ndarray:
-        """Return what ``is_before`` does."""
+        """Return the result of ``is_before`` for the points."""
         camera = self.plan.camera
         answer = np.zeros(len(self.t), np.int8)
         for some, columns, rows, place in _lattices(self.pixels, camera.raster.size):
@@ -94,7 +93,7 @@ class _Aim:
         return answer
 
     def _front(self, some: np.ndarray, columns: np.ndarray, rows: np.ndarray, place: tuple) -> np.ndarray:
-        """Return the largest t at which what stands before points may be, (k,); inf where nothing does."""
+        """Return upper bounds of the t of the hits in front of points, (k,); inf where nothing is in front."""
         shape = len(rows), len(columns)
 
         def laid(values, empty=np.nan):
@@ -130,8 +129,9 @@ def _whole(vector, count: int) -> np.ndarray:
 
 
 def _lattices(pixels: np.ndarray, size: tuple[int, int]) -> Iterator[tuple]:
-    """Yield lattices of rays, columns (c,) and rows (r,) of pixels, in which each of some points, indices (k,), has a
-    place of its own, (k,) rows and columns: rows of pixels are repeated for the points that share one of them.
+    """Yield (points, columns, rows, places) for lattices of rays: the indices (k,) of points, the columns (c,) and rows
+    (r,) of pixels, and the places of the points in the lattice, (k,) rows and columns. Each point has a place of its
+    own: rows are repeated for points that share a pixel.
     """
     column, row = (np.minimum(np.floor(part).astype(int), side - 1) for part, side in zip(pixels.T, size, strict=True))
     order = np.lexsort((column, row))

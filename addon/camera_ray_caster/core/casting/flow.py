@@ -1,19 +1,20 @@
-"""Optical flow: where what pixels see is seen at the next or the previous frame, of any camera.
+"""Optical flow: the motion of the seen surface points in the picture, to the next or previous frame, for any camera.
 
-The surface point that a pixel's chief ray hits moves with its shape, or with its triangle where a mesh changes its
-form, and the camera of the other frame sees it at other pixel coordinates. The flow is these less the pixel's own, in
-pixels, x to the right and y up. It is NaN where nothing is hit (a background has no points), where the shape is not in
-the other frame (see ``motion.matching``), and where the point is not in its full frame. Across the seam of a panorama
-it leads from one edge of the picture to the other. A camera that sees a point more than once, as from a path or with
-both eyes in one picture, has the flow to where a search from the pixel itself leads.
-Blender's Vector pass, which only Blender's own cameras have, is the backward flow in X and Y and the forward flow, its
-sign turned, in Z and W; its background is 0.
-``camera.next``, ``shapes.next`` and ``previous`` are the other frames: the scene's neighbors as ``read_scene`` reads
-them, or whatever else is put there, such as the other eye of a stereo pair.
+The surface point that a pixel's chief ray hits moves with its shape, or with its triangle if a mesh deforms, and the
+camera of the other frame sees the point at other pixel coordinates. The flow is the difference of the two coordinates,
+other minus own, in pixels, x to the right and y up. It is NaN where nothing is hit (a background has no points), where
+the shape is not in the other frame (see ``motion.matching``), and where the point is outside of the other full frame.
+Across the seam of a panorama the flow leads from one edge of the picture to the other. For a camera that sees a point
+more than once, such as from a path or with both eyes in one picture, the flow leads to the pixel that a search from the
+own pixel finds.
+Blender's Vector pass, which only Blender's own cameras have, is the backward flow in X and Y and the negative forward
+flow in Z and W; its background is 0.
+The other frames are in ``next`` and ``previous`` of camera and shapes: the scene's neighbors from ``read_scene``, or
+anything else that is assigned, such as the other eye of a stereo pair.
 
-The flow is right to ``Flow.error``, that of the point in the world, times the derivative of the projection, and to the
-model's inverse, 1e-9 pixel at most. With pixel times the point is where the shapes are at the pixel's own time, and it
-is seen at the other pixel's own time: see ``camera.meeting``.
+The error of the flow is at most ``Flow.error``, that of the point in the world, times the derivative of the projection,
+plus that of the model's inverse, at most 1e-9 pixels. With pixel times the point is that of the shapes at the pixel's
+own time, and it is seen at the other pixel's own time: see ``camera.meeting``.
 """
 
 from __future__ import annotations
@@ -36,16 +37,16 @@ from .pictures import Picture
 NEXT, PREVIOUS = "next", "previous"
 
 FRAMES = {"flow_forward": (NEXT,), "flow_backward": (PREVIOUS,), "flow_hidden": (NEXT, PREVIOUS)}
-"""The other frames that passes look into, by the passes' names."""
+"""Other frames that each pass needs, by the name of the pass."""
 
 
 def frames_of(passes: Collection[str]) -> set[str]:
-    """Return the other frames that passes look into, NEXT and PREVIOUS."""
+    """Return the other frames that passes need, out of NEXT and PREVIOUS."""
     return {name for key, names in FRAMES.items() if key in passes for name in names}
 
 
 def pictures(camera: Camera, shapes: Shapes, passes: Collection[str]) -> dict[str, Picture]:
-    """Return the pictures that passes look into, by name. Raises InputError for those that were not read."""
+    """Return the pictures of other frames that passes need, by name. Raises InputError for one that was not read."""
     found = {}
     for name in sorted(frames_of(passes)):
         there = getattr(camera, name), getattr(shapes, name)
@@ -61,14 +62,14 @@ def pictures(camera: Camera, shapes: Shapes, passes: Collection[str]) -> dict[st
 
 
 def flow_of(values: HitValues, name: str) -> Flow:
-    """Return the flow of a block of hits to the NEXT or the PREVIOUS frame, made once."""
+    """Return the flow of a block of hits to the NEXT or the PREVIOUS frame, computed once per block."""
     if name not in values.flows:
         values.flows[name] = Flow(values, values.plan.request.others[name])
     return values.flows[name]
 
 
 class Flow:
-    """The surface points that a block of pixels sees, and where they are seen in another frame's picture."""
+    """The surface points that a block of pixels sees, and their pixels in another frame's picture."""
 
     def __init__(self, values: HitValues, picture: Picture):
         self._values, self._picture = values, picture
@@ -118,7 +119,7 @@ class Flow:
         out[...] = flow.reshape(out.shape)
 
     def write_hidden(self, out: np.ndarray) -> None:
-        """Write where something is before the points, or they are beyond the clip range, (rows, columns)."""
+        """Write whether something hides the points, or they are outside of the clip range, (rows, columns)."""
         hidden = np.zeros(out.size, bool)
         seen = ~np.isnan(self.pixels[:, 0])
         hidden[self._place[seen]] = self._picture.before(self, self.pixels)[seen] != 0
@@ -130,14 +131,14 @@ class Flow:
 
     @lazy
     def _own_error(self) -> np.ndarray:
-        """How wrong the points are at most as they are hit, (m,)."""
+        """The error bounds of the points where they are hit, (m,)."""
         return np.concatenate([np.zeros(0), *(errors.position for _, errors in self._values.errors)])
 
     def _moved(self, shapes: Shapes, some: np.ndarray) -> Moved:
-        """Return how some of the points have moved; NaN where their shape is not there."""
+        """Return how some of the points have moved; NaN if their shape is not in ``shapes``."""
         if self._last is None or self._last[0] is not shapes:
             self._last, self._known = (shapes, rows_in(self._values.plan.shapes, shapes)), None
-        if self._known is None or self._known[0] is not some:  # places and errors are asked for one after the other
+        if self._known is None or self._known[0] is not some:  # ``at`` and ``error`` are called in turn
             self._known = some, self._move(shapes, self._last[1], some)
         return self._known[1]
 

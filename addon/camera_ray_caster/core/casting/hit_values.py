@@ -1,6 +1,6 @@
-"""What follows from hits: directions, points, normals, uv, errors.
+"""Values derived from hits: directions, points, normals, uv, errors.
 
-Each is worked out when a pass first asks for it, once for all passes of a block, in working arrays of the thread.
+Each value is computed when a pass first needs it, once for all passes of a block, in working arrays of the thread.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from .plan import Plan
 T = TypeVar("T")
 
 ZERO = np.zeros((3, 1, 1))
-"""The term that adds nothing."""
+"""A term of a vector sum that adds nothing."""
 
 
 class HitValues:
@@ -32,7 +32,7 @@ class HitValues:
     def __init__(self, hits: Hits):
         self.hits = hits
         self.flows: dict[str, Any] = {}
-        """To other frames, by name: what passes of one block share; see ``flow``."""
+        """The flows to other frames, by name, which the passes of a block share; see ``flow``."""
 
     @property
     def plan(self) -> Plan:
@@ -45,19 +45,19 @@ class HitValues:
         return self.hits.rays.scratch
 
     def array(self, name: str, *channels: int) -> np.ndarray:
-        """Return the working array of this name, (*channels, rows, columns) float64; what it held is lost."""
+        """Return the working array of this name, (*channels, rows, columns) float64; its earlier content is lost."""
         return self.scratch(name, (*channels, *self.hits.t.shape), np.float64)
 
     @lazy
     def index(self) -> np.ndarray:
-        """The index of the hits as numpy looks things up."""
+        """The index of the hits in numpy's type for indices."""
         index = self.scratch("index as intp", self.hits.index.shape, np.intp)
         np.copyto(index, self.hits.index)
         return index
 
     def look_up(self, table: np.ndarray, out: np.ndarray | str) -> np.ndarray:
-        """Return what a table (..., n + 1) has for each pixel's shape, its last entry where nothing is hit: in ``out``,
-        an array, or the name of one that the next call with this name overwrites.
+        """Return the entries of a table (..., n + 1) for the pixels' shapes, the last entry where nothing is hit. They
+        are written to ``out``: an array, or the name of a working array, which the next call with this name overwrites.
         """
         if isinstance(out, str):
             out = self.scratch(out, table.shape[:-1] + self.hits.t.shape, table.dtype.type)
@@ -72,7 +72,7 @@ class HitValues:
 
     @lazy
     def length(self) -> np.ndarray:
-        """Of ``direction``: distance over t; one for all parallel rays."""
+        """The length of ``direction``: distance over t; (1, 1) for parallel rays."""
         if is_one(self.direction):
             return np.full((1, 1), norm(self.direction))
         length, spare = self.array("length"), self.array("spare")
@@ -80,12 +80,12 @@ class HitValues:
 
     @property
     def distance(self) -> np.ndarray:
-        """From the rays' origins to the hits; inf where nothing is hit."""
+        """Distance from the rays' origins to the hits; inf where nothing is hit."""
         return self.hits.t * self.length
 
     @lazy
     def _lattice(self) -> tuple[np.ndarray, np.ndarray] | None:
-        """The two terms of a pinhole's directions, (3, 1, columns) and (3, rows, 1); None for others."""
+        """The two terms of a pinhole's directions, (3, 1, columns) and (3, rows, 1); None for other cameras."""
         if not is_lattice(self.hits.rays.direction):
             return None
         x, y, z = self.hits.rays.direction
@@ -94,7 +94,7 @@ class HitValues:
 
     @lazy
     def point(self) -> np.ndarray:
-        """The hit points relative to the eye, (3, rows, columns); no numbers of meaning where nothing is hit."""
+        """The hit points relative to the eye, (3, rows, columns); undefined where nothing is hit."""
         point = self.array("point", 3)
         if self._lattice is not None:
             np.add(*self._lattice, out=point)
@@ -106,13 +106,13 @@ class HitValues:
         return point
 
     def _to_world(self, vector: Any, out: np.ndarray) -> np.ndarray:
-        """Return camera-frame components as world components, in ``out``."""
+        """Return camera-frame components as world components, written to ``out``."""
         axes = self.plan.camera.pose.basis.T[..., None, None]
         return linear(axes, vector, out, self.array("spare", 3))
 
     @lazy
     def normal_terms(self) -> tuple[np.ndarray, np.ndarray]:
-        """Two terms whose sum is ``normal`` where something is hit: storing it can add them."""
+        """Two terms whose sum is ``normal`` where something is hit, so that storing the normal can add them."""
         table, normal = self.plan.normals, self.array("turned", 3)
         faces_eye = self.hits.rays.from_eye and all(one.faces_eye for one in self.plan.sets)
         others = [(self.look_up(mask, f"others {k}"), normals) for k, (mask, normals) in enumerate(table.others)]
@@ -147,19 +147,19 @@ class HitValues:
         return normal
 
     def by_kind(self, of: Callable[[Kind, HitPixels], T]) -> list[tuple[np.ndarray, T]]:
-        """Return, for each kind that is seen, where it is, (rows, columns) bool, and what a function gives there."""
+        """Return for each kind that is hit its pixels, (rows, columns) bool, and the result of a function for them."""
         return [(pixels.where, of(kind, pixels)) for kind, pixels in self._kinds]
 
     @lazy
     def _kinds(self) -> list[tuple[Kind, HitPixels]]:
-        """The kinds that are seen, each with its pixels."""
+        """The kinds that are hit, each with its pixels."""
         kinds = self.look_up(self.plan.kinds, "kinds")
         return [(kind, self.pixels(where)) for kind, where in by_kind(kinds)]
 
     @lazy
     def cosine(self) -> np.ndarray:
-        """Of the angle between the ray and the normal of the surface itself, (rows, columns), not negative; no number
-        of meaning where nothing is hit.
+        """Cosine of the angle between the ray and the normal of the surface itself, (rows, columns), not negative;
+        undefined where nothing is hit.
         """
         cosine, spare = self.array("cosine"), self.array("spare")
         np.divide(inner(self.normal, self.direction, cosine, spare), self.length, out=cosine)
@@ -169,7 +169,7 @@ class HitValues:
         return np.abs(cosine, out=cosine)
 
     def _surface_cosine(self, kind: Kind, pixels: HitPixels) -> Any:
-        """Return the cosine of pixels of a kind whose ``normal`` is not the surface's own; None for others."""
+        """Return the cosine for pixels of a kind whose ``normal`` is not the surface's own; None for other kinds."""
         normal = kind.surface_normals(self.plan.in_camera, pixels)
         if normal is None:
             return None
@@ -178,18 +178,18 @@ class HitValues:
 
     @lazy
     def derivatives(self) -> RayDerivatives:
-        """How the rays change from pixel to pixel."""
+        """The derivatives of the rays with respect to the pixel."""
         camera, rays = self.plan.camera, self.hits.rays
         return RayDerivatives(camera.model, camera.pose, rays.x, rays.y)
 
     @lazy
     def uv(self) -> list[tuple[np.ndarray, tuple[np.ndarray, np.ndarray]]]:
-        """The surfaces' own coordinates, kind by kind: where one is hit, (rows, columns) bool, and u and v there."""
+        """The surface coordinates, kind by kind: the pixels of the kind, (rows, columns) bool, and u and v there."""
         return self.by_kind(lambda kind, pixels: kind.uv(self.plan.in_camera, pixels, pixels.of(self.point)))
 
     @property
     def from_edge(self) -> list[tuple[np.ndarray, np.ndarray]]:
-        """How far from the edges of faces without uv the hits are, kind by kind: see ``Kind.from_edge``."""
+        """The distances of the hits from the edges of faces without uv, kind by kind: see ``Kind.from_edge``."""
         return self.by_kind(lambda kind, pixels: kind.from_edge(self.plan.in_camera, pixels, pixels.of(self.point)))
 
     @lazy
@@ -206,7 +206,7 @@ class HitValues:
 
     @lazy
     def errors(self) -> list[tuple[np.ndarray, HitErrors]]:
-        """How far from the exact picture the hits are at most, kind by kind; see ``by_kind``."""
+        """The error bounds of the hits, kind by kind; see ``by_kind``."""
         plan = self.plan
         camera, unit = plan.camera, plan.normals.unit
         rays = world_rays(camera, self.hits.rays.x, self.hits.rays.y)
@@ -215,6 +215,6 @@ class HitValues:
         )
 
     def pixels(self, where: np.ndarray) -> HitPixels:
-        """Return pixels that hit something."""
+        """Return the pixels marked in ``where``, each of which hits something."""
         hits = self.hits
         return HitPixels(where, (self.index, hits.t), hits.first_row, hits.rays.from_eye, self.scratch)

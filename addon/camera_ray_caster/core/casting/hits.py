@@ -1,4 +1,4 @@
-"""The hits of rays: t and the shape that is hit."""
+"""The hits of rays: t and the index of the shape that is hit."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from .plan import Plan
 from .rays import TileRays
 
 NOTHING = -1
-"""Shape index of a pixel that sees none."""
+"""Shape index of a pixel that sees no shape."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -24,14 +24,14 @@ class Hits:
     plan: Plan
     rays: TileRays
     t: np.ndarray
-    """inf where nothing is hit."""
+    """t of the hits; inf where nothing is hit."""
     index: np.ndarray
-    """Index into ``Shapes`` of the nearest shape, NOTHING where there is none."""
+    """Index into ``Shapes`` of the nearest shape, NOTHING where nothing is hit."""
     first_row: int = 0
-    """Of these, in the tile."""
+    """Row of the tile at which these hits begin."""
 
     def blocks(self) -> Iterator[tuple[slice, Hits]]:
-        """Yield (rows, hits) of some rows at a time: working arrays stay in a core's cache."""
+        """Yield (rows, hits) for blocks of rows of about BLOCK_PIXELS pixels."""
         height, width = self.t.shape
         step = max(1, tuning.BLOCK_PIXELS // width)
         for first in range(0, height, step):
@@ -46,17 +46,17 @@ class Hits:
 
     @lazy
     def seen(self) -> np.ndarray:
-        """Where a shape is hit, bool."""
+        """Whether a shape is hit, bool."""
         return self.index != NOTHING
 
     @lazy
     def missed(self) -> np.ndarray | None:
-        """Where none is, bool; None where that is nowhere."""
+        """Whether no shape is hit, bool; None if every ray hits."""
         return ~self.seen if self.index.min(initial=0) == NOTHING else None
 
     @lazy
     def has_ray(self) -> np.ndarray:
-        """Where the pixel has a ray, bool."""
+        """Whether the pixel has a ray, bool."""
         ray = np.ones(self.t.shape, bool)
         for component in self.rays.direction:
             ray &= ~np.isnan(component)
@@ -64,5 +64,5 @@ class Hits:
 
     @lazy
     def lost(self) -> np.ndarray | None:
-        """Where the pixel has no ray, bool; None where that is nowhere."""
+        """Whether the pixel has no ray, bool; None if every pixel has a ray."""
         return ~self.has_ray if any(np.isnan(component).any() for component in self.rays.direction) else None

@@ -1,8 +1,10 @@
-"""The passes of a picture: what each stores, for a tile of hits. A new pass is one function and one row in PASSES.
+"""The passes of a picture, each computed for a tile of hits. A new pass is one function and one row in PASSES.
 
-Where a ray hits nothing depth, distance and footprint are inf, shape_index and face_index are -1, combined the world's
-color, flow_forward and flow_backward NaN, all others but solid_angle 0; a pixel without a ray is the same with combined
-(0, 0, 0, 0), valid False and solid_angle 0.
+Where a ray hits nothing, depth, distance and footprint are inf, shape_index and face_index are -1, combined is the
+world's color, flow_forward and flow_backward are NaN, and all other passes are 0 except those of the ray itself
+(ray_origin, ray_direction, valid, solid_angle). A pixel without a ray has the same values, with combined (0, 0, 0, 0),
+valid False, and ray_origin, ray_direction and solid_angle 0. A holdout has combined (0, 0, 0, 0) and is a surface in
+all other passes; Cycles gives a holdout no depth and no indices.
 """
 
 from __future__ import annotations
@@ -22,31 +24,31 @@ from .hits import Hits
 from .shading import shade
 
 ROUNDED_UP = 1 + 2.0**-9
-"""Makes up for rounding the bounds themselves, to what they are stored as."""
+"""Factor that makes up for the rounding of the bounds themselves, to the type in which they are stored."""
 
 
 @dataclass(frozen=True)
 class Pass:
-    """How a pass is stored and made. ``write(values, out)`` fills a part of ``out``, (rows, columns[, channels])."""
+    """The format of a pass, and its function: ``write(values, out)`` fills ``out``, (rows, columns[, channels])."""
 
     write: Callable[[HitValues, np.ndarray], None]
     channels: int = 0
     dtype: type | None = None
-    """What it is stored as; None takes the cast's dtype."""
+    """Type of the stored numbers; None for the cast's dtype."""
 
     def empty(self, shape: tuple[int, int], dtype) -> np.ndarray:
-        """Return an array for the pass of a picture, (rows, columns[, channels]), yet to be written."""
+        """Return an uninitialized array for the pass of a picture, (rows, columns[, channels])."""
         return np.empty((*shape, self.channels) if self.channels else shape, self.dtype or dtype)
 
 
 def combined(values: HitValues, out):
-    """Linear RGBA: the shading's color, the world's where nothing is hit, transparent black where there is no ray."""
+    """Linear RGBA: the shaded color, the world's color where nothing is hit, transparent black without a ray."""
     shade(values, out)
     write_where(out, 0, values.hits.lost)
 
 
 def depth(values: HitValues, out):
-    """Blender's Z: along the viewing direction for perspective and orthographic, the distance for panoramas."""
+    """Blender's Z: along the viewing direction for planar cameras, along the ray for all others."""
     out[...] = values.hits.t
 
 
@@ -67,7 +69,7 @@ def normal(values: HitValues, out):
 
 
 def uv(values: HitValues, out):
-    """The surface's own coordinates, (u, v, 0); see the shapes."""
+    """The surface coordinates, (u, v, 0); see the kinds of shapes."""
     out[...] = 0
     for where, (u, v) in values.uv:
         out[..., 0][where], out[..., 1][where] = u, v
@@ -84,7 +86,7 @@ def material_index(values: HitValues, out):
 
 
 def shape_index(values: HitValues, out):
-    """The row of the shape in ``Shapes``, instances apart."""
+    """The row of the shape in ``Shapes``; each instance has a row of its own."""
     out[...] = values.hits.index
 
 
@@ -112,56 +114,56 @@ def ray_direction(values: HitValues, out):
 
 
 def solid_angle(values: HitValues, out):
-    """The solid angle of the pixel, steradians, to first order: of the unit directions at its center the length of the
-    cross product of their derivatives by x and y. 0 for parallel rays. Right to 64 EPS, beside what rounding of the
-    pixel makes: see ``camera.jacobian``.
+    """The solid angle of the pixel, steradians, to first order: the length of the cross product of the derivatives by x
+    and y of the unit direction at its center. 0 for parallel rays. The relative error is at most 64 EPS, plus the
+    effect of the pixel's rounding: see ``camera.jacobian``.
     """
     out[...] = values.derivatives.solid_angle
     write_where(out, 0, values.hits.lost)
 
 
 def footprint(values: HitValues, out):
-    """The area of the surface that the pixel covers, in the world, to first order: its rays, as they change at its
-    center, on the tangent plane at the hit. Right as ``solid_angle`` is, and as the hit's distance and normal are, over
-    the cosine between ray and normal.
+    """The area of the surface that the pixel covers, in the world, to first order: the pixel's rays, extrapolated from
+    its center, on the tangent plane at the hit. The error is that of ``solid_angle``, plus those of the hit's distance
+    and normal over the cosine of the angle between ray and normal.
     """
     out[...] = values.derivatives.area_at(values.distance) / values.cosine
     write_where(out, np.inf, values.hits.missed)
 
 
 def flow_forward(values: HitValues, out):
-    """How far the pixel is, x and y, at which the next frame sees the surface point; NaN for none: see ``flow``."""
+    """The offset, x and y, of the pixel at which the next frame sees the surface point; NaN for none: see ``flow``."""
     flow_of(values, NEXT).write(out)
 
 
 def flow_backward(values: HitValues, out):
-    """The same of the previous frame."""
+    """The offset, x and y, of the pixel at which the previous frame sees the surface point; NaN for none."""
     flow_of(values, PREVIOUS).write(out)
 
 
 def flow_hidden(values: HitValues, out):
-    """Whether the next frame, and whether the previous one, has something before the surface point, or clips it."""
+    """Whether the surface point is hidden or clipped in the next frame, and whether it is so in the previous frame."""
     for k, name in enumerate((NEXT, PREVIOUS)):
         flow_of(values, name).write_hidden(out[..., k])
 
 
 def distance_bound(values: HitValues, out):
-    """How far the stored distance, and the depth, are from the exact ones at most; world units."""
+    """Upper bound of the errors of the stored distance and of the stored depth; world units."""
     _bound(values, out, lambda errors: (errors.distance, errors.t * errors.rays.length))
 
 
 def position_bound(values: HitValues, out):
-    """How far the stored position is from the exact one at most; world units."""
+    """Upper bound of the error of the stored position; world units."""
     _bound(values, out, lambda errors: (errors.position, errors.far))
 
 
 def normal_bound(values: HitValues, out):
-    """How far the stored unit normal is from the exact one at most."""
+    """Upper bound of the error of the stored unit normal."""
     _bound(values, out, lambda errors: (errors.normal, 1.0))
 
 
 def _bound(values: HitValues, out, of: Callable[[HitErrors], tuple[np.ndarray, Any]]):
-    """Write bounds rounded up, with what storing numbers loses: ``of`` gives the bound of some, and their size."""
+    """Write bounds rounded up, plus the error of storing the values; ``of`` returns bounds and sizes of the values."""
     out[...] = 0
     for where, errors in values.errors:
         bound, size = of(errors)
@@ -169,8 +171,8 @@ def _bound(values: HitValues, out, of: Callable[[HitErrors], tuple[np.ndarray, A
 
 
 def _write(out, vector, offset, blank):
-    """Store vector plus offset, three components each, and 0 where ``blank``, which may be None."""
-    if isinstance(vector, np.ndarray):  # all at once: fewer calls, between which other threads wait
+    """Store vector plus offset, three components each, and 0 where ``blank`` is set; ``blank`` may be None."""
+    if isinstance(vector, np.ndarray):  # all at once: threads wait for each other between calls
         np.add(vector, offset, out=out.transpose(2, 0, 1), casting="same_kind")
     else:
         for axis, component in enumerate(vector):
@@ -205,13 +207,13 @@ PASSES = {
 
 
 def image_bytes(shape: tuple[int, int], passes: Iterable[str], dtype) -> int:
-    """Return how much memory the arrays of some passes take."""
+    """Return the number of bytes of the arrays of some passes."""
     sizes = (max(PASSES[name].channels, 1) * np.dtype(PASSES[name].dtype or dtype).itemsize for name in passes)
     return shape[0] * shape[1] * sum(sizes)
 
 
 def store(hits: Hits, outs: dict[str, np.ndarray], where=None) -> None:
-    """Write passes into parts of images, only ``where`` they are meant: (rows, columns) bool, None for all pixels."""
+    """Write passes into parts of images, only where ``where``, (rows, columns) bool, is set; None for all pixels."""
     if where is not None:
         meant = {name: np.empty_like(out) for name, out in outs.items()}
         store(hits, meant)
@@ -235,7 +237,7 @@ def add_combined(hits: Hits, total: np.ndarray) -> None:
 
 
 def put(image: np.ndarray, out: np.ndarray, where) -> None:
-    """Copy an image, (rows, columns[, channels]), only ``where`` it is meant; None for all pixels."""
+    """Copy an image, (rows, columns[, channels]), only where ``where`` is set; None for all pixels."""
     if where is None:
         np.copyto(out, image, casting="same_kind")
     write_where(out, image, where)

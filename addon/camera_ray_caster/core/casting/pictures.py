@@ -1,4 +1,4 @@
-"""Where points that may move are seen in a picture, and whether something stands before them there."""
+"""The pixels at which points that may move are seen in a picture, and whether something hides the points there."""
 
 from __future__ import annotations
 
@@ -17,24 +17,24 @@ from .aimed import aiming_plan, is_before
 from .plan import Plan
 
 SHAPES = 1 << 21
-"""Whose places at other moments are kept: some 200 MB."""
+"""Number of shapes, over all moments, whose states are cached: some 200 MB."""
 
 PLANS = 16
-"""Of moments that are kept: the pixels of a tile are seen in few rows of the other frame."""
+"""Number of cached plans of moments: the pixels of a tile are seen in few rows of the other frame."""
 
 
 class Points(Protocol):
     """Points that may move with shapes."""
 
     def at(self, shapes: Shapes, some: np.ndarray) -> np.ndarray:
-        """Return where some, indices (k,), are at the moment of the shapes, (k, 3) world; NaN if they are not there."""
+        """Return the points ``some``, indices (k,), at the moment of the shapes, (k, 3) world; NaN if missing."""
 
     def error(self, shapes: Shapes, some: np.ndarray) -> np.ndarray:
-        """Return how wrong that is at most, (k,)."""
+        """Return the error bounds of these points, (k,)."""
 
 
 class Picture:
-    """A camera and shapes as they are read, in which points are looked for; its plan is made once."""
+    """A camera and shapes in whose picture points are looked for; its plan is made once."""
 
     def __init__(self, camera: Camera, shapes: Shapes):
         self.camera, self.shapes = camera, shapes
@@ -42,14 +42,14 @@ class Picture:
         self._plans: dict[float | None, Plan] = {}
 
     def prepare(self) -> None:
-        """Make what ``before`` needs, before threads share the picture."""
+        """Make the plan of a picture with one time, for ``before``, before threads share the picture."""
         if self.camera.pixel_time is None:
             self._plan(None)
 
     def pixels(self, points: Points, count: int, beside: np.ndarray | None = None) -> np.ndarray:
-        """Return the pixel coordinates (count, 2) at which points are seen, each at the pixel's own time; NaN where
-        that is nowhere in the full frame. ``beside``: pixels (count, 2) to which those that are sought at their own
-        times are to be near, where a point has several.
+        """Return the pixel coordinates (count, 2) at which points are seen, each at the pixel's own time; NaN for
+        points not seen in the full frame. ``beside``: pixels (count, 2); with pixel times the search begins near their
+        mean time, so that of several pixels that see a point one near that time is found.
         """
         clock, motion = self.camera.pixel_time, self.camera.motion
         if clock is None:
@@ -61,16 +61,16 @@ class Picture:
         return np.where(self._is_inside(found)[:, None], found, np.nan)
 
     def pixels_from(self, points: np.ndarray, start: np.ndarray) -> np.ndarray:
-        """Return the pixel coordinates (n, 2) of world points (n, 3) to which a search from others (n, 2) leads; NaN
-        where it leads nowhere in the full frame. For cameras that see a point more than once.
+        """Return the pixel coordinates (n, 2) of world points (n, 3) that a search from the pixels ``start`` (n, 2)
+        finds; NaN if it finds none in the full frame. For cameras that see a point more than once.
         """
         pose, model = self.camera.pose, self.camera.model
         found = pixels_of(model.rays, model.frame, (points - pose.eye) @ inverse(pose.basis).T, start)
         return np.where(self._is_inside(found)[:, None], found, np.nan)
 
     def before(self, points: Points, pixels: np.ndarray) -> np.ndarray:
-        """Return what stands before points that are seen at pixels (n, 2), as ``aimed.is_before`` does; -1 where the
-        pixel is NaN. With pixel times it is asked at the time of the pixel's center.
+        """Return whether something is in front of points seen at pixels (n, 2), as numbers of ``aimed.is_before``; -1
+        if the pixel is NaN. With pixel times the time is that of the pixel's center.
         """
         answer = np.full(len(pixels), -1, np.int8)
         seen = np.flatnonzero(~np.isnan(pixels[:, 0]))
@@ -83,7 +83,7 @@ class Picture:
         return answer
 
     def _moments(self, pixels: np.ndarray, seen: np.ndarray) -> Iterator[tuple[float | None, np.ndarray]]:
-        """Yield the times of pixels' centers, None for that of the picture, and the indices of those that have it."""
+        """Yield each time of the pixels' centers, None if the picture has one time, and the indices of its pixels."""
         clock = self.camera.pixel_time
         if clock is None:
             yield None, seen
@@ -97,11 +97,11 @@ class Picture:
         return camera.project(points.at(shapes, some))
 
     def _is_inside(self, pixels: np.ndarray) -> np.ndarray:
-        with np.errstate(invalid="ignore"):  # NaN is not
+        with np.errstate(invalid="ignore"):  # False for NaN
             return ((pixels >= 0) & (pixels <= self.camera.raster.size)).all(axis=1)
 
     def _moment(self, frame: float | None) -> tuple[Camera, Shapes]:
-        """Return both at a frame; None for a picture that has one time."""
+        """Return camera and shapes at a frame; ``frame`` is None for a picture with one time."""
         if frame is None:
             return self.camera, self.shapes
         shapes, motion = self.shapes, self.shapes.motion
@@ -113,7 +113,7 @@ class Picture:
 
 
 def _kept(known: dict, key: Any, most: int, make: Callable[[], Any]) -> Any:
-    """Return what is known by a key, or what is made and known from then on; beyond so many the oldest is forgotten."""
+    """Return the cached value of a key, made if it is missing; only the newest ``most`` values are kept."""
     found = known.get(key)
     if found is None:
         found = known[key] = make()

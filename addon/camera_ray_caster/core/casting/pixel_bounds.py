@@ -1,6 +1,4 @@
-"""Where something may be seen: in which pixels of a plan, of its render window or of some columns and rows, and how far
-away at least.
-"""
+"""Bounds of the pixels, in the render window or in some columns and rows, that may see something, and of its t."""
 
 from __future__ import annotations
 
@@ -13,27 +11,28 @@ from ..camera.camera import Camera
 from ..maths.speed import taken
 
 SAMPLE_MARGIN = 0.5
-"""Pixels by which bounds widen when samples lie all over the pixels."""
+"""Margin of bounds, in pixels, when samples are spread over the pixels."""
 
 POINT_MARGIN = 2.0**-20
-"""Pixels by which the bounds of points widen: rounding moves an image by 1e-9 pixels at most where FARTHEST holds."""
+"""Margin of the bounds of points, in pixels: within FARTHEST rounding moves an image by at most 1e-9 pixels."""
 
 FARTHEST = 1e6
-"""Pixels from the picture within which the images of points count; a corner beyond has its triangle bounded as a ball.
+"""Largest coordinate, in pixels, at which the image of a point counts; a triangle with a corner beyond is bounded as a
+ball.
 """
 
 
 @dataclass(frozen=True, eq=False)
 class PixelBounds:
-    """See ``shapes.kind.PixelBounds``; bounds are (n, 4) int: x0, x1, y0, y1 in the pixels of the plan."""
+    """See ``shapes.kind.PixelBounds``. Bounds are (n, 4) int: x0, x1, y0, y1 in the pixels of the plan."""
 
     camera: Camera
     sampled: bool
-    """Whether rays lie all over the pixels and the aperture."""
+    """Whether rays are spread over the pixels and the aperture."""
     cull: bool = True
-    """Whether bounds are worked out at all; else everything may be seen everywhere."""
+    """Whether bounds are computed; else everything may be seen everywhere."""
     columns: np.ndarray | None = None
-    """(k,) ascending, of the window, where the plan has only some; None for all."""
+    """(k,) ascending: the columns of the window that the plan has, and in ``rows`` its rows; None for all."""
     rows: np.ndarray | None = None
 
     @property
@@ -45,7 +44,7 @@ class PixelBounds:
         return np.array([0, wide, 0, high])
 
     def at(self, columns: np.ndarray, rows: np.ndarray) -> PixelBounds:
-        """Return those of some columns and rows, of the render window."""
+        """Return the bounds for some columns and rows of the render window."""
         return replace(self, columns=columns, rows=rows)
 
     def of_balls(self, centers: np.ndarray, radii: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -100,7 +99,7 @@ class PixelBounds:
         return self._in_plan((x - m, x + m, y - m, y + m)), counts
 
     def _in_plan(self, frame: Iterable[np.ndarray]) -> np.ndarray:
-        """Return what bounds x0, x1, y0, y1 in the full frame, (n,) each, are in the pixels of the plan."""
+        """Return bounds x0, x1, y0, y1 in the full frame, (n,) each, as bounds in the pixels of the plan."""
         raster, margin = self.camera.raster, SAMPLE_MARGIN if self.sampled else 0.0
         x0, x1, y0, y1 = frame
         edges = []

@@ -1,4 +1,4 @@
-"""Casting at given pixels: a lattice of some columns and some rows, at one moment."""
+"""Casting at given pixels: the lattice of some columns and rows, at one moment."""
 
 from __future__ import annotations
 
@@ -20,12 +20,12 @@ from .search import nearest_hits
 
 
 def hits_at(plan: Plan, columns: np.ndarray, rows: np.ndarray) -> Hits:
-    """Return the hits of the chief rays of pixels: those of columns (k,) and rows (l,) of the full frame, ascending, in
-    the render window of the plan. The same plan serves any number of lattices, and the whole picture.
+    """Return the hits of chief rays at the pixels of columns (k,) and rows (l,), ascending, numbered in the full frame,
+    within the render window of the plan. One plan serves any number of lattices, and the whole picture.
     """
     raster, camera = plan.camera.raster, plan.camera
     own = plan.at_pixels(columns - raster.x0, rows - raster.y0)
-    with np.errstate(all="ignore"):  # NaN and inf are answers: no ray, no hit
+    with np.errstate(all="ignore"):  # NaN and inf mean no ray and no hit
         rays = chief_rays(camera, columns[None, :] + 0.5, rows[:, None] + 0.5, (0, 0), Scratch(plan.request.real))
         return nearest_hits(own, rays)
 
@@ -33,14 +33,14 @@ def hits_at(plan: Plan, columns: np.ndarray, rows: np.ndarray) -> Hits:
 def passes_at(
     camera: Camera, shapes: Shapes, columns: np.ndarray, rows: np.ndarray, passes: Sequence[str]
 ) -> dict[str, np.ndarray]:
-    """Return passes, (l, k[, channels]) float64 or what they are stored as, at columns (k,) and rows (l,) of the full
-    frame, ascending, whether or not they are rendered; of the camera as it is now, whatever the pixels' times.
+    """Return passes, (l, k[, channels]) float64 or of the pass's own type, at columns (k,) and rows (l,) of the full
+    frame, ascending, also outside of the render window. The camera is taken as it is now, without its pixel times.
     """
     ends = {"x0": columns[0], "x1": columns[-1] + 1, "y0": rows[0], "y1": rows[-1] + 1}
     still = replace(camera, raster=replace(camera.raster, **ends), pixel_time=None, motion=None)
     request = Request(tuple(passes), tuple(PASSES), others=pictures(camera, shapes, passes))
     plan = make_plan(still, shapes, request)
     images = {name: PASSES[name].empty((len(rows), len(columns)), np.float64) for name in passes}
-    with np.errstate(all="ignore"):  # NaN and inf are answers: no ray, no hit
+    with np.errstate(all="ignore"):  # NaN and inf mean no ray and no hit
         store(hits_at(plan, columns, rows), images)
     return images

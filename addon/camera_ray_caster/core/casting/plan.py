@@ -1,4 +1,4 @@
-"""The plan of a cast: what this camera, these shapes and this request need, decided before any ray is cast."""
+"""The plan of a cast: the work that a camera, shapes and a request need, determined before any ray is cast."""
 
 from __future__ import annotations
 
@@ -21,9 +21,9 @@ from .request import Request
 
 @dataclass(frozen=True, eq=False)
 class Plan:
-    """What the cast does. What is not in it costs nothing.
+    """The work of a cast; shapes and steps that are not in the plan cost nothing.
 
-    Its pixels are those of the render window, counted from the window's corner, or those that ``at_pixels`` was given.
+    Its pixels are those of the render window, counted from the window's corner, or those given to ``at_pixels``.
     """
 
     camera: Camera
@@ -32,15 +32,15 @@ class Plan:
     in_camera: InCamera
     pixels: PixelBounds
     seen: np.ndarray
-    """(m,) indices into ``Shapes``, ascending: those that some pixel may see."""
+    """(m,) indices into ``Shapes``, ascending: the shapes that some pixel may see."""
     bounds: np.ndarray
-    """(m, 4) int: x0, x1, y0, y1 in the pixels of the plan, x1 and y1 not included."""
+    """(m, 4) int: x0, x1, y0, y1 in the pixels of the plan, x1 and y1 excluded."""
     near: np.ndarray
-    """(m,): the least t that each may have, -inf where that is not known."""
+    """(m,): a lower bound of the t of each shape, -inf where none is known."""
     clips: bool
     """Whether anything that may be seen reaches beyond the clip end."""
     whole: Plan | None = None
-    """The plan of all pixels, where this one has some columns and rows of them."""
+    """The plan of all pixels, if this plan has only some columns and rows."""
 
     @property
     def sets(self) -> Collection[ShapeSet]:
@@ -49,7 +49,7 @@ class Plan:
 
     @cached_property
     def set_of(self) -> dict[int, ShapeSet]:
-        """Those of each kind, by its number."""
+        """The set of each kind, by the number of the kind."""
         sets = {}
         for kind, some in kinds.by_kind(self.shapes.kind[self.seen]):
             visible = Visible(
@@ -67,7 +67,7 @@ class Plan:
         return sets
 
     def at_pixels(self, columns: np.ndarray, rows: np.ndarray) -> Plan:
-        """Return the plan of some of its pixels alone: of some columns and rows, (k,) and (l,) ascending."""
+        """Return the plan for only some of the columns and rows, (k,) and (l,) ascending."""
         pixels = self.pixels.at(columns, rows)
         bounds = pixels.within(self.bounds)
         here = (bounds[:, 0] < bounds[:, 1]) & (bounds[:, 2] < bounds[:, 3])
@@ -75,8 +75,8 @@ class Plan:
 
     @cached_property
     def work(self) -> np.ndarray:
-        """(rows,) of the render window: how many pixels are tested in each, and one test more for each pixel, which
-        stands for its ray and its passes.
+        """(rows,): the number of tests in each row of the render window, plus one per pixel, which stands for its ray
+        and its passes.
         """
         height, width = self.camera.raster.shape
         change = np.zeros(height + 1)
@@ -87,43 +87,43 @@ class Plan:
 
     @property
     def index_type(self) -> np.dtype:
-        """The smallest integers that hold every index into ``Shapes``, and -1: each pixel has one."""
+        """The smallest integer type for the indices into ``Shapes`` and -1: every pixel stores an index."""
         return np.min_scalar_type(-max(len(self.shapes), 1))
 
     @cached_property
     def kinds(self) -> np.ndarray:
-        """(n + 1,): the numbers of the shapes' kinds, and -1 for what sees none."""
+        """(n + 1,): the numbers of the shapes' kinds, and -1 for no shape."""
         return np.append(self.shapes.kind.astype(np.int16), np.int16(-1))
 
     @cached_property
     def object_index(self) -> np.ndarray:
-        """(n + 1,): the shapes' object indices, and 0 for what sees none."""
+        """(n + 1,): the shapes' object indices, and 0 for no shape."""
         return np.append(self.shapes.object_index, np.int32(0))
 
     @cached_property
     def material_index(self) -> np.ndarray:
-        """(n + s + 1,): the shapes' material indices, those of ``Slots``, and 0 for what sees none."""
+        """(n + s + 1,): the shapes' material indices, those of ``Slots``, and 0 for no shape."""
         slots = () if self.shapes.slots is None else self.shapes.slots.material_index
         return np.concatenate((self.shapes.material_index, slots, [0])).astype(np.int32)
 
     @cached_property
     def colors(self) -> np.ndarray:
-        """(4, n + s + 1) float64: the shapes' colors, those of ``Slots``, and transparent black for what sees none."""
+        """(4, n + s + 1) float64: the shapes' colors, those of ``Slots``, and transparent black for no shape."""
         slots = np.zeros((4, 0)) if self.shapes.slots is None else self.shapes.slots.color.T
         return np.hstack((self.shapes.color.T, slots, np.zeros((4, 1)))).astype(np.float64, order="C")
 
     @cached_property
     def normals(self) -> NormalTable:
-        """The constants of the normals, made when a pass first asks for them."""
+        """The constants of the normals, computed when a pass first needs them."""
         return normal_table(self.in_camera, self.seen)
 
     @property
     def unseen(self) -> int:
-        """How many shapes no pixel can see."""
+        """Number of shapes that no pixel can see."""
         return len(self.shapes) - len(self.seen)
 
     def left_out(self) -> list[str]:
-        """Return what is not done, in words, for the report."""
+        """Return the omitted work in words, for the report."""
         lines = []
         if self.unseen:
             lines.append(f"{self.unseen} of {len(self.shapes)} shapes: no pixel can see them")
@@ -132,16 +132,16 @@ class Plan:
         if missing:
             lines.append(f"kernels of {', '.join(missing)}: no such shape is in view")
         if self.camera.model.central:
-            lines.append("origins of rays: all leave the eye")
+            lines.append("origins of rays: all rays start at the eye")
         if not self.clips:
-            lines.append("the clip end: nothing in view reaches beyond it")
+            lines.append("the clip end: no shape in view extends beyond it")
         if self.request.spare:
-            lines.append(f"passes {', '.join(self.request.spare)}: not asked for")
+            lines.append(f"passes {', '.join(self.request.spare)}: not requested")
         return lines
 
 
 def make_plan(camera: Camera, shapes: Shapes, request: Request) -> Plan:
-    """Return the plan; InputError names a shape that cannot be cast."""
+    """Return the plan. Raises InputError, which names the shape, if a shape cannot be cast."""
     placed = in_camera(shapes, camera.pose)
     near, far = _reach(camera, placed, request.sampled)
     pixels = PixelBounds(camera, request.sampled, request.cull)
@@ -159,12 +159,12 @@ def make_plan(camera: Camera, shapes: Shapes, request: Request) -> Plan:
         near=near[seen],
         clips=bool((far[seen] > camera.clip_end).any()),
     )
-    _ = plan.set_of  # made now, before threads share the plan
+    _ = plan.set_of  # computed now, before threads share the plan
     return plan
 
 
 def _reach(camera: Camera, shapes: InCamera, sampled: bool):
-    """Return the least and the greatest t that a shape may have, (n,) each: unbounded where that is not known."""
+    """Return lower and upper bounds of the t of each shape, (n,) each; -inf and inf where none are known."""
     reach = shapes.radius
     if camera.model.planar:
         middle, reach = -shapes.center[:, 2], shapes.reach

@@ -1,4 +1,4 @@
-"""The rays of a tile, as a camera casts them."""
+"""The rays of a tile."""
 
 from __future__ import annotations
 
@@ -16,19 +16,19 @@ class TileRays:
     """The rays through a lattice of pixel centers; components broadcast to (rows, columns)."""
 
     x: np.ndarray
-    """(1, columns) pixel coordinates."""
+    """(1, columns): x of the pixel centers."""
     y: np.ndarray
-    """(rows, 1)."""
+    """(rows, 1): y of the pixel centers."""
     corner: tuple[int, int]
-    """Column and row at which they begin, in the pixels of the plan."""
+    """Column and row of the first pixel, in the pixels of the plan."""
     from_eye: bool
-    """Whether all leave the eye."""
+    """Whether all rays leave the eye."""
     origin: Any
     """Components in the camera frame."""
     direction: Any
     """Components in the camera frame, scaled so that t is Blender's depth."""
     scratch: Scratch
-    """The working arrays of the thread: hits, too, lie there."""
+    """The working arrays of the thread, which also hold the hits."""
 
     @property
     def shape(self) -> tuple[int, int]:
@@ -45,6 +45,6 @@ def chief_rays(camera: Camera, x: np.ndarray, y: np.ndarray, corner: tuple[int, 
 def sampled_rays(
     camera: Camera, x: np.ndarray, y: np.ndarray, sample: int, corner: tuple[int, int], scratch: Scratch
 ) -> TileRays:
-    """Return one of the rays that lie all over the pixels and the aperture."""
+    """Return the rays of one sample of the pixels and the aperture."""
     origin, direction = camera.sample_rays(x, y, sample)
     return TileRays(x, y, corner, camera.from_eye(sampled=True), origin, direction, scratch)

@@ -24,10 +24,10 @@ def nearest_hits(
 ) -> Hits:
     """Return the nearest hits within the clip range, in the scratch of the rays.
 
-    ``before``: (rows, columns), t beyond which hits do not count; where there is none up to it t stays this.
+    ``before``: (rows, columns), t beyond which hits do not count; without a hit up to this t the result keeps it.
 
-    Of shapes hit at exactly the same t the one with the lowest index counts, whatever order they are tested
-    in. ``listen()`` is called between them, and may raise; the default does nothing.
+    Of shapes hit at exactly the same t the shape with the lowest index counts, in whatever order they are tested.
+    ``listen()`` is called between the tests, and may raise; the default does nothing.
     """
     shape, scratch, real = rays.shape, rays.scratch, plan.request.real
     own = SearchRays(
@@ -61,20 +61,20 @@ class Nearest:
 
     rays: SearchRays
     t: np.ndarray
-    """inf where nothing was hit; it may lie beyond the clip end, where all others do, too."""
+    """t of the nearest hits so far, inf without a hit; hits beyond the clip end are removed after the search."""
     index: np.ndarray
     is_blank: bool = True
     """Whether ``t`` and ``index`` are still to be written."""
 
     def clear(self) -> None:
-        """Note that nothing was hit yet, unless something was."""
+        """Write that nothing is hit, unless a shape has been tested already."""
         if self.is_blank:
             self.t.fill(np.inf)
             self.index.fill(NOTHING)
             self.is_blank = False
 
     def cast(self, large: Large) -> None:
-        """Test one shape at the pixels of its bounds; none that was tested before has a lower row."""
+        """Test one shape at the pixels of its bounds; no shape that was tested before may have a lower index."""
         window = widened(large.bounds, self.t.shape[1])
         with whole_rows(window[1].stop - window[1].start):
             found, where = large.solve(window, self.rays.scratch)
@@ -98,7 +98,7 @@ class Nearest:
         np.copyto(index, at, where=closer)
 
     def keep(self, found: Candidates) -> None:
-        """Note those that are the nearest so far, whatever their order."""
+        """Keep the crossings that are the nearest so far, in any order of shapes."""
         (first_row, first_column), (_, high, wide) = found.corner, found.t.shape
         before = sliding_window_view(self.t, (high, wide))[found.corner]
         at = found.at.astype(self.index.dtype)
@@ -119,7 +119,7 @@ class Nearest:
         shape, crossing = at.reshape(-1)[hits // (found.t.size // at.size)], found.t.reshape(-1)[hits]
         t, index = self.t.reshape(-1), self.index.reshape(-1)
         while pixel.size:
-            t[pixel], index[pixel] = crossing, shape  # of several hits in one pixel the last stays: others try again
+            t[pixel], index[pixel] = crossing, shape  # of several hits in a pixel the last is kept: others retry
             lost = np.flatnonzero(index[pixel] != shape)
             pixel, crossing, shape = pixel[lost], crossing[lost], shape[lost]
             now = t[pixel]
@@ -128,5 +128,5 @@ class Nearest:
 
 
 def _rounded(vector, real: type):
-    """Return components as float32 where that is what is calculated with; as they are otherwise."""
+    """Return components as float32 if the search calculates with float32; unchanged otherwise."""
     return vector if real is np.float64 else tuple(np.asarray(component, real) for component in vector)

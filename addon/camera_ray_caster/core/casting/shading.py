@@ -11,19 +11,19 @@ from .hit_values import HitValues
 from .request import GRID
 
 GRID_CELLS = {"u": 24, "v": 12}
-"""Lines of the grid around and from pole to pole of a sphere: every 15 degrees; on a plane as many across."""
+"""Number of grid lines around a sphere and from pole to pole, one every 15 degrees; the same numbers on a plane."""
 
 LINE_WIDTH = 0.12
 """Width of a grid line in cells."""
 
 
 def shade(values: HitValues, out: np.ndarray) -> None:
-    """Write linear RGBA into ``out``, (rows, columns, 4): the shapes', or the world's where nothing is hit.
+    """Write linear RGBA into ``out``, (rows, columns, 4): the color of the shape, or of the world where nothing is hit.
 
-    Lambert's law without shadows: a sun of E W/m^2 gives color E cos / pi; a point light of P W at distance r
-    gives color P cos / (4 pi^2 r^2), as Blender's units have it; the world's color is added as even light from
-    all around. Without sun and point lights a headlight shines along each ray. GRID darkens lines
-    of constant uv, or the edges of faces where there is no map.
+    Lambert's law without shadows: a sun of E W/m^2 gives color E cos / pi; a point light of P W at distance r gives
+    color P cos / (4 pi^2 r^2), in Blender's units; the world's color is added as uniform light from all directions.
+    Without sun and point lights a headlight shines along each ray. GRID darkens lines of constant uv, or the edges of
+    faces without a UV map.
     """
     shapes, missed = values.plan.shapes, values.hits.missed
     color = values.plan.colors
@@ -61,7 +61,7 @@ def _headlight(values: HitValues):
 
 
 def _lamps(values: HitValues, lights: Lights):
-    """Return the light that falls on each pixel's surface, over pi: red, green and blue."""
+    """Return the irradiance of each pixel's surface divided by pi: red, green and blue."""
     total = [0.0, 0.0, 0.0]
     for position, is_sun, color in zip(lights.position, lights.is_sun, lights.color, strict=True):
         if is_sun:

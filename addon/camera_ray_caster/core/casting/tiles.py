@@ -1,4 +1,4 @@
-"""How a picture is divided into tiles, and how threads cast these."""
+"""Division of a picture into tiles, and their casting in threads."""
 
 from __future__ import annotations
 
@@ -22,37 +22,37 @@ from .rays import chief_rays, sampled_rays
 from .search import nearest_hits
 
 STEPS = "rays", "cast", "passes"
-"""What the seconds of a tile are spent on: rays, their nearest hits, the passes of these."""
+"""The steps whose seconds are measured per tile: making the rays, finding the nearest hits, writing the passes."""
 
 
 LISTEN = 0.05
-"""Seconds after which the calling thread asks whether to go on, at the latest."""
+"""Maximum seconds between two calls of ``progress`` in the calling thread."""
 
 
 class Effort:
-    """How far a cast is, and whether it goes on: its threads tell of each sample of a tile that is done."""
+    """The progress of a cast, and whether it is to stop; its threads report each finished sample of a tile."""
 
     def __init__(self, steps: int):
         self._steps, self._done, self._lock, self._stopped = steps, 0, Lock(), False
 
     @property
     def fraction(self) -> float:
-        """How much is done, 0 to 1."""
+        """The finished fraction, 0 to 1."""
         return self._done / self._steps if self._steps else 1.0
 
     def step(self) -> None:
-        """Note that a step is done. Raises what ``listen`` raises."""
+        """Count a finished step. Raises Cancelled as ``listen`` does."""
         with self._lock:
             self._done += 1
         self.listen()
 
     def listen(self) -> None:
-        """Raise Cancelled where the cast is to stop."""
+        """Raise Cancelled if the cast is to stop."""
         if self._stopped:
             raise Cancelled
 
     def stop(self) -> None:
-        """Let every thread end the next time that it listens."""
+        """Make every thread end the next time that it calls ``listen``."""
         self._stopped = True
 
 
@@ -63,20 +63,20 @@ class Tile:
     rows: slice
     columns: slice
     frame: float | None = None
-    """The moment it is of; None where the picture has one time."""
+    """The frame at which the tile is cast; None if the picture has one time."""
     where: np.ndarray | None = None
-    """The pixels of the part that are meant; None for all."""
+    """Which pixels of the part are written, bool; None for all."""
 
 
 def shares(plan: Plan, threads: int, samples: int = 1) -> Iterator[Tile]:
-    """Yield the picture in whole strips, for each thread that gains by it a share of about the same work.
+    """Yield the picture in whole strips of rows, with about the same work for each thread that speeds up the cast.
 
-    samples: how many rays each pixel has.
+    samples: number of rays per pixel.
     """
     height, width = plan.camera.raster.shape
     least, most = tuning.TILE_PIXELS
     if samples > 1 or height * width > 8 * most:
-        most //= 2  # a sum takes as much memory as all else; of many tiles none has to be large, and stops are heard
+        most //= 2  # a sum doubles the memory; smaller tiles suffice if there are many, and stop sooner
     done = np.cumsum(plan.work)
     threads = sharing(threads, done[-1] / tuning.SERIAL_WORK)
     count = min(threads * -(-int(done[-1] * samples) // (threads * tuning.TILE_WORK)), -(-height * width // least))
@@ -87,7 +87,7 @@ def shares(plan: Plan, threads: int, samples: int = 1) -> Iterator[Tile]:
 
 
 def moments(camera: Camera, pixel_time: PixelTime) -> Iterator[Tile]:
-    """Yield the picture time by time."""
+    """Yield the tiles of each frame of the pixel times."""
     for frame, rows, columns, where in groups(pixel_time, camera.raster.columns(), camera.raster.rows()):
         rows, columns = (slice(*s.indices(n)) for s, n in zip((rows, columns), camera.raster.shape, strict=True))
         for tile in _bands(rows, columns, tuning.TILE_PIXELS[0]):
@@ -96,7 +96,7 @@ def moments(camera: Camera, pixel_time: PixelTime) -> Iterator[Tile]:
 
 
 def _bands(rows: slice, columns: slice, pixels: int) -> Iterator[Tile]:
-    """Yield a part of the picture in whole rows, so many pixels at a time at most, all alike."""
+    """Yield a part of the picture in bands of whole rows, of about equal size and at most ``pixels`` pixels."""
     step = max(1, pixels // (columns.stop - columns.start))
     count = -(-(rows.stop - rows.start) // step)
     for first, last in pairwise(np.linspace(rows.start, rows.stop, count + 1).astype(int).tolist()):
@@ -106,10 +106,10 @@ def _bands(rows: slice, columns: slice, pixels: int) -> Iterator[Tile]:
 def cast_tile(
     plan: Plan, tile: Tile, samples: int, images: dict[str, np.ndarray], scratch: Scratch, effort: Effort
 ) -> np.ndarray:
-    """Cast one tile and store the passes of these images; return the seconds of STEPS.
+    """Cast one tile and store its passes in ``images``; return the seconds of STEPS.
 
-    With samples above 1 the only pass is combined, the mean of as many rays a pixel. Raises Cancelled between
-    samples, and between shapes.
+    With samples above 1 the only pass is combined, the mean of that number of rays per pixel. Raises Cancelled between
+    samples and between shapes if the cast is to stop.
     """
     raster = plan.camera.raster
     place = raster.columns()[:, tile.columns], raster.rows()[tile.rows], (tile.columns.start, tile.rows.start)
@@ -146,7 +146,7 @@ def in_threads(
     progress: Callable[[float], bool] | None,
 ) -> np.ndarray:
     """Run tiles on threads (numpy releases the interpreter), each with working arrays of its own, and return the sum of
-    what they return. ``progress`` and Cancelled: as in ``cast``.
+    the seconds of all tiles. ``progress`` and Cancelled: as in ``cast``.
     """
     own = local()
 

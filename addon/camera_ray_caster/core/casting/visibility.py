@@ -1,4 +1,4 @@
-"""Whether points are seen: in the picture, and with nothing before them."""
+"""Visibility of points: whether they are in the picture, and not hidden by a shape."""
 
 from __future__ import annotations
 
@@ -16,29 +16,32 @@ from .pictures import Picture
 
 
 class Visibility(IntEnum):
-    """What ``visible`` says of a point; COCO's numbers for key points."""
+    """The results of ``visible``; the numbers are those of COCO's key points."""
 
     OUTSIDE = 0
-    """It has no pixel in the full frame, or is nearer or farther than the clip range."""
+    """The point has no pixel in the full frame, or is nearer or farther than the clip range."""
     HIDDEN = 1
-    """A shape is before it."""
+    """A shape is in front of the point."""
     SEEN = 2
 
 
 def visible(camera: Camera, shapes: Shapes, points, tolerance: float = 0.0) -> np.ndarray:
     """Return whether world points (..., 3) are seen, as numbers of ``Visibility``, (...) uint8.
 
-    A ray is cast to each point: it is HIDDEN where a hit is nearer by more than the error bounds of both, so that a
-    point on a surface is not hidden by it. ``tolerance``: how far points may be from where they are meant, in world
-    units: a vertex that was rounded to float32 may be 1e-7 of its coordinates inside of its surface.
-    With pixel times points stand still, and are asked of at the time of the pixel that sees them.
-    Raises InputError for an array of another shape, and for a tolerance that is no number from 0.
+    A ray is cast to each point. The point is HIDDEN if a hit is nearer by more than the error bounds of both, so that a
+    surface does not hide a point on it. ``tolerance`` is the largest error of the given points, in world units: a
+    vertex that was rounded to float32 may lie inside its surface by 1e-7 of its coordinates.
+    With pixel times the points stand still, and each is tested at the time of the pixel that sees it.
+    Raises InputError for an array of another shape, and for a tolerance that is not a number or is negative;
+    TypeError for another camera, or other shapes.
     """
+    if not (isinstance(camera, Camera) and isinstance(shapes, Shapes)):
+        raise TypeError(f"visible takes a camera and shapes as they are read, not {type(camera)} and {type(shapes)}")
     points, tolerance = numbers(points, "points"), number(tolerance, "tolerance", np.inf)
     if points.shape[-1:] != (3,):
-        raise InputError(f"points of shape {points.shape} cannot be looked for: give x, y, z, shape (..., 3)")
+        raise InputError(f"points of shape {points.shape} cannot be tested: give x, y, z, shape (..., 3)")
     if tolerance < 0:
-        raise InputError(f"tolerance is {tolerance:g}: it must be a length from 0")
+        raise InputError(f"tolerance is {tolerance:g}: it must be a length of 0 or more")
     each = points.reshape(-1, 3)
     still, picture = _Still(each, tolerance + gamma(2) * norm(components(each))), Picture(camera, shapes)
     before = picture.before(still, picture.pixels(still, len(each)))

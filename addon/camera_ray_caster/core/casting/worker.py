@@ -1,7 +1,7 @@
-"""A long piece of work on a thread of its own, so that a window stays alive: how far it is, and how to stop it.
+"""Long work on a thread of its own, with progress and a way to stop it, so that the window stays responsive.
 
-A cast may take every processor all the same. While two threads on two processors cast 18 passes of 3840 x 2160 pixels,
-another one is awake 4 to 9 ms after its time, and within 29 ms in 95 of 100 cases; with one thread 4 to 5 and 19 ms.
+A cast may still use every processor. While two threads on two processors cast 18 passes of 3840 x 2160 pixels, another
+thread wakes 4 to 9 ms late, and in 95 of 100 cases at most 29 ms late; with one casting thread 4 to 5 and 19 ms.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from typing import Any
 
 
 class Worker:
-    """Runs ``work(progress)``, which calls ``progress(fraction)`` now and then and raises where that returns False."""
+    """Runs ``work(progress)``, which calls ``progress(fraction)`` now and then and raises if the call returns False."""
 
     def __init__(self, work: Callable[[Callable[[float], bool]], Any]):
         self.fraction = 0.0
@@ -24,7 +24,7 @@ class Worker:
 
     @property
     def done(self) -> bool:
-        """Whether it is over: with a result, an error, or stopped."""
+        """Whether the work has ended: with a result, with an error, or stopped."""
         return self._future.done()
 
     def result(self):
@@ -32,11 +32,11 @@ class Worker:
         return self._future.result()
 
     def abandon(self) -> None:
-        """Ask it to stop, and do not wait for that."""
+        """Ask the work to stop, without waiting."""
         self._stopped.set()
 
     def stop(self) -> None:
-        """Ask it to stop, and wait until it has: as long as one step of its progress."""
+        """Ask the work to stop, and wait until it has ended: at most one step of its progress."""
         self.abandon()
         wait([self._future])
 

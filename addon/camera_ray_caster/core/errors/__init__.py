@@ -1,1 +1,1 @@
-"""How far rounding may have moved rays and hits: forward error bounds."""
+"""Forward error bounds: the effects of rounding on rays and hits."""

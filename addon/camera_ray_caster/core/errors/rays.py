@@ -1,6 +1,6 @@
-"""What rounding does to the rays of a camera.
+"""Error bounds of the rays of a camera.
 
-All lengths of error vectors are Euclidean, in the manner of gamma(n): they hold for every rounding, not on average.
+The lengths of error vectors are Euclidean. Like gamma(n) they are worst-case bounds of rounding, not averages.
 """
 
 from __future__ import annotations
@@ -15,14 +15,14 @@ from ..maths.vector import difference, matvec, norm
 from ..shapes.frames import WorldRays
 
 STEP = 2.0**-20
-"""Pixels by which a ray is moved to see how fast the picture's rays turn: beside singular rims still on the picture."""
+"""Move in pixels that measures how fast the rays turn; so small that it stays in the picture next to singular rims."""
 
 
 def world_rays(camera: Camera, x: np.ndarray, y: np.ndarray) -> WorldRays:
-    """Return the rays at pixel coordinates with their errors: a model's rounding is that of a slightly moved pixel.
+    """Return the rays at pixel coordinates with error bounds: a model's rounding acts as a small move of the pixel.
 
-    How far a moved pixel moves the ray is measured, whatever the model: near a singular place, as the rim of a mirror
-    ball, rays turn fast and errors grow.
+    The effect of such a move on the ray is measured, for every model: near a singular place, such as the rim of a
+    mirror ball, rays turn fast and errors grow.
     """
     x, y = np.asarray(x), np.asarray(y)
     here = camera.camera_rays(x, y)
@@ -32,7 +32,7 @@ def world_rays(camera: Camera, x: np.ndarray, y: np.ndarray) -> WorldRays:
     basis = camera.pose.basis.tolist()
 
     def moved(part: int) -> tuple[Any, Any]:
-        """Return a vector in the world, and how wrong it is at most."""
+        """Return a vector in the world and its error bound."""
         error = (camera.stretch * camera.model.ray_rounding + gamma(8)) * norm(here[part])
         for there, rounding in zip(beside, pixels, strict=True):
             error = error + camera.stretch / STEP * rounding * _farthest(difference(there[part], here[part]))
@@ -44,6 +44,6 @@ def world_rays(camera: Camera, x: np.ndarray, y: np.ndarray) -> WorldRays:
 
 
 def _farthest(moves) -> Any:
-    """Return the greatest length along the first axis, NaN left out; a row or a column stays one where it can."""
+    """Return the greatest length along the first axis, without NaN; a row or a column stays one if possible."""
     lengths = norm([component if np.any(component) else 0.0 for component in moves])
     return np.fmax.reduce(lengths, axis=0) if np.ndim(lengths) else lengths

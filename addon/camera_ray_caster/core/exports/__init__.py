@@ -1,5 +1,6 @@
-"""Exports: cameras, by frame, as other programs' files, one module a format. A new one is its file and one word in
-FORMATS.
+"""Exports: cameras by frame as files of other programs, one module per format.
+
+A new format needs its own module and an entry in FORMATS.
 """
 
 from __future__ import annotations
@@ -24,21 +25,20 @@ from .stmap import Stmap
 FORMATS: tuple[Format, ...] = (
     Colmap(), Nerfstudio(), Opencv(), Ros(), Mrcal(), Bop(), Stmap(), Npz(), CameraJson(),
 )  # fmt: skip
-"""Every format, in the order of menus."""
+"""All formats, in the order of menus."""
 
 
 def find_format(key: str) -> Format:
-    """Return the format of a key. Raises InputError that names those that there are."""
+    """Return the format of a key. Raises InputError that lists the formats for an unknown key."""
     formats = {one.key: one for one in FORMATS}
     return formats[word(key, "format", formats)]
 
 
 def export(key: str, shots: Sequence[Shot]) -> tuple[Iterator[tuple[str, Content]], list[str]]:
-    """Return the files of an export, each its name and its content, made when it is asked for, and what is to be said
-    of it, in lines.
+    """Return the files of an export, as an iterator over name and content, and lines of remarks for the user.
 
-    Raises InputError, in one line, for a format that there is not, and for a camera that it cannot represent, with
-    the formats that can.
+    The iterator makes each content when it is reached. Raises InputError, in one line, for an unknown format, and for a
+    camera that the format cannot represent; the message then lists the formats that can.
     """
     chosen = find_format(key)
     for shot in shots:

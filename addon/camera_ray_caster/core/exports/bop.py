@@ -1,7 +1,8 @@
-"""BOP's scene_camera.json: K and the pose of each image, by its number, which is the frame's.
+"""BOP's scene_camera.json: K and the pose of each image, by the image's number, which is its frame.
 
-The translation is in millimeters, by the scene's unit scale; depth_scale brings depths in Blender units to these. The
-center of the first pixel is (0, 0). Several cameras have a file each, as in data sets with several sensors.
+The translation is in millimeters, by the scene's unit scale; depth_scale converts depths from Blender units to
+millimeters. The center of the first pixel is (0, 0). Each of several cameras has its own file, as in data sets with
+several sensors.
 Reference: BOP toolkit documentation, BOP dataset format.
 """
 
@@ -16,7 +17,7 @@ TABLE = {"pinhole": ("OPENCV_PINHOLE", ())}
 
 
 class Bop(lenses.LensFormat):
-    """A file a camera."""
+    """One file per camera."""
 
     key = "bop"
     label = "BOP"
@@ -26,7 +27,7 @@ class Bop(lenses.LensFormat):
     def refusal(self, shot):
         """See Format."""
         if shot.frame != int(shot.frame):
-            return "whose frame is no whole number"
+            return "whose frame is not a whole number"
         return super().refusal(shot)
 
     def files(self, shots):

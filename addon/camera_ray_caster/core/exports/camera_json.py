@@ -1,9 +1,10 @@
-"""Our own file, camera.json: all that a camera is, by frame, in plain words and numbers with all their bits.
+"""The add-on's own file, camera.json: complete records of cameras by frame, as text and numbers with all their bits.
 
-Its heart is the record that a camera is made of, in Blender's own names, for each frame; of a camera whose pixels have
-each their own time the records at the times between which it is interpolated. ``camera_from_json`` makes the camera of
-them, by the same steps as ``read_camera``: the same rays, bit for bit. Beside the records stands what follows from
-them: K, pose, the image plane, the formula. What all frames share is said once.
+The main part is the record that a camera is made of, under Blender's own names, for each frame. If pixels have their
+own times, there are also the records at the times between which the camera is interpolated. ``camera_from_json`` makes
+the camera from these records, by the same steps as ``read_camera``: its rays are the same, bit for bit. Values that
+follow from a record are stored next to it: K, pose, the image plane, the formula. Values that all frames share are
+stored once.
 """
 
 from __future__ import annotations
@@ -29,10 +30,10 @@ from .plain import as_text, merged, plain, restored, shared, without
 
 FORMAT = "camera_ray_caster camera"
 NUMBER = 1
-"""Of the format: a reader refuses a larger one."""
+"""Version number of the format: a reader refuses a larger one."""
 
 FRAME = "frame"
-"""The setting of a record that says at which frame it was read."""
+"""Name of the setting that holds the frame at which a record was read."""
 
 
 class CameraJson(Format):
@@ -40,7 +41,7 @@ class CameraJson(Format):
 
     key = "json"
     label = "Camera JSON"
-    description = "camera.json: every model with all its settings and poses; crc.camera_from_json makes the rays of it"
+    description = "camera.json: every model with all its settings and poses; crc.camera_from_json computes its rays"
 
     def refusal(self, shot):
         """See Format."""
@@ -56,16 +57,23 @@ class CameraJson(Format):
 
 
 def camera_to_json(camera: Camera) -> str:
-    """Return a camera as the text of a camera.json with one frame, the one at which it was read."""
+    """Return a camera as the text of a camera.json with one frame, the one at which it was read. Raises TypeError for
+    anything but a camera.
+    """
+    if not isinstance(camera, Camera):
+        raise TypeError(f"camera_to_json takes a camera as it is read, not {type(camera)}")
     return _text([Shot(camera.name, float(camera.record.settings.get(FRAME, 0.0)), camera)])
 
 
 def camera_from_json(path_or_text: str | Path, frame: float | None = None, camera: str | None = None) -> Camera:
-    """Return a camera of a camera.json or a report.json, from its path or its text: its rays are those of the camera
-    that was written, bit for bit, on the same machine and numpy. Needs no Blender.
+    """Return a camera of a camera.json or a report.json, given by its path or its text. Blender is not needed.
 
-    ``frame``: one of those in the file; default the first. ``camera``: its name there; default the only one.
-    Raises InputError, in one line, for what cannot be read, is no such file, or has no such camera or frame.
+    The rays are those of the camera that was written, bit for bit, on the same machine and numpy version.
+
+    ``frame``: a frame in the file; default the first. ``camera``: the camera's name in the file; default the only
+    camera.
+    Raises InputError, in one line, for a file that cannot be read or is of another kind, and for an unknown camera or
+    frame.
     """
     text = path_or_text if isinstance(path_or_text, str) and path_or_text.lstrip()[:1] == "{" else _read(path_or_text)
     try:
@@ -73,7 +81,9 @@ def camera_from_json(path_or_text: str | Path, frame: float | None = None, camer
         if "record" in document:
             return _of_report(document, frame)
         if document.get("format") != FORMAT:
-            raise InputError("this is no camera.json, and no report.json, of the Camera Ray Caster: export one")
+            raise InputError(
+                "this is neither a camera.json nor a report.json of the Camera Ray Caster: export a camera.json"
+            )
         if document["format_version"] > NUMBER:
             raise InputError(f"this camera.json is of version {document['format_version']}: update the add-on")
         return _camera(_frame(_chosen(document["cameras"], camera), frame))
@@ -104,14 +114,16 @@ def _text(shots: Sequence[Shot]) -> str:
 
 
 def _said(shot: Shot) -> dict[str, Any]:
-    """Return what is said of a camera at a frame."""
+    """Return the entry of a camera at a frame."""
     camera = shot.camera
     return {"meters": shot.meters, "camera": camera_facts(camera), **recorded(camera)}
 
 
 def recorded(camera: Camera) -> dict[str, Any]:
-    """Return what a camera is made of, as JSON has it: ``record``; and of a camera that moves from pixel to pixel its
-    ``evaluations``, ``intervals`` and what else is known of its ``motion``.
+    """Return a camera's ``record`` in JSON's types.
+
+    A camera that moves from pixel to pixel also has ``evaluations``, ``intervals`` and other facts about its
+    ``motion``.
     """
     said: dict[str, Any] = {"record": plain(_record(camera))}
     motion = camera.motion
@@ -127,21 +139,21 @@ def recorded(camera: Camera) -> dict[str, Any]:
 
 
 def _of_one_time(camera: Camera) -> Camera:
-    """Return a camera whose record has nothing of pixel times: those of the picture are said once."""
+    """Return a camera whose record has no settings of pixel times: they are stored once for the picture."""
     times = {setting.name for settings in pixel_time.SETTINGS.values() for setting in settings}
     settings = {name: value for name, value in camera.record.settings.items() if name not in times}
     return replace(camera, record=replace(camera.record, settings=settings | {pixel_time.MODE.name: pixel_time.NONE}))
 
 
 def _record(camera: Camera) -> dict[str, Any]:
-    """Return the record of a camera; the numbers of a calibration file stand in it, not its path."""
+    """Return the record of a camera. It contains the numbers of a calibration file, but not the file's path."""
     record = asdict(replace(camera.record, settings={}))
     settings = dict(camera.record.settings)
     return record | {"settings": settings | ({FILE.name: ""} if FILE.name in settings else {})}
 
 
 def _camera(said: Mapping[str, Any]) -> Camera:
-    """Return the camera of what is said of it."""
+    """Return the camera of an entry."""
     camera = camera_from(_restored_record(said["record"]))
     if "evaluations" not in said:
         return camera
@@ -180,8 +192,10 @@ def _frame(camera: Mapping[str, Any], frame: float | None) -> dict[str, Any]:
     frames = {own[FRAME]: own for own in camera["frames"]}
     chosen = next(iter(frames)) if frame is None else number(frame, "frame", pixel_time.LAST_FRAME)
     if chosen not in frames:
-        ends = f"{min(frames):g} to {max(frames):g}"
-        raise InputError(f"camera {camera['name']!r} has no frame {shown(frame)} here: its frames go from {ends}")
+        nearest = min(frames, key=lambda own: abs(own - chosen))
+        raise InputError(
+            f"camera {camera['name']!r} has no frame {shown(frame)} in this file: the nearest is {nearest:g}"
+        )
     return merged(camera["all_frames"], frames[chosen])
 
 
@@ -189,7 +203,7 @@ def _read(path) -> str:
     try:
         return Path(path).read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError, ValueError, TypeError) as error:
-        reason = getattr(error, "strerror", None) or "it is no text"
+        reason = getattr(error, "strerror", None) or "it is not a text file"
         raise InputError(
             f"cannot read {shown(str(path))}: {reason}; give the path of a camera.json, or its text"
         ) from error

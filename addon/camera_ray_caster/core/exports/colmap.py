@@ -1,7 +1,7 @@
 """COLMAP's text model: cameras.txt, images.txt, and a points3D.txt without points.
 
-Poses are from the world to OpenCV's camera frame; the center of the first pixel is (0.5, 0.5). Its equirectangular
-panorama is the whole sphere. Names end at a space.
+Poses are from the world to OpenCV's camera frame; the center of the first pixel is (0.5, 0.5). COLMAP's equirectangular
+panorama is the whole sphere. In its files a name ends at the first space.
 Reference: COLMAP documentation, Output Format; Camera Models.
 """
 
@@ -38,7 +38,7 @@ POINTS = """# 3D point list with one line of data per point:
 
 
 class Colmap(lenses.LensFormat):
-    """A camera a line for each lens of each camera, an image for each frame."""
+    """One line in cameras.txt for each lens of each camera, one image for each frame."""
 
     key = "colmap"
     label = "COLMAP"
@@ -48,7 +48,7 @@ class Colmap(lenses.LensFormat):
     def refusal(self, shot):
         """See Format."""
         if " " in shot.image:
-            return "whose name has a space, at which names end there: rename it"
+            return "whose name has a space, which ends a name in COLMAP: rename it"
         said = lenses.spoken(TABLE, shot.camera)
         if said is not None and said[0] == SPHERE and not _is_whole(said[1], shot.camera.raster.size):
             return "which is not the whole sphere"
@@ -69,7 +69,7 @@ class Colmap(lenses.LensFormat):
 
 
 def _line(shot: Shot) -> str:
-    """Return what cameras.txt says of a camera, without its number."""
+    """Return a camera's line in cameras.txt, without its number."""
     kind, lens = lenses.said(TABLE, shot.camera)
     width, height = shot.camera.raster.size
     if kind == SPHERE:
@@ -79,7 +79,7 @@ def _line(shot: Shot) -> str:
 
 
 def _is_whole(lens: Lens, size: tuple[int, int]) -> bool:
-    """Whether a panorama is the whole sphere, the viewing direction in the middle."""
+    """Whether a panorama is the whole sphere with the viewing direction in the middle."""
     (width, height), near = size, gamma(16)
     found = matrix_of(lens.settings, 0.5)
     return bool(np.allclose(found, (width / (2 * pi), height / pi, width / 2, height / 2), near, near * max(size)))

@@ -1,8 +1,8 @@
-"""The contract of an export format: what a file in this folder has to say.
+"""The interface of an export format.
 
-A format is one class under ``Format`` and one word in FORMATS. It gives ``key``, ``label``, ``description``,
-``refusal``, which says what it cannot represent, and ``files``. Lengths are Blender units unless it says otherwise. It
-computes contents and writes nothing: the files of an export appear together or not at all, by whoever asked for them.
+A format is a subclass of ``Format`` and an entry in FORMATS. It defines ``key``, ``label``, ``description``,
+``refusal``, which tells what the format cannot represent, and ``files``. Lengths are in Blender units unless a format
+states otherwise. A format computes contents and writes nothing: the caller writes all files of an export or none.
 """
 
 from __future__ import annotations
@@ -18,10 +18,10 @@ from ..camera.camera import Camera
 from ..names import frame_digits
 
 Content = str | bytes | np.ndarray
-"""Of a file: text, bytes, or an image, (rows, columns, 3) float32 from the bottom up, to be stored as float32 EXR."""
+"""Content of a file: text, bytes, or an image, (rows, columns, 3) float32 from the bottom up, stored as float32 EXR."""
 
 OWN_TIMES = "each pixel of which has its own time"
-"""Why a format of pictures taken at once refuses a camera."""
+"""Reason for refusal by a format whose pictures are taken at one time."""
 
 
 @dataclass(frozen=True)
@@ -29,54 +29,55 @@ class Shot:
     """A camera at a frame."""
 
     camera_name: str
-    """In names of files; see ``names``."""
+    """Name of the camera in names of files; see ``names``."""
     frame: float
     camera: Camera
     meters: float = 1.0
-    """How long a Blender unit is."""
+    """Length of a Blender unit in meters."""
     target: Camera | None = None
-    """The camera to whose picture a map leads; None for the perspective of the same lens."""
+    """Other camera of a map; None for the perspective of the same lens."""
     suffix: str = ""
-    """Of the view, for one eye of a camera; "" for a camera with one."""
+    """Suffix of the view for one eye of a multi-view camera; "" for any other camera."""
 
     @property
     def name(self) -> str:
-        """The name of the files of this camera, or this eye, at all frames, without an ending."""
+        """Name of the files of this camera or eye for all frames together, without an ending."""
         return self.camera_name + self.suffix
 
     @property
     def stem(self) -> str:
-        """The name of the files of this frame, without an ending: as renders of it are called."""
+        """Name of the files of this frame, without an ending; the same as the name of its render."""
         return f"{self.camera_name}_{frame_digits(self.frame)}{self.suffix}"
 
     @property
     def image(self) -> str:
-        """The name of its picture."""
+        """Name of the picture's file."""
         return f"{self.stem}.png"
 
 
 class Format(ABC):
-    """An export format; see the module's page."""
+    """An export format; see the module's docstring."""
 
     key: ClassVar[str]
-    """Its name in a command line."""
+    """Name in a command line."""
     label: ClassVar[str]
-    """Its name in menus."""
+    """Name in menus."""
     description: ClassVar[str]
-    """One line for menus."""
+    """Description in menus, one line."""
     rigid: ClassVar[bool] = False
-    """Whether it stores a pose as a rotation: it is given cameras with the rotation nearest to their axes."""
+    """Whether the format stores a pose as a rotation. It then gets cameras with the rotation nearest to their axes."""
     takes_target: ClassVar[bool] = False
-    """Whether it uses ``Shot.target``."""
+    """Whether the format uses ``Shot.target``."""
 
     @abstractmethod
     def refusal(self, shot: Shot) -> str | None:
-        """Return what of a camera the format cannot say, as a clause ("whose k3 is not 0"), or "" where it is the model
-        itself; None where it says all of it.
+        """Return the reason why the format cannot represent a camera; None if it can.
+
+        The reason is a clause ("whose k3 is not 0"), or "" if the reason is the model itself.
         """
 
     def unsaid(self, shot: Shot) -> list[str]:
-        """Return what the files leave out of a camera that is no reason to refuse it, in lines."""
+        """Return lines on what the files omit of a camera without the format refusing it."""
         camera, raster = shot.camera, shot.camera.raster
         lines = {
             f"the depth of field of camera {camera.name!r} is not in the files": camera.aperture is not None,
@@ -88,7 +89,7 @@ class Format(ABC):
 
     @abstractmethod
     def files(self, shots: Sequence[Shot]) -> Iterator[tuple[str, Content]]:
-        """Yield the name and the content of each file of an export of these, one or more, none of which it refuses.
+        """Yield the name and the content of each file of an export. The format refuses none of the shots, one or more.
 
-        Raises InputError for what does not go together.
+        Raises InputError for shots that cannot be exported together.
         """

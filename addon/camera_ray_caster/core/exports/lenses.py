@@ -1,7 +1,7 @@
-"""A camera's lens as calibrations say it: the same record that is read from calibration files.
+"""A camera's lens as a calibration: the same record that is read from calibration files.
 
-Formats have tables of the models that they know, each with the settings of ours that stand in it (``cameras.files``).
-A lens is said by the first entry of such a table that has a place for every setting of it that is not 0.
+Each format has a table of its models, with the settings of our models that each of them can store (``cameras.files``).
+A lens is written as the first model in the table that can store all of its nonzero settings.
 """
 
 from __future__ import annotations
@@ -25,18 +25,18 @@ from .format import OWN_TIMES, Format, Shot
 MATRIX = "fx", "fy", "cx", "cy"
 
 Table = Mapping[str, tuple[str, Sequence[str]]]
-"""By the name of a format's model: our model's key, and the settings that it has beside the matrix."""
+"""Models of a format by name: the key of our model, and the settings that are stored in addition to the matrix."""
 
 
 def calibrations(camera: Camera) -> list[Lens]:
-    """Return the calibrations that have a camera's rays, in pixels of its full frame; the nearest to its model first.
+    """Return the calibrations that give a camera's rays, in pixels of its full frame, closest to its model first.
 
-    Each has the key of its model, fx, fy, cx, cy, skew (as settings have them: from the center of the top left pixel)
-    and the model's other settings. An equirectangular panorama is one, with pixels per radian, and (cx, cy) where it
-    looks ahead. Beyond the rim of a fisheye of Blender's a calibration goes on.
+    Each has the key of its model, fx, fy, cx, cy, skew (as in settings: from the center of the top left pixel) and the
+    model's other settings. An equirectangular panorama is also a calibration, with pixels per radian, and (cx, cy) in
+    the viewing direction. Blender's fisheyes end at a rim; a calibration has rays beyond it.
     """
     model: Any = camera.model
-    kind = type(model)  # what inherits from one of these turns its rays further
+    kind = type(model)  # not isinstance: subclasses turn their rays further
     if kind is Perspective:
         return [_lens(model, "OPENCV_PINHOLE")]
     if kind is Equirectangular:
@@ -52,7 +52,7 @@ def calibrations(camera: Camera) -> list[Lens]:
 
 
 def _unified(model: WindowModel, settings: Mapping[str, float]) -> list[Lens]:
-    """Return the unified camera with these settings, and the enhanced one that it is, if it is one."""
+    """Return the unified camera with these settings, and the equivalent enhanced unified camera, if there is one."""
     lenses, xi = [_lens(model, "UCM", 1.0, settings)], settings["unified_xi"]
     if xi >= 0 and not any(value for name, value in settings.items() if name != "unified_xi"):
         alpha = xi / (1 + xi)
@@ -68,7 +68,7 @@ def _lens(model: WindowModel, key: str, focal: float = 1.0, settings: Mapping[st
 
 
 def spoken(table: Table, camera: Camera) -> tuple[str, Lens] | None:
-    """Return the first of a format's models that says the lens of a camera, and the lens; None where none does."""
+    """Return the first model of a format that can store a camera's lens, and the lens; None if no model can."""
     return next(
         (
             (kind, lens)
@@ -81,20 +81,21 @@ def spoken(table: Table, camera: Camera) -> tuple[str, Lens] | None:
 
 
 def said(table: Table, camera: Camera) -> tuple[str, Lens]:
-    """Return ``spoken`` of a camera that is not refused."""
+    """Return the result of ``spoken`` for a camera that the format does not refuse."""
     found = spoken(table, camera)
     assert found is not None
     return found
 
 
 def values(lens: Lens, names: Iterable[str]) -> list[float]:
-    """Return the values of settings of a lens; 0 for those that it does not have."""
+    """Return the values of settings of a lens; 0 for settings that the lens does not have."""
     return [float(lens.settings.get(name, 0.0)) for name in names]
 
 
 def by_lens(shots: Sequence[Shot], told: Callable[[Shot], str]) -> Iterator[tuple[str, str, list[Shot]]]:
-    """Yield what is told of the lens of each camera, with a file's name without its ending and the shots that have it:
-    the camera's name, or where the lens changes from frame to frame the name of each shot.
+    """Yield for each lens the name of its file without ending, the lens as text (``told(shot)``), and its shots.
+
+    The name is the camera's, or if the lens changes from frame to frame the name of each shot.
     """
     for name in dict.fromkeys(shot.name for shot in shots):
         own = [(shot, told(shot)) for shot in shots if shot.name == name]
@@ -125,5 +126,5 @@ class LensFormat(Format):
 
 
 def _beyond(lens: Lens, terms: Collection[str]) -> list[str]:
-    """Return the settings of a lens that are not 0 and have no place among terms."""
+    """Return the settings of a lens that are not 0 and that neither the matrix nor ``terms`` contain."""
     return [name for name, value in lens.settings.items() if value and name not in (*MATRIX, *terms)]

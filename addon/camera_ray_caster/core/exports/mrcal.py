@@ -1,4 +1,4 @@
-"""mrcal's .cameramodel: a lens and a pose a file.
+"""mrcal's .cameramodel: one lens and one pose per file.
 
 extrinsics are the rotation vector and the translation from the world to the camera, x right and y down; the center of
 the first pixel is (0, 0).
@@ -19,7 +19,7 @@ TABLE = {kind: one for kind, one in MODELS.items() if kind != STEREOGRAPHIC} | {
 
 
 class Mrcal(lenses.LensFormat):
-    """A file a camera and frame."""
+    """One file per camera and frame."""
 
     key = "mrcal"
     label = "mrcal"

@@ -1,8 +1,8 @@
-"""transforms.json of nerfstudio and instant-ngp, with the lens of each frame beside its pose.
+"""transforms.json of nerfstudio and instant-ngp, with the lens and the pose of each frame.
 
 Poses are from Blender's camera frame to the world; the center of the first pixel is (0.5, 0.5). All frames are of one
-camera model, pinholes with a distortion or fisheyes. Distortion stands in the frames: readers do not agree on the order
-of p1 and p2 in the head of the file.
+camera model: either pinholes with distortion, or fisheyes. Distortion is stored per frame, because readers do not agree
+on the order of p1 and p2 in the head of the file.
 Reference: nerfstudio documentation, Data conventions.
 """
 
@@ -35,7 +35,7 @@ class Nerfstudio(lenses.LensFormat):
             kinds.setdefault(lenses.said(TABLE, shot.camera)[0], shot.name)
         if len(kinds) > 1:
             several = " and ".join(f"{name!r} is {kind}" for kind, name in kinds.items())
-            raise InputError(f"transforms.json has one camera_model, but camera {several}: export them apart")
+            raise InputError(f"transforms.json has one camera_model, but camera {several}: export them separately")
         yield "transforms.json", as_text({"camera_model": next(iter(kinds)), "frames": [_frame(one) for one in shots]})
 
 

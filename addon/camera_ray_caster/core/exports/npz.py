@@ -1,8 +1,8 @@
-"""numpy's NPZ: the rays of every pixel of the render window, of any camera.
+"""numpy's NPZ: the ray of every pixel of the render window, for any camera.
 
-origins and directions (rows, columns, 3) float64 in the world, directions of unit length and NaN where there is no ray;
-valid (rows, columns) bool; time (rows, columns), the frame of each pixel, where pixels have their own. Row 0 is the
-bottom row.
+origins and directions are (rows, columns, 3) float64 in the world; directions have unit length, and are NaN where there
+is no ray. valid is (rows, columns) bool. time, the frame of each pixel (rows, columns), is stored if pixels have their
+own times. Row 0 is the bottom row.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from .format import Format
 
 
 class Npz(Format):
-    """A file a camera and frame."""
+    """One file per camera and frame."""
 
     key = "npz"
     label = "Ray Maps (NPZ)"
@@ -26,7 +26,7 @@ class Npz(Format):
         return None
 
     def unsaid(self, shot):
-        """See Format: only the chief rays of a lens."""
+        """See Format. The render border is in the files, so that only depth of field is missing."""
         return super().unsaid(shot)[: shot.camera.aperture is not None]
 
     def files(self, shots):

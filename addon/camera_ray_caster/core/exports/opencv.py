@@ -1,8 +1,8 @@
 """OpenCV's YAML: the lens as OpenCV's calibration samples write it, and the poses of all frames.
 
-The pinhole has as few of OpenCV's 14 coefficients as it needs; fisheye_model is 1 for cv2.fisheye, and a file with xi
-is of cv2.omnidir. extrinsic_parameters has a row a frame: the rotation vector and the translation from the world to the
-camera. The center of the first pixel is (0, 0).
+A pinhole has as few of OpenCV's 14 coefficients as it needs. fisheye_model is 1 for cv2.fisheye and 0 for a pinhole; a
+file with xi is for cv2.omnidir. extrinsic_parameters has one row per frame: the rotation vector and the translation
+from the world to the camera. The center of the first pixel is (0, 0).
 References: OpenCV documentation, Camera Calibration and 3D Reconstruction; Fisheye camera model; Omnidirectional Camera
 Calibration.
 """
@@ -24,11 +24,12 @@ TABLE = {f"pinhole {count}": ("OPENCV_PINHOLE", PINHOLE[:count]) for count in (5
     "fisheye": ("OPENCV_FISHEYE", TERMS["OPENCV_FISHEYE"]),
     "omnidir": ("UCM", (*TERMS["UCM"], "unified_xi", "skew")),
 }
+PLAIN = "fisheye_model: 0\n"
 EXTRA = {"fisheye": "fisheye_model: 1\n", "omnidir": "xi: {unified_xi!r}\n"}
 
 
 class Opencv(lenses.LensFormat):
-    """A file a camera; where its lens changes, a file a frame."""
+    """One file per camera, or one file per frame if the camera's lens changes."""
 
     key = "opencv"
     label = "OpenCV"
@@ -50,7 +51,7 @@ def _lens(shot: Shot) -> str:
     return (
         f"image_width: {width}\nimage_height: {height}\n{_matrix('camera_matrix', K)}"
         f"{_matrix('distortion_coefficients', [lenses.values(lens, terms)])}"
-        f"{EXTRA.get(kind, '').format(**lens.settings)}"
+        f"{EXTRA.get(kind, PLAIN).format(**lens.settings)}"
     )
 
 

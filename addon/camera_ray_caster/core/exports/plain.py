@@ -1,6 +1,6 @@
-"""Values as JSON has them, with all their bits, and what several mappings share.
+"""Values in JSON's types, with all their bits, and the common entries of several mappings.
 
-Numbers that JSON has no words for are {"float": "nan"}, "inf" or "-inf". Python writes the shortest decimals that are
+Numbers that JSON cannot represent are {"float": "nan"}, "inf" or "-inf". Python writes the shortest decimals that are
 read back as the same float64.
 """
 
@@ -9,31 +9,34 @@ from __future__ import annotations
 import json
 import math
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
 
 
-def plain(value) -> Any:
-    """Return JSON's kind of value: dicts, lists, strings, numbers, True, False and None."""
+def plain(value, of_infinite: Callable[[float], Any] = lambda number: {"float": str(number)}) -> Any:
+    """Return JSON's kind of value: dicts, lists, strings, numbers, True, False and None.
+
+    of_infinite: gives the value that stands for an infinite number or NaN.
+    """
     if isinstance(value, Mapping):
-        return {str(key): plain(entry) for key, entry in value.items()}
+        return {str(key): plain(entry, of_infinite) for key, entry in value.items()}
     if isinstance(value, np.ndarray | np.generic):
-        return plain(value.tolist())
+        return plain(value.tolist(), of_infinite)
     if isinstance(value, list | tuple):
-        return [plain(entry) for entry in value]
-    return {"float": str(value)} if isinstance(value, float) and not math.isfinite(value) else value
+        return [plain(entry, of_infinite) for entry in value]
+    return of_infinite(value) if isinstance(value, float) and not math.isfinite(value) else value
 
 
 def as_text(value) -> str:
-    """Return plain values as strict JSON: a line an entry, but lists of numbers on one."""
+    """Return plain values as strict JSON: one line per entry, and one line per list of numbers."""
     text = json.dumps(value, indent=1, allow_nan=False, ensure_ascii=False) + "\n"
     return re.sub(r"\[\n[-+.,\deE\s]+\]", lambda found: f"[{' '.join(found[0][1:-1].split())}]", text)
 
 
 def restored(value) -> Any:
-    """Return values as they were before ``plain``, arrays and tuples as lists."""
+    """Return values as they were before ``plain``; arrays and tuples become lists."""
     if isinstance(value, dict):
         if list(value) == ["float"]:
             return float(value["float"])
@@ -42,7 +45,7 @@ def restored(value) -> Any:
 
 
 def shared(mappings: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
-    """Return the entries, also of mappings within, that plain mappings have alike."""
+    """Return the entries that are the same in all plain mappings, including entries of nested mappings."""
     first, found = mappings[0], {}
     for key, value in first.items():
         others = [other[key] for other in mappings if key in other]
@@ -56,7 +59,7 @@ def shared(mappings: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
 
 
 def without(mapping: Mapping[str, Any], base: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the entries of a plain mapping, also of mappings within, that another does not have alike."""
+    """Return the entries of a plain mapping that are not the same in ``base``, including entries of nested mappings."""
     found = {}
     for key, value in mapping.items():
         if key in base and isinstance(value, dict) and isinstance(base[key], dict):
@@ -67,7 +70,7 @@ def without(mapping: Mapping[str, Any], base: Mapping[str, Any]) -> dict[str, An
 
 
 def merged(base: Mapping[str, Any], own: Mapping[str, Any]) -> dict[str, Any]:
-    """Return a mapping with the entries of another, also of mappings within, over its own: undoes ``without``."""
+    """Return ``base`` with the entries of ``own`` in place of its own, also in nested mappings: undoes ``without``."""
     found = dict(base)
     for key, value in own.items():
         both = isinstance(value, dict) and isinstance(base.get(key), dict)
@@ -76,5 +79,5 @@ def merged(base: Mapping[str, Any], own: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _same(left, right) -> bool:
-    """Whether two plain values are written alike: 0 and -0 are not, and neither are 0 and 0.0."""
+    """Whether two plain values have the same text. 0 and -0 differ, and so do 0 and 0.0."""
     return left is right or repr(left) == repr(right)

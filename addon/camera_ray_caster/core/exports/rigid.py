@@ -1,7 +1,7 @@
-"""The rotation nearest to a camera's axes, for formats that store one.
+"""The rotation nearest to a camera's axes, for formats that store a rotation.
 
-Blender's matrices are float32: their normalized axes are a rotation to about 1e-7 only. Which pixel sees a point is
-then another one by as much, times the focal length in pixels, and that is measured.
+Blender's matrices are float32: their normalized axes are a rotation only to about 1e-7. The rotation therefore moves
+points in the picture by about 1e-7 times the focal length in pixels; the module measures by how much.
 """
 
 from __future__ import annotations
@@ -15,14 +15,14 @@ from ..maths.rotations import polar
 from ..records import Pose
 
 SHEARED = 1e-5
-"""Of the cosine between two axes: rounding to float32 leaves a hundredth of it."""
+"""Largest cosine between two axes that counts as rounding: float32 causes a hundredth of it."""
 
 PLACES = 9
-"""Rows and columns of pixels at which is measured what the rotation moves."""
+"""Number of rows and of columns of pixels at which the effect of the rotation is measured."""
 
 
 def refusal(camera: Camera) -> str | None:
-    """Return why no rotation is near a camera's axes; None where one is. See ``Format.refusal``."""
+    """Return the reason why no rotation is near a camera's axes; None if one is. See ``Format.refusal``."""
     gram = camera.pose.basis.T @ camera.pose.basis
     if np.linalg.det(camera.pose.basis) < 0:
         return "whose axes are mirrored, by a negative scale"
@@ -32,7 +32,7 @@ def refusal(camera: Camera) -> str | None:
 
 
 def with_rotation(camera: Camera) -> tuple[Camera, float]:
-    """Return the camera whose axes are the nearest rotation, and by how many pixels that moves points at most."""
+    """Return the camera whose axes are the nearest rotation, and the largest movement of a point by it in pixels."""
     near = replace(camera, pose=Pose(camera.pose.eye, polar(camera.pose.basis[None])[0][0]))
     width, height = camera.raster.size
     rays = camera.rays_at(*np.meshgrid(np.linspace(0.5, width - 0.5, PLACES), np.linspace(0.5, height - 0.5, PLACES)))

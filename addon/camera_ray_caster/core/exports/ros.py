@@ -1,6 +1,6 @@
-"""ROS's CameraInfo as YAML, as camera_calibration_parsers reads it: the lens alone, since a pose is none of its fields.
+"""ROS's CameraInfo as YAML for camera_calibration_parsers: only the lens, since CameraInfo has no field for a pose.
 
-The picture is rectified by its own K: P is K, and R the identity. The center of the first pixel is (0, 0).
+The rectified picture has the same K: P is K, and R is the identity. The center of the first pixel is (0, 0).
 Reference: ROS documentation, sensor_msgs/CameraInfo; camera_calibration_parsers.
 """
 
@@ -21,7 +21,7 @@ TABLE = {
 
 
 class Ros(lenses.LensFormat):
-    """A file a camera; where its lens changes, a file a frame."""
+    """One file per camera, or one file per frame if the camera's lens changes."""
 
     key = "ros"
     label = "ROS CameraInfo"

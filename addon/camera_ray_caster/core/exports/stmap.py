@@ -1,9 +1,9 @@
-"""STMaps: images of where each pixel of a picture is found in another one, for compositors and st_warp.
+"""STMaps: images that hold the place of each pixel in another picture, for compositors and st_warp.
 
-undistort makes the picture of the target of the camera's, distort the camera's of the target's. Red and green are the
-places in the other picture, 0 to 1 from edge to edge, to the right and up; blue is 1 where there is one, else 0 and
-red and green are -1. The target is another camera, or the perspective of the same lens. Their eyes are taken to be in
-one place: where they are not, a map is right for what is far away.
+undistort turns the camera's picture into the target's, distort the target's into the camera's. Red and green are the
+place in the other picture, from 0 to 1 between its edges, to the right and up; blue is 1. Pixels without a place have
+red and green -1 and blue 0. The target is another camera, or the perspective of the same lens. Both eyes are assumed to
+be at the same place: if they are not, a map is correct for distant objects only.
 References: Nuke documentation, STMap; OpenImageIO documentation, st_warp.
 """
 
@@ -22,7 +22,7 @@ from .format import OWN_TIMES, Format
 
 
 class Stmap(Format):
-    """Two maps a camera and frame."""
+    """Two maps per camera and frame."""
 
     key = "stmap"
     label = "STMaps"
@@ -40,14 +40,14 @@ class Stmap(Format):
         return None
 
     def unsaid(self, shot):
-        """See Format; and what the places of the two eyes mean."""
+        """See Format. A line on the distance between the two eyes is added if they are apart."""
         one, other = shot.camera, shot.target or shot.camera
         apart = float(np.linalg.norm(one.pose.eye - other.pose.eye))
-        line = f"{one.name!r} and {other.name!r} stand {apart:.3g} apart: the maps are right for what is far away"
+        line = f"{one.name!r} and {other.name!r} are {apart:.3g} apart: the maps are exact for distant objects only"
         return [*super().unsaid(shot), *([line] if apart else [])]
 
     def files(self, shots):
-        """See Format. Raises InputError where the perspective of the same lens has no meaning."""
+        """See Format. Raises InputError if the perspective of the same lens is undefined."""
         for shot in shots:
             target = shot.target or perspective_of(shot.camera)
             yield f"{shot.stem}_undistort.exr", places(target, shot.camera)
@@ -55,8 +55,10 @@ class Stmap(Format):
 
 
 def perspective_of(camera: Camera) -> Camera:
-    """Return the perspective camera of the same lens: with K of a calibrated one, without its distortion; of any other
-    that of Blender's focal length, sensor and shift. Raises InputError where these have no meaning.
+    """Return the perspective camera of the same lens.
+
+    For a calibrated camera it has the same K without distortion, for any other Blender's focal length, sensor and
+    shift. Raises InputError if these are invalid.
     """
     if camera.K is not None and isinstance(camera.model, WindowModel):
         return replace(camera, model=Perspective(camera.model.frame, camera.model.window))
@@ -64,13 +66,14 @@ def perspective_of(camera: Camera) -> Camera:
 
 
 def places(camera: Camera, other: Camera) -> np.ndarray:
-    """Return for each pixel of a camera's full frame where another one sees the same, as the module's page has it:
-    (rows, columns, 3) float32, row 0 at the bottom. A place is right to float32's rounding of it; one that float32
-    cannot hold is none.
+    """Return the map from the pixels of a camera's full frame to their places in another camera's picture.
+
+    The map is (rows, columns, 3) float32, row 0 at the bottom; the module's docstring describes the channels. A place
+    is exact to its rounding to float32. A place that float32 cannot hold counts as missing.
     """
     width, height = camera.raster.size
     rays = camera.rays_at(np.arange(width)[None, :] + 0.5, np.arange(height)[:, None] + 0.5)
-    with np.errstate(all="ignore"):  # NaN is an answer
+    with np.errstate(all="ignore"):  # NaN means: no place
         there = other.model.project(rays.directions @ inverse(other.pose.basis).T) / other.raster.size
         found = (np.abs(there) <= np.finfo(np.float32).max).all(axis=-1)
     result = np.zeros((height, width, 3), np.float32)

@@ -1,1 +1,1 @@
-"""Arithmetic that knows no camera: vectors, exact sums, inverses, intervals, polynomials, recorded formulas, speed."""
+"""Arithmetic without cameras: vectors, exact sums, inverses, intervals, polynomials, recorded formulas, speed."""

@@ -1,7 +1,7 @@
 """A smooth function over rectangles of pixels: Chebyshev polynomials in x and y through its values at a few points.
 
-They give the pixels by some twenty products each, whatever the function takes, and are right where their last
-coefficients have sunk to rounding.
+They need some twenty products per pixel, however slow the function is. They are accurate if their last coefficients are
+as small as rounding.
 References: J. Boyd, Chebyshev and Fourier Spectral Methods, 2nd ed. (2001), chapters 2, 4 and 5; L. Trefethen,
 Approximation Theory and Approximation Practice (2013), chapters 3 and 8.
 """
@@ -18,37 +18,37 @@ from numpy.polynomial.chebyshev import chebvander
 from ..conventions import EPS
 
 POINTS = 16
-"""Of a panel's side, its ends among them. With 14, rays of a strong barrel distortion took 1.5 times as long, since
-more panels were quartered.
+"""Number of points along a panel's side, including its ends. With 14, rays of a strong barrel distortion took 1.5 times
+as long, since more panels were quartered.
 """
 
 PIECE = 45
-"""Rows of a panel in one product, which stays below 2^18: beyond, OpenBLAS wakes threads of its own."""
+"""Rows of a panel in one matrix product, whose size stays below 2^18: above, OpenBLAS starts threads of its own."""
 
 TAIL = 2
-"""Last coefficients that have to be as small as rounding, for a polynomial to be as right as its points."""
+"""Number of last coefficients that must be as small as rounding for a polynomial to be as accurate as its points."""
 
 TERMS = POINTS - TAIL
-"""Coefficients that are summed."""
+"""Number of coefficients that are summed, along x or y."""
 
 ROUNDING = 4
-"""EPS of a panel's largest value."""
+"""Largest coefficient that counts as rounding, in EPS times a panel's largest value."""
 
 
 @dataclass(frozen=True)
 class Polynomials:
-    """What gives a function's values all over some panels of one size."""
+    """Polynomials that give a function's values in some panels of one size."""
 
     terms: np.ndarray
-    """Their coefficients, (count, panels, TERMS, TERMS), those of the highest degrees first."""
+    """The coefficients, (count, panels, TERMS, TERMS), highest degrees first."""
     right: np.ndarray
-    """Whether they do all over it, (panels)."""
+    """Whether the polynomials are accurate all over the panel, (panels)."""
     empty: np.ndarray
-    """Whether there is no value at any point, (panels)."""
+    """Whether the function is NaN at all points of the panel, (panels)."""
 
     @classmethod
     def through(cls, function: Callable, x, y, size: tuple[int, int], counts: Sequence[int]) -> Polynomials:
-        """Return those of panels with the corners x, y, (panels). ``counts``: of values that are one vector."""
+        """Return the polynomials of panels with the corners x, y, (panels). ``counts``: number of values per vector."""
         x, y = x[:, None, None] + _places() * size[1], y[:, None, None] + _places()[:, None] * size[0]
         rest = np.empty((sum(counts), len(x), POINTS, POINTS))
         for own, value in zip(rest, function(x, y), strict=True):
@@ -57,7 +57,7 @@ class Polynomials:
         first = np.cumsum([0, *counts[:-1]])
         largest = np.maximum.reduceat(np.abs(rest).max(axis=(-2, -1)), first)
         start = rest[..., POINTS // 2, POINTS // 2].copy()
-        rest -= start[..., None, None]  # what is left is small, and so is the rounding of the sums
+        rest -= start[..., None, None]  # the rest is small, and so is the rounding of the sums
         upwards, across = _fit() @ rest, rest @ _fit()[:TAIL].T
         tails = (np.abs(own).max(axis=(-2, -1)) for own in (upwards[..., :TAIL, :], across))
         tail = np.maximum.reduceat(np.maximum(*tails), first)
@@ -66,8 +66,8 @@ class Polynomials:
         return cls(terms, (tail <= ROUNDING * EPS * largest).all(axis=0), empty)
 
     def write(self, which: slice, first: int, out: np.ndarray, pieces: slice) -> None:
-        """Write the values of some panels, from the function's ``first`` on, in these pieces of their rows, into
-        ``out``, (so many, panels, rows, columns).
+        """Write values of the panels ``which`` into ``out``, (values, panels, rows, columns): of the function's values
+        from index ``first`` on, in the given pieces of the panels' rows.
         """
         _, panels, rows, columns = out.shape
         sums = empty_like(out, (panels, TERMS, columns))
@@ -80,7 +80,7 @@ class Polynomials:
 
 
 def empty_like(values: np.ndarray, shape: tuple[int, ...]) -> np.ndarray:
-    """Return an array (count, *shape) with as many values, which lie side by side in memory where these do."""
+    """Return an array (count, *shape) with the count of ``values``; its first axis is contiguous if theirs is."""
     if _are_side_by_side(values):
         return np.moveaxis(np.empty((*shape, len(values))), -1, 0)
     return np.empty((len(values), *shape))
@@ -91,7 +91,7 @@ def _are_side_by_side(values) -> bool:
 
 
 def _as_matrices(values):
-    """View an array of ``empty_like`` as matrices whose rows lie in one piece: one for each value, or one for all."""
+    """View an array of ``empty_like`` as matrices with contiguous rows: one for each value, or one for all."""
     if not _are_side_by_side(values):
         return values
     last = np.moveaxis(values, 0, -1)
@@ -100,19 +100,19 @@ def _as_matrices(values):
 
 @cache
 def _places() -> np.ndarray:
-    """Return Chebyshev's points of the second kind from 1 down to 0."""
+    """Return the Chebyshev points of the second kind, mapped to the range from 1 down to 0."""
     return (1 + np.cos(np.pi / (POINTS - 1) * np.arange(POINTS))) / 2
 
 
 @cache
 def _fit() -> np.ndarray:
-    """Return the matrix that brings values at the points to coefficients, those of the highest degrees first."""
-    turns = np.outer(np.arange(POINTS), np.arange(POINTS)) % (2 * (POINTS - 1))  # whole ones taken off exactly
+    """Return the matrix that converts values at the points to coefficients, highest degrees first."""
+    turns = np.outer(np.arange(POINTS), np.arange(POINTS)) % (2 * (POINTS - 1))  # full turns are removed exactly
     weight = np.where(np.arange(POINTS) % (POINTS - 1) == 0, 0.5, 1.0)
     return (np.cos(np.pi / (POINTS - 1) * turns) * weight * weight[:, None] * (2 / (POINTS - 1)))[::-1].copy()
 
 
 @cache
 def _between(pixels: int) -> np.ndarray:
-    """Return the matrix that brings coefficients to the values at a panel's pixel centers, (pixels, TERMS)."""
+    """Return the matrix that converts coefficients to values at a panel's pixel centers, (pixels, TERMS)."""
     return chebvander((2 * np.arange(pixels) + 1) / pixels - 1, TERMS - 1)[:, ::-1].copy()

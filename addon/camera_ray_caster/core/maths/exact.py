@@ -1,7 +1,7 @@
-"""Arithmetic in pairs of float64: sums and products whose rounding is kept, for the few constants that need it.
+"""Arithmetic in pairs of float64: sums and products that keep their rounding errors, for a few critical constants.
 
 A pair (high, low) stands for high + low, about 32 digits. The error of one addition or multiplication is itself a
-float64 and found by a few operations, in arrays as in numbers, where nothing over- or underflows.
+float64, which a few operations compute for numbers and for arrays, unless a value overflows or underflows.
 References: D. Knuth, The Art of Computer Programming, vol. 2, 4.2.2 (two_sum); T. J. Dekker, A Floating-Point Technique
 for Extending the Available Precision (1971); Ogita, Rump, Oishi, Accurate Sum and Dot Product (2005); N. Higham,
 Accuracy and Stability of Numerical Algorithms, 2nd ed., chapter 12 (refinement with precise residuals).
@@ -17,19 +17,19 @@ SPLITTER = 2.0**27 + 1
 """Cuts the 53 bits of a float64 into two numbers of 26, whose products are exact (Veltkamp)."""
 
 REFINEMENTS = 5
-"""Corrections of a solution: each leaves the condition number times some EPS of the last error, so that they reach the
-precision of pairs, EPS^2 times the condition, up to a condition of 1e13."""
+"""Number of corrections of a solution. Each reduces the error by a factor of some EPS times the condition number, so
+that the precision of pairs, EPS^2 times the condition number, is reached up to a condition number of 1e13."""
 
 
 def two_sum(a, b):
-    """Return a + b rounded, and what the rounding lost: their sum is a + b exactly."""
+    """Return a + b rounded, and its rounding error: their sum is a + b exactly."""
     total = a + b
     b_part = total - a
     return total, (a - (total - b_part)) + (b - b_part)
 
 
 def two_product(a, b):
-    """Return a b rounded, and what the rounding lost; exact for magnitudes of 1e-140 to 1e290."""
+    """Return a b rounded, and its rounding error; exact for magnitudes of 1e-140 to 1e290."""
     product = a * b
     (a_high, a_low), (b_high, b_low) = _split(a), _split(b)
     return product, a_low * b_low - (((product - a_high * b_high) - a_low * b_high) - a_high * b_low)
@@ -51,7 +51,7 @@ def total(terms):
 
 
 def solve(matrices, inverses, high, low):
-    """Return x as a pair, each (n, 3), with matrices @ x = high + low, from inverses that are right to some digits."""
+    """Return x as a pair, (n, 3) each, with matrices @ x = high + low, from inverses that are right to some digits."""
     x_high, x_low = (inverses @ high[..., None])[..., 0], np.zeros_like(high)
     for _ in range(REFINEMENTS):
         residual = np.empty_like(high)
@@ -77,7 +77,7 @@ def square_less_one(high, low):
 def volume_sign(a, b, c) -> np.ndarray:
     """Return the sign of a . (b x c) of vectors (3, n) each, exactly: -1, 0 or 1, (n,).
 
-    The 24 parts of its six products are exact where none underflows, and so is the sign of their sum.
+    The 24 parts of its six products are exact unless one underflows, and so is the sign of their sum.
     """
     terms = []
     for i, j, k in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
@@ -88,10 +88,10 @@ def volume_sign(a, b, c) -> np.ndarray:
 
 
 def sum_sign(terms) -> np.ndarray:
-    """Return the exact sign of sums of terms, (m, n) to (n,).
+    """Return the exact signs, (n,), of the sums of terms, (m, n).
 
-    Each pass leaves the leading digits of a sum in its last term, and in the others what was lost, until the last is
-    beyond them (T. Ogita, S. Rump, S. Oishi, Accurate Sum and Dot Product, 2005: distillation).
+    Each pass leaves the leading digits of a sum in its last term and the rounding errors in the others, until the last
+    term exceeds them (T. Ogita, S. Rump, S. Oishi, Accurate Sum and Dot Product, 2005: distillation).
     """
     sign, left = np.zeros(terms.shape[1]), np.arange(terms.shape[1])
     for _ in range(len(terms)):

@@ -1,8 +1,8 @@
-"""Interval arithmetic: a formula that takes numbers takes intervals as well, and answers with what it can reach.
+"""Interval arithmetic: a formula for numbers takes intervals as well, and returns the range of values it can have.
 
-A model whose ``project`` is a few products and quotients has its image bounds from the same formula: the balls of the
-shapes go in as intervals. Each variable that occurs twice makes the answer wider, never narrower. Roundings are not
-followed: the margin of ``pixel_bounds`` is far above them.
+A model whose ``project`` consists of a few products and quotients obtains its image bounds from the same formula, with
+the bounding balls of shapes as intervals. A variable that occurs twice can make the result wider, never narrower.
+Rounding is not tracked: the margin of ``pixel_bounds`` is much larger.
 Reference: R. E. Moore, Interval Analysis (1966).
 """
 
@@ -15,16 +15,16 @@ import numpy as np
 
 @dataclass(frozen=True)
 class Interval:
-    """The numbers from low to high: arrays of one shape; -inf and inf where nothing is known."""
+    """The numbers from low to high: arrays of one shape; -inf and inf for an unknown value."""
 
     low: np.ndarray
     high: np.ndarray
 
-    __array_ufunc__ = None  # array * interval is for the interval to answer
+    __array_ufunc__ = None  # array * interval calls the interval's method
 
     @classmethod
     def around(cls, middle, radius) -> Interval:
-        """Return middle - radius .. middle + radius."""
+        """Return the interval from middle - radius to middle + radius."""
         return cls(middle - radius, middle + radius)
 
     def __add__(self, other):
@@ -61,6 +61,6 @@ def _interval(value) -> Interval:
 
 
 def _product(left, right):
-    """Return the product in which nothing of something unknown is nothing: 0 inf = 0."""
+    """Return the product, with 0 times inf = 0."""
     known = (left != 0) & (right != 0)
     return np.where(known, np.where(known, left, 1.0) * np.where(known, right, 1.0), 0.0)

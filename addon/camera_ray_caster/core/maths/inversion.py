@@ -1,4 +1,4 @@
-"""The inverse of a growing function, to full precision: Newton's method from a table, in a bracket where it must.
+"""The inverse of an increasing function, to full precision: Newton's method from a table, in a bracket if necessary.
 
 Reference: W. Press et al., Numerical Recipes, 3rd ed. (2007), section 9.4 (rtsafe) for the bracket.
 """
@@ -15,26 +15,26 @@ from ..conventions import EPS
 from .recording import is_recorded, loop, roundoff, stop_gradient
 
 KNOTS = 16385
-"""Points of the table: a guess from it is right to about 1e-9, and one Newton step to its square."""
+"""Number of points of the table: a guess from it has an error of about 1e-9, which one Newton step squares."""
 
 SPARSE, ORDINARY = 64, 0.9
-"""A table so much shorter is looked up four times as fast, and does for this part of it: entries may lie far apart near
-its end.
+"""With every 64th entry alone, lookups take a quarter of the time. That is enough for the first 0.9 of the table; near
+its end entries may be far apart.
 """
 
 NEAR = 1e-8
-"""Of x: the square root of rounding. Where the step is shorter, what it leaves is less than the function's rounding."""
+"""Square root of rounding: after a step below this fraction of x, the error is less than the function's rounding."""
 
 STEPS = 400
-"""Enough for bisection alone to reach the last of a hundred digits."""
+"""Largest number of steps, enough for bisection alone to reach the last of a hundred digits."""
 
 
 @dataclass(frozen=True)
 class Inverse:
-    """x of [low, high] with function(x) = target, for a function that does not fall there; NaN for a target outside.
+    """x in [low, high] with function(x) = target, for a function that does not decrease there; NaN for other targets.
 
-    Right to 2 EPS of x plus the function's rounding over its derivative; a target beyond an end by its rounding takes
-    the end. Where the derivative is 0 the error is the square root of that.
+    The error is at most 2 EPS of x plus the function's rounding over its derivative; if the derivative is 0, it is the
+    square root of that. A target that is beyond an end by no more than rounding gives the end.
     """
 
     function: Callable
@@ -42,7 +42,7 @@ class Inverse:
     low: float
     high: float
     spacing: Callable = np.linspace
-    """Of the table's points between low and high, as many as it is told."""
+    """Function that returns the table's points, from low, high and their number."""
 
     @cached_property
     def _table(self):
@@ -50,7 +50,7 @@ class Inverse:
         return knots, self.function(knots)
 
     def guess(self, target):
-        """Return what a table gives, a start for Newton's method; NaN for a target outside."""
+        """Return a guess from the table, a start for Newton's method; NaN for a target outside."""
         knots, values = self._table
         if not (target > values[int(ORDINARY * KNOTS)]).any():
             knots, values = knots[::SPARSE], values[::SPARSE]
@@ -59,7 +59,7 @@ class Inverse:
     def __call__(self, target):
         """Return the inverse of an array of targets, or of a recorded number."""
         knots, values = self._table
-        if is_recorded(target):  # without the table, which has no more digits than float64
+        if is_recorded(target):  # without the table, which only has the digits of float64
             goal = np.where(self._is_within(target), np.clip(target, values[0], values[-1]), np.nan)
             x = self._bracketed(stop_gradient(goal), self.low, self.low, self.high)
             return x - (self.function(x) - goal) / self.derivative(x)  # whose derivative is the inverse's own
@@ -83,7 +83,7 @@ class Inverse:
         return (target >= values[0] - slack) & (target <= values[-1] + slack)
 
     def _bracketed(self, target, x, left, right):
-        """Take Newton's step unless it leaves the bracket, then halve the bracket."""
+        """Return x by Newton's steps, or by halving the bracket if a step leaves it."""
 
         def step(target, x, left, right):
             error = self.function(x) - target

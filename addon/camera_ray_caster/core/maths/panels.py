@@ -1,8 +1,8 @@
-"""A function of the pixel for whole pictures, panel by panel of the raster: by polynomials wherever these are right.
+"""A function of the pixel for whole pictures, panel by panel of the raster: by polynomials wherever these are accurate.
 
-Where they are not right in a panel, its quarters are tried, and theirs; in the smallest the function is evaluated at
-each pixel. For fisheyes that take sines, or iterate, rays take 0.4 to 0.8 of the time, whole casts 0.6 to 0.9; for
-models with ``by_polynomials`` what ``Camera.rays`` returns takes 0.3 to 0.8 of the time.
+If they are not accurate in a panel, its quarters are tried; where these fail, too, the function is evaluated at each
+pixel. For fisheyes that compute sines or iterate, whole casts take 0.6 to 0.9 of the time. For models with
+``by_polynomials`` the result of ``Camera.rays`` takes 0.1 to 0.8 of the time.
 """
 
 from __future__ import annotations
@@ -15,45 +15,47 @@ from math import floor
 import numpy as np
 
 from .chebyshev import PIECE, Polynomials, empty_like
-from .speed import STRIP
+from .speed import STRIP, whole_rows
 from .vector import is_grid
 
-SIZES = (180, 96), (90, 48), (45, 24)
-"""Rows and columns of panels, and of the quarters that are tried in turn. Panels begin at multiples of these, so that a
-pixel has the same one in whatever part of the picture; pictures of the usual sizes are whole panels. Panels of 72 by 64
-alone, with 14 points: 1.2 to 1.4 times the time of rays that iterate. Without the smallest: 1.1 to 1.2 times that of
-spherical stereo through a fisheye or with a pole merge.
+SIZES = (180, 96), (90, 48)
+"""Rows and columns of panels, and of the quarters that are tried next. Panels begin at multiples of these, so that a
+pixel is in the same panel whichever part of the picture is computed; pictures of the usual sizes are whole panels. With
+panels of 72 by 64 only and 14 points, rays that iterate took 1.2 to 1.4 times the time. With quarters of the quarters,
+eyes of spherical stereo took 0.95 to 1.3 times the time.
 """
 
 ROWS, COLUMNS = SIZES[0]
 
-AT_ONCE = 64
-"""Panels whose pixels are asked each for itself: of more, working arrays would not stay in a core's cache."""
+AT_ONCE = 8
+"""Number of neighboring panels evaluated at each pixel in one call. 16: 1.0 to 1.25 times the time in a process that
+has not used much memory yet, since C's malloc returns the working arrays to the system; later within 5 %.
+"""
 
 FEWEST = STRIP, 256
-"""Rows and columns that are worth it: in smaller parts of a picture each pixel is asked for itself."""
+"""Smallest rows and columns for which polynomials pay; in smaller parts of a picture each pixel is evaluated."""
 
 
 @dataclass(frozen=True)
 class Disc:
-    """An ellipse about a middle, in pixel coordinates: the part of the picture in which a function counts."""
+    """An ellipse in pixel coordinates: the part of the picture in which a function's values count."""
 
     middle: tuple[float, float]
     holds: Callable
-    """Of x and y: whether they are within it."""
+    """Function of x and y that returns whether they are within the ellipse."""
 
     def covers(self, x, y, size: tuple[int, int]) -> np.ndarray:
-        """Return which panels with these corners lie wholly in it: their corners do."""
+        """Return which panels with these corners lie entirely in the ellipse, as all four of their corners do."""
         corners = [self.holds(x + right, y + up) for right in (0, size[1]) for up in (0, size[0])]
         return np.logical_and.reduce(corners)
 
     def nearest(self, x, y, size: tuple[int, int]):
-        """Return the x and y in panels with these corners that are nearest to the middle."""
+        """Return x and y of the points nearest to the middle, in panels with these corners."""
         return np.clip(self.middle[0], x, x + size[1]), np.clip(self.middle[1], y, y + size[0])
 
 
 def is_raster(x, y) -> bool:
-    """Whether x and y are a row and a column of neighboring pixel centers, and enough of them."""
+    """Return whether x and y are a row and a column of neighboring pixel centers, with at least FEWEST of them."""
     return is_grid(x, y) and x.ndim == 2 and _are_centers(y[:, 0], FEWEST[0]) and _are_centers(x[0], FEWEST[1])
 
 
@@ -66,13 +68,13 @@ def on_raster(
 ):
     """Return a function's values at pixel coordinates, (count, rows, columns) on a raster; see ``is_raster``.
 
-    function: of x (..., 1, columns) and y (..., rows, 1), gives ``count`` numbers or arrays of their common shape;
-    where one has no value, NaN, so have the others. Anywhere but on a raster it is asked itself. With a ``disc`` its
-    values count within that alone, and are NaN beyond; a function that is smooth beyond the disc, too, spares the
-    panels at its rim from being asked pixel by pixel. On a raster the arrays of ``out``, (some, rows, columns) with a
-    pixel's values side by side in memory, are filled one after the other; each holds a vector. Right to 8 times the
-    function's own error, the norm of the interpolation, and to each of the last coefficients, which are left out: at
-    most ROUNDING of the vector's largest value in the panel.
+    The function takes x (..., 1, columns) and y (..., rows, 1), and returns ``count`` numbers or arrays of their common
+    shape; if one of them is NaN, for no value, so are the others. Except on a raster, it is called directly. With a
+    ``disc`` the values count only within the disc, and are NaN beyond; if the function is smooth beyond the disc, too,
+    panels at the rim need no evaluation at each pixel. On a raster the arrays of ``out``, (some, rows, columns) with a
+    pixel's values contiguous in memory, are filled one after the other; each holds a vector. The error is at most 8
+    times the function's own error, 8 being the norm of the interpolation, plus the last coefficients, which are left
+    out: each is at most ROUNDING EPS of the vector's largest value in the panel.
     """
     if not is_raster(x, y):
         return function(x, y)
@@ -100,8 +102,8 @@ def on_raster(
 
 
 def _write(function, found, wanted, corner, rows: tuple[int, int], disc: Disc | None, sizes) -> None:
-    """Write the values in wanted panels, which have the first of these sizes, where they are of these rows: by
-    polynomials; where these are not right by those of their quarters, and of theirs; at last each for itself.
+    """Write the values in the ``wanted`` panels, of the first of ``sizes``, within ``rows``: by polynomials, else by
+    polynomials of quarters, else by evaluation at each pixel.
 
     corner: the numbers of the first panel, in x and y.
     """
@@ -111,14 +113,14 @@ def _write(function, found, wanted, corner, rows: tuple[int, int], disc: Disc | 
     x, y = (corner[0] + panel) * size[1], (corner[1] + band) * size[0]
     polynomials = Polynomials.through(function, x, y, size, [len(own) for own in found])
     spans = np.clip(np.array(rows) - (band * size[0])[:, None], 0, size[0])
-    for run in _runs(band, panel, polynomials.right):
+    for run in _runs(band, panel, polynomials.right, len(x)):
         low, high = spans[run.start]
         for begin, values in parts:
             own = values[:, band[run.start], panel[run.start] : panel[run.stop - 1] + 1]
             polynomials.write(run, begin, own, slice(low // PIECE, -(-high // PIECE)))
     rest = ~polynomials.right
     if disc is not None and polynomials.empty.any():
-        # No value at the points, and none nearest to the middle: none at all.
+        # No value at the points nor at the place nearest to the middle means no value in the panel.
         missing = polynomials.empty & np.isnan(function(*disc.nearest(x, y, size))[0])
         rest &= ~missing
         for _, values in parts:
@@ -129,47 +131,40 @@ def _write(function, found, wanted, corner, rows: tuple[int, int], disc: Disc | 
             wanted = wanted.repeat(2, axis=0).repeat(2, axis=1)
             _write(function, found, wanted, (2 * corner[0], 2 * corner[1]), rows, disc, smaller)
         return
-    centers = _centers(size)
-    for span in np.unique(spans[rest], axis=0):  # all rows of most panels, some of the outer ones
-        at = np.flatnonzero(rest & (spans == span).all(axis=1))
-        for some in _batches(at):
-            inside = slice(*span)
-            asked = function(x[some, None, None] + centers[0], y[some, None, None] + centers[1][inside])
-            for own, value in zip(chain(*(values for _, values in parts)), asked, strict=True):
-                own[band[some], panel[some], inside] = value
+    for run in _runs(band, panel, rest, AT_ONCE):
+        low, high = spans[run.start]
+        column, row = np.arange((run.stop - run.start) * size[1]), np.arange(low, high)[:, None]
+        with whole_rows(column.size):
+            # In three dimensions it is no raster: polynomials of a lens would round more than its formula.
+            asked = function(x[run.start] + column[None, None] + 0.5, y[run.start] + row[None] + 0.5)
+        top, left = band[run.start] * size[0], panel[run.start] * size[1]
+        for own, value in zip(chain(*found), asked, strict=True):
+            own[top + low : top + high, left : left + column.size] = value
 
 
-def _runs(band, panel, right) -> list[slice]:
-    """Return those of panels that are right, as slices of neighbors in a band."""
-    at = np.flatnonzero(right)
+def _runs(band, panel, which, most: int) -> list[slice]:
+    """Return the panels ``which`` as slices of neighbors in a band, of at most ``most`` panels."""
+    at = np.flatnonzero(which)
     ends = np.flatnonzero((np.diff(panel[at]) != 1) | (np.diff(band[at]) != 0)) + 1
-    return [slice(run[0], run[-1] + 1) for run in np.split(at, ends) if run.size]
+    runs = [slice(run[0], run[-1] + 1) for run in np.split(at, ends) if run.size]
+    return [slice(k, min(k + most, run.stop)) for run in runs for k in range(run.start, run.stop, most)]
 
 
 def _end(found, wanted, corner, disc: Disc) -> None:
-    """Write NaN beyond the disc into wanted panels; corner: the numbers of the first, in x and y."""
-    size, times = SIZES[-1], SIZES[0][0] // SIZES[-1][0]
-    x, y = ((times * first + np.arange(times * count)) * side
+    """Write NaN beyond the disc into the ``wanted`` panels; corner: the numbers of the first panel, in x and y."""
+    size, parts = SIZES[0], _divided(found, SIZES[0])
+    x, y = ((first + np.arange(count)) * side
             for first, count, side in zip(corner, wanted.shape[::-1], size[::-1], strict=True))  # fmt: skip
-    wanted = wanted.repeat(times, axis=0).repeat(times, axis=1)
-    parts, centers = _divided(found, size), _centers(size)
-    for some in _batches(np.argwhere(wanted & ~disc.covers(x[None], y[:, None], size))):
-        band, panel = some.T
-        beyond = ~disc.holds(x[panel, None, None] + centers[0], y[band, None, None] + centers[1])
-        for _, values in parts:
-            there = values[:, band, panel]
-            there[:, beyond] = np.nan
-            values[:, band, panel] = there
-
-
-def _batches(values: np.ndarray) -> list[np.ndarray]:
-    """Split an array into parts of AT_ONCE."""
-    return np.split(values, range(AT_ONCE, len(values), AT_ONCE))
+    columns, rows = _centers(size)
+    for band, panel in np.argwhere(wanted & ~disc.covers(x[None], y[:, None], size)):
+        beyond = ~disc.holds(x[panel] + columns, y[band] + rows)
+        for own in chain(*(values[:, band, panel] for _, values in parts)):  # all at once takes twice the time
+            np.copyto(own, np.nan, where=beyond)
 
 
 def _divided(found: list[np.ndarray], size: tuple[int, int]) -> list[tuple[int, np.ndarray]]:
-    """View pictures (some, rows, columns) as panels of this size, (some, bands, panels, rows, columns), each with the
-    number of the first of its values.
+    """Return views of pictures (some, rows, columns) as panels of this size, (some, bands, panels, rows, columns), each
+    after the index of its first value among those of all pictures.
     """
     parts, first = [], 0
     for own in found:
@@ -180,11 +175,11 @@ def _divided(found: list[np.ndarray], size: tuple[int, int]) -> list[tuple[int, 
 
 
 def _centers(size: tuple[int, int]):
-    """Return x and y of a panel's pixel centers, from its corner."""
+    """Return x and y of a panel's pixel centers relative to its corner."""
     return np.arange(size[1])[None] + 0.5, np.arange(size[0])[:, None] + 0.5
 
 
 def _panels(places, size: int):
-    """Return how far into its panel the first pixel is, and the panels' numbers."""
+    """Return the offset of the first pixel in its panel, and the numbers of the panels."""
     first = floor(places[0])
     return first % size, np.arange(first // size, (first + places.size - 1) // size + 1)

@@ -6,17 +6,17 @@ import numpy as np
 from numpy.polynomial import Polynomial
 
 REAL = 1e-9
-"""Of a root: an imaginary part that is its rounding."""
+"""Largest imaginary part that counts as rounding, over the magnitude of the root."""
 
 LEAST = 1e-250
-"""Of the largest coefficient: leading ones below it have roots beyond all use, and their quotients have no number."""
+"""Leading coefficients up to this fraction of the largest are dropped: the roots are useless, quotients overflow."""
 
 
 def horner(x, coefficients):
-    """Return c0 + x (c1 + x (c2 + ...)) of numbers, arrays or recorded numbers; numpy's ``polyval`` does not record.
+    """Return c0 + x (c1 + x (c2 + ...)) for numbers, arrays or recorded numbers; numpy's ``polyval`` does not record.
 
-    Reference: N. Higham, Accuracy and Stability of Numerical Algorithms, 2nd ed. (2002), section 5.1: it is off by at
-    most gamma(2 n) times the same sum of magnitudes.
+    The error is at most gamma(2 n) times the same sum of magnitudes.
+    Reference: N. Higham, Accuracy and Stability of Numerical Algorithms, 2nd ed. (2002), section 5.1.
     """
     value = coefficients[-1]
     for coefficient in reversed(coefficients[:-1]):
@@ -25,13 +25,13 @@ def horner(x, coefficients):
 
 
 def with_slope(x, coefficients):
-    """Return a polynomial's value, as ``horner``, and its derivative; zeros at the end cost nothing."""
+    """Return a polynomial's value, as ``horner`` does, and its derivative; trailing zero coefficients cost nothing."""
     there = np.trim_zeros(coefficients, "b")
     return horner(x, there), horner(x, [i * c for i, c in enumerate(there[1:], 1)] or [0.0])
 
 
 def positive_roots(polynomial: Polynomial) -> np.ndarray:
-    """Return the real roots above 0, (n,) float64, in order; none of a constant."""
+    """Return the positive real roots, (n,) float64, in ascending order; a constant has none."""
     size = np.abs(polynomial.coef)
     last = np.flatnonzero(size > LEAST * size.max())
     roots = Polynomial(polynomial.coef[: last[-1] + 1]).roots() if last.size else np.zeros(0)

@@ -1,5 +1,4 @@
-"""Rotations of many things at once: matrices into rotation and stretch, rotations into vectors and
-quaternions, and back.
+"""Rotations: matrices into rotation and stretch, rotations into vectors and quaternions, and vectors into rotations.
 
 References: K. Shoemake, T. Duff, Matrix Animation and Polar Decomposition (1992); O. Rodrigues (1840).
 """
@@ -10,9 +9,9 @@ import numpy as np
 
 
 def polar(matrices) -> tuple[np.ndarray, np.ndarray]:
-    """Return proper rotations and symmetric stretches (negative for mirrored matrices) whose products these are.
+    """Return proper rotations and symmetric stretches (negative for mirrored matrices), with the products ``matrices``.
 
-    A flat matrix is not mirrored: of the two rotations that it leaves open it has the proper one.
+    A flat matrix counts as not mirrored: of the two orthogonal factors that it allows, the proper rotation is returned.
     """
     left, values, right = np.linalg.svd(matrices)
     flat = values[:, 2] <= 4 * np.finfo(float).eps * values[:, 0]
@@ -22,13 +21,13 @@ def polar(matrices) -> tuple[np.ndarray, np.ndarray]:
 
 
 def rotation_vector(rotation) -> np.ndarray:
-    """Return axis times angle, (n, 3), of rotations below a half turn."""
+    """Return axis times angle, (n, 3), of rotations by less than a half turn."""
     skew, sine, angle = sine_and_angle(rotation)
     return skew * np.where(sine > 0, angle / np.where(sine > 0, sine, 1.0), 1.0)[:, None]
 
 
 def sine_and_angle(rotation):
-    """Return axis times sine (n, 3), sine and angle (n,) of rotations; the angle is 0 .. pi."""
+    """Return axis times sine, (n, 3), sine and angle, (n,) each, of rotations; the angle is from 0 to pi."""
     skew = np.stack(
         [rotation[:, j, i] - rotation[:, i, j] for i, j in ((1, 2), (2, 0), (0, 1))], axis=-1
     ) / 2  # fmt: skip
@@ -37,9 +36,9 @@ def sine_and_angle(rotation):
 
 
 def quaternion(rotation) -> np.ndarray:
-    """Return w, x, y, z of one rotation (3, 3), w not negative, to some EPS at any angle: half turns have either sign.
+    """Return w, x, y, z of one rotation (3, 3), w >= 0, right to some EPS at any angle; half turns have either sign.
 
-    Of the products of its components with each other the row of the largest component is taken (S. Shepperd, 1978).
+    It is the row of the largest component in the matrix of products of the components (S. Shepperd, 1978).
     """
     products = np.empty((4, 4))
     trace = np.trace(rotation)
@@ -51,7 +50,7 @@ def quaternion(rotation) -> np.ndarray:
 
 
 def half_turn_vector(rotation) -> np.ndarray:
-    """Return axis times angle, (3,), of one rotation (3, 3), to some EPS at any angle up to a half turn."""
+    """Return axis times angle, (3,), of one rotation (3, 3), right to some EPS at any angle up to a half turn."""
     w, *axis = quaternion(rotation)
     sine = np.linalg.norm(axis)
     return np.asarray(axis) * (2 * np.arctan2(sine, w) / sine if sine > 0 else 2.0)

@@ -1,8 +1,8 @@
-"""What makes numpy's loops fast: rows taken whole, working arrays kept, threads that do not wait for each other.
+"""Helpers that make numpy's loops fast: whole rows at once, reused working arrays, threads that share work.
 
-A ufunc with an operand that is broadcast, or a window of a larger array, copies it to a buffer first, unless a row of
-it fills the buffer: a row plus a column then costs as little as two whole arrays, three to five times less than
-otherwise (measured with numpy 1.26 and 2.5). The buffer's size has to be a multiple of 16, so windows are as wide.
+A ufunc copies an operand that is broadcast, or a window of a larger array, to a buffer first, unless one row fills the
+buffer. If it does, a row plus a column costs as little as two whole arrays, three to five times less than otherwise
+(measured with numpy 1.26 and 2.5). The buffer's size has to be a multiple of 16, and so are the widths of windows.
 Source: numpy's manual, setbufsize.
 """
 
@@ -20,40 +20,40 @@ import numpy as np
 T = TypeVar("T")
 
 MULTIPLE = 16
-"""What widths of windows are multiples of."""
+"""Widths of windows are multiples of this."""
 
 NARROW = 128
-"""Rows with fewer pixels are better copied: the loop's start costs more."""
+"""Rows with fewer pixels are left to be copied: starting a loop for each would cost more."""
 
 STRIP = 36
-"""The fewest rows that are worked on together, where nothing else tells."""
+"""Default of the smallest number of rows that are processed together."""
 
 
 def processors() -> int:
-    """Return how many processors this process may use: whoever has started it may hold it to some of them."""
+    """Return how many processors this process may use: its affinity may be limited to some of them."""
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 def sharing(threads: int, work: float) -> int:
-    """Return how many of some threads gain by sharing work. Beside it each share has a part, counted as 1, that threads
-    do one at a time, holding the interpreter: n threads take work / n + 1 at least, and n at least.
+    """Return how many of the available threads should share ``work``. The unit of work is the part of each share that
+    holds the interpreter, so that threads do it one at a time: n threads need at least work / n + 1, and at least n.
     """
     return max(1, min(threads, round(sqrt(work))))
 
 
 def taken(values: np.ndarray, which: np.ndarray) -> np.ndarray:
-    """Return ``values[..., which]`` of indices that are there: numpy's check of them would be 0.4 of the time."""
+    """Return ``values[..., which]`` for valid indices: numpy's check of the indices would take 0.4 of the time."""
     return values.take(which, axis=-1, mode="wrap")
 
 
 def merged(values: np.ndarray) -> np.ndarray:
-    """Return the first of values (n,), as (1,), where all are the same: what is taken by it broadcasts."""
+    """Return values (n,), or the first as (1,) if all are the same: arrays indexed by the result broadcast then."""
     return values[:1] if (values == values[:1]).all() else values
 
 
 def write_where(out: np.ndarray, values: Any, where: np.ndarray | None) -> None:
-    """Write what broadcasts to ``out``, (rows, columns[, channels]), where a mask (rows, columns) is set, if any.
-    Channel by channel: all at once takes four to seven times as long.
+    """Write values that broadcast to ``out``, (rows, columns[, channels]), where a mask, (rows, columns), is set;
+    without a mask write nothing. It writes channel by channel: all at once takes four to seven times as long.
     """
     if where is None:
         return
@@ -67,7 +67,7 @@ def write_where(out: np.ndarray, values: Any, where: np.ndarray | None) -> None:
 
 @contextmanager
 def whole_rows(width: int) -> Iterator[None]:
-    """Let this thread's ufuncs take rows of ``width`` at once, where that helps."""
+    """Let this thread's ufuncs process rows of ``width`` at once, if that helps."""
     if width < NARROW or width % MULTIPLE:
         yield
         return
@@ -79,7 +79,7 @@ def whole_rows(width: int) -> Iterator[None]:
 
 
 def widened(bounds, width: int) -> tuple[slice, slice]:
-    """Return the window of some bounds, as much wider as ``whole_rows`` likes it, within a tile of this width."""
+    """Return the window of some bounds, widened to a multiple as ``whole_rows`` needs it, in a tile of this width."""
     x0, x1, y0, y1 = bounds
     wide = min(-(-(x1 - x0) // MULTIPLE) * MULTIPLE, width)
     x0 = min(x0, width - wide)
@@ -87,16 +87,16 @@ def widened(bounds, width: int) -> tuple[slice, slice]:
 
 
 class Scratch:
-    """Working arrays of one thread, lent again and again: asking the system for memory costs more than arithmetic."""
+    """Reusable working arrays of one thread: allocating memory from the system costs more than the arithmetic."""
 
     def __init__(self, real=np.float64):
         self._real = real
         self._arrays: dict[tuple, np.ndarray] = {}
         self.noted: dict[str, Any] = {}
-        """What the search of a tile notes for its passes, by name, until that of the next one does."""
+        """Notes of the search of a tile for its passes, by name; the search of the next tile overwrites them."""
 
     def __call__(self, name: str, shape, dtype=None) -> np.ndarray:
-        """Return the array of this name and dtype in this shape; it holds what was last written to it, or anything."""
+        """Return the array of this name and dtype in this shape, with the values last written, or arbitrary values."""
         size, dtype = prod(shape), dtype or self._real
         found = self._arrays.get((name, dtype))
         if found is None or found.size < size:
@@ -105,8 +105,8 @@ class Scratch:
 
 
 class Shared(Generic[T]):
-    """Parts of a piece of work that threads share: who needs the results works on parts until none is left, and waits
-    for those that others have begun.
+    """Work in parts that threads share: each thread that needs the results works on parts until none is left, then
+    waits for the parts that other threads have begun.
     """
 
     def __init__(self, parts: Sequence[Callable[[], T]]):
@@ -118,7 +118,7 @@ class Shared(Generic[T]):
             self._ended.set()
 
     def work(self) -> Iterator[None]:
-        """Work on parts until none is left, one between two steps of the iteration."""
+        """Work on parts until none is left, one part per step of the iteration."""
         while True:
             with self._lock:
                 k = next(self._next, None)
@@ -128,13 +128,13 @@ class Shared(Generic[T]):
             yield
 
     def results(self) -> list[T]:
-        """Return what the parts return, in their order; raises what the first that failed has raised."""
+        """Return the results of the parts, in their order; raise the error of a part that failed."""
         for _ in self.work():
             pass
         self._ended.wait()
         if self._error is not None:
             raise self._error
-        return self._results  # type: ignore[return-value]  # all are there
+        return self._results  # type: ignore[return-value]  # all parts are done
 
     def _run(self, k: int) -> None:
         try:
@@ -151,9 +151,9 @@ class Shared(Generic[T]):
 
 
 class lazy(Generic[T]):
-    """A property that is worked out when it is first asked for: functools.cached_property without its lock, which up to
-    Python 3.11 lets one thread at a time work out a property, of whatever object (CPython's issue 87634). With the lock
-    depth and normal of 1,000 spheres in an equirectangular panorama took 1.16 times the time, with two threads.
+    """A property that is computed at first use: functools.cached_property without its lock. Up to Python 3.11 that lock
+    lets only one thread at a time compute the property, of any object (CPython's issue 87634). With the lock, depth and
+    normal of 1,000 spheres in an equirectangular panorama took 1.16 times the time with two threads.
     """
 
     def __init__(self, func: Callable[[Any], T]):

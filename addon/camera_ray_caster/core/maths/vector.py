@@ -1,4 +1,4 @@
-"""Vectors kept as three components that broadcast: a pinhole's x stays a row, its y a column, its z a number."""
+"""Vectors as three components that broadcast: a pinhole's x stays a row, its y a column, its z a number."""
 
 from __future__ import annotations
 
@@ -9,10 +9,9 @@ ALL = slice(None)
 
 
 def matvec(matrix, components):
-    """Return matrix @ vector as components; matrix is indexed [row][column], its entries numbers or arrays.
+    """Return matrix @ vector as components; matrix is indexed [row][column], its entries are numbers or arrays.
 
-    y and z are added first: for a pinhole only one sum is two-dimensional. Right to gamma(3) of the sum of the
-    magnitudes.
+    y and z are added first: for a pinhole only one sum is two-dimensional. Right to gamma(3) of the sum of magnitudes.
     """
     x, y, z = components
     return tuple(row[0] * x + (row[1] * y + row[2] * z) for row in matrix)
@@ -21,7 +20,7 @@ def matvec(matrix, components):
 def linear(row, components, out, spare):
     """Return one row of ``matvec``, rounded alike, in ``out``; ``spare`` is a working array of the same shape.
 
-    Many rows at once are entries that are arrays, (m, 1, 1): fewer calls, between which other threads wait.
+    For many rows at once, the entries of ``row`` are arrays, (m, 1, 1): other threads wait between fewer calls.
     """
     x, y, z = components
     if not any(isinstance(part, np.ndarray) and part.shape[-1:] == out.shape[-1:] for part in (y, z)):
@@ -33,33 +32,33 @@ def linear(row, components, out, spare):
 def inverse(matrix) -> np.ndarray:
     """Return the inverse of a (3, 3) matrix, each row the cross product of two columns over the determinant.
 
-    Right to gamma(8) times the condition number. LAPACK is not asked: its threads go on spinning for a tenth of a
-    second (OpenBLAS 0.3.23), on the core that the next tile of a picture needs.
+    Right to gamma(8) times the condition number. LAPACK is not used: its threads keep spinning for a tenth of a second
+    (OpenBLAS 0.3.23), on the core that the next tile of a picture needs.
     """
     crossed = cofactors(matrix).T
     return crossed / dot(crossed[0], np.asarray(matrix)[:, 0])
 
 
 def cofactors(matrix) -> np.ndarray:
-    """Return the cofactors of a (3, 3) matrix, which takes the cross product of two vectors to that of their images;
-    right to gamma(2) of the lengths of its columns.
+    """Return the cofactor matrix of a (3, 3) matrix, which maps the cross product of two vectors to the cross product
+    of their images; right to gamma(2) of the lengths of its columns.
     """
     first, second, third = np.asarray(matrix, np.float64).T
     return np.array([cross(second, third), cross(third, first), cross(first, second)]).T
 
 
 def is_one(components) -> bool:
-    """Whether it is one vector for all rays: three numbers."""
+    """Return whether the components are one vector for all rays: three numbers."""
     return all(np.ndim(component) == 0 for component in components)
 
 
 def is_grid(x, y) -> bool:
-    """Whether x is a row (..., 1, columns) and y a column (..., rows, 1): of one window, or of many."""
+    """Return whether x is a row (..., 1, columns) and y a column (..., rows, 1), of one window or of many."""
     return np.ndim(x) == np.ndim(y) > 1 and x.shape[-2] == y.shape[-1] == 1
 
 
 def is_lattice(components) -> bool:
-    """Whether x is a row, y a column and z a number, as a pinhole's directions are."""
+    """Return whether x is a row, y a column and z a number, as in a pinhole's directions."""
     x, y, z = components
     return np.ndim(z) == 0 and is_grid(x, y)
 
@@ -111,12 +110,12 @@ def components(array):
 
 
 def matrix_rows(array):
-    """Return a (..., m, 3) array of matrices as m rows of three entries, as views: what ``matvec`` takes."""
+    """Return a (..., m, 3) array of matrices as m rows of three entries, as views, in the form ``matvec`` takes."""
     return tuple(components(array[..., i, :]) for i in range(array.shape[-2]))
 
 
 def cut(component, window):
-    """Return the part of a broadcastable component that covers a window, two slices, of its rows and columns."""
+    """Return the part of a broadcastable component that covers a window, given as slices of rows and columns."""
     if not (isinstance(component, np.ndarray) and component.ndim):
         return component
     (rows, columns), (height, width) = window, component.shape

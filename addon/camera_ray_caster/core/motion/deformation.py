@@ -1,4 +1,4 @@
-"""Meshes that change their form between a few evaluations: each vertex moves on the polynomial through its places."""
+"""Meshes that deform between a few evaluations: each vertex moves on the polynomial through its evaluated positions."""
 
 from __future__ import annotations
 
@@ -10,14 +10,14 @@ import numpy as np
 from ..records import Mesh, Shapes
 
 FIXED = "triangles", "polygon", "loops", "slot"
-"""What meshes must share for their vertices to be the same ones."""
+"""Fields of ``Mesh`` that must be equal if the vertices of two meshes correspond."""
 
 MOST_VERTICES = 4096
-"""Vertices of a mesh whose motion is judged, evenly spaced in its list where it has more."""
+"""Maximum number of vertices of a mesh whose motion is checked; of more vertices, evenly spaced ones are taken."""
 
 
 def alike(before: Sequence[Mesh], after: Sequence[Mesh]) -> bool:
-    """Whether meshes have the same triangles, one by one, so that only their vertices may differ."""
+    """Whether two lists of meshes have the same triangles, mesh by mesh, so that only their vertices may differ."""
     return len(before) == len(after) and all(
         one is other or (one.vertices.shape == other.vertices.shape and all(_same(one, other, name) for name in FIXED))
         for one, other in zip(before, after, strict=True)
@@ -25,7 +25,7 @@ def alike(before: Sequence[Mesh], after: Sequence[Mesh]) -> bool:
 
 
 def deformed(shapes: Shapes, evaluations: Sequence[Shapes], weights: Sequence[float]) -> Shapes:
-    """Return shapes with their meshes as they are between evaluations, whose weights have the sum 1."""
+    """Return shapes with their meshes interpolated between evaluations; the weights have the sum 1."""
     meshes, center = list(shapes.meshes), shapes.center.copy()
     for k, forms in enumerate(zip(*(one.meshes for one in evaluations), strict=True)):
         if all(_same(forms[0], other, name) for other in forms[1:] for name in ("vertices", "normals")):
@@ -37,12 +37,12 @@ def deformed(shapes: Shapes, evaluations: Sequence[Shapes], weights: Sequence[fl
             normals = normals / np.maximum(lengths, np.finfo(float).tiny)
         meshes[k] = replace(forms[0], vertices=places, normals=normals)
         rows = shapes.mesh == k
-        center[rows] += shapes.axes[rows] @ meshes[k].middle  # a place is counted from the middle
+        center[rows] += shapes.axes[rows] @ meshes[k].middle  # positions are relative to the middle
     return replace(shapes, meshes=tuple(meshes), center=center)
 
 
 def vertices(shapes: Shapes, rows: np.ndarray) -> np.ndarray:
-    """Return vertices of meshes in the world, (n, 3), of shapes whose meshes have the same number of them each time."""
+    """Return vertices of the meshes of some rows in the world, (n, 3), at most MOST_VERTICES of each mesh."""
     places = [np.zeros((3, 0))]
     for row in rows.tolist():
         mesh = shapes.meshes[shapes.mesh[row]]
@@ -52,7 +52,7 @@ def vertices(shapes: Shapes, rows: np.ndarray) -> np.ndarray:
 
 
 def changed(before: Shapes, after: Shapes) -> np.ndarray:
-    """Return the rows of the shapes whose meshes are others in two evaluations that ``alike`` holds for."""
+    """Return the rows of the shapes whose meshes differ between two evaluations with ``alike`` meshes."""
     others = [k for k, (one, other) in enumerate(zip(before.meshes, after.meshes, strict=True)) if one is not other]
     return np.flatnonzero(np.isin(before.mesh, others))
 

@@ -1,11 +1,11 @@
-"""Motion between the times at which a scene was evaluated, and at which times it has to be.
+"""Motion between the times at which a scene was evaluated, and the choice of these times.
 
-Each interval has four evaluations, its ends and two probes at the golden section; between them positions, rotation
-vectors, stretches (polar decomposition) and the numbers of a lens are the cubics through the four. Whether that is the
-motion of the scene is asked of each probe: it must lie, in pixels, on the parabola through the other three. Where it
-does not the interval is cut at its probes. The method is the embedded pair of adaptive integration (E. Hairer et al.,
-Solving Ordinary Differential Equations I, section II.4): smooth motion takes few evaluations, and the estimate is on
-the safe side.
+Each interval has four evaluations: its ends and two probes at the golden section. Between them positions, rotation
+vectors, stretches (polar decomposition) and the numbers of a lens are the cubics through the four. Each probe tests
+this against the motion of the scene: it must lie on the parabola through the other three evaluations, within the
+tolerance in pixels. If it does not, the interval is cut at its probes. The method is the embedded pair of adaptive
+integration (E. Hairer et al., Solving Ordinary Differential Equations I, section II.4): smooth motion takes few
+evaluations, and the estimate is on the safe side.
 """
 
 from __future__ import annotations
@@ -24,33 +24,33 @@ from .deformation import alike, changed, vertices
 from .interpolation import State, TimeInterval, matched
 
 PROBES = (0.381966, 0.618034)
-"""Where an interval is probed: the golden section, so that no motion of a simple period hides from all probes."""
+"""Probes as fractions of an interval: the golden section, so that no motion of a simple period is missed by both."""
 
 WIDEST_TURN = 1.0
-"""Rotation from one evaluation to the next, radians: three of them in an interval stay below a half turn."""
+"""Maximum rotation from one evaluation to the next, radians: the three in an interval stay below a half turn."""
 
 SHORTEST = 2.0**-10
-"""Frames within which the moment is found at which shapes come or go."""
+"""Accuracy, in frames, of the moment at which shapes appear or disappear."""
 
 UNRESOLVED = "NOT RESOLVED"
-"""How the report's line begins that says so."""
+"""Beginning of the report's line on unresolved intervals."""
 
 
 @dataclass(frozen=True)
 class Motion:
-    """A camera and shapes over a range of frames, and how well they are known."""
+    """A camera and shapes over a range of frames, and their accuracy."""
 
     intervals: tuple[TimeInterval, ...]
-    """In order; each begins where the one before ends."""
+    """The intervals in order; each begins at the end of the previous interval."""
     states: dict[float, State]
     tolerance: float
-    """Pixels that were asked for."""
+    """The requested tolerance in pixels."""
     estimated: float
-    """Pixels: the largest difference to be expected in the intervals that were resolved."""
+    """The estimated largest error in the resolved intervals, in pixels."""
     unresolved: tuple[tuple[float, float], ...]
     """Intervals in which the tolerance is not kept."""
     measured: float = np.nan
-    """Pixels: the largest difference from the scene at frames that were evaluated only to check; NaN unchecked."""
+    """The largest error, in pixels, at frames that were evaluated only as a check; NaN without a check."""
 
     def camera_at(self, frame: float) -> Camera:
         """Return the camera at a frame, without its pixel_time."""
@@ -61,7 +61,7 @@ class Motion:
         return self._interval(frame).shapes_at(frame)
 
     def at(self, frame: float) -> State:
-        """Return both at once."""
+        """Return camera and shapes at a frame."""
         return self.camera_at(frame), self.shapes_at(frame)
 
     @property
@@ -74,11 +74,11 @@ class Motion:
         return self.intervals[max(k, 0)]
 
     def in_words(self) -> list[str]:
-        """Return lines for the report."""
+        """Return lines for the report on the accuracy of the motion."""
         first, last = self.intervals[0].frames[0], self.intervals[-1].frames[-1]
         lines = [
-            f"frames {first:g} to {last:g} from {len(self.states)} evaluations: off by {self.estimated:.2g} pixels as "
-            f"estimated, {self.measured:.2g} as measured; {self.tolerance:g} was asked for"
+            f"frames {first:g} to {last:g} from {len(self.states)} evaluations: error of {self.estimated:.2g} pixels "
+            f"as estimated, {self.measured:.2g} as measured; the tolerance is {self.tolerance:g}"
         ]
         if self.unresolved:
             low, high = self.unresolved[0]
@@ -90,11 +90,11 @@ class Motion:
 
 
 def resolve(evaluate: Callable[[float], State], first: float, last: float, tolerance: float, most: int) -> Motion:
-    """Evaluate a scene at as few frames as keep what lies between within ``tolerance`` pixels.
+    """Evaluate a scene at as few frames as keep the motion between them within ``tolerance`` pixels.
 
-    ``evaluate(frame)`` returns camera and shapes; it is called at most ``most`` times. Whole frames are evaluated first
-    (keys and cuts lie there) as far as the budget allows; then the longest interval is looked at first. What the
-    budget leaves is reported as unresolved.
+    ``evaluate(frame)`` returns camera and shapes; it is called at most ``most`` times. All whole frames are evaluated
+    first, since keys and cuts lie there, unless they are more than a quarter of ``most``. Then intervals are tested,
+    the longest first. Those that remain when the budget is used up are reported as unresolved.
     """
     states: dict[float, State] = {}
 
@@ -140,7 +140,7 @@ def resolve(evaluate: Callable[[float], State], first: float, last: float, toler
 
 
 def measure(motion: Motion, evaluate: Callable[[float], State], frames) -> float:
-    """Return the largest difference, in pixels, between the interpolation and the scene itself at some frames."""
+    """Return the largest difference, in pixels, between the interpolated and the evaluated scene at some frames."""
     return max(
         (_difference(motion.at(frame), evaluate(frame)) for frame in frames),
         default=0.0,
@@ -148,10 +148,11 @@ def measure(motion: Motion, evaluate: Callable[[float], State], frames) -> float
 
 
 def _difference(state: State, truth: State) -> float:
-    """Return the largest distance in pixels between the images of the shapes' centers and ends of axes, and of the
-    vertices of meshes that change their form.
+    """Return the largest distance in pixels between the images of two states' landmarks: the centers of the shapes, the
+    ends of their axes, and vertices of the meshes that deform.
 
-    Shapes that the true camera does not see near its picture do not count; where their number differs it is infinite.
+    Landmarks that the true camera does not see in or near its picture are ignored; if the numbers of shapes differ, the
+    distance is infinite.
     """
     (camera, shapes), (true_camera, true_shapes) = state, truth
     if len(shapes) != len(true_shapes):
@@ -170,8 +171,8 @@ def _difference(state: State, truth: State) -> float:
 
 
 def _landmarks(shapes: Shapes, camera: Camera, deforming: np.ndarray) -> np.ndarray:
-    """Return the center and both ends of each axis, and vertices of some rows, (n, 3); without shapes places before the
-    camera.
+    """Return the center and both ends of each axis of every shape, and vertices of the rows ``deforming``, (n, 3);
+    without shapes, points in front of the camera.
     """
     if not len(shapes):
         return camera.pose.eye + (camera.pose.basis @ [[0, 3, 0], [0, 0, 3], [-10.0, -10.0, -10.0]]).T

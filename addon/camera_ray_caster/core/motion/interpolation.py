@@ -1,4 +1,4 @@
-"""Camera and shapes between a few evaluations: the polynomial through them, rotations as rotations."""
+"""Camera and shapes between a few evaluations: polynomials through them, in which rotations stay rotations."""
 
 from __future__ import annotations
 
@@ -20,14 +20,14 @@ State = tuple[Camera, Shapes]
 
 @dataclass(frozen=True)
 class TimeInterval:
-    """Evaluations that belong together, in order, and the polynomial through them."""
+    """The evaluations of one interval, in order, and the polynomial through them."""
 
     frames: tuple[float, ...]
     states: tuple[State, ...]
 
     @classmethod
     def of(cls, states: dict[float, State], frames: tuple[float, ...]) -> TimeInterval:
-        """Return the interval of some of the evaluations."""
+        """Return the interval of the evaluations at some frames."""
         return cls(frames, tuple(states[frame] for frame in frames))
 
     def camera_at(self, frame: float) -> Camera:
@@ -42,7 +42,7 @@ class TimeInterval:
         return replace(cameras[0], pose=pose, model=model.posed(pose), aperture=aperture)
 
     def shapes_at(self, frame: float) -> Shapes:
-        """Return the shapes at a frame. Where shapes come or go, those of the evaluation before it stand still."""
+        """Return the shapes at a frame; if shapes appear or disappear, the shapes of the last evaluation before it."""
         shapes = [shapes for _, shapes in self.states]
         if frame in self.frames or self._shape_axes is None:
             return shapes[max(bisect_right(self.frames, frame) - 1, 0)]
@@ -51,11 +51,11 @@ class TimeInterval:
         return deformed(replace(shapes[0], center=center, axes=self._shape_axes.at(weights)), shapes, weights)
 
     def at(self, frame: float) -> State:
-        """Return both."""
+        """Return camera and shapes at a frame."""
         return self.camera_at(frame), self.shapes_at(frame)
 
     def _weights(self, frame: float) -> list[float]:
-        """Return what each evaluation counts in the polynomial at a frame (Lagrange)."""
+        """Return the weight of each evaluation in the polynomial at a frame (Lagrange)."""
         return [
             prod((frame - other) / (node - other) for other in self.frames if other != node)
             for node in self.frames
@@ -67,7 +67,7 @@ class TimeInterval:
 
     @cached_property
     def _shape_axes(self) -> Turning | None:
-        """None where the evaluations do not hold the same shapes."""
+        """The axes of the shapes; None if the evaluations do not have the same shapes."""
         shapes = [shapes for _, shapes in self.states]
         if not all(matched(shapes[0], other) for other in shapes[1:]):
             return None
@@ -76,20 +76,20 @@ class TimeInterval:
 
 @dataclass(frozen=True)
 class Turning:
-    """Matrices (n, 3, 3) at some times, taken apart so that rotations are interpolated as rotations."""
+    """Matrices (n, 3, 3) at some times, decomposed so that rotations are interpolated as rotations."""
 
     first: np.ndarray
     rotations: np.ndarray
-    """Of the first time."""
+    """Rotation matrices (n, 3, 3) at the first time."""
     turns: list[np.ndarray]
-    """Rotation vectors (n, 3) from the first time to each."""
+    """Rotation vectors (n, 3) from the first time to each time."""
     stretches: tuple[np.ndarray, ...]
     still: np.ndarray
-    """(n, 1, 1) bool: those that never change stay exact."""
+    """(n, 1, 1) bool: matrices that never change, which stay exact."""
 
     @classmethod
     def of(cls, matrices) -> Turning:
-        """Return the matrices of some times taken apart."""
+        """Return the decomposition of the matrices of some times."""
         rotations, stretches = zip(*map(polar, matrices), strict=True)
         back = np.swapaxes(rotations[0], 1, 2)
         turns = [rotation_vector(other @ back) for other in rotations]
@@ -97,13 +97,13 @@ class Turning:
         return cls(matrices[0], rotations[0], turns, stretches, still[:, None, None])
 
     def at(self, weights) -> np.ndarray:
-        """Return the weighted mean of the matrices."""
+        """Return the matrices interpolated with the weights of the times."""
         moved = rotation(_sum(self.turns, weights)) @ self.rotations @ _sum(self.stretches, weights)
         return np.where(self.still, self.first, moved)
 
 
 def matched(before: Shapes, after: Shapes) -> bool:
-    """Whether two evaluations hold the same shapes, row by row."""
+    """Whether two evaluations have the same shapes, row by row."""
     return (
         before.names == after.names
         and np.array_equal(before.kind, after.kind)
@@ -114,13 +114,13 @@ def matched(before: Shapes, after: Shapes) -> bool:
 
 
 def _mixed(values, weights):
-    """Return the weighted mean of all numbers in records of one kind; what is no number is the first one's."""
+    """Return the weighted mean of all numbers in records of one type; other values are those of the first record."""
     first = values[0]
     if is_dataclass(first) and not isinstance(first, type) and all(type(value) is type(first) for value in values):
         parts = {part.name: _mixed([getattr(value, part.name) for value in values], weights) for part in fields(first)}
         changed = {name: part for name, part in parts.items() if part is not getattr(first, name)}
         return replace(first, **changed) if changed else first
-    if isinstance(first, tuple):
+    if isinstance(first, tuple) and all(isinstance(value, tuple) and len(value) == len(first) for value in values):
         return tuple(_mixed(entries, weights) for entries in zip(*values, strict=True))
     if not isinstance(first, float | np.ndarray) or all(np.array_equal(first, value) for value in values[1:]):
         return first
@@ -128,7 +128,7 @@ def _mixed(values, weights):
 
 
 def _sum(values, weights) -> np.ndarray:
-    """Return the weighted mean, as what it adds to the first value: weights have the sum 1."""
+    """Return the weighted mean, computed as an addition to the first value; the weights have the sum 1."""
     total = values[0]
     for value, weight in zip(values[1:], weights[1:], strict=True):
         total = total + weight * (value - values[0])

@@ -1,4 +1,4 @@
-"""Which shape of one reading of a scene is which of another."""
+"""Corresponding shapes in two readings of a scene."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ from .interpolation import matched
 
 
 def rows_in(before: Shapes, after: Shapes) -> np.ndarray:
-    """Return the rows (n,) that the shapes of ``before`` have in ``after``; -1 for those that are not in it.
+    """Return the rows (n,) of the shapes of ``before`` in ``after``; -1 for shapes that are not in ``after``.
 
-    Shapes are the same by the name of their object and their place among those of that name, where both have as many,
-    of the same kind, and of meshes with the same triangles.
+    Two shapes correspond if they have the same place among the shapes with the name of their object, both readings have
+    the same number of these, the kinds are equal, and meshes have the same triangles.
     """
     if matched(before, after):
         return np.arange(len(before))

@@ -1,1 +1,1 @@
-"""What is said of a cast: verification, accuracy, facts, the report, diagrams."""
+"""Information about a cast: verification, accuracy, step-by-step explanations, the report, diagrams."""

@@ -1,4 +1,4 @@
-"""How right the hits of a cast are: their error bounds over an even sample of its pixels, in milliseconds."""
+"""Accuracy of the hits of a cast: error bounds at an even sample of its pixels, computed in milliseconds."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ from ..conventions import EPS32
 from ..records import Raster, Shapes
 
 PIXELS = 4096
-"""Pixels that are asked at most."""
+"""Maximum number of pixels in the sample."""
 
 MOMENTS = 64
-"""Moments that are asked at most of a picture whose pixels have each their own: each one places the shapes anew."""
+"""Maximum number of sampled moments if pixels have their own times: the shapes are placed anew at each moment."""
 
 QUANTITIES = {
     "distance": "world units",
@@ -27,35 +27,36 @@ QUANTITIES = {
     "position": "world units, as a vector's length",
     "normal": "of the unit normal, as a vector's length",
 }
-"""What is bounded, and the unit of the bound."""
+"""Quantities with error bounds, and the units of the bounds."""
 
 
 @dataclass(frozen=True, eq=False)
 class Accuracy:
-    """The error bounds of the sampled pixels that hit something, of the numbers as calculated, before they are stored:
-    float32, which Blender stores, rounds each by up to EPS32 of itself more.
+    """Error bounds of the sampled pixels that hit something.
+
+    The bounds hold for the numbers as calculated. Blender stores float32, which adds up to EPS32 of each number.
     """
 
     pixels: int = 0
-    """That were asked; 0 where nothing was cast."""
+    """Number of sampled pixels; 0 if nothing was cast."""
     bounds: np.ndarray = field(default_factory=lambda: np.zeros((0, len(QUANTITIES))))
-    """(hits, 4): a column for each of QUANTITIES; inf where nothing is known."""
+    """Bounds (hits, 4), one column for each of QUANTITIES; inf where no bound is known."""
 
     @property
     def hits(self) -> int:
-        """How many of the pixels hit something."""
+        """Number of sampled pixels that hit something."""
         return len(self.bounds)
 
     def median(self, quantity: str) -> float | None:
-        """Return the median bound of one of QUANTITIES; None where nothing is hit."""
+        """Return the median bound of one of QUANTITIES; None if nothing is hit."""
         return float(np.median(self._column(quantity))) if self.hits else None
 
     def worst(self, quantity: str) -> float | None:
-        """Return the largest bound of one of QUANTITIES; None where nothing is hit."""
+        """Return the largest bound of one of QUANTITIES; None if nothing is hit."""
         return float(self._column(quantity).max()) if self.hits else None
 
     def as_data(self) -> dict[str, object]:
-        """Return what a report's file says of it; None where nothing is hit."""
+        """Return the entry of a report's file; its bounds are None if nothing is hit."""
         bounds = {
             name: {"unit": unit, "median_bound": self.median(name), "worst_bound": self.worst(name)}
             for name, unit in QUANTITIES.items()
@@ -66,16 +67,17 @@ class Accuracy:
         return self.bounds[:, list(QUANTITIES).index(quantity)]
 
     def __add__(self, other: Accuracy) -> Accuracy:
-        """Return the sample of both."""
+        """Return both samples as one."""
         return Accuracy(self.pixels + other.pixels, np.concatenate((self.bounds, other.bounds)))
 
 
 def accuracy(camera: Camera, shapes: Shapes, plan: Plan) -> Accuracy:
-    """Return the error bounds of what a cast with this plan, or with plans like it, has found.
+    """Return the error bounds of the hits of a cast with this plan, or with plans like it.
 
-    Asked are at most PIXELS pixels, evenly spread over the render window; all, where it has no more. The chief rays
-    are cast again at these, by the same kernels. With a clock each pixel is asked at its own moment; where the sample
-    has more than MOMENTS of them, the pixels of evenly chosen ones are. The worst bound is that of the sample.
+    The bounds are evaluated at up to PIXELS pixels, evenly spread over the render window, or at all if there are no
+    more. The chief rays of these pixels are cast again, by the same kernels. With a clock each pixel is evaluated at
+    its own moment. If the sample has more than MOMENTS moments, only the pixels of evenly chosen moments are evaluated.
+    The worst bound is that of the sample.
     """
     x, y = sample(camera.raster)
     if camera.pixel_time is None:
@@ -92,8 +94,8 @@ def accuracy(camera: Camera, shapes: Shapes, plan: Plan) -> Accuracy:
 def sample(raster: Raster) -> tuple[np.ndarray, np.ndarray]:
     """Return the x (1, columns) and y (rows, 1) of at most PIXELS pixel centers, evenly over the render window.
 
-    One step for rows and columns keeps a lattice of rays one, which meshes are searched in spans of: see
-    ``shapes.mesh_spans``.
+    Rows and columns have the same step. A lattice of rays thus remains a lattice, which the search of meshes by spans
+    needs: see ``shapes.mesh_spans``.
     """
     height, width = raster.shape
     step = isqrt(max(0, height * width - 1) // PIXELS) + 1
@@ -104,7 +106,7 @@ def sample(raster: Raster) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _bounds(plan: Plan, x: np.ndarray, y: np.ndarray, where: np.ndarray | bool = True) -> np.ndarray:
-    """Return the bounds, (hits, 4), at the pixels of x (1, columns) and y (rows, 1) that are meant."""
+    """Return the bounds, (hits, 4), at the pixels of x (1, columns) and y (rows, 1) at which ``where`` is true."""
     hits = hits_at(plan, np.floor(x[0]).astype(int), np.floor(y[:, 0]).astype(int))
     meant = np.broadcast_to(where, hits.t.shape)
     found = [np.zeros((0, len(QUANTITIES)))]

@@ -1,4 +1,4 @@
-"""What a camera does in space, as points and line segments: its image in front of it, and some of its rays."""
+"""A diagram of a camera in space, as points and line segments: its image in front of it, and some of its rays."""
 
 from __future__ import annotations
 
@@ -15,41 +15,42 @@ GRID_LINES = 9
 """Lines across and up the image; the first and the last are its border."""
 
 LINE_POINTS = 65
-"""Points of a line, which most models bend."""
+"""Number of points per line: most models bend lines."""
 
 MISS, NORMAL, LIFT = 1.25, 0.03, 0.002
-"""Lengths in units of the longest ray that hits: of a ray that hits nothing, of a normal, and of what hit points are
-lifted off their surface, which would hide half of them."""
+"""Lengths in units of the longest ray that hits: of a ray that hits nothing, of a normal, and of the lift of hit points
+off their surface, which would hide half of them otherwise.
+"""
 
 
 @dataclass(frozen=True)
 class Probe:
-    """What the ray of one pixel meets."""
+    """Ray of one pixel and its hit."""
 
     pixel: tuple[int, int]
     """Column and row in the full frame, from the bottom left."""
     view: tuple[float, float]
-    """The center of the pixel in normalized view coordinates."""
+    """Center of the pixel in normalized view coordinates."""
     origin: np.ndarray
     direction: np.ndarray
-    """(3,) each, world; NaN where the pixel has no ray."""
+    """Origin and direction in the world, (3,) each; NaN if the pixel has no ray."""
     distance: float
-    """inf where nothing is hit."""
+    """Distance of the hit; inf if nothing is hit."""
     name: str
-    """Of the object that is hit; empty where there is none."""
+    """Name of the object that is hit; empty if nothing is hit."""
     shape_index: int
 
 
 @dataclass(frozen=True)
 class Diagram:
-    """Segments are (n, 2, 3) float32, points (n, 3), both in the world."""
+    """Diagram of a camera in the world. Segments are (n, 2, 3) float32, points (n, 3) float32."""
 
     border: np.ndarray
     """The image's border, and for a planar image lines from the rays' origins to its corners."""
     grid: np.ndarray
     """Lines of constant pixel coordinates across the image."""
     basis: np.ndarray
-    """u, v and w."""
+    """Axes u, v and w."""
     hit_rays: np.ndarray
     missed_rays: np.ndarray
     hits: np.ndarray
@@ -57,11 +58,11 @@ class Diagram:
 
 
 def diagram(camera: Camera, shapes: Shapes, size: float, rays_across: int) -> Diagram:
-    """Return the picture of a camera in space at its current frame.
+    """Return the diagram of a camera at its current frame.
 
-    ``size`` is the distance (Blender units) of the image from the rays' origins: the depth where the image is planar,
-    the radius where it is not. ``rays_across`` rays are drawn across the render window and as many up as keeps them
-    square.
+    ``size`` is the distance (Blender units) of the image from the rays' origins: the depth of a planar image, the
+    radius of any other. ``rays_across`` rays are drawn across the render window; the number of rays up makes their
+    spacing square.
     """
     raster = camera.raster
     height, width = raster.shape
@@ -90,7 +91,7 @@ def diagram(camera: Camera, shapes: Shapes, size: float, rays_across: int) -> Di
 
 
 def probe(camera: Camera, shapes: Shapes, column: int, row: int) -> Probe:
-    """Return what the ray of one pixel of the full frame meets."""
+    """Return the ray of one pixel of the full frame and its hit."""
     passes = ("ray_origin", "ray_direction", "distance", "shape_index", "valid")
     images = passes_at(camera, shapes, np.array([column]), np.array([row]), passes)
     found = {name: image[0, 0] for name, image in images.items()}
@@ -115,7 +116,7 @@ def pixel_outline(camera: Camera, size: float, column: int, row: int) -> np.ndar
 
 
 def _spread(count: int, wanted: int) -> np.ndarray:
-    """Return the numbers of up to ``wanted`` of ``count`` pixels: those in the middle of as many equal parts."""
+    """Return the indices of up to ``wanted`` of ``count`` pixels, each in the middle of one of as many equal parts."""
     wanted = min(count, wanted)
     return ((2 * np.arange(wanted) + 1) * count) // (2 * wanted)
 
@@ -138,7 +139,7 @@ def _corners(camera: Camera, size: float) -> np.ndarray:
 
 
 def _ahead(camera: Camera, t: float, x, y) -> np.ndarray:
-    """Return the points (..., 3) at t along the rays of pixel coordinates; NaN where there is none."""
+    """Return the points (..., 3) at t along the rays of pixel coordinates; NaN where there is no ray."""
     origin, direction = camera.camera_rays(x, y)
     points = matvec(camera.pose.basis, tuple(a + t * b for a, b in zip(origin, direction, strict=True)))
     shape = np.broadcast_shapes(np.shape(x), np.shape(y))
@@ -156,5 +157,5 @@ def _segments(lines: np.ndarray) -> np.ndarray:
 
 
 def _drawn(segments: np.ndarray) -> np.ndarray:
-    """Return those segments whose ends both exist, as the graphics card takes them."""
+    """Return the segments whose ends are both finite, as float32 for the graphics card."""
     return segments[np.isfinite(segments).all(axis=(1, 2))].astype(np.float32)

@@ -1,27 +1,28 @@
-"""Passes as pictures to look at: numbers of any range in what a screen shows."""
+"""Passes as pictures: numbers of any range, mapped to colors that a screen can show."""
 
 from __future__ import annotations
 
 import numpy as np
 
 SIGNED = ("normal", "ray_direction")
-"""Passes from -1 to 1."""
+"""Passes with values from -1 to 1."""
 COUNTED = ("object_index", "material_index", "shape_index", "face_index")
 SHARES = ("combined", "uv", "valid")
 """Passes that are shown as they are."""
 NOTHING = 1e9
-"""From here on a distance is that of nothing: Blender has 1e10, the caster infinity."""
+"""Distances from this one on mean that nothing is hit: Blender stores 1e10, the caster infinity."""
 WIDE = 100.0
-"""Ratio of the largest to the least value from which on the scale is logarithmic."""
+"""Ratio of the largest to the smallest value above which the scale is logarithmic."""
 GOLDEN = (0.618033988749895, 0.754877666246693, 0.569840290998053)
-"""Steps of the three channels from one index to the next, of which no two small indices come near each other: the
-golden ratio's and the plastic number's.
+"""Steps of the three channels from one index to the next, from the golden ratio and the plastic number. They keep the
+colors of small indices apart.
 """
 
 
 def displayed(key: str, image: np.ndarray) -> tuple[np.ndarray, str]:
-    """Return a pass (rows, columns[, channels]) as colors (rows, columns, 3) float32 from 0 to 1, and in words what
-    they mean. Black is what has no value.
+    """Return a pass as colors (rows, columns, 3), float32 from 0 to 1, and a text that says what the colors mean.
+
+    image: (rows, columns[, channels]). Pixels without a value are black.
     """
     values = np.asarray(image, np.float64).reshape(*image.shape[:2], -1)[..., :3]
     if values.shape[-1] == 2:
@@ -31,7 +32,7 @@ def displayed(key: str, image: np.ndarray) -> tuple[np.ndarray, str]:
     elif key in SIGNED:
         colors, said = (values + 1) / 2 * (values != 0).any(axis=-1, keepdims=True), "-1 is black, 0 gray, 1 white"
     elif key in COUNTED:
-        colors, said = _colors(values[..., :1], key), "a color for each number"
+        colors, said = _colors(values[..., :1], key), "one color per number"
     else:
         colors, said = _range(values)
     shown = np.broadcast_to(np.clip(np.nan_to_num(colors), 0, 1), (*values.shape[:2], 3))
@@ -46,12 +47,13 @@ def _colors(numbers: np.ndarray, key: str) -> np.ndarray:
 
 
 def _range(values: np.ndarray) -> tuple[np.ndarray, str]:
-    """Return the finite values between their ends: one component from near, white, to far, a tenth of that; several
-    each from black to white.
+    """Return the finite values scaled to their own range, and that range as text.
+
+    A single component goes from white (smallest) to a tenth of white (largest), several go from black to white each.
     """
     counted = np.isfinite(values) & (np.abs(values) < NOTHING) & (values.shape[-1] > 1 or values != 0)
     if not counted.any():
-        return np.zeros_like(values), "nothing has a value"
+        return np.zeros_like(values), "no pixel has a value"
     low, high = (np.array([end(column[mask]) if mask.any() else 0.0 for column, mask in _columns(values, counted)])
                  for end in (np.min, np.max))  # fmt: skip
     logarithmic = values.shape[-1] == 1 and low[0] > 0 and high[0] > WIDE * low[0]

@@ -1,7 +1,7 @@
-"""Formulas as models write them, with the numbers of a pixel put in and worked out, one assignment after the other.
+"""Formulas of models, evaluated with the numbers of a pixel, one assignment after the other.
 
-A formula is text for readers: ``theta = 2 asin(r / (2 f))``, ``d = (a, b, -n) / sqrt(r² + n²)``. What stands side by
-side is multiplied, from left to right with divisions; a superscript is a power, ° the factor to radians.
+A formula is text for readers: ``theta = 2 asin(r / (2 f))``, ``d = (a, b, -n) / sqrt(r² + n²)``. Adjacent terms are
+multiplied, from left to right together with divisions. A superscript is a power, ° the factor from degrees to radians.
 """
 
 from __future__ import annotations
@@ -23,8 +23,9 @@ ASSIGNMENT = re.compile(r"([A-Za-z_][A-Za-z_0-9]*'?) = (.*)")
 
 
 def assignments(symbols: str) -> Iterator[tuple[str, str]]:
-    """Yield the names that a formula gives a value, each with its expression: its parts between commas and semicolons
-    that stand in no parentheses.
+    """Yield the names that a formula assigns, each with its expression.
+
+    Commas and semicolons outside of parentheses separate the assignments.
     """
     depth, parts = 0, [""]
     for letter in symbols:
@@ -40,7 +41,7 @@ def assignments(symbols: str) -> Iterator[tuple[str, str]]:
 
 
 def value(expression: str, known: Mapping[str, Any]) -> Any:
-    """Return what an expression gives, a number or a vector; None for what is none, or has names that are not known."""
+    """Return the value of an expression, a number or a vector; None if it is malformed or has unknown names."""
     words, at, ended = [], 0, False
     expression = expression.rstrip()
     while at < len(expression):
@@ -60,17 +61,17 @@ def value(expression: str, known: Mapping[str, Any]) -> Any:
             words.append(number or name or sign or (degrees and "*degree") or f"**{power.translate(POWERS)}")
         ended = bool(sign == ")" if sign else name not in FUNCTIONS)
     try:
-        with np.errstate(all="ignore"):  # NaN is an answer: no ray
+        with np.errstate(all="ignore"):  # NaN means: no ray
             return eval("".join(words), {"__builtins__": {}}, FUNCTIONS | {"known": known, "degree": np.pi / 180})
     except (SyntaxError, TypeError, ZeroDivisionError):
         return None
 
 
 def worked_out(formulas: Sequence[tuple[str, Mapping[str, Any]]], known: Mapping[str, Any]) -> list[list[str]]:
-    """Return for each formula its assignments with their numbers and results, of those that can be worked out.
+    """Return for each formula the assignments that can be evaluated, with numbers and results.
 
-    formulas: each with the numbers that only it knows; an assignment may need what stands in a later one. What they
-    assign is not known before.
+    formulas: pairs of a formula and the values that only this formula knows. An assignment may use the result of a
+    later one. Values in ``known`` of names that are assigned are ignored.
     """
     parts = [(k, *part) for k, (symbols, _) in enumerate(formulas) for part in assignments(symbols)]
     known = {name: number for name, number in known.items() if name not in {name for _, name, _ in parts}}
@@ -94,7 +95,7 @@ def shown(number: Any) -> str:
 
 
 def with_numbers(expression: str, known: Mapping[str, Any]) -> str:
-    """Return an expression with numbers in place of the names that are known; vectors keep their names."""
+    """Return an expression with numbers in place of known names; vectors and unknown names stay."""
 
     def number(found: re.Match) -> str:
         name = found.group()

@@ -1,4 +1,4 @@
-"""What the numbers in the index passes stand for, so that files can be read without the .blend."""
+"""Meanings of the numbers in the index passes, so that files can be used without the .blend."""
 
 from __future__ import annotations
 
@@ -9,14 +9,15 @@ import numpy as np
 from ..records import Shapes
 
 KINDS = "SPHERE", "PLANE", "INFINITE_PLANE", "MESH"
-"""By ``Shapes.kind``."""
+"""Names of the values of ``Shapes.kind``."""
 
 
 def indices_of(shapes: Shapes) -> dict[str, Any]:
-    """Return for ``object_index`` and ``material_index`` the names of the objects and materials that have each pass
-    index, and for ``shape_index`` runs of shapes: the first one's index, how many there are, their object and kind.
+    """Return the meanings of the numbers in the index passes, by the name of the pass.
 
-    Of materials only those count that a shape has; a pixel without one has material_index 0, too.
+    ``object_index`` and ``material_index`` have for each pass index the names of its objects or materials.
+    ``shape_index`` has runs of shapes: the index of the first, their number, their object and kind. Only materials that
+    a shape has are listed; a pixel without a material has material_index 0, too.
     """
     objects: dict[str, list[str]] = {}
     for index, name in np.unique(np.stack((shapes.object_index, shapes.name_index), axis=1), axis=0).tolist():

@@ -1,4 +1,4 @@
-"""A pixel step by step, with its numbers put in: raster, view coordinates, the model's formula, ray, shapes, hit."""
+"""Step-by-step explanation of one pixel, with numbers: raster, view coordinates, model formula, ray, shapes, hit."""
 
 from __future__ import annotations
 
@@ -17,36 +17,36 @@ from .formula import worked_out
 from .meetings import Meeting, meetings, nearest, words
 
 NORMALIZED = "[-1, 1]²"
-"""What a step of a formula says whose x and y are view coordinates, not pixels."""
+"""Text in the words of a formula step whose x and y are view coordinates instead of pixels."""
 
 
 @dataclass(frozen=True)
 class Lesson:
-    """One pixel's way from the raster to the color."""
+    """Steps of one pixel from the raster to its color."""
 
     seen: Probe
     steps: tuple[tuple[str, tuple[str, ...]], ...]
-    """(title, lines), in order."""
+    """Pairs (title, lines), in order."""
     met: tuple[Meeting, ...] = ()
-    """The shapes on the ray's line, the one that is seen first."""
+    """Shapes that the ray's line intersects; the visible shape is first."""
     point: np.ndarray | None = None
-    """(3,) what is seen, world; None where nothing is."""
+    """World position of the visible point, (3,); None if nothing is hit."""
     normal: np.ndarray | None = None
 
     def lines(self) -> list[str]:
-        """Return all of it as lines of text."""
+        """Return all steps as lines of text."""
         return [line for title, texts in self.steps for line in (title, *(f"  {text}" for text in texts), "")][:-1]
 
 
 def lesson(camera: Camera, shapes: Shapes, column: int, row: int) -> Lesson:
-    """Return the steps of a pixel of the full frame, counted from the bottom left, at the camera's own frame.
+    """Return the steps of a pixel at the camera's own frame. Pixels of the full frame are counted from the bottom left.
 
     Raises InputError for a pixel outside of the frame.
     """
     raster = camera.raster
     if not (0 <= column < raster.width and 0 <= row < raster.height):
         raise InputError(
-            f"pixel {column},{row} is outside of the frame: give 0,0 (bottom left) to "
+            f"pixel {column},{row} is outside the frame: give 0,0 (bottom left) to "
             f"{raster.width - 1},{raster.height - 1}"
         )
     seen = probe(camera, shapes, column, row)
@@ -54,7 +54,7 @@ def lesson(camera: Camera, shapes: Shapes, column: int, row: int) -> Lesson:
     if np.isnan(seen.direction).any():
         return Lesson(seen, (*steps, ("Ray", ("none: the model has no ray for this pixel",))))
     met = meetings(camera, shapes, seen.origin, seen.direction)
-    steps += [("Ray in the world", _world(camera, seen)), ("Shapes on its line", tuple(_shapes(met)))]
+    steps += [("Ray in the world", _world(camera, seen)), ("Shapes on the line of the ray", tuple(_shapes(met)))]
     if nearest(met) is None:
         color = words(shapes.world_color)
         return Lesson(seen, (*steps, ("Seen", (f"nothing: the color of the world, {color}",))), tuple(met))
@@ -88,7 +88,7 @@ def _raster(camera: Camera, seen: Probe):
 
 
 def _formula(camera: Camera, seen: Probe):
-    """Yield the model's steps, each also with numbers, and the ray in the camera's frame."""
+    """Yield the steps of the model's formula, with and without numbers, and the ray in the camera's frame."""
     model = camera.model
     x, y = seen.pixel[0] + 0.5, seen.pixel[1] + 0.5
     yield model.label
@@ -101,7 +101,7 @@ def _formula(camera: Camera, seen: Probe):
     for step, lines in zip(model.FORMULA, worked_out(formulas, _known(camera, x, y)), strict=True):
         yield f"{step.words}: {step.symbols}"
         yield from (f"  {line}" for line in lines)
-    with np.errstate(all="ignore"):  # NaN is an answer: no ray
+    with np.errstate(all="ignore"):  # NaN means: no ray
         origin, direction = (np.array([float(part) for part in v]) for v in camera.camera_rays(x, y))
     if np.isnan(direction).any():
         return
@@ -114,7 +114,7 @@ def _formula(camera: Camera, seen: Probe):
 
 
 def _known(camera: Camera, x: float, y: float) -> dict[str, Any]:
-    """Return what the names in a model's formula stand for: settings are known without their prefixes, too."""
+    """Return the values of the names in a model's formula. Settings are also known without their prefixes."""
     model, raster = camera.model, camera.raster
     facts: dict[str, Any] = dict(model.facts())
     numbers = {name: number for name, number in (camera.settings | facts).items() if isinstance(number, int | float)}
@@ -146,7 +146,7 @@ def _world(camera: Camera, seen: Probe) -> tuple[str, ...]:
 
 
 def _shapes(met: list[Meeting]):
-    """Yield what each shape on the ray's line says, and which of all places is seen."""
+    """Yield lines on each shape that the ray's line intersects, with the visible point marked."""
     first = nearest(met)
     if not met:
         yield "none"

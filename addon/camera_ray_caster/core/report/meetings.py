@@ -1,6 +1,6 @@
-"""Where one ray meets the shapes of a scene: every place, each by the plain equation of its shape.
+"""All intersections of one ray with the shapes of a scene, each from the plain equation of its shape.
 
-It shares nothing with the search, and does nothing to be fast: it is there to be read.
+The code is independent of the search for hits. It is written to be read, not to be fast.
 """
 
 from __future__ import annotations
@@ -10,41 +10,42 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..camera.camera import Camera
-from ..records import INFINITE_PLANE, MESH, SPHERE, Shapes
+from ..records import INFINITE_PLANE, MESH, PLANE, SPHERE, Shapes
 
 MOST = 12
-"""Places of one mesh that are listed."""
+"""Maximum number of intersections listed per mesh."""
 
 
 @dataclass(frozen=True)
 class Place:
-    """One place where the ray meets a shape."""
+    """One intersection of the ray with a shape."""
 
     t: float
-    """The distance from the ray's origin, in Blender units; negative behind it."""
+    """Distance from the ray's origin in Blender units; negative behind the origin."""
     what: str
-    """Of a mesh, which face; else empty."""
+    """Face of a mesh; empty for other shapes."""
     objection: str
-    """Why it does not count; empty where it counts."""
+    """Reason why the intersection does not count; empty if it counts."""
 
 
 @dataclass(frozen=True)
 class Meeting:
-    """What the ray and a shape have to do with each other."""
+    """Intersections of the ray with one shape."""
 
     shape: int
-    """The row in ``Shapes``."""
+    """Row in ``Shapes``."""
     name: str
     equation: tuple[str, ...]
     """Lines: the ray in the shape's own frame, the equation of t, its roots."""
     places: tuple[Place, ...]
-    """In the order of t."""
+    """Intersections in the order of t."""
 
 
 def meetings(camera: Camera, shapes: Shapes, origin: np.ndarray, direction: np.ndarray) -> list[Meeting]:
-    """Return the shapes that a ray (3,), (3,), world, unit length, meets anywhere on its line, the nearest first.
+    """Return the shapes that the line of a ray intersects, ordered by their nearest intersection that counts.
 
-    A place counts between the clip distances (depths for planar models) and on the shape's own surface.
+    origin, direction: (3,) each, in the world; the direction has unit length. An intersection is a point of the shape's
+    own surface. It counts if it is in front of the origin and between the clip distances (depths for planar models).
     """
     depth = float(-(np.linalg.inv(camera.pose.basis) @ direction)[2]) if camera.model.planar else 1.0
     found = []
@@ -52,7 +53,7 @@ def meetings(camera: Camera, shapes: Shapes, origin: np.ndarray, direction: np.n
         axes = shapes.axes[k]
         if shapes.kind[k] != MESH or abs(np.linalg.det(axes)) > 0:
             at, along = np.linalg.solve(axes, np.stack((origin - shapes.center[k], direction), axis=1)).T
-            equation, roots = EQUATIONS.get(int(shapes.kind[k]), _plane)(shapes, k, at, along)
+            equation, roots = EQUATIONS[int(shapes.kind[k])](shapes, k, at, along)
             places = tuple(Place(t, what, _clipped(camera, t, t * depth)) for t, what in sorted(roots))
             if places:
                 name = shapes.names[shapes.name_index[k]]
@@ -61,7 +62,7 @@ def meetings(camera: Camera, shapes: Shapes, origin: np.ndarray, direction: np.n
 
 
 def nearest(met: list[Meeting]) -> tuple[Meeting, Place] | None:
-    """Return the place that is seen: the nearest of those that count."""
+    """Return the visible intersection, the nearest that counts, with its shape; None if there is none."""
     counted = [(meeting, place) for meeting in met for place in meeting.places if not place.objection]
     return min(counted, key=lambda pair: pair[1].t, default=None)
 
@@ -75,7 +76,7 @@ def _sphere(shapes, k, at, along):
     )
     if under < 0:
         return lines, []
-    q = -0.5 * (b + np.copysign(np.sqrt(under), b))  # the sum of two numbers of one sign cancels nothing
+    q = -0.5 * (b + np.copysign(np.sqrt(under), b))  # adding two numbers of the same sign causes no cancellation
     return lines, [(float(t), "") for t in ({q / a, c / q} if q else {0.0})]
 
 
@@ -96,7 +97,7 @@ def _mesh(shapes, k, at, along):
     first, one, two = corners[:, 0], corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
     across, beside = np.cross(along, two, axisb=0).T, at[:, None] - first
     turned = np.cross(beside.T, one.T).T
-    with np.errstate(all="ignore"):  # triangles that are seen from their edge give NaN, which is no hit
+    with np.errstate(all="ignore"):  # triangles seen edge-on give NaN, which is no hit
         scale = 1 / (one * across).sum(axis=0)
         v, w = (beside * across).sum(axis=0) * scale, along @ turned * scale
         t = (two * turned).sum(axis=0) * scale
@@ -107,12 +108,12 @@ def _mesh(shapes, k, at, along):
     return lines, roots
 
 
-EQUATIONS = {SPHERE: _sphere, MESH: _mesh}
-"""How a ray meets the kinds of shapes that are no planes."""
+EQUATIONS = {SPHERE: _sphere, PLANE: _plane, INFINITE_PLANE: _plane, MESH: _mesh}
+"""How a ray meets each kind of shape."""
 
 
 def _clipped(camera: Camera, t: float, depth: float) -> str:
-    """Return why a place at t does not count, at that depth or distance; empty where it does."""
+    """Return the reason why an intersection at t, at this depth or distance, does not count; empty if it counts."""
     if t < 0:
         return "behind the ray's origin"
     if depth < camera.clip_start:
@@ -121,5 +122,5 @@ def _clipped(camera: Camera, t: float, depth: float) -> str:
 
 
 def words(vector) -> str:
-    """Return a vector in words."""
+    """Return a vector as text."""
     return "(" + ", ".join(f"{component + 0.0:.6g}" for component in vector) + ")"

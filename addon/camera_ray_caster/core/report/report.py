@@ -1,15 +1,12 @@
-"""The report of a run: errors with their bounds, seconds of each step, what was left out. One record, three forms."""
+"""The report of a run: errors with their bounds, seconds of each step, omissions. One record, three output forms."""
 
 from __future__ import annotations
 
 import json
-import math
 from collections.abc import Iterable, Mapping
 from dataclasses import asdict, dataclass, field, replace
 from textwrap import shorten, wrap
 from typing import Any
-
-import numpy as np
 
 from ..camera.camera import Camera
 from ..camera.facts import CONVENTIONS, camera_facts
@@ -17,23 +14,24 @@ from ..camera.pixel_time import ImageTime
 from ..cast import STEPS, Images
 from ..conventions import EPS32
 from ..exports.camera_json import recorded
+from ..exports.plain import plain
 from ..records import Finding, Shapes
 from ..version import VERSION
 from .accuracy import QUANTITIES, Accuracy
 from .indices import indices_of
 
 WIDTH = 100
-"""Columns that the table does not exceed."""
+"""Maximum width of the table in columns."""
 MARGIN = 23
-"""The column in which what is said of a camera begins."""
+"""Column in which the values of a camera's facts begin."""
 
 CAST_STEPS = ("plan", *STEPS)
-"""The steps that count for rays per second: from camera and shapes to finished arrays."""
+"""Steps that count for rays per second: from camera and shapes to finished arrays."""
 
 
 @dataclass(frozen=True)
 class Report:
-    """What was done for one frame, all of its view layers and eyes together."""
+    """Record of the work for one frame, all of its view layers and eyes together."""
 
     camera: Mapping[str, Any]
     """See ``camera_facts``."""
@@ -41,54 +39,54 @@ class Report:
     layers: tuple[str, ...] = ()
     passes: tuple[str, ...] = ()
     combined: Mapping[str, Any] = field(default_factory=dict)
-    """What has made the combined pass: the engine, its samples a pixel, the device if it is not ours."""
+    """Source of the combined pass: the engine, its samples per pixel, and the device if the engine is not ours."""
     shapes: int = 0
     pixels: int = 0
     seconds: Mapping[str, float] = field(default_factory=dict)
-    """Of each step, in the order in which they were taken."""
+    """Duration of each step, in the order of execution."""
     findings: tuple[Finding, ...] = ()
     not_done: tuple[str, ...] = ()
-    """What the cast had no need to do, and why."""
+    """Work that the cast did not need to do, with reasons."""
     left_out: tuple[tuple[str, str], ...] = ()
     """Objects that were not cast, each with the reason."""
     exact: tuple[tuple[str, float], ...] = ()
-    """Objects that were cast as the sphere or plane that their mesh is: see ``Shapes``."""
+    """Objects whose mesh is a sphere or plane and was cast as such: see ``Shapes``."""
     motion: tuple[str, ...] = ()
-    """At how many times the scene was evaluated for pixels that have each their own, and how well that is enough."""
+    """For pixels with their own times: the number of evaluations of the scene, and the accuracy between them."""
     precision: str = ""
-    """The setting that hits were searched with; empty where nothing was cast."""
+    """Precision setting of the search for hits; empty if nothing was cast."""
     accuracy: Accuracy = field(default_factory=Accuracy)
-    """The error bounds of the hits."""
+    """Error bounds of the hits."""
     file_outputs: tuple[str, ...] = ()
-    """The paths of what the compositor's File Output nodes wrote."""
+    """Paths of the files that the compositor's File Output nodes wrote."""
     warnings: tuple[str, ...] = ()
-    """What the file asked for and was not done; a terminal shows them apart."""
+    """Requests of the file that were not carried out; a terminal shows them separately."""
     host: Mapping[str, Any] = field(default_factory=dict)
-    """``blender``: its version; ``meters``: how long a Blender unit is."""
+    """``blender``: Blender's version; ``meters``: length of a Blender unit in meters."""
     record: Mapping[str, Any] | None = None
-    """What the camera was made of, for ``camera_from_json``: see ``recorded``; None of one whose time is an image."""
+    """Record of the camera for ``camera_from_json``: see ``recorded``; None if its pixel times are an image."""
     indices: Mapping[str, Any] = field(default_factory=dict)
-    """What the numbers of the index passes stand for, by view layer: see ``indices_of``."""
+    """Meanings of the numbers in the index passes, by view layer: see ``indices_of``."""
     made: Mapping[str, Any] = field(default_factory=dict)
-    """``of``: what the frame was made of; ``files``: the files beside the report, and their bytes."""
+    """``of``: the sources of the frame; ``files``: the files next to the report, and their bytes."""
 
     @property
     def rays_per_second(self) -> float | None:
-        """Rays over the seconds of CAST_STEPS; None where nothing was cast."""
+        """Number of rays divided by the seconds of CAST_STEPS; None if nothing was cast."""
         spent = sum(self.seconds.get(step, 0.0) for step in CAST_STEPS)
         return self.pixels / spent if spent > 0 else None
 
     @property
     def passed(self) -> bool:
-        """Whether no witness disagrees."""
+        """Whether all comparisons with references have passed."""
         return all(finding.passed for finding in self.findings)
 
     def with_seconds(self, **seconds: float) -> Report:
-        """Return the report with more steps, the seconds of a step that it has added up."""
+        """Return the report with these steps added; the seconds of a step that it already has are summed."""
         return replace(self, seconds=_sum(self.seconds, seconds))
 
     def __add__(self, other: Report) -> Report:
-        """Return the report of both: another view layer or eye of the same frame. The camera is the first one's."""
+        """Return the report of both: another view layer or eye of the same frame. The camera is that of ``self``."""
         return replace(
             self,
             layers=_union(self.layers, other.layers),
@@ -120,7 +118,7 @@ def report_cast(
     accuracy: Accuracy,
     host: Mapping[str, Any] | None = None,
 ) -> Report:
-    """Return the report of one cast of a view layer; of ``several``, it is named beside what was not done."""
+    """Return the report of one cast of a view layer; if ``several``, ``not_done`` has the layer's name."""
     return Report(
         camera=camera_facts(camera),
         frame=frame,
@@ -151,7 +149,7 @@ def as_data(report: Report) -> dict:
     data["findings"] = [{**asdict(finding), "passed": finding.passed} for finding in report.findings]
     data["left_out"] = [{"name": name, "reason": reason} for name, reason in report.left_out]
     data["exact"] = [{"name": name, "apart": apart} for name, apart in report.exact]
-    return _plain(data)
+    return plain(data, lambda number: None)
 
 
 def as_json(report: Report) -> str:
@@ -178,9 +176,9 @@ def _camera_lines(report: Report) -> list[str]:
     title = f"Camera {facts.pop('name')!r}, {facts.pop('model')}, frame {report.frame:g}"
     formula = [f"{step['words']}: {step['symbols']}" for step in facts.pop("formula")]
     settings = ", ".join(f"{name} {_numbers(value)}" for name, value in facts.pop("settings").items())
-    for name in ("key", "plane_from_pixels", "world_to_opencv"):  # they follow from what the table has
+    for name in ("key", "plane_from_pixels", "world_to_opencv"):  # derived from other facts in the table
         facts.pop(name, None)
-    if settings and len(settings) <= WIDTH - MARGIN:  # where they are few
+    if settings and len(settings) <= WIDTH - MARGIN:  # if they are few
         facts["settings"] = settings
     lines = [f"  {name.replace('_', ' '):{MARGIN - 3}} {_numbers(value)}" for name, value in facts.items()]
     return [title, *lines, *_listed("Formula", formula)]
@@ -190,7 +188,7 @@ def _finding_lines(report: Report) -> list[str]:
     if not report.findings:
         return []
     columns = [f"{name:>9}" for name in ("worst px", "median", "bound", "worst rad", "median", "bound")]
-    lines = ["", f"{'Witness':25} {'points':>7} " + " ".join(columns)]
+    lines = ["", f"{'Reference check':25} {'points':>7} " + " ".join(columns)]
     for finding in report.findings:
         name = shorten(finding.witness, 23, placeholder="…")
         if finding.not_compared:
@@ -215,7 +213,7 @@ def _accuracy_lines(report: Report) -> list[str]:
     for name, unit in QUANTITIES.items():
         lines.append(f"  {name.replace('_', ' '):17} {found.median(name):13.1e} {found.worst(name):13.1e}  {unit}")
     lines.append(f"  {found.hits} hits at {found.pixels} pixels all over the picture; precision {report.precision}")
-    return [*lines, f"  before they are stored: a float32 is rounded by up to {EPS32:.0e} of itself more"]
+    return [*lines, f"  before storage: storing as float32 adds a rounding of up to {EPS32:.0e} of the value"]
 
 
 def _second_lines(report: Report) -> list[str]:
@@ -223,7 +221,7 @@ def _second_lines(report: Report) -> list[str]:
         return []
     lines = ["", f"{'Step':18} {'seconds':>9}"]
     lines += [f"  {step:16} {seconds:9.4f}" for step, seconds in report.seconds.items()]
-    lines.append(f"  {'together':16} {sum(report.seconds.values()):9.4f}")
+    lines.append(f"  {'total':16} {sum(report.seconds.values()):9.4f}")
     if report.rays_per_second is not None:
         millions = report.rays_per_second / 1e6
         lines.append(f"  {report.pixels} rays at {report.shapes} shapes: {millions:.3g} million rays per second")
@@ -234,7 +232,10 @@ def _exact_lines(report: Report) -> list[str]:
     if not report.exact:
         return []
     name, apart = max(report.exact, key=lambda each: each[1])
-    text = f"{len(report.exact)} meshes cast as spheres or planes: at most {apart:.2%} of the radius off, {name!r}"
+    text = (
+        f"{len(report.exact)} meshes cast as spheres or planes, with a deviation of at most {apart:.2%} of the radius, "
+        f"in {name!r}"
+    )
     return _listed("Exact shapes", [text])
 
 
@@ -246,7 +247,7 @@ def _listed(title: str, texts) -> list[str]:
 
 
 def _numbers(value) -> str:
-    """Return a fact in words: numbers aligned, matrices row by row on one line."""
+    """Return a fact as text: numbers aligned, a matrix on one line, row by row."""
     if isinstance(value, float):
         return f"{value:.7g}"
     if not isinstance(value, list):
@@ -256,21 +257,10 @@ def _numbers(value) -> str:
     return " ".join(f"{_numbers(entry):>12}" for entry in value)
 
 
-def _plain(value):
-    """Return JSON's kind of value: strings, ints, bools and None stay."""
-    if isinstance(value, Mapping):
-        return {str(key): _plain(entry) for key, entry in value.items()}
-    if isinstance(value, np.ndarray | np.generic):
-        return _plain(value.tolist())
-    if isinstance(value, list | tuple):
-        return [_plain(entry) for entry in value]
-    return None if isinstance(value, float) and not math.isfinite(value) else value
-
-
 def _sum(left: Mapping[str, float], right: Mapping[str, float]) -> dict[str, float]:
     return {step: left.get(step, 0.0) + right.get(step, 0.0) for step in _union(left, right)}
 
 
 def _union(left: Iterable, right: Iterable) -> tuple:
-    """Return what is in either, once, in order."""
+    """Return the items of both, each once, in order."""
     return tuple(dict.fromkeys((*left, *right)))

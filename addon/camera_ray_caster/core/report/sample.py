@@ -1,4 +1,4 @@
-"""What a camera is verified by: a sample of its rays, and the words in which a witness's answer is told."""
+"""Basis of a camera's verification: a sample of its rays, and the finding that a comparison results in."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from ..records import Finding, Pose, Raster, Rays
 
 
 class CameraRays(Protocol):
-    """All that is asked of a camera."""
+    """Part of a camera that verification uses."""
 
     @property
     def raster(self) -> Raster:
@@ -22,30 +22,30 @@ class CameraRays(Protocol):
 
     @property
     def pose(self) -> Pose:
-        """Where it stands."""
+        """Position and axes of the camera."""
 
     def project(self, points) -> np.ndarray:
         """Return the pixel coordinates of world points."""
 
     def pixel_rounding(self, x, y) -> tuple[Any, Any]:
-        """Return what rounding before a model's formula amounts to, in pixels; see ``Model``."""
+        """Return the rounding that precedes a model's formula, in pixels; see ``Model``."""
 
     @property
     def formula_reach(self) -> float:
-        """How far from the eye the model's formula reaches for what else it has; see ``Model``."""
+        """Largest distance from the eye of the formula's other geometry, such as slits; see ``Model``."""
 
 
 @dataclass(frozen=True)
 class Sample:
-    """Rays of some pixels of the window; n of them."""
+    """Rays of n pixels of the render window."""
 
     pixels: np.ndarray
-    """(n, 2): where the pixels' centers are, known from their numbers and not from the camera."""
+    """Centers of the pixels (n, 2), computed from their indices without the camera."""
     origins: np.ndarray
     directions: np.ndarray
     valid: np.ndarray
     distance: float
-    """How far along the rays points are taken: as far as the origins lie from the world's, where float32 is best."""
+    """Distance of the points along the rays: the largest coordinate of the rays' origins, at which float32 is best."""
 
     @classmethod
     def of(cls, camera: CameraRays, grid: int) -> Sample:
@@ -65,7 +65,7 @@ class Sample:
 
 
 def finding(name: str, errors, angles, bound_pixels, bound_radians, own) -> Finding:
-    """Return what a witness says: the largest and median errors, (n, 2) and (n,), beside their bounds and our own."""
+    """Return the finding of a comparison: worst and median errors, (n, 2) and (n,), and the bounds plus ``own``."""
     pixels = length_of(errors)
     return Finding(
         witness=name,
@@ -80,17 +80,17 @@ def finding(name: str, errors, angles, bound_pixels, bound_radians, own) -> Find
 
 
 def not_compared(name: str, reason: str) -> Finding:
-    """Return the finding of a witness that has no answer."""
+    """Return the finding of a reference that has no answer."""
     return Finding(name, 0, *6 * (float("nan"),), not_compared=reason)
 
 
 def largest(errors) -> float:
-    """Return the largest of some errors, 0 of none; NaN where one is."""
+    """Return the largest error; 0 if there are none, NaN if any is NaN."""
     return float(np.max(errors, initial=0.0))
 
 
 def _spread(count: int, grid: int) -> np.ndarray:
-    """Return up to ``grid`` of the numbers 0 .. count - 1, evenly, the first and the last among them."""
+    """Return up to ``grid`` of the numbers 0 .. count - 1, evenly spaced, including the first and the last."""
     return np.unique(np.linspace(0, count - 1, grid).round().astype(int))
 
 
@@ -100,5 +100,5 @@ def length_of(vectors):
 
 
 def angles_between(left, right):
-    """Return the angles between unit vectors (n, 3), from their difference, which keeps the small ones."""
+    """Return the angles between unit vectors (n, 3), from their difference, which keeps small angles accurate."""
     return 2 * np.arcsin(np.minimum(length_of(left - right) / 2, 1.0))

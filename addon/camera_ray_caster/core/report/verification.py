@@ -1,12 +1,12 @@
-"""A camera's rays compared with witnesses: errors in pixels and radians, beside the bound that each witness can reach.
+"""A camera's rays compared with references: errors in pixels and radians, and the bound of each reference.
 
-It knows a camera by its public ``rays_at``, ``project``, ``raster`` and ``pose`` and by what its model says of its
-rounding, and no model's formula. Blender's own answers are the witnesses of ``report.witness``; the round trip needs
-none:
+The comparison uses a camera's public ``rays_at``, ``project``, ``raster`` and ``pose`` and the rounding that its model
+reports; it uses no model's formula. Blender's own answers are the references of ``report.witness``. The round trip
+needs no reference. Its bound is our own float64 rounding, so it is added to every other bound. It is the sum of
 
-round trip             float64: what moving the point by 32 EPS (|eye| + |origin| + |point| + what else the formula has)
-                       does to its pixel, what the model rounds away of a pixel, there and back, and the rounding of the
-                       pixel itself. It is our own rounding, so it is added to every other bound.
+* the change of the pixel if the point moves by 32 EPS (|eye| + |origin| + |point| + ``formula_reach``),
+* the model's rounding of a pixel, there and back,
+* the rounding of the pixel itself.
 """
 
 from __future__ import annotations
@@ -21,28 +21,29 @@ from .sample import CameraRays, Sample, angles_between, finding, largest, length
 from .witness import Witness, findings_of
 
 GRID = 9
-"""Pixels a side at which rays are compared: the window's edges, its middle and between."""
+"""Number of pixels per side at which rays are compared, spread evenly from edge to edge of the window."""
 
 STEP = 2.0**-4
-"""Pixels between neighboring rays, whose angle tells how an error in pixels counts in radians."""
+"""Distance in pixels between neighboring rays, whose angle converts an error in pixels to radians."""
 
 ENLARGED = 2.0**15
-"""How many times its rounding a point is moved to see what the rounding does to its pixel."""
+"""Factor by which a point's rounding is enlarged to measure the effect of the rounding on its pixel."""
 
 MOVES = ENLARGED, 2.0**5
-"""The second where pixels turn so fast that the first would leave what is straight."""
+"""Both factors are used. The second one is for pixels that change so fast that the first leaves the linear range."""
 
 PART = 0.38
-"""Of the way to another pixel that sees a point: no simple fraction, or rays might have turned all the way round."""
+"""Fraction of the way to another pixel with the same point. At a simple fraction, rays might be a full turn apart."""
 
 
 def verify(camera: CameraRays, witness: Witness | None = None, grid: int = GRID) -> list[Finding]:
-    """Return what each witness says of the camera's rays, at ``grid`` x ``grid`` pixels of the render window.
+    """Return one finding per reference on the camera's rays, at ``grid`` x ``grid`` pixels of the render window.
 
-    ``witness`` is Blender's, or None where Blender has none: an object with ``size``, ``matrix_world``, ``frame``,
-    ``matrix`` and ``view_coordinates(points)``. The round trip needs none.
-    Errors in radians are angles between directions in the world; errors in pixels say where in the frame the witness
-    sees the ray. A pixel without a ray fails (NaN) where there is a witness, and is left out of the round trip.
+    ``witness`` has Blender's answers, or is None if Blender has none: an object with ``size``, ``matrix_world``,
+    ``frame``, ``matrix`` and ``view_coordinates(points)``. The round trip needs no reference.
+    Errors in radians are angles between directions in the world; errors in pixels are distances to the place in the
+    frame where the reference sees the ray. A pixel without a ray fails (NaN) if there is a reference, and is left out
+    of the round trip.
     """
     sample = Sample.of(camera, grid)
     own, round_trip = _round_trip(camera, sample)
@@ -52,9 +53,9 @@ def verify(camera: CameraRays, witness: Witness | None = None, grid: int = GRID)
 
 
 def _round_trip(camera: CameraRays, sample: Sample) -> tuple[tuple[Any, Any], Finding]:
-    """Go from pixels along their rays to points and back; return the float64 bounds too, in pixels and radians.
+    """Go from pixels along their rays to points and back; return the float64 bounds (pixels, radians) and the finding.
 
-    A point that several pixels see may come back to another one: where the ray of that one meets it, it is left out.
+    A point that several pixels see may come back to another pixel. It is left out if that pixel's ray meets it.
     """
     valid = sample.valid
     pixels, points, directions = sample.pixels[valid], sample.points[valid], sample.directions[valid]
@@ -67,12 +68,12 @@ def _round_trip(camera: CameraRays, sample: Sample) -> tuple[tuple[Any, Any], Fi
         for times in MOVES:
             step = (times * moved)[:, None] * side
             slips += [length_of(camera.project(points + near) - back) / times for near in (step, -step)]
-        bound += np.fmax.reduce(slips)  # at the picture's rim some have no pixel
+        bound += np.fmax.reduce(slips)  # at the picture's rim some points have no pixel
     steps = STEP * np.concatenate((np.eye(2), -np.eye(2)))
     turns = [angles_between(camera.rays_at(*(pixels + step).T).directions, directions) for step in steps]
     turned = np.fmax.reduce(turns) / STEP * bound + gamma(32)
     near = ENLARGED * moved + sample.distance * np.nan_to_num(turned)
-    turned[np.isnan(turned)] = np.pi  # no neighbor has a ray: the error in pixels says it all
+    turned[np.isnan(turned)] = np.pi  # no neighbor has a ray: only the error in pixels counts
     own = largest(bound), largest(turned)
     keep = ~_seen_elsewhere(camera, pixels, points, back, near)
     errors, angles = (back - pixels)[keep], angles_between(again, directions)[keep]
@@ -80,8 +81,9 @@ def _round_trip(camera: CameraRays, sample: Sample) -> tuple[tuple[Any, Any], Fi
 
 
 def _seen_elsewhere(camera: CameraRays, pixels, points, back, near):
-    """Return which points come back to another pixel whose ray comes as near to them: farther than the next pixel, or
-    with rays between them that do not.
+    """Return which points come back to another pixel whose ray meets them too, within ``near``, (n,) bool.
+
+    The other pixel is more than one pixel away, or a ray between the two pixels misses the point.
     """
 
     def is_met(part: float):
@@ -92,6 +94,6 @@ def _seen_elsewhere(camera: CameraRays, pixels, points, back, near):
 
 
 def _moved(camera: CameraRays, sample: Sample):
-    """Return how far rounding may move each point, (n,)."""
+    """Return the distance by which rounding may move each point, (n,)."""
     places = camera.pose.eye[None], sample.origins, sample.points
     return gamma(32) * (sum(np.abs(place).sum(axis=1) for place in places) + camera.formula_reach)

@@ -1,18 +1,21 @@
-"""Blender's own answers on where a camera's pixels look, compared with its rays: errors beside the bound of each.
+"""A camera's rays compared with Blender's own answers on where its pixels look: errors and their bounds.
 
-A witness computes in float32, so each bound is (rounded operations in the witness's own code) x 2^-24 x (magnitude they
-act on). M is the largest offset of the frame's edges from the optical axis, in pixels (half the frame, and more with
-shift).
+Blender's functions are independent references. They compute in float32, so each bound is (number of rounded operations
+in the function's own code) x 2^-24 x (magnitude they act on). M is the largest offset of the frame's edges from the
+optical axis, in pixels (half the frame, and more with shift). The numbers of rounded operations are:
 
 view_frame             aspect 3, half side 1, shift 1, sum or depth 1: 6 M.
 calc_matrix_camera     pixel size 5 (sensor, near plane, lens, aspect); left and right edge each 4 (shift 1, its unit 2,
                        sum 1), times pixel size 2; their sum, their difference, both divisions and the aspect once
                        more 7: 18 M. An error common to all is counted once: it stretches the frame.
-world_to_camera_view   the local point: axes normalized 5, cofactors 2, determinant 8, division and products 2, sum,
-                       the point given as float32 1, and axes tilted by their rounding 2: 21 (|eye| + |point|) / det^2,
-                       det the volume of the unit axes (1 unless sheared), sums of magnitudes; seen at its depth.
-                       Its frame: 6 as above and 2 for scaling it to the depth: 8 M; 1 for the result.
-A witness whose own arithmetic has overflowed, or lost its digits below float32's least number, is not compared.
+world_to_camera_view   the local point: axes normalized 5, cofactors 2, determinant 8, division and products 2, sum
+                       1, the point given as float32 1, and axes tilted by their rounding 2: 21 (|eye| + |point|) /
+                       det^2, at the point's depth. Here |.| is the sum of magnitudes, and det is the volume of the
+                       unit axes (1 unless sheared). Its frame: 6 as above and 2 for scaling to the depth: 8 M; 1 for
+                       the result.
+
+A reference is not compared if its own arithmetic has overflowed or has lost digits below float32's smallest normal
+number.
 Reference for the operations: Blender's camera.cc, mathutils and bpy_extras; see Higham (conventions.gamma) for sums.
 """
 
@@ -27,15 +30,15 @@ from ..conventions import EPS32, gamma
 from ..records import Finding
 from .sample import CameraRays, Sample, angles_between, finding, length_of, not_compared
 
-NOT_CARRIED = "Blender's own float32 does not carry these numbers"
+NOT_CARRIED = "Blender's own float32 arithmetic cannot represent these numbers"
 
 LEAST = float(np.finfo(np.float32).tiny)
-"""Below it a float32 has fewer digits."""
+"""Smallest normal float32; smaller numbers have fewer digits."""
 FRAME, MATRIX, VIEW = "view_frame", "calc_matrix_camera", "world_to_camera_view"
 
 
 class Witness(Protocol):
-    """Blender's answers on a camera, as ``blender.verification.witness`` describes them."""
+    """Blender's answers for one camera; see ``blender.verification.witness``."""
 
     size: tuple[int, int]
     matrix_world: np.ndarray
@@ -43,15 +46,15 @@ class Witness(Protocol):
     matrix: np.ndarray
 
     def view_coordinates(self, points: np.ndarray) -> np.ndarray:
-        """Return where in the view the camera sees world points, (n, 3); NaN where its arithmetic has failed."""
+        """Return the view coordinates of world points, (n, 3) each; NaN where Blender's arithmetic fails."""
 
 
 def findings_of(camera: CameraRays, sample: Sample, witness: Witness, own) -> list[Finding]:
-    """Return what each of Blender's functions says of the rays.
+    """Return one finding on the rays for each of Blender's functions.
 
-    own: what our own rounding does to a round trip, in pixels and radians.
+    own: bounds of our own rounding in a round trip, in pixels and radians.
     """
-    with np.errstate(all="ignore"):  # a wrong ray may pass beside the frame's plane, or a bound exceed float64
+    with np.errstate(all="ignore"):  # a wrong ray may miss the frame's plane, or a bound exceed float64
         local = _Local.of(witness)
         if not local.is_carried:
             return [not_compared(name, NOT_CARRIED) for name in (FRAME, MATRIX, VIEW)]
@@ -60,7 +63,7 @@ def findings_of(camera: CameraRays, sample: Sample, witness: Witness, own) -> li
 
 @dataclass(frozen=True)
 class _Local:
-    """A witness with what follows from it: the camera's axes, and pixels on the frame."""
+    """A reference with the values derived from it: the camera's axes and the pixel size on the frame."""
 
     witness: Witness
     size: np.ndarray
@@ -68,13 +71,13 @@ class _Local:
     axes: np.ndarray
     """(3, 3): columns of the world matrix, each of unit length."""
     parallel: bool
-    """Whether the witness sees parallel rays: its matrix divides by a constant."""
+    """Whether the reference's rays are parallel: its projection matrix divides by a constant."""
     depth: float
-    """Of the frame; 1 for parallel rays, whose frame is as wide at every depth."""
+    """Depth of the frame; 1 for parallel rays, whose frame has the same size at every depth."""
     pitch: np.ndarray
-    """(2,) size of a pixel on the frame."""
+    """Size of a pixel on the frame, (2,)."""
     reach: np.ndarray
-    """(2,) largest offset of the frame's edges from the axis."""
+    """Largest offset of the frame's edges from the axis, (2,)."""
 
     @classmethod
     def of(cls, witness) -> _Local:
@@ -95,7 +98,7 @@ class _Local:
 
     @property
     def is_carried(self) -> bool:
-        """Whether frame and matrix are numbers in which float32 has all its digits."""
+        """Whether frame and matrices are finite, and the frame is large enough for float32's full precision."""
         answers = self.witness.frame, self.witness.matrix, self.witness.matrix_world
         return all(np.isfinite(answer).all() for answer in answers) and bool((self.reach >= LEAST).all())
 
@@ -109,12 +112,15 @@ class _Local:
         return (origins - self.eye) @ inverse, directions @ inverse
 
     def angles(self, directions, camera_directions):
-        """Return the angles between world directions and the witness's, of any length, in the camera's frame."""
+        """Return the angles between world directions and the reference's directions.
+
+        The reference's directions are in the camera's frame and have any length.
+        """
         expected = camera_directions @ self.axes.T
         return angles_between(directions, expected / length_of(expected)[:, None])
 
     def direction_bound(self, camera_directions, rounding):
-        """Return how far (radians) directions may turn when their x and y (2,) are ``rounding`` off at the frame."""
+        """Return the turns (radians) of directions if their x and y at the frame are off by ``rounding`` (2,)."""
         if self.parallel:
             return 0.0
         x, y, z = (camera_directions / -camera_directions[:, 2:]).T
@@ -123,7 +129,7 @@ class _Local:
 
 
 def _view_frame(camera: CameraRays, local: _Local, own) -> Finding:
-    """Hold the rays through corners, middles of edges and center of the full frame against the frame's corners."""
+    """Compare the rays through the corners, edge midpoints and center of the full frame with view_frame's corners."""
     u, v = (a.ravel() for a in np.meshgrid((0.0, 0.5, 1.0), (0.0, 0.5, 1.0)))
     rays = camera.rays_at(*(np.stack((u, v)) * local.size[:, None]))
     weights = np.stack((u * v, u * (1 - v), (1 - u) * (1 - v), (1 - u) * v), axis=1)
@@ -138,13 +144,13 @@ def _view_frame(camera: CameraRays, local: _Local, own) -> Finding:
 
 
 def _matrix(sample: Sample, local: _Local, own) -> Finding:
-    """Hold the rays against the projection matrix: where it sees their points, and the ray that it has for a pixel."""
+    """Compare the rays with the projection matrix: the pixels of their points, and the matrix's own rays of pixels."""
     matrix = local.witness.matrix
     origin, direction = local.rays(sample.origins, sample.directions)
     clip = (origin + direction * sample.distance) @ matrix[:, :3].T + matrix[:, 3]
     errors = (clip[:, :2] / clip[:, 3:] + 1) * local.size / 2 - sample.pixels
     view = 2 * sample.pixels / local.size - 1
-    planes = matrix[:2, :3] - view[:, :, None] * matrix[3, :3]  # those that see the pixel's column and its row edge on
+    planes = matrix[:2, :3] - view[:, :, None] * matrix[3, :3]  # the planes of the pixel's column and row
     expected = np.cross(planes[:, 1], planes[:, 0])
     rounding = gamma(18, EPS32) * local.reach
     turned = local.direction_bound(expected, rounding)
@@ -153,7 +159,7 @@ def _matrix(sample: Sample, local: _Local, own) -> Finding:
 
 
 def _view_coordinates(sample: Sample, local: _Local, own) -> Finding:
-    """Hold points along the rays, and for parallel rays their origins, against world_to_camera_view."""
+    """Compare points along the rays, and for parallel rays also their origins, with world_to_camera_view."""
     pixels, path, lost, lost_pixels = _view(local, sample.points)
     errors = pixels - sample.pixels
     if local.parallel:
@@ -168,10 +174,10 @@ def _view_coordinates(sample: Sample, local: _Local, own) -> Finding:
 
 
 def _view(local: _Local, points):
-    """Return where world_to_camera_view sees world points (n, 3), and how much of it float32 can lose.
+    """Return where world_to_camera_view sees world points (n, 3), and how much float32 can lose.
 
-    That is pixels (n, 2), the points in the camera's frame as the answer implies them (n, 3), and for each component
-    of both what can be lost.
+    The four arrays are the pixels (n, 2), the points in the camera's frame that the answer implies (n, 3), and the
+    possible loss of each component of these points (n, 3) and of the pixels (n, 2).
     """
     view = local.witness.view_coordinates(points.astype(np.float32))
     exact = (points - local.eye) @ np.linalg.inv(local.axes).T

@@ -1,1 +1,1 @@
-"""Cameras as shaders: the rays of any model, recorded and written in the Open Shading Language."""
+"""Cameras as shaders: the ray formula of any model, recorded and written in the Open Shading Language."""

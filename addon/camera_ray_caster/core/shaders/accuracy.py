@@ -1,4 +1,4 @@
-"""How near the rays of a camera's shader are to the camera's own: what float32 makes of them in Cycles."""
+"""Accuracy of the rays of a camera's shader in Cycles' float32, compared with the camera's own rays."""
 
 from __future__ import annotations
 
@@ -14,26 +14,26 @@ from .camera_shader import ray_record
 from .rounding import Rounded, rounded
 
 RASTER = 4 * EPS32
-"""Of the frame: what Cycles rounds of a place on it, 0 .. 1 with the shift added."""
+"""Cycles' rounding of a place on the frame, 0 .. 1 with the shift added, as a fraction of the frame."""
 WORLD = 16 * EPS32
-"""Of lengths: what it rounds when it normalizes a direction and brings a ray to the world by a float32 matrix."""
+"""Cycles' relative rounding when it normalizes a direction and transforms a ray to the world by a float32 matrix."""
 
 
 class RayBounds(NamedTuple):
-    """Bounds for chief rays of a shader, arrays in the shape of the pixels."""
+    """Error bounds for the chief rays of a shader, arrays in the shape of the pixels."""
 
     origin: np.ndarray
-    """How far the origin may be off, Blender units in the world."""
+    """Largest error of the origin, Blender units in the world."""
     direction: np.ndarray
-    """How far the unit direction may be off, radians; infinite where float32 does not tell whether there is a ray, NaN
-    where there is none for sure.
+    """Largest error of the unit direction, radians; infinite where float32 leaves open whether there is a ray, NaN
+    where there is certainly none.
     """
 
 
 def ray_bounds(camera: Camera, x, y, shift: tuple[float, float]) -> RayBounds:
-    """Return how far Cycles' rays through pixel coordinates may be from those of ``camera.rays_at``.
+    """Return bounds of the differences between Cycles' rays through pixel coordinates and those of ``camera.rays_at``.
 
-    shift: what Cycles adds to the raster; see ``camera_shader``. A bound of first order, for Cycles on a CPU.
+    shift: Cycles' shift of the raster; see ``camera_shader``. The bounds are of first order, for Cycles on a CPU.
     """
     frame, x, y = camera.model.frame, *np.broadcast_arrays(x, y)
     places = [

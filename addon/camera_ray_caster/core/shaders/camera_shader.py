@@ -1,8 +1,8 @@
 """A camera as a shader of Cycles: its own rays, recorded and written in OSL.
 
-Cycles gives such a shader the place on the raster, 0 .. 1 over the full frame from its bottom left, to which it has
-added the camera's shift in fractions of the frame; and a point of the aperture. It takes a ray in a camera space that
-looks along +Z, x right, y up. All else of the camera, its pose and the render border, is Cycles' as before.
+Cycles gives such a shader a point of the aperture and a place on the raster, 0 .. 1 over the full frame from its bottom
+left, to which it has added the camera's shift in fractions of the frame. The shader returns a ray in a camera space
+with the view along +Z, x right, y up. Cycles handles the camera's pose and the render border as usual.
 Reference: Blender manual, Cycles, Open Shading Language, Cameras.
 """
 
@@ -61,32 +61,34 @@ HOLE = """\
     float across = noise("hash", 1048576.0 * place[0], 1048576.0 * place[1]);
     float up = noise("hash", 1048576.0 * place[1], 1048576.0 * place[0]);
 """
-"""Cycles samples the aperture of its own depth of field, of custom cameras in a size of its own. The hole of a camera
-obscura it does not know: that takes the noise of the place in the pixel.
+"""OSL for a point of the aperture.
+
+Cycles samples the aperture of its own depth of field, whose size for custom cameras differs from ours. It does not know
+the hole of a camera obscura: for that, the shader uses noise of the place in the pixel.
 """
 
 
 @dataclass(frozen=True)
 class CameraShader:
-    """The text of a shader, which is the same for all cameras with the same formula, and the values of its inputs."""
+    """The text of a shader and the values of its inputs. Cameras with the same formula have the same text."""
 
     source: str
     values: Mapping[str, float]
     places: frozenset[int]
-    """The constants without a name that are inputs; see ``osl.Inputs``."""
+    """Places of the unnamed constants that are inputs; see ``osl.Inputs``."""
 
 
 @dataclass(frozen=True)
 class Mark:
-    """What the first line of a shader says of it."""
+    """Information in the first line of a shader."""
 
     blender_type: str
-    """Of the camera before it became a custom one: PERSP, ORTHO or PANO."""
+    """Type of the camera before it became a custom camera: PERSP, ORTHO or PANO."""
     places: frozenset[int]
 
 
 def read_mark(source: str) -> Mark | None:
-    """Return what the first line of a text says; None where it is no shader of ours, or was edited."""
+    """Return the mark in the first line of a text; None if the text is not a shader of ours, or was edited."""
     line, _, rest = source.partition("\n")
     found = MARKED.fullmatch(line)
     if found is None or int(found[3], 16) != crc32(rest.encode()):
@@ -101,12 +103,12 @@ def camera_shader(
     places: frozenset[int] = frozenset(),
     turn: Turn = UPRIGHT,
 ) -> CameraShader:
-    """Return the shader that gives Cycles the rays of a camera, all over its pixels and its aperture, at one time.
+    """Return the shader that gives Cycles the rays of a camera for all of its pixels and aperture, at one time.
 
-    blender_type: what ``read_mark`` shall say. shift: what Cycles adds to the raster, in fractions of the frame.
-    places: constants that are inputs in any case, for cameras whose settings change. turn: how Cycles' raster lies in
-    the camera's. Its rays are those of ``Camera.sample_rays`` in float32. Raises NotRecordable for a model that does
-    what cannot be recorded.
+    blender_type: the type for ``read_mark``. shift: Cycles' shift of the raster, in fractions of the frame. places:
+    constants that are inputs in any case, for cameras whose settings change. turn: the transformation from Cycles'
+    raster to the camera's. The rays are those of ``Camera.sample_rays`` in float32. Raises NotRecordable for a model
+    with operations that cannot be recorded.
     """
     model, inputs = camera.model, Inputs(places)
     writer = Writer(inputs)
@@ -137,8 +139,10 @@ def camera_shader(
 
 
 def ray_record(camera: Camera) -> Record:
-    """Return the record of origin and direction in the camera's frame, of (x, y), pixel coordinates, and a point of the
-    aperture in radii; for a hole two numbers of [0, 1). The fields of the model are parameters.
+    """Return the record of a ray, origin and direction in the camera's frame, as a function of pixel and aperture.
+
+    Its four inputs are the pixel coordinates x and y, and a point of the aperture in radii, or for a hole two numbers
+    in [0, 1). The fields of the model are parameters.
     """
     width, height = camera.model.frame
     frame = Parameter(width, "frame_width"), Parameter(height, "frame_height")
@@ -158,12 +162,12 @@ def ray_record(camera: Camera) -> Record:
 
 
 def _is_sheared(camera: Camera) -> bool:
-    """Whether float32 tells the camera's axes from perpendicular ones: lengths then depend on the direction."""
+    """Whether the camera's axes are not perpendicular in float32: lengths then depend on the direction."""
     return bool(np.abs(camera.pose.basis.T @ camera.pose.basis - np.eye(3)).max() > 16 * EPS32)
 
 
 def _named(item: Any, name: str = "") -> Any:
-    """Return a model, or a part of one, whose numbers tell a record which field they are."""
+    """Return a model, or a part of a model, with its numbers as parameters named after their fields."""
     if is_dataclass(item) and not isinstance(item, type):
         parts = {each.name: f"{name}_{each.name}".strip("_") for each in fields(item)}
         return replace(item, **{part: _named(getattr(item, part), full) for part, full in parts.items()})

@@ -1,7 +1,7 @@
 """A record of a formula, written as statements of the Open Shading Language (OSL).
 
-OSL has no NaN: a division by zero gives 0 there, and so does the root of a negative number. What is no number is
-carried beside each value, as an int that is 1 where there is none. All numbers are float32.
+OSL has no NaN: a division by zero gives 0 there, and so does the root of a negative number. Each value is therefore
+accompanied by an int that is 1 if the value is undefined. All numbers are float32.
 Reference: Open Shading Language 1.14, Language Specification, chapters 5 and 7.
 """
 
@@ -25,14 +25,14 @@ FUNCTIONS = {
     "equal": "{} == {}", "logical_and": "{} && {}", "logical_or": "{} || {}", "logical_not": "!{}",
     "where": "{} ? {} : {}",
 }  # fmt: skip
-"""How operations are written."""
+"""OSL text of each operation."""
 
 ABSENT = {
     "divide": "{1} == 0.0", "remainder": "{1} == 0.0", "sqrt": "{0} < 0.0", "log": "{0} <= 0.0",
     "log1p": "{0} <= -1.0", "arcsin": "fabs({0}) > 1.0", "arccos": "fabs({0}) > 1.0",
     "power": "({0} < 0.0 && {1} != floor({1})) || ({0} == 0.0 && {1} < 0.0)",
 }  # fmt: skip
-"""Where an operation gives no number: the opposite of ``recording.DOMAIN``."""
+"""Conditions under which an operation is undefined: the opposite of ``recording.DOMAIN``."""
 
 HELPERS = {
     "sin": """\
@@ -65,25 +65,25 @@ float log1p(float x)
 }
 """,
 }
-"""Functions that OSL does not have, or not to float32's last digits: its sine is off by up to 1e-6. Half turns go
-away in two parts, of which the first times a small whole number is exact; the sum is Taylor's, to 6e-8. The last
-is W. Kahan's: exact where 1 + x is rounded.
+"""Functions that OSL lacks, or does not compute to float32's last digits: its sine is off by up to 1e-6. ``sine``
+subtracts half turns in two parts, the first of which times a small whole number is exact; its sum is Taylor's, to 6e-8.
+``log1p`` is W. Kahan's: it compensates the rounding of 1 + x.
 """
 
 NEEDED_BY = {"cos": "sin"}
-"""The helper that another one calls."""
+"""Helpers that are called by other helpers."""
 
 LITERALS = frozenset((0.0, 0.5, 1.0, 2.0, 3.0, 4.0, math.pi / 2, math.pi, 2 * math.pi, math.inf))
-"""Constants that stand in the text, and their negatives: they are the formula's, and not settings."""
+"""Constants that are written in the text, as are their negatives: they belong to the formula and are not settings."""
 
 LEAST, MOST = 1e-30, 3e38
-"""Magnitudes of constants, which float32 has with all its digits: those beyond take these in their place."""
+"""Range of the magnitudes of constants, within float32's full precision; others are clipped to it."""
 
 NEVER, ALWAYS = "0", "1"
 
 
 class Term(NamedTuple):
-    """A value in the text: an expression, and the condition under which it is no number."""
+    """A value in the text: an expression, and the condition under which it is undefined."""
 
     text: str
     none: str = NEVER
@@ -91,25 +91,25 @@ class Term(NamedTuple):
 
 @dataclass
 class Inputs:
-    """The shader's inputs that stand for constants of a record, in the order in which they are met.
+    """The shader's inputs that stand for constants of a record, in the order of their first use.
 
-    A constant with a name is an input of that name. Another one is written in the text where it is one of LITERALS, and
-    else an input that is named by its place among the constants. What is in ``places`` is an input in any case.
+    A constant with a name is an input of that name. An unnamed constant is written in the text if it is one of
+    LITERALS; otherwise it is an input named after its place among the constants. The ``places`` are inputs in any case.
     """
 
     places: frozenset[int] = frozenset()
     values: dict[str, float] = field(default_factory=dict)
     used: set[int] = field(default_factory=set)
-    """The places of the inputs without a name."""
+    """Places of the unnamed constants that are inputs."""
     _count: int = 0
 
     def named(self, name: str, value: float) -> str:
-        """Return the name of an input."""
+        """Set the value of an input; return its name."""
         self.values[name] = in_range(value)
         return name
 
     def number(self, value: float) -> str:
-        """Return a constant as it is written."""
+        """Return the text of a constant: its literal, or the name of its input."""
         self._count += 1
         place = self._count
         if abs(value) in LITERALS and place not in self.places:
@@ -120,12 +120,12 @@ class Inputs:
 
 @dataclass
 class Writer:
-    """The statements of a shader, in the making."""
+    """Writer of the statements of a shader."""
 
     inputs: Inputs
     lines: list[str] = field(default_factory=list)
     tables: list[str] = field(default_factory=list)
-    """The statements that stand before the others."""
+    """Statements that precede the others."""
     helpers: set[str] = field(default_factory=set)
     _tables: dict[Sequence[float], str] = field(default_factory=dict)
     _count: int = 0
@@ -143,7 +143,7 @@ class Writer:
         self.lines.append(self._indent + text)
 
     def write(self, record: Record, inputs: Sequence[Term]) -> list[Term]:
-        """Write what a record does to these values; return its outputs."""
+        """Write the steps of a record, applied to these inputs; return its outputs."""
         values: list[Any] = []
         for step in record.steps:
             operands = [values[place] for place in step.operands]
@@ -151,7 +151,7 @@ class Writer:
         return [values[place] for place in record.outputs]
 
     def table(self, entries: Sequence[float]) -> str:
-        """Write a table, if it is not there; return its name. Cycles hands no arrays to the inputs of a shader."""
+        """Write a table unless it exists; return its name. Cycles cannot pass arrays to the inputs of a shader."""
         if entries not in self._tables:
             self._count += 1
             name = self._tables[entries] = f"table{self._count}"
@@ -159,7 +159,7 @@ class Writer:
         return self._tables[entries]
 
     def either(self, *conditions: str) -> str:
-        """Return the condition that one of these holds."""
+        """Return the condition that at least one of these conditions holds."""
         told = sorted({condition for condition in conditions if condition != NEVER})
         if ALWAYS in told:
             return ALWAYS
@@ -200,7 +200,7 @@ class Writer:
         return Term(value, self.put("int", f"{condition.text} ? {yes.none} : {no.none}"))
 
     def _searchsorted(self, step: Step, operands: list[Term], _) -> Term:
-        """The number of entries below a value (left), or of those that are not above it (right)."""
+        """Write a binary search for the number of entries below a value (left), or not above it (right)."""
         (value,), (entries, side) = operands, step.fixed
         table, comparison = self.table(entries), "<" if side == "left" else "<="
         low = self.put("int", "0")
@@ -245,23 +245,23 @@ STEPS: dict[str, Callable] = {
     "roundoff": Writer._roundoff, "searchsorted": Writer._searchsorted, "take": Writer._take, "loop": Writer._loop,
     "part": Writer._part, "stop_gradient": lambda writer, step, operands, _: operands[0],
 }  # fmt: skip
-"""How steps are written that are no plain functions."""
+"""Methods that write the steps that are not plain functions."""
 
 
 def _inputs_of(body: Record, count: int) -> list[Step]:
-    """Return the step of each input of a loop's body; a number where the body does not ask for it."""
+    """Return the input step of each input of a loop's body; a numeric one if the body does not use the input."""
     found = {step.fixed[0]: step for step in body.steps if step.operation == "input"}
     return [found.get(place, Step("input", fixed=(place,))) for place in range(count)]
 
 
 def literal(value: float) -> str:
-    """Return a number as it is written, to float32's last digit."""
+    """Return the text of a number, to float32's last digit."""
     text = f"{in_range(value):.9g}"
     text += "" if set(text) & set(".e") else ".0"
     return f"({text})" if value < 0 else text
 
 
 def in_range(value: float) -> float:
-    """Return a number that float32 has no zero and no infinity for."""
+    """Return a number clipped to a magnitude that float32 rounds neither to zero nor to infinity; 0 stays 0."""
     size = min(max(abs(value), LEAST), MOST) if value else 0.0
     return math.copysign(size, value)

@@ -1,8 +1,8 @@
-"""How far a shader's arithmetic may move what a record computes: values with bounds of their errors, to first order.
+"""Error bounds, to first order, of the values that a shader computes from a record.
 
-Each operation adds its own rounding to what its slopes make of its operands' errors. Where a comparison is undecided
-the error is how far both branches are apart; infinite where one of them is no number. What a loop gives counts as
-exact: loops here are iterations that a step of Newton's method follows, which squares what they leave.
+The error of an operation is its own rounding plus its slopes times its operands' errors. If the errors leave a
+comparison undecided, the error is the difference of the two branches, and infinite if one of them is NaN. The results
+of a loop count as exact: here a step of Newton's method follows each iteration and squares its remaining error.
 Reference: N. Higham, Accuracy and Stability of Numerical Algorithms, 2nd ed. (2002), section 3.3, running error bounds.
 """
 
@@ -22,7 +22,7 @@ from .osl import LEAST
 
 
 class Rounded(NamedTuple):
-    """A value and the most that it is off; of what is true or false, whether it is undecided."""
+    """A value and the bound of its error. For a truth value, ``error`` is whether the value is undecided."""
 
     value: Any
     error: Any = 0.0
@@ -31,25 +31,25 @@ class Rounded(NamedTuple):
 def rounded(record: Record, inputs: Sequence[Rounded]) -> tuple[Rounded, ...]:
     """Return the outputs of a record at these inputs, arrays that broadcast, each with the bound of its error.
 
-    The values are those of float64; NaN where there is no number. An error is infinite where float32 does not tell
-    whether there is a number, and where the first order says nothing, as at a division by what may be 0.
+    The values are computed in float64, and are NaN where undefined. An error is infinite where float32 leaves open
+    whether the value is defined, and where the first order gives no bound, as at a division by a number that may be 0.
     """
-    with np.errstate(all="ignore"):  # no number, or an infinite bound, is an answer here
+    with np.errstate(all="ignore"):  # NaN and infinite bounds are valid results here
         return record.evaluate(ARITHMETIC, inputs)
 
 
 def _some(relative: float, absolute: float = 0.0) -> Callable:
-    """So many EPS32 of the result, and of 1."""
+    """Return the rounding function ``relative`` EPS32 times the result plus ``absolute`` EPS32."""
     return lambda value, *_: EPS32 * (relative * np.abs(value) + absolute)
 
 
 def _sine(value, angle):
-    """Half turns are taken away in parts that are right to 1e-9 of a turn."""
+    """Return the rounding of a sine: half turns are subtracted in parts that are accurate to 1e-9 of a turn."""
     return EPS32 * (4 * np.abs(value) + np.abs(angle) / 16)
 
 
 def _cosine(value, angle):
-    """The angle is rounded where it is taken from a quarter turn."""
+    """Return the rounding of a cosine: the angle is rounded when it is subtracted from a quarter turn."""
     return EPS32 * (4 * np.abs(value) + 2 + 2 * np.abs(angle))
 
 
@@ -60,14 +60,16 @@ ROUNDING: dict[str, Callable] = {
     "tanh": _some(600, 4), "arcsin": _some(0, 1600), "arccos": _some(0, 1600), "arctan": _some(0, 320),
     "arctan2": _some(0, 320),
 }  # fmt: skip
-"""What an operation itself rounds, from its result and its operands; 1 EPS32 of the result where it is not listed.
-About twice what Cycles 4.5, 5.0 and 5.2 round on a CPU, whose functions are fast ones: a test measures each.
+"""Rounding of each operation as a function of its result and operands; 1 EPS32 of the result for others. About twice
+the rounding of Cycles 4.5, 5.0 and 5.2 on a CPU, whose functions are fast approximations: a test measures each.
 """
 
 
 def _bounded(value, error, *operands: Rounded, lost=False) -> Rounded:
-    """Return a value with its bound: infinite where it was for an operand, where there is none, and where it is lost;
-    0 where there is no number for sure.
+    """Return a value with its bound.
+
+    The bound is infinite if that of an operand is, if ``error`` is NaN, and where ``lost`` is true; 0 if the value is
+    certainly undefined.
     """
     error = np.where(np.isnan(value), 0.0, np.where(np.isnan(error), np.inf, error))
     for operand in operands:
@@ -76,7 +78,7 @@ def _bounded(value, error, *operands: Rounded, lost=False) -> Rounded:
 
 
 def _operation(name: str) -> Callable[..., Rounded]:
-    """Return an operation that is smooth."""
+    """Return a smooth operation with its error bound."""
     function, rounding, slopes = NUMPY[name], ROUNDING.get(name, _some(1)), SLOPES.get(name, ())
 
     def apply(*operands: Rounded) -> Rounded:
@@ -92,7 +94,7 @@ def _operation(name: str) -> Callable[..., Rounded]:
 
 
 def _product(a: Rounded, b: Rounded) -> Rounded:
-    """The second order counts: it is all that there is of a square at 0."""
+    """Return a product; its bound includes the second order, the only term for a square at 0."""
     value = a.value * b.value
     error = np.abs(a.value) * b.error + (np.abs(b.value) + b.error) * a.error + EPS32 * np.abs(value)
     return _bounded(value, error, a, b)
@@ -104,7 +106,7 @@ def _quotient(a: Rounded, b: Rounded) -> Rounded:
 
 
 def _root(a: Rounded) -> Rounded:
-    """It moves by the root of the error at most, and may be none where float32 gives less than 0."""
+    """Return a root. It changes by at most the root of the error, and is lost if the operand may be negative."""
     value, most = np.sqrt(a.value), np.sqrt(a.error)
     error = np.fmin(0.5 * a.error / value, most) + 2 * EPS32 * value
     return _bounded(value, error, a, lost=(a.value != 0) & (np.abs(a.value) <= a.error))
@@ -116,7 +118,7 @@ def _longer(a: Rounded, b: Rounded) -> Rounded:
 
 
 def _stepped(name: str) -> Callable[..., Rounded]:
-    """Return an operation that is constant between jumps."""
+    """Return an operation that is constant between jumps, with its error bound."""
     function = NUMPY[name]
 
     def apply(a: Rounded) -> Rounded:

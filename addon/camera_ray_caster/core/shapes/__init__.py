@@ -1,1 +1,1 @@
-"""The shapes: ``kind`` is the contract, ``kinds`` lists those that there are."""
+"""The shapes: ``kind`` defines the interface of a kind of shape, ``kinds`` lists the kinds."""

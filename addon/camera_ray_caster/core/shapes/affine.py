@@ -1,6 +1,6 @@
 """Kinds whose shapes are affine images of one surface, world = center + axes @ q: each shape is a row of constants.
 
-Such a kind says how rays cross its surface in the frame of q; windows, batches and frames are taken care of here.
+Such a kind implements how rays cross its surface in the frame of q; this module handles windows, batches and frames.
 """
 
 from __future__ import annotations
@@ -20,56 +20,54 @@ from .local_rays import LocalRays
 
 
 class Lattice(Protocol):
-    """Some shapes and the rays of a pinhole, whose directions' x is a row, y a column and z a number."""
+    """Some shapes and the rays of a pinhole: the x of their directions is a row, y a column and z a number."""
 
     def meet(self, k: int, window: tuple[slice, slice], scratch: Scratch) -> tuple[Any, Any]:
-        """Return what ``AffineKind.intersect`` does, of the k-th shape in a window of the rays; see ``Large.solve``."""
+        """Intersect the k-th shape with a window of the rays, and return t and the hits as ``Large.solve`` does."""
 
 
 class AffineKind(Kind):
-    """A kind of shape that is tested by constants of its own."""
+    """A kind of shape that is tested by means of a row of constants per shape."""
 
     faces_eye = False
-    """Whether all normals face rays from the eye as they come; else those of shapes do that the eye is outside of."""
+    """Whether all normals face rays from the eye unturned; if False, those of shapes that the eye is outside of do."""
 
     @abstractmethod
     def constants(self, shapes: InCamera, at: np.ndarray, parallel: Any) -> Any:
-        """Return a dataclass of arrays, whose last axis counts the shapes at these indices; for
-        ``parallel`` see ``Visible``.
-        """
+        """Return a dataclass of arrays whose last axis counts the shapes at ``at``; ``parallel``: see ``Visible``."""
 
     @abstractmethod
     def intersect(
         self, constants: Any, origin: Any, direction: Any, start: float | None, scratch: Scratch
     ) -> tuple[Any, Any]:
-        """Return t of the first crossing at or beyond ``start``, and where it is one, as ``Large.solve`` does.
+        """Return t of the first crossing at or beyond ``start``, and where t is a hit, as ``Large.solve`` does.
 
-        ``constants`` hold one shape, or shapes shaped to broadcast with the rays. origin is None for rays from the eye,
-        else three broadcastable components in the camera frame, as direction is. start is None where the eye is
-        outside and nothing of the shape lies before the clip start. A ray that is NaN hits nothing.
+        ``constants`` hold one shape, or several shapes in arrays that broadcast with the rays. direction is three
+        broadcastable components in the camera frame; so is origin, or it is None for rays from the eye. start is None
+        if the eye is outside and no part of the shape lies before the clip start. A ray that is NaN hits nothing.
         """
 
     def lattice(self, constants: Any, direction: Any) -> Lattice | None:
-        """Return the fast path of large shapes, whose constants have two axes behind the one that counts them, for the
-        eye outside and the rays of a pinhole; None, the default, where there is none.
+        """Return the fast path for large shapes that the eye is outside of and for the rays of a pinhole; None, the
+        default, if the kind has no such path. The constants have two more axes behind the axis that counts the shapes.
         """
         return None
 
     @abstractmethod
     def surface_uv(self, q: Any) -> tuple[np.ndarray, np.ndarray]:
-        """Return u and v at points of the surface, components in its own frame."""
+        """Return u and v at points of the surface, given as components in the frame of q."""
 
     @abstractmethod
     def root_error(self, hits: AffineErrors) -> np.ndarray:
-        """Return how far ``hits.tau`` may be from the exact crossing; NaN or inf where nothing is known."""
+        """Return how far ``hits.tau`` may be from the exact crossing; NaN or inf where no bound is known."""
 
     @abstractmethod
     def normal_error(self, hits: AffineErrors, point: np.ndarray) -> np.ndarray:
-        """Return the bound of the unit normal: see ``ShapeErrors``."""
+        """Return the error bound of the unit normal: see ``ShapeErrors``."""
 
     @abstractmethod
     def decide(self, shapes: InCamera, local: LocalRays) -> tuple[Any, Any]:
-        """Return what ``decision`` does."""
+        """Return the value and the bound that ``Kind.decision`` returns, from rays in the shapes' frames."""
 
     def shape_set(self, shapes: InCamera, visible: Visible) -> AffineSet:
         """See ``Kind``."""
@@ -80,7 +78,7 @@ class AffineKind(Kind):
         return AffineSet(tuple(groups), self.faces_eye or all(group.is_simple for group in groups))
 
     def uv(self, shapes: InCamera, pixels: HitPixels, point: Any) -> tuple[np.ndarray, np.ndarray]:
-        """See ``Kind``; the points in the frame of q are right to EPS (distance / size)."""
+        """See ``Kind``; the points in the frame of q have errors of EPS (distance / size)."""
         at = merged(pixels.at)
         offset = difference(point, components(shapes.shapes.center[at] - shapes.pose.eye))
         return self.surface_uv(matvec(matrix_rows(shapes.shape_from_world[at]), offset))
@@ -96,18 +94,18 @@ class AffineKind(Kind):
 
 @dataclass(frozen=True, eq=False)
 class AffineErrors(ShapeErrors):
-    """The error bounds of hits of one affine kind, and what they follow from."""
+    """The error bounds of hits on shapes of one affine kind, and the data that they follow from."""
 
     kind: AffineKind
     shapes: InCamera
     pixels: HitPixels
     local: LocalRays
     unit: bool
-    """Whether normals from constants keep the length they come with."""
+    """Whether normals from constants are left unnormalized."""
 
     @lazy
     def tau(self) -> np.ndarray:
-        """The t of the scaled rays."""
+        """t of the scaled rays."""
         return self.pixels.t / self.local.frame.scale
 
     @property
@@ -121,7 +119,7 @@ class AffineErrors(ShapeErrors):
 
 
 def _rounded(constants, real: type):
-    """Return constants as what is calculated with; NaN, which hits nothing, where float32 does not reach."""
+    """Return constants in the type of the search; NaN, which hits nothing, where they exceed the range of float32."""
     if real is np.float64:
         return constants
     largest = float(np.finfo(real).max)

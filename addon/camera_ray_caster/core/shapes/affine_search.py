@@ -1,4 +1,4 @@
-"""The search among shapes that are rows of constants: large ones by themselves, small ones in batches."""
+"""The search among shapes that are rows of constants: large shapes one by one, small shapes in batches."""
 
 from __future__ import annotations
 
@@ -20,26 +20,26 @@ from .windows import Windows, batches, in_tile, pixels_in
 
 @dataclass(frozen=True, eq=False)
 class Group:
-    """Shapes of one kind that are tested alike."""
+    """Shapes of one kind that are tested in the same way."""
 
     intersect: Callable
-    """As ``AffineKind`` has them."""
+    """``AffineKind.intersect`` of the kind; ``lattice`` likewise."""
     lattice: Callable
     visible: Visible
     is_simple: bool
-    """Whether the eye is outside and nothing lies before the clip start: the near root alone decides."""
+    """Whether the eye is outside and nothing lies before the clip start, so that the near root alone decides."""
     is_small: bool
-    """Whether they are tested many at once: sorted by the lowest row that they may be seen in."""
+    """Whether the shapes are tested many at once; if so, they are sorted by the lowest row that may see them."""
     constants: Any
     """A dataclass of arrays whose last axis counts the shapes."""
 
     @cached_property
     def tallest(self) -> int:
-        """The most rows that one of them may be seen in."""
+        """Largest number of rows in which one of the shapes may be seen."""
         return int((self.visible.bounds[:, 3] - self.visible.bounds[:, 2]).max())
 
     def within(self, corner: tuple[int, int], shape: tuple[int, int]) -> tuple[np.ndarray, np.ndarray]:
-        """Return which of them may be seen in a tile, (k,), and their bounds in it, (k, 4)."""
+        """Return which of the shapes may be seen in a tile, (k,), and their bounds in the tile, (k, 4)."""
         some = slice(None)
         if self.is_small:
             ends = corner[1] - self.tallest, corner[1] + shape[0]
@@ -58,7 +58,7 @@ class Group:
                 yield Large(int(self.visible.at[here[some][k]]), bounds[some][k].tolist(), partial(meet, k))
 
     def _meet(self, rays: SearchRays, here: np.ndarray) -> Callable:
-        """Return what gives t, and where there is one, of the k-th of some shapes in a window."""
+        """Return a function that gives t and hits, as ``Large.solve``, of the k-th shape at ``here`` in a window."""
         if rays.origin is None and self.is_simple and is_lattice(rays.direction):
             lattice = self.lattice(self._constants(here, axes=2), rays.direction)
             if lattice is not None:
@@ -70,14 +70,14 @@ class Group:
         return meet
 
     def batches(self, rays: SearchRays) -> Iterator[Candidates]:
-        """Yield the crossings with small shapes: in windows as large as the largest bounds of a batch."""
+        """Yield the crossings with small shapes, in windows as large as the largest bounds of a batch."""
         here, bounds = self.within(rays.corner, rays.shape)
         for batch in batches(bounds):
             yield self._cast_batch(rays, here[batch], bounds[batch])
 
     def _cast_batch(self, rays: SearchRays, here: np.ndarray, bounds: np.ndarray) -> Candidates:
-        """Test many shapes at once; the windows are moved until they lie in the tile."""
-        order = np.lexsort((-self.visible.at[here], -self.visible.near[here]))  # what hides others is written last
+        """Test many shapes at once, in windows that are shifted to lie in the tile."""
+        order = np.lexsort((-self.visible.at[here], -self.visible.near[here]))  # the nearest shapes are written last
         here = here[order]
         windows = Windows.around(bounds[order], rays.shape)
         t, where = self._intersect(rays, self._constants(here, axes=2), windows.of)
@@ -85,7 +85,7 @@ class Group:
         return Candidates(self.visible.at[here][:, None, None], (windows.row, windows.column), t, where)
 
     def _constants(self, here, axes: int = 0):
-        """Return the constants of one row, or of many with so many more axes behind them."""
+        """Return the constants of the shapes at ``here``, an index or indices; ``axes`` more axes are appended."""
         values = (getattr(self.constants, name)[..., here] for name in self.constants.__dataclass_fields__)
         extra = (1,) * axes
         return type(self.constants)(*(value.reshape(*value.shape, *extra) if axes else value for value in values))
@@ -116,7 +116,7 @@ class AffineSet(ShapeSet):
 
 
 def divide(visible: Visible) -> Iterator[tuple[Visible, bool, bool]]:
-    """Yield the shapes that are tested alike, and whether they are simple and small: see ``Group``."""
+    """Yield groups of shapes that are tested in the same way, and whether they are simple and small: see ``Group``."""
     is_simple = visible.near >= visible.clip_start
     is_small = pixels_in(visible.bounds) < tuning.SMALL_PIXELS
     alike = 2 * is_simple + is_small

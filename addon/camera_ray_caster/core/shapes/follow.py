@@ -14,24 +14,26 @@ from .frames import InCamera
 
 
 class Moved(NamedTuple):
-    """How far points are from where they were."""
+    """The displacements of points."""
 
     by: np.ndarray
     """(3, k) world; exactly 0 where nothing moved."""
     spread: np.ndarray
-    """(k,): how much farther ``by`` takes apart points beside each other, at most, over their distance."""
+    """(k,): upper bound of the difference of ``by`` between neighboring points, over their distance."""
     error: np.ndarray
-    """(k,): how wrong ``by`` is at most, as a vector's length, beside what the points' own errors make of it."""
+    """(k,): upper bound of the error of ``by``, as a vector's length, not counting the errors of the points."""
 
 
 Follow = Callable[[Shapes, np.ndarray, np.ndarray], Moved]
-"""Given the shapes at another moment, the rows (n,) there of all shapes of this one, and the indices (k,) of some of
-the points, whose shapes have rows, tells how these move.
+"""Given the shapes at another moment, the rows (n,) that all shapes of this moment have there, and the indices (k,) of
+some points whose shapes have such rows, returns how these points move.
 """
 
 
 def follow_frames(shapes: InCamera, at: np.ndarray, point: Any) -> Follow:
-    """Return what moves points (m,), components relative to the eye, with the frames of the shapes at indices (m,)."""
+    """Return a function that moves points with the frames of their shapes; the points are given as (m,) components
+    relative to the eye, the shapes by their indices (m,).
+    """
     now, inner = shapes.shapes, shapes.shape_from_world[at]
     offset = difference(point, components(now.center[at] - shapes.pose.eye))
     place = np.array(matvec(matrix_rows(inner), offset))

@@ -1,6 +1,6 @@
-"""The frames of shapes as one camera sees them, and rays in the world with what rounding has done to them.
+"""The frames of shapes as one camera sees them, and rays in the world with their rounding errors.
 
-All lengths of error vectors are Euclidean, in the manner of gamma(n): they hold for every rounding, not on average.
+All error bounds of vectors are Euclidean lengths. Like gamma(n), they are worst-case bounds, not averages.
 """
 
 from __future__ import annotations
@@ -17,16 +17,16 @@ from ..maths.vector import dot, norm
 from ..records import Pose, Shapes
 
 MARGIN = 1 + 1e-9
-"""Widens what holds a shape: rounding moves its edge by 1e-12 of its size at most."""
+"""Factor by which bounding volumes are enlarged: rounding moves the edge of a shape by at most 1e-12 of its size."""
 
 
 @dataclass(frozen=True, eq=False)
 class InCamera:
-    """Shapes as one camera sees them; one row a shape.
+    """Shapes as one camera sees them; one row per shape.
 
     A ray o + t d is q(t) = t D - N in a shape's own frame, with D = shape_from_camera d and N = shape_from_camera
-    (center - o). The eye's relative position is taken first, in world coordinates, where float32 input makes the
-    difference exact or nearly so; it is scaled afterwards.
+    (center - o). The difference center - eye is computed first, in world coordinates, where float32 input makes it
+    exact or nearly so; it is scaled afterwards.
     """
 
     shapes: Shapes
@@ -36,50 +36,50 @@ class InCamera:
     shape_from_world: np.ndarray
     """(n, 3, 3)."""
     rounding: np.ndarray
-    """(n,): by how much of its length each row of ``shape_from_world`` is wrong at most."""
+    """(n,): upper bound of the error of each row of ``shape_from_world``, over the length of the row."""
     shape_from_camera: np.ndarray
     """(n, 3, 3)."""
     offset: np.ndarray
     """(n, 3): N of rays from the eye."""
     offset_rest: np.ndarray
-    """(n, 3): what to add to ``offset`` for twice the digits, where the kind finds the eye close; NaN elsewhere."""
+    """(n, 3): low part to add to ``offset`` for twice the digits, for shapes that their kind finds close; else NaN."""
     radius: np.ndarray
-    """(n,): of a sphere about the center that holds the shape, camera frame; inf for infinite shapes."""
+    """(n,): radius of a sphere about the center that holds the shape, camera frame; inf for infinite shapes."""
     reach: np.ndarray
     """(n,): how far the shape reaches from its center along the camera's Z; inf for infinite shapes."""
 
     @lazy
     def frames(self) -> Frames:
-        """What error bounds need to know of the shapes."""
+        """The frames of the shapes, for error bounds."""
         return Frames(self)
 
     @lazy
     def eye_offsets(self) -> Offsets:
-        """What they need to know of rays from the eye."""
+        """N of rays from the eye, for error bounds."""
         center = self.frames.center
         return Offsets(self.frames, center, gamma(2) * norm(center), np.ascontiguousarray(self.offset.T))
 
     @lazy
     def is_scalar(self) -> np.ndarray:
-        """(n,) bool: whether the axes are one number times the world's."""
+        """(n,) bool: whether the axes are a scalar times the identity matrix."""
         axes = self.shapes.axes
         return (axes == axes[:, :1, :1] * np.eye(3)).all(axis=(1, 2))
 
 
 @dataclass(frozen=True, eq=False)
 class WorldRays:
-    """Rays in the world, relative to the eye, as components, and the most that rounding has done to them."""
+    """Rays in the world, relative to the eye, as components, and bounds of their rounding errors."""
 
     origin: Any
     direction: Any
     """Scaled so that t is depth."""
     length: Any
-    """Of the direction."""
+    """Length of the direction."""
     origin_error: Any
     direction_error: Any
 
     def only(self, of: Callable) -> WorldRays:
-        """Return those of some pixels: ``of`` gives components there as ``HitPixels.of``. Numbers stay numbers."""
+        """Return the rays of some pixels; ``of`` takes components as ``HitPixels.of`` does. Numbers stay numbers."""
 
         def part(values):
             return of((values,))[0] if np.ndim(values) else values
@@ -89,39 +89,39 @@ class WorldRays:
 
 
 class Frames:
-    """The frames of shapes as error bounds need them; the last axis of each array counts the shapes, or rays."""
+    """The frames of shapes, for error bounds; the last axis of each array counts the shapes, or the rays."""
 
     def __init__(self, shapes: InCamera):
         matrix = np.ascontiguousarray(shapes.shape_from_world.transpose(1, 2, 0))
         power = -np.frexp(np.abs(matrix).max(axis=(0, 1)))[1]
         self.scale = np.ldexp(1.0, power)
-        """(n,): the power of two that brings the matrix to about 1."""
+        """(n,): the power of two that scales the matrix to about 1."""
         self.matrix = matrix * self.scale
         """(3, 3, n): shape_from_world, scaled."""
         self.rounding = shapes.rounding
-        """(n,): by how much of its length each row is wrong at most."""
+        """(n,): see ``InCamera``."""
         self.rows = norm(self.matrix.swapaxes(0, 1))
         """(3, n): the lengths of the rows."""
         self.size = norm(self.rows)
-        """(n,): the length of these."""
+        """(n,): the Frobenius norm of ``matrix``."""
         self.row_error = self.rows * (self.rounding + gamma(4))
-        """(3, n): how wrong each component of the matrix's product with a unit vector is at most."""
+        """(3, n): upper bound of the error of each component of the matrix's product with a unit vector."""
         self.error = self.size * (self.rounding + gamma(4))
-        """(n,): the same, as a vector."""
+        """(n,): upper bound of the error of that product, as a vector's length."""
         sizes = np.abs(self.matrix)
         self.stretch = np.sqrt(sizes.sum(axis=0).max(axis=0) * sizes.sum(axis=1).max(axis=0))
-        """(n,): a bound of the spectral norm, the root of the largest sums of a row and of a column."""
+        """(n,): a bound of the spectral norm: the root of the product of the largest absolute row and column sums."""
         self.center = np.ascontiguousarray((shapes.shapes.center - shapes.pose.eye).T)
-        """(3, n): relative to the eye, world."""
+        """(3, n): the centers relative to the eye, world."""
         self.is_scalar = shapes.is_scalar
         """(n,): see ``InCamera``."""
 
 
 class Offsets:
-    """N in frames: of rays from the eye, one a shape, or of rays with origins of their own, one a ray."""
+    """N in frames: one per shape for rays from the eye, or one per ray for rays with origins of their own."""
 
     def __init__(self, frames: Any, towards: Any, moved: Any, vector: Any = None):
-        """Take the frames, the vectors to the centers and how wrong these are, world; and N where it is known."""
+        """Take the frames, the vectors to the centers and their error bounds, world; and N if it is known already."""
         self._frames, self._moved = frames, moved
         self.away = norm(towards)
         """The distance to the center, world."""
@@ -130,24 +130,24 @@ class Offsets:
 
     @lazy
     def length(self) -> np.ndarray:
-        """(n,): that of N."""
+        """(n,): the length of N."""
         return norm(self.vector)
 
     @lazy
     def error(self) -> np.ndarray:
-        """(n,): how wrong N is at most, as a vector."""
+        """(n,): upper bound of the error of N, as a vector's length."""
         return (self._frames.stretch * self._moved + self._frames.error * self.away) / self._frames.scale
 
     @lazy
     def row_error(self) -> np.ndarray:
-        """(3, n): how wrong each component is at most."""
+        """(3, n): upper bound of the error of each component of N."""
         return (self._frames.rows * self._moved + self._frames.row_error * self.away) / self._frames.scale
 
     @lazy
     def parts(self) -> np.ndarray:
-        """(3, n): no less than what each component is the sum of: the lengths of the matrix's rows times ``away``."""
+        """(3, n): bound of the sum of each component's terms' magnitudes: the row's length times ``away``."""
         return self._frames.rows / self._frames.scale * self.away
 
     def row(self, name: str, i: int) -> np.ndarray:
-        """Return one row of what has this name, (n,)."""
+        """Return row i of the attribute with this name, (n,)."""
         return getattr(self, name)[i]

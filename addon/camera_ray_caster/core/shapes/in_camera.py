@@ -12,30 +12,30 @@ from .frames import MARGIN, InCamera
 from .kinds import by_kind
 
 SIZES = 1e-152, 1e152
-"""What sizes, distances and their ratios may be: their squares are numbers, too."""
+"""Range of sizes, distances and their ratios: their squares neither overflow nor underflow."""
 
 SKEW = 32.0
 """Axes beyond this skewness (see ``invert``) are inverted with twice the digits."""
 
 FLAT = 1e13
-"""Beyond this skewness axes cannot be told from ones in one plane."""
+"""Beyond this skewness axes cannot be distinguished from coplanar axes."""
 
 
 def in_camera(shapes: Shapes, pose: Pose) -> InCamera:
     """Return the shapes as a camera at this pose sees them.
 
-    Rounding: a component of ``center`` is right to gamma(4) of |center - eye| times the condition number of the
-    basis (1 without shear); a row of ``shape_from_world`` to ``rounding`` of its length, of
-    ``shape_from_camera`` to gamma(4) more; ``offset`` likewise times |center - eye|. Where a kind finds the eye close
-    to a shape, as near a sphere's surface or a plane's plane, ``offset`` has twice the digits: it is computed from the
-    exact inputs, right to gamma(4) of itself there, so that a planet's ground is right from 2 m above it.
-    Raises InputError that names a shape whose axes lie in one plane, or which is beyond SIZES.
+    Rounding: the error of a component of ``center`` is at most gamma(4) |center - eye| times the condition number of
+    the basis (1 without shear). The error of a row of ``shape_from_world`` is at most ``rounding`` of its length, that
+    of ``shape_from_camera`` gamma(4) more; that of ``offset`` is the same times |center - eye|. If a kind finds the eye
+    close to a shape, such as to a sphere's surface or to a plane, ``offset`` has twice the digits: it is computed from
+    the exact inputs, right to gamma(4) of itself, so that a planet's ground is right from 2 m above it.
+    Raises InputError that names the shape if its axes lie in one plane or it is beyond SIZES.
     """
     away, lost = two_sum(shapes.center, -pose.eye)
     camera_from_world = inverse(pose.basis)
     radius, reach = np.zeros((2, len(shapes)))
     is_close = np.zeros(len(shapes), bool)
-    with np.errstate(all="ignore"):  # what is flat or too far is refused by name
+    with np.errstate(all="ignore"):  # shapes that are flat or too far are refused below
         shape_from_world, rounding, skewness = invert(shapes.axes)
         offset = np.einsum("nij,nj->ni", shape_from_world, away)
         may_be_flat = np.zeros(len(shapes), bool)
@@ -43,7 +43,7 @@ def in_camera(shapes: Shapes, pose: Pose) -> InCamera:
             may_be_flat[at] = kind.may_be_flat
         skewness[may_be_flat], offset[may_be_flat] = 1.0, 0.0
         _refuse(shapes, may_be_flat, skewness, away, offset)
-        axes = np.einsum("ij,njk->nki", camera_from_world, shapes.axes)  # an axis a row
+        axes = np.einsum("ij,njk->nki", camera_from_world, shapes.axes)  # one axis per row
         for kind, at in by_kind(shapes.kind):
             radius[at], reach[at] = kind.extent(shapes, at, axes[at])
             is_close[at] = kind.is_close(offset[at], shape_from_world[at], away[at])
@@ -79,19 +79,19 @@ def _refuse(shapes: Shapes, may_be_flat, skewness, away, offset) -> None:
         reason = (
             f"has a size, a distance or their ratio beyond {SIZES[0]:g} .. {SIZES[1]:g}: scale the scene"
             if beyond[first] and not (size[first] == 0).any()
-            else "is flat, its axes lie in one plane: clear its scale, or its parents' (Alt S)"
+            else "is flat, because its axes lie in one plane: clear its scale, or its parents' (Alt S)"
         )
         raise InputError(f"shape {name!r} {reason}")
 
 
 def invert(axes):
-    """Return the inverses of (n, 3, 3) matrices, by how much of its length each row of them is wrong at most, (n,), and
-    the skewness, (n,): how far from right-angled the axes are, whatever their sizes.
+    """Return the inverses of (n, 3, 3) matrices, upper bounds of the errors of their rows over the rows' lengths, (n,),
+    and the skewness, (n,): how far from right-angled the axes are, whatever their sizes.
 
-    Diagonal ones are right to EPS. A row of the others is the cross product of two columns over the determinant; the
-    columns are scaled to about 1 first, so that unequal sizes cost no digit; skew ones are corrected. The skewness is
-    Hadamard's condition number, the product of the axes' lengths over their volume: from 1 up, inf or NaN where they
-    lie in one plane.
+    Inverses of diagonal matrices are right to EPS. A row of the others is the cross product of two columns over the
+    determinant. The columns are scaled to about 1 first, so that unequal sizes cost no digits; inverses of skew
+    matrices are refined. The skewness is Hadamard's condition number, the product of the axes' lengths over their
+    volume: at least 1, inf or NaN for coplanar axes.
     """
     result, rounding, skewness = np.zeros_like(axes), np.full(len(axes), EPS), np.ones(len(axes))
     straight = _straight(axes)
@@ -105,7 +105,7 @@ def invert(axes):
 
 
 def _invert_turned(axes):
-    """Return what ``invert`` does, for matrices that are not diagonal, but the rounding."""
+    """Return the inverses and the skewness of matrices that are not diagonal: see ``invert``."""
     scale = np.ldexp(1.0, -np.frexp(_largest(axes))[1])
     scaled = axes * scale[:, None, :]
     columns = np.ascontiguousarray(scaled.transpose(2, 1, 0))
@@ -131,7 +131,7 @@ def _largest(axes):
 
 
 def _straight(axes):
-    """Return which matrices are diagonal, with nothing that is 0 on the diagonal."""
+    """Return which matrices are diagonal, with no 0 on the diagonal."""
     straight = np.ones(len(axes), bool)
     for i in range(3):
         for j in range(3):

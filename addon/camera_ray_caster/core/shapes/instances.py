@@ -1,4 +1,4 @@
-"""Shapes in object space, once per mesh or point cloud, and their instances in the world."""
+"""Shapes in object space, stored once per mesh or point cloud, and their instances in the world."""
 
 from __future__ import annotations
 
@@ -23,27 +23,27 @@ class Primitive:
     sizes: np.ndarray
     """(n,) float64."""
     mesh: Mesh | None = None
-    """The triangles; None but of kind MESH."""
+    """The triangles; None except for kind MESH."""
     apart: float | None = None
-    """How far the mesh that it was recognized in is from it at most, over its radius or its longer half side."""
+    """Largest distance of the shape from the mesh that it was recognized in, over its radius or longer half side."""
 
     def __len__(self) -> int:
         return len(self.sizes)
 
 
 def points_primitive(positions: np.ndarray, radii: np.ndarray) -> Primitive:
-    """Return the spheres of a point cloud: (n, 3) positions and (n,) radii, those with a radius above zero."""
+    """Return the spheres of a point cloud, (n, 3) positions and (n,) radii: those that are finite, with radius > 0."""
     real = (radii > 0) & np.isfinite(radii) & np.isfinite(positions).all(axis=1)
     return Primitive(SPHERE, positions[real].astype(np.float64), np.eye(3), radii[real].astype(np.float64))
 
 
 def enclosing_primitive(kind: int, vertices: np.ndarray) -> Primitive:
-    """Return the sphere or plane that encloses a mesh which is neither, from its vertices, (n, 3), all finite.
+    """Return the sphere or plane that encloses a mesh of another form, from its vertices, (n, 3), all finite.
 
-    A sphere stands in the middle of their bounding box and reaches the farthest of them. A plane is their bounding
+    A sphere is centered in the vertices' bounding box and reaches the farthest vertex. A plane is their bounding
     rectangle in the object's XY, at their mean z.
     """
-    vertices = vertices.astype(np.float64)  # the squares of a float32 may be none
+    vertices = vertices.astype(np.float64)  # squares in float32 may overflow or underflow
     low, high = vertices.min(axis=0), vertices.max(axis=0)
     center = (low + high) / 2
     if kind == SPHERE:
@@ -56,16 +56,16 @@ def enclosing_primitive(kind: int, vertices: np.ndarray) -> Primitive:
 
 
 def mesh_primitive(mesh: Mesh) -> Primitive:
-    """Return a mesh as a shape in its object's space: around its middle."""
+    """Return a mesh as a shape in its object's space, centered on its middle."""
     return Primitive(MESH, mesh.middle[None], np.eye(3), np.ones(1), mesh)
 
 
 def castable(placed: Sequence[tuple[Primitive, np.ndarray]]) -> list[np.ndarray]:
-    """Return under which of its (k, 3, 4) object matrices each primitive is finite and spans space, however thin it is;
-    a mesh need not span it.
+    """Return, for each primitive, under which of its (k, 3, 4) object matrices it is finite and its axes are not
+    coplanar, however thin it is; the axes of a mesh may be coplanar.
 
-    Axes that were scaled to zero under a turned parent are coplanar to a few roundings of float32: a determinant of
-    the axes, each over its largest component, below 8 EPS32 cannot be told from zero.
+    Axes that were scaled to zero under a rotated parent are coplanar to a few roundings of float32. If each axis is
+    divided by its largest component, a determinant below 8 EPS32 cannot be distinguished from zero.
     """
     if not placed:
         return []
@@ -83,9 +83,10 @@ def castable(placed: Sequence[tuple[Primitive, np.ndarray]]) -> list[np.ndarray]
 
 
 def put_in_world(primitive: Primitive, matrices: np.ndarray, centers: np.ndarray, axes: np.ndarray) -> None:
-    """Write to centers (k n, 3) and axes (k n, 3, 3), in the world, n shapes under each of (k, 3, 4) object matrices.
+    """Write the centers (k n, 3) and axes (k n, 3, 3), in the world, of n shapes under each of (k, 3, 4) object
+    matrices.
 
-    Instance by instance, in float64: right to gamma(4) of the sum of the magnitudes.
+    They are ordered instance by instance and computed in float64, right to gamma(4) of the sum of the magnitudes.
     """
     linear, offset = matrices[:, :, :3], matrices[:, :, 3]
     shape = len(matrices), len(primitive)
@@ -97,7 +98,7 @@ def put_in_world(primitive: Primitive, matrices: np.ndarray, centers: np.ndarray
 def lights_in_world(lights) -> Lights:
     """Return the record of lights, each given as (is_sun, color (3,), matrices (k, 3, 4)).
 
-    A light stands at its matrix's offset; a sun shines along its -Z, so that +Z points towards it.
+    A light stands at its matrix's offset. A sun shines along its -Z; its ``position`` is the unit vector along +Z.
     """
     rows = [(is_sun, color, matrix) for is_sun, color, matrices in lights for matrix in matrices]
     rows = [row for row in rows if np.isfinite(row[2]).all() and row[2][:, 2].any()]

@@ -1,13 +1,13 @@
-"""The contract of a kind of shape, and the records that its users hand over.
+"""The interface of a kind of shape, and the records that its methods take and return.
 
-A kind is one object of a class under ``Kind`` and stands in ``KINDS``. These use it: ``in_camera`` (``extent``,
-``is_close``), the plan and the search (``shape_set``), the passes (``normals``, ``uv``), the error bounds (``errors``,
-``decision``). Nothing else in core knows what kinds there are.
+A kind is one instance of a subclass of ``Kind``, listed in ``KINDS``. Its users are ``in_camera`` (``extent``,
+``is_close``), the plan and the search (``shape_set``), the passes (``normals``, ``uv``) and the error bounds
+(``errors``, ``decision``). No other module of core depends on which kinds exist.
 
-Shapes that are affine images of one surface, each a row of constants, are kinds under ``AffineKind``, which does most
-of it. What is no such row, as the triangles of a mesh, is a kind of its own: it implements ``ShapeSet.rest`` and not
-``ShapeSet.large``, and keeps what else it has to know of a hit (which triangle) in an array of ``SearchRays.scratch``,
-from which ``HitPixels.kept`` takes it again when normals, uv and errors are asked for, or in what the scratch notes.
+A kind whose shapes are affine images of one surface, each described by a row of constants, derives from ``AffineKind``,
+which implements most of the interface. Any other kind, such as meshes, derives from ``Kind`` and implements
+``ShapeSet.rest`` instead of ``ShapeSet.large``. It stores further data of a hit (which triangle) in an array of
+``SearchRays.scratch``, from which ``HitPixels.kept`` reads them for normals, uv and errors, or in ``Scratch.noted``.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ from .search_rays import SearchRays
 
 
 class PixelBounds(Protocol):
-    """In which pixels of the plan something may be seen: (n, 4) int, x0, x1, y0, y1, x1 and y1 not included."""
+    """The pixels of the plan in which something may be seen: (n, 4) int, x0, x1, y0, y1, with x1 and y1 excluded."""
 
     def of_balls(self, centers: np.ndarray, radii: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Return the bounds of balls in the camera's frame, (n, 3) and (n,), and which of them hold a pixel center.
@@ -36,46 +36,46 @@ class PixelBounds(Protocol):
         """
 
     def within(self, bounds: np.ndarray) -> np.ndarray:
-        """Return what bounds of the picture, (n, 4), are in the columns and rows that the plan has of it."""
+        """Return bounds of the picture, (n, 4), as bounds in the columns and rows of the picture that the plan has."""
 
     def least_t(self, centers: np.ndarray, radii: np.ndarray) -> np.ndarray:
-        """Return no more than the least t of each ball, (n,); -inf where it is not known."""
+        """Return a lower bound of t in each ball, (n,); -inf where none is known."""
 
     @property
     def has_straight_lines(self) -> bool:
-        """Whether what lies between points is seen between their images, so that ``of_points`` may be asked."""
+        """Whether everything between points is seen between their images, so that ``of_points`` may be called."""
 
     @property
     def whole(self) -> np.ndarray:
         """(4,) int: all pixels of the plan."""
 
     def of_points(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return the bounds of points (n, 3) in the camera's frame, most of which hold no pixel center, and which have
-        an image that counts. What lies between some of them is seen from the least x0 and y0 to the largest x1 and y1.
+        """Return the bounds of points (n, 3) in the camera's frame, most of which hold no pixel center, and which
+        points have an image that counts. Points between these are seen from the least x0, y0 to the largest x1, y1.
         """
 
 
 @dataclass(frozen=True, eq=False)
 class Visible:
-    """The shapes of one kind that some pixel may see, and how they are searched; one row a shape."""
+    """The shapes of one kind that some pixel may see, and how they are searched; one row per shape."""
 
     at: np.ndarray
     """(k,) indices into ``Shapes``, ascending."""
     bounds: np.ndarray
-    """(k, 4) int: x0, x1, y0, y1 in the pixels of the plan, x1 and y1 not included."""
+    """(k, 4) int: x0, x1, y0, y1 in the pixels of the plan, x1 and y1 excluded."""
     near: np.ndarray
-    """(k,): the least t that each may have, -inf where that is not known."""
+    """(k,): a lower bound of the t of each shape, -inf where none is known."""
     clip_start: float
     from_eye: bool
     """Whether all rays leave the eye."""
     parallel: Any
     """The direction that all rays have, three numbers in the camera frame; None where they differ."""
     real: type
-    """What hits are searched with: float64 or float32."""
+    """The floating-point type of the search: float64 or float32."""
     pixels: PixelBounds
-    """Where parts of the shapes may be seen."""
+    """Finds the pixels in which parts of the shapes may be seen."""
     whole: ShapeSet | None = None
-    """What the kind has made for all pixels of the picture, where these are some columns and rows of them."""
+    """The kind's set for all pixels of the picture, if the plan has only some columns and rows of the picture."""
 
 
 class Large(NamedTuple):
@@ -86,43 +86,43 @@ class Large(NamedTuple):
     bounds: list[int]
     """x0, x1, y0, y1 in the tile."""
     solve: Callable[[tuple[slice, slice], Scratch], tuple[Any, Any]]
-    """Given a window of the tile, returns t and where it is a hit: bool, True for everywhere, None where t is a number;
-    None for t where no ray hits. t may lie in an array of the scratch, and may have one column that stands for all.
+    """Given a window of the tile, returns t and where t is a hit: a bool array, True for everywhere, or None for
+    wherever t is not NaN. t is None if no ray hits. It may be an array of the scratch, or have a single column.
     """
 
 
 class Candidates(NamedTuple):
-    """Crossings of rays with shapes, in k windows of a tile that are of one size and may overlap."""
+    """Crossings of rays with shapes, in k windows of a tile that have one size and may overlap."""
 
     at: np.ndarray
-    """Indices into ``Shapes``: (k, 1, 1), or as ``t``."""
+    """Indices into ``Shapes``: (k, 1, 1), or with the shape of ``t``."""
     corner: tuple[np.ndarray, np.ndarray]
     """(k,) each: the first row and the first column of each window in the tile."""
     t: np.ndarray
-    """(k, rows, columns); NaN or inf where there is none."""
+    """(k, rows, columns); NaN or inf where there is no crossing."""
     where: np.ndarray | None
-    """Which of ``t`` are crossings, bool; None for all that are numbers."""
+    """Which entries of ``t`` are crossings, bool; None for all that are numbers."""
 
 
 @dataclass(frozen=True, eq=False)
 class HitPixels:
-    """The pixels of a block of a tile that hit something, or only those of one kind: m of them."""
+    """The m pixels of a block of a tile that hit something, or that hit shapes of one kind."""
 
     where: np.ndarray
-    """(rows, columns) of the block, bool: the pixels that are meant."""
+    """(rows, columns) of the block, bool: True at these pixels."""
     hits: tuple[np.ndarray, np.ndarray]
-    """Of the whole block, (rows, columns) each: indices into ``Shapes`` and t."""
+    """Indices into ``Shapes`` and t of the whole block, (rows, columns) each."""
     first_row: int
-    """Of the block, in the tile."""
+    """First row of the block, in the tile."""
     from_eye: bool
     """Whether their rays leave the eye."""
     scratch: Scratch
     noted: dict[str, Any] = field(default_factory=dict)
-    """What a kind has worked out of them, by name."""
+    """Results that a kind has computed for these pixels, by name."""
 
     @lazy
     def places(self) -> np.ndarray:
-        """(m,): where they are in the block, its rows one after the other."""
+        """(m,): flat indices of the pixels in the block, row by row."""
         return np.flatnonzero(self.where)
 
     @lazy
@@ -132,11 +132,11 @@ class HitPixels:
 
     @lazy
     def t(self) -> np.ndarray:
-        """(m,)."""
+        """(m,) t of the hits."""
         return taken(self.hits[1].reshape(-1), self.places)
 
     def of(self, vector: Any) -> tuple[np.ndarray, ...]:
-        """Return the components of the block, which broadcast, at these pixels, (m,) each."""
+        """Return the components of a vector of the block, which broadcast, at these pixels, (m,) each."""
         return tuple(taken(np.broadcast_to(part, self.where.shape).reshape(-1), self.places) for part in vector)
 
     def kept(self, name: str, dtype: type) -> np.ndarray:
@@ -147,17 +147,17 @@ class HitPixels:
 
 
 class ShapeErrors(ABC):
-    """The error bounds of hits of shapes of one kind; (m,) arrays."""
+    """The error bounds of hits on shapes of one kind; (m,) arrays."""
 
     @property
     @abstractmethod
     def t(self) -> np.ndarray:
-        """Of t; inf or NaN where nothing is known."""
+        """The bound of t; inf or NaN where no bound is known."""
 
     @abstractmethod
     def normal(self, point: np.ndarray) -> np.ndarray:
-        """Return the bound of the unit normal, as a vector's length, from those of the hit points relative to the eye;
-        NaN where nothing is known.
+        """Return the bound of the unit normal, as a vector's length, from the bounds ``point`` of the hit points
+        relative to the eye; NaN where no bound is known.
         """
 
 
@@ -165,7 +165,7 @@ class ShapeSet(ABC):
     """The shapes of one kind that a camera may see, ready to be searched by several threads."""
 
     faces_eye: bool
-    """Whether the normals face rays from the eye as they come."""
+    """Whether the normals face rays from the eye without being turned."""
 
     def large(self, rays: SearchRays) -> Iterator[Large]:
         """Yield shapes that are tested one by one, the highest index first; by default there are none."""
@@ -173,15 +173,15 @@ class ShapeSet(ABC):
 
     @abstractmethod
     def rest(self, rays: SearchRays, nearest: np.ndarray) -> Iterator[Candidates | None]:
-        """Yield the crossings with all other shapes, in any order; ``nearest`` is the t found so far, inf for none.
+        """Yield the crossings with all other shapes, in any order; ``nearest`` is the t found so far, inf for no hit.
 
-        None is yielded where there is still to do before the next: a request to stop is heard then.
+        None is yielded between steps of long work: the caller can stop the search then.
         """
 
 
 PixelNormals = Callable[[HitPixels, Any, Any], Any]
 """Given hit pixels, their points and directions, (m,) components in the world relative to the eye, returns the unit
-normals turned towards the rays. The directions are None where normals are to be as they come: all face the rays.
+normals turned towards the rays. The directions are None if all normals face the rays already and are not to be turned.
 """
 
 
@@ -191,20 +191,20 @@ class Kind(ABC):
     number: int
     """The value of ``Shapes.kind``; it never changes."""
     name: str
-    """In the report's words."""
+    """Name of the kind in the report."""
     may_be_flat: bool = False
-    """Whether the axes of a shape may lie in one plane: ``InCamera.shape_from_world`` is undefined then."""
+    """Whether the axes of a shape may lie in one plane; ``InCamera.shape_from_world`` is undefined then."""
 
     @abstractmethod
     def extent(self, shapes: Shapes, at: np.ndarray, axes: np.ndarray) -> tuple[Any, Any]:
-        """Return, of shapes whose axes in the camera frame are given, (k, 3, 3), an axis a row: the radius of a sphere
-        about the center that holds each, and how far each reaches from there along Z; (k,) each, or one number.
+        """Return the radius of a sphere about the center of each shape that holds it, and how far the shape reaches
+        from its center along Z; (k,) each, or one number. ``axes``: (k, 3, 3) in the camera frame, one axis per row.
         """
 
     @abstractmethod
     def is_close(self, offset: np.ndarray, shape_from_world: np.ndarray, away: np.ndarray) -> np.ndarray:
-        """Return for which shapes, (k,) bool, ``offset`` is to have twice the digits, from a first value of it, (k, 3),
-        the inverse axes (k, 3, 3) and the centers relative to the eye, (k, 3) world.
+        """Return for which shapes, (k,) bool, ``offset`` has to be computed with twice the digits. Given are its first
+        value, (k, 3), the inverse axes, (k, 3, 3), and the centers relative to the eye, (k, 3) world.
         """
 
     @abstractmethod
@@ -213,14 +213,14 @@ class Kind(ABC):
 
     @abstractmethod
     def normals(self, shapes: InCamera, at: np.ndarray) -> tuple[np.ndarray, PixelNormals | None]:
-        """Return the constants of the unit normals of shapes in the world, (k, 4): gain and offset, where a normal is
-        gain times the hit point, relative to the eye, plus the offset; and NaN for shapes of which it is not, whose
-        normals a function gives. It is None where there are none.
+        """Return the constants of the shapes' unit normals in the world, (k, 4), and a function or None. The constants
+        are gain and offset: a normal is gain times the hit point, relative to the eye, plus the offset. They are NaN
+        for shapes whose normals have no such form; the function gives those, and is None if there are no such shapes.
         """
 
     def surface_normals(self, shapes: InCamera, pixels: HitPixels) -> Any:
-        """Return the normals of the surface itself, (m,) components of any length and either side, where ``normals``
-        gives others; None, as by default, where it gives these.
+        """Return the normals of the surface itself, as (m,) components of any length and on either side, if ``normals``
+        gives other ones, such as interpolated normals; None, the default, if it gives the same.
         """
         return None
 
@@ -229,20 +229,20 @@ class Kind(ABC):
         """Return u and v, (m,) each, of hit points given as components relative to the eye, world."""
 
     def follow(self, shapes: InCamera, pixels: HitPixels, point: Any) -> Follow:
-        """Return what tells where hit points, components relative to the eye, world, are when their shapes have moved.
+        """Return a function that tells how hit points, components relative to the eye, world, move with their shapes.
 
-        By default they keep their place in the shapes' own frames.
+        By default the points keep their place in the shapes' own frames.
         """
         return follow_frames(shapes, pixels.at, point)
 
     def from_edge(self, shapes: InCamera, pixels: HitPixels, point: Any) -> np.ndarray:
-        """Return how far hit points are from the nearest edge of their faces, (m,), as a part of the height of the
-        triangle beside it; inf, as by default, on surfaces that have a uv map.
+        """Return how far hit points are from the nearest edge of their faces, (m,), as a fraction of the height of the
+        triangle next to that edge; inf, the default, on surfaces that have a uv map.
         """
         return np.full(len(pixels.at), np.inf)
 
     def polygon(self, shapes: InCamera, pixels: HitPixels) -> np.ndarray:
-        """Return the face of the mesh that is hit, (m,) int32; by default there is none, -1."""
+        """Return the face of the mesh that is hit, (m,) int32; by default -1, for no face."""
         return np.full(len(pixels.at), -1, np.int32)
 
     def slot(self, shapes: InCamera, pixels: HitPixels) -> np.ndarray:
@@ -251,10 +251,10 @@ class Kind(ABC):
 
     @abstractmethod
     def errors(self, shapes: InCamera, pixels: HitPixels, rays: WorldRays, from_eye: bool, unit: bool) -> ShapeErrors:
-        """Return the error bounds of hits. ``unit``: whether normals from constants keep the length they come with."""
+        """Return the error bounds of hits. ``unit``: whether normals from constants are left unnormalized."""
 
     @abstractmethod
     def decision(self, shapes: InCamera, at: np.ndarray, rays: WorldRays, from_eye: bool) -> tuple[Any, Any]:
-        """Return what decides whether rays hit shapes, one shape a ray, and the bound below which that is open: it is
-        positive on a hit, negative on a miss where it is beyond the bound.
+        """Return a value that decides whether rays hit shapes, one shape per ray, and its error bound. A value whose
+        magnitude exceeds the bound is positive on a hit and negative on a miss; otherwise the decision is open.
         """

@@ -1,4 +1,4 @@
-"""The kinds of shapes. A new kind is its file and one word in KINDS; ``kind`` says what it has to do."""
+"""The kinds of shapes. A new kind needs a file of its own and an entry in KINDS; ``kind`` has its interface."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ KINDS: tuple[Kind, ...] = (SPHERES, PLANES, INFINITE_PLANES, MESHES)
 
 
 def by_kind(numbers: np.ndarray) -> Iterator[tuple[Kind, np.ndarray]]:
-    """Yield each kind whose number is among some, and where it is, bool of their shape; others are no kind's."""
+    """Yield each kind whose number occurs in ``numbers``, and where it occurs, bool of the same shape."""
     for kind in KINDS:
         some = numbers == kind.number
         if some.any():

@@ -1,6 +1,6 @@
-"""Rays in the frames of the shapes that they hit, with what rounding has done to them.
+"""Rays in the frames of the shapes that they hit, with their rounding errors.
 
-What follows from a shape alone is worked out once, and looked up by rays: it is most of what there is to work out.
+Values that depend on the shape alone, which are most of the work, are computed once and looked up for each ray.
 """
 
 from __future__ import annotations
@@ -16,17 +16,17 @@ from .frames import InCamera, Offsets, WorldRays
 
 
 class Lookup:
-    """What one object knows of each shape, for rays: its arrays (..., n), looked up when they are first asked for."""
+    """The arrays (..., n) of an object, with one entry per shape, looked up for each ray at first use."""
 
     def __init__(self, tables: Any, at: np.ndarray):
         self._tables, self._at = tables, at
 
     def of(self, table: np.ndarray) -> np.ndarray:
-        """Return what a table of all shapes has for the rays."""
+        """Return the entries of a table of all shapes for the rays."""
         return taken(table, self._at)
 
     def row(self, name: str, i: int) -> np.ndarray:
-        """Return what one row of a table has for them."""
+        """Return row i of a named table for the rays."""
         return self.of(getattr(self._tables, name)[i])
 
     def __getattr__(self, name: str) -> np.ndarray:
@@ -35,7 +35,7 @@ class Lookup:
 
 
 class LocalRays:
-    """Rays in the frames of shapes, one shape a ray: q(t) = t D - N, D scaled by a power of two to about 1."""
+    """Rays in the frames of shapes, one shape per ray: q(t) = t D - N, with D scaled by a power of two to about 1."""
 
     def __init__(self, shapes: InCamera, at: np.ndarray, rays: WorldRays, from_eye: bool):
         """Take the shapes' indices, which broadcast with the rays, and whether all rays leave the eye."""
@@ -58,7 +58,7 @@ class LocalRays:
 
     @property
     def n_error(self) -> np.ndarray:
-        """How wrong N is at most, as a vector."""
+        """Upper bound of the error of N, as a vector's length."""
         return self.offset.error
 
     @lazy
@@ -68,15 +68,15 @@ class LocalRays:
 
     @lazy
     def d_error(self) -> np.ndarray:
-        """How wrong D is at most, as a vector."""
+        """Upper bound of the error of D, as a vector's length."""
         return self.frame.stretch * self.rays.direction_error + self.frame.error * self.rays.length
 
-    def component(self, i: int) -> tuple[Any, Any, Any, Any]:
-        """Return one component of D and of N, and how wrong they are at most."""
-        d = dot(self.frame.row("matrix", i), self.rays.direction)
-        turned = self.frame.row("row_error", i) * self.rays.length
-        d_error = self.frame.row("rows", i) * self.rays.direction_error + turned
-        return d, self.offset.row("vector", i), d_error, self.offset.row("row_error", i)
+    def z(self) -> tuple[Any, Any, Any, Any]:
+        """Return the z components of D and N, and their error bounds."""
+        d = dot(self.frame.row("matrix", 2), self.rays.direction)
+        turned = self.frame.row("row_error", 2) * self.rays.length
+        d_error = self.frame.row("rows", 2) * self.rays.direction_error + turned
+        return d, self.offset.row("vector", 2), d_error, self.offset.row("row_error", 2)
 
     @property
     def cross(self) -> Any:
@@ -89,7 +89,7 @@ class LocalRays:
         return dot(self.n, self.d)
 
     def product_error(self) -> np.ndarray:
-        """Return the error of ``inner``, and of ``cross``: of the vector, and so of each component."""
+        """Return an error bound of ``inner`` and of ``cross``: of the vector's length, and so of each component."""
         n, d = self.offset.length, norm(self.d)
         return n * self.d_error + d * self.n_error + self.n_error * self.d_error + gamma(4) * n * d
 

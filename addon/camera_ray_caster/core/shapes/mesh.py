@@ -24,12 +24,12 @@ class Meshes(Kind):
     may_be_flat = True
 
     def extent(self, shapes: Shapes, at: np.ndarray, axes: np.ndarray):
-        """See ``Kind``; of the mesh's bounding box."""
+        """See ``Kind``; the extent is that of the mesh's bounding box."""
         half = np.array([shapes.meshes[k].half_size for k in shapes.mesh[at].tolist()])[..., None] * axes
         return np.sqrt((np.abs(half).sum(axis=1) ** 2).sum(axis=1)), np.abs(half[..., 2]).sum(axis=1)
 
     def is_close(self, offset: np.ndarray, shape_from_world: np.ndarray, away: np.ndarray) -> np.ndarray:
-        """See ``Kind``; never, since vertices are taken to the camera's frame."""
+        """See ``Kind``; always False, since vertices are transformed to the camera's frame instead."""
         return np.zeros(len(offset), bool)
 
     def shape_set(self, shapes: InCamera, visible: Visible) -> MeshSet:
@@ -39,7 +39,7 @@ class Meshes(Kind):
         return MeshSet(MeshesInView(shapes, visible), visible.clip_start)
 
     def normals(self, shapes: InCamera, at: np.ndarray) -> tuple[np.ndarray, PixelNormals | None]:
-        """See ``Kind``; each pixel's comes from its triangle."""
+        """See ``Kind``; each pixel's normal comes from its triangle."""
 
         def normals(pixels: HitPixels, point, direction):
             return TriangleNormals.of(shapes, pixels).at(pixels, point, direction)
@@ -47,21 +47,21 @@ class Meshes(Kind):
         return np.full((len(at), 4), np.nan), normals
 
     def surface_normals(self, shapes: InCamera, pixels: HitPixels):
-        """See ``Kind``: those of the triangles, not the interpolated ones."""
+        """See ``Kind``: the normals of the triangles, not the interpolated normals."""
         triangles = HitTriangles.of(shapes, pixels)
         return tuple(triangles.each(component) for component in triangles.area)
 
     def uv(self, shapes: InCamera, pixels: HitPixels, point) -> tuple[np.ndarray, np.ndarray]:
-        """See ``Kind``: the render UV map, 0 where there is none."""
+        """See ``Kind``: the render UV map, or 0 if the mesh has none."""
         return HitTriangles.of(shapes, pixels).uv(point)
 
     def follow(self, shapes: InCamera, pixels: HitPixels, point) -> Follow:
-        """See ``Kind``: with the frames, and with their triangles where meshes change their form or are flat."""
+        """See ``Kind``: points move with the frames, or with their triangles if a mesh changes its form or is flat."""
         with_frames = super().follow(shapes, pixels, point)
         return follow_meshes(with_frames, HitTriangles.of(shapes, pixels), point)
 
     def from_edge(self, shapes: InCamera, pixels: HitPixels, point) -> np.ndarray:
-        """See ``Kind``; edges within a face are none."""
+        """See ``Kind``; edges within a face do not count."""
         return HitTriangles.of(shapes, pixels).from_edge(point)
 
     def polygon(self, shapes: InCamera, pixels: HitPixels) -> np.ndarray:
@@ -77,7 +77,7 @@ class Meshes(Kind):
         return TriangleErrors(HitTriangles.of(shapes, pixels), pixels.t, rays)
 
     def decision(self, shapes: InCamera, at: np.ndarray, rays: WorldRays, from_eye: bool):
-        """See ``Kind``: how far the ray is inside of the triangle that it meets, or from meeting any."""
+        """See ``Kind``: how far the ray is inside the triangle that it hits, or outside the nearest triangle."""
         return decide(shapes, at, rays)
 
 

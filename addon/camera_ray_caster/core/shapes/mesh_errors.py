@@ -1,4 +1,4 @@
-"""Error bounds of hits of triangles; see ``errors.hits`` for what they bound and how."""
+"""Error bounds of hits on triangles; ``errors.hits`` explains what they bound and how."""
 
 from __future__ import annotations
 
@@ -15,34 +15,34 @@ from .mesh_surface import HitTriangles
 from .triangles import ROUNDING, volumes
 
 CHUNK = 1 << 16
-"""Pairs of rays and triangles that are worked on at once."""
+"""Number of pairs of rays and triangles that are processed at once."""
 
 
 @dataclass(frozen=True, eq=False)
 class TriangleErrors(ShapeErrors):
-    """The bounds of hits of the triangles that were found; a ray that rounding may take to a neighbor is not told."""
+    """The error bounds of hits on the triangles found; that rounding may move a ray to a neighbor is not included."""
 
     triangles: HitTriangles
     found: np.ndarray
-    """(m,): t."""
+    """(m,): t of the hits."""
     rays: WorldRays
 
     @lazy
     def _moved(self) -> np.ndarray:
-        """How far rounding may have moved a corner, (k,)."""
+        """Upper bound of how far rounding has moved a corner, (k,)."""
         triangles = self.triangles
         turned = norm([dot(np.abs(row), np.abs(triangles.local).max(axis=0)) for row in triangles.axes])
         return gamma(8) * (turned + norm(triangles.center))
 
     @lazy
     def _turned(self) -> np.ndarray:
-        """By how much the cross product of the edges may be wrong, as a vector's length, (k,)."""
+        """Upper bound of the error of the edges' cross product, as a vector's length, (k,)."""
         first, second = map(norm, self.triangles.edges)
         return 2 * self._moved * (first + second + 2 * self._moved) + gamma(4) * first * second
 
     @property
     def t(self) -> np.ndarray:
-        """The residual in the plane's equation over its slope, or how far t is from those of the corners."""
+        """The residual of the plane's equation over its slope, or ``_within`` where that is less."""
         each, rays, corners = self.triangles.each, self.rays, self.triangles.corners
         moved, turned, normal = each(self._moved), each(self._turned), each(np.array(self.triangles.area))
         corner = each(np.array(corners[0]))
@@ -58,7 +58,7 @@ class TriangleErrors(ShapeErrors):
 
     @property
     def _within(self) -> np.ndarray:
-        """How far t is from those of the corners: the exact one lies between the exact ones."""
+        """The largest distance of t from the t of a corner: the exact t lies between the exact t of the corners."""
         rays, each = self.rays, self.triangles.each
         square = dot(rays.direction, rays.direction)
         worst = np.zeros(len(self.found))
@@ -72,7 +72,7 @@ class TriangleErrors(ShapeErrors):
         return worst
 
     def normal(self, point: np.ndarray) -> np.ndarray:
-        """See ``ShapeErrors``: what moves the point moves the weights of the corners' normals."""
+        """See ``ShapeErrors``: an error of the point changes the weights of the corners' normals."""
         triangles = self.triangles
         length = norm(triangles.area)
         turn = 2 * self._turned / length
@@ -90,8 +90,9 @@ class TriangleErrors(ShapeErrors):
 
 
 def decide(shapes: InCamera, at: np.ndarray, rays: WorldRays) -> tuple[np.ndarray, np.ndarray]:
-    """Return, for rays and one shape each, the largest that the least volume of a triangle's edges has on the inside,
-    over the product of its vectors' lengths, and how far rounding may have moved it.
+    """Return a value for each ray and its shape, and its error bound: see ``Kind.decision``. The value of a triangle is
+    the least of the volumes of its edges, counted positive inside, over its longest corner's square times |direction|.
+    The largest value of the shape's triangles is returned.
     """
     at = np.broadcast_to(at, np.broadcast_shapes(np.shape(at), *map(np.shape, rays.direction)))
     origin, direction = (

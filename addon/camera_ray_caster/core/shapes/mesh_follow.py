@@ -1,4 +1,4 @@
-"""Points of meshes that move with their triangles: where a mesh changes its form, or is flat."""
+"""Points of meshes that move with their triangles, for meshes that change their form or are flat."""
 
 from __future__ import annotations
 
@@ -14,7 +14,9 @@ from .mesh_surface import LOST, HitTriangles, corners_from_middle
 
 
 def follow_meshes(with_frames: Follow, all_triangles: HitTriangles, point: Any) -> Follow:
-    """Return what moves points, components relative to the eye: with the frames of their shapes where that will do."""
+    """Return a function that moves points, components relative to the eye: with the frames of their shapes if that is
+    enough, else with their triangles.
+    """
 
     def moved(then: Shapes, rows: np.ndarray, some: np.ndarray) -> Moved:
         found, triangles = with_frames(then, rows, some), all_triangles.only(some)
@@ -29,13 +31,13 @@ def follow_meshes(with_frames: Follow, all_triangles: HitTriangles, point: Any) 
 
 
 def _are_flat(triangles: HitTriangles) -> np.ndarray:
-    """Return whether the axes of their shapes lie in one plane, so that these have no inverse, (k,) bool."""
+    """Return for which triangles the axes of the shape lie in one plane and so have no usable inverse, (k,) bool."""
     product = triangles.shapes.shape_from_world[triangles.at] @ triangles.shapes.shapes.axes[triangles.at]
     return ~(np.abs(product - np.eye(3)).max(axis=(1, 2)) < LOST)
 
 
 def _are_others(triangles: HitTriangles, then: Shapes, rows: np.ndarray) -> np.ndarray:
-    """Return which of them, (k,) bool, are of another mesh in other shapes, where shapes have rows (n,)."""
+    """Return which triangles, (k,) bool, belong to another mesh in ``then``, where their shapes have the rows (n,)."""
     pairs, which = _pairs(triangles, then, rows)
     return np.array([triangles.shapes.shapes.meshes[one] is not then.meshes[other] for one, other in pairs.T])[which]
 
@@ -63,7 +65,7 @@ def _with_triangles(triangles: HitTriangles, then: Shapes, rows: np.ndarray, poi
 
 
 def _pairs(triangles: HitTriangles, then: Shapes, rows: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return the pairs (2, p) of a mesh here and one in other shapes, and which of them each triangle has, (k,)."""
+    """Return the pairs (2, p) of a mesh here and its counterpart in ``then``, and the pair of each triangle, (k,)."""
     of_shape = np.zeros(len(rows), int)
     of_shape[triangles.at] = 1
     seen = np.flatnonzero(of_shape)  # triangles are many, shapes are few

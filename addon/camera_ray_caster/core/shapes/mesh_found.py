@@ -1,4 +1,4 @@
-"""The nearest triangles of a tile so far, and which others they hide."""
+"""The nearest triangles of a tile so far, and which other triangles they hide."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from ..maths.speed import taken
 from .search_rays import SearchRays
 
 SEEN = "triangles seen"
-"""What the scratch notes of a tile: ``SeenTriangles``; its array of the same name has each pixel's."""
+"""Name under which the scratch notes the ``SeenTriangles`` of a tile, and of its array of each pixel's index there."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -26,18 +26,18 @@ class SeenTriangles:
 
 @dataclass(frozen=True, eq=False)
 class Found:
-    """The nearest triangles so far; of those at exactly the same t the first."""
+    """The nearest triangle of each pixel so far; of several at exactly the same t the first."""
 
     t: np.ndarray
-    """inf, or that of another shape, where none is met."""
+    """t of the triangle; where no triangle is hit, inf or t of another shape."""
     which: np.ndarray
-    """int32; ``count`` where none is met."""
+    """int32 indices of the triangles; ``count`` where none is hit."""
     count: int
-    """Of triangles that there are."""
+    """Number of triangles."""
 
     @classmethod
     def of(cls, nearest: np.ndarray, rays: SearchRays, count: int) -> Found:
-        """Begin with what was found before; nothing behind that is kept."""
+        """Begin with the t that were found before; no triangle behind these is kept."""
         t = rays.scratch("triangle t", rays.shape, np.float64)
         which = rays.scratch("triangle found", rays.shape, np.int32)
         np.copyto(t, nearest)
@@ -45,7 +45,7 @@ class Found:
         return cls(t, which, count)
 
     def seen(self) -> tuple[np.ndarray, np.ndarray]:
-        """Return the triangles that pixels see, ascending, and which of them each pixel does, 0 for none."""
+        """Return the triangles that pixels see, ascending, and which of these each pixel sees, 0 for none."""
         place = np.zeros(self.count + 1, np.int32)
         place[self.which.reshape(-1)] = 1
         place[self.count] = 0
@@ -54,7 +54,7 @@ class Found:
         return seen, taken(place, self.which)
 
     def keep(self, pixel: np.ndarray, t: np.ndarray, which: np.ndarray) -> None:
-        """Note those that are the nearest so far; a pixel may have several."""
+        """Note the hits that are the nearest so far; a pixel may have several."""
         nearest, first = self.t.reshape(-1), self.which.reshape(-1)
         while pixel.size:
             before = taken(nearest, pixel)
@@ -70,7 +70,7 @@ class Found:
             pixel, t, which = pixel[lost], t[lost], which[lost]
 
     def fill(self, window: tuple[slice, slice], met: np.ndarray, t: np.ndarray, which: int) -> None:
-        """Note one triangle in a window where it is met and is the nearest so far."""
+        """Note one triangle in a window, where it is hit and is the nearest so far."""
         before, first = self.t[window], self.which[window]
         closer = (t < before) | ((t == before) & (which < first))
         closer &= met
@@ -78,8 +78,8 @@ class Found:
         np.copyto(first, which, where=closer)
 
     def may_show(self, bounds: np.ndarray, near: np.ndarray) -> np.ndarray:
-        """Return which triangles may be seen, indices: all but those that lie behind what was found, whose least t are
-        given, (k,), with their bounds in the tile, (k, 4).
+        """Return the indices of the triangles that may be seen: all except those that lie behind the hits so far. Given
+        are their bounds in the tile, (k, 4), and lower bounds of their t, (k,).
         """
         x0, x1, y0, y1 = bounds.T
         column, row = x0 // tuning.CELL, y0 // tuning.CELL
@@ -95,8 +95,8 @@ class Found:
 
 
 def _farthest(t: np.ndarray, cell: int, most: int) -> np.ndarray:
-    """Return the largest t of 1, 2, 4 ... cells to the right and upwards from each, until ``most`` are reached:
-    (levels, rows, columns).
+    """Return the largest t in the square of 1, 2, 4 ... cells a side that begins at each cell, to the right and
+    upwards, until ``most`` are reached: (levels, rows, columns).
     """
     levels = [_largest(_largest(t, cell).T, cell).T]
     size = 1
@@ -110,7 +110,7 @@ def _farthest(t: np.ndarray, cell: int, most: int) -> np.ndarray:
 
 
 def _largest(rows: np.ndarray, count: int) -> np.ndarray:
-    """Return the largest of each so many rows, one after the other; the last may be fewer."""
+    """Return the elementwise maximum of each group of ``count`` consecutive rows; the last group may have fewer."""
     result = rows[::count].copy()
     for k in range(1, count):
         others = rows[k::count]

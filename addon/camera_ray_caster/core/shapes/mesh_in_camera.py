@@ -1,4 +1,4 @@
-"""Meshes as a camera sees them: vertices in its frame, and in which pixels each triangle may be seen."""
+"""Meshes as a camera sees them: vertices in its frame, and the pixels in which each triangle may be seen."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ from .kind import Visible
 from .triangles import side
 
 VERTEX_BYTES, TRIANGLE_BYTES = 40, 80
-"""Of memory that each in view takes at most."""
+"""Upper bounds of the memory of each vertex and each triangle in view."""
 
-FEWER = "show fewer instances, or subdivide them less"
+FEWER = "show fewer instances, or reduce the subdivision"
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,29 +34,29 @@ class Triangles:
     shape: np.ndarray
     """(k,) int32 indices into ``Shapes``."""
     number: np.ndarray
-    """(k,) int32 indices into the triangles of its mesh."""
+    """(k,) int32 indices into the triangles of the mesh."""
     bounds: np.ndarray
     """(k, 4) int16, or int32 in large pictures: x0, x1, y0, y1 in the pixels of the plan."""
     near: np.ndarray
-    """(k,) float32: no triangle has a lesser t; -inf where none is known."""
+    """(k,) float32: lower bounds of t; -inf where none is known."""
 
 
 class Instances(NamedTuple):
-    """Some shapes that show the same mesh, one after the other."""
+    """Some consecutive shapes that show the same mesh."""
 
     mesh: Mesh
     rows: np.ndarray
     """Indices into ``Shapes``."""
     start: int
-    """Where the vertices of the first begin; those of the others follow."""
+    """Index of the first vertex of the first instance; the other instances follow."""
 
 
 class MeshesInView:
-    """The meshes in view, worked out when a thread first asks, by all threads that ask.
+    """The meshes in view, computed at first use by all threads that need them.
 
-    Rounding: a vertex is right to gamma(8) of the length of the axes times its own from the mesh's middle, plus that of
-    the shape's center. It is transformed by the same operations wherever it is used, so that triangles that share it
-    share its rounded place.
+    Rounding: the error of a vertex is at most gamma(8) times the sum of two lengths: that of the axes times that of the
+    vertex from the mesh's middle, and that of the shape's center. All triangles that share a vertex use the same
+    rounded position, since it is transformed by the same operations.
     """
 
     def __init__(self, shapes: InCamera, visible: Visible):
@@ -87,14 +87,14 @@ class MeshesInView:
         self._joining = Shared([self._join])
 
     def prepare(self) -> Iterator[None]:
-        """Work on all that is still to do, in small steps."""
+        """Do all work that is left, in small steps."""
         for step in (self._placing, self._imaging, self._seeing):
             yield from step.work()
             step.results()
 
     @lazy
     def triangles(self) -> Triangles:
-        """Those that some pixel may see."""
+        """The triangles that some pixel may see."""
         for _ in self.prepare():
             pass
         return self._joining.results()[0]
@@ -104,8 +104,8 @@ class MeshesInView:
         return self._at(self.triangles.corners.take(some, axis=1))
 
     def facing(self, some: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return which of some triangles a ray may meet, indices, and their corners as ``corners`` does: where all rays
-        leave the eye, turned so that the volumes of a ray that meets one are positive.
+        """Return the indices of those among some triangles that a ray may hit, and their corners as ``corners`` does.
+        If all rays leave the eye, the corners are ordered so that all volumes of a hit are positive.
         """
         corners = self.corners(some)
         turn = side(corners) if self._from_eye else np.ones(len(some))
@@ -126,7 +126,7 @@ class MeshesInView:
         return Triangles(bounds=bounds, **{name: np.concatenate(own, axis=-1) for name, own in whole.items()})
 
     def _place(self, group: Instances, some: slice) -> None:
-        """Transform some vertices of a mesh, for all its instances."""
+        """Transform some vertices of a mesh for all instances of the group."""
         rows, count = group.rows, group.mesh.vertices.shape[1]
         axes = np.einsum("ij,njk->nik", inverse(self._shapes.pose.basis), self._shapes.shapes.axes[rows])[..., None]
         q = group.mesh.vertices[:, some] - group.mesh.middle[:, None]
@@ -138,8 +138,8 @@ class MeshesInView:
             place += self._shapes.center[rows, i, None]
 
     def _image(self, images: np.ndarray, some: slice) -> None:
-        """Find the pixels that some vertices bound: x0, -x1, y0, -y1, so that all that counts is the least of each;
-        what has no image bounds nothing.
+        """Write the pixel bounds of some vertices as x0, -x1, y0, -y1, so that a triangle's bounds are the minima over
+        its corners. A vertex without an image gets all pixels, and marks x0 with the least number of the type.
         """
         bounds, counts = self._pixels.of_points(self._vertices[:, some].T)
         bounds[~counts] = self._pixels.whole
@@ -148,7 +148,7 @@ class MeshesInView:
         images[some][~counts, 0] = np.iinfo(self._pixel).min
 
     def _see(self, group: Instances, some: slice) -> Triangles:
-        """Return which of some triangles of a mesh may be seen by some pixel, of all its instances."""
+        """Return those among some triangles of a mesh, in all instances of the group, that some pixel may see."""
         own = group.mesh.triangles[:, None, some]
         starts = group.start + _vertex_count(group.mesh) * np.arange(len(group.rows))
         corners = (own + starts[:, None]).reshape(3, -1)
@@ -166,8 +166,8 @@ class MeshesInView:
         )
 
     def _between(self, images: np.ndarray, corners: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Return in which pixels triangles may be seen, (k, 4), the least t that they may have, (k,), and which are in
-        any, indices: between the images of their corners.
+        """Return the pixel bounds of triangles, (k, 4), lower bounds of their t, (k,), and the indices (k,) of these
+        triangles, which some pixel may see; from the images of their corners.
         """
         a, b, c = (images.take(corner, axis=0) for corner in corners)
         least = np.minimum(np.minimum(a, b, out=a), c, out=a)
@@ -186,7 +186,7 @@ class MeshesInView:
         return bounds[order], near[order], seen[place[order]]
 
     def _in_balls(self, corners: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Return what ``_between`` does: where the balls around triangles are."""
+        """Return the same as ``_between``, from the balls around triangles."""
         a, b, c = self._at(corners)
         low, high = np.minimum(np.minimum(a, b), c), np.maximum(np.maximum(a, b), c)
         middle = low / 2 + high / 2
@@ -207,13 +207,13 @@ def _vertex_count(mesh: Mesh) -> int:
 
 
 def _parts(count: int, most: int) -> Iterator[slice]:
-    """Yield slices of so many things at most."""
+    """Yield slices that divide ``count`` items into parts of at most ``most``."""
     for first in range(0, count, most):
         yield slice(first, min(first + most, count))
 
 
 def _groups(shapes: InCamera, rows: np.ndarray, chunk: int) -> Iterator[Instances]:
-    """Yield the instances of each mesh, as many at once as fill a chunk with vertices or triangles."""
+    """Yield the instances of each mesh, in groups that fill a chunk with vertices or triangles."""
     mesh, start = shapes.shapes.mesh[rows], 0
     cuts = np.flatnonzero(np.diff(mesh)) + 1
     for first, last in pairwise((0, *cuts.tolist(), len(rows))):

@@ -1,4 +1,4 @@
-"""The normals of a tile's triangles as constants, worked out once for all of its pixels."""
+"""The normals of a tile's triangles as constants, computed once for all pixels of the tile."""
 
 from __future__ import annotations
 
@@ -15,27 +15,25 @@ from .mesh_found import SEEN, SeenTriangles
 from .mesh_surface import HitTriangles, affine_at
 
 NORMALS = "normals of triangles"
-"""Under which the scratch notes them."""
+"""Name under which the scratch notes the ``TriangleNormals`` of a tile."""
 
 
 @dataclass(frozen=True, eq=False)
 class TriangleNormals:
-    """The normals of the k triangles that a tile sees: constant + slope . p at hit points p relative to the eye, of
-    any length.
-    """
+    """Normals, of any length, of the k triangles that a tile sees: constant + slope . p at p relative to the eye."""
 
     seen: SeenTriangles
     """The triangles, as the search noted them."""
     constant: np.ndarray
     """(3, k)."""
     slope: np.ndarray | None
-    """(3, 3, k): component, axis of p; None where all are flat."""
+    """(3, 3, k): component, axis of p; None if all triangles are flat-shaded."""
     area: np.ndarray | None
-    """(3, k): the normals of the side on which these are; None where that is the eye's."""
+    """(3, k): face normals on the side of the normals; None for rays from the eye, which all normals face already."""
 
     @classmethod
     def of(cls, shapes: InCamera, pixels: HitPixels) -> TriangleNormals:
-        """Return those of the pixels' tile."""
+        """Return the normals of the pixels' tile."""
         noted = pixels.scratch.noted
         if NORMALS not in noted or noted[NORMALS].seen is not noted[SEEN]:
             noted[NORMALS] = cls._of_tile(shapes, noted[SEEN], pixels.from_eye)
@@ -62,9 +60,10 @@ class TriangleNormals:
         return cls(seen, constant, slope, area)
 
     def at(self, pixels: HitPixels, point: Any, direction: Any) -> Any:
-        """Return the unit normals turned towards the rays, as Blender's Normal pass has them; (m,) components.
+        """Return the unit normals turned towards the rays, as in Blender's Normal pass; (m,) components.
 
-        The side of the face that is hit gives the sign, not the interpolated normal; 0 where the corners' cancel.
+        The sign comes from the side of the face that is hit, not from the interpolated normal. The result is 0 where
+        the interpolated normals cancel.
         """
         which = pixels.kept(SEEN, np.int32).astype(np.intp)
         if self.slope is None:

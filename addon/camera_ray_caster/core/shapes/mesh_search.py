@@ -1,4 +1,4 @@
-"""The nearest triangle of every ray of a tile: many triangles at once, in spans of rows or ray by ray."""
+"""The nearest triangle of every ray of a tile: many triangles are tested at once, in spans of rows or ray by ray."""
 
 from __future__ import annotations
 
@@ -21,26 +21,26 @@ from .triangles import EDGES, ROUNDING, STEEP, crossing, plane, signs, volumes
 from .windows import Windows, banded, batches, in_tile, pixels_in, union
 
 Reach = tuple[float, float]
-"""How long the directions and the origins of a tile's rays are at most."""
+"""Upper bounds of the lengths of the directions and of the origins of a tile's rays."""
 
 
 @dataclass(frozen=True, eq=False)
 class MeshSet(ShapeSet):
-    """The meshes that a camera may see. ``rest`` keeps each pixel's triangle in the scratch."""
+    """The meshes that a camera may see. ``rest`` stores the triangle of each pixel in the scratch."""
 
     meshes: MeshesInView
     clip_start: float
     pixels: PixelBounds | None = None
-    """The columns and rows of the picture that are meant; None for all."""
+    """The columns and rows of the picture that are searched; None for all."""
     faces_eye = True
 
     def at(self, pixels: PixelBounds) -> MeshSet:
-        """Return that of some columns and rows of the picture."""
+        """Return the same set for some columns and rows of the picture."""
         return replace(self, pixels=pixels)
 
     @lazy
     def triangles(self) -> Triangles:
-        """Those that some pixel may see."""
+        """The triangles that some pixel may see."""
         whole = self.meshes.triangles
         return whole if self.pixels is None else replace(whole, bounds=self.pixels.within(whole.bounds))
 
@@ -80,7 +80,7 @@ class MeshSet(ShapeSet):
         yield Candidates(noted.at.take(of_pixel)[None], corner, found.t[None], met[None])
 
     def _in_spans(self, rays, lattice: Lattice, reach: Reach, here, bounds, found: Found) -> Iterator[None]:
-        """Keep what is met of triangles under a lattice of rays, in small steps."""
+        """Keep the hits of a lattice of rays on triangles, in small steps."""
         at, bands = banded(bounds, tuning.SPANNED_PIXELS)
         rest = []
         for some in _pieces(bands, tuning.SPANNED_PIXELS):
@@ -89,7 +89,7 @@ class MeshSet(ShapeSet):
         self._test(rays, rest, found)
 
     def _in_windows(self, rays, reach: Reach, here, bounds, found: Found) -> Iterator[None]:
-        """Keep what is met of triangles under any rays, in small steps: the large ones one by one."""
+        """Keep the hits of any rays on triangles, in small steps: large triangles one by one."""
         is_large = pixels_in(bounds) >= tuning.SMALL_PIXELS
         at, bands = banded(bounds[is_large], tuning.BLOCK_PIXELS)
         rest = []
@@ -100,8 +100,8 @@ class MeshSet(ShapeSet):
         yield from self._in_pixels(rays, reach, here[~is_large], bounds[~is_large], found)
 
     def _fill(self, rays: SearchRays, reach: Reach, which: int, bounds: list[int], found: Found):
-        """Keep what is met of one triangle in a window of the tile. Return it for each pixel in which it is still to be
-        tested, and these pixels.
+        """Keep the hits on one triangle in a window of the tile. Return the pixels in which it still has to be tested,
+        preceded by its index once for each of them.
         """
         x0, x1, y0, y1 = bounds
         window = slice(y0, y1), slice(x0, x1)
@@ -129,8 +129,8 @@ class MeshSet(ShapeSet):
     def _span(
         self, rays: SearchRays, lattice: Lattice, reach: Reach, here: np.ndarray, bounds: np.ndarray, found: Found
     ) -> tuple[np.ndarray, np.ndarray]:
-        """Keep what is met of triangles in spans, and of those that have none ray by ray. Return triangles that are
-        still to be tested, and the pixels in which they are.
+        """Keep the hits on triangles in spans, and ray by ray on triangles without spans. Return triangles that still
+        have to be tested, and the pixels in which to test them.
         """
         meets, corners = self.meshes.facing(here)
         here, bounds = here[meets], bounds[meets]
@@ -145,7 +145,7 @@ class MeshSet(ShapeSet):
         return here[at], pixel
 
     def _in_pixels(self, rays: SearchRays, reach: Reach, here, bounds, found: Found) -> Iterator[None]:
-        """Keep what is met of triangles that are tested pixel by pixel, in small steps."""
+        """Keep the hits on triangles that are tested pixel by pixel, in small steps."""
         for some in _pieces(bounds, tuning.TRACED_PIXELS) if rays.origin is None else batches(bounds):
             meets, corners = self.meshes.facing(here[some])
             if meets.size:
@@ -154,9 +154,7 @@ class MeshSet(ShapeSet):
             yield
 
     def _from_eye(self, rays: SearchRays, corners, doubt, here, bounds, found: Found) -> None:
-        """Keep what is met of triangles, where pixels in their bounds have a ray: planes through the eye and an edge
-        serve all rays.
-        """
+        """Keep the hits of rays from the eye in triangles' bounds: all rays share the planes through eye and edges."""
         pixel, k = rays.present.within(bounds)
         _, direction = rays.at(pixel)
         normals = (np.array(cross(corners[i], corners[j])) for i, j in EDGES)
@@ -164,7 +162,7 @@ class MeshSet(ShapeSet):
         self._decide(rays, inner, taken(doubt, k), here[k], pixel, found)
 
     def _from_anywhere(self, rays: SearchRays, corners, doubt, here, bounds, found: Found) -> None:
-        """The same of rays of many origins, in windows: each has a value for each ray, but no corner has."""
+        """Keep the hits of rays with many origins, in windows: by moments, without corners relative to each origin."""
         windows = Windows.around(bounds, rays.shape)
         direction, moment = (tuple(map(windows.flat, parts)) for parts in (rays.direction, rays.moment))
         inner = _inside(volumes(corners, direction, moment), is_turned=False)
@@ -173,15 +171,15 @@ class MeshSet(ShapeSet):
         self._decide(rays, inner.reshape(-1)[near], doubt[k], here[k], windows.pixel.reshape(-1)[near], found)
 
     def _decide(self, rays: SearchRays, inner, doubt, which, pixel, found: Found) -> None:
-        """Keep what is met, one triangle a pixel, from how far inside of it the ray is and what that is right to."""
+        """Keep the hits on triangles, one per pixel, given how far inside the rays are and the error bound of that."""
         is_open, is_met = np.abs(inner) <= doubt, inner > doubt
         self._test(rays, [(which[is_open], pixel[is_open])], found)
         which, pixel = which[is_met], pixel[is_met]
         self._keep(found, pixel, crossing(*self._meeting(rays, which, pixel)), which)
 
     def _test(self, rays: SearchRays, rest: list[tuple[np.ndarray, np.ndarray]], found: Found) -> None:
-        """Keep what is met of lists of triangles and the pixels in which to test them, by exact signs where rounding
-        could decide: all at once, since a call of these takes a millisecond.
+        """Keep the hits among lists of triangles and the pixels in which to test them, by exact signs where rounding
+        could decide. All lists are tested at once, since one computation of exact signs takes a millisecond.
         """
         if not any(len(which) for which, _ in rest):
             return
@@ -204,15 +202,15 @@ class MeshSet(ShapeSet):
         found.keep(pixel, t, which)
 
     def _meeting(self, rays: SearchRays, which: np.ndarray, pixel: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return corners relative to the rays' origins (3, 3, m) and directions (3, m), one triangle a pixel."""
+        """Return corners relative to the rays' origins (3, 3, m) and directions (3, m), one triangle per pixel."""
         corners, (origin, direction) = self.meshes.corners(which), rays.at(pixel)
         return corners if origin is None else corners - origin, direction
 
 
 def _inside(volumes: tuple[Any, Any, Any], is_turned: bool) -> np.ndarray:
-    """Return the volume that is nearest to letting a ray miss its triangle: positive where it is met.
+    """Return the volume that is nearest to making a ray miss its triangle: positive on a hit.
 
-    ``is_turned``: all volumes of a hit are known to be positive; else they may all be negative, too.
+    ``is_turned``: all volumes of a hit are known to be positive; otherwise they may all be negative, too.
     """
     first, second, third = volumes
     inner = np.minimum(np.minimum(first, second), third)
@@ -222,19 +220,19 @@ def _inside(volumes: tuple[Any, Any, Any], is_turned: bool) -> np.ndarray:
 
 
 def _doubt(corners: Any, reach: Reach) -> np.ndarray:
-    """Return what volumes are right to, of triangles with corners in the camera's frame, for all rays of a tile."""
+    """Return an error bound of the volumes of triangles with corners in the camera's frame, for all rays of a tile."""
     longest = np.maximum.reduce([norm(corner) for corner in corners])
     return ROUNDING * reach[0] * (longest + reach[1]) ** 2
 
 
 def _longest(vectors: Any) -> float:
-    """Return how long some vectors are at most, from components that broadcast; NaN is none."""
+    """Return an upper bound of the lengths of vectors, from components that broadcast; NaN is ignored."""
     return math.sqrt(sum(float(np.fmax.reduce(np.square(component), axis=None, initial=0.0)) for component in vectors))
 
 
 def _slabs(near: np.ndarray, bounds: np.ndarray, pixels: int) -> Iterator[np.ndarray]:
-    """Yield triangles in parts of about the same number, those with the least t first: in the more parts, the more work
-    they are beside the pixels of their tile, whose farthest t are asked for before each.
+    """Yield triangles in parts of about the same number, those with the least t first. The number of parts grows with
+    their work compared with the pixels of their tile, since the tile's farthest t are computed before each part.
     """
     x0, x1, y0, y1 = bounds.T
     work = tuning.TRIANGLE_PIXELS * len(near) + np.multiply(x1 - x0, y1 - y0, dtype=float).sum()
@@ -246,7 +244,7 @@ def _slabs(near: np.ndarray, bounds: np.ndarray, pixels: int) -> Iterator[np.nda
 
 
 def _pieces(bounds: np.ndarray, most: int) -> Iterator[slice]:
-    """Yield SPANNED triangles at once, or as many as have so many pixels in their bounds."""
+    """Yield slices of at most SPANNED triangles, which end once their bounds have more than ``most`` pixels."""
     pixels = np.cumsum(pixels_in(bounds))
     first = 0
     while first < len(bounds):

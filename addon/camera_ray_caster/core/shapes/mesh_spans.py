@@ -1,8 +1,8 @@
-"""Triangles under rays that lie on a lattice, as a pinhole's and parallel ones: each row of a triangle is one span.
+"""Triangles under rays on a lattice, such as a pinhole's or parallel rays: each row of a triangle is one span.
 
-The volume of an edge is affine in the pixel then: it is positive on one side of the pixel coordinate where it vanishes
-in a row. Where that is so near to a pixel's center that rounding could decide, the exact sign does, as it does for all
-other rays: see ``triangles``. t is a quotient of terms that are affine in the pixel, too.
+The volume of an edge is affine in the pixel then: in a row it changes its sign at one pixel coordinate. Where this
+coordinate is so near to a pixel's center that rounding could decide, the exact sign decides, as for all other rays: see
+``triangles``. t or 1 / t is affine in the pixel, too.
 Reference: M. Olano and T. Greer, Triangle Scan Conversion using 2D Homogeneous Coordinates, 1997.
 """
 
@@ -23,26 +23,29 @@ from .triangles import EDGES, ROUNDING, STEEP, plane
 from .windows import counted
 
 CLEAR = 1 / 8
-"""Pixels. An edge so near to the direction of the rows that rounding moves where it crosses them by more decides of
-whole rows; where it leaves one open its pixels are tested.
+"""Pixels. If rounding moves the crossings of an edge with the rows by more than this, the edge is nearly parallel to
+the rows. It then accepts or rejects whole rows of the bounds; rows that it leaves open are tested pixel by pixel.
 """
 
 
 @dataclass(frozen=True, eq=False)
 class Lattice:
-    """The rays of a tile, which are l = (first[0] + column step[0], first[1] + row step[1], 1) in some coordinates."""
+    """The rays of a tile at even distances, as l = (first[0] + column step[0], first[1] + row step[1], 1).
+
+    A pinhole's directions are (l[0], l[1], z); parallel rays have the origins (l[0], l[1], 0) and directions (0, 0, z).
+    """
 
     first: tuple[float, float]
     step: tuple[float, float]
     z: float
-    """Of all directions."""
+    """The z of all directions."""
     is_parallel: bool
     reach: float
     """The length of the longest l."""
 
     @classmethod
     def of(cls, rays: SearchRays) -> Lattice | None:
-        """Return that of the rays; None where they have none, or not at even distances."""
+        """Return the lattice of the rays; None if they are on no lattice, or not at even distances."""
         if rays.origin is None and is_lattice(rays.direction):
             x, y, z = rays.direction
         elif rays.origin is not None and is_one(rays.direction) and is_grid(*rays.origin[:2]):
@@ -63,7 +66,7 @@ class Lattice:
         return cls((first[0], first[1]), (step[0], step[1]), float(z), rays.origin is not None, reach)
 
     def edges(self, corners: Any) -> list[tuple[Any, Any, Any]]:
-        """Return the coefficients of l of the three volumes."""
+        """Return the coefficients of the three volumes as linear functions of l."""
         if self.is_parallel:
             return [
                 tuple(self.z * part for part in (a[1] - b[1], b[0] - a[0], a[0] * b[1] - a[1] * b[0]))
@@ -72,26 +75,26 @@ class Lattice:
         return [(x, y, z * self.z) for x, y, z in (cross(corners[i], corners[j]) for i, j in EDGES)]
 
     def scale(self, corners: Any) -> Any:
-        """Return what the volumes are right to ROUNDING of."""
+        """Return the scale of the volumes: their errors are at most ROUNDING times it."""
         longest = np.maximum.reduce([norm(corner) for corner in corners])
         return (longest + self.reach) ** 2 if self.is_parallel else longest**2 * self.reach
 
 
 @dataclass(frozen=True, eq=False)
 class Spans:
-    """Where the rays of a lattice meet k triangles."""
+    """The pixels in which the rays of a lattice hit k triangles."""
 
     clear: np.ndarray
-    """(k,) bool: the triangles that are meant; others are to be tested pixel by pixel."""
+    """(k,) bool: the triangles that are handled here; the others have to be tested pixel by pixel."""
     met: tuple[np.ndarray, np.ndarray]
-    """Triangles and the pixels of the tile in which they are met, (m,) each."""
+    """Triangles and the pixels of the tile in which they are hit, (m,) each."""
     t: np.ndarray
     open: tuple[np.ndarray, np.ndarray]
-    """Triangles and the pixels in which they are to be tested, since rounding could decide."""
+    """Triangles and the pixels in which they have to be tested exactly, since rounding could decide."""
 
 
 def spans(lattice: Lattice, corners: Any, bounds: np.ndarray, width: int) -> Spans:
-    """Return those of triangles with corners (3, 3, k), seen within bounds (k, 4) of a tile of this width."""
+    """Return the spans of triangles with corners (3, 3, k), seen within bounds (k, 4) of a tile of this width."""
     normal, product = plane(corners)
     height, slope = dot(normal, corners[0]), normal[2] * lattice.z
     scale = 2 * ROUNDING * lattice.scale(corners)
@@ -143,7 +146,9 @@ def spans(lattice: Lattice, corners: Any, bounds: np.ndarray, width: int) -> Spa
 
 
 def _level(lattice: Lattice, edges: np.ndarray, is_level: np.ndarray, scale, bounds: np.ndarray, at, row):
-    """Return the rows of triangles that are not outside of an edge along them, and where rounding could decide."""
+    """Return the rows of triangles, as ``at`` and ``row``, without those that lie outside of an edge nearly parallel to
+    the rows, and in which of them rounding could decide.
+    """
     gone, is_open = np.zeros((2, len(at)), bool)
     some = np.flatnonzero(is_level.any(axis=0)[at])
     k = at[some]
@@ -158,6 +163,6 @@ def _level(lattice: Lattice, edges: np.ndarray, is_level: np.ndarray, scale, bou
 
 
 def _at_rows(start, change, meant: np.ndarray, without: float, at: np.ndarray, row: np.ndarray) -> Iterator[np.ndarray]:
-    """Yield the columns of each edge at rows of triangles, (m,), of those that are meant, (3, k)."""
+    """Yield the columns at which each edge crosses the rows, (m,); ``without`` unless the edge is ``meant``, (3, k)."""
     for own_start, own_change in zip(np.where(meant, start, without), np.where(meant, change, 0.0), strict=True):
         yield taken(own_start, at) + taken(own_change, at) * row

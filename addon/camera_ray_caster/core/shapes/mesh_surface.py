@@ -1,7 +1,7 @@
 """The surface of meshes where rays meet it: normals, uv, faces and materials of the triangles that pixels see.
 
-Many pixels may see the same triangle. What follows from a triangle alone is worked out once for all of them; over a
-triangle normals and uv are affine in the hit point.
+Many pixels may see the same triangle. Values that depend on the triangle alone are computed once for all of them; over
+a triangle, normals and uv are affine in the hit point.
 """
 
 from __future__ import annotations
@@ -21,10 +21,10 @@ from .kind import HitPixels
 from .mesh_found import SEEN
 
 TRIANGLES = "triangles"
-"""Under which pixels note theirs."""
+"""Name under which ``HitPixels.noted`` has the ``HitTriangles`` of the pixels."""
 
 LOST = 1 / 16
-"""A triangle so thin that rounding of its points moves a barycentric coordinate by this much has one value all over."""
+"""If rounding of a triangle's points may move a barycentric coordinate by this much, values are constant over it."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,7 +43,7 @@ class HitTriangles:
 
     @classmethod
     def of(cls, shapes: InCamera, pixels: HitPixels) -> HitTriangles:
-        """Return those of pixels that see meshes, one at least; made once for all that asks for them."""
+        """Return the triangles of one or more pixels that see meshes; they are made at first use and noted."""
         if TRIANGLES not in pixels.noted:
             of_tile, which = pixels.scratch.noted[SEEN], pixels.kept(SEEN, np.int32)
             own = cls(shapes, which, of_tile.at, of_tile.number, pixels.from_eye)
@@ -51,7 +51,7 @@ class HitTriangles:
         return pixels.noted[TRIANGLES]
 
     def only(self, some: Any) -> HitTriangles:
-        """Return those that some of the pixels see, indices or a slice."""
+        """Return the triangles that some of the pixels, indices or a slice, see."""
         which = self.which[some]
         place = np.zeros(len(self.at), np.int32)
         place[which] = 1
@@ -70,47 +70,47 @@ class HitTriangles:
 
     @property
     def slot(self) -> np.ndarray:
-        """(m,) int32: the materials' places among those of the shape."""
+        """(m,) int32: indices of the materials in the shape's ``Slots``."""
         return self.each(self._gather((), np.int32, lambda mesh, k: 0 if mesh.slot is None else mesh.slot[k]))
 
     @lazy
     def local(self) -> np.ndarray:
-        """The corners in their meshes' frames from the middle, (3, 3, k): corner, component."""
+        """The corners relative to the middles of their meshes, in mesh frames, (3, 3, k): corner, component."""
         return self._gather((3, 3), float, corners_from_middle)
 
     @lazy
     def axes(self) -> tuple[Any, ...]:
-        """The rows of the shapes' axes, three of three (k,), or (1,) where all are of one shape."""
+        """The rows of the shapes' axes, three times three (k,), or (1,) if all triangles are of one shape."""
         return matrix_rows(self.shapes.shapes.axes[self._places])
 
     @lazy
     def center(self) -> tuple[np.ndarray, ...]:
-        """The shapes' centers relative to the eye, three (k,), or (1,) where all are of one shape."""
+        """The shapes' centers relative to the eye, three (k,), or (1,) if all triangles are of one shape."""
         return components(self.shapes.shapes.center[self._places] - self.shapes.pose.eye)
 
     @lazy
     def corners(self) -> list[tuple[np.ndarray, ...]]:
-        """The corners relative to the eye, three of three (k,)."""
+        """The corners relative to the eye, three times three (k,)."""
         return [
             tuple(c + p for c, p in zip(self.center, matvec(self.axes, corner), strict=True)) for corner in self.local
         ]
 
     @lazy
     def edges(self) -> tuple[Any, Any]:
-        """From the first corner to the two others."""
+        """The vectors from the first corner to the two others."""
         return difference(self.corners[1], self.corners[0]), difference(self.corners[2], self.corners[0])
 
     @lazy
     def area(self) -> Any:
-        """The cross product of the edges: the normal of the mesh's front, but for mirrored meshes their back's."""
+        """The cross product of the edges: a normal on the mesh's front side, or on the back side of mirrored meshes."""
         return cross(*self.edges)
 
     @lazy
     def corner_normals(self) -> np.ndarray:
         """The normals at the corners on the side of ``area``, (3, 3, k): corner, component; not of unit length.
 
-        They are made unit in the world, those of a shared mesh in its own frame: see ``Shapes.shared``. A triangle with
-        a normal that a flattened object leaves no direction is flat.
+        They are normalized in the world, except those of a shared mesh, which are unit vectors in its own frame: see
+        ``Shapes.shared``. A triangle is flat if a flattened object leaves one of its corner normals no direction.
         """
         smooth = self._gather((), bool, lambda mesh, k: mesh.normals is not None)
         local = self._gather((3, 3), float, _normals)
@@ -124,9 +124,7 @@ class HitTriangles:
 
     @lazy
     def gradients(self) -> tuple[Any, Any]:
-        """By how much the second and the third barycentric coordinate grow along each axis; 0 for triangles that are
-        too thin: see LOST.
-        """
+        """The gradients of the second and third barycentric coordinates; 0 for triangles that are too thin (LOST)."""
         square = dot(self.area, self.area)
         found = cross(self.edges[1], self.area), cross(self.area, self.edges[0])
         both = tuple(tuple(component / square for component in vector) for vector in found)
@@ -136,8 +134,8 @@ class HitTriangles:
         return second, third
 
     def affine(self, values: np.ndarray) -> Iterator[tuple[np.ndarray, Any]]:
-        """Yield, for each component of values at the corners, (3, c, k), the constant and the slope of which it is the
-        constant plus slope . p at hit points relative to the eye: (k,) and three (k,).
+        """Yield a constant, (k,), and a slope, three (k,), for each component of values at the corners, (3, c, k): at
+        hit points p relative to the eye the component is constant + slope . p.
         """
         second, third = self.gradients
         for at_corners in np.swapaxes(values, 0, 1):
@@ -147,17 +145,17 @@ class HitTriangles:
             yield first - dot(slope, self.corners[0]), slope
 
     def interpolated(self, values: np.ndarray, point: Any) -> Iterator[np.ndarray]:
-        """Yield each component of values at the corners, (3, c, k), at hit points relative to the eye: (m,)."""
+        """Yield each component, (m,), of values at the corners, (3, c, k), at hit points relative to the eye."""
         for constant, slope in self.affine(values):
             yield affine_at(self.which, constant, slope, point)
 
     def uv(self, point: Any) -> tuple[np.ndarray, np.ndarray]:
-        """Return u and v, (m,) each; 0 where the mesh has no map."""
+        """Return u and v, (m,) each; 0 if the mesh has no map."""
         u, v = self.interpolated(self._gather((3, 2), float, _uv), point)
         return u, v
 
     def from_edge(self, point: Any) -> np.ndarray:
-        """Return what ``Kind.from_edge`` does."""
+        """Return the distances from edges, (m,), as ``Kind.from_edge`` does."""
         outer = self._gather((3,), bool, lambda mesh, k: False if mesh.uv is not None else mesh.is_outer[:, k])
         corners = np.broadcast_to(np.eye(3)[..., None], (3, 3, len(self.at)))
         heights = np.array(list(self.interpolated(corners, point)))
@@ -165,7 +163,7 @@ class HitTriangles:
 
     @lazy
     def _places(self) -> np.ndarray:
-        """Where what is asked of shapes stands in ``Shapes``: (k,), or (1,) where it is one."""
+        """Indices into ``Shapes``: (k,), or (1,) if all triangles are of one shape."""
         return merged(self.at)
 
     @lazy
@@ -175,11 +173,11 @@ class HitTriangles:
 
     @lazy
     def _meshes(self) -> list[int]:
-        """Those that are seen."""
+        """Indices of the meshes that are seen, in ``Shapes.meshes``."""
         return np.flatnonzero(np.bincount(self.mesh)).tolist()
 
     def _gather(self, shape: tuple[int, ...], dtype: type, of: Callable[[Mesh, np.ndarray], Any]) -> np.ndarray:
-        """Return what a function gives for triangles of a mesh, (*shape, k)."""
+        """Return the values, (*shape, k), of a function that takes a mesh and the indices of some of its triangles."""
         result: np.ndarray = np.empty((*shape, len(self.at)), dtype)
         for k in self._meshes:
             some = self.mesh == k if len(self._meshes) > 1 else slice(None)
@@ -188,7 +186,7 @@ class HitTriangles:
 
 
 def affine_at(which: np.ndarray, constant: np.ndarray, slope: Any, point: Any) -> np.ndarray:
-    """Return constant + slope . point, (m,), of which constants and slopes (k,) are taken."""
+    """Return constant + slope . point, (m,), with constants and slopes, (k,), taken at the indices ``which``, (m,)."""
     total, part = np.empty((2, len(which)))
     np.take(constant, which, out=total, mode="wrap")
     for along, component in zip(slope, point, strict=True):
@@ -199,7 +197,7 @@ def affine_at(which: np.ndarray, constant: np.ndarray, slope: Any, point: Any) -
 
 
 def corners_from_middle(mesh: Mesh, which: np.ndarray) -> np.ndarray:
-    """Return the corners of triangles (k,) in the mesh's frame from its middle, (3, 3, k): corner, component."""
+    """Return the corners of triangles (k,) relative to the mesh's middle, (3, 3, k): corner, component."""
     return mesh.vertices.take(mesh.triangles.take(which, axis=1), axis=1).swapaxes(0, 1) - mesh.middle[:, None]
 
 
@@ -209,10 +207,10 @@ def _at_loops(values: np.ndarray, loops: Any, which: np.ndarray) -> np.ndarray:
 
 
 def _normals(mesh: Mesh, which: np.ndarray) -> Any:
-    """Return the normals of triangles at their corners, (3, 3, k); 0 where the mesh is flat."""
+    """Return the normals of triangles at their corners, (3, 3, k); 0 if the mesh is shaded flat."""
     return 0.0 if mesh.normals is None else _at_loops(mesh.normals, mesh.loops, which)
 
 
 def _uv(mesh: Mesh, which: np.ndarray) -> Any:
-    """Return the map of triangles at their corners, (3, 2, k); 0 where the mesh has none."""
+    """Return u and v of triangles at their corners, (3, 2, k); 0 if the mesh has no map."""
     return 0.0 if mesh.uv is None else _at_loops(mesh.uv, mesh.loops, which)

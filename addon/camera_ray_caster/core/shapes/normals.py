@@ -1,6 +1,6 @@
-"""Unit normals of many shapes at once: a table of constants, looked up by each pixel's shape, where kinds have such.
+"""Unit normals of many shapes at once: a table of constants, looked up by each pixel's shape, if the kind has them.
 
-A last column of zeros serves the pixels that hit nothing (index -1).
+The last column is 0, for pixels that hit nothing (index -1).
 """
 
 from __future__ import annotations
@@ -20,22 +20,22 @@ class NormalTable:
     """The normals of shapes, world frame; see ``Kind.normals``."""
 
     gain: np.ndarray | None
-    """(n + 1,); None where all are 0, as those of planes."""
+    """(n + 1,); None if all are 0, as for planes."""
     offset: np.ndarray
-    """(3, n + 1); 0 where there are no constants."""
+    """(3, n + 1); 0 for shapes without constants."""
     unit: bool
-    """Whether gain times point plus offset has unit length as it comes."""
+    """Whether gain times point plus offset has unit length without being normalized."""
     others: tuple[tuple[np.ndarray, PixelNormals], ...]
-    """For each kind with shapes that have no constants: which they are, (n + 1,) bool, and what gives their normals."""
+    """For each kind with shapes without constants: which they are, (n + 1,) bool, and the function for normals."""
 
     @property
     def is_sum(self) -> bool:
-        """Whether gain times point plus offset is all there is to do."""
+        """Whether every normal is just gain times point plus offset."""
         return self.unit and not self.others
 
 
 def normal_table(shapes: InCamera, seen: np.ndarray) -> NormalTable:
-    """Return the table of those shapes that can be seen, indices into ``Shapes``."""
+    """Return the table of the shapes that can be seen, given as indices into ``Shapes``."""
     table = np.zeros((4, len(shapes.shapes) + 1))
     others = []
     for kind, some in by_kind(shapes.shapes.kind[seen]):

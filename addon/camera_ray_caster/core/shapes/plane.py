@@ -1,11 +1,11 @@
 """The plane, finite (a parallelogram) or infinite: q_z = 0 in the shape's frame, finite where |q_x|, |q_y| <= 1.
 
-With q(t) = t D - N: t = N_z / D_z, and inside is decided without that division: q_x = (N x D)_y / -D_z and
-q_y = (N x D)_x / D_z, so |(N x D)_y| <= |D_z| and |(N x D)_x| <= |D_z|. The cross product comes from constants of the
-shape for rays from the eye, so that edges are right to EPS (distance / size), however grazing the plane is; and so does
-N_z, which is right to EPS of itself however near the plane's own plane the eye is (see ``in_camera``). The normal is
-the third row of the inverse axes.
-Reference: the ray-plane intersection of every textbook (Glassner, An Introduction to Ray Tracing, 1989, chapter 2).
+With q(t) = t D - N, the hit is at t = N_z / D_z. There q_x = (N x D)_y / -D_z and q_y = (N x D)_x / D_z, so the test
+whether it is inside needs no division: |(N x D)_y| <= |D_z| and |(N x D)_x| <= |D_z|. For rays from the eye the cross
+product and N_z come from constants of the shape. Edges are therefore right to EPS (distance / size) at any grazing
+angle, and N_z is right to EPS of itself however close the eye is to the plane (see ``in_camera``). The normal is the
+third row of the inverse axes.
+Reference: A. Glassner (ed.), An Introduction to Ray Tracing, 1989, chapter 2 (ray-plane intersection).
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from .kind import PixelNormals
 from .local_rays import LocalRays
 
 GRAZING = 1 / 16
-"""A plane whose distance from the eye is this fraction of what it is the sum of has it with twice the digits."""
+"""If N_z is below this fraction of the sum of its terms' magnitudes, it is computed with twice the digits."""
 
 
 @dataclass(frozen=True)
@@ -31,13 +31,13 @@ class Constants:
     """Planes as the eye sees them; the last axis counts the planes."""
 
     matrix: np.ndarray
-    """(3, 3, n): shape_from_camera, its sign such that the eye's ``offset`` is not negative."""
+    """(3, 3, n): shape_from_camera, with the sign that makes ``offset`` non-negative."""
     center: np.ndarray
     """(3, n) camera frame."""
     offset: np.ndarray
     """(n,): N_z for rays from the eye."""
     cross: np.ndarray
-    """(2, 3, n): camera direction to the x and y components of N x D, for rays from the eye."""
+    """(2, 3, n): matrix from a camera direction to the x and y components of N x D, for rays from the eye."""
 
 
 class Plane(AffineKind):
@@ -49,13 +49,13 @@ class Plane(AffineKind):
     has_edges = True
 
     def extent(self, shapes: Shapes, at: np.ndarray, axes: np.ndarray):
-        """See ``Kind``. The radius reaches the farther corners."""
+        """See ``Kind``. The sphere holds the farther pair of corners."""
         gram = np.abs(np.einsum("nij,nkj->nik", axes, axes))
         ahead = np.abs(axes[..., 2])
         return np.sqrt(gram[:, 0, 0] + gram[:, 1, 1] + 2 * gram[:, 0, 1]), ahead[:, 0] + ahead[:, 1]
 
     def is_close(self, offset: np.ndarray, shape_from_world: np.ndarray, away: np.ndarray) -> np.ndarray:
-        """See ``Kind``: near the plane's own plane N_z cancels."""
+        """See ``Kind``: N_z cancels if the eye is near the plane."""
         return np.abs(offset[:, 2]) < GRAZING * np.abs(shape_from_world[:, 2] * away).sum(axis=-1)
 
     def constants(self, shapes: InCamera, at: np.ndarray, parallel=None) -> Constants:
@@ -68,7 +68,7 @@ class Plane(AffineKind):
         return Constants(matrix, center, z, np.stack((y * to_z - z * to_y, z * to_x - x * to_z)))
 
     def intersect(self, constants: Constants, origin, direction, start: float | None, scratch):
-        """See ``AffineKind``. Both sides are seen. A ray in the plane does not hit it."""
+        """See ``AffineKind``. Both sides are visible. A ray within the plane does not hit it."""
         matrix = constants.matrix
         shape = np.broadcast_shapes(np.shape(constants.offset), *map(np.shape, direction), *map(np.shape, origin or ()))
         d_z, t, across = (scratch(name, shape) for name in ("ahead", "found", "across"))
@@ -94,7 +94,7 @@ class Plane(AffineKind):
         return Lattice(constants, self.has_edges, direction)
 
     def normals(self, shapes: InCamera, at: np.ndarray) -> tuple[np.ndarray, PixelNormals | None]:
-        """See ``Kind``; towards the eye."""
+        """See ``Kind``; the normals point towards the eye."""
         normal = shapes.shape_from_world[at, 2] * np.where(shapes.offset[at, 2] > 0, -1.0, 1.0)[:, None]
         normal = normal / np.abs(normal).max(axis=1, initial=0.0, keepdims=True)
         normal = normal / np.sqrt((normal * normal).sum(axis=1, keepdims=True)) + 0.0  # never -0
@@ -105,9 +105,9 @@ class Plane(AffineKind):
         return (q[0] + 1) / 2, (q[1] + 1) / 2
 
     def root_error(self, hits: AffineErrors) -> np.ndarray:
-        """Return how far tau may be from the root of tau D_z = N_z."""
+        """Return an error bound of tau as the root of tau D_z = N_z."""
         local, tau = hits.local, hits.tau
-        d, n, d_error, n_error = local.component(2)
+        d, n, d_error, n_error = local.z()
         size, along = np.abs(n), tau * d
         if local.from_eye:
             parts = local.offset.row("parts", 2)
@@ -122,15 +122,15 @@ class Plane(AffineKind):
         return hits.local.frame.rounding
 
     def decide(self, shapes: InCamera, local: LocalRays):
-        """Return by how much the crossing is inside of the edges."""
-        d, _, d_error, _ = local.component(2)
+        """Return |D_z| - max(|(N x D)_x|, |(N x D)_y|), which is positive inside the edges, and its error bound."""
+        d, _, d_error, _ = local.z()
         steep, across = np.abs(d), local.cross
         inside = np.minimum(steep - np.abs(across[0]), steep - np.abs(across[1]))
         return inside, d_error + local.product_error()
 
 
 class InfinitePlane(Plane):
-    """Planes without edges."""
+    """Planes without edges: infinite planes."""
 
     number = INFINITE_PLANE
     name = "infinite plane"
@@ -141,18 +141,18 @@ class InfinitePlane(Plane):
         return np.inf, np.inf
 
     def decide(self, shapes: InCamera, local: LocalRays):
-        """Return how steep the ray is."""
-        d, _, d_error, _ = local.component(2)
+        """Return |D_z| and its error bound: a ray misses only if it is parallel to the plane."""
+        d, _, d_error, _ = local.z()
         return np.abs(d), d_error
 
 
 class Lattice:
     """Planes and the rays of a pinhole: x is a row, y a column, z a number. D_z and N x D are affine in the pixel then:
-    where the corners of a window tell that a plane covers it all or misses it all, no other is asked.
+    if the corners of a window show that a plane covers or misses all of it, no other pixel is tested.
     """
 
     def __init__(self, planes: Constants, has_edges: bool, direction):
-        """Take constants with two axes behind the one that counts the planes."""
+        """Take constants with two more axes behind the axis that counts the planes."""
         x, y, z = direction
         edges = planes.cross if has_edges else planes.cross[:0]
         terms = np.concatenate((planes.matrix[2:], edges))
@@ -164,7 +164,7 @@ class Lattice:
         self._is_level = terms[0, 0, :, 0, 0] == 0
 
     def meet(self, k: int, window, scratch):
-        """Return t in a window of the rays, and where it is a hit, of one plane, as ``intersect`` does."""
+        """Return t of the k-th plane in a window of the rays, and where t is a hit, as ``Large.solve`` does."""
         rows, columns = window
         row, column = self._row[:, k, :, columns], self._column[:, k, rows]
         corners = row[..., [0, -1]] + column[:, [0, -1]]
@@ -173,7 +173,7 @@ class Lattice:
             return None, None
         shape = column.shape[1], row.shape[2]
         d_z = column[0]
-        if not self._is_level[k]:  # else all pixels of a row are alike: a floor's, seen by a camera that is not rolled
+        if not self._is_level[k]:  # otherwise d_z depends on the row alone: a floor, a camera without roll
             d_z = np.add(row[0], column[0], out=scratch("ahead", shape))
         t = np.divide(self._offset[k], d_z, out=scratch("found", d_z.shape))
         if (slack > self._doubt[k]).all():

@@ -1,7 +1,7 @@
-"""Is a mesh a sphere or a flat parallelogram? Judged by its vertices and faces, which is all that a mesh keeps.
+"""Recognition of spheres and flat parallelograms among meshes, from vertices and faces: a mesh stores nothing else.
 
-A renderer draws the faces, the caster the shape that they stand for, so the faces have to leave no doubt about it: they
-must go once round the ball, or fill the parallelogram. Everything is computed in float64 from the stored float32.
+A renderer draws the faces, the caster the shape that they represent. So the faces have to leave no doubt about it: they
+must go round the sphere once, or fill the parallelogram. All is computed in float64 from the stored float32.
 """
 
 from __future__ import annotations
@@ -18,32 +18,35 @@ from .instances import Primitive
 SPHERE_TOLERANCE = 2e-5
 """Largest spread of the vertices' distances from the center, over the radius.
 
-Blender tabulates the icosahedron with so few digits that ten of its twelve vertices lie 1.08e-5 short. Its UV spheres,
-made by adding up small turns, spread by up to 6.7e-6 (of 6 to 256 segments, one of 200), its finer ico spheres by 4e-7.
-What is only nearly a sphere, such as a cube under Subdivision Surface, spreads by 1e-3 and more."""
+Blender tabulates the icosahedron with so few digits that ten of its twelve vertices are 1.08e-5 too near. Its UV
+spheres, made by adding up small rotations, spread by up to 6.7e-6 (among 6 to 256 segments, at 200), its finer ico
+spheres by 4e-7. Meshes that are only nearly spheres, such as a cube under Subdivision Surface, spread by 1e-3 or more.
+"""
 
 ROUNDING = 8 * EPS32
-"""Allowance for float32, over the largest coordinate: a turn, a scale and an offset applied, in three dimensions."""
+"""Allowance for float32, over the largest coordinate: an applied rotation, scale and offset, in three dimensions."""
 
 MIN_INRADIUS = 0.74
-"""How near a face's plane may come to the center, over the radius.
+"""Least distance of a face's plane from the center, over the radius.
 
-The vertices of any prism, cube or cylinder can lie on one sphere, but then some face comes to 1/√2 or nearer; an
-octahedron's are at 0.577, an icosahedron's at 0.795. UV spheres pass from 6 segments and 3 rings (0.750) on; coarser
-ones cannot be told from a cylinder."""
+The vertices of any prism, cube or cylinder can lie on one sphere, but then some face is at a distance of at most 1/√2.
+An octahedron's faces are at 0.577, an icosahedron's at 0.795. UV spheres pass from 6 segments and 3 rings (0.750) on;
+coarser UV spheres cannot be distinguished from a cylinder."""
 
 SAMPLE = 256
-"""Vertices by which a mesh of many more is told from a sphere and a plane: that takes a hundredth of the time."""
+"""Number of vertices from which a large mesh is found to be no sphere or plane, in a hundredth of the time."""
 
 CORRUPT = "it is corrupt, with faces of vertices or edges that it does not have: repair it with mesh.validate()"
 NOT_FINITE = "its vertices are not all finite"
 NOT_ROUND = "its vertices are not on one sphere or ellipsoid"
-ROUNDED_AWAY = "it is too thin, or too small so far from the object's origin: float32 has rounded its shape away"
+ROUNDED_AWAY = (
+    "it is too thin, or too small for its distance from the object's origin: float32 rounding has destroyed its shape"
+)
 
 
 @dataclass(frozen=True)
 class MeshArrays:
-    """What Blender's ``foreach_get`` gives of a mesh; a loop is a corner of a face and the edge that leaves it."""
+    """A mesh as Blender's ``foreach_get`` returns it; a loop is a corner of a face and the edge that starts there."""
 
     vertices: np.ndarray
     """(vertices, 3) float32."""
@@ -57,10 +60,9 @@ class MeshArrays:
 
     @property
     def is_whole(self) -> bool:
-        """Whether every face has three corners or more, and each a vertex and an edge that are there: not in a corrupt
-        file.
+        """Whether every face has at least three corners, each with an existing vertex and edge: not in corrupt files.
 
-        The starts of the faces ascend from the first loop on.
+        The starts of the faces have to ascend from the first loop on.
         """
         starts, ends = self.loop_starts, np.append(self.loop_starts[1:], len(self.loop_vertices))
         return bool(
@@ -76,14 +78,14 @@ def _within(indices, count: int) -> bool:
 
 
 def defect(mesh: MeshArrays) -> str:
-    """Return in words why the faces of a mesh are not to be used, else ""."""
+    """Return the reason why the faces of a mesh cannot be used, or ""."""
     if not mesh.is_whole:
         return CORRUPT
     return "" if np.isfinite(mesh.vertices).all() else NOT_FINITE
 
 
 def exclude(mesh: MeshArrays) -> str:
-    """Return in words why a mesh can be neither sphere nor plane, as far as some of its vertices tell, else ""."""
+    """Return the reason why a mesh is neither sphere nor plane, if a sample of its vertices shows it, or ""."""
     if len(mesh.vertices) < 4 * SAMPLE:
         return ""
     sample = mesh.vertices[np.random.default_rng(0).integers(len(mesh.vertices), size=SAMPLE)]
@@ -95,16 +97,16 @@ def exclude(mesh: MeshArrays) -> str:
 
 
 def recognize(mesh: MeshArrays) -> Primitive | str:
-    """Return the sphere or plane that a mesh with faces is, in object space, or in words why it is neither.
+    """Return the sphere or plane that a mesh with faces represents, in object space, or the reason why it is neither.
 
-    A mesh whose faces all look one way is judged as a plane, any other as a sphere, or as an ellipsoid where an affine
-    matrix was applied to one. A sphere's axes are its radius times the object's axes; a plane's are half its sides, the
+    A mesh whose faces all look one way is tested as a plane, any other as a sphere, or as an ellipsoid if an affine
+    matrix was applied to one. A sphere's axes are its radius times the object's axes. A plane's are half its sides, the
     first along its first edge, and a normal as long as the root of their area. All are right to the tolerances above.
     """
     if reason := defect(mesh) or exclude(mesh):
         return reason
     middle = mesh.vertices.mean(axis=0, dtype=np.float64)
-    vertices = mesh.vertices - middle  # small numbers: an offset that was applied costs no digits
+    vertices = mesh.vertices - middle  # small numbers: an applied offset costs no digits
     rounding = ROUNDING * float(np.abs(mesh.vertices).max())
     _, areas = _faces(mesh, vertices)
     total, area = areas.sum(axis=0), np.linalg.norm(areas, axis=1).sum()
@@ -116,12 +118,12 @@ def recognize(mesh: MeshArrays) -> Primitive | str:
         return found
     kind, center, axes, uncertainty, apart = found
     center = center + middle
-    center[np.abs(center) <= uncertainty] = 0  # rounding, where the user has the object's origin
+    center[np.abs(center) <= uncertainty] = 0  # rounding: the user placed the center at the object's origin
     return Primitive(kind, center[None], axes, np.ones(1), apart=float(apart))
 
 
 def _following(mesh) -> np.ndarray:
-    """Return for each loop the next one of its face."""
+    """Return for each loop the next loop of its face."""
     following = np.arange(1, len(mesh.loop_vertices) + 1)
     following[np.append(mesh.loop_starts[1:], len(following)) - 1] = mesh.loop_starts
     return following
@@ -135,10 +137,10 @@ def _faces(mesh, vertices):
 
 
 def _ellipsoid(mesh, vertices, rounding):
-    """Return the ellipsoid whose unit ball the mesh goes round once.
+    """Return the ellipsoid whose surface the mesh goes round once, or the reason why it is none.
 
-    Among the distances of its vertices the one in Z counts if there are vertices above and below the center: Blender's
-    spheres have their poles there, exactly at the radius that the user chose. Otherwise it is their mean.
+    The radius is half the extent of the vertices in Z if that is in the range of their distances from the center, since
+    Blender's spheres have their poles there, at the radius that the user chose. Otherwise it is their mean distance.
     """
     if not np.ptp(vertices, axis=0).all():
         return "it is neither flat nor round"
@@ -155,7 +157,7 @@ def _ellipsoid(mesh, vertices, rounding):
     if (np.abs(heights) < MIN_INRADIUS * sizes).any():
         return "its vertices are on a sphere, but its faces cut deep into it, as a box's or a cylinder's do"
     if abs(heights.sum() / 3) < MIN_INRADIUS**3 * (4 / 3 * np.pi):
-        return "its vertices are on a sphere, but its faces do not go round it once, all facing outwards"
+        return "its vertices are on a sphere, but its faces do not cover the sphere exactly once, all facing outwards"
     distances, pole = np.linalg.norm(ball, axis=1), np.ptp(ball[:, 2]) / 2
     reach = pole if distances.min() <= pole <= distances.max() else distances.mean()
     apart = 1 - (np.abs(heights[sizes > 0]) / sizes[sizes > 0]).min() / reach
@@ -163,8 +165,8 @@ def _ellipsoid(mesh, vertices, rounding):
 
 
 def _fitted(vertices, rounding, slack=1.0):
-    """Return center and axes of the sphere, or else the ellipsoid, that vertices lie on to ``slack`` tolerances, the
-    vertices in its frame, and what rounding may move them there; None where there is none.
+    """Return center and axes of the sphere, or else the ellipsoid, that vertices lie on within ``slack`` tolerances,
+    the vertices in its frame, and how far rounding may move them there; None if there is neither.
     """
     for fit in (_fitted_sphere, _fitted_ellipsoid):
         center, axes = fit(vertices)
@@ -180,7 +182,7 @@ def _fitted(vertices, rounding, slack=1.0):
 
 
 def _least_squares(terms, values):
-    """Return the solution of the normal equations: the terms are scaled and centered, which keeps them well posed."""
+    """Return the solution of the normal equations; scaled and centered terms keep these well conditioned."""
     return np.linalg.lstsq(terms.T @ terms, terms.T @ values, rcond=None)[0]
 
 
@@ -192,7 +194,7 @@ def _fitted_sphere(vertices):
 
 
 def _fitted_ellipsoid(vertices):
-    """Return center and axes by linear least squares on v.Q v + 2 b.v = 1; the axes are None unless Q is positive."""
+    """Return center and axes by linear least squares on v.Q v + 2 b.v = 1; None, None unless Q is positive definite."""
     sides = np.ptp(vertices, axis=0) / 2
     x, y, z = (vertices / sides).T
     terms = np.column_stack([x * x, y * y, z * z, 2 * y * z, 2 * x * z, 2 * x * y, 2 * x, 2 * y, 2 * z])
@@ -206,17 +208,17 @@ def _fitted_ellipsoid(vertices):
 
 
 def _parallelogram(mesh, vertices, total, area, rounding):
-    """Return the parallelogram that a flat mesh fills: its outline has four corners, and it neither folds nor laps."""
+    """Return the parallelogram that a flat mesh fills once, without folds or overlaps, or why it fills none."""
     normal = total / np.linalg.norm(total)
     if np.ptp(vertices @ normal) > rounding:
         return "it is nearly a plane, but not flat"
     loop_ends = mesh.loop_vertices[_following(mesh)]
-    # An edge between two faces is passed once in each direction; what is left over is the outline.
+    # An edge between two faces is traversed once in each direction; the other edges are the outline.
     ahead = mesh.loop_vertices < loop_ends
     net = np.bincount(mesh.loop_edges, np.where(ahead, 1, -1), mesh.edge_count)[mesh.loop_edges]
     outline = dict(zip(mesh.loop_vertices[net != 0].tolist(), loop_ends[net != 0].tolist(), strict=True))
     if not outline:
-        return CORRUPT  # edges that are not where their corners are
+        return CORRUPT  # the edges do not fit their corners
     start = vertex = next(iter(outline))
     walk = []
     while vertex in outline:
@@ -236,7 +238,7 @@ def _parallelogram(mesh, vertices, total, area, rounding):
     x, y = (quad[1] - quad[0] + quad[2] - quad[3]) / 4, (quad[3] - quad[0] + quad[2] - quad[1]) / 4
     gap = np.linalg.norm(quad[0] - quad[1] + quad[2] - quad[3])
     if gap > 2 * rounding:
-        return f"it is flat, but no parallelogram: opposite sides differ by {gap:.2g}"
+        return f"it is flat, but not a parallelogram: opposite sides differ by {gap:.2g}"
     third = np.cross(x, y)
     size = np.linalg.norm(third)
     if size <= rounding * max(np.linalg.norm(x), np.linalg.norm(y)):

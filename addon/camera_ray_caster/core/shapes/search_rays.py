@@ -1,4 +1,4 @@
-"""The rays of a tile as the search of its hits takes them."""
+"""The rays of a tile in the form that the search for hits takes."""
 
 from __future__ import annotations
 
@@ -20,15 +20,15 @@ class SearchRays:
     """None for rays from the eye."""
     direction: Any
     corner: tuple[int, int]
-    """Column and row, in the pixels of the plan, at which the tile begins."""
+    """First column and first row of the tile, in the pixels of the plan."""
     shape: tuple[int, int]
     """Rows and columns."""
     scratch: Scratch
 
     def within(self, window: tuple[slice, slice]) -> SearchRays:
-        """Return those of some rows and columns of the tile."""
+        """Return the rays of some rows and columns of the tile."""
         (rows, columns), (first_column, first_row) = window, self.corner
-        origin, direction = (  # copied once, not each time that some are taken
+        origin, direction = (  # copied once, not at each later lookup
             vector and tuple(np.array(cut(component, window)) for component in vector)
             for vector in (self.origin, self.direction)
         )
@@ -45,7 +45,7 @@ class SearchRays:
 
     @lazy
     def present(self) -> Present:
-        """Those that there are."""
+        """The rays that exist: their directions are not NaN."""
         return Present(self.direction, self.shape)
 
     def at(self, pixel: np.ndarray) -> tuple[np.ndarray | None, np.ndarray]:
@@ -67,7 +67,7 @@ class SearchRays:
 
 
 class Present:
-    """The rays of a tile that there are, row by row; the direction of others is NaN."""
+    """The pixels of a tile that have a ray, row by row; the direction of other pixels is NaN."""
 
     def __init__(self, direction: Any, shape: tuple[int, int]):
         self._there = np.broadcast_to(~np.isnan(direction[0]), shape).reshape(-1)
@@ -79,11 +79,11 @@ class Present:
 
     @lazy
     def _before(self) -> np.ndarray:
-        """How many there are before each pixel of the tile, and in all of it."""
+        """Number of rays before each pixel of the tile, followed by the number in the whole tile."""
         return np.append(0, np.cumsum(self._there))
 
     def within(self, bounds: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return the pixels of those within bounds (k, 4), and of which bounds each is, (m,) both."""
+        """Return the pixels within bounds (k, 4) that have a ray, and the index of the bounds of each, (m,) both."""
         x0, x1, y0, y1 = bounds.T.astype(np.intp)
         at, row = counted(y1 - y0, y0)
         row *= self._width

@@ -1,8 +1,8 @@
-"""The sphere and the ellipsoid, |q| = 1: its size, normals, uv and error bounds; ``sphere_rays`` has its crossings.
+"""The sphere and the ellipsoid, |q| = 1: size, normals, uv and error bounds; ``sphere_rays`` intersects them.
 
-As far as its direction goes, the normal at P of a round sphere is P - center, and of an ellipsoid A^-T q with q =
-A^-1 (P - center) in two steps: the product A^-T A^-1 would square the ratio of its axes, whereas an error of q along a
-short axis is an error along the normal, which does not count.
+The normal at P has the direction of P - center on a round sphere, and of A^-T q with q = A^-1 (P - center) on an
+ellipsoid. The latter is computed in these two steps: the product A^-T A^-1 would square the ratio of the axes, whereas
+an error of q along a short axis is an error along the normal, which does not change its direction.
 """
 
 from __future__ import annotations
@@ -29,15 +29,15 @@ class Sphere(AffineKind):
     name = "sphere"
 
     def extent(self, shapes: Shapes, at: np.ndarray, axes: np.ndarray):
-        """See ``Kind``. The radius is the root of the largest row sum of the axes' Gram matrix (Gershgorin): the
-        longest axis, where they are at right angles.
+        """See ``Kind``. The radius is the root of the largest absolute row sum of the axes' Gram matrix (Gershgorin):
+        the length of the longest axis if the axes are orthogonal.
         """
         gram = np.abs(np.einsum("nij,nkj->nik", axes, axes))
         ahead = axes[..., 2]
         return np.sqrt(gram.sum(axis=2).max(axis=1)), np.sqrt(np.einsum("ni,ni->n", ahead, ahead))
 
     def is_close(self, offset: np.ndarray, shape_from_world: np.ndarray, away: np.ndarray) -> np.ndarray:
-        """See ``Kind``: near the surface |N|^2 - 1 cancels."""
+        """See ``Kind``: |N|^2 - 1 cancels near the surface."""
         return np.sqrt((offset * offset).sum(axis=-1)) < sphere_rays.CLOSE
 
     def constants(self, shapes: InCamera, at: np.ndarray, parallel: Any) -> sphere_rays.Constants:
@@ -45,7 +45,7 @@ class Sphere(AffineKind):
         return sphere_rays.constants(shapes, at, parallel)
 
     def intersect(self, constants: sphere_rays.Constants, origin, direction, start: float | None, scratch: Scratch):
-        """See ``AffineKind``. From inside, the far wall is hit."""
+        """See ``AffineKind``. Rays from inside hit the far side."""
         return sphere_rays.intersect(constants, origin, direction, start, scratch)
 
     def lattice(self, constants: sphere_rays.Constants, direction) -> sphere_rays.Lattice:
@@ -53,7 +53,9 @@ class Sphere(AffineKind):
         return sphere_rays.Lattice(constants, direction)
 
     def normals(self, shapes: InCamera, at: np.ndarray) -> tuple[np.ndarray, PixelNormals | None]:
-        """See ``Kind``; outward. Round spheres have constants: 1 / radius, and from the center to the eye in radii."""
+        """See ``Kind``; the normals point outwards. The constants of a round sphere are 1 / radius and the vector from
+        its center to the eye, in radii.
+        """
         is_round = shapes.is_scalar[at]
         gain = 1 / np.abs(np.where(is_round, shapes.shapes.axes[at, 0, 0], np.nan))[:, None]
         offset = (shapes.pose.eye - shapes.shapes.center[at]) * gain + 0.0  # never -0
@@ -66,7 +68,7 @@ class Sphere(AffineKind):
         return np.arctan2(y, x) / (2 * np.pi) + 0.5, np.arctan2(z, np.hypot(x, y)) / np.pi + 0.5
 
     def root_error(self, hits: AffineErrors) -> np.ndarray:
-        """Return how far tau may be from a root of |tau D - N|^2 = 1."""
+        """Return an error bound of tau as a root of |tau D - N|^2 = 1."""
         local, tau = hits.local, hits.tau
         a, q, span = dot(local.d, local.d), local.q(tau), np.abs(tau)
         d, length = np.sqrt(a), norm(q)
@@ -88,7 +90,7 @@ class Sphere(AffineKind):
         return np.where((low > 0) & (room > 0), residual / (low + np.sqrt(room)), beside)
 
     def normal_error(self, hits: AffineErrors, point: np.ndarray) -> np.ndarray:
-        """See ``AffineKind``: what moves the gradient aside turns it, what moves it along itself does not."""
+        """See ``AffineKind``: only errors of the gradient perpendicular to itself turn it."""
         local, frame, q = hits.local, hits.local.frame, hits.local.q(hits.tau)
         gradient = dot(frame.matrix, q)
         length = norm(gradient)
@@ -106,8 +108,8 @@ class Sphere(AffineKind):
     def decide(self, shapes: InCamera, local: LocalRays):
         """Return the discriminant |D|^2 - |N x D|^2, in scaled units, and the bound below which hit or miss is open.
 
-        The bound is the lesser of two: of this form, EPS (distance / radius), and of b^2 - |D|^2 c where c is exact,
-        which is better near the surface.
+        If b^2 - |D|^2 c with the exact c has the smaller error bound, as it has near the surface, it is returned
+        instead, with its bound. The bound of the first form is EPS (distance / radius).
         """
         d, across = norm(local.d), norm(local.cross)
         moved = local.product_error()
@@ -124,7 +126,7 @@ class Sphere(AffineKind):
 
 
 def _curved(shapes: InCamera, at: np.ndarray) -> PixelNormals:
-    """Return what gives the unit normals of hit pixels of the ellipsoids at these indices."""
+    """Return a function that gives the unit normals of hit pixels on the ellipsoids at these indices."""
     matrix = shapes.shape_from_world[at]
     power = -np.frexp(np.abs(matrix).max(axis=(1, 2), initial=0.0))[1]
     matrix = np.ldexp(matrix, power[:, None, None])  # about 1
@@ -146,8 +148,8 @@ def _curved(shapes: InCamera, at: np.ndarray) -> PixelNormals:
 
 
 def _outside(shapes: InCamera, local: LocalRays) -> tuple[Any, Any] | None:
-    """Return |N|^2 - 1 where it is a constant of a shape that is near, NaN elsewhere, and what to add to gamma(4) of
-    it; None where it is nowhere.
+    """Return |N|^2 - 1 of near shapes, NaN for other shapes, and the part of its error bound beyond gamma(4) of itself;
+    None if no shape is near or the rays do not leave the eye.
     """
     near = local.offset.length < 1.9
     if not (local.from_eye and near.any()):

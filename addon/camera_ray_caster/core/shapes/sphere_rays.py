@@ -1,15 +1,15 @@
 """Rays and spheres or, by an affine matrix, ellipsoids: |q| = 1 in the shape's frame.
 
-The unit sphere may be turned at will, so each one is turned until its center lies on its own z axis, N = (0, 0, n).
+The unit sphere is invariant under rotation, so the frame of each sphere is rotated until N = (0, 0, n), on its z axis.
 With D the ray's direction there, |t D - N|^2 = 1 has a = |D|^2, b = n D_z, c = n^2 - 1 and the discriminant
 
     b^2 - a c = |D|^2 - |N x D|^2 = D_z^2 - c (D_x^2 + D_y^2):
 
-the perpendicular form, whose error is EPS (distance / radius) where the textbook's is EPS (distance / radius)^2,
-so that a sphere is not lost far away, at the price of three products. The root nearest to an origin outside is
-c / (b + sqrt), the stable one; c is a constant of the sphere for rays from the eye, and right however near the surface
-is (see ``outside``). D is scaled by a power of two to about 1, which rounds nothing, and t by the same afterwards: no
-size or distance from 1e-150 to 1e150 overflows.
+This perpendicular form costs three more products. Its error is EPS (distance / radius), while that of the textbook form
+is EPS (distance / radius)^2, which loses distant spheres. The near root for an origin outside is c / (b + sqrt), which
+is stable. For rays from the eye c is a constant of the sphere, and right however near the surface is (see ``outside``).
+D is scaled by a power of two to about 1, which rounds nothing, and t by the same factor afterwards: no size or distance
+from 1e-150 to 1e150 overflows.
 References: E. Haines et al., Precision Improvements for Ray/Sphere Intersection, Ray Tracing Gems (2019), chapter 7;
 D. Goldberg, What Every Computer Scientist Should Know About Floating-Point Arithmetic (1991), section 1.4.
 """
@@ -33,8 +33,8 @@ class Constants:
     """The constants of spheres as the eye sees them; the last axis counts the spheres."""
 
     matrix: np.ndarray
-    """(3, 3, n): camera direction to D, scaled, turned so that the eye sees the center along its z axis, or so that
-    parallel rays run along it, and about that until D_y does not depend on the direction's x."""
+    """(3, 3, n): matrix from a camera direction to D, scaled. It is rotated so that the z axis runs from the eye to the
+    center, or along parallel rays, and about this axis until D_y does not depend on the direction's x."""
     scale: np.ndarray
     """(n,): the power of two that D is scaled by."""
     center: np.ndarray
@@ -50,7 +50,7 @@ class Constants:
 
 
 def constants(shapes: InCamera, at, parallel=None) -> Constants:
-    """Return the constants of the spheres at these indices; for parallel rays with the direction that they all have."""
+    """Return the constants of the spheres at these indices; ``parallel`` is the common direction of parallel rays."""
     c = outside(shapes, at)
     offset = np.ascontiguousarray(shapes.offset[at].T)
     distance = norm(offset)
@@ -65,8 +65,8 @@ def constants(shapes: InCamera, at, parallel=None) -> Constants:
 
 
 def outside(shapes: InCamera, at):
-    """Return c = n^2 - 1 for rays from the eye, positive where it is outside; right to gamma(4) of itself where the eye
-    is CLOSE to the surface, though it cancels there.
+    """Return c = n^2 - 1 for rays from the eye, positive if the eye is outside. If the eye is CLOSE, where c cancels,
+    it is still right to gamma(4) of itself.
     """
     offset, rest = shapes.offset[at], shapes.offset_rest[at]
     distance = np.sqrt((offset * offset).sum(axis=-1))
@@ -78,7 +78,7 @@ def outside(shapes: InCamera, at):
 
 
 def _towards(vector):
-    """Return the axes, each three components, of a frame whose z axis is along a vector; any frame where that is 0.
+    """Return the axes, each three components, of a frame whose z axis is along a vector; any frame if the vector is 0.
 
     The normals follow Duff et al., Building an Orthonormal Basis, Revisited (2017), which has no singular direction.
     """
@@ -92,7 +92,7 @@ def _towards(vector):
 
 
 def _levelled(matrix):
-    """Return the rows of matrices turned about their z axis until the second begins with 0 (a Givens rotation)."""
+    """Return the rows of matrices after a rotation about z that makes the second row begin with 0 (Givens rotation)."""
     first, second, third = matrix
     size = np.hypot(first[0], second[0])
     somewhere = size > 0
@@ -104,7 +104,7 @@ def _levelled(matrix):
 
 
 def intersect(sphere: Constants, origin, direction, start: float | None, scratch):
-    """Return t, NaN where there is none, and None: see ``AffineKind.intersect``."""
+    """Return t, NaN for no hit, and None: see ``AffineKind.intersect``."""
     if origin is None and start is None:
         if is_lattice(direction):
             return Lattice(sphere, direction).meet_all(scratch)
@@ -136,7 +136,7 @@ def intersect(sphere: Constants, origin, direction, start: float | None, scratch
 
 
 def _turned(matrix, vector, name: str, shape, scratch):
-    """Return matrix @ vector as components: in working arrays, where they are as large as those."""
+    """Return matrix @ vector as components, in working arrays if the vector broadcasts to their shape."""
     if np.broadcast_shapes(*map(np.shape, vector)) != shape:
         return matvec(matrix, vector)
     spare = scratch("spare", shape)
@@ -154,7 +154,7 @@ def _cross_square(n, d, shape, scratch):
 
 
 def _near_from_eye(sphere: Constants, direction, scratch):
-    """Return near / (b + sqrt(D_z |D_z| - c (D_x^2 + D_y^2))): NaN also where the ray looks away (D_z < 0)."""
+    """Return near / (b + sqrt(D_z |D_z| - c (D_x^2 + D_y^2))), which is NaN also if the ray looks away (D_z < 0)."""
     z, t, across = _working(sphere, direction, scratch)
     linear(sphere.matrix[2], direction, z, across)
     np.multiply(z, np.abs(z, out=t), out=t)
@@ -170,11 +170,11 @@ class Lattice:
 
         D_z^2 - c (D_x^2 + D_y^2) = (D_z - wide D_x) (D_z + wide D_x) - (wide D_y)^2,  wide = root of c,
 
-    in which either factor is a row plus a column, and the last term a column.
+    where each factor is a row plus a column, and the last term is a column.
     """
 
     def __init__(self, spheres: Constants, direction):
-        """Take constants with two axes behind the one that counts the spheres."""
+        """Take constants with two more axes behind the axis that counts the spheres."""
         x, y, z = direction
         (across, up), ahead = spheres.wide, spheres.matrix[2]
         to_x, to_y, to_z = np.stack((ahead - across, ahead + across, spheres.distance * ahead, up), axis=1)
@@ -184,18 +184,18 @@ class Lattice:
         self._away = self._row[2].min(axis=(1, 2)) + self._column[2].min(axis=(1, 2)) < 0
 
     def meet(self, k: int, window, scratch):
-        """Return t in a window of the rays for one sphere, and None, as ``intersect`` does."""
+        """Return t of the k-th sphere in a window of the rays, and None, as ``intersect`` does."""
         rows, columns = window
         terms = self._row[:, k, :, columns], self._column[:, k, rows]
         return _near(*terms, self._near[k], self._away[k], scratch), None
 
     def meet_all(self, scratch):
-        """Return the same for all spheres, each with the rays of a window of its own."""
+        """Return t of all spheres, each for the rays of a window of its own, and None."""
         return _near(self._row, self._column, self._near, self._away.any(), scratch), None
 
 
 def _near(row, column, near, away: bool, scratch):
-    """Return the near roots from their terms; ``away``: some of the rays may look away."""
+    """Return the near roots from their terms; ``away``: whether some of the rays may look away."""
     shape = *column.shape[1:-1], row.shape[-1]
     t, ahead = scratch("found", shape), scratch("ahead", shape)
     np.add(row[0], column[0], out=t)
@@ -210,7 +210,7 @@ def _near(row, column, near, away: bool, scratch):
 
 
 def _near_parallel(sphere: Constants, origin, direction, scratch):
-    """Return (N_z - sqrt(1 - N_x^2 - N_y^2)) / D_z, for rays along z whose origins are a row and a column."""
+    """Return (N_z - sqrt(1 - N_x^2 - N_y^2)) / D_z for rays along z, whose origins are a row and a column."""
     x, y, z = difference(sphere.center, origin)
     to_x, to_y, to_z = sphere.matrix
     ahead, t, across = _working(sphere, (x, y, z), scratch)

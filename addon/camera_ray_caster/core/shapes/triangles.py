@@ -1,10 +1,10 @@
-"""Rays and triangles: which triangle a ray meets, decided alike on both sides of an edge, and where.
+"""Rays and triangles: which triangle a ray hits, decided consistently on both sides of an edge, and where.
 
-A ray o + t d meets the triangle a, b, c where the three volumes d . (b x c), d . (c x a) and d . (a x b), of corners
-relative to o, have one sign: they are in proportion to the hit's barycentric coordinates. The volume of an edge changes
-its sign, and nothing else, when the two corners are swapped, in rounded arithmetic too. Where rounding could decide a
-sign the exact one of the rounded corners does. The signs are those of one surface with corners a little moved, so
-that no ray falls between its triangles; there is no epsilon. A ray through an edge meets both of its triangles.
+A ray o + t d hits the triangle a, b, c if the three volumes d . (b x c), d . (c x a) and d . (a x b), of corners
+relative to o, have one sign: they are proportional to the hit's barycentric coordinates. If the two corners of an edge
+are swapped, its volume changes only its sign, in rounded arithmetic too. Where rounding could decide a sign, the exact
+sign for the rounded corners is used. So all signs are those of one surface with slightly moved corners: no ray passes
+between its triangles, without any epsilon. A ray through an edge hits both of its triangles.
 References: F. P. Preparata and M. I. Shamos, Computational Geometry, 1985, section 2.2 (signs of volumes); S. Woop,
 C. Benthin and I. Wald, Watertight Ray/Triangle Intersection, JCGT 2 (2013); M. Olano and T. Greer, Triangle Scan
 Conversion using 2D Homogeneous Coordinates, 1997 (no clipping).
@@ -22,14 +22,15 @@ from ..maths.exact import volume_sign
 from ..maths.vector import cross, difference, dot, norm
 
 ROUNDING = 16 * EPS
-"""A volume is right to this times the product of the lengths of its three vectors: gamma(7) at most for its products,
-whose magnitudes add up to 6 / sqrt(27) of that, as much for two rounded corners, and rounding of the lengths.
+"""Error bound of a volume, over the product of the lengths of its three vectors. The products have errors of at most
+gamma(7), and their magnitudes add up to at most 6 / sqrt(27) of the lengths' product. Two rounded corners add as much,
+and the lengths are rounded, too.
 Reference: E. Carlen, E. H. Lieb and M. Loss, An inequality of Hadamard type for permanents, 2006.
 """
 
 STEEP = 2.0**-16
-"""Where n . d is below this part of the product of two edges' and the ray's lengths, as on slivers and on triangles
-seen edge-on, t is held between those of the corners.
+"""If n . d is below this fraction of the product of the lengths of two edges and of d, as on slivers and on triangles
+seen edge-on, t is clamped to the range of the t of the corners.
 """
 
 EDGES = (1, 2), (2, 0), (0, 1)
@@ -37,9 +38,9 @@ EDGES = (1, 2), (2, 0), (0, 1)
 
 
 def volume(d: Any, a: Any, b: Any) -> Any:
-    """Return d . (a x b) of components that broadcast; the same with the other sign when a and b are swapped.
+    """Return d . (a x b) of components that broadcast; swapping a and b changes the sign exactly.
 
-    Axes along which all rays have no direction cost nothing.
+    A component of d that is the number 0 for all rays costs nothing.
     """
     terms = (
         d[i] * (a[j] * b[k] - a[k] * b[j])
@@ -50,11 +51,11 @@ def volume(d: Any, a: Any, b: Any) -> Any:
 
 
 def volumes(corners: Any, d: Any, moment: Any = None) -> tuple[Any, Any, Any]:
-    """Return those of the edges opposite to the three corners.
+    """Return the volumes of the edges opposite to the three corners.
 
-    With the rays' moments, o x d, the corners are not relative to o: d . ((a - o) x (b - o)) is
-    d . (a x b) + (o x d) . (b - a), where only d and the moment have a value for each pixel. These volumes are right to
-    ROUNDING times the square of the longest corner's length and o's added, times that of d.
+    If the rays' moments, o x d, are given, the corners are not relative to o: d . ((a - o) x (b - o)) is
+    d . (a x b) + (o x d) . (b - a), where only d and the moment have a value per pixel. The error of these volumes is
+    at most ROUNDING |d| (r + |o|)^2, with r the length of the longest corner.
     """
     first, second, third = (_edge_volume(d, moment, corners[i], corners[j]) for i, j in EDGES)
     return first, second, third
@@ -72,14 +73,14 @@ def signs(corners: np.ndarray, d: np.ndarray) -> np.ndarray:
 
 
 def plane(corners: Any) -> tuple[Any, Any]:
-    """Return n, an edge's vector times another's, and the product of their lengths: n may be much shorter."""
+    """Return n, the cross product of two edges, and the product of their lengths, which may be much longer than n."""
     first, second = difference(corners[1], corners[0]), difference(corners[2], corners[0])
     return cross(first, second), norm(first) * norm(second)
 
 
 def side(corners: np.ndarray) -> np.ndarray:
-    """Return the exact sign of a . (b x c), (m,), of corners (3, 3, m): the sign of all volumes where a ray from the
-    origin meets the triangle; 0 for those in a plane with it, which no ray from there meets.
+    """Return the exact sign of a . (b x c), (m,), of corners (3, 3, m): the sign of all volumes of a ray from the
+    origin that hits the triangle. It is 0 if the triangle is in a plane with the origin, from where no ray hits it.
     """
     found = volume(corners[0], corners[1], corners[2])
     most = norm(corners[0]) * norm(corners[1]) * norm(corners[2])
@@ -91,8 +92,8 @@ def side(corners: np.ndarray) -> np.ndarray:
 
 
 def crossing(corners: Any, d: Any) -> np.ndarray:
-    """Return t where rays meet the planes of their triangles, held between the t of the corners where rounding could
-    carry it away; (m,) of corners, relative to the rays' origins, and directions.
+    """Return t, (m,), at which rays meet the planes of their triangles, from directions and from corners relative to
+    the rays' origins. Where rounding could make t far wrong (see STEEP), it is clamped to the t of the corners.
     """
     normal, product = plane(corners)
     slope = dot(normal, d)

@@ -18,7 +18,7 @@ def pixels_in(bounds: np.ndarray) -> np.ndarray:
 
 
 def in_tile(bounds: np.ndarray, corner: tuple[int, int], shape: tuple[int, int]) -> tuple[np.ndarray, np.ndarray]:
-    """Return which of some bounds (n, 4) have a part in a tile, (k,), and these parts in the tile's pixels, (k, 4)."""
+    """Return which bounds (n, 4) overlap a tile, (k,), and their parts in the tile, in its pixels, (k, 4)."""
     (left, low), (high, wide) = corner, shape
     here = np.flatnonzero((bounds[:, 3] > low) & (bounds[:, 2] < low + high))  # most others lie below or above
     parts = bounds.take(here, axis=0)
@@ -30,13 +30,15 @@ def in_tile(bounds: np.ndarray, corner: tuple[int, int], shape: tuple[int, int])
 
 
 def union(bounds: np.ndarray) -> tuple[slice, slice]:
-    """Return the rows and columns from the first to the last of bounds (n, 4), n not 0."""
+    """Return the smallest rows and columns that hold all bounds (n, 4); n is not 0."""
     x0, x1, y0, y1 = bounds.T
     return slice(int(y0.min()), int(y1.max())), slice(int(x0.min()), int(x1.max()))
 
 
 def banded(bounds: np.ndarray, most: int) -> tuple[np.ndarray, np.ndarray]:
-    """Return bounds (n, 4) cut into bands of rows with so many pixels at most, and which of them each is of."""
+    """Cut bounds (n, 4) into bands of rows with at most ``most`` pixels, or of one row. Return for each band the index
+    of its bounds, (k,), and the band, (k, 4).
+    """
     rows = np.maximum(most // (bounds[:, 1] - bounds[:, 0]), 1)
     count = -(-(bounds[:, 3] - bounds[:, 2]) // rows)
     at = np.repeat(np.arange(len(bounds)), count)
@@ -48,7 +50,7 @@ def banded(bounds: np.ndarray, most: int) -> tuple[np.ndarray, np.ndarray]:
 
 
 def batches(bounds: np.ndarray) -> Iterator[np.ndarray]:
-    """Yield rows of bounds of about the same size, as many as fill a batch of pixels."""
+    """Yield indices of bounds of about the same size, as many at once as fill a batch of pixels."""
     size = np.maximum(bounds[:, 1] - bounds[:, 0], bounds[:, 3] - bounds[:, 2])
     step = np.ceil(4 * np.log2(np.maximum(size, 1)))
     for value in np.unique(step):
@@ -61,20 +63,20 @@ def batches(bounds: np.ndarray) -> Iterator[np.ndarray]:
 
 @dataclass(frozen=True, eq=False)
 class Windows:
-    """Windows of a tile that are all as large as the largest of some bounds, moved until they lie in the tile."""
+    """Windows of a tile that all have the largest height and width of some bounds, shifted to lie in the tile."""
 
     row: np.ndarray
-    """(k,) that of the lowest pixel of each."""
+    """(k,) lowest row of each window."""
     column: np.ndarray
-    """(k,) that of the leftmost."""
+    """(k,) leftmost column of each window."""
     size: tuple[int, int]
-    """Rows and columns."""
+    """Rows and columns of every window."""
     width: int
-    """Of the tile."""
+    """Columns of the tile."""
 
     @classmethod
     def around(cls, bounds: np.ndarray, shape: tuple[int, int]) -> Windows:
-        """Return those of bounds, (k, 4), in a tile of some rows and columns."""
+        """Return the windows of bounds, (k, 4), in a tile with ``shape`` rows and columns."""
         x0, x1, y0, y1 = bounds.T.astype(np.intp)
         high, wide = int((y1 - y0).max()), int((x1 - x0).max())
         return cls(np.minimum(y0, shape[0] - high), np.minimum(x0, shape[1] - wide), (high, wide), shape[1])
@@ -92,13 +94,13 @@ class Windows:
 
     @lazy
     def pixel(self) -> np.ndarray:
-        """The flat indices of their pixels, (rows columns, k): long loops over windows, not short ones over columns."""
+        """The flat indices of the windows' pixels, (rows columns, k): windows last, since long loops are faster."""
         high, wide = self.size
         inside = np.arange(high)[:, None] * self.width + np.arange(wide)
         return inside.reshape(-1, 1) + (self.row * self.width + self.column)
 
     def flat(self, component: Any) -> Any:
-        """Return a component at ``pixel``; one that is a number as it is."""
+        """Return a component at ``pixel``; a number is returned unchanged."""
         if np.ndim(component) == 0:
             return component
         if min(component.shape) > 1:
@@ -108,7 +110,9 @@ class Windows:
 
 
 def counted(count: np.ndarray, first: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return, for each of some runs of numbers, its index and the number, one after the other."""
+    """Return the numbers of some runs, each given by its count and its first number, one run after the other: the index
+    of the run of each number, and the number.
+    """
     at = np.repeat(np.arange(len(count)), count)
     number = np.arange(len(at))
     number += taken(first - (np.cumsum(count) - count), at)

@@ -43,6 +43,11 @@ def test_a_file_of_opencv_gives_the_camera_of_its_numbers(tmp_path, kind, names)
     assert found == camera("OPENCV_PINHOLE", FRAME | VALUES | coefficients).model
 
 
+def test_a_file_with_a_pinhole_s_number_of_coefficients_is_no_fisheye_s(tmp_path):
+    with pytest.raises(InputError, match="for OpenCV Pinhole, not OpenCV Fisheye: choose that model"):
+        camera("OPENCV_FISHEYE", FRAME | written(tmp_path / "lens.yml"))
+
+
 @pytest.mark.parametrize("kind", ["yml", "json"])
 @pytest.mark.parametrize("flag", [{"fisheye_model": 1}, {"distortion_model": "equidistant"}, {}])
 def test_a_fisheye_s_file(tmp_path, kind, flag):
@@ -51,9 +56,9 @@ def test_a_fisheye_s_file(tmp_path, kind, flag):
     assert camera("OPENCV_FISHEYE", FRAME | setting).model == expected
 
 
-@pytest.mark.parametrize("text", ['{"K": [[9, 0, 4], [0, 8, 3], [0, 0, 1]], "D": [0.1, 0], "width": 96, "height": 54}'])
-def test_matrices_as_nested_lists_in_json(tmp_path, text):
-    (tmp_path / "lens.json").write_text(text)
+def test_matrices_as_nested_lists_in_json(tmp_path):
+    matrices = '"K": [[9, 0, 4], [0, 8, 3], [0, 0, 1]], "D": [[0.1, 0, 0, 0]]'
+    (tmp_path / "lens.json").write_text(f'{{{matrices}, "width": 96, "height": 54}}')
     found = camera("OPENCV_PINHOLE", {"calibration_file": str(tmp_path / "lens.json")}).model
     assert found == camera("OPENCV_PINHOLE", {"fx": 9.0, "fy": 8.0, "cx": 4.0, "cy": 3.0, "k1": 0.1}).model
 
@@ -68,12 +73,16 @@ K: !!opencv-matrix
    dt: d
    data: [ 600., 0., 320., 0., 600., 240., 0.,
        0., 1. ]
-D: !!opencv-matrix
-   rows: 1
-   cols: 5
-   dt: d
-   data: [ -0.1, 0., 0., 0., 0. ]
 """
+
+
+def of_distortion(coefficients):
+    """The entry of a file for these."""
+    return f"D: !!opencv-matrix\n   rows: 1\n   cols: {len(coefficients)}\n   dt: d\n   data: {coefficients}\n"
+
+
+D5 = of_distortion([-0.1, 0.0, 0.0, 0.0, 0.0])
+GOOD += D5
 
 
 def test_the_text_that_the_refusals_start_from_is_good(tmp_path):
@@ -88,19 +97,31 @@ def test_the_text_that_the_refusals_start_from_is_good(tmp_path):
         (("K:", "Q:"), "has no cameramatrix .*k, m1"),
         (("D:", "Q:"), "has no distortioncoefficients"),
         (("image_width: 640", ""), "has no imagewidth"),
-        (("image_width: 640", "image_width: 0"), "imagewidth .* 0.0: it must be above 0"),
-        (("image_height: 480", "image_height: tall"), "image_height .* 'tall': it must be of numbers"),
-        (("-0.1, 0.", "-0.1, 1e308"), "D .*finite numbers, up to 1e.30"),
+        (("image_width: 640", "image_width: 0"), "image size is 0 x 480: .* whole numbers above 0"),
+        (("image_height: 480", "image_height: tall"), "image_height .* 'tall': it must be of finite numbers"),
+        (("-0.1, 0.0", "-0.1, 1e308"), "D .*finite numbers, up to 1e.30"),
         (("600., 0., 320.", "1e-300, 0., 320."), "fx and fy above 0"),
-        (("-0.1, 0.", "-0.1, zero"), "D .* 'zero'.*must be of numbers"),
-        (("-0.1, 0.", "-0.1, .Nan"), "D .* '.Nan'.*must be of numbers"),
+        (("-0.1, 0.0", "-0.1, zero"), "D .* 'zero'.*must be of finite numbers"),
+        (("-0.1, 0.0", "-0.1, .Nan"), "D .* '.Nan'.*must be of finite numbers"),
         (("600., 0., 320.", "600., 0., inf"), "K .* 'inf'.*finite"),
         (("600., 0., 320.", "-600., 0., 320."), "fx and fy above 0"),
-        (("600., 0., 320.", "600., 320."), "fx skew cx"),
+        (("600., 0., 320.", "600., 320."), "K .* has 8 numbers for 3 rows x 3 columns"),
+        (("600., 0., 320.", "600,0, 0,0, 320."), "K .* has 11 numbers for 3 rows x 3 columns"),
         (("320., 0., 600.", "320., 2., 600."), "fx skew cx, 0 fy cy"),
-        (("0., 0. ]", "0., 0., 0., 0., 0., 0., 0., 0., 0., 0., 0., 0.01 ]"), "15 distortion coefficients"),
-        (("0., 0. ]", "0., 0., 0., 0., 0., 0., 0., 0., 0., 1.5 ]"), "tau_x .* 85.9437 degrees: .* from -80 degrees"),
-        (("K:", "fisheye_model: 1\nK:"), "for OpenCV Fisheye, not OpenCV Pinhole"),
+        ((D5, of_distortion(14 * [0.0] + [0.01])), "15 distortion coefficients: give 4 or 5 or 8 or 12 or 14"),
+        ((D5, of_distortion([-0.2, 0.1, 0.05])), "3 distortion coefficients"),
+        ((D5, of_distortion(12 * [0.0] + [1.5, 0.0])), "tau_x .* 85.9437 degrees: .* from -80 degrees"),
+        ((D5, "fisheye_model: 1\n" + of_distortion([-0.1, 0, 0, 0])), "for OpenCV Fisheye, not OpenCV Pinhole"),
+        ((D5, "distortion_model: kannala_brandt4\n" + of_distortion([0.1, 0, 0, 0])), "for OpenCV Fisheye, not"),
+        (("K:", "distortion_model: fov\nK:"), "distortion_model .* 'fov': it must be one of plumb_bob"),
+        (("K:", "camera_matrix: [600]\nK:"), "finite|fx skew cx"),
+        (("D:", "K: [1]\nD:"), "line 11 repeats 'K'"),
+        ((GOOD, f"{GOOD}---\n{GOOD}"), "begins a second document"),
+        ((D5, "D: [-0.2, 0.1, 0, 0], 0.5]"), "text after a closing bracket"),
+        ((D5, "D: [-0.2, , 0.1, 0, 0]"), "a comma without a value"),
+        ((D5, "D: [5_0, 0, 0, 0]"), "D .*finite numbers"),
+        ((GOOD, '{"K": [1], "K": [2]}'), "has 'K' twice"),
+        ((GOOD, '{"K": [[true, 0, 0], [0, 1, 0], [0, 0, 1]]}'), "K .*finite numbers"),
         ((GOOD, "just some words"), "neither YAML nor JSON"),
         ((GOOD, '{"K": [1, '), "is not JSON"),
         ((GOOD, '{"K": [[1, "wide"]]}'), "K .*'wide'.* numbers"),

@@ -59,17 +59,17 @@ def test_roses_camera_info():
 
 
 def test_tags_directives_and_values_that_are_missing():
-    text = "%YAML:1.0\n---\nK: !!opencv-matrix\n   rows: 3\nname:\nnone: \"\"\n..."
+    text = '%YAML:1.0\n---\nK: !!opencv-matrix\n   rows: 3\nname:\nnone: ""\n...'
     assert parse(text) == {"K": {"rows": "3"}, "name": "", "none": ""}
 
 
 @pytest.mark.parametrize(
     ("text", "says"),
     [
-        ("just words", "line 1 is no entry"),
+        ("just words", "line 1 is not an entry"),
         ("a: 1\n   b: 2", "line 2 has an indentation"),
-        ("a: [1, 2", "line 1 opens a bracket that none closes"),
-        ("a: [1, 2}", "line 1 has a bracket that none opens"),
+        ("a: [1, 2", "line 1 opens a bracket that is not closed"),
+        ("a: [1, 2}", "line 1 has a closing bracket without a matching opening bracket"),
         ("a: {1}", "line 1 has a value without a name"),
         ("a: |\n  text", "line 1 has a value that is not read"),
         ("a: " + "[" * (DEEPEST + 1), "nested deeper"),

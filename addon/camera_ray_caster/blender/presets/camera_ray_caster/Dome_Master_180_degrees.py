@@ -1,4 +1,4 @@
-"""The half sphere above a level planetarium, on a square frame."""
+"""The hemisphere above a level planetarium, on a square frame."""
 
 from math import pi
 

@@ -1,4 +1,4 @@
-"""A dome that reaches 15 degrees below the horizon, as that of the Satosphere in Montreal.
+"""A dome that reaches 15 degrees below the horizon, like the Satosphere in Montreal.
 
 Source: TouchDesigner's documentation, Palette:domeViewer.
 """

@@ -1,4 +1,4 @@
-"""Fisheye-Nikkor 6 mm f/2.8: equidistant, 220 degrees, as its manual says; its circle of 23 mm fills the frame."""
+"""Fisheye-Nikkor 6 mm f/2.8: equidistant, 220 degrees, by its manual; its image circle of 23 mm fills the frame."""
 
 from math import radians
 

@@ -1,4 +1,4 @@
-"""A theater whose dome is tilted by 30 degrees, as many are."""
+"""A theater with a dome tilted by 30 degrees, like many theaters."""
 
 from math import radians
 

@@ -1,4 +1,4 @@
-"""Sigma 8 mm F3.5 EX DG circular fisheye on 36 x 24 mm: equisolid, 180 degrees, as the maker says."""
+"""Sigma 8 mm F3.5 EX DG circular fisheye on 36 x 24 mm: equisolid, 180 degrees, by the manufacturer's data."""
 
 from math import pi
 

@@ -1,12 +1,12 @@
 """The calibration of Project Aria's glasses, as JSON: cameras by their labels.
 
-The center of its first pixel is (0, 0). The file does not say how large the pictures are: it has to be the frame.
+The center of the first pixel is (0, 0). The file does not give the size of the pictures: the frame must have that size.
 Reference: Project Aria documentation, Camera Intrinsic Models for Project Aria devices.
 """
 
 from __future__ import annotations
 
-from .document import Document, Lens, matrix, size
+from .document import Document, Lens, matrix
 
 MODELS = {
     "FisheyeRadTanThinPrism": (
@@ -15,11 +15,15 @@ MODELS = {
     "KannalaBrandtK3": ("OPENCV_FISHEYE", ("k1", "k2", "k3", "k4"), 2),
     "Linear": ("OPENCV_PINHOLE", (), 2),
 }  # fmt: skip
-"""Our model, the settings that follow the center, and how many focal lengths stand before it."""
+"""Our model, the settings that follow the center, and the number of focal lengths before it."""
+
+
+FRAME_SIZE = {"calibration_width": 0, "calibration_height": 0}
+"""The settings of a calibrated picture that is as large as the frame."""
 
 
 def read(document: Document, key: str) -> list[Lens] | None:
-    """See the package."""
+    """Return the lenses of a document; see the package."""
     cameras = document.entries.get("CameraCalibrations")
     if not isinstance(cameras, list):
         return None
@@ -30,10 +34,8 @@ def _lens(document: Document, camera) -> Lens:
     camera = camera if isinstance(camera, dict) else {}
     name, projection = str(camera.get("Label", "")), camera.get("Projection")
     projection = projection if isinstance(projection, dict) else {}
-    kind = projection.get("Name")
-    if kind not in MODELS:
-        raise document.refusal(f"Projection of {name!r} is {kind!r}: it must be one of {', '.join(MODELS)}")
-    model, terms, count = MODELS[kind]
+    model, terms, count = MODELS[document.one_of(projection.get("Name"), f"Projection of {name!r}", MODELS)]
     given = document.numbers(projection.get("Params"), f"Params of {name!r}", count + 2 + len(terms))
     focal, center, rest = given[:count], given[count : count + 2], given[count + 2 :]
-    return Lens(name, model, size(0, 0) | matrix(focal[0], focal[-1], *center) | dict(zip(terms, rest, strict=True)))
+    settings = FRAME_SIZE | matrix(focal[0], focal[-1], *center) | dict(zip(terms, rest, strict=True))
+    return Lens(name, model, settings)

@@ -1,6 +1,6 @@
-"""COLMAP's cameras.txt: a line a camera, with its id, model, width, height and parameters.
+"""COLMAP's cameras.txt: one line per camera, with its id, model, width, height and parameters.
 
-The center of its first pixel is (0.5, 0.5).
+The center of the first pixel is (0.5, 0.5).
 Reference: COLMAP documentation, Output Format; Camera Models.
 """
 
@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 
-from .document import Document, Lens, matrix, size
+from .document import Document, Lens, matrix
 
 LINE = re.compile(r"\d+\s+[A-Z][A-Z_0-9]+\s+\d+\s+\d+(\s|$)")
 FISHEYE_TERMS, PINHOLE_TERMS = "k1 k2 k3 k4", "k1 k2 p1 p2"
@@ -31,11 +31,11 @@ MODELS = {
     "DIVISION": ("DIVISION", "fx fy cx cy division_lambda"),
     "EUCM": ("EUCM", "fx fy cx cy unified_alpha unified_beta"),
 }
-"""Our model, and its settings in the order of COLMAP's parameters; f is both focal lengths."""
+"""Our model, and its settings in the order of COLMAP's parameters; f stands for both focal lengths."""
 
 
 def read(document: Document, key: str) -> list[Lens] | None:
-    """See the package."""
+    """Return the lenses of a document; see the package."""
     lines = [line.split() for line in document.text.splitlines() if line.strip() and not line.lstrip().startswith("#")]
     if not lines or not LINE.match(" ".join(lines[0][:5])):
         return None
@@ -53,4 +53,4 @@ def _lens(document: Document, words: list[str]) -> Lens:
     focal = settings.pop("f", None)
     given = {"fx": focal, "fy": focal} if focal is not None else {one: settings.pop(one) for one in ("fx", "fy")}
     center = {one: settings.pop(one) for one in ("cx", "cy")}
-    return Lens(name, model, size(width, height) | matrix(**given, **center, first=0.5) | settings)
+    return Lens(name, model, document.size(width, height) | matrix(**given, **center, first=0.5) | settings)

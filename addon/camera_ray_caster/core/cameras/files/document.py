@@ -1,7 +1,9 @@
-"""What the readers of all formats share: the text of a file, its entries, its numbers, and what they make of them."""
+"""Code that the readers of all formats share: the text of a file, its entries and numbers, and the resulting lenses."""
 
 from __future__ import annotations
 
+import re
+from collections.abc import Collection
 from functools import cached_property
 from reprlib import repr as shortened
 from typing import Any, NamedTuple
@@ -10,9 +12,12 @@ from ...records import InputError
 from ..parts.calibration import LARGEST
 from ..parts.filestorage import entries_of, text_of
 
+NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?", re.ASCII)
+"""How files write a finite number."""
+
 
 class Lens(NamedTuple):
-    """A lens of a file: its name there, the key of its model, and the settings that are not at their defaults."""
+    """A lens of a file: its name in the file, the key of its model, and the settings that are not at their defaults."""
 
     name: str
     model: str
@@ -20,47 +25,66 @@ class Lens(NamedTuple):
 
 
 class Document:
-    """A calibration file. Raises InputError where it cannot be read."""
+    """A calibration file. Raises InputError if it cannot be read."""
 
     def __init__(self, path: str):
         self.path, self.text = path, text_of(path)
 
     @cached_property
     def entries(self) -> dict:
-        """Return what a JSON or YAML file holds; InputError for any other."""
+        """Return the entries of a JSON or YAML file. Raises InputError for any other file."""
         return entries_of(self.text, self.path)
 
     def refusal(self, reason: str) -> InputError:
-        """Return the error that says what is wrong, with the file's path."""
+        """Return the error with this reason and the file's path."""
         return InputError(f"calibration file {self.path!r}: {reason}")
 
     def numbers(self, values, name: str, count: int | None = None) -> list[float]:
-        """Return numbers, so many if that is told; InputError names what they are of."""
-        items = values if isinstance(values, list | tuple) else [values]
-        try:
-            numbers = [float(item) for item in items]
-        except (TypeError, ValueError):
-            numbers = []
+        """Return a list of finite numbers, ``count`` of them if given. Raises InputError, with ``name``, otherwise."""
+        if values is None:
+            raise self.refusal(f"it has no {name}")
+        numbers = numbers_of(values)
         if not numbers or (count or len(numbers)) != len(numbers) or not all(abs(one) <= LARGEST for one in numbers):
             wanted = f"{count or 'a list of'} finite number{'' if count == 1 else 's'}, up to {LARGEST:g}"
             raise self.refusal(f"{name} is {shortened(values)}: it must be {wanted}")
         return numbers
 
+    def one_of(self, value, name: str, known: Collection[str]) -> str:
+        """Return a word that is one of ``known``. Raises InputError, with ``name``, otherwise."""
+        if value is None:
+            raise self.refusal(f"it has no {name}: it must be one of {', '.join(known)}")
+        if not isinstance(value, str) or value not in known:
+            raise self.refusal(f"{name} is {shortened(value)}: it must be one of {', '.join(known)}")
+        return value
+
+    def size(self, width: float, height: float) -> dict[str, Any]:
+        """Return the settings of a calibrated picture's size. Raises InputError unless both sides are whole pixels."""
+        if min(width, height) < 1 or width % 1 or height % 1:
+            raise self.refusal(f"its image size is {width:g} x {height:g}: it must be of whole numbers above 0")
+        return {"calibration_width": width, "calibration_height": height}
+
     def number(self, owner: dict, name: str, default: float | None = None) -> float:
-        """Return a number of a mapping; InputError where it is missing and has no default."""
+        """Return a number of a mapping. Raises InputError if it is missing and has no default, or is not a number."""
         if name not in owner and default is None:
             raise self.refusal(f"it has no {name}")
         return self.numbers(owner.get(name, default), name, 1)[0]
 
 
-def size(width: float, height: float) -> dict[str, Any]:
-    """Return the settings of a calibrated picture's size."""
-    return {"calibration_width": width, "calibration_height": height}
+def numbers_of(value) -> list[float]:
+    """Return a number or a list of numbers as floats; empty if an entry is not a number, as True and words are not."""
+    items = value if isinstance(value, list | tuple) else [value]
+    if any(isinstance(item, bool) or (isinstance(item, str) and not NUMBER.fullmatch(item.strip())) for item in items):
+        return []
+    try:
+        return [float(item) for item in items]
+    except (TypeError, ValueError, OverflowError):
+        return []
 
 
 def matrix_of(settings: dict[str, Any], first: float = 0.0) -> list[float]:
-    """Return fx, fy, cx and cy of settings, where the center of the top left pixel is at (first, first): the inverse
-    of ``matrix``.
+    """Return fx, fy, cx and cy of settings, with the center of the top left pixel at (first, first).
+
+    This is the inverse of ``matrix``.
     """
     return [settings["fx"], settings["fy"], settings["cx"] + first, settings["cy"] + first]
 

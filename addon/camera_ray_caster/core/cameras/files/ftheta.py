@@ -1,16 +1,16 @@
 """NVIDIA's f-theta cameras, as JSON: the sensors of a DriveWorks rig, and the camera models of NCore and NuRec.
 
 A rig has rig.sensors, whose properties have Model ftheta, a polynomial with its polynomial-type (or bw-poly, which is
-from pixel distance to angle), and linear-c, -d and -e. NCore has both polynomials, of which reference_poly names the
-one that is the model, and linear_cde: by themselves, as camera_model_parameters, or in NuRec's camera_calibrations. The
-polynomials of both begin with the constant. A windshield before the lens is refused.
-The center of its first pixel is (0, 0).
+from pixel distance to angle), and linear-c, -d and -e. NCore has both polynomials, a reference_poly that names the one
+that is the model, and linear_cde. NCore's parameters are the whole file, its camera_model_parameters, or entries of
+NuRec's camera_calibrations. All polynomials begin with the constant. A windshield before the lens is refused.
+The center of the first pixel is (0, 0).
 References: NVIDIA DriveWorks SDK documentation, Rig Configuration; NVIDIA NCore documentation, Camera Models.
 """
 
 from __future__ import annotations
 
-from .document import Document, Lens, size
+from .document import Document, Lens
 
 REFERENCES = {
     "angle-to-pixeldistance": "ANGLE_TO_RADIUS",
@@ -18,11 +18,11 @@ REFERENCES = {
     "ANGLE_TO_PIXELDIST": "ANGLE_TO_RADIUS",
     "PIXELDIST_TO_ANGLE": "RADIUS_TO_ANGLE",
 }
-"""What the two families call the polynomial that is the model, and our words for it."""
+"""Names of the polynomial that is the model, in the files of both families, and our key of it."""
 
 
 def read(document: Document, key: str) -> list[Lens] | None:
-    """See the package."""
+    """Return the lenses of a document; see the package."""
     rig, calibrations = _mapping(document.entries.get("rig")), _mapping(document.entries.get("camera_calibrations"))
     if "sensors" in rig:
         sensors = rig["sensors"] if isinstance(rig["sensors"], list) else []
@@ -75,7 +75,7 @@ def _lens(document: Document, name: str, field: str, kind: str, polynomial, cent
         said = f"{field} of {name or 'the camera'} is {kind!r}"
         raise document.refusal(f"{said}: it must be one of {', '.join(REFERENCES)}")
     numbers = document.numbers(*polynomial)
-    return Lens(name, "FTHETA", size(*sides) | {
+    return Lens(name, "FTHETA", document.size(*sides) | {
         "cx": center[0], "cy": center[1],
         "ftheta_reference": REFERENCES[kind], f"ftheta_{REFERENCES[kind].lower()}": " ".join(map(repr, numbers)),
         **{f"ftheta_{one}": number for one, number in zip("cde", linear, strict=True)},

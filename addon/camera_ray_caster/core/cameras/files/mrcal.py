@@ -1,7 +1,7 @@
 """mrcal's .cameramodel: a Python dictionary with the lens model, its intrinsics and the imager's size.
 
-The center of its first pixel is (0, 0). Its stereographic lens is the unified camera with xi = 1, whose focal length is
-twice as long.
+The center of the first pixel is (0, 0). mrcal's stereographic lens is the unified camera with xi = 1 and twice the
+focal length.
 Reference: mrcal documentation, Lens models; The .cameramodel file format.
 """
 
@@ -10,7 +10,7 @@ from __future__ import annotations
 import ast
 from warnings import catch_warnings
 
-from .document import Document, Lens, matrix, size
+from .document import Document, Lens, matrix
 
 TERMS = ("k1", "k2", "p1", "p2", "k3", "k4", "k5", "k6", "s1", "s2", "s3", "s4")
 STEREOGRAPHIC = "LENSMODEL_STEREOGRAPHIC"
@@ -22,21 +22,19 @@ MODELS = {
 
 
 def read(document: Document, key: str) -> list[Lens] | None:
-    """See the package."""
+    """Return the lenses of a document; see the package."""
     if "LENSMODEL_" not in document.text:
         return None
     try:
-        with catch_warnings(action="ignore", category=SyntaxWarning):  # of a text that is none of its files
+        with catch_warnings(action="ignore", category=SyntaxWarning):  # of a text that is not such a file
             entries = ast.literal_eval(document.text)
-    except (ValueError, SyntaxError, RecursionError, MemoryError) as error:
-        raise document.refusal("it names a lens model of mrcal and is none of its files") from error
-    kind = entries.get("lensmodel") if isinstance(entries, dict) else None
-    if kind not in MODELS:
-        raise document.refusal(f"lensmodel is {kind!r}: it must be one of {', '.join(MODELS)}")
-    model, terms = MODELS[kind]
+    except (ValueError, TypeError, SyntaxError, RecursionError, MemoryError) as error:
+        raise document.refusal("it names a lens model of mrcal, but is not a cameramodel file of mrcal") from error
+    entries = entries if isinstance(entries, dict) else {}
+    model, terms = MODELS[document.one_of(entries.get("lensmodel"), "lensmodel", MODELS)]
     fx, fy, cx, cy, *rest = document.numbers(entries.get("intrinsics"), "intrinsics", len(terms) + 4)
     settings = dict(zip(terms, rest, strict=True))
     if model == "UCM":
         fx, fy, settings = 2 * fx, 2 * fy, {"unified_xi": 1.0}
     width, height = document.numbers(entries.get("imagersize"), "imagersize", 2)
-    return [Lens("", model, size(width, height) | matrix(fx, fy, cx, cy) | settings)]
+    return [Lens("", model, document.size(width, height) | matrix(fx, fy, cx, cy) | settings)]

@@ -1,53 +1,62 @@
-"""transforms.json of nerfstudio and instant-ngp: one lens for all frames, or one a frame.
+"""transforms.json of nerfstudio and instant-ngp: one lens for all frames, or one per frame.
 
-The center of its first pixel is (0.5, 0.5). Its k3 and k4 are those of r^6 and r^8; OpenCV's pinhole has no k4 of that.
+The center of the first pixel is (0.5, 0.5). k3 and k4 are the coefficients of r^6 and r^8; OpenCV's pinhole has no r^8.
 Reference: nerfstudio documentation, Data conventions.
 """
 
 from __future__ import annotations
 
-from math import tan
+from math import pi, tan
 
-from .document import Document, Lens, matrix, size
+from .document import Document, Lens, matrix
 
 MODELS = {
     "OPENCV": ("OPENCV_PINHOLE", ("k1", "k2", "k3", "p1", "p2")),
     "OPENCV_FISHEYE": ("OPENCV_FISHEYE", ("k1", "k2", "k3", "k4")),
-    "PINHOLE": ("OPENCV_PINHOLE", ()),
-    "SIMPLE_PINHOLE": ("OPENCV_PINHOLE", ()),
 }
+MODELS |= {"PINHOLE": MODELS["OPENCV"], "SIMPLE_PINHOLE": MODELS["OPENCV"]}
+"""Of a pinhole the coefficients count, too: nerfstudio distorts by them whatever the model is called."""
 
 
 def read(document: Document, key: str) -> list[Lens] | None:
-    """See the package."""
+    """Return the lenses of a document; see the package."""
     entries = document.entries
     frames = entries.get("frames")
     if not isinstance(frames, list) or not all(isinstance(frame, dict) for frame in frames):
         return None
-    if not {"fl_x", "camera_angle_x"}.isdisjoint(entries):
-        return [_lens(document, entries, "camera")]
+    if any(name.startswith("ftheta_p") for name in entries):
+        raise document.refusal("it has an f-theta lens of instant-ngp, which is not read: give a file of NVIDIA's")
+    shared = not {"fl_x", "camera_angle_x"}.isdisjoint(entries)
     lenses: dict[str, Lens] = {}
     for number, frame in enumerate(frames):
-        lens = _lens(document, entries | frame, str(frame.get("file_path", number)))
+        lens = _lens(document, frame | entries, str(frame.get("file_path", number)))
         lenses.setdefault(str(lens[1:]), lens)
-    if not lenses:
+    if not frames and not shared:
         raise document.refusal("it has no fl_x, and no frames")
+    if len(lenses) < 2 and shared:
+        return [_lens(document, (frames or [{}])[0] | entries, "camera")]
     return list(lenses.values())
+
+
+def _focal(document: Document, entries: dict, axis: str, side: float) -> float:
+    """Return the focal length along x or y, in pixels."""
+    name = f"camera_angle_{axis}"
+    if f"fl_{axis}" in entries or name not in entries:
+        return document.number(entries, f"fl_{axis}")
+    angle = document.number(entries, name)
+    if not 0 < angle < pi:
+        raise document.refusal(f"{name} is {angle:g}: it must be above 0 and below pi")
+    return side / (2 * tan(angle / 2))
 
 
 def _lens(document: Document, entries: dict, name: str) -> Lens:
     kind = entries.get("camera_model", "OPENCV_FISHEYE" if entries.get("is_fisheye") else "OPENCV")
-    if kind not in MODELS:
-        raise document.refusal(f"camera_model is {kind!r}: it must be one of {', '.join(MODELS)}")
-    model, terms = MODELS[kind]
-    if kind == "OPENCV" and document.number(entries, "k4", 0.0):
-        raise document.refusal("k4 of an OPENCV camera is of r^8, which OpenCV's model does not have: it must be 0")
+    model, terms = MODELS[document.one_of(kind, "camera_model", MODELS)]
+    if model == "OPENCV_PINHOLE" and document.number(entries, "k4", 0.0):
+        raise document.refusal("k4 is the coefficient of r^8, which OpenCV's pinhole does not have: it must be 0")
     width, height = (document.number(entries, side) for side in ("w", "h"))
-    if "fl_x" in entries:
-        focal = document.number(entries, "fl_x")
-    else:
-        focal = width / (2 * tan(document.number(entries, "camera_angle_x") / 2))
-    focal_y = document.number(entries, "fl_y", focal)
+    focal = _focal(document, entries, "x", width)
+    focal_y = _focal(document, entries, "y", height) if {"fl_y", "camera_angle_y"} & set(entries) else focal
     cx, cy = (document.number(entries, one, side / 2) for one, side in (("cx", width), ("cy", height)))
     rest = {term: document.number(entries, term, 0.0) for term in terms}
-    return Lens(name, model, size(width, height) | matrix(focal, focal_y, cx, cy, 0.5) | rest)
+    return Lens(name, model, document.size(width, height) | matrix(focal, focal_y, cx, cy, 0.5) | rest)

@@ -1,7 +1,7 @@
-"""YAML and JSON as OpenCV's calibration samples write them, and ROS, whose CameraInfo has the same entries.
+"""YAML and JSON as written by OpenCV's calibration samples, and by ROS, whose CameraInfo has the same entries.
 
-The samples do not agree on names. Which of OpenCV's models it is often follows from the model that is chosen alone; a
-file with an entry xi is of omnidir. The center of its first pixel is (0, 0).
+The samples do not agree on names. Often only the model that the user chose tells which of OpenCV's models a file is
+for; a file with an entry xi is omnidir's. The center of the first pixel is (0, 0).
 References: OpenCV documentation, Camera Calibration and 3D Reconstruction; Fisheye camera model; Omnidirectional Camera
 Calibration; ROS documentation, sensor_msgs/CameraInfo.
 """
@@ -15,7 +15,7 @@ from ...records import InputError
 from ..parts.calibration import LARGEST
 from ..parts.filestorage import flat
 from ..parts.film import FARTHEST_PIXELS
-from .document import Document, Lens, matrix, size
+from .document import Document, Lens, matrix, numbers_of
 
 TERMS = {
     "OPENCV_PINHOLE": ("k1", "k2", "p1", "p2", "k3", "k4", "k5", "k6", "s1", "s2", "s3", "s4", "tau_x", "tau_y"),
@@ -24,19 +24,27 @@ TERMS = {
 }
 """Our models and their settings, in the order of OpenCV's vector of coefficients."""
 
+COUNTS = {"OPENCV_PINHOLE": (4, 5, 8, 12, 14), "OPENCV_FISHEYE": (4,), "UCM": (4,)}
+"""How many coefficients OpenCV takes; of zeros any number."""
+
 MATRIX_NAMES = ("cameramatrix", "k", "m1", "intrinsicmatrix")
 DISTORTION_NAMES = ("distortioncoefficients", "distcoeffs", "distortion", "d", "d1")
 WIDTH_NAMES, HEIGHT_NAMES = ("imagewidth", "width"), ("imageheight", "height")
 FISHEYE_NAMES, MODEL_NAMES = ("fisheyemodel", "fisheye", "usefisheye"), ("distortionmodel", "cameramodel", "model")
-FISHEYE_MODELS = ("fisheye", "equidistant", "kannala_brandt", "opencv_fisheye")
-"""Names of entries, without underscores, and what they say of a fisheye; small letters."""
+FISHEYE_MODELS = ("fisheye", "equidistant", "equi", "kannala_brandt", "kannala_brandt4", "opencv_fisheye")
+PINHOLE_MODELS = (
+    "plumb_bob", "rational_polynomial", "thin_prism", "radtan", "pinhole", "opencv", "opencv_pinhole", "none",
+)  # fmt: skip
+"""Names of entries, without underscores, and of models in them; lower case."""
 
 
 def read(document: Document, key: str) -> list[Lens]:
-    """See the package; every JSON or YAML file is taken for one of OpenCV's."""
-    entries = {re.sub("[_-]", "", name).lower(): (name, flat(value)) for name, value in document.entries.items()}
-    model = _model(entries, document.path, key)
-    names = TERMS[model]
+    """Return the lens of a document; see the package. Every JSON or YAML file is read as one of OpenCV's."""
+    entries: dict[str, tuple] = {}
+    for name, value in document.entries.items():
+        before = entries.setdefault(re.sub("[_-]", "", name).lower(), (name, value))
+        if before[0] != name:
+            raise document.refusal(f"it has {before[0]} and {name}: leave one out")
     values = _numbers(entries, MATRIX_NAMES, document.path)
     is_plain = len(values) == 9 and [values[3], *values[6:]] == [0, 0, 0, 1]
     said = f"the camera matrix in {document.path!r} is {shortened(values)}"
@@ -44,40 +52,44 @@ def read(document: Document, key: str) -> list[Lens]:
         raise InputError(f"{said}: it must be fx skew cx, 0 fy cy, 0 0 1, with fx and fy above 0")
     if max(map(abs, (values[2], values[5]))) > FARTHEST_PIXELS:
         raise InputError(f"{said}: cx and cy must be up to {FARTHEST_PIXELS:.0f}")
+    model = _model(entries, document.path, key)
+    names = TERMS[model]
     found = _numbers(entries, DISTORTION_NAMES, document.path)
-    if any(found[len(names) :]):
+    if any(found) and len(found) not in COUNTS[model]:
+        counts, order = " or ".join(map(str, COUNTS[model])), ", ".join(names)
         raise InputError(
-            f"{document.path!r} has {len(found)} distortion coefficients: only {', '.join(names)} may be other than 0"
+            f"{document.path!r} has {len(found)} distortion coefficients: give {counts}, in the order {order}"
         )
     settings = {"skew": values[1], **dict(zip(names, found, strict=False))}
     if model == "UCM":
         settings["unified_xi"] = _numbers(entries, ("xi",), document.path)[0]
     width, height = (_numbers(entries, spellings, document.path)[0] for spellings in (WIDTH_NAMES, HEIGHT_NAMES))
-    for side, spellings in ((width, WIDTH_NAMES), (height, HEIGHT_NAMES)):
-        if side <= 0:
-            raise InputError(f"{spellings[0]} in {document.path!r} is {side}: it must be above 0")
-    return [Lens("", model, size(width, height) | matrix(values[0], values[4], values[2], values[5]) | settings)]
+    camera_matrix = matrix(values[0], values[4], values[2], values[5])
+    return [Lens("", model, document.size(width, height) | camera_matrix | settings)]
 
 
 def _model(entries, path: str, key: str) -> str:
-    """Return the model that a file says it is for; where it does not say, the chosen one if it is OpenCV's."""
+    """Return the model that a file names; else the chosen model, or the pinhole if that is not OpenCV's."""
     if "xi" in entries:
         return "UCM"
     told = [_numbers(entries, FISHEYE_NAMES, path)[0] != 0] if set(FISHEYE_NAMES) & set(entries) else []
-    told += [str(entries[name][1]).lower() in FISHEYE_MODELS for name in MODEL_NAMES if name in entries]
+    for own, value in (entries[name] for name in MODEL_NAMES if name in entries):
+        word = str(value).lower()
+        if word not in (*FISHEYE_MODELS, *PINHOLE_MODELS):
+            known = ", ".join((*PINHOLE_MODELS, *FISHEYE_MODELS))
+            raise InputError(f"{own} in {path!r} is {shortened(value)}: it must be one of {known}")
+        told.append(word in FISHEYE_MODELS)
     pinhole, fisheye, _ = TERMS
-    chosen = key if key in (pinhole, fisheye) else pinhole
+    coefficients = _numbers(entries, DISTORTION_NAMES, path)
+    may_be_fisheye = len(coefficients) in COUNTS[fisheye] or not any(coefficients)
+    chosen = fisheye if key == fisheye and may_be_fisheye else pinhole
     return chosen if not told or (chosen == fisheye) in told else {pinhole: fisheye, fisheye: pinhole}[chosen]
 
 
 def _numbers(entries, spellings, path: str) -> list[float]:
-    """Return the numbers of the first entry of these names; InputError where it is missing or not of finite numbers."""
+    """Return the numbers of the first entry of these names. Raises InputError if it is missing or not of numbers."""
     for name, value in (entries[spelling] for spelling in spellings if spelling in entries):
-        items = value if isinstance(value, list) else [value]
-        try:
-            numbers = [float(item) for item in items]
-        except (TypeError, ValueError) as error:
-            raise InputError(f"{name} in {path!r} is {shortened(value)}: it must be of numbers") from error
+        numbers = numbers_of(flat(value, name, path))
         if not numbers or not all(abs(one) <= LARGEST for one in numbers):
             limits = f"finite numbers, up to {LARGEST:g}"
             raise InputError(f"{name} in {path!r} is {shortened(value)}: it must be of {limits}")

@@ -1,1 +1,1 @@
-"""What several camera models share."""
+"""Code that several camera models share."""

@@ -1,4 +1,4 @@
-"""A window whose axes are not those of the pixels: a skewed camera matrix, a sensor that is not square to the lens."""
+"""A window whose axes are not the pixels' axes: for a skewed camera matrix, or a sensor not square to the lens."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ from .film import Window
 
 @dataclass(frozen=True)
 class AffineWindow(Window):
-    """X = dx pitch_x + dy shear_x, Y = dx shear_y + dy pitch_y, with (dx, dy) the pixel's place from the center.
+    """X = dx pitch_x + dy shear_x, Y = dx shear_y + dy pitch_y, with (dx, dy) the pixel's offset from the center.
 
-    X and Y are right to gamma(3) of the magnitudes of their two terms. The determinant is not 0.
+    X and Y are right to gamma(3) of the sum of the magnitudes of their two terms. The determinant must not be 0.
     """
 
     shear_x: float
@@ -22,7 +22,7 @@ class AffineWindow(Window):
 
     @cached_property
     def _inverse(self) -> tuple[float, float, float, float]:
-        """Return dx by X, dx by Y, dy by X, dy by Y."""
+        """Return the derivatives of dx by X, dx by Y, dy by X and dy by Y."""
         volume = self.pitch_x * self.pitch_y - self.shear_x * self.shear_y
         return self.pitch_y / volume, -self.shear_x / volume, -self.shear_y / volume, self.pitch_x / volume
 
@@ -64,6 +64,6 @@ class AffineWindow(Window):
 
 
 def _times(interval, factor: float):
-    """Return an interval times a number; one without an end times 0 is 0."""
+    """Return an interval times a number; an infinite end times 0 is 0."""
     low, high = (end * factor if factor else np.where(np.isnan(end), np.nan, 0.0) for end in interval)
     return np.minimum(low, high), np.maximum(low, high)

@@ -1,12 +1,12 @@
-"""The opening of a camera: a thin lens, or the hole of a camera obscura. Without one every ray is the chief ray.
+"""The opening of a camera: a thin lens, or the hole of a camera obscura. Without an opening every ray is a chief ray.
 
-A point l of the opening sends its ray to where the chief ray meets the surface of focus, so that this surface is
-sharp and every other one is blurred. For a lens the surface lies before the opening; the back wall of a camera
-obscura is the same with the surface behind it, at a negative distance: the ray of a wall's point through l runs away
-from that point. Diffraction is left out: both are geometric optics.
+A point l of the opening sends its ray to the point where the chief ray meets the surface of focus, so that this surface
+is sharp and everything else is blurred. For a lens the surface lies before the opening. For a camera obscura it is the
+back wall, behind the opening at a negative distance: the ray of a wall's point through l runs away from that point.
+Both are geometric optics, without diffraction.
 
 Sources: Blender manual, Cameras > Depth of Field; R. L. Cook, T. Porter, L. Carpenter, Distributed Ray Tracing (1984).
-Cycles gives the same: planar cameras are sharp on the plane z = focus, panoramas on the sphere |p| = focus.
+Cycles does the same: planar cameras are sharp on the plane at depth focus, panoramas on the sphere |p| = focus.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ FORWARD = 0.0, 0.0, -1.0
 SIDEWAYS = 1.0, 0.0, 0.0
 
 NARROW = 1e-6
-"""Radians between a chief ray and the axis of its opening below which rounding would decide what is across."""
+"""Angle in radians between a chief ray and the opening's axis, below which rounding would decide the opening's x."""
 
 
 @dataclass(frozen=True)
@@ -30,38 +30,38 @@ class Aperture:
     """An opening in the plane of the eye, seen along the viewing direction."""
 
     radius: float
-    """Of the disc, or to the corners of the polygon; Blender units."""
+    """Radius of the disc, or of the polygon's corners, in Blender units."""
     focus: float
-    """Distance of the surface of focus; negative behind the opening (camera obscura). Blender units, never 0."""
+    """Distance of the surface of focus in Blender units; negative behind the opening (camera obscura), never 0."""
     blades: int = 0
-    """Corners of a regular polygon; a disc below 3."""
+    """Number of corners of a regular polygon; a disc below 3."""
     rotation: float = 0.0
-    """Of the polygon, radians: at 0 the middle of a side lies on the +x axis."""
+    """Rotation of the polygon in radians: at 0 the middle of a side lies on the +x axis."""
     ratio: float = 1.0
-    """Width is divided by this: an anamorphic bokeh."""
+    """Divisor of the width, for an anamorphic bokeh."""
     axis: tuple[float, float, float] = FORWARD
-    """What of the camera's space the x of a panorama's opening points to, as far as the chief ray allows."""
+    """Direction in the camera's frame whose part perpendicular to the chief ray is the x of a panorama's opening."""
 
     @property
     def is_hole(self) -> bool:
-        """Whether it is that of a camera obscura."""
+        """Whether the opening is the hole of a camera obscura."""
         return self.focus < 0
 
     @property
     def is_mirrored(self) -> bool:
-        """Whether its shape is that of the lens mirrored up and down, as Cycles has it for the mirror ball."""
+        """Whether the shape is the lens's shape flipped upside down, as in Cycles' mirror ball."""
         return self.axis == SIDEWAYS
 
     @property
     def widest(self) -> float:
-        """How far from its center the opening reaches at most."""
+        """Largest distance from the opening's center to its border."""
         return max(self.radius, self.radius / self.ratio)
 
     def points(self, u, v):
         """Return points (x, y) of the opening for u, v in [0, 1): area-uniform, in Blender units.
 
-        The disc is r = sqrt(u) at the angle 2 pi v. A polygon is cut into equal triangles from its center; u picks
-        the triangle, what is left of it and v a point in it by the same square root (Turk, Graphics Gems, 1990).
+        The disc is r = sqrt(u) at the angle 2 pi v. A polygon is cut into equal triangles from its center. u picks the
+        triangle; the remainder of u, by the same square root, and v pick a point in it (Turk, Graphics Gems, 1990).
         """
         if self.blades < 3:
             radius, angle = np.sqrt(u), 2 * np.pi * v
@@ -78,8 +78,8 @@ class Aperture:
     def through(self, origin, direction, planar: bool, x, y):
         """Return the ray through (x, y) of the opening that belongs to a chief ray, camera frame.
 
-        planar: direction_z stays -1, the opening lies in z = origin_z and focus is a depth. Else the opening is
-        perpendicular to the chief ray, as Cycles has it, directions stay unit and focus is a distance.
+        If ``planar``, direction_z stays -1, the opening lies in z = origin_z and focus is a depth. Otherwise the
+        opening is perpendicular to the chief ray, as in Cycles; directions keep unit length and focus is a distance.
         """
         if planar:
             return (origin[0] + x, origin[1] + y, origin[2]), (
@@ -89,7 +89,7 @@ class Aperture:
             )
         slant = dot(self.axis, direction)
         across = difference(self.axis, tuple(slant * component for component in direction))
-        ahead = dot(across, across) < NARROW**2  # any axis across will do there
+        ahead = dot(across, across) < NARROW**2  # any perpendicular axis will do there
         turned = self.axis[1:] + self.axis[:1]
         across = unit(tuple(np.where(ahead, other, mine) for other, mine in zip(turned, across, strict=True)))
         upward = unit(cross(direction, across))
@@ -98,24 +98,24 @@ class Aperture:
         return along(origin, opening, 1.0), unit(difference(focus, opening))
 
     def blur(self, distance, radius):
-        """Return by how much a bounding sphere seen through the opening has to grow to be seen through the eye alone.
+        """Return how much bounding spheres must grow so that, seen through the eye alone, they cover their blur.
 
-        A point at distance s seen through l appears where the point moved by -l (1 - s / focus) would through the
-        eye. (n,) arrays; distance and radius of the spheres, along the axis for planar cameras.
+        A point at distance s, seen through the point l of the opening, appears where the eye would see the point moved
+        by -l (1 - s / focus). distance, along the axis for planar cameras, and radius of the spheres: (n,) arrays.
         """
         ends = np.abs(1 - (distance - radius) / self.focus), np.abs(1 - (distance + radius) / self.focus)
         return self.widest * np.maximum(1.0, np.maximum(*ends))
 
 
 SMALLEST = 1e-5
-"""Blender's floor under f-stop and focus distance."""
+"""Blender's lower limit of f-stop and focus distance."""
 
 
 def thin_lens(raw: BlenderCamera, pose: Pose, parallel: bool) -> Aperture | None:
-    """Return the thin lens of a camera's depth of field; None where that is off.
+    """Return the thin lens of a camera's depth of field; None if depth of field is off.
 
-    The radius is the lens in meters over twice the f-stop; 1 / (2 f-stop) where rays are ``parallel``. A focus object
-    counts by its depth. InputError for an aperture ratio that is not positive.
+    The radius is the focal length in meters over twice the f-stop; 1 / (2 f-stop) if rays are ``parallel``. With a
+    focus object, focus is that object's depth. Raises InputError for an aperture ratio that is not positive and finite.
     """
     settings = raw.settings
     if not settings.get("use_dof"):

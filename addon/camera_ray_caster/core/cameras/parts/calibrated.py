@@ -1,8 +1,8 @@
-"""What calibrated lenses share that look the same all around the axis, but for a distortion of the picture.
+"""The base of calibrated lenses that are symmetric about the axis, except for a distortion of the picture.
 
-A point at the angle theta from the axis lies at the radius r(theta) on the plane of a ``Radial``; there it is moved by
-the distortion of radial_tangential.py, and K brings it to the pixel. The way back undoes these in turn. The picture
-ends where the first of the two stops to grow.
+A point at the angle theta from the axis lies at the radius r(theta) on the plane of a ``Radial``. There the distortion
+of radial_tangential.py moves it, and K brings it to the pixel. Rays undo these steps in reverse order. The picture ends
+where r(theta) stops growing, or where the distortion stops being one-to-one, whichever is nearer.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ class Calibrated(Radial):
     group = "Calibrated"
 
     def within(self, rim: float) -> Self:
-        """Return the lens with a rim at this radius, or nearer where the distortion folds the picture."""
+        """Return the lens with its rim at this radius, or nearer if the distortion folds the picture before it."""
         return replace(self, rim=min(rim, self.distortion.limit))
 
     @property
@@ -44,7 +44,7 @@ class Calibrated(Radial):
 
     @cached_property
     def widest(self) -> float:
-        """See Radial; of an endless picture the angle of the farthest pixel that means something."""
+        """See Radial; for an endless picture, the angle at the radius FARTHEST_PIXELS."""
         r = min(self.rim, FARTHEST_PIXELS)
         scale, cosine = self.factors(np.float64(r * r))
         return float(np.arctan2(scale * r, cosine))
@@ -71,7 +71,7 @@ class Calibrated(Radial):
 
     @cached_property
     def _farthest(self) -> float:
-        """Return the radius in the distorted picture beyond which there is nothing for sure."""
+        """Return a radius in the distorted picture beyond which there is certainly no ray."""
         return float(self.distortion.farthest(self.rim)) * (1 + RIM_SLACK) if self.rim < np.inf else np.inf
 
     def _pixels(self, a, b):

@@ -1,10 +1,10 @@
 """A calibrated lens: K and the distortion's coefficients. ``files`` reads them from calibration files.
 
 In pixels, K is in OpenCV's convention: y down, (0, 0) the center of the top left pixel, focal lengths in pixels of the
-calibrated picture. A frame of another size is that picture scaled to it, each axis for itself: pixel coordinates grow
-in proportion, measured from the corner of the frame. Blender's lens, sensor and shift do not count.
+calibrated picture. A frame of another size is that picture scaled to the frame on each axis: pixel coordinates,
+measured from the corner of the frame, grow in proportion. Blender's lens, sensor and shift are ignored.
 In millimeters, Blender's lens, sensor and shift take the place of K: the lens on any sensor, at any resolution.
-Polynomials of a radius are in the same unit; the distortion's coefficients have none.
+Polynomials of a radius are in the same unit. The distortion's coefficients have no unit.
 Reference: OpenCV documentation, Camera Calibration and 3D Reconstruction; Fisheye camera model.
 """
 
@@ -20,11 +20,12 @@ from .settings import Choice, FilePath, Item, Number, Text, Whole
 
 MILLIMETERS = "MILLIMETERS"
 UNIT = Choice(
-    "calibration_unit", "Lengths In", "What focal lengths, the center and polynomials of a radius are measured in",
+    "calibration_unit", "Lengths In", "Unit of the focal lengths, the center and polynomials of a radius",
     "PIXELS",
     (
-        Item("PIXELS", "Pixels", "Of the calibrated picture, which is scaled to the frame", 0),
-        Item(MILLIMETERS, "Millimeters", "On the sensor: Blender's focal length, sensor and shift count", 1),
+        Item("PIXELS", "Pixels", "Pixels of the calibrated picture, which is scaled to the frame", 0),
+        Item(MILLIMETERS, "Millimeters", "Millimeters on the sensor: Blender's focal length, sensor and shift "
+                                         "are used", 1),
     ),
 )  # fmt: skip
 FOCAL = (
@@ -33,9 +34,23 @@ FOCAL = (
 )
 CENTER = (
     Number(
-        "cx", "Center X", "From the center of the top left pixel, to the right", 959.5, -1e6, unit="pixels", digits=3
+        "cx",
+        "Center X",
+        "Distance of the center from the center of the top left pixel, to the right",
+        959.5,
+        -1e6,
+        unit="pixels",
+        digits=3,
     ),
-    Number("cy", "Y", "From the center of the top left pixel, down", 539.5, -1e6, unit="pixels", digits=3),
+    Number(
+        "cy",
+        "Y",
+        "Distance of the center from the center of the top left pixel, down",
+        539.5,
+        -1e6,
+        unit="pixels",
+        digits=3,
+    ),
 )
 SIZE = (
     Whole("calibration_width", "Width", "Of the calibrated picture, pixels; 0 is the frame's", 1920, 0, unit="pixels"),
@@ -43,18 +58,23 @@ SIZE = (
         "calibration_height", "Height", "Of the calibrated picture, pixels; 0 is the frame's", 1080, 0, unit="pixels"
     ),
 )
-FILE_CAMERA = Text("calibration_camera", "Camera in File", "Of a calibration file with several: its name there", "")
+FILE_CAMERA = Text(
+    "calibration_camera", "Camera in File", "Name of the camera in a calibration file that has several cameras", ""
+)
 FILE_WRITERS = "OpenCV, ROS, COLMAP, nerfstudio, Kalibr, mrcal, Project Aria, NVIDIA (f-theta) or OCamCalib"
-FILE = FilePath("calibration_file", "Calibration", f"A file of {FILE_WRITERS}; empty: the numbers below", "")
+FILE = FilePath(
+    "calibration_file", "Calibration", f"Calibration file of {FILE_WRITERS}. If empty, the numbers below are used", ""
+)
 SKEW = Number(
-    "skew", "Skew", "Of the camera matrix, its second number; in pixels of the calibrated picture", 0.0, unit="pixels",
+    "skew", "Skew", "Entry in row 1, column 2 of the camera matrix, in pixels of the calibrated "
+                    "picture", 0.0, unit="pixels",
     digits=3,
 )  # fmt: skip
 IN_PIXELS = (*SIZE, *FOCAL, *CENTER, SKEW)
 PRINCIPAL_POINT = (FILE_CAMERA, FILE, UNIT, *SIZE, *CENTER, *FILM)
 CALIBRATION = (FILE_CAMERA, FILE, UNIT, *IN_PIXELS, LENS, *FILM)
-"""The settings of the calibrated picture, or of the lens and its sensor: without a camera matrix, and with one. Where
-there is a file, its numbers count, in pixels.
+"""The settings of a model without a camera matrix, and of one with it: of the calibrated picture, or of the lens and
+its sensor. If a file is given, its numbers, in pixels, take their place.
 """
 
 
@@ -63,52 +83,56 @@ def _coefficient(name: str, text: str) -> Number:
 
 
 Linear = tuple[tuple[float, float], tuple[float, float]]
-"""A matrix, its rows."""
+"""The rows of a 2 x 2 matrix."""
 
 STEEPEST = radians(80)
-"""Beyond which a tilted sensor is no picture to calibrate with."""
+"""Largest tilt of a sensor that still gives a picture to calibrate with."""
 
 FLATTEST = 1e-6
-"""Of a determinant over the square of the largest entry: less is no picture, and for float32 as good as 0.
+"""Smallest determinant of a matrix over the square of its largest entry. A smaller one gives no useful picture, and is
+almost 0 in float32.
 """
 
 LARGEST = 1e30
-"""Of a calibration's numbers: products of three of them have to be numbers, too."""
+"""Largest magnitude of a calibration's numbers: the product of three of them must be finite, too."""
 
-K1, K2, K3 = (_coefficient(name, "Radial") for name in ("k1", "k2", "k3"))
-K4, K5, K6 = (_coefficient(name, "Radial: of a pinhole's denominator, or a fisheye's") for name in ("k4", "k5", "k6"))
-P1, P2 = (_coefficient(name, "Tangential") for name in ("p1", "p2"))
-S1, S2, S3, S4 = (_coefficient(name, "Thin prism") for name in ("s1", "s2", "s3", "s4"))
+K1, K2, K3 = (_coefficient(name, "Radial distortion coefficient") for name in ("k1", "k2", "k3"))
+K4, K5, K6 = (
+    _coefficient(name, "Radial distortion coefficient; in the denominator of pinhole models")
+    for name in ("k4", "k5", "k6")
+)
+P1, P2 = (_coefficient(name, "Tangential distortion coefficient") for name in ("p1", "p2"))
+S1, S2, S3, S4 = (_coefficient(name, "Thin prism distortion coefficient") for name in ("s1", "s2", "s3", "s4"))
 RADIAL_TANGENTIAL = K1, K2, P1, P2, K3, K4, K5, K6, S1, S2, S3, S4
 TAU_X, TAU_Y = (
     Number(f"tau_{axis}", f"Tau {axis.upper()}", text, 0.0, -STEEPEST, STEEPEST, "angle", digits=4)
-    for axis, text in (("x", "Of the sensor, about its x axis"), ("y", "Of the sensor, about its y axis"))
+    for axis, text in (("x", "Tilt of the sensor about its X axis"), ("y", "Tilt of the sensor about its Y axis"))
 )
 PINHOLE = (*RADIAL_TANGENTIAL, TAU_X, TAU_Y)
 FISHEYE = K1, K2, K3, K4
-"""The distortion, in the order of OpenCV's vector of coefficients; all without unit."""
+"""Distortion coefficients, here and above in the order of OpenCV's vector; they have no unit."""
 
 
 @dataclass(frozen=True)
 class Calibration:
-    """K, where its picture lies in the frame, and the coefficients by name. Without focal lengths they are 1."""
+    """K, the place of the calibrated picture in the frame, and the coefficients by name; fx = fy = 1 without K."""
 
     fx: float
     fy: float
     skew: float
     center: tuple[float, float]
-    """Pixel coordinates in the frame, y up."""
+    """Pixel coordinates of the principal point in the frame, y up."""
     scale: tuple[float, float]
-    """Pixels of the frame in a pixel of the calibrated picture, or in a millimeter of the sensor, along x and y."""
+    """Pixels of the frame per pixel of the calibrated picture, or per millimeter of the sensor, along x and y."""
     coefficients: dict[str, float]
 
     @classmethod
     def from_blender(
         cls, raw: BlenderCamera, raster: Raster, distortion: tuple[Number, ...] = (), settings=CALIBRATION
     ) -> Calibration:
-        """Build it from those of the settings that it has; ``distortion``: the model's coefficients.
+        """Build the calibration from a model's ``settings`` and ``distortion``, its coefficients.
 
-        Raises InputError for a setting without meaning, by its name.
+        Raises InputError, which names the setting, for an invalid value.
         """
         coefficients = {setting.name: _within_largest(setting, raw) for setting in distortion}
         fx = fy = 1.0
@@ -128,17 +152,17 @@ class Calibration:
         return cls(fx, fy, skew, center, scale, coefficients)
 
     def window(self, linear: Linear | None = None) -> Window:
-        """Return the window of (x, -y) of OpenCV's normalized, distorted image coordinates: y up.
+        """Return the window of (x, -y), with (x, y) OpenCV's normalized, distorted image coordinates: y up.
 
-        linear: what brings these to pixels of the calibrated picture, or millimeters, from its center; K's if it is not
-        given. Raises InputError where it brings them all to about one line.
+        linear: the matrix from (x, y) to pixels of the calibrated picture, or millimeters, from its center; by default
+        K's. Raises InputError if it maps all points almost onto one line.
         """
         scale_x, scale_y = self.scale
         (xx, xy), (yx, yy) = linear or ((self.fx, self.skew), (0.0, self.fy))
         volume, size = xx * yy - xy * yx, max(map(abs, (xx, xy, yx, yy)))
         if (linear or self.skew) and not abs(volume) > FLATTEST * size * size:
             raise InputError(
-                f"the calibration's matrix, {xx:.6g}, {xy:.6g}; {yx:.6g}, {yy:.6g}, brings all directions to about one "
+                f"the calibration's matrix, {xx:.6g}, {xy:.6g}; {yx:.6g}, {yy:.6g}, maps all directions to nearly one "
                 "line of the picture: check skew and affine terms"
             )
         if xy == yx == 0:

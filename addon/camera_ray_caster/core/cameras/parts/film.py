@@ -1,4 +1,4 @@
-"""From Blender's resolution, border, sensor fit and shift to a raster and a window on the image plane."""
+"""The raster and the window on the image plane, from Blender's resolution, border, sensor fit and shift."""
 
 from __future__ import annotations
 
@@ -13,43 +13,63 @@ from .settings import ABOVE_ZERO, CAMERA, RENDER, Choice, Item, Number, farthest
 
 BORDER = "border_min_x", "border_max_x", "border_min_y", "border_max_y"
 FARTHEST_SHIFT = 1e6
-"""Frames: farther than any frame may be shifted."""
+"""Largest shift, in frames."""
 FARTHEST_PIXELS = 2.0**24
-"""Pixels from the axis, beyond which float32, which is what Blender has, tells no pixel from its neighbor."""
+"""Largest distance from the axis in pixels: beyond it float32, Blender's type, cannot tell a pixel from the next."""
 STEEPEST = 2.0**30
-"""Over its depth, how far from the axis a ray may lead: float32 does not tell it from the image plane by far, and
-float64 soon no more.
+"""Largest slope of a ray: its distance from the axis over its depth. float32 cannot distinguish a ray this steep from
+the image plane; with still steeper rays, float64 soon cannot either.
 """
 
 
-LENS = Number("lens", "Focal Length", "From the eye to the film", 50.0, ABOVE_ZERO, unit="mm", owner=CAMERA)
+LENS = Number("lens", "Focal Length", "Distance from the eye to the sensor", 50.0, ABOVE_ZERO, unit="mm", owner=CAMERA)
 ORTHO_SCALE = Number(
-    "ortho_scale", "Orthographic Scale", "The fitted side of the frame", 6.0, ABOVE_ZERO, unit="length", owner=CAMERA
+    "ortho_scale",
+    "Orthographic Scale",
+    "Length of the fitted side of the frame",
+    6.0,
+    ABOVE_ZERO,
+    unit="length",
+    owner=CAMERA,
 )
 SENSOR_FIT = Choice(
-    "sensor_fit", "Sensor Fit", "Which side of the frame the sensor is fitted to",
+    "sensor_fit", "Sensor Fit", "Side of the frame to which the sensor is fitted",
     "AUTO",
     (
-        Item("AUTO", "Auto", "The longer side, with the sensor's width", 0),
-        Item("HORIZONTAL", "Horizontal", "The width", 1),
-        Item("VERTICAL", "Vertical", "The height", 2),
+        Item("AUTO", "Auto", "Fit the sensor width to the longer side of the frame", 0),
+        Item("HORIZONTAL", "Horizontal", "Fit the sensor width to the width of the frame", 1),
+        Item("VERTICAL", "Vertical", "Fit the sensor height to the height of the frame", 2),
     ),
     owner=CAMERA,
 )  # fmt: skip
 SENSOR_WIDTH = Number(
-    "sensor_width", "Sensor Width", "Of the film, unless the fit is vertical", 36.0, ABOVE_ZERO, unit="mm", owner=CAMERA
+    "sensor_width",
+    "Sensor Width",
+    "Width of the sensor; used unless Sensor Fit is Vertical",
+    36.0,
+    ABOVE_ZERO,
+    unit="mm",
+    owner=CAMERA,
 )
 SENSOR_HEIGHT = Number(
     "sensor_height",
     "Sensor Height",
-    "Of the film, where the fit is vertical",
+    "Height of the sensor; used if Sensor Fit is Vertical",
     24.0,
     ABOVE_ZERO,
     unit="mm",
     owner=CAMERA,
 )
 SHIFT_X, SHIFT_Y = (
-    Number(name, label, f"Moves the frame {way} on the image plane", 0.0, -FARTHEST_SHIFT, FARTHEST_SHIFT, owner=CAMERA)
+    Number(
+        name,
+        label,
+        f"Offset of the frame on the image plane, {way}",
+        0.0,
+        -FARTHEST_SHIFT,
+        FARTHEST_SHIFT,
+        owner=CAMERA,
+    )
     for name, label, way in (("shift_x", "Shift X", "to the right"), ("shift_y", "Shift Y", "up"))
 )
 PIXEL_ASPECT_X, PIXEL_ASPECT_Y = (
@@ -59,23 +79,24 @@ PIXEL_ASPECT_X, PIXEL_ASPECT_Y = (
 
 SHIFT = SHIFT_X, SHIFT_Y
 FILM = SENSOR_FIT, SENSOR_WIDTH, SENSOR_HEIGHT, *SHIFT
-"""Blender's own settings that ``Film`` and the windows read. Shift counts in units of the fitted side on both axes; in
-panoramas, fisheyes and domes in fractions of the frame's width and height.
+"""Blender's own settings that ``Film`` and the windows read. Shift is in units of the fitted side on both axes; in
+panoramas, fisheyes and domes it is in fractions of the frame's width and height.
 """
 
 
 def raster_from(raw: BlenderCamera) -> Raster:
     """Return the frame and the render window as Blender's pipeline computes them.
 
-    The frame is resolution * percentage / 100, truncated. A border selects columns int(min * width) up to, not
-    including, int(max * width), rows likewise from the bottom, the product rounded to float32 first, as in Blender's
-    C code (0.7 of 10 is column 7 there, 6 in float64). Cropping changes where the window is stored, not its rays.
+    The frame is resolution * percentage / 100, truncated. A border selects columns int(min * width) up to, but not
+    including, int(max * width), and rows likewise from the bottom. The product is rounded to float32 first, as in
+    Blender's C code (0.7 of 10 is column 7 there, 6 in float64). Cropping changes where the window is stored, not its
+    rays.
 
-    Raises InputError for a frame or a border without pixels, for a border that is not finite, and for a pixel aspect or
-    a shift without meaning.
+    Raises InputError for a frame or a border without pixels, for a border that is not finite, and for an invalid pixel
+    aspect or shift.
     """
     for shift in SHIFT:
-        shift.read(raw)  # by models that do not use it, too: a driver or a script may have set it to nan
+        shift.read(raw)  # also for models that do not use it: a driver or a script may have set it to nan
     for name in BORDER:
         if not np.isfinite(getattr(raw, name)):
             raise InputError(f"{name} of camera {raw.name!r} is {getattr(raw, name)}: it must be a finite number")
@@ -93,17 +114,17 @@ def raster_from(raw: BlenderCamera) -> Raster:
         x0, x1 = _border(raw.border_min_x, raw.border_max_x, width)
         y0, y1 = _border(raw.border_min_y, raw.border_max_y, height)
         if x0 >= x1 or y0 >= y1:
-            raise InputError("the render border holds no pixel: draw it larger (Ctrl B) or clear it (Ctrl Alt B)")
+            raise InputError("the render border contains no pixel: draw it larger (Ctrl B) or clear it (Ctrl Alt B)")
     return Raster(width, height, raw.pixel_aspect_y / raw.pixel_aspect_x, x0, y0, x1, y1)
 
 
 def _border(low: float, high: float, size: int) -> tuple[int, int]:
-    """Return the first pixel inside a border and the first one behind it."""
+    """Return the first pixel inside a border and the first pixel behind it."""
     return int(np.float32(low) * np.float32(size)), int(np.float32(high) * np.float32(size))
 
 
 def check_slope(raw: BlenderCamera, slope: float, numbers: Iterable[Number]) -> None:
-    """Raise InputError for a ray's slope beyond STEEPEST, with the number that is farthest from 1."""
+    """Raise InputError, which names the number that is farthest from 1, for a ray's slope beyond STEEPEST."""
     if not slope <= STEEPEST:
         said = farthest_from_one({one.name: one.read(raw) for one in (*numbers, *SHIFT)})
         raise InputError(
@@ -113,29 +134,29 @@ def check_slope(raw: BlenderCamera, slope: float, numbers: Iterable[Number]) -> 
 
 
 def _shift(shift: Number, raw: BlenderCamera, unit: float) -> float:
-    """Return a shift that counts in so many pixels. Raises InputError where it comes to more than FARTHEST_PIXELS."""
+    """Return a shift whose unit is ``unit`` pixels. Raises InputError if it amounts to more than FARTHEST_PIXELS."""
     return shift.read(raw, -FARTHEST_PIXELS / unit, FARTHEST_PIXELS / unit)
 
 
 @dataclass(frozen=True)
 class Film:
-    """The sensor as Blender fits it to the frame: which side counts, how long it is, and the shift.
+    """The sensor as Blender fits it to the frame: the length of the fitted side in mm and in pixels.
 
     Source: Blender manual, Camera > Lens and Sensor; measured on calc_matrix_camera. AUTO fits the longer side (in
-    square units, the width when equal) and uses the sensor's WIDTH for it, in portrait too. Shift counts in units
-    of the fitted side on both axes.
+    square units, the width if both are equal) and uses the sensor's WIDTH for it, also in portrait format. Shift is in
+    units of the fitted side on both axes.
     """
 
     size: float
     """Length of the fitted side, mm."""
     fitted_pixels: float
-    """The fitted side in pixel widths."""
+    """Length of the fitted side in pixel widths."""
     sensor: Number
-    """The setting that the length is from."""
+    """Setting that gives the length."""
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> Film:
-        """Fit the sensor; InputError names a sensor fit or size without meaning."""
+        """Fit the sensor. Raises InputError, which names the setting, for an invalid sensor fit or size."""
         height = raster.height * raster.pixel_aspect
         sensor, fitted_pixels = {
             "HORIZONTAL": (SENSOR_WIDTH, raster.width),
@@ -149,8 +170,8 @@ class Film:
 class Window:
     """An affine map from pixels to the image plane: X = (x - center_x) pitch_x, Y = (y - center_y) pitch_y.
 
-    The difference is taken before it is scaled: it is exact for pixel centers near the center, and a frame far off
-    the axis (shift) keeps the digits of its pixels. X and Y are right to 2 EPS relative to the difference's parts.
+    The difference is taken before scaling: it is exact for pixels near the center, and a frame far off the axis (shift)
+    keeps the digits of its pixels. X and Y are right to 2 EPS relative to the parts of the difference.
     """
 
     center_x: float
@@ -160,7 +181,7 @@ class Window:
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster, fitted_length: float) -> Window:
-        """Return the window in which the fitted side of the film has this length on the image plane."""
+        """Return the window whose fitted side has this length on the image plane."""
         fitted_pixels = Film.from_blender(raw, raster).fitted_pixels
         fitted_height = fitted_pixels / raster.pixel_aspect
         pitch = fitted_length / fitted_pixels
@@ -173,9 +194,9 @@ class Window:
 
     @classmethod
     def before_eye(cls, raw: BlenderCamera, raster: Raster, fitted_length: float, numbers: Iterable[Number]) -> Window:
-        """Return the window of a pinhole, with the length at depth 1, which follows from these numbers.
+        """Return the window of a pinhole whose fitted side has this length at depth 1.
 
-        Raises InputError for a frame that reaches beyond STEEPEST.
+        numbers: the settings that determine the length. Raises InputError for a frame that reaches beyond STEEPEST.
         """
         window = cls.from_blender(raw, raster, fitted_length)
         check_slope(raw, float(np.abs(window.extent(raster.size)).max()), numbers)
@@ -183,9 +204,9 @@ class Window:
 
     @classmethod
     def over_frame(cls, raw: BlenderCamera, raster: Raster, x_range, y_range) -> Window:
-        """Return the window in which the frame spans these (low, high) ranges, as panoramas have it.
+        """Return the window of a panorama, in which the frame spans these (low, high) ranges.
 
-        Shift counts in fractions of the whole frame there, on each axis its own, whatever the aspect.
+        Shift is in fractions of the frame's width and height, independent of the aspect.
         """
         (left, right), (bottom, top) = x_range, y_range
         return cls(
@@ -197,25 +218,25 @@ class Window:
 
     @classmethod
     def round_pixels(cls, raw: BlenderCamera, raster: Raster, pitch: float) -> Window:
-        """Return the window in which circles stay round, a pixel is ``pitch`` wide, and shift is as in over_frame."""
+        """Return the window in which circles are round and a pixel is ``pitch`` wide, with shift as in over_frame."""
         half_width, half_height = raster.width * pitch / 2, raster.height * raster.pixel_aspect * pitch / 2
         return cls.over_frame(raw, raster, (-half_width, half_width), (-half_height, half_height))
 
     @classmethod
     def inscribed_circle(cls, raw: BlenderCamera, raster: Raster, radius: float) -> Window:
-        """Return the window in which the circle of this radius touches the nearer sides of the frame."""
+        """Return the window in which a circle of this radius touches the nearer sides of the frame."""
         return cls.round_pixels(raw, raster, 2 * radius / min(raster.width, raster.height * raster.pixel_aspect))
 
     def extent(self, frame: tuple[int, int]) -> tuple[float, float, float, float]:
-        """Return the image-plane x_low, x_high, y_low, y_high of a frame of this width and height in pixels; low <=
-        high, mirrored or not.
+        """Return x_low, x_high, y_low, y_high on the image plane of a frame of this width and height in pixels; low <=
+        high, also if the window is mirrored.
         """
         x, y = self.plane_from_pixels(*(np.array([0.0, side]) for side in frame))
         return float(x.min()), float(x.max()), float(y.min()), float(y.max())
 
     def matrix(self, height: int) -> np.ndarray:
-        """Return K, (3, 3): image-plane coordinates, y down, to pixels of a frame of this height in OpenCV's convention
-        (y down, the origin in the center of the top left pixel).
+        """Return K, (3, 3), from image-plane coordinates, y down, to pixels of a frame of this height in OpenCV's
+        convention (y down, the origin in the center of the top left pixel).
         """
         return np.array([
             [1 / self.pitch_x, 0.0, self.center_x - 0.5],
@@ -224,7 +245,7 @@ class Window:
         ])  # fmt: skip
 
     def rounding(self, x, y, frame: tuple[int, int]):
-        """Return the rounding of the few operations from a pixel to the plane, as moves of the pixel in x and in y; a
+        """Return the rounding of the few operations from a pixel to the plane, as shifts of the pixel in x and in y. A
         center in the middle of the frame is exact.
         """
         places = (x, self.center_x, frame[0] / 2), (y, self.center_y, frame[1] / 2)
@@ -235,7 +256,7 @@ class Window:
         return across, up
 
     def plane_from_pixels(self, x, y):
-        """Return image-plane (X, Y) of pixel coordinates; arrays of any shapes, kept apart."""
+        """Return (X, Y) on the image plane of pixel coordinates; X has the shape of x, Y the shape of y."""
         return (x - self.center_x) * self.pitch_x, (y - self.center_y) * self.pitch_y
 
     def pixels_from_plane(self, plane_x, plane_y):

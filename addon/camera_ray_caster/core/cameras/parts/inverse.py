@@ -1,8 +1,8 @@
 """The numerical inverse of any model's rays: from a point to the pixel whose ray passes through it.
 
-The rays of a lattice of pixels tell where to begin; the Gauss-Newton method brings the angle between a ray and the
-direction from its origin to the point down to rounding. Its derivatives are differences of rays, so that a model has to
-give its rays alone.
+The rays of a lattice of pixels give the starting points. The Gauss-Newton method brings the angle between a ray and the
+direction from its origin to the point down to rounding. Its derivatives are differences of rays, so that a model only
+has to define its rays.
 Reference: J. Nocedal and S. Wright, Numerical Optimization, 2nd ed. (2006), section 10.3.
 """
 
@@ -15,33 +15,35 @@ import numpy as np
 from ...conventions import EPS
 
 LATTICE = 33
-"""Pixels a side at which the search begins: a model that turns by less than a half turn between them loses none."""
+"""Pixels per side of the lattice. No point is lost if rays of adjacent lattice pixels differ by under half a turn."""
 
 STARTS = 3
-"""Places from which each point is sought: those where the angle is less than at all neighbors of the lattice."""
+"""Number of lattice pixels from which each point is sought: the best of the local minima of the angle."""
 
 STEP = 2.0**-12
-"""Pixels between rays whose difference stands for a derivative: right to about EPS / STEP and STEP squared."""
+"""Offset in pixels of the finite differences: derivatives are right to about EPS / STEP and STEP squared."""
 
 STEPS = 40
-"""At most. A smooth model takes about six."""
+"""Maximum number of Gauss-Newton steps. A smooth model takes about six."""
 
 HALVINGS = 12
-"""Of a step that does not bring the ray nearer, or leads to a pixel without one."""
+"""Maximum number of halvings of a step that does not bring the ray nearer, or leads to a pixel without a ray."""
 
 SLACK = 64
-"""EPS of angle, of the point's and the origin's distance over their difference, within which a ray meets a point."""
+"""Angle within which a ray meets a point, in units of EPS (1 + s): s is the sum of the distances of point and ray
+origin from the frame's origin, over the distance between the two.
+"""
 
 AT_ONCE = 4096
-"""Points sought together: their working arrays take some 100 MB."""
+"""Number of points sought together: their working arrays take some 100 MB."""
 
 
 def pixels_of(rays: Callable, frame: tuple[int, int], points, start=None) -> np.ndarray:
     """Return the pixel coordinates (..., 2) at which ``rays(x, y)`` pass through points (..., 3); NaN where none does.
 
-    rays: as a model's, in the points' frame. frame: width and height in pixels; a pixel beyond it may be found. Of
-    several the one nearest to the frame's middle, or the one to which a search from ``start`` (..., 2) leads. Right
-    to some EPS of angle over the angle from pixel to pixel.
+    rays: a function like a model's, in the points' frame. frame: width and height in pixels; a pixel beyond it may be
+    found. If several pixels see a point, the result is the one nearest to the frame's middle, or the one to which the
+    search from ``start`` (..., 2) leads. It is right to some EPS of angle over the angle from pixel to pixel.
     """
     points = np.asarray(points, np.float64)
     flat = points.reshape(-1, 3)
@@ -52,8 +54,8 @@ def pixels_of(rays: Callable, frame: tuple[int, int], points, start=None) -> np.
 
 
 def _sought(rays, frame, points, start) -> np.ndarray:
-    """Return what ``pixels_of`` does, for points (n, 3) and pixels (n, k, 2) at which to begin, or None."""
-    with np.errstate(all="ignore"):  # NaN and inf are answers: no ray
+    """Return the pixels (n, 2) of points (n, 3), sought from ``start``: pixels (n, k, 2), or None for the lattice."""
+    with np.errstate(all="ignore"):  # NaN and inf are valid results: no ray
         start = _starts(rays, frame, points) if start is None else start
         place = np.repeat(points[:, None], start.shape[1], axis=1)
         off, limit = _off(rays, start, place)
@@ -93,7 +95,7 @@ def _starts(rays, frame, points) -> np.ndarray:
 
 
 def _off(rays, pixels, points):
-    """Return how far the rays' directions are from those to the points, (..., 3), and what of it is rounding."""
+    """Return the differences (..., 3) of the rays' directions from the directions to the points, and their rounding."""
     origin, direction = rays(pixels[..., 0], pixels[..., 1])
     shape = pixels.shape[:-1]
     origin, direction = (
@@ -112,7 +114,7 @@ def _step(rays, pixels, points, off):
     for axis in np.eye(2):
         ahead, behind = (_off(rays, pixels + side * STEP * axis, points)[0] for side in (1, -1))
         both = (ahead - behind) / (2 * STEP)
-        one = np.where(np.isnan(ahead), off - behind, ahead - off) / STEP  # at the rim there is one side only
+        one = np.where(np.isnan(ahead), off - behind, ahead - off) / STEP  # at the rim only one side has rays
         slopes.append(np.where(np.isnan(both), one, both))
     (a, b), d = ([_dot(slope, slopes[0]) for slope in slopes]), _dot(slopes[1], slopes[1])
     right = [_dot(slope, off) for slope in slopes]

@@ -1,7 +1,7 @@
 """The fisheye of Kannala and Brandt: the radius is an odd polynomial of the angle from the axis, of any degree.
 
-r = theta (1 + k1 theta^2 + k2 theta^4 + ...), up to the angle where r stops to grow, or 180 degrees. The inverse is
-Newton's. What distorts the picture besides is applied to r, in the way of ``Calibrated``.
+r = theta (1 + k1 theta^2 + k2 theta^4 + ...), up to the angle where r stops growing, or 180 degrees. It is inverted by
+Newton's method. Further distortion is applied to the picture as in ``Calibrated``.
 Reference: J. Kannala and S. Brandt, A Generic Camera Model and Calibration Method (2006).
 """
 
@@ -29,9 +29,9 @@ class KannalaBrandt(Calibrated):
     """r = polynomial(theta) up to ``limit``."""
 
     coefficients: tuple[float, ...]
-    """k1, k2, ..."""
+    """Coefficients k1, k2, ..."""
     limit: float
-    """Radians."""
+    """Largest angle from the axis, radians."""
 
     factors_by_polynomials = True
     by_polynomials = True
@@ -44,7 +44,7 @@ class KannalaBrandt(Calibrated):
         coefficients: Sequence[float],
         distortion: RadialTangential | None = None,
     ) -> Self:
-        """Return the lens with these coefficients, up to where it, or its distortion, stops to be one-to-one."""
+        """Return the lens with these coefficients, as far as the polynomial and the distortion are one-to-one."""
         slope = np.polynomial.Polynomial([1.0, *((2 * i + 3) * k for i, k in enumerate(coefficients))])
         limit = min([pi, *map(sqrt, positive_roots(slope).tolist())])
         lens = cls(
@@ -59,7 +59,7 @@ class KannalaBrandt(Calibrated):
         return replace(lens, limit=float(np.fmin(lens.angle(np.float64(lens.rim)), limit)))
 
     def distorted(self, theta):
-        """Return r of angles."""
+        """Return the radii r of angles."""
         return theta * horner(theta * theta, (1.0, *self.coefficients))
 
     def slope(self, theta):
@@ -68,7 +68,7 @@ class KannalaBrandt(Calibrated):
 
     @cached_property
     def angle(self):
-        """Return the inverse of r, a function."""
+        """Return the inverse of ``distorted``: a function from r to the angle."""
         return Inverse(self.distorted, self.slope, 0.0, self.limit)
 
     def factors(self, r_squared):

@@ -1,9 +1,9 @@
 """Lines of the scene as a camera sees them: slits to look through, a path to move on, given by objects.
 
 A setting that names an object holds (points, matrix_world): points (n, 3) in the object's space, as Blender stores
-them, and its evaluated (4, 4) world matrix; None where no object is set. An empty has two points, its origin and the
-end of its X axis; a curve the first and the last control point of its first spline. A path has a third entry, the
-(m, 2) edges between its points.
+them, and the object's evaluated (4, 4) world matrix; None if no object is set. An empty has two points, its origin and
+the end of its X axis. A curve has the first and the last control point of its first spline. A path has a third entry,
+the (m, 2) edges between its points.
 """
 
 from __future__ import annotations
@@ -20,33 +20,34 @@ from .settings import Line
 SLIT = Line(
     "slit_1",
     "Slit",
-    "A line that the rays obey: the X axis of an empty, or a curve from end to end",
+    "Line that determines the origins of the rays: the X axis of an empty, or the straight line between the ends of "
+    "a curve",
     None,
     ("EMPTY", "CURVE"),
 )
 SECOND_SLIT = Line(
     "slit_2",
     "Second Slit",
-    "The other line that all rays meet: the X axis of an empty, or a curve from end to end",
+    "Second line that all rays meet: the X axis of an empty, or the straight line between the ends of a curve",
     None,
     ("EMPTY", "CURVE"),
 )
 
 ROUNDING = 16 * EPS32
-"""Sine of an angle that objects turned in float32 cannot be told apart by."""
+"""Sine of the angle below which the directions of objects, stored as float32, cannot be told apart."""
 
 
 def points_in_camera(raw: BlenderCamera, line: Line, choose: str) -> np.ndarray:
-    """Return the points of the object of a setting in the camera's frame, (n, 3), right to some EPS of their place.
+    """Return the points (n, 3) of a setting's object in the camera's frame, right to some EPS of their coordinates.
 
-    Raises InputError, which ends in what to choose, where there is no object, and for one of no finite place or too far
-    away for its size.
+    Raises InputError if there is no object (the message asks to choose ``choose``), and for an object whose place is
+    not finite or too far away for its size.
     """
     given: Any = line.given(raw)
     if given is None:
         raise InputError(
             f"{line.name} of camera {raw.name!r} is not set, or its object is deleted or disabled: choose {choose} "
-            "that is in the view layer (a line that shall not be seen may be hidden with H)"
+            "that is in the view layer (to make a line invisible, hide it with H)"
         )
     pose = pose_from(raw)
     points, matrix = (np.asarray(part, np.float64) for part in given[:2])
@@ -56,14 +57,17 @@ def points_in_camera(raw: BlenderCamera, line: Line, choose: str) -> np.ndarray:
     size, far = np.ptp(points, axis=0).max() if len(points) else 0.0, np.abs(away).max()
     if 0 < size <= EPS32 * far:
         raise InputError(
-            f"{line.name} of camera {raw.name!r} is {size:.3g} long and {far:.3g} away, where float32 does not tell "
-            "its ends apart: bring it and the camera together"
+            f"{line.name} of camera {raw.name!r} is {size:.3g} long and {far:.3g} away, where float32 cannot "
+            "distinguish its ends: move it and the camera closer together"
         )
     return (points + away) @ np.linalg.inv(pose.basis).T
 
 
 def slit_from(raw: BlenderCamera, slit: Line = SLIT) -> tuple[np.ndarray, np.ndarray]:
-    """Return a point and the unit direction of a slit, an endless line, camera frame; InputError names the fault."""
+    """Return a point and the unit direction of a slit, an endless line, in the camera's frame.
+
+    Raises InputError for an object that ``points_in_camera`` refuses, or whose ends coincide.
+    """
     points = points_in_camera(raw, slit, "an empty or a curve")
     if len(points) < 2 or not np.any(points[-1] - points[0]):
         raise InputError(
@@ -77,7 +81,7 @@ def slit_from(raw: BlenderCamera, slit: Line = SLIT) -> tuple[np.ndarray, np.nda
 def image_axes(raw: BlenderCamera, direction) -> tuple[np.ndarray, np.ndarray]:
     """Return the unit vectors (3,) along a slit's picture in the image plane and across it, a quarter turn to the left.
 
-    Raises InputError where the slit is seen end on.
+    Raises InputError if the slit is seen end on.
     """
     length = np.hypot(direction[0], direction[1])
     if length <= ROUNDING:
@@ -89,9 +93,9 @@ def image_axes(raw: BlenderCamera, direction) -> tuple[np.ndarray, np.ndarray]:
 
 
 def path_from(raw: BlenderCamera, path: Line) -> tuple[np.ndarray, bool]:
-    """Return the corners (n, 3) of a path, no two in a row alike, camera frame, and whether its end is its beginning.
+    """Return the corners (n, 3) of a path in the camera's frame, no two in a row equal, and whether the path is closed.
 
-    The path is the chain of edges from the first point on. Raises InputError where it has no length.
+    The path is the chain of edges from the first point on. Raises InputError if it has no length.
     """
     points = points_in_camera(raw, path, "a curve")
     given: Any = path.given(raw)

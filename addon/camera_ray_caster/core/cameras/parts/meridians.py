@@ -1,7 +1,7 @@
-"""What equirectangular and cylindrical panoramas share: longitude grows evenly along a row, a row has one latitude.
+"""The base of equirectangular and cylindrical panoramas: longitude grows evenly along a row, a row has one latitude.
 
 The camera's +y is the axis, longitude 0 is the viewing direction, +x lies at longitude 90 degrees. The direction is
-(cos lat sin lon, sin lat, -cos lat cos lon): columns and rows stay apart until the last product. A model tells the
+(cos lat sin lon, sin lat, -cos lat cos lon): columns and rows stay apart until the last product. A model defines the
 latitude of a height on the image plane and the height of a latitude.
 Reference: J. P. Snyder, Map Projections: A Working Manual (1987), chapters 10 to 12, the cylindrical projections.
 """
@@ -25,13 +25,13 @@ RAY = Step("Direction", "d = (cos(lat) sin(lon), sin(lat), -cos(lat) cos(lon))")
 
 
 def longitude(low: str, high: str) -> Step:
-    """Return the step of a formula whose longitudes have these names."""
+    """Return the step of a formula whose least and greatest longitude have these names."""
     return Step("Longitude", f"lon = {low} + (x/W + shift_x) ({high} - {low})")
 
 
 @dataclass(frozen=True)
 class Meridians(WindowModel):
-    """A window of longitude (rad) across and height up."""
+    """A model whose window has longitude (rad) across and height up."""
 
     @cached_property
     def extent(self) -> tuple[float, float, float, float]:
@@ -40,7 +40,7 @@ class Meridians(WindowModel):
 
     @classmethod
     def over_frame(cls, raw: BlenderCamera, raster: Raster, longitudes, heights):
-        """Return the model in which the frame spans these (low, high) ranges, moved by Blender's shift."""
+        """Return the model whose frame spans these (low, high) ranges, moved by Blender's shift."""
         return cls(raster.size, Window.over_frame(raw, raster, longitudes, heights))
 
     @abstractmethod
@@ -49,10 +49,10 @@ class Meridians(WindowModel):
 
     @abstractmethod
     def height(self, cosine, sine):
-        """Return the height of the latitude whose cosine and sine stand in this ratio; the cosine is not negative."""
+        """Return the height of the latitude whose cosine and sine are proportional to these; the cosine is >= 0."""
 
     def rays(self, x, y):
-        """Return origin and direction, each a tuple of three broadcastable arrays, camera frame, of unit length.
+        """Return origin and unit direction, each a tuple of three broadcastable arrays, camera frame.
 
         x and y are pixel coordinates of broadcastable shapes; the y of the direction has the shape of y. Each
         component is right to some EPS of 1 + longitude.
@@ -64,7 +64,8 @@ class Meridians(WindowModel):
     def project(self, points):
         """Return the pixel coordinates (..., 2) of camera-frame points (..., 3); NaN at the eye.
 
-        Of the images that whole turns give, the nearest to the middle of the frame; a pole has one longitude of many.
+        If whole turns give several images, the result is the one nearest to the middle of the frame. A pole, which has
+        all longitudes, gets one of them.
         """
         x, y, z = components(np.asarray(points, np.float64))
         across = np.hypot(x, z)
@@ -77,7 +78,7 @@ class Meridians(WindowModel):
     def bounds(self, centers, radii):
         """Return (n, 4) pixel bounds x0, x1, y0, y1 outside of which no point of the spheres (camera frame) is seen.
 
-        A sphere that holds a pole or crosses the seam covers all columns: one rectangle a sphere.
+        A sphere that holds a pole or crosses the seam covers all columns: there is one rectangle per sphere.
         """
         longitudes, latitudes = longitude_latitude(centers, radii)
         columns = turned(longitudes, self.extent[:2], FULL_TURN)

@@ -1,4 +1,4 @@
-"""A lens that does not look where the camera looks, but up or down from there: projectors of domes, little planets."""
+"""A lens whose axis is turned up or down from the viewing direction: for projectors of domes and little planets."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from ..model import Step
 from .radial import Radial
 from .settings import Number
 
-TILT = Number("tilt", "Dome Tilt", "How far the dome is tipped towards the front", 0.0, 0.0, pi / 2, "angle", 4)
+TILT = Number("tilt", "Dome Tilt", "Angle by which the dome is tilted towards the front", 0.0, 0.0, pi / 2, "angle", 4)
 
 PITCH = Step(
     "Turned up by the elevation e about the camera's X", "(d_x, d_y cos(e) - d_z sin(e), d_y sin(e) + d_z cos(e))"
@@ -21,10 +21,10 @@ PITCH = Step(
 
 @dataclass(frozen=True)
 class Pitched(Radial):
-    """Turns another Radial, the next class of its heirs, about the camera's X axis."""
+    """A mixin that turns a Radial, the base class listed after this one, about the camera's X axis."""
 
     elevation: float
-    """Of the lens's axis above the viewing direction, radians. At 90 degrees the picture's bottom is the front."""
+    """Angle of the lens's axis above the viewing direction, radians. At 90 degrees the front is at the bottom."""
 
     def rays(self, x, y):
         """See Radial."""

@@ -1,4 +1,4 @@
-"""Where a camera is, as Blender takes it from an evaluated world matrix."""
+"""The pose of a camera, as Blender takes it from an evaluated world matrix."""
 
 from __future__ import annotations
 
@@ -8,10 +8,10 @@ from ...records import BlenderCamera, InputError, Pose
 
 
 def pose_from(raw: BlenderCamera) -> Pose:
-    """Return the pose of an evaluated world matrix, as Blender takes it: each axis normalized for itself.
+    """Return the pose of an evaluated world matrix, as Blender takes it: each axis is normalized separately.
 
     Scale is ignored, a negative scale mirrors, shear stays. Each component is right to gamma(4).
-    Raises InputError for a matrix that is not finite or has an axis of length zero or axes in one plane.
+    Raises InputError for a matrix that is not finite, has an axis of length zero, or has its axes in one plane.
     """
     matrix = np.asarray(raw.matrix_world, dtype=np.float64)
     if not np.isfinite(matrix).all():

@@ -1,8 +1,8 @@
-"""What all fisheyes share: the angle from the axis depends on the radius in the image alone, the azimuth is kept.
+"""The base of all fisheyes: the angle from the axis depends on the radius in the image alone, and azimuth is kept.
 
 With (a, b) the pixel on the image plane and r its length, the ray at the angle theta(r) from the viewing direction is
-F = (a/r sin theta, b/r sin theta, -cos theta): straight ahead at r = 0, where sin theta / r is a finite limit.
-A model gives that pair of factors and the inverse, r(theta).
+F = (a/r sin theta, b/r sin theta, -cos theta): straight ahead at r = 0, where sin theta / r has a finite limit.
+A model defines the factors sin theta / r and cos theta, and the inverse, r(theta).
 Reference: Blender manual, Cameras > Panoramic; Kannala and Brandt (2006), section 2, for the family.
 """
 
@@ -23,11 +23,11 @@ from .affine import AffineWindow
 from .settings import ABOVE_ZERO, CAMERA, Number
 from .silhouette import pixel_bounds, radial_intervals
 
-FOV = Number("fov", "Field of View", "From rim to rim of the picture", pi, radians(1), 2 * pi, "angle", 4)
+FOV = Number("fov", "Field of View", "Angle of view from rim to rim of the picture", pi, radians(1), 2 * pi, "angle", 4)
 FISHEYE_FOV = Number(
     "fisheye_fov",
     "Field of View",
-    "From rim to rim of the picture",
+    "Angle of view from rim to rim of the picture",
     pi,
     ABOVE_ZERO,
     radians(1800),
@@ -35,7 +35,7 @@ FISHEYE_FOV = Number(
     owner=CAMERA,
 )
 FISHEYE_LENS = Number(
-    "fisheye_lens", "Focal Length", "Of the fisheye lens", 10.5, ABOVE_ZERO, inf, "mm", owner=CAMERA
+    "fisheye_lens", "Focal Length", "Focal length of the fisheye lens", 10.5, ABOVE_ZERO, inf, "mm", owner=CAMERA
 )  # fmt: skip
 
 ROUND_PLANE = Step(
@@ -51,14 +51,14 @@ COORDINATES = Step(
     "Distorted coordinates, in focal lengths, y up", "b = (H - y - 1/2 - cy) / -fy, a = (x - 1/2 - cx + skew b) / fx"
 )
 RADIUS = Step("Radius", "r = sqrt(a² + b²); no ray beyond the rim")
-RAY = Step("Direction, azimuth kept", "d = (a/r sin(theta), b/r sin(theta), -cos(theta))")
+RAY = Step("Direction, with the same azimuth", "d = (a/r sin(theta), b/r sin(theta), -cos(theta))")
 
 TINY = 1e-300
-"""A radius whose square is lost and whose reciprocal is finite: what stands for r = 0."""
+"""A radius in place of r = 0: its square underflows, and its reciprocal is finite."""
 
 RIM_SLACK = 2.0**-30
-"""Radians beyond the rim within which a point counts as being on it: rounding moves that far a point that is a million
-times nearer to the eye than to the world's origin. So a point on any ray of a picture has a pixel.
+"""Angle in radians beyond the rim within which a point counts as on the rim, so that a point on any ray of a picture
+has a pixel. Rounding moves a point this far if it is a million times nearer to the eye than to the world's origin.
 """
 
 
@@ -67,33 +67,33 @@ class Radial(WindowModel):
     """A central model with rays (a k, b k, -c) where (k, c) = factors(a^2 + b^2)."""
 
     rim: float
-    """The r beyond which there is no ray; inf where the factors, or the frame alone, know an end."""
+    """Radius r beyond which there is no ray; inf if only the factors or the frame limit the picture."""
 
     group = "Fisheye"
     factors_by_polynomials: ClassVar[bool] = False
-    """Whether polynomials give the factors of a whole picture (see ``maths.panels``): where they take sines, or
-    iterate, which costs more, and are smooth a little beyond the rim.
+    """Whether polynomials give the factors of a whole picture (see ``maths.panels``). It is set if the factors take
+    sines or iterate, which costs more, and are smooth a little beyond the rim.
     """
 
     @abstractmethod
     def factors(self, r_squared):
         """Return sin(theta) / r and cos(theta) for squared radii; NaN in both where there is no ray.
 
-        Up to the rim; beyond it whatever the formula gives there.
+        Beyond the rim, which the caller cuts off, they are whatever the formula gives.
         """
 
     @abstractmethod
     def radius(self, theta):
-        """Return r of angles 0 .. pi from the axis, up to ``widest``, the least one that sees them; NaN stays NaN."""
+        """Return r of angles 0 .. pi from the axis, up to ``widest``: the least r that sees each. NaN stays NaN."""
 
     @property
     @abstractmethod
     def widest(self) -> float:
-        """Return the angle at the rim: r grows with theta from 0 to there, beyond pi the picture repeats."""
+        """Return the angle at the rim. r grows with theta from 0 up to this angle; beyond pi the picture repeats."""
 
     @property
     def disc(self) -> Disc | None:
-        """See Model: None also where it is no ellipse along the frame's sides."""
+        """See Model: None if the rim is not an ellipse with its axes along the frame's sides."""
         if self.rim == np.inf or isinstance(self.window, AffineWindow):
             return None
         return Disc((self.window.center_x, self.window.center_y), self._is_within)
@@ -104,10 +104,10 @@ class Radial(WindowModel):
         return self if self.disc is None else replace(self, rim=inf)
 
     def rays(self, x, y):
-        """Return origin and direction, each a tuple of three broadcastable arrays, camera frame, of unit length.
+        """Return origin and unit direction, each a tuple of three broadcastable arrays, camera frame.
 
-        x and y are pixel coordinates of broadcastable shapes. NaN where there is no ray. Each component is right
-        to some EPS of 1 + theta.
+        x and y are pixel coordinates of broadcastable shapes. The direction is NaN where there is no ray. Each
+        component is right to some EPS of 1 + theta.
         """
         a, b = self._plane(x, y)
         scale, cosine = self._factors_at(x, y)
@@ -138,10 +138,10 @@ class Radial(WindowModel):
         return self.factors(r_squared)
 
     def project(self, points):
-        """Return the pixel coordinates (..., 2) of camera-frame points (..., 3); NaN for those that no ray meets.
+        """Return the pixel coordinates (..., 2) of camera-frame points (..., 3); NaN where no ray meets the point.
 
-        NaN also at the eye and straight behind it, where every azimuth would do. Of several images (fov beyond 360
-        degrees) the nearest to the axis.
+        NaN also at the eye and straight behind it, where the azimuth is undefined. If a point has several images (fov
+        beyond 360 degrees), the result is the one nearest to the axis.
         """
         x, y, z = components(np.asarray(points, np.float64))
         across = np.hypot(x, y)
@@ -156,10 +156,10 @@ class Radial(WindowModel):
 
 
 def radii_of(r_squared):
-    """Return the radii of their squares, at least TINY."""
+    """Return the radii of squared radii, at least TINY."""
     return np.maximum(np.sqrt(r_squared), TINY)
 
 
 def up_to(widest: float, theta):
-    """Return angles up to the widest one; NaN where they lie beyond by more than RIM_SLACK."""
+    """Return angles, limited to ``widest``; NaN for angles that exceed it by more than RIM_SLACK."""
     return np.where(theta <= widest + RIM_SLACK, np.minimum(theta, widest), np.nan)

@@ -3,11 +3,11 @@
 With r^2 = x^2 + y^2 and g = (1 + k1 r^2 + k2 r^4 + k3 r^6) / (1 + k4 r^2 + k5 r^4 + k6 r^6):
     x' = x g + 2 p1 x y + p2 (r^2 + 2 x^2) + s1 r^2 + s2 r^4
     y' = y g + p1 (r^2 + 2 y^2) + 2 p2 x y + s3 r^2 + s4 r^4
-Where the symmetric part of the Jacobian is positive definite on a disc, the map is strictly monotone and therefore
-one-to-one there (G. Minty, 1962). Its least eigenvalue is at least
+If the symmetric part of the Jacobian is positive definite on a disc, the map is strictly monotone and therefore
+one-to-one there (G. Minty, 1962). The least eigenvalue of that part is at least
     min(g, d(r g)/dr) - 6 |p| r - 2 r (|(s1, s3)| + 2 r^2 |(s2, s4)|),
-equal to it without prism where d(r g)/dr < g, so that its first zero is the radius up to which the model means
-something. Beyond, pictures fold, and there are neither rays nor projections here.
+with equality if there is no prism and d(r g)/dr < g. The model is valid up to the radius at which this bound has its
+first zero. Beyond it pictures fold, and there are neither rays nor projections here.
 Reference: OpenCV documentation, Camera Calibration and 3D Reconstruction; D. C. Brown (1966); C. Ricolfe-Viala and
 A. Sanchez-Salmeron (2010), thin prism.
 """
@@ -27,13 +27,13 @@ from ...maths.recording import is_recorded, loop, roundoff, stop_gradient
 from .edge import Edge
 
 STEEPEST = tan(radians(89.9))
-"""The largest undistorted radius that an endless picture is given."""
+"""Largest undistorted radius of a picture without an end."""
 
 FAST_STEPS = 5
-"""From the radial guess, which errs by a hundredth or so, Newton's steps square the error."""
+"""Maximum number of Newton's steps from the radial guess, whose error is about a hundredth; each squares the error."""
 
 NEAR = 1e-8
-"""Of the guessed radius: where the last step is shorter, its own error is below rounding."""
+"""Fraction of the guessed radius: after a step shorter than this, the remaining error is below rounding."""
 
 STEPS = 200
 
@@ -55,7 +55,7 @@ class RadialTangential:
     s3: float = 0.0
     s4: float = 0.0
     r8: float = 0.0
-    """Of r^8 in the numerator, which OpenCV does not have."""
+    """Coefficient of r^8 in the numerator, which OpenCV does not have."""
 
     @property
     def bends(self) -> bool:
@@ -72,14 +72,17 @@ class RadialTangential:
         return gain, (above_slope - gain * below_slope) / below
 
     def cancelled(self, r_squared):
-        """Return how much larger the terms of g are than their sums: what its rounding is multiplied with."""
+        """Return the factor by which cancellation multiplies the rounding of g.
+
+        It is the sum of the terms' magnitudes over the magnitude of their sum, added for numerator and denominator.
+        """
         s, k = r_squared, self
         terms = ((k.k1, k.k2, k.k3, k.r8), (k.k4, k.k5, k.k6))
         parts = (((1.0, *own), (1.0, *map(abs, own))) for own in terms)
         return sum(polyval(s, larger) / np.abs(polyval(s, own)) for own, larger in parts)
 
     def distort(self, x, y):
-        """Return (x', y') of undistorted coordinates."""
+        """Return the distorted coordinates (x', y') of undistorted ones."""
         s = x * x + y * y
         return self._moved(x, y, s, self._turn(x, y, self.gain(s)[0]))
 
@@ -97,30 +100,30 @@ class RadialTangential:
         return any((self.s1, self.s2, self.s3, self.s4))
 
     def _derivatives(self, x, y, s, turn, slope):
-        """Return x' by x, x' by y, y' by x, y' by y."""
+        """Return the derivatives of x' by x, x' by y, y' by x and y' by y."""
         bend_x, bend_y = 2 * (slope * x + self.p2), 2 * (slope * y + self.p1)  # of turn, by x and by y
         xx, yy = turn + x * (bend_x + 2 * self.p2), turn + y * (bend_y + 2 * self.p1)
-        xy = x * bend_y + 2 * self.p2 * y  # the same of y' by x
+        xy = x * bend_y + 2 * self.p2 * y  # also of y' by x
         if self._has_prism:
             prism_x, prism_y = 2 * self.s1 + 4 * s * self.s2, 2 * self.s3 + 4 * s * self.s4
             return xx + x * prism_x, xy + y * prism_x, xy + x * prism_y, yy + y * prism_y
         return xx, xy, xy, yy
 
     def off_radius(self, r):
-        """Return a bound on how far a point at this radius is moved otherwise than along it."""
+        """Return a bound on the displacement of a point at this radius by the tangential and prism terms."""
         s = r * r
         return s * (3 * hypot(self.p1, self.p2) + hypot(self.s1, self.s3) + s * hypot(self.s2, self.s4))
 
     def farthest(self, r):
-        """Return how far out a point at this radius, within the limit, is moved at most: grows with r."""
+        """Return a bound on the distorted radius of a point at this radius, within the limit; it grows with r."""
         return r * self.gain(r * r)[0] + self.off_radius(r)
 
     @cached_property
     def limit(self) -> float:
-        """Return the undistorted radius up to which the map is one-to-one, inf without one.
+        """Return the undistorted radius up to which the map is one-to-one, inf if it is so everywhere.
 
-        It is the least root of the denominator and of the two conditions above, brought to polynomials in r; taken
-        1e-9 of itself short, more than the roots' rounding.
+        It is the least root of the denominator and of the two parts of the module's bound, as polynomials in r, less
+        1e-9 of itself, which is more than the roots' rounding.
         """
         r = np.polynomial.Polynomial([0.0, 1.0])
         above = np.polynomial.Polynomial([1, 0, self.k1, 0, self.k2, 0, self.k3, 0, self.r8])
@@ -134,7 +137,7 @@ class RadialTangential:
 
     @cached_property
     def edge(self) -> Edge:
-        """What encloses all that is seen, since the map is one-to-one within the limit."""
+        """The curve around the distorted picture: the image of the limit's circle, or else a circle around it."""
         if self.limit == inf:
             return Edge.circle(inf)
         second = self.limit * abs(self.gain(self.limit**2)[0]) + 8 * self.limit**2 * hypot(self.p1, self.p2)
@@ -143,7 +146,7 @@ class RadialTangential:
 
     @cached_property
     def _radius(self):
-        """Return the inverse of r g(r^2), out to the limit, or to 89.9 degrees where the picture has no end."""
+        """Return the inverse of r g(r^2), up to the limit or 89.9 degrees, whichever is less."""
         high = min(self.limit, STEEPEST)
         return Inverse(lambda r: r * self.gain(r * r)[0], self._radial_slope, 0.0, high, _even_in_angle)
 
@@ -153,10 +156,10 @@ class RadialTangential:
         return g + 2 * s * slope
 
     def undistort(self, u, v):
-        """Return (x, y) within the limit with distort(x, y) = (u, v); NaN where there is none.
+        """Return (x, y) within the limit with distort(x, y) = (u, v); NaN where there is no such point.
 
-        Newton's method, from what the radius alone gives. Right to some EPS of the distorted radius, times the inverse
-        of the Jacobian.
+        Uses Newton's method from the solution for the radial terms alone. The result is right to some EPS of the
+        distorted radius, times the inverse of the Jacobian.
         """
         if not self.bends:
             return tuple(np.array(part) for part in np.broadcast_arrays(u, v))
@@ -165,10 +168,10 @@ class RadialTangential:
         if is_recorded(u, v) and not radial:
             x, y = self._careful(stop_gradient(u), stop_gradient(v))
             step_x, step_y = self._step(x, y, u, v)
-            return x - step_x, y - step_y  # whose derivatives are the inverse's own
+            return x - step_x, y - step_y  # their derivatives are the inverse's
         rho = np.hypot(u, v)
-        if not (radial or (near := self.edge.may_hold(u, v, rho)).all()):  # Newton's method would search long
-            x, y = np.full(rho.shape, np.nan), np.full(rho.shape, np.nan)  # arrays, of one pixel too
+        if not (radial or (near := self.edge.may_hold(u, v, rho)).all()):  # Newton's method would take long
+            x, y = np.full(rho.shape, np.nan), np.full(rho.shape, np.nan)  # arrays, also for one pixel
             x[near], y[near] = self.undistort(u[near], v[near])
             return x, y
         r = self._radius(rho) if radial else self._radius.guess(rho)
@@ -176,7 +179,7 @@ class RadialTangential:
         x, y = u * scale, v * scale
         if radial:
             return x, y
-        with np.errstate(over="ignore", invalid="ignore"):  # what runs away is slow
+        with np.errstate(over="ignore", invalid="ignore"):  # diverging points become slow
             for _ in range(FAST_STEPS):
                 step_x, step_y = self._step(x, y, u, v)
                 x, y = x - step_x, y - step_y
@@ -202,7 +205,7 @@ class RadialTangential:
             return (yy * off_x - xy * off_y) * inverse, (xx * off_y - yx * off_x) * inverse
 
     def _careful(self, u, v):
-        """Newton's method from the axis, each step halved until it comes nearer, and kept within the limit."""
+        """Invert by Newton's method from the axis; each step is halved until it comes nearer, and kept in the limit."""
 
         def goal(x, y, u, v):
             radius = np.hypot(x, y)
@@ -234,7 +237,7 @@ class RadialTangential:
 
 
 def _even_in_angle(low: float, high: float, count: int):
-    """Return radii (tangents) from low to high that stand evenly in angle, their ends exact."""
+    """Return radii (tangents) from low to high that are evenly spaced in angle, with exact ends."""
     radii = np.tan(np.linspace(atan(low), atan(high), count))
     radii[0], radii[-1] = low, high
     return radii

@@ -1,7 +1,7 @@
 """The settings of cameras, each declared once: name, kind, unit, range, default and text, and how it is read.
 
-Blender's properties, the panel, the copying into a record, the report and the table of models are made from them. A
-setting that several models share is one object, declared in ``parts``.
+Blender's properties, the panel, the copying into a record, the report and the table of models are made from these
+declarations. A setting that several models share is one object, declared in ``parts``.
 """
 
 from __future__ import annotations
@@ -20,19 +20,19 @@ from ...records import BlenderCamera, InputError
 FULL_TURN = 2 * math.pi
 
 ABOVE_ZERO = math.ulp(0.0)
-"""The least of numbers that have to be positive."""
+"""The lower limit of numbers that must be positive."""
 
 LARGEST, LARGEST_ANGLE = 1e152, 1e4
-"""Magnitudes beyond which a number has no meaning, whatever its range: the square of a larger one is none, and float32
-keeps no hundredth of a degree of a larger angle.
+"""Largest magnitudes of numbers and of angles, whatever their range: the square of a larger number would overflow, and
+float32 does not resolve a hundredth of a degree of a larger angle.
 """
 
 ROUNDING = 1e-6
-"""Of itself: a limit stored as float32 may lie this much beyond."""
+"""Relative amount by which a value may exceed a limit, since Blender stores it as float32."""
 
 OWN, CAMERA, STEREO, RENDER, CYCLES = "own", "camera", "stereo", "render", "cycles"
-"""Where Blender keeps a setting: in the add-on's properties, which are made from it, or where it has it itself: in the
-camera, its stereoscopy settings, the scene's render settings or Cycles' settings of the scene.
+"""Owner of a setting: the add-on's properties, which are made from the setting, or, for Blender's own settings, the
+camera, its stereoscopy settings, the scene's render settings or the scene's Cycles settings.
 """
 
 RECORD_FIELDS = frozenset(entry.name for entry in fields(BlenderCamera))
@@ -40,25 +40,25 @@ RECORD_FIELDS = frozenset(entry.name for entry in fields(BlenderCamera))
 
 @dataclass(frozen=True)
 class Setting(ABC):
-    """A setting of a camera; ``kind`` says what kind of property it is."""
+    """A setting of a camera; ``kind`` is the kind of its property."""
 
     name: str
-    """Of the property, and in a record, a report and a message."""
+    """Name of the property, also used in records, reports and messages."""
     label: str
     text: str
-    """What it means, for the tooltip and the table of models."""
+    """Explanation for the tooltip and the table of models."""
 
     default: Any
-    """The value of a new camera."""
+    """Value of a new camera."""
     owner: str = field(default=OWN, kw_only=True)
-    """Where Blender keeps it: one of OWN, CAMERA, STEREO, RENDER, CYCLES."""
+    """Where Blender keeps the setting: one of OWN, CAMERA, STEREO, RENDER, CYCLES."""
 
     kind: ClassVar[str]
     replaces_the_rest: ClassVar[bool] = False
-    """Whether a value stands for the settings that follow it in a model's SETTINGS."""
+    """Whether a value takes the place of the settings that follow this one in a model's SETTINGS."""
 
     def given(self, raw: BlenderCamera) -> Any:
-        """Return the value in a record as it stands there. Raises InputError where it has none."""
+        """Return the value in a record, unchanged. Raises InputError if the record has none."""
         if self.name in RECORD_FIELDS:
             return getattr(raw, self.name)
         if self.name not in raw.settings:
@@ -66,15 +66,15 @@ class Setting(ABC):
         return raw.settings[self.name]
 
     def read(self, raw: BlenderCamera) -> Any:
-        """Return the value that a model uses. Raises InputError for one without meaning."""
+        """Return the value that a model uses. Raises InputError for an invalid value."""
         return self.given(raw)
 
     def reported(self, raw: BlenderCamera) -> Any:
-        """Return the value as a report has it: plain numbers, words, lists and None."""
+        """Return the value for a report: plain numbers, words, lists and None."""
         return _plain(self.given(raw))
 
     def refusal(self, raw: BlenderCamera, value: str, allowed: str) -> InputError:
-        """Return the error that says what is wrong with the setting of a camera, and what it may be."""
+        """Return the error that names the setting of a camera, its value, and the values that are allowed."""
         return InputError(f"{self.name} of camera {raw.name!r} is {value}: it must be {allowed}")
 
 
@@ -87,18 +87,18 @@ class Number(Setting):
     unit: str = ""
     """"angle", "length", "mm", "pixels" or none."""
     digits: int = 2
-    """Decimals that are shown."""
+    """Number of decimals shown."""
     step: float = 3.0
-    """What a click on the arrow of the field adds, in hundredths, as Blender has it; an angle's is 1 degree."""
+    """Increment of a click on the field's arrow, in hundredths, Blender's unit; an angle's is 1 degree."""
     soft_high: float = math.inf
-    """Where the field's slider ends; more can be typed in."""
+    """Upper end of the field's slider; larger values can be typed in."""
 
     kind = "FLOAT"
 
     def read(self, raw: BlenderCamera, low: float | None = None, high: float | None = None) -> float:
-        """Return the value, from ``low`` to ``high``, by default the setting's own range.
+        """Return the value, which must lie from ``low`` to ``high``, by default the setting's own range.
 
-        Raises InputError that names the setting, its value and the range.
+        Raises InputError, which names the setting, its value and the range.
         """
         low, high = self.limits(self.low if low is None else low, self.high if high is None else high)
         value = self.given(raw)
@@ -116,12 +116,12 @@ class Number(Setting):
         return f"{value:.6g}" if isinstance(value, float) else f"{value!r}"
 
     def limits(self, low: float, high: float) -> tuple[float, float]:
-        """Return a range without numbers that have no meaning, whatever the range."""
+        """Return a range clipped to LARGEST, or to LARGEST_ANGLE for angles."""
         largest = LARGEST_ANGLE if self.unit == "angle" else LARGEST
         return max(low, -largest), min(high, largest)
 
     def range_in_words(self, low: float, high: float) -> str:
-        """Return what a value may be."""
+        """Return the words for a range in a message."""
         if (low, high) == (-LARGEST, LARGEST):
             return "a finite number"
         if low == ABOVE_ZERO:
@@ -140,37 +140,37 @@ class Whole(Number):
 
 @dataclass(frozen=True)
 class Flag(Setting):
-    """A tick box."""
+    """A check box."""
 
     kind = "BOOLEAN"
 
     def read(self, raw: BlenderCamera) -> bool:
-        """Return whether it is ticked."""
+        """Return whether it is checked."""
         return bool(self.given(raw))
 
 
 class Item(NamedTuple):
-    """One of the words that a choice may be."""
+    """One of the words of a choice."""
 
     key: str
     label: str
     text: str
     number: int
-    """What a .blend stores: never changed, never used again."""
+    """Number that a .blend stores: never changed, never reused."""
     group: str = ""
-    """The heading that a menu shows above it and those of the same group that follow."""
+    """Heading that a menu shows above the items of a group."""
 
 
 @dataclass(frozen=True)
 class Choice(Setting):
-    """One of some words."""
+    """A choice of one word among several."""
 
     items: tuple[Item, ...]
 
     kind = "ENUM"
 
     def read(self, raw: BlenderCamera) -> str:
-        """Return the word. Raises InputError that names those that there are."""
+        """Return the word. Raises InputError, which lists the known words, for any other."""
         value, known = self.given(raw), [item.key for item in self.items]
         if value not in known:
             raise self.refusal(raw, repr(value), f"one of {', '.join(known)}")
@@ -179,14 +179,14 @@ class Choice(Setting):
 
 @dataclass(frozen=True)
 class Numbers(Setting):
-    """As many finite numbers as the default has. ``components``: their names in the panel."""
+    """A vector of as many finite numbers as the default has. ``components``: their names in the panel."""
 
     components: tuple[str, ...]
 
     kind = "VECTOR"
 
     def read(self, raw: BlenderCamera) -> tuple[float, ...]:
-        """Return the numbers. Raises InputError that names the setting and its value."""
+        """Return the numbers. Raises InputError, which names the setting and its value."""
         values, count = tuple(self.given(raw)), len(self.default)
         if len(values) != count or not all(isinstance(part, int | float) and abs(part) <= LARGEST for part in values):
             raise self.refusal(raw, f"{values}", f"{count} finite numbers")
@@ -206,14 +206,14 @@ class Text(Setting):
 
 @dataclass(frozen=True)
 class Coefficients(Text):
-    """The coefficients of a polynomial, from the constant up, as many as it has: text, which keeps all their digits."""
+    """The coefficients of a polynomial of any degree, from the constant up: text, which keeps all their digits."""
 
     most: ClassVar[int] = 64
 
     def read(self, raw: BlenderCamera) -> tuple[float, ...]:
-        """Return the numbers, with commas or spaces between them, in brackets or not.
+        """Return the numbers of the text, which has commas or spaces between them, and may have brackets around them.
 
-        Raises InputError that names the setting and its value.
+        Raises InputError, which names the setting and its value.
         """
         text = str(self.given(raw))
         try:
@@ -227,7 +227,7 @@ class Coefficients(Text):
 
 @dataclass(frozen=True)
 class FilePath(Setting):
-    """The path of a file, which stands for the settings that follow; empty for none. A record has the absolute path."""
+    """The path of a file that takes the place of the settings that follow, or empty. A record has the absolute path."""
 
     kind = "FILE"
     replaces_the_rest = True
@@ -239,9 +239,9 @@ class FilePath(Setting):
 
 @dataclass(frozen=True)
 class Line(Setting):
-    """An object of the scene that stands for a line; see ``parts.lines`` for what a record has of it.
+    """An object of the scene that represents a line; ``parts.lines`` describes its value in a record.
 
-    ``types``: Blender's object types that can be chosen. ``sampled``: whether a curve counts with all its points, not
+    ``types``: Blender's object types that can be chosen. ``sampled``: whether a curve is given by all its points, not
     by its two ends.
     """
 
@@ -261,7 +261,7 @@ class Line(Setting):
 
 @dataclass(frozen=True)
 class Image(Setting):
-    """An image; a record has the mean of its channels, (rows, columns) from the bottom, or None."""
+    """An image. A record holds the mean of its channels, (rows, columns) from the bottom, or None."""
 
     kind = "IMAGE"
 
@@ -269,9 +269,9 @@ class Image(Setting):
 def span(
     raw: BlenderCamera, start: Number, end: Number, *, low: float | None = None, high: float | None = None
 ) -> tuple[float, float]:
-    """Return a pair of settings, each from ``low`` to ``high``; by default in its own range.
+    """Return the values of two settings, each from ``low`` to ``high``, by default in its own range.
 
-    Swapped ends mirror the picture. Raises InputError where they are equal.
+    Swapped ends mirror the picture. Raises InputError if they are equal.
     """
     first, last = start.read(raw, low, high), end.read(raw, low, high)
     if first == last:
@@ -281,13 +281,13 @@ def span(
 
 
 def farthest_from_one(numbers: dict[str, float]) -> str:
-    """Return, for a message, the number that is farthest from 1 in its magnitude, with its name; 0 is none."""
+    """Return, for a message, the number whose magnitude is farthest from 1 in ratio, with its name; 0 counts as 1."""
     name, value = max(numbers.items(), key=lambda item: abs(math.log(abs(item[1]))) if item[1] else 0.0)
     return f"{name} is {value:.6g}"
 
 
 def values_of(settings: Iterable[Setting], raw: BlenderCamera) -> dict[str, Any]:
-    """Return the values that a record has of some settings, by name; see ``Setting.reported``."""
+    """Return the values of some settings in a record, by name; see ``Setting.reported``."""
     return {setting.name: setting.reported(raw) for setting in settings}
 
 

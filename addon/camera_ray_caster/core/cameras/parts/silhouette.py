@@ -1,6 +1,6 @@
-"""Where in the picture a bounding sphere can be seen: conservative bounds, so that culling loses nothing.
+"""Conservative bounds of the part of the picture in which a bounding sphere can be seen, so that culling loses nothing.
 
-Bounds are intervals on the image plane, (-inf, inf) where a sphere may be everywhere, NaN where it is nowhere.
+Bounds are intervals on the image plane: (-inf, inf) if a sphere may be seen everywhere, NaN if it is seen nowhere.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ import numpy as np
 from ...maths.vector import components
 
 MARGIN = 1 / 16
-"""Pixels added on each side: far more than the rounding of the bounds, far less than what culling saves."""
+"""Pixels added on each side: far more than the rounding of the bounds, and too few to cost culling much."""
 
 EVERYWHERE = -np.inf, np.inf
 
@@ -21,7 +21,7 @@ def everywhere(count: int) -> np.ndarray:
 
 
 def angular_radius(distance, radius):
-    """Return the half angle of discs or spheres at these distances: asin(radius / distance), pi/2 from inside."""
+    """Return the half angle of discs or spheres at these distances: asin(radius / distance), or pi/2 from inside."""
     return np.arcsin(np.minimum(radius / np.maximum(distance, np.finfo(float).tiny), 1.0))
 
 
@@ -29,9 +29,9 @@ def pinhole_interval(x, depth, radius):
     """Return the interval of tan(angle) that a disc covers as seen from the origin of its plane.
 
     The disc has its center at (x, depth) and the given radius, in the plane of one image axis and the viewing
-    direction; arrays (n,). Unbounded where the disc reaches behind the eye's plane, (NaN, NaN) where all of it
-    is behind: the tangents from the origin touch the disc at tan = (x depth -+ r sqrt(x^2 + depth^2 - r^2)) /
-    (depth^2 - r^2), written as the angle of the center plus or minus asin(r / distance), which has no cancellation.
+    direction; arrays (n,). The interval is unbounded if the disc reaches behind the eye's plane, and (NaN, NaN) if all
+    of it is behind. The tangents from the origin touch the disc at tan = (x depth -+ r sqrt(x^2 + depth^2 - r^2)) /
+    (depth^2 - r^2). That is computed as the angle of the center plus or minus asin(r / distance), without cancellation.
     """
     middle = np.arctan2(x, depth)
     half = angular_radius(np.hypot(x, depth), radius)
@@ -43,12 +43,13 @@ def pinhole_interval(x, depth, radius):
 
 
 def radial_intervals(centers, radii, radius, widest):
-    """Return the intervals in x and y that spheres cover in an image whose radius tells the angle from the axis.
+    """Return the intervals in x and y that spheres cover in an image whose radius is a function of the angle theta.
 
-    ``radius(theta)`` grows up to the angle ``widest`` where the image ends; azimuth is kept. A sphere seen at
-    theta within alpha lies in the sector between the radii of theta - alpha and theta + alpha, within
-    asin(sin alpha / sin theta) of its azimuth: all around where it holds the axis or the point opposite. An image
-    wider than a full turn repeats, and a sphere that holds the eye is all around: everywhere.
+    theta is the angle from the axis; ``radius(theta)`` grows up to the angle ``widest``, where the image ends; azimuth
+    is kept. A sphere with its center at theta and the half angle alpha lies in the sector between the radii of theta -
+    alpha and theta + alpha, within asin(sin alpha / sin theta) of its azimuth, or all around if it holds the axis or
+    the opposite point. The intervals are endless for an image wider than a full turn, which repeats, and for a sphere
+    that holds the eye.
     """
     x, y, z = components(centers)
     across = np.hypot(x, y)
@@ -77,7 +78,7 @@ def cosine_range(low, high):
 
 
 def _product(lengths, factors):
-    """Return the interval of the product of intervals; the lengths are not negative."""
+    """Return the interval of the product of two intervals, the first of which is not negative."""
     low, high = factors
     return np.where(low < 0, lengths[1], lengths[0]) * low, np.where(high < 0, lengths[0], lengths[1]) * high
 
@@ -85,8 +86,8 @@ def _product(lengths, factors):
 def longitude_latitude(centers, radii):
     """Return the intervals of longitude and latitude that spheres cover about the axis +y, longitude 0 ahead.
 
-    A sphere within alpha of latitude lat spans asin(sin alpha / cos lat) of longitude to each side: all of it
-    (from -inf to inf) where it holds a pole; both are unbounded where it holds the eye.
+    A sphere at latitude lat with the half angle alpha spans asin(sin alpha / cos lat) of longitude to each side, or all
+    longitudes (from -inf to inf) if it holds a pole. Both intervals are unbounded if it holds the eye.
     """
     x, y, z = components(centers)
     across = np.hypot(x, z)
@@ -101,9 +102,9 @@ def longitude_latitude(centers, radii):
 
 
 def turned(interval, frame, period):
-    """Return the interval turned by whole periods into the frame (low, high): (n,) arrays.
+    """Return intervals, (n,) arrays, moved by whole periods into the frame (low, high).
 
-    NaN where no turn meets the frame; (-inf, inf) where more than one does, as at a seam or where the frame repeats.
+    NaN if no such move meets the frame; (-inf, inf) if more than one does, as at a seam or if the frame repeats.
     """
     low, high = interval
     endless = np.isinf(low) | np.isinf(high)
@@ -114,7 +115,7 @@ def turned(interval, frame, period):
 
 
 def _mark(everywhere, nowhere, interval):
-    """Return the interval with what is everywhere and nowhere written in."""
+    """Return the interval, replaced by (-inf, inf) where ``everywhere`` holds and by NaN where ``nowhere`` holds."""
     return tuple(
         np.where(everywhere, end, np.where(nowhere, np.nan, bound))
         for end, bound in zip(EVERYWHERE, interval, strict=True)
@@ -122,6 +123,6 @@ def _mark(everywhere, nowhere, interval):
 
 
 def pixel_bounds(window, interval_x, interval_y):
-    """Return (n, 4) pixel bounds x0, x1, y0, y1 of intervals on a window, with the margin; NaN: nowhere."""
+    """Return (n, 4) pixel bounds x0, x1, y0, y1 of intervals on a window, with the margin; NaN means nowhere."""
     (x0, x1), (y0, y1) = window.pixel_intervals(interval_x, interval_y)
     return np.stack((x0 - MARGIN, x1 + MARGIN, y0 - MARGIN, y1 + MARGIN), axis=-1)

@@ -1,9 +1,9 @@
-"""A sensor that is tilted to the lens, as Scheimpflug's is: a projective map of the picture, and its inverse.
+"""A sensor that is tilted to the lens (Scheimpflug): a projective map of the picture, and its inverse.
 
 With R = Ry(tau_y) Rx(tau_x), the rotation of the sensor about its x and then its y axis, the point (x, y, 1) of the
-upright picture lies at R (x, y, 1) as the sensor has it, and is projected onto it along the axis:
+upright picture is R (x, y, 1) in the sensor's coordinates, and is projected onto the sensor along the axis:
     T = ((R33, 0, -R13), (0, R33, -R23), (0, 0, 1)) R,  (u, v) = (T1 . (x, y, 1), T2 . (x, y, 1)) / (T3 . (x, y, 1)).
-A point has a place on the sensor where that denominator is positive.
+A point has an image on the sensor if that denominator is positive.
 Reference: OpenCV documentation, Camera Calibration and 3D Reconstruction (tau_x, tau_y).
 """
 
@@ -21,7 +21,7 @@ from ...maths.vector import inverse
 
 @dataclass(frozen=True)
 class Tilt:
-    """Two angles, radians, up to less than a right one; coordinates are OpenCV's, y down."""
+    """Two angles, in radians, of less than 90 degrees; coordinates are OpenCV's, y down."""
 
     tau_x: float
     tau_y: float
@@ -41,18 +41,18 @@ class Tilt:
         return inverse(self._matrix)
 
     def onto_sensor(self, x, y):
-        """Return (u, v) of points of the upright picture; NaN where the sensor has none."""
+        """Return (u, v) on the sensor of points of the upright picture; NaN for points without an image there."""
         return _mapped(self._matrix, x, y)
 
     def upright(self, u, v):
-        """Return (x, y) of points of the sensor: the inverse."""
+        """Return (x, y) in the upright picture of points of the sensor: the inverse of ``onto_sensor``."""
         return _mapped(self._inverse, u, v)
 
     def intervals(self, interval_x, interval_y):
         """Return the intervals in u and v that hold the images of all points of the intervals, (n,) each.
 
-        They are those of the four corners, since the map keeps straight lines; endless where one has no image. NaN,
-        which is nowhere, stays.
+        They are the ranges of the four corners' images, since the map keeps straight lines. They are endless if a
+        corner has no image. NaN, which means nowhere, stays NaN.
         """
         with np.errstate(invalid="ignore"):
             corners = np.array([self.onto_sensor(x, y) for x, y in product(interval_x, interval_y)])

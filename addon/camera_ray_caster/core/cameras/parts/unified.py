@@ -1,13 +1,13 @@
-"""The unified camera and its kin: a point is brought to a sphere about the eye, or an ellipsoid, and seen from behind.
+"""The unified camera and its relatives: a sphere or ellipsoid about the eye shows all points, and is seen from behind.
 
 With (s, z) the sine and cosine of the angle theta from the axis, the radius in the picture is
     r = s / (alpha sqrt(beta s^2 + (xi + z)^2) + (1 - alpha) (xi + z)).
 alpha = 0 is the unified camera (C. Geyer and K. Daniilidis, 2000), xi = 0 the enhanced one (B. Khomutenko and others,
-2016), beta = 1 the double sphere (V. Usenko and others, 2018). The way back has a closed form as well: with
+2016), beta = 1 the double sphere (V. Usenko and others, 2018). The inverse has a closed form as well: with
     D = alpha sqrt(1 + (1 - 2 alpha) beta r^2) + 1 - alpha,  N = 1 - beta alpha^2 r^2,
-(r D, N) points at the angle phi, as seen from xi behind the eye; theta = phi + asin(xi sin(phi)), of which the sine and
-the cosine are written without the angles.
-The picture ends where r stops to grow with theta, or r is endless.
+(r D, N) has the direction of the angle phi at a point xi behind the eye, and theta = phi + asin(xi sin(phi)). The sine
+and the cosine of theta are computed without the angles.
+The picture ends where r stops growing with theta; otherwise r has no limit.
 """
 
 from __future__ import annotations
@@ -25,19 +25,21 @@ from .radial_tangential import RadialTangential
 from .settings import Number
 
 XI = Number(
-    "unified_xi", "Xi", "How far behind the eye the sphere is seen from, in its radii", 0.0, -0.99, 1e3, digits=6,
+    "unified_xi", "Xi", "Distance from the center of the sphere back to the center of "
+                        "projection, in sphere radii", 0.0, -0.99, 1e3, digits=6,
     step=0.1,
 )  # fmt: skip
 ALPHA = Number(
-    "unified_alpha", "Alpha", "From 0, a pinhole behind the sphere, to 1, parallel rays", 0.5, 0.0, 0.999, digits=6,
+    "unified_alpha", "Alpha", "How the sphere is projected: 0 by a pinhole at its center, "
+                              "1 by parallel rays", 0.5, 0.0, 0.999, digits=6,
     step=0.1,
 )  # fmt: skip
-BETA = Number("unified_beta", "Beta", "How flat the ellipsoid is; 1 is a sphere", 1.0, 1e-3, 1e3, digits=6, step=0.1)
+BETA = Number("unified_beta", "Beta", "Flattening of the ellipsoid; 1 is a sphere", 1.0, 1e-3, 1e3, digits=6, step=0.1)
 
 
 @dataclass(frozen=True)
 class Unified(Calibrated):
-    """See the module's page."""
+    """The camera of the module's docstring."""
 
     xi: float = 0.0
     alpha: float = 0.0
@@ -47,7 +49,7 @@ class Unified(Calibrated):
 
     @classmethod
     def of(cls, raw: BlenderCamera, raster: Raster, calibration: Calibration, **shape: float) -> Self:
-        """Return the lens with this shape. The calibration's coefficients are those of its distortion."""
+        """Return the lens with this shape and the calibration's coefficients as its distortion."""
         distortion = RadialTangential(**calibration.coefficients)
         lens = cls(raster.size, calibration.window(), inf, **shape, distortion=distortion)
         rims = [inf]

@@ -1,4 +1,4 @@
-"""Reads the YAML that calibration tools write, in one pass over the lines: no library, and no time beyond linear.
+"""Reads the YAML that calibration tools write, in one pass over the lines: without a library and in linear time.
 
 The subset: block mappings and block sequences by indentation; flow sequences and mappings, ``[ ... ]`` and ``{ ... }``,
 also over several lines; plain and quoted scalars; comments; tags, which are ignored, as are directives and document
@@ -40,13 +40,18 @@ def parse(text: str) -> dict[str, Value]:
     levels = [_Level(0, root)]
     waiting: tuple[dict | list, str | int, int] | None = None  # an entry whose value may follow, and its column
     lines = text.splitlines()
-    at = 0
+    at, ended = 0, False
     while at < len(lines):
         number, line = at + 1, _without_comment(lines[at])
         at += 1
         content = line.strip()
-        if not content or content.startswith("%") or content in ("---", "..."):
+        if not content or content.startswith("%"):
             continue
+        if content in ("---", "..."):
+            ended = bool(root)
+            continue
+        if ended:
+            raise YamlError(f"line {number} begins a second document")
         column, is_item = len(line) - len(line.lstrip()), content == "-" or content.startswith("- ")
         if waiting is not None:
             owner, name, above = waiting
@@ -92,7 +97,9 @@ def _entry(node: dict, content: str, column: int, number: int):
     """Return where the value of a line's entry goes, and the text behind its colon."""
     key = KEY.match(content)
     if key is None:
-        raise YamlError(f"line {number} is no entry of the form name: value")
+        raise YamlError(f"line {number} is not an entry of the form name: value")
+    if key[0] in node:
+        raise YamlError(f"line {number} repeats {key[0]!r}")
     node[key[0]] = ""
     return (node, key[0], column), content[key.end() :].lstrip()[1:].strip()
 
@@ -114,9 +121,15 @@ def _flow(lines: list[str], at: int, first: str, number: int) -> tuple[Value, in
     """Return the sequence or mapping that begins in a line, and the line behind it."""
     nodes: list[list | dict] = []
     name: str | None = None
-    text = first
+    closed: Value | None = None
+    text, before = first, "["
     while True:
         for token in TOKEN.findall(text):
+            if closed is not None:
+                raise YamlError(f"line {at} has text after a closing bracket: {token.strip()[:20]!r}")
+            if token == "," and before in "[{,":
+                raise YamlError(f"line {at} has a comma without a value before it")
+            before = token
             if token in "[{":
                 node: list | dict = [] if token == "[" else {}
                 if nodes:
@@ -127,10 +140,11 @@ def _flow(lines: list[str], at: int, first: str, number: int) -> tuple[Value, in
                     raise YamlError(f"line {number} is nested deeper than {DEEPEST} levels")
             elif token in "]}":
                 if not nodes or isinstance(nodes[-1], list) != (token == "]"):
-                    raise YamlError(f"line {number} has a bracket that none opens: {token!r}")
-                closed = nodes.pop()
-                if not nodes:
-                    return closed, at
+                    raise YamlError(
+                        f"line {number} has a closing bracket without a matching opening bracket: {token!r}"
+                    )
+                ended = nodes.pop()
+                closed = None if nodes else ended
             elif token != ",":
                 words = token.strip()
                 if isinstance(nodes[-1], dict):
@@ -140,8 +154,10 @@ def _flow(lines: list[str], at: int, first: str, number: int) -> tuple[Value, in
                 if words:
                     _put(nodes[-1], name, _scalar(words), number)
                     name = None
+        if closed is not None:
+            return closed, at
         if at >= len(lines):
-            raise YamlError(f"line {number} opens a bracket that none closes")
+            raise YamlError(f"line {number} opens a bracket that is not closed")
         text, at = _without_comment(lines[at]), at + 1
 
 
@@ -151,6 +167,8 @@ def _put(node: list | dict, name: str | None, value: Value, number: int) -> None
         node.append(value)
     elif name is None:
         raise YamlError(f"line {number} has a value without a name")
+    elif name in node:
+        raise YamlError(f"line {number} has {name!r} twice")
     else:
         node[name] = value
 

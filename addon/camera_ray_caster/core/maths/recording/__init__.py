@@ -1,8 +1,8 @@
-"""Numbers that record what is done to them: a formula in numpy becomes a list of operations.
+"""Numbers that record the operations on them: a formula in numpy becomes a list of operations.
 
-The formula is called once with such numbers, and what it did to them is its ``Record``, which can be evaluated with any
-number of digits, written in another language, or differentiated. ``record`` makes one. ``loop`` and ``look_up`` are how
-a formula iterates and reads tables, with arrays as with recorded numbers.
+``record`` calls the formula once with such numbers and returns its operations as a ``Record``, which can be evaluated
+with any number of digits, written in another language, or differentiated. With ``loop`` and ``look_up`` a formula
+iterates and reads tables, for arrays as well as for recorded numbers.
 """
 
 from .derivatives import Dual, differentiate

@@ -1,11 +1,11 @@
-"""The derivatives of a record by its inputs: an arithmetic of dual numbers, each a value with its partial derivatives.
+"""The derivatives of a record with respect to its inputs, by dual numbers: values with their partial derivatives.
 
-They are exact but for rounding: each operation adds its slopes times the partial derivatives of its operands. What is
-known to be 0 is None, and costs nothing. ``where``, minimum and maximum have the derivatives of what they take (of two
-that are equal, the first), tables and roundings those of constants. Loops carry derivatives from step to step. An
-iteration to a root has to be followed by one more step of Newton's method, whose derivatives are the root's own, and
-need not carry any: see ``stop_gradient``. Where a formula has a kink or no finite slope, as sqrt at 0, there is no
-derivative: what is found there is that of one side, or no finite number.
+They are exact except for rounding: each operation adds its slopes times the partial derivatives of its operands. A
+partial derivative known to be 0 is None, and costs nothing. ``where``, minimum and maximum have the derivatives of the
+operand that they select (the first of two equal operands). Tables and roundings have those of constants. Loops carry
+derivatives from step to step. An iteration to a root needs to carry none if one more step of Newton's method follows
+it, whose derivatives are those of the root: see ``stop_gradient``. Where a formula has a kink or no finite slope, such
+as sqrt at 0, no derivative exists; the result there is the derivative of one side, or not finite.
 Reference: A. Griewank and A. Walther, Evaluating Derivatives, 2nd ed. (2008), chapters 3 (forward mode) and 15
 (fixed points).
 """
@@ -21,7 +21,7 @@ from .record import NUMPY, Arithmetic, Record
 
 
 class Dual(NamedTuple):
-    """A number, or what is true or false, and its partial derivatives by each input; None for those that are 0."""
+    """A number or a truth value, and its partial derivatives with respect to each input; None for 0."""
 
     value: Any
     partials: tuple[Any, ...]
@@ -30,7 +30,7 @@ class Dual(NamedTuple):
 def differentiate(record: Record, inputs: Sequence) -> tuple[Dual, ...]:
     """Return the outputs of a record at these inputs, numbers or arrays that broadcast, with their partial derivatives.
 
-    The values are those that NUMPY gives. A partial derivative broadcasts with its value, and may have fewer axes.
+    The values are the same as with NUMPY. A partial derivative broadcasts with its value, and may have fewer axes.
     """
     count = range(len(inputs))
     duals = [Dual(value, tuple(1.0 if k == own else None for k in count)) for own, value in enumerate(inputs)]
@@ -38,7 +38,7 @@ def differentiate(record: Record, inputs: Sequence) -> tuple[Dual, ...]:
 
 
 def _dual_arithmetic(count: int) -> Arithmetic:
-    """Return the arithmetic of duals with so many partial derivatives."""
+    """Return the arithmetic of duals with ``count`` partial derivatives."""
     zero = (None,) * count
     special: dict[str, Callable] = {
         "where": lambda condition, yes, no: Dual(
@@ -57,7 +57,7 @@ def _dual_arithmetic(count: int) -> Arithmetic:
 
 
 def _select(condition, yes: Dual, no: Dual) -> tuple[Any, ...]:
-    """Return the partial derivatives of the one that is taken."""
+    """Return the partial derivatives of ``yes`` where the condition holds, and of ``no`` elsewhere."""
     return tuple(
         None if a is b is None else np.where(condition, 0.0 if a is None else a, 0.0 if b is None else b)
         for a, b in zip(yes.partials, no.partials, strict=True)
@@ -112,6 +112,6 @@ SLOPES: dict[str, tuple[Callable, ...]] = {
     "cosh": (lambda f, a: np.sinh(a),),
     "tanh": (lambda f, a: 1 / np.cosh(a) ** 2,),
 }
-"""By each operand, from the result and the operands. Operations that are not listed are constant between jumps, or
-select.
+"""Partial derivatives with respect to each operand, from the result and the operands. Operations that are not listed
+are constant between jumps, or select one of their operands.
 """

@@ -1,4 +1,4 @@
-"""The numbers that record: they answer to Python's operators and to numpy's functions."""
+"""Numbers that record: they support Python's operators and numpy's functions."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ from .record import COMPARISONS, LOGICAL, NUMERIC, Record, Step, repeat
 
 
 class Parameter(float):
-    """A constant that has a name in a record: a step ``parameter`` of its own, which no other constant shares."""
+    """A constant with a name in records: it becomes a step ``parameter``, which no other constant shares."""
 
     def __new__(cls, value: float, name: str):
-        """Return the number that is known by this name."""
+        """Return the number with this name."""
         number = super().__new__(cls, value)
         number.name = name
         return number
@@ -26,28 +26,28 @@ class Parameter(float):
 
 
 class NotRecordable(TypeError):
-    """What was done to a recorded number is none of the operations of a record; the message names it."""
+    """Raised for an operation on a recorded number that a record does not have; the message names it."""
 
 
 def record(function: Callable, count: int) -> Record:
-    """Return the record of a function of ``count`` numbers, which gives a flat sequence of numbers.
+    """Return the record of a function of ``count`` numbers that returns a flat sequence of numbers.
 
-    Numbers that do not depend on the input are constants, exact. Raises NotRecordable.
+    Numbers that do not depend on the input are recorded as exact constants. Raises NotRecordable.
     """
     tape = _Tape()
     return tape.record(function(*(tape.add("input", fixed=(place,)) for place in range(count))))
 
 
 def is_recorded(*values) -> bool:
-    """Whether one of these is a recorded number."""
+    """Return whether one of the values is a recorded number."""
     return any(isinstance(value, Recorded) for value in values)
 
 
 def loop(body: Callable, state: Sequence, most: int) -> Sequence:
-    """Repeat ``state, settled = body(*state)`` until all is settled, or as often as ``most``; return the last state.
+    """Repeat ``state, settled = body(*state)`` until all is settled, at most ``most`` times; return the last state.
 
-    state: numbers, arrays or recorded numbers; of arrays, all go on until the last is settled. For recorded numbers the
-    body is called once, and must take all that it needs from its state, constants apart.
+    state: numbers, arrays or recorded numbers; all entries of arrays continue until the last is settled. For recorded
+    numbers the body is called once, and must take everything that it needs from its state, except constants.
     """
     if not is_recorded(*state):
         return repeat(body, state, most, np.all)
@@ -63,39 +63,39 @@ def loop(body: Callable, state: Sequence, most: int) -> Sequence:
 
 
 def look_up(table, place):
-    """Return the entry of a table, (n,) float64, at a whole number, or at an array of integers: ``table[place]``."""
+    """Return the entry of a table, (n,) float64, at an integer or an array of integers: ``table[place]``."""
     return place.tape.add("take", [place], (_entries(table),)) if is_recorded(place) else table[place]
 
 
 def stop_gradient(number):
-    """Return a number whose derivatives do not count: what begins an iteration to a root, which the derivatives of one
-    more step of Newton's method after it make those of the root.
+    """Return a number without its derivatives, to start an iteration to a root: one more step of Newton's method after
+    the iteration then gives the derivatives of the root.
     """
     return number.tape.add("stop_gradient", [number]) if is_recorded(number) else number
 
 
 def roundoff(number):
-    """Return the unit roundoff of the arithmetic in which a number is computed: EPS, unless it is recorded."""
+    """Return the unit roundoff of the arithmetic in which a number is computed: EPS, or a recorded number."""
     return number.tape.add("roundoff") if is_recorded(number) else EPS
 
 
 class _Tape:
-    """The steps of a record in the making."""
+    """The steps of a record under construction."""
 
     def __init__(self):
         self.steps: list[Step] = []
         self._known: dict[tuple, int] = {}
 
     def add(self, operation: str, operands: Sequence[Recorded] = (), fixed: tuple = (), truth: bool = False):
-        """Return the value of an operation, of the same step if there was one already."""
+        """Return the value of an operation; if the tape has the same step already, that step is used again."""
         places = tuple(operand.place for operand in operands)
-        place = self._known.setdefault((operation, places, repr(fixed)), len(self.steps))  # 0.0 and -0.0 are two
+        place = self._known.setdefault((operation, places, repr(fixed)), len(self.steps))  # 0.0 and -0.0 differ
         if place == len(self.steps):
             self.steps.append(Step(operation, places, fixed, truth))
         return Recorded(self, place)
 
     def own(self, value, operation: str) -> Recorded:
-        """Return an operand: recorded here, or a constant."""
+        """Return an operand of an operation: a number that this tape has recorded, or a constant."""
         if is_recorded(value):
             if value.tape is not self:
                 raise NotRecordable(f"{operation} of a number that is not in the loop's state cannot be recorded")
@@ -109,17 +109,17 @@ class _Tape:
         return self.add("constant", fixed=(float(value),))
 
     def number(self, value, operation: str) -> Recorded:
-        """Return an operand as a number: 1 for what is true, 0 for what is false."""
+        """Return an operand as a number: 1 for true, 0 for false."""
         value = self.own(value, operation)
         return _where(value, 1.0, 0.0) if value.truth else value
 
     def truth(self, value, operation: str) -> Recorded:
-        """Return an operand as true or false: a number is true unless it is 0."""
+        """Return an operand as a truth value: a number is true unless it is 0."""
         value = self.own(value, operation)
         return value if value.truth else value != 0
 
     def record(self, values) -> Record:
-        """Return the record of values, without the steps that none of them needs."""
+        """Return the record of values, without unneeded steps."""
         outputs = [self.own(value, "an output") for value in values]
         needed = {output.place for output in outputs}
         for place in reversed(range(len(self.steps))):
@@ -147,7 +147,7 @@ def _refused(operation: str, instead: str) -> Any:
 
 
 class Recorded:
-    """A number whose value is known when its record is evaluated: a scalar in the eyes of numpy."""
+    """A number whose value is known only when its record is evaluated; a scalar for numpy."""
 
     ndim, shape, size = 0, (), 1
 
@@ -156,7 +156,7 @@ class Recorded:
 
     @property
     def truth(self) -> bool:
-        """Whether it is true or false, and not a number."""
+        """Whether the value is a truth value instead of a number."""
         return self.tape.steps[self.place].truth
 
     def __array_ufunc__(self, ufunc, method, *operands, **options):
@@ -205,17 +205,17 @@ class Recorded:
     __iter__ = __len__ = __getitem__ = _refused("a part", "it is one number")
 
     def __pow__(self, exponent):
-        """As numpy has it of an array: a square is a product."""
+        """Return a product for the exponent 2, as numpy does for arrays."""
         return self * self if not is_recorded(exponent) and exponent == 2 else np.power(self, exponent)
 
     def __getattr__(self, name: str):
-        if name.startswith("_"):  # what numpy looks for
+        if name.startswith("_"):  # numpy looks for such attributes
             raise AttributeError(name)
         raise NotRecordable(f".{name} of a recorded number cannot be recorded: use numpy's functions")
 
 
 SAME = {"bitwise_and": "logical_and", "bitwise_or": "logical_or", "invert": "logical_not", "true_divide": "divide"}
-"""Other names of operations."""
+"""Alternative names of operations."""
 
 DERIVED: dict[str, Callable] = {
     "greater": lambda a, b: np.less(b, a),
@@ -227,7 +227,7 @@ DERIVED: dict[str, Callable] = {
     "reciprocal": lambda a: 1.0 / a,
     "positive": lambda a: a,
 }
-"""Operations by others."""
+"""Operations that are recorded by means of others."""
 
 
 def _where(condition, yes, no):
@@ -263,4 +263,4 @@ FUNCTIONS: dict[Any, Callable] = {
     np.zeros_like: lambda number: 0.0,
     np.ones_like: lambda number: 1.0,
 }
-"""numpy's functions that are no ufuncs."""
+"""Supported functions of numpy that are not ufuncs."""

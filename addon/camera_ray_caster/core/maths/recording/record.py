@@ -1,10 +1,10 @@
 """The record of a formula: its operations in order, each value computed once, and their evaluation.
 
-What is no number
-    A pixel without a ray has none: NaN in numpy. In a record it comes from a constant NaN, or from an operation outside
-    of its DOMAIN. From there it spreads: an operation on it gives no number, a comparison with it is false. ``where``
-    takes the value of one branch alone, whatever the other is. Division by zero gives no number here, though numpy may
-    say infinity: formulas do not rely on it.
+NaN
+    A pixel without a ray has no number as its value, which is NaN in numpy. In a record NaN comes from a constant NaN,
+    or from an operation outside of its DOMAIN. From there it propagates: an operation on it gives NaN, a comparison
+    with it is false. ``where`` takes the value of one branch, even if the other is NaN. Division by zero gives NaN by
+    this rule, though numpy may return infinity: formulas rely on neither.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ import numpy as np
 from ...conventions import EPS
 
 Arithmetic = Mapping[str, Callable]
-"""Functions by the names of operations."""
+"""Functions by the names of the operations that they perform."""
 
 NUMERIC = frozenset((
     "add", "subtract", "multiply", "divide", "remainder", "power", "negative", "absolute", "sign", "minimum", "maximum",
@@ -29,10 +29,10 @@ NUMERIC = frozenset((
 """Operations on numbers that give a number, by their numpy names."""
 
 COMPARISONS = frozenset(("less", "less_equal", "equal"))
-"""Of two numbers: true or false."""
+"""Operations on two numbers that give a truth value."""
 
 LOGICAL = frozenset(("logical_and", "logical_or", "logical_not"))
-"""Of what is true or false."""
+"""Operations on truth values."""
 
 DOMAIN: Arithmetic = {
     "divide": lambda a, b: b != 0,
@@ -44,50 +44,50 @@ DOMAIN: Arithmetic = {
     "arcsin": lambda a: abs(a) <= 1,
     "arccos": lambda a: abs(a) <= 1,
 }
-"""Whether an operation on these numbers gives a number; operations that are not listed always do."""
+"""Whether an operation on given numbers gives a number, as functions; operations that are not listed always do."""
 
 
 @dataclass(frozen=True)
 class Step:
-    """One operation. Its operands are the values of earlier steps, by their places; ``fixed`` is what else it takes.
+    """One operation: ``operands`` are the indices of earlier steps, whose values it takes, ``fixed`` other arguments.
 
-    Beside the operations above: ``input`` (fixed: its place among the inputs), ``constant`` (a float64, or a bool),
-    ``parameter`` (a float64 and its name; only where a formula was given a ``Parameter``), ``where``,
-    ``stop_gradient`` (its operand, without derivatives), ``roundoff`` (of the arithmetic it is evaluated with: 2**-53
-    in float64), ``searchsorted`` (of a number in a table; fixed: the table, ascending, and numpy's side), ``take`` (a
-    table's entry at a whole number; fixed: the table), ``loop`` (of the values it starts from; fixed: its body and the
-    most repetitions) and ``part`` (of a loop: the value of its state that stands at the fixed place).
+    In addition to the operations above there are: ``input`` (fixed: its index among the inputs), ``constant`` (fixed: a
+    float64 or a bool), ``parameter`` (fixed: a float64 and its name; only if a formula was given a ``Parameter``),
+    ``where``, ``stop_gradient`` (its operand, without derivatives), ``roundoff`` (of the arithmetic of the evaluation:
+    2**-53 in float64), ``searchsorted`` (of a number in a table; fixed: the ascending table and numpy's side), ``take``
+    (a table's entry at an integer; fixed: the table), ``loop`` (of its initial state; fixed: its body and the largest
+    number of repetitions) and ``part`` (of a loop; fixed: the index of a value in its last state).
     """
 
     operation: str
     operands: tuple[int, ...] = ()
     fixed: tuple = ()
     truth: bool = False
-    """Whether the value is true or false, and not a number."""
+    """Whether the value is a truth value instead of a number."""
 
 
 @dataclass(frozen=True)
 class Record:
-    """What a formula does: ``steps`` in order, and the places of those whose values it returns.
+    """The operations of a formula: ``steps`` in order, and the indices of the steps whose values it returns.
 
-    The body of a loop has the state for inputs, and returns the next one and whether it is settled.
+    The body of a loop takes the state as inputs, and returns the next state and whether it is settled.
     """
 
     steps: tuple[Step, ...]
     outputs: tuple[int, ...]
 
     def evaluate(self, arithmetic: Arithmetic, inputs: Sequence) -> tuple:
-        """Return the outputs at these inputs, numbers or arrays, as the functions of an arithmetic give them.
+        """Return the outputs at these inputs, numbers or arrays, computed with the functions of an arithmetic.
 
-        The arithmetic has a function for each operation but ``input``, ``loop`` and ``part``, which takes the operands
-        and then what is fixed; and ``all``, which says of a loop's last truth whether it is settled. It may have a
-        ``loop`` of its own, which takes the body, the most repetitions and the state.
+        The arithmetic has a function for each operation except ``input``, ``loop`` and ``part``, which takes the
+        operands and then the fixed arguments; and ``all``, which tells from the last output of a loop's body whether
+        the loop is settled. It may have its own ``loop``, of the body, the largest number of repetitions and the state.
         """
         values: list[Any] = []
         for k, step in enumerate(self.steps):
             operands = [values[place] for place in step.operands]
             for place in step.operands:
-                if self._last[place] == k:  # large arrays are soon used again
+                if self._last[place] == k:  # so that the memory of large arrays is soon reused
                     values[place] = None
             if step.operation == "input":
                 values.append(inputs[step.fixed[0]])
@@ -102,12 +102,12 @@ class Record:
 
     @cached_property
     def _last(self) -> dict[int, int]:
-        """The last step that needs each value; none does an output's."""
+        """The index of the last step that needs each value; the number of steps for outputs."""
         last = {place: k for k, step in enumerate(self.steps) for place in step.operands}
         return last | dict.fromkeys(self.outputs, len(self.steps))
 
     def as_body(self, arithmetic: Arithmetic) -> Callable:
-        """Return the function that ``repeat`` takes, of a loop's body."""
+        """Return this record of a loop's body as the function that ``repeat`` takes."""
 
         def body(*state):
             *after, settled = self.evaluate(arithmetic, state)
@@ -117,12 +117,12 @@ class Record:
 
 
 def repeat_body(arithmetic: Arithmetic, body: Record, most: int, state: Sequence) -> Sequence:
-    """Return what a loop gives, whose body is a record; see ``repeat``."""
+    """Return the last state of a loop whose body is a record; see ``repeat``."""
     return repeat(body.as_body(arithmetic), state, most, arithmetic["all"])
 
 
 def repeat(body: Callable, state: Sequence, most: int, settled_all: Callable) -> Sequence:
-    """Repeat ``state, settled = body(*state)`` until all is settled, or as often as ``most``; return the last state."""
+    """Repeat ``state, settled = body(*state)`` until all is settled, at most ``most`` times; return the last state."""
     for _ in range(most):
         state, settled = body(*state)
         if settled_all(settled):
@@ -131,7 +131,7 @@ def repeat(body: Callable, state: Sequence, most: int, settled_all: Callable) ->
 
 
 def _take(places, table):
-    """Return entries at whole numbers that are stored as float64; no number has none."""
+    """Return a table's entries at integers that are stored as float64; NaN at NaN."""
     known = ~np.isnan(places)
     return np.where(known, np.asarray(table)[np.where(known, places, 0.0).astype(np.intp)], np.nan)
 
@@ -145,4 +145,4 @@ NUMPY: Arithmetic = {
     "searchsorted": lambda number, table, side: np.searchsorted(table, number, side).astype(np.float64),
     "take": _take,
 }
-"""Float64, in arrays of any shapes that broadcast. numpy warns where a branch that is not taken is no number."""
+"""The arithmetic of float64, for arrays that broadcast. numpy also warns of invalid values in branches not taken."""
