@@ -12,7 +12,8 @@ import contenders as c
 import numpy as np
 
 from camera_ray_caster.core.cast import cast
-from camera_ray_caster.core.records import MESH, Mesh
+from camera_ray_caster.core.mesh import Mesh
+from camera_ray_caster.core.records import MESH
 
 COUNTS = (10, 100, 1_000, 10_000, 100_000, 1_000_000)
 TRIANGLES = (1_000, 4_000, 16_000, 64_000, 256_000, 1_024_000)

@@ -14,13 +14,14 @@ MODULES = sorted(PACKAGE.rglob("*.py"))
 SOURCES = [*MODULES, *sorted((ROOT / "scripts").glob("*.py")), *sorted((ROOT / "tests").rglob("*.py"))]
 
 # What a part of the package may import of the package: the longest name that fits counts. The lowest layer comes first.
-LOW = {"core.conventions", "core.tuning", "core.records", "core.arguments", "core.memory", "core.maths"}
+LOW = {"core.conventions", "core.tuning", "core.mesh", "core.records", "core.arguments", "core.memory", "core.maths"}
 RAYS = LOW | {"core.cameras", "core.camera"}
 HITS = RAYS | {"core.motion", "core.shapes", "core.errors", "core.casting"}
 MAY_IMPORT = {
     "core.conventions": set(),
     "core.tuning": set(),
-    "core.records": {"core.conventions"},
+    "core.mesh": {"core.tuning"},
+    "core.records": {"core.conventions", "core.mesh"},
     "core.arguments": {"core.records"},
     "core.memory": {"core.records"},
     "core.names": {"core.records"},

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from functools import cached_property
 from typing import Any, Protocol
 
 import numpy as np
+
+from .mesh import Mesh
 
 
 class InputError(ValueError):
@@ -124,54 +125,6 @@ class RaysJacobian:
 
 SPHERE, PLANE, INFINITE_PLANE, MESH = 0, 1, 2, 3
 """Values of ``Shapes.kind``."""
-
-
-@dataclass(frozen=True, eq=False)
-class Mesh:
-    """The triangles of an evaluated mesh in its object's space; instances share one mesh. A loop is a corner of a face.
-
-    Data of vertices and triangles have one contiguous row per component or corner. Data of loops are read at scattered
-    loops; the components of a loop are therefore contiguous.
-    """
-
-    vertices: np.ndarray
-    """(3, v) float32."""
-    triangles: np.ndarray
-    """(3, k) int32: the vertices of each triangle, counterclockwise as seen from its front."""
-    polygon: np.ndarray
-    """(k,) int32: the face to which each triangle belongs."""
-    loops: np.ndarray | None = None
-    """(3, k) int32: the loops of each triangle; None if neither normals nor uv are stored by loop."""
-    normals: np.ndarray | None = None
-    """(l, 3) float32: unit normals at the loops; None if all faces are flat and have the normals of their triangles."""
-    uv: np.ndarray | None = None
-    """(l, 2) float32: the render UV map at the loops; None without a UV map."""
-    slot: np.ndarray | None = None
-    """(k,) int16: the material slot of each triangle; None if all have the first slot."""
-
-    def __len__(self) -> int:
-        return self.triangles.shape[1]
-
-    @cached_property
-    def middle(self) -> np.ndarray:
-        """(3,) float64: the middle of the bounding box."""
-        return (self.vertices.min(axis=1) / 2.0 + self.vertices.max(axis=1) / 2.0).astype(np.float64)
-
-    @cached_property
-    def is_outer(self) -> np.ndarray:
-        """(3, k) bool: whether the side opposite each corner is an edge of the face, not a diagonal within the face."""
-        ends = np.sort([self.triangles[[1, 2, 0]], self.triangles[[2, 0, 1]]], axis=0).reshape(2, -1)
-        sides = np.vstack((np.tile(self.polygon, 3), ends))
-        order = np.lexsort(sides)
-        same = (np.diff(sides[:, order], axis=1) == 0).all(axis=0)
-        outer = np.ones(len(order), bool)
-        outer[order[1:][same]] = outer[order[:-1][same]] = False
-        return outer.reshape(3, -1)
-
-    @cached_property
-    def half_size(self) -> np.ndarray:
-        """(3,) float64: the largest distance of a vertex from the middle along each axis."""
-        return np.abs(self.vertices - self.middle[:, None]).max(axis=1)
 
 
 @dataclass(frozen=True, eq=False)

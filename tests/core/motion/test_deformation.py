@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 
 from camera_ray_caster.core.maths.rotations import polar
+from camera_ray_caster.core.mesh import Mesh
 from camera_ray_caster.core.motion.evaluations import measure, resolve
-from camera_ray_caster.core.records import Mesh
 
 from ..casting.test_cast import camera_at
 from ..shapes.meshes import ball, grid, shapes_of

@@ -7,7 +7,8 @@ import pytest
 
 from camera_ray_caster.core.camera.build import camera_from
 from camera_ray_caster.core.cast import cast
-from camera_ray_caster.core.records import INFINITE_PLANE, MESH, PLANE, SPHERE, BlenderCamera, InputError, Mesh, Shapes
+from camera_ray_caster.core.mesh import Mesh
+from camera_ray_caster.core.records import INFINITE_PLANE, MESH, PLANE, SPHERE, BlenderCamera, InputError, Shapes
 from camera_ray_caster.core.report.lesson import lesson
 from camera_ray_caster.core.report.meetings import nearest
 

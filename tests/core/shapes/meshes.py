@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from camera_ray_caster.core.records import MESH, Mesh, Shapes
+from camera_ray_caster.core.mesh import Mesh
+from camera_ray_caster.core.records import MESH, Shapes
 
 LONG = np.longdouble
 

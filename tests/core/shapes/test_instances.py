@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from camera_ray_caster.core.records import INFINITE_PLANE, PLANE, SPHERE, Mesh
+from camera_ray_caster.core.mesh import Mesh
+from camera_ray_caster.core.records import INFINITE_PLANE, PLANE, SPHERE
 from camera_ray_caster.core.shapes.instances import (
     Primitive,
     castable,

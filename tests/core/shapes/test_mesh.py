@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from camera_ray_caster.core import memory
+from camera_ray_caster.core import memory, tuning
 from camera_ray_caster.core.cameras import MODELS
 from camera_ray_caster.core.cast import cast
 from camera_ray_caster.core.casting.passes import PASSES
@@ -15,6 +16,7 @@ from camera_ray_caster.core.casting.plan import make_plan
 from camera_ray_caster.core.casting.request import Request
 from camera_ray_caster.core.conventions import EPS
 from camera_ray_caster.core.records import InputError, Slots
+from camera_ray_caster.core.shapes.mesh_in_camera import MeshesInView
 
 from ..cameras.model_examples import EXAMPLES, camera
 from ..casting.test_cast import camera_at
@@ -207,14 +209,30 @@ def test_the_map_the_face_and_the_material_are_those_of_the_point():
     np.testing.assert_allclose(images["combined"][hit][:, 3], np.where(x <= 0, 0.3, 0.4), atol=1e-7)
 
 
-def test_meshes_pay_for_what_is_seen_of_them():
-    """A mesh out of the picture is not placed, and a plan without meshes has none."""
-    cam = camera_at()
-    images = cast(cam, shapes_of((ball(5, 5), (0, 0, -5), 1.0), (ball(9, 9), (0, 50, -5), 1.0)), ("depth",))
+def test_meshes_pay_for_what_is_seen_of_them(monkeypatch):
+    """A mesh out of the picture is not placed, and no triangle of one behind another is looked at, if they are too many
+    to be looked at together.
+    """
+    monkeypatch.setattr(tuning, "CHUNK", 1 << 10)
+    cam = camera_at(resolution_x=400, resolution_y=400)
+    front, apart = ball(40, 40), ball(9, 9)
+    behind = ball(30, 30)
+    shapes = shapes_of((front, (0, 0, -2), 1.0), (apart, (0, 50, -5), 1.0), (behind, (0.1, 0, -9), 0.5))
+    looked_at = Counter()
+
+    def triangles(self, some):
+        looked_at.update(np.repeat(self.blocks.shape[some], self.blocks.count[some]).tolist())
+        return own(self, some)
+
+    own = MeshesInView.triangles
+    monkeypatch.setattr(MeshesInView, "triangles", triangles)
+    images = cast(cam, shapes, ("depth", "shape_index"))
     ((meshes,),) = ([one.meshes] for one in images.plan.sets)
-    assert set(meshes.triangles.shape) == {0}
-    assert meshes.triangles.corners.max() == ball(5, 5).vertices.shape[1] - 1
-    assert EPS < images["depth"].min() < 5
+    assert set(meshes.blocks.shape) == {0, 2}
+    assert looked_at[0] > len(front) / 2
+    assert looked_at[2] == 0
+    assert set(np.unique(images["shape_index"])) == {-1, 0}
+    assert EPS < images["depth"].min() < 2
 
 
 def test_the_grid_is_that_of_the_map_or_of_the_edges_of_faces():
@@ -245,7 +263,7 @@ def test_the_grid_is_that_of_the_map_or_of_the_edges_of_faces():
 
 def test_more_triangles_than_the_memory_holds_are_refused_before_any_is_placed(monkeypatch):
     """A hundred million, of instances that share a mesh: one line that says what they take."""
-    monkeypatch.setattr(memory, "available", lambda: 8 << 30)
+    monkeypatch.setattr(memory, "available", lambda: 2 << 30)
     monkeypatch.setattr(np, "empty", None)
     many = shapes_of(*[(ball(100, 100), (0, 0, -5), 1.0)] * 5050)
     with pytest.raises(InputError, match=r"^99,990,000 triangles in view take .* GiB are available: show"):

@@ -20,7 +20,7 @@ import bpy
 import numpy as np
 from bpy.app.handlers import persistent
 
-from ...core.records import Mesh
+from ...core.mesh import Mesh
 from ...core.shapes.instances import Primitive, mesh_primitive
 
 Found = tuple[Primitive | None, str]

@@ -4,7 +4,7 @@ from ctypes import c_char
 
 import numpy as np
 
-from ...core.records import Mesh
+from ...core.mesh import Mesh
 from ...core.shapes.recognize import MeshArrays
 
 

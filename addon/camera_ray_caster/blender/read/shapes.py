@@ -5,7 +5,8 @@ from collections.abc import Hashable, Iterable
 from dataclasses import replace
 from functools import partial
 
-from ...core.records import Mesh, Shapes
+from ...core.mesh import Mesh
+from ...core.records import Shapes
 from ..properties.declared import EXACT_SHAPES, PRIMITIVE
 from .geometry import mesh_shapes, shapes_of
 from .groups import Group, gathered, heeding

@@ -7,7 +7,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..records import Mesh, Shapes
+from ..mesh import Mesh
+from ..records import Shapes
 
 FIXED = "triangles", "polygon", "loops", "slot"
 """Fields of ``Mesh`` that must be equal if the vertices of two meshes correspond."""

@@ -8,7 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..conventions import EPS32
-from ..records import INFINITE_PLANE, MESH, SPHERE, Lights, Mesh
+from ..mesh import Mesh
+from ..records import INFINITE_PLANE, MESH, SPHERE, Lights
 
 
 @dataclass(frozen=True)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 
@@ -24,68 +25,97 @@ class SeenTriangles:
     """Indices into the triangles of the mesh."""
 
 
-@dataclass(frozen=True, eq=False)
+NONE = -1
+"""Number of no triangle."""
+
+
+@dataclass(eq=False)
 class Found:
     """The nearest triangle of each pixel so far; of several at exactly the same t the first."""
 
     t: np.ndarray
     """t of the triangle; where no triangle is hit, inf or t of another shape."""
-    which: np.ndarray
-    """int32 indices of the triangles; ``count`` where none is hit."""
-    count: int
-    """Number of triangles."""
+    number: np.ndarray
+    """int32 numbers of the triangles, see ``enter``; NONE where none is hit."""
+    entered: list[np.ndarray] = field(default_factory=list)
+    """The indices of the triangles that have numbers."""
+    _farthest: list[np.ndarray] = field(default_factory=list)
+    """The largest t in the square of 1, 2, 4 ... cells a side that begins at each cell, to the right and upwards, as
+    far as it was asked for since the last hit.
+    """
 
     @classmethod
-    def of(cls, nearest: np.ndarray, rays: SearchRays, count: int) -> Found:
+    def of(cls, nearest: np.ndarray, rays: SearchRays) -> Found:
         """Begin with the t that were found before; no triangle behind these is kept."""
         t = rays.scratch("triangle t", rays.shape, np.float64)
-        which = rays.scratch("triangle found", rays.shape, np.int32)
+        number = rays.scratch("triangle found", rays.shape, np.int32)
         np.copyto(t, nearest)
-        which.fill(count)
-        return cls(t, which, count)
+        number.fill(NONE)
+        return cls(t, number)
+
+    def enter(self, which: np.ndarray) -> np.ndarray:
+        """Give triangles, by index, numbers: those that are tested are far fewer than those of a mesh."""
+        first = sum(map(len, self.entered))
+        self.entered.append(which)
+        return np.arange(first, first + len(which))
 
     def seen(self) -> tuple[np.ndarray, np.ndarray]:
-        """Return the triangles that pixels see, ascending, and which of these each pixel sees, 0 for none."""
-        place = np.zeros(self.count + 1, np.int32)
-        place[self.which.reshape(-1)] = 1
-        place[self.count] = 0
-        seen = np.flatnonzero(place)
+        """Return the indices of the triangles that pixels see, and which of these each pixel sees, 0 for none."""
+        which = self._which()
+        is_seen = np.zeros(len(which) + 1, bool)  # the last for NONE
+        is_seen[self.number.reshape(-1)] = True
+        seen = np.flatnonzero(is_seen[:NONE])
+        place = np.zeros(len(is_seen), np.int32)
         place[seen] = np.arange(len(seen))
-        return seen, taken(place, self.which)
+        return which[seen], place.take(self.number, mode="wrap")
 
-    def keep(self, pixel: np.ndarray, t: np.ndarray, which: np.ndarray) -> None:
+    def keep(self, pixel: np.ndarray, t: np.ndarray, number: np.ndarray) -> None:
         """Note the hits that are the nearest so far; a pixel may have several."""
-        nearest, first = self.t.reshape(-1), self.which.reshape(-1)
+        self._farthest.clear()
+        nearest, first = self.t.reshape(-1), self.number.reshape(-1)
         while pixel.size:
             before = taken(nearest, pixel)
             closer = t < before
             tied = np.flatnonzero(t == before)
             if tied.size:
-                closer[tied] = which[tied] < first[pixel[tied]]
+                closer[tied] = self._precede(number[tied], first[pixel[tied]])
             some = np.flatnonzero(closer)
             if len(some) < len(pixel):
-                pixel, t, which = taken(pixel, some), taken(t, some), taken(which, some)
-            nearest[pixel], first[pixel] = t, which  # of several hits in one pixel the last stays: others try again
-            lost = np.flatnonzero(taken(first, pixel) != which)
-            pixel, t, which = pixel[lost], t[lost], which[lost]
+                pixel, t, number = taken(pixel, some), taken(t, some), taken(number, some)
+            nearest[pixel], first[pixel] = t, number  # of several hits in a pixel the last stays: others try again
+            lost = np.flatnonzero(taken(first, pixel) != number)
+            pixel, t, number = pixel[lost], t[lost], number[lost]
 
-    def fill(self, window: tuple[slice, slice], met: np.ndarray, t: np.ndarray, which: int) -> None:
+    def fill(self, window: tuple[slice, slice], met: np.ndarray, t: np.ndarray, number: int) -> None:
         """Note one triangle in a window, where it is hit and is the nearest so far."""
-        before, first = self.t[window], self.which[window]
-        closer = (t < before) | ((t == before) & (which < first))
+        self._farthest.clear()
+        before, first = self.t[window], self.number[window]
+        closer, tied = t < before, np.nonzero(t == before)
+        if tied[0].size:
+            closer[tied] = self._precede(number, first[tied])
         closer &= met
         np.copyto(before, t, where=closer)
-        np.copyto(first, which, where=closer)
+        np.copyto(first, number, where=closer)
+
+    def _precede(self, number: Any, other: np.ndarray) -> np.ndarray:
+        """Return whether triangles have lower indices than others; any triangle precedes NONE."""
+        which = self._which()
+        return (other == NONE) | (which[number] < which[other])
+
+    def _which(self) -> np.ndarray:
+        """The indices of all triangles that have numbers."""
+        self.entered[:] = [np.concatenate(self.entered)] if self.entered else [np.zeros(0, np.intp)]
+        return self.entered[0]
 
     def may_show(self, bounds: np.ndarray, near: np.ndarray) -> np.ndarray:
-        """Return the indices of the triangles that may be seen: all except those that lie behind the hits so far. Given
+        """Return the indices of the hulls that may be seen: all except those that lie behind the hits so far. Given
         are their bounds in the tile, (k, 4), and lower bounds of their t, (k,).
         """
         x0, x1, y0, y1 = bounds.T
         column, row = x0 // tuning.CELL, y0 // tuning.CELL
         cells = np.maximum((x1 - 1) // tuning.CELL - column, (y1 - 1) // tuning.CELL - row) + 1
         most = int(cells.max(initial=1))
-        farthest = _farthest(self.t, tuning.CELL, most)
+        farthest = self._cells(most)
         _, high, wide = farthest.shape
         level = np.frexp(np.arange(most) + 0.5)[1].astype(np.intp)  # exactly: of 1, 2, 3 and 4, 5 to 8 cells ...
         place = taken(level * (high * wide), cells - 1)
@@ -93,20 +123,17 @@ class Found:
         place += column
         return np.flatnonzero(near <= taken(farthest.reshape(-1), place))
 
-
-def _farthest(t: np.ndarray, cell: int, most: int) -> np.ndarray:
-    """Return the largest t in the square of 1, 2, 4 ... cells a side that begins at each cell, to the right and
-    upwards, until ``most`` are reached: (levels, rows, columns).
-    """
-    levels = [_largest(_largest(t, cell).T, cell).T]
-    size = 1
-    while size < most:
-        cells = levels[-1].copy()
-        np.maximum(cells[:-size], cells[size:], out=cells[:-size])
-        np.maximum(cells[:, :-size], cells[:, size:], out=cells[:, :-size])
-        levels.append(cells)
-        size *= 2
-    return np.array(levels)
+    def _cells(self, most: int) -> np.ndarray:
+        """Return the farthest t in squares of up to ``most`` cells, (levels, rows, columns)."""
+        levels = self._farthest
+        if not levels:
+            levels.append(_largest(_largest(self.t, tuning.CELL).T, tuning.CELL).T)
+        while (size := 1 << len(levels) - 1) < most:
+            cells = levels[-1].copy()
+            np.maximum(cells[:-size], cells[size:], out=cells[:-size])
+            np.maximum(cells[:, :-size], cells[:, size:], out=cells[:, :-size])
+            levels.append(cells)
+        return np.array(levels)
 
 
 def _largest(rows: np.ndarray, count: int) -> np.ndarray:

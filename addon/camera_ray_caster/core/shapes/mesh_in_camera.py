@@ -1,44 +1,89 @@
-"""Meshes as a camera sees them: vertices in its frame, and the pixels in which each triangle may be seen."""
+"""Meshes as a camera sees them: vertices in its frame, and the pixels in which each triangle may be seen.
+
+Triangles come in blocks of consecutive ones, which most meshes have next to each other. Only the triangles of blocks
+that are neither out of view nor hidden are looked at one by one.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from functools import partial
-from itertools import pairwise
+from itertools import pairwise, product
 from typing import NamedTuple
 
 import numpy as np
 
 from .. import tuning
-from ..maths.speed import Shared, lazy
+from ..conventions import gamma
+from ..maths.speed import Shared, lazy, taken
 from ..maths.vector import inverse
 from ..memory import require
-from ..records import Mesh
-from .frames import MARGIN, InCamera
+from ..mesh import Mesh
+from .frames import InCamera
+from .hulls import Points
 from .kind import Visible
 from .triangles import side
+from .windows import counted
 
-VERTEX_BYTES, TRIANGLE_BYTES = 40, 80
-"""Upper bounds of the memory of each vertex and each triangle in view."""
+VERTEX_BYTES, TRIANGLE_BYTES = 40, 8
+"""Upper bounds of the memory of each vertex and each triangle in view, beside those that are tested at once."""
 
 FEWER = "show fewer instances, or reduce the subdivision"
 
 
 @dataclass(frozen=True, eq=False)
-class Triangles:
-    """The triangles of the meshes in view that some pixel may see, in the order of their shapes."""
+class Blocks:
+    """The blocks of the meshes in view that some pixel may see, in the order of their shapes; (b,) arrays."""
 
-    corners: np.ndarray
-    """(3, k) indices into the vertices."""
     shape: np.ndarray
-    """(k,) int32 indices into ``Shapes``."""
-    number: np.ndarray
-    """(k,) int32 indices into the triangles of the mesh."""
+    """Indices into ``Shapes``."""
+    first: np.ndarray
+    """The first triangle of each block, an index into the triangles of the mesh."""
+    count: np.ndarray
+    """The number of triangles in each block."""
+    vertex: np.ndarray
+    """The index of the first vertex of the shape."""
     bounds: np.ndarray
-    """(k, 4) int16, or int32 in large pictures: x0, x1, y0, y1 in the pixels of the plan."""
+    """(b, 4): x0, x1, y0, y1 in the pixels of the plan."""
     near: np.ndarray
-    """(k,) float32: lower bounds of t; -inf where none is known."""
+    """Lower bounds of t; -inf where none is known."""
+
+    @lazy
+    def start(self) -> np.ndarray:
+        """(b + 1,): the number of triangles before each block, and of all."""
+        return np.append(0, np.cumsum(self.count))
+
+    def numbers(self, which: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return the shapes of some triangles of all blocks, and their indices in the meshes."""
+        block = np.searchsorted(self.start, which, side="right") - 1
+        return self.shape[block], which + (self.first - self.start[:-1])[block]
+
+
+@dataclass(frozen=True, eq=False)
+class Triangles:
+    """Some triangles that some pixel may see."""
+
+    which: np.ndarray
+    """(k,): their indices among the triangles of all blocks."""
+    corners: np.ndarray
+    """(3, k) indices of vertices."""
+    bounds: np.ndarray
+    """(k, 4): x0, x1, y0, y1."""
+    near: np.ndarray
+    """(k,): lower bounds of t; -inf where none is known."""
+
+    def __len__(self) -> int:
+        return len(self.which)
+
+    def part(self, some: slice) -> Triangles:
+        """Return a part of them."""
+        return Triangles(self.which[some], self.corners[:, some], self.bounds[some], self.near[some])
+
+    def only(self, some: np.ndarray, bounds: np.ndarray | None = None) -> Triangles:
+        """Return some of them, with other bounds if these are given."""
+        bounds = self.bounds.take(some, axis=0) if bounds is None else bounds
+        return Triangles(taken(self.which, some), taken(self.corners, some), bounds, taken(self.near, some))
 
 
 class Instances(NamedTuple):
@@ -61,145 +106,115 @@ class MeshesInView:
 
     def __init__(self, shapes: InCamera, visible: Visible):
         self._shapes, self._pixels, self._from_eye = shapes, visible.pixels, visible.from_eye
-        chunk = tuning.CHUNK if visible.pixels.has_straight_lines else tuning.BOUNDED
-        groups = list(_groups(shapes, visible.at, chunk))
+        groups = list(_groups(shapes, visible.at))
         total, count = (sum(len(group.rows) * n(group.mesh) for group in groups) for n in (_vertex_count, len))
         require(VERTEX_BYTES * total + TRIANGLE_BYTES * count, f"{count:,} triangles in view", FEWER)
-        self._vertices = np.empty((3, total))
+        self._vertices = Points(visible.pixels, total)
         self._index = np.int32 if total < 2**31 else np.int64
-        self._pixel = np.int16 if visible.pixels.whole.max() < 2**15 else np.int32
-        self._images = np.empty((total, 4), self._pixel) if visible.pixels.has_straight_lines else None
         self._placing = Shared([
             partial(self._place, group, part)
             for group in groups
             for part in _parts(_vertex_count(group.mesh), tuning.CHUNK)
         ])  # fmt: skip
         self._imaging = Shared([
-            partial(self._image, self._images, part)
+            partial(self._vertices.image, part)
             for part in _parts(total, tuning.CHUNK)
-            if self._images is not None
         ])  # fmt: skip
-        self._seeing = Shared([
-            partial(self._see, group, part)
-            for group in groups
-            for part in _parts(len(group.mesh), chunk)
-        ])  # fmt: skip
+        self._boxing = Shared([partial(self._boxes, group) for group in groups])
         self._joining = Shared([self._join])
 
     def prepare(self) -> Iterator[None]:
         """Do all work that is left, in small steps."""
-        for step in (self._placing, self._imaging, self._seeing):
+        for step in (self._placing, self._imaging, self._boxing):
             yield from step.work()
             step.results()
 
     @lazy
-    def triangles(self) -> Triangles:
-        """The triangles that some pixel may see."""
-        for _ in self.prepare():
-            pass
+    def blocks(self) -> Blocks:
+        """The blocks that some pixel may see."""
         return self._joining.results()[0]
 
-    def corners(self, some: np.ndarray) -> np.ndarray:
-        """Return the corners of triangles, (3, 3, m): corner, component."""
-        return self._at(self.triangles.corners.take(some, axis=1))
+    @property
+    def most(self) -> int:
+        """How many triangles are looked at together."""
+        return tuning.CHUNK if self._pixels.has_straight_lines else tuning.BOUNDED
 
-    def facing(self, some: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return the indices of those among some triangles that a ray may hit, and their corners as ``corners`` does.
-        If all rays leave the eye, the corners are ordered so that all volumes of a hit are positive.
+    def triangles(self, some: np.ndarray) -> Triangles:
+        """Return the triangles of some blocks, ascending, that some pixel may see."""
+        blocks = self.blocks
+        run, number = counted(blocks.count[some], blocks.first[some])
+        corners = taken(blocks.vertex[some].astype(self._index), run) + np.zeros((3, 1), self._index)
+        mesh = self._shapes.shapes.mesh[blocks.shape[some]]
+        cuts = np.searchsorted(run, np.flatnonzero(np.diff(mesh)) + 1)
+        for first, last in pairwise((0, *cuts.tolist(), len(run))):
+            if first < last:
+                shown = self._shapes.shapes.meshes[mesh[run[first]]]
+                corners[:, first:last] += taken(shown.triangles, number[first:last])
+        bounds, near, seen = self._vertices.hulls(corners)
+        which = taken(number, seen) + taken((blocks.start[:-1] - blocks.first)[some], taken(run, seen))
+        return Triangles(which, taken(corners, seen), bounds, near)
+
+    def places(self, corners: np.ndarray) -> np.ndarray:
+        """Return the places of vertices, (3, 3, m): corner, component."""
+        return self._vertices.at(corners)
+
+    def facing(self, corners: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return the indices of those among some triangles that a ray may hit, and the places of their corners, given
+        as indices of vertices. If all rays leave the eye, the corners are ordered so that all volumes of a hit are
+        positive.
         """
-        corners = self.corners(some)
-        turn = side(corners) if self._from_eye else np.ones(len(some))
+        corners = self.places(corners)
+        turn = side(corners) if self._from_eye else np.ones(corners.shape[2])
         meets = np.flatnonzero(turn)
-        if len(meets) < len(some):
+        if len(meets) < len(turn):
             corners, turn = corners[:, :, meets], turn[meets]
         corners[1:] = np.where(turn > 0, corners[1:], corners[:0:-1])
         return meets, corners
 
-    def _at(self, corners: np.ndarray) -> np.ndarray:
-        return self._vertices.take(corners, axis=1).swapaxes(0, 1)
-
-    def _join(self) -> Triangles:
-        parts = self._seeing.results()
-        whole = {name: [getattr(part, name) for part in parts] for name in (field.name for field in fields(Triangles))}
-        parts.clear()
-        bounds = np.concatenate(whole.pop("bounds"))
-        return Triangles(bounds=bounds, **{name: np.concatenate(own, axis=-1) for name, own in whole.items()})
-
     def _place(self, group: Instances, some: slice) -> None:
         """Transform some vertices of a mesh for all instances of the group."""
-        rows, count = group.rows, group.mesh.vertices.shape[1]
-        axes = np.einsum("ij,njk->nik", inverse(self._shapes.pose.basis), self._shapes.shapes.axes[rows])[..., None]
+        rows, count = group.rows, _vertex_count(group.mesh)
+        axes = self._axes(group)
         q = group.mesh.vertices[:, some] - group.mesh.middle[:, None]
         own = slice(group.start, group.start + len(rows) * count)
         for i in range(3):
-            place = self._vertices[i, own].reshape(len(rows), count)[:, some]
+            place = self._vertices.places[i, own].reshape(len(rows), count)[:, some]
             np.add(axes[:, i, 1] * q[1], axes[:, i, 2] * q[2], out=place)
             place += axes[:, i, 0] * q[0]
             place += self._shapes.center[rows, i, None]
 
-    def _image(self, images: np.ndarray, some: slice) -> None:
-        """Write the pixel bounds of some vertices as x0, -x1, y0, -y1, so that a triangle's bounds are the minima over
-        its corners. A vertex without an image gets all pixels, and marks x0 with the least number of the type.
-        """
-        bounds, counts = self._pixels.of_points(self._vertices[:, some].T)
-        bounds[~counts] = self._pixels.whole
-        images[some] = bounds
-        _turn_ends(images[some])
-        images[some][~counts, 0] = np.iinfo(self._pixel).min
+    def _axes(self, group: Instances) -> np.ndarray:
+        """Return the axes of a group's shapes in the camera's frame, (n, 3, 3, 1)."""
+        axes = self._shapes.shapes.axes[group.rows]
+        return np.einsum("ij,njk->nik", inverse(self._shapes.pose.basis), axes)[..., None]
 
-    def _see(self, group: Instances, some: slice) -> Triangles:
-        """Return those among some triangles of a mesh, in all instances of the group, that some pixel may see."""
-        own = group.mesh.triangles[:, None, some]
-        starts = group.start + _vertex_count(group.mesh) * np.arange(len(group.rows))
-        corners = (own + starts[:, None]).reshape(3, -1)
-        if self._images is None:
-            bounds, near, seen = self._in_balls(corners)
-        else:
-            bounds, near, seen = self._between(self._images, corners)
-        instance, number = np.divmod(seen, own.shape[2])
-        return Triangles(
-            corners=corners.take(seen, axis=1).astype(self._index),
-            shape=group.rows[instance].astype(np.int32),
-            number=(number + some.start).astype(np.int32),
-            bounds=bounds.astype(self._pixel, copy=False),
-            near=np.nextafter(near.astype(np.float32), np.float32(-np.inf)),
+    def _boxes(self, group: Instances) -> Blocks:
+        """Return the blocks of a group's shapes, from boxes in the camera's frame that hold the rounded vertices."""
+        axes, center = self._axes(group), self._shapes.center[group.rows, :, None]
+        offset, half = group.mesh.blocks
+        size = np.abs(axes)
+        lost = size.sum(axis=(1, 2)) * (np.abs(offset) + half).sum(axis=0) + np.abs(center).sum(axis=1)
+        middle = center + (axes * offset).sum(axis=2)
+        reach = (size * half).sum(axis=2) + gamma(16) * lost[:, None]
+        signs = np.array(list(product((-1.0, 1.0), repeat=3)))
+        places = middle + signs[:, None, :, None] * reach  # corner, shape, component, block
+        corners = Points(self._pixels, places.size // 3)
+        corners.places[...] = places.swapaxes(0, 2).swapaxes(1, 2).reshape(3, -1)
+        corners.image(slice(None))
+        bounds, near, seen = corners.hulls(np.arange(places.size // 3).reshape(8, -1))
+        shape, block = np.divmod(seen, offset.shape[1])
+        return Blocks(
+            shape=group.rows[shape],
+            first=block * tuning.MESH_BLOCK,
+            count=np.minimum(len(group.mesh) - block * tuning.MESH_BLOCK, tuning.MESH_BLOCK),
+            vertex=group.start + shape * _vertex_count(group.mesh),
+            bounds=bounds,
+            near=near,
         )
 
-    def _between(self, images: np.ndarray, corners: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Return the pixel bounds of triangles, (k, 4), lower bounds of their t, (k,), and the indices (k,) of these
-        triangles, which some pixel may see; from the images of their corners.
-        """
-        a, b, c = (images.take(corner, axis=0) for corner in corners)
-        least = np.minimum(np.minimum(a, b, out=a), c, out=a)
-        seen = np.flatnonzero((least[:, 0] < -least[:, 1]) & (least[:, 2] < -least[:, 3]))
-        bounds, corners = least.take(seen, axis=0), corners.take(seen, axis=1)
-        _turn_ends(bounds)
-        near = -np.maximum.reduce([self._vertices[2].take(corner) for corner in corners])
-        unknown = bounds[:, 0] == np.iinfo(self._pixel).min
-        if not unknown.any():
-            return bounds, near, seen
-        known, unknown = np.flatnonzero(~unknown), np.flatnonzero(unknown)
-        own_bounds, own_near, own = self._in_balls(corners[:, unknown])
-        place = np.concatenate((known, unknown[own]))
-        order = np.argsort(place)
-        bounds, near = np.concatenate((bounds[known], own_bounds)), np.concatenate((near[known], own_near))
-        return bounds[order], near[order], seen[place[order]]
-
-    def _in_balls(self, corners: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Return the same as ``_between``, from the balls around triangles."""
-        a, b, c = self._at(corners)
-        low, high = np.minimum(np.minimum(a, b), c), np.maximum(np.maximum(a, b), c)
-        middle = low / 2 + high / 2
-        radius = MARGIN * np.sqrt(np.maximum.reduce([((corner - middle) ** 2).sum(axis=0) for corner in (a, b, c)]))
-        bounds, seen = self._pixels.of_balls(middle.T, radius)
-        at = np.flatnonzero(seen)
-        return bounds[at], self._pixels.least_t(middle.T, radius)[at], at
-
-
-def _turn_ends(bounds: np.ndarray) -> None:
-    """Turn x0, x1, y0, y1 into x0, -x1, y0, -y1 or back, in place."""
-    for column in bounds.T[1::2]:
-        np.negative(column, out=column)
+    def _join(self) -> Blocks:
+        parts = [vars(part) for part in self._boxing.results()]
+        return Blocks(**{name: np.concatenate([part[name] for part in parts]) for name in Blocks.__dataclass_fields__})
 
 
 def _vertex_count(mesh: Mesh) -> int:
@@ -212,13 +227,13 @@ def _parts(count: int, most: int) -> Iterator[slice]:
         yield slice(first, min(first + most, count))
 
 
-def _groups(shapes: InCamera, rows: np.ndarray, chunk: int) -> Iterator[Instances]:
+def _groups(shapes: InCamera, rows: np.ndarray) -> Iterator[Instances]:
     """Yield the instances of each mesh, in groups that fill a chunk with vertices or triangles."""
     mesh, start = shapes.shapes.mesh[rows], 0
     cuts = np.flatnonzero(np.diff(mesh)) + 1
     for first, last in pairwise((0, *cuts.tolist(), len(rows))):
         own = shapes.shapes.meshes[mesh[first]]
-        for part in _parts(last - first, max(1, chunk // max(_vertex_count(own), len(own), 1))):
+        for part in _parts(last - first, max(1, tuning.CHUNK // max(_vertex_count(own), len(own), 1))):
             group = Instances(own, rows[first:last][part], start)
             start += len(group.rows) * _vertex_count(own)
             yield group

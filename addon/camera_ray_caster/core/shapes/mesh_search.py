@@ -5,15 +5,16 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from typing import Any
+from functools import partial
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from .. import tuning
-from ..maths.speed import lazy, taken
+from ..maths.speed import merged, taken
 from ..maths.vector import cross, cut, difference, dot, norm
 from .kind import Candidates, PixelBounds, ShapeSet
-from .mesh_found import SEEN, Found, SeenTriangles
+from .mesh_found import NONE, SEEN, Found, SeenTriangles
 from .mesh_in_camera import MeshesInView, Triangles
 from .mesh_spans import Lattice, spans
 from .search_rays import SearchRays
@@ -22,6 +23,27 @@ from .windows import Windows, banded, batches, in_tile, pixels_in, union
 
 Reach = tuple[float, float]
 """Upper bounds of the lengths of the directions and of the origins of a tile's rays."""
+
+
+class Open(NamedTuple):
+    """Triangles and pixels in which they still have to be tested."""
+
+    which: np.ndarray
+    """(m,) indices of triangles."""
+    vertices: np.ndarray
+    """(3, m) indices of their vertices."""
+    pixel: np.ndarray
+    """(m,) pixels of the tile."""
+
+    @classmethod
+    def of(cls, triangles: Triangles, k: np.ndarray, pixel: np.ndarray) -> Open:
+        """Return the triangles with some indices, one for each pixel."""
+        return cls(taken(triangles.which, k), taken(triangles.corners, k), pixel)
+
+    @classmethod
+    def none(cls) -> Open:
+        """Return no triangle."""
+        return cls(np.zeros(0, np.intp), np.zeros((3, 0), np.intp), np.zeros(0, np.intp))
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,77 +60,82 @@ class MeshSet(ShapeSet):
         """Return the same set for some columns and rows of the picture."""
         return replace(self, pixels=pixels)
 
-    @lazy
-    def triangles(self) -> Triangles:
-        """The triangles that some pixel may see."""
-        whole = self.meshes.triangles
-        return whole if self.pixels is None else replace(whole, bounds=self.pixels.within(whole.bounds))
-
     def rest(self, rays: SearchRays, nearest: np.ndarray) -> Iterator[Candidates | None]:
         """See ``ShapeSet``."""
         for _ in self.meshes.prepare():
             yield None
-        triangles = self.triangles
-        here, bounds = in_tile(triangles.bounds, rays.corner, rays.shape)
+        blocks = self.meshes.blocks
+        here, bounds = in_tile(self._in_plan(blocks.bounds), rays.corner, rays.shape)
         if not here.size:
             return
         window = union(bounds)
         whole, rays = rays, rays.within(window)
         first_row, first_column = (own.start for own in window)
         bounds -= np.array([first_column, first_column, first_row, first_row], bounds.dtype)
-        found = Found.of(nearest[window], rays, len(triangles.shape))
+        found = Found.of(nearest[window], rays)
         lattice = Lattice.of(rays)
         reach = _longest(rays.direction), _longest(rays.origin or (0.0,))
-        near = triangles.near.take(here)
-        for slab in _slabs(near, bounds, found.t.size):
-            slab = slab.take(found.may_show(bounds.take(slab, axis=0), near.take(slab)))
-            own = here.take(slab), bounds.take(slab, axis=0).astype(np.intp)
-            if lattice is not None:
-                steps = self._in_spans(rays, lattice, reach, *own, found)
-            else:
-                steps = self._in_windows(rays, reach, *own, found)
-            for _ in steps:
-                yield None
+        near = blocks.near.take(here)
+        cast = partial(self._in_spans, lattice) if lattice else self._in_windows
+        for batch in _nearest_first(near, blocks.count[here], self.meshes.most):
+            batch = batch.take(found.may_show(bounds.take(batch, axis=0), near.take(batch)))
+            triangles = self.meshes.triangles(np.sort(here.take(batch)))
+            inside, parts = in_tile(self._in_plan(triangles.bounds), rays.corner, rays.shape)
+            triangles = triangles.only(inside, parts.astype(np.intp))  # their products may exceed the type of bounds
+            for slab in _slabs(triangles, found.t.size):
+                slab = slab.take(found.may_show(triangles.bounds.take(slab, axis=0), triangles.near.take(slab)))
+                some = triangles.only(slab)
+                for _ in cast(rays, reach, replace(some, which=found.enter(some.which)), found):
+                    yield None
+            yield None
         seen, of_pixel = found.seen()
         if not seen.size:
             return
         whole.scratch(SEEN, whole.shape, np.int32)[window] = of_pixel
-        noted = SeenTriangles(triangles.shape[seen], triangles.number[seen])
+        noted = SeenTriangles(*blocks.numbers(seen))
         whole.scratch.noted[SEEN] = noted
         corner = np.array([first_row]), np.array([first_column])
-        met = found.which != found.count
-        yield Candidates(noted.at.take(of_pixel)[None], corner, found.t[None], met[None])
+        met = found.number != NONE
+        at = merged(noted.at)
+        at = at[None, None] if len(at) == 1 else at.take(of_pixel)[None]
+        yield Candidates(at, corner, found.t[None], met[None])
 
-    def _in_spans(self, rays, lattice: Lattice, reach: Reach, here, bounds, found: Found) -> Iterator[None]:
+    def _in_plan(self, bounds: np.ndarray) -> np.ndarray:
+        return bounds if self.pixels is None else self.pixels.within(bounds)
+
+    def _in_spans(
+        self, lattice: Lattice, rays: SearchRays, reach: Reach, triangles: Triangles, found: Found
+    ) -> Iterator[None]:
         """Keep the hits of a lattice of rays on triangles, in small steps."""
-        at, bands = banded(bounds, tuning.SPANNED_PIXELS)
-        rest = []
+        at, bands = banded(triangles.bounds, tuning.SPANNED_PIXELS)
+        triangles = triangles.only(at, bands)
+        rest: list[Open] = []
         for some in _pieces(bands, tuning.SPANNED_PIXELS):
-            rest.append(self._span(rays, lattice, reach, here[at[some]], bands[some], found))
+            rest.append(self._span(rays, lattice, reach, triangles.part(some), found))
             yield
         self._test(rays, rest, found)
 
-    def _in_windows(self, rays, reach: Reach, here, bounds, found: Found) -> Iterator[None]:
+    def _in_windows(self, rays: SearchRays, reach: Reach, triangles: Triangles, found: Found) -> Iterator[None]:
         """Keep the hits of any rays on triangles, in small steps: large triangles one by one."""
-        is_large = pixels_in(bounds) >= tuning.SMALL_PIXELS
-        at, bands = banded(bounds[is_large], tuning.BLOCK_PIXELS)
-        rest = []
-        for one, band in zip(here[is_large][at].tolist(), bands.tolist(), strict=True):
-            rest.append(self._fill(rays, reach, one, band, found))
+        is_large = pixels_in(triangles.bounds) >= tuning.SMALL_PIXELS
+        large = triangles.only(np.flatnonzero(is_large))
+        at, bands = banded(large.bounds, tuning.BLOCK_PIXELS)
+        rest: list[Open] = []
+        for k, band in zip(at.tolist(), bands.tolist(), strict=True):
+            rest.append(self._fill(rays, reach, large.which[k], large.corners[:, k : k + 1], band, found))
             yield
         self._test(rays, rest, found)
-        yield from self._in_pixels(rays, reach, here[~is_large], bounds[~is_large], found)
+        yield from self._in_pixels(rays, reach, triangles.only(np.flatnonzero(~is_large)), found)
 
-    def _fill(self, rays: SearchRays, reach: Reach, which: int, bounds: list[int], found: Found):
-        """Keep the hits on one triangle in a window of the tile. Return the pixels in which it still has to be tested,
-        preceded by its index once for each of them.
+    def _fill(self, rays: SearchRays, reach: Reach, which: int, vertices: np.ndarray, bounds: list[int], found: Found):
+        """Keep the hits on one triangle in a window of the tile. Return the pixels in which it still has to be tested.
         """
         x0, x1, y0, y1 = bounds
         window = slice(y0, y1), slice(x0, x1)
         corners: Any
-        meets, corners = self.meshes.facing(np.array([which]))
+        meets, corners = self.meshes.facing(vertices)
         if not meets.size:
-            return meets, meets
+            return Open.none()
         corners = corners[..., None]
         direction = tuple(cut(component, window) for component in rays.direction)
         doubt = _doubt(corners, reach).item()
@@ -124,67 +151,68 @@ class MeshSet(ShapeSet):
         met &= ~open_
         found.fill(window, met, t, which)
         row, column = np.nonzero(np.broadcast_to(open_, inner.shape))
-        return np.full(len(row), which), (y0 + row) * rays.shape[1] + x0 + column
+        pixel = (y0 + row) * rays.shape[1] + x0 + column
+        return Open(np.full(len(row), which), np.repeat(vertices, len(row), axis=1), pixel)
 
-    def _span(
-        self, rays: SearchRays, lattice: Lattice, reach: Reach, here: np.ndarray, bounds: np.ndarray, found: Found
-    ) -> tuple[np.ndarray, np.ndarray]:
-        """Keep the hits on triangles in spans, and ray by ray on triangles without spans. Return triangles that still
-        have to be tested, and the pixels in which to test them.
+    def _span(self, rays: SearchRays, lattice: Lattice, reach: Reach, triangles: Triangles, found: Found) -> Open:
+        """Keep the hits on triangles in spans, and ray by ray on triangles without spans. Return the pixels in which
+        triangles still have to be tested.
         """
-        meets, corners = self.meshes.facing(here)
-        here, bounds = here[meets], bounds[meets]
-        seen = spans(lattice, corners, bounds, rays.shape[1])
+        meets, corners = self.meshes.facing(triangles.corners)
+        if len(meets) < len(triangles):
+            triangles = triangles.only(meets)
+        seen = spans(lattice, corners, triangles.bounds, rays.shape[1])
         at, pixel = seen.met
-        self._keep(found, pixel, seen.t, taken(here, at))
+        self._keep(found, pixel, seen.t, taken(triangles.which, at))
         if not seen.clear.all():
-            others = np.flatnonzero(~seen.clear)
-            for _ in self._in_pixels(rays, reach, here[others], bounds[others], found):
+            for _ in self._in_pixels(rays, reach, triangles.only(np.flatnonzero(~seen.clear)), found):
                 pass
-        at, pixel = seen.open
-        return here[at], pixel
+        return Open.of(triangles, *seen.open)
 
-    def _in_pixels(self, rays: SearchRays, reach: Reach, here, bounds, found: Found) -> Iterator[None]:
+    def _in_pixels(self, rays: SearchRays, reach: Reach, triangles: Triangles, found: Found) -> Iterator[None]:
         """Keep the hits on triangles that are tested pixel by pixel, in small steps."""
+        bounds = triangles.bounds
         for some in _pieces(bounds, tuning.TRACED_PIXELS) if rays.origin is None else batches(bounds):
-            meets, corners = self.meshes.facing(here[some])
+            own = triangles.part(some) if isinstance(some, slice) else triangles.only(some)
+            meets, corners = self.meshes.facing(own.corners)
             if meets.size:
                 cast = self._from_eye if rays.origin is None else self._from_anywhere
-                cast(rays, corners, _doubt(corners, reach), here[some][meets], bounds[some][meets], found)
+                cast(rays, corners, _doubt(corners, reach), own.only(meets), found)
             yield
 
-    def _from_eye(self, rays: SearchRays, corners, doubt, here, bounds, found: Found) -> None:
+    def _from_eye(self, rays: SearchRays, corners, doubt, triangles: Triangles, found: Found) -> None:
         """Keep the hits of rays from the eye in triangles' bounds: all rays share the planes through eye and edges."""
-        pixel, k = rays.present.within(bounds)
+        pixel, k = rays.present.within(triangles.bounds)
         _, direction = rays.at(pixel)
         normals = (np.array(cross(corners[i], corners[j])) for i, j in EDGES)
         inner = _inside(tuple(dot(taken(normal, k), direction) for normal in normals), is_turned=True)
-        self._decide(rays, inner, taken(doubt, k), here[k], pixel, found)
+        self._decide(rays, inner, taken(doubt, k), triangles, k, pixel, found)
 
-    def _from_anywhere(self, rays: SearchRays, corners, doubt, here, bounds, found: Found) -> None:
+    def _from_anywhere(self, rays: SearchRays, corners, doubt, triangles: Triangles, found: Found) -> None:
         """Keep the hits of rays with many origins, in windows: by moments, without corners relative to each origin."""
-        windows = Windows.around(bounds, rays.shape)
+        windows = Windows.around(triangles.bounds, rays.shape)
         direction, moment = (tuple(map(windows.flat, parts)) for parts in (rays.direction, rays.moment))
         inner = _inside(volumes(corners, direction, moment), is_turned=False)
         near = np.flatnonzero(inner >= -doubt)
-        k = near % len(here)
-        self._decide(rays, inner.reshape(-1)[near], doubt[k], here[k], windows.pixel.reshape(-1)[near], found)
+        k = near % len(triangles)
+        pixel = windows.pixel.reshape(-1)[near]
+        self._decide(rays, inner.reshape(-1)[near], doubt[k], triangles, k, pixel, found)
 
-    def _decide(self, rays: SearchRays, inner, doubt, which, pixel, found: Found) -> None:
+    def _decide(self, rays: SearchRays, inner, doubt, triangles: Triangles, k, pixel, found: Found) -> None:
         """Keep the hits on triangles, one per pixel, given how far inside the rays are and the error bound of that."""
         is_open, is_met = np.abs(inner) <= doubt, inner > doubt
-        self._test(rays, [(which[is_open], pixel[is_open])], found)
-        which, pixel = which[is_met], pixel[is_met]
-        self._keep(found, pixel, crossing(*self._meeting(rays, which, pixel)), which)
+        self._test(rays, [Open.of(triangles, k[is_open], pixel[is_open])], found)
+        met = Open.of(triangles, k[is_met], pixel[is_met])
+        self._keep(found, met.pixel, crossing(*self._meeting(rays, met)), met.which)
 
-    def _test(self, rays: SearchRays, rest: list[tuple[np.ndarray, np.ndarray]], found: Found) -> None:
-        """Keep the hits among lists of triangles and the pixels in which to test them, by exact signs where rounding
-        could decide. All lists are tested at once, since one computation of exact signs takes a millisecond.
+    def _test(self, rays: SearchRays, rest: list[Open], found: Found) -> None:
+        """Keep the hits among triangles that have to be tested, by exact signs where rounding could decide. All are
+        tested at once, since one computation of exact signs takes a millisecond.
         """
-        if not any(len(which) for which, _ in rest):
+        if not any(len(one.which) for one in rest):
             return
-        which, pixel = (np.concatenate(part) for part in zip(*rest, strict=True))
-        corners, direction = self._meeting(rays, which, pixel)
+        which, vertices, pixel = (np.concatenate(part, axis=-1) for part in zip(*rest, strict=True))
+        corners, direction = self._meeting(rays, Open(which, vertices, pixel))
         doubt = ROUNDING * np.maximum.reduce([norm(corner) for corner in corners]) ** 2 * norm(direction)
         inner = _inside(volumes(corners, direction), is_turned=False)
         met = inner > doubt
@@ -201,9 +229,9 @@ class MeshSet(ShapeSet):
             pixel, t, which = pixel[met], t[met], which[met]
         found.keep(pixel, t, which)
 
-    def _meeting(self, rays: SearchRays, which: np.ndarray, pixel: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def _meeting(self, rays: SearchRays, some: Open) -> tuple[np.ndarray, np.ndarray]:
         """Return corners relative to the rays' origins (3, 3, m) and directions (3, m), one triangle per pixel."""
-        corners, (origin, direction) = self.meshes.corners(which), rays.at(pixel)
+        corners, (origin, direction) = self.meshes.places(some.vertices), rays.at(some.pixel)
         return corners if origin is None else corners - origin, direction
 
 
@@ -230,12 +258,21 @@ def _longest(vectors: Any) -> float:
     return math.sqrt(sum(float(np.fmax.reduce(np.square(component), axis=None, initial=0.0)) for component in vectors))
 
 
-def _slabs(near: np.ndarray, bounds: np.ndarray, pixels: int) -> Iterator[np.ndarray]:
+def _nearest_first(near: np.ndarray, count: np.ndarray, most: int) -> Iterator[np.ndarray]:
+    """Yield blocks in parts with at most ``most`` triangles, those with the least t first."""
+    order = np.argsort(near, kind="stable")
+    part = (np.cumsum(count[order]) - 1) // most
+    yield from np.split(order, np.flatnonzero(np.diff(part)) + 1)
+
+
+def _slabs(triangles: Triangles, pixels: int) -> Iterator[np.ndarray]:
     """Yield triangles in parts of about the same number, those with the least t first. The number of parts grows with
     their work compared with the pixels of their tile, since the tile's farthest t are computed before each part.
     """
-    x0, x1, y0, y1 = bounds.T
-    work = tuning.TRIANGLE_PIXELS * len(near) + np.multiply(x1 - x0, y1 - y0, dtype=float).sum()
+    near = triangles.near
+    if not near.size:
+        return
+    work = tuning.TRIANGLE_PIXELS * len(near) + pixels_in(triangles.bounds).sum()
     count = max(1, round(tuning.SLABS * math.sqrt(work / (pixels + tuning.SLAB_PIXELS))))
     cuts = np.quantile(near[:: max(1, len(near) >> 12)], np.arange(1, count) / count)
     slab = np.searchsorted(cuts, near)

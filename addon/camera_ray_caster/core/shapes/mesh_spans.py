@@ -58,7 +58,7 @@ class Lattice:
         for places in (x.ravel().astype(float), y.ravel().astype(float)):
             pitch = (places[-1] - places[0]) / max(len(places) - 1, 1)
             even = places[0] + pitch * np.arange(len(places))
-            if not pitch or np.abs(places - even).max() > 4 * EPS * np.abs(places).max():
+            if not pitch or np.abs(places - even).max() > 8 * EPS * np.abs(places).max():
                 return None
             first.append(float(places[0]))
             step.append(float(pitch))
@@ -120,17 +120,23 @@ def spans(lattice: Lattice, corners: Any, bounds: np.ndarray, width: int) -> Spa
     low = reduce(np.maximum, _at_rows(start, change, ~is_level & (inverse > 0), -np.inf, at, row))
     high = reduce(np.minimum, _at_rows(start, change, ~is_level & (inverse < 0), np.inf, at, row))
     doubt = taken(np.where(is_level, 0, doubt).max(axis=0), at)
-    first = np.maximum(np.ceil(low - doubt), taken(x0, at)).astype(np.intp)
-    last = np.minimum(np.floor(high + doubt), taken(x1, at) - 1).astype(np.intp)
-    left = (first <= last) & (first < low + doubt) & ~is_open
-    right = (first + left <= last) & (last > high - doubt) & ~is_open
+    first = np.maximum(np.ceil(low - doubt), taken(x0, at))
+    last = np.minimum(np.floor(high + doubt), taken(x1, at) - 1)
+    some = np.flatnonzero(first <= last)
+    at, row, is_open = taken(at, some), taken(row, some), taken(is_open, some)
+    left, right = taken(first < low + doubt, some), taken(last > high - doubt, some)
+    first, last = taken(first, some).astype(np.intp), taken(last, some).astype(np.intp)
     place = row * width
-    span, column = counted(np.where(is_open, np.maximum(last - first + 1, 0), 0), first)
-    rest = [(at[span], place[span] + column)]
-    rest += [(at[some], place[some] + end[some]) for some, end in ((left, first), (right, last))]
-    first += left
-    count = np.where(is_open, 0, np.maximum(last - right + 1 - first, 0))
-    span, column = counted(count, first)
+    rest = [(at[:0], at[:0])]
+    if is_open.any() or left.any() or right.any():
+        span, column = counted(np.where(is_open, last - first + 1, 0), first)
+        rest.append((at[span], place[span] + column))
+        left, right = left & ~is_open, right & ~is_open & (last > first)
+        rest += [(at[some], place[some] + end[some]) for some, end in ((left, first), (right, last))]
+        first += left
+        last -= right
+        last[is_open] = first[is_open] - 1
+    span, column = counted(last - first + 1, first)
     x, y, z = t_terms
     at_row = taken(x * lattice.first[0] + z, at) + taken(y, at) * (lattice.first[1] + row * lattice.step[1])
     t = taken(taken(x * lattice.step[0], at), span)

@@ -15,7 +15,7 @@ import numpy as np
 from ..conventions import EPS
 from ..maths.speed import lazy, merged, taken
 from ..maths.vector import components, cross, difference, dot, matrix_rows, matvec, norm
-from ..records import Mesh
+from ..mesh import Mesh
 from .frames import InCamera
 from .kind import HitPixels
 from .mesh_found import SEEN

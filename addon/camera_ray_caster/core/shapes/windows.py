@@ -39,6 +39,8 @@ def banded(bounds: np.ndarray, most: int) -> tuple[np.ndarray, np.ndarray]:
     """Cut bounds (n, 4) into bands of rows with at most ``most`` pixels, or of one row. Return for each band the index
     of its bounds, (k,), and the band, (k, 4).
     """
+    if (pixels_in(bounds) <= most).all():
+        return np.arange(len(bounds)), bounds
     rows = np.maximum(most // (bounds[:, 1] - bounds[:, 0]), 1)
     count = -(-(bounds[:, 3] - bounds[:, 2]) // rows)
     at = np.repeat(np.arange(len(bounds)), count)
