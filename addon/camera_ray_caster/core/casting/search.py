@@ -99,18 +99,23 @@ class Nearest:
 
     def keep(self, found: Candidates) -> None:
         """Keep the crossings that are the nearest so far, in any order of shapes."""
-        (first_row, first_column), (_, high, wide) = found.corner, found.t.shape
-        before = sliding_window_view(self.t, (high, wide))[found.corner]
+        (first_row, first_column), (count, high, wide) = found.corner, found.t.shape
         at = found.at.astype(self.index.dtype)
+        if count == 1:  # without the copies that indexing by arrays makes
+            whole = slice(first_row[0], first_row[0] + high), slice(first_column[0], first_column[0] + wide)
+            before, other = self.t[whole][None], self.index[whole][None]
+        else:
+            before = sliding_window_view(self.t, (high, wide))[found.corner]
+            other = sliding_window_view(self.index, (high, wide))[found.corner]
         closer, tied = found.t < before, found.t == before
-        if tied.any():
-            closer |= tied & (at < sliding_window_view(self.index, (high, wide))[found.corner])
         if found.where is not None:
             closer &= found.where
-        if len(closer) == 1:
-            whole = slice(first_row[0], first_row[0] + high), slice(first_column[0], first_column[0] + wide)
-            np.copyto(self.t[whole], found.t[0], where=closer[0], casting="same_kind")
-            np.copyto(self.index[whole], at[0], where=closer[0])
+            tied &= found.where
+        if tied.any():
+            closer |= tied & (at < other)
+        if count == 1:
+            np.copyto(before, found.t, where=closer, casting="same_kind")
+            np.copyto(other, at, where=closer)
             return
         hits = np.flatnonzero(closer)
         width = self.t.shape[1]

@@ -84,7 +84,7 @@ class TriangleErrors(ShapeErrors):
         each = triangles.each
         change = each(2 * spread * weights) * (point + each(self._moved + gamma(16) * reach))
         place = along(self.rays.origin, self.rays.direction, self.found)
-        left = norm(tuple(triangles.interpolated(corner_normals, place))) - change
+        left = norm(triangles.interpolated(corner_normals, place)) - change
         smooth = np.where(left > 0, change / left, 2.0) + gamma(64)
         return np.where(each(spread > 0), smooth, each(turn))
 

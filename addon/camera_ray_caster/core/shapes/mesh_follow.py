@@ -60,7 +60,7 @@ def _with_triangles(triangles: HitTriangles, then: Shapes, rows: np.ndarray, poi
     reach = np.maximum.reduce([norm(corner) for corner in (*triangles.corners, *steps)])
     thin = np.maximum(*map(norm, triangles.edges)) * sum(gradients)
     error = gamma(64) * reach * (1 + spread) * (1 + thin)
-    by = np.array(list(triangles.interpolated(steps, point)))
+    by = triangles.interpolated(steps, point)
     return Moved(by, triangles.each(spread), triangles.each(error))
 
 

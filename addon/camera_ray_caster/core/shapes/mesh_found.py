@@ -63,7 +63,8 @@ class Found:
         """Return the indices of the triangles that pixels see, and which of these each pixel sees, 0 for none."""
         which = self._which()
         is_seen = np.zeros(len(which) + 1, bool)  # the last for NONE
-        is_seen[self.number.reshape(-1)] = True
+        pixels = self.number.reshape(-1)  # most are like the one before
+        is_seen[taken(pixels, np.flatnonzero(np.append(True, pixels[1:] != pixels[:-1])))] = True
         seen = np.flatnonzero(is_seen[:NONE])
         place = np.zeros(len(is_seen), np.int32)
         place[seen] = np.arange(len(seen))

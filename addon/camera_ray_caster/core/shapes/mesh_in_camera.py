@@ -1,7 +1,7 @@
-"""Meshes as a camera sees them: vertices in its frame, and the pixels in which each triangle may be seen.
+"""Meshes as a camera sees them: vertices in its frame, and the pixels in which blocks and triangles may be seen.
 
-Triangles come in blocks of consecutive ones, which most meshes have next to each other. Only the triangles of blocks
-that are neither out of view nor hidden are looked at one by one.
+A block is some consecutive triangles: in most meshes these are neighbors. Only the triangles of blocks that are neither
+out of view nor hidden are bounded one by one.
 """
 
 from __future__ import annotations
@@ -65,7 +65,7 @@ class Triangles:
     """Some triangles that some pixel may see."""
 
     which: np.ndarray
-    """(k,): their indices among the triangles of all blocks."""
+    """(k,): their indices among the triangles of all blocks; in a search their numbers there, see ``Found.enter``."""
     corners: np.ndarray
     """(3, k) indices of vertices."""
     bounds: np.ndarray
@@ -136,7 +136,7 @@ class MeshesInView:
 
     @property
     def most(self) -> int:
-        """How many triangles are looked at together."""
+        """Maximum number of triangles that are bounded together."""
         return tuning.CHUNK if self._pixels.has_straight_lines else tuning.BOUNDED
 
     def triangles(self, some: np.ndarray) -> Triangles:

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from .. import tuning
+from ..maths.speed import taken
 from ..maths.vector import dot, norm
 from .frames import InCamera
 from .kind import HitPixels
@@ -27,7 +28,7 @@ class TriangleNormals:
     constant: np.ndarray
     """(3, k)."""
     slope: np.ndarray | None
-    """(3, 3, k): component, axis of p; None if all triangles are flat-shaded."""
+    """(3, 3, k): axis of p, component; None if all triangles are flat-shaded."""
     area: np.ndarray | None
     """(3, k): face normals on the side of the normals; None for rays from the eye, which all normals face already."""
 
@@ -55,8 +56,7 @@ class TriangleNormals:
             if slope is None:
                 constant[:, own] = turn * np.array(some.area)
                 continue
-            for i, (at_eye, along) in enumerate(some.affine(turn * some.corner_normals)):
-                constant[i, own], slope[i, :, own] = at_eye, along
+            constant[:, own], slope[..., own] = some.affine(turn * some.corner_normals)
         return cls(seen, constant, slope, area)
 
     def at(self, pixels: HitPixels, point: Any, direction: Any) -> Any:
@@ -67,12 +67,11 @@ class TriangleNormals:
         """
         which = pixels.kept(SEEN, np.int32).astype(np.intp)
         if self.slope is None:
-            normal = list(self.constant.take(which, axis=1))
+            normal = taken(self.constant, which)
         else:
-            normal = [affine_at(which, *own, point) for own in zip(self.constant, self.slope, strict=True)]
+            normal = affine_at(which, self.constant, self.slope, point)
         scale = 1 / np.maximum(norm(normal), np.finfo(float).tiny)
         if self.area is not None:
-            scale *= -np.sign(dot(self.area.take(which, axis=1), direction))
-        for component in normal:
-            component *= scale
+            scale *= -np.sign(dot(taken(self.area, which), direction))
+        normal *= scale
         return normal

@@ -29,7 +29,7 @@ class Open(NamedTuple):
     """Triangles and pixels in which they still have to be tested."""
 
     which: np.ndarray
-    """(m,) indices of triangles."""
+    """(m,) numbers of triangles."""
     vertices: np.ndarray
     """(3, m) indices of their vertices."""
     pixel: np.ndarray

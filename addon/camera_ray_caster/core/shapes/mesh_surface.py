@@ -6,7 +6,7 @@ a triangle, normals and uv are affine in the hit point.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
@@ -133,21 +133,17 @@ class HitTriangles:
         second, third = (tuple(np.where(lost, 0.0, component) for component in vector) for vector in both)
         return second, third
 
-    def affine(self, values: np.ndarray) -> Iterator[tuple[np.ndarray, Any]]:
-        """Yield a constant, (k,), and a slope, three (k,), for each component of values at the corners, (3, c, k): at
-        hit points p relative to the eye the component is constant + slope . p.
+    def affine(self, values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return constants, (c, k), and slopes, (3, c, k), of values at the corners, (3, c, k): the values at hit points
+        p, relative to the eye, are constant + slope . p.
         """
-        second, third = self.gradients
-        for at_corners in np.swapaxes(values, 0, 1):
-            first = at_corners[0]
-            to_second, to_third = at_corners[1] - first, at_corners[2] - first
-            slope = [to_second * g + to_third * h for g, h in zip(second, third, strict=True)]
-            yield first - dot(slope, self.corners[0]), slope
+        first, to_second, to_third = values[0], values[1] - values[0], values[2] - values[0]
+        slope = np.array([to_second * g + to_third * h for g, h in zip(*self.gradients, strict=True)])
+        return first - dot(slope, self.corners[0]), slope
 
-    def interpolated(self, values: np.ndarray, point: Any) -> Iterator[np.ndarray]:
-        """Yield each component, (m,), of values at the corners, (3, c, k), at hit points relative to the eye."""
-        for constant, slope in self.affine(values):
-            yield affine_at(self.which, constant, slope, point)
+    def interpolated(self, values: np.ndarray, point: Any) -> np.ndarray:
+        """Return values at the corners, (3, c, k), at hit points relative to the eye, (c, m)."""
+        return affine_at(self.which, *self.affine(values), point)
 
     def uv(self, point: Any) -> tuple[np.ndarray, np.ndarray]:
         """Return u and v, (m,) each; 0 if the mesh has no map."""
@@ -158,7 +154,7 @@ class HitTriangles:
         """Return the distances from edges, (m,), as ``Kind.from_edge`` does."""
         outer = self._gather((3,), bool, lambda mesh, k: False if mesh.uv is not None else mesh.is_outer[:, k])
         corners = np.broadcast_to(np.eye(3)[..., None], (3, 3, len(self.at)))
-        heights = np.array(list(self.interpolated(corners, point)))
+        heights = self.interpolated(corners, point)
         return np.where(self.each(outer), heights, np.inf).min(axis=0)
 
     @lazy
@@ -185,12 +181,11 @@ class HitTriangles:
         return result
 
 
-def affine_at(which: np.ndarray, constant: np.ndarray, slope: Any, point: Any) -> np.ndarray:
-    """Return constant + slope . point, (m,), with constants and slopes, (k,), taken at the indices ``which``, (m,)."""
-    total, part = np.empty((2, len(which)))
-    np.take(constant, which, out=total, mode="wrap")
+def affine_at(which: np.ndarray, constant: np.ndarray, slope: np.ndarray, point: Any) -> np.ndarray:
+    """Return constant + slope . point, (c, m), with constants (c, k) and slopes (3, c, k) at the indices ``which``."""
+    total = taken(constant, which)
     for along, component in zip(slope, point, strict=True):
-        np.take(along, which, out=part, mode="wrap")
+        part = taken(along, which)
         part *= component
         total += part
     return total
