@@ -134,8 +134,8 @@ class HitTriangles:
         return second, third
 
     def affine(self, values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return constants, (c, k), and slopes, (3, c, k), of values at the corners, (3, c, k): the values at hit points
-        p, relative to the eye, are constant + slope . p.
+        """Return constants, (c, k), and slopes, (3, c, k), of values at the corners, (3, c, k): the values at points
+        p relative to the eye are constant + slope . p.
         """
         first, to_second, to_third = values[0], values[1] - values[0], values[2] - values[0]
         slope = np.array([to_second * g + to_third * h for g, h in zip(*self.gradients, strict=True)])
