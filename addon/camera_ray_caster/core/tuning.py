@@ -49,22 +49,26 @@ the time of the casts of SLABS.
 """
 
 CHUNK = 1 << 16
-"""Number of mesh vertices or triangles placed at once. In the casts of SLABS: 2**14 within 6 %, 2**20 up to 1.1."""
+"""Number of mesh vertices placed, or triangles bounded, at once; before that, blocks behind the hits so far are left
+out. In the casts of SLABS: 2**14 1.0, 1.0, 1.45 and 1.2 times, 2**18 1.0, 1.0, 1.0 and 1.3.
+"""
 
 BOUNDED = 1 << 14
 """Number of triangles whose bounding balls are bounded at once. With a strip camera each takes some microseconds, and
-the cast can be stopped only between two calls.
+the cast can be stopped only between two calls. 2**12: 1.05 times the time of a fisheye.
 """
 
 SURFACES = 1 << 14
-"""Number of triangles whose normals are computed at once. 2**10 to 2**18: within the noise; no limit: more memory."""
+"""Number of triangles whose normals are computed at once. For 250,000 and a million triangles 2**12: 1.03 times, 2**16:
+1.0 and 1.08.
+"""
 
 SLABS, SLAB_PIXELS = 2, 1 << 17
 """Factors of the number of slabs in which triangles are tested, the nearest first; triangles behind a tested slab are
 skipped. The number is SLABS times the square root of the triangles' work over (the tile's pixels plus SLAB_PIXELS):
 before each slab all pixels of the tile are checked, and SLAB_PIXELS stands for the numpy calls. Processor time of depth
 and shape index for a monkey head of 1,000, 63,000 and a million triangles before a wall, and for a thousand heads:
-SLABS 1: 0.95, 1.04, 1.24 and 1.19 times; 3: 1.04, 1.05, 1.01 and 1.09. Always four slabs, without skipping triangles
+SLABS 1: 0.97, 1.01, 0.98 and 1.04 times; 3: 1.06, 1.04, 1.11 and 1.07. Always four slabs, without skipping triangles
 larger than a cell: 1.1 to 1.4 times, for the thousand 3 times. SLAB_PIXELS 0: 1.5 times the time for 60 heads of 3,936
 triangles in 200 x 119 pixels; up to 2**18: within the noise.
 """
@@ -73,13 +77,14 @@ TRIANGLE_PIXELS = 16
 """Number of pixel tests that take as long as the other work for a triangle: 8 to 20 in profiles of these casts."""
 
 CELL = 8
-"""Side, in pixels, of the smallest cells whose farthest t is computed. 4: 1.2 to 1.3 times the time of one monkey head,
-0.9 times that of a thousand; 16: 0.95 times that of a thousand.
+"""Side, in pixels, of the smallest cells whose farthest t is computed. 4: 1.03 to 1.09 times the time of the casts of
+SLABS; 16: 1.0 to 1.04 times.
 """
 
 SPANNED, SPANNED_PIXELS = 1 << 15, 1 << 19
-"""Number of triangles whose spans are computed at once, and number of pixels in their bounds. An eighth and a quarter
-of them: 1.1 to 1.25 times the time of the casts of SLABS; twice as many: within 4 %, but more memory.
+"""Number of triangles whose spans are computed at once, and number of pixels in their bounds. An eighth of the
+triangles: 1.1 times the time for a million; a quarter of the pixels: 1.1 to 1.25 times that of the casts of SLABS;
+twice as many: within 4 %, but more memory.
 """
 
 TRACED_PIXELS = 1 << 17

@@ -16,6 +16,7 @@ from ..maths.vector import cross, cut, difference, dot, norm
 from .kind import Candidates, PixelBounds, ShapeSet
 from .mesh_found import NONE, SEEN, Found, SeenTriangles
 from .mesh_in_camera import MeshesInView, Triangles
+from .mesh_order import nearest_first, pieces, slabs
 from .mesh_spans import Lattice, spans
 from .search_rays import SearchRays
 from .triangles import EDGES, ROUNDING, STEEP, crossing, plane, signs, volumes
@@ -77,12 +78,12 @@ class MeshSet(ShapeSet):
         reach = _longest(rays.direction), _longest(rays.origin or (0.0,))
         near = blocks.near.take(here)
         cast = partial(self._in_spans, lattice) if lattice else self._in_windows
-        for batch in _nearest_first(near, blocks.count[here], self.meshes.most):
+        for batch in nearest_first(near, blocks.count[here], self.meshes.most):
             batch = batch.take(found.may_show(bounds.take(batch, axis=0), near.take(batch)))
             triangles = self.meshes.triangles(np.sort(here.take(batch)))
             inside, parts = in_tile(self._in_plan(triangles.bounds), rays.corner, rays.shape)
             triangles = triangles.only(inside, parts.astype(np.intp))  # their products may exceed the type of bounds
-            for slab in _slabs(triangles, found.t.size):
+            for slab in slabs(triangles, found.t.size):
                 slab = slab.take(found.may_show(triangles.bounds.take(slab, axis=0), triangles.near.take(slab)))
                 some = triangles.only(slab)
                 for _ in cast(rays, reach, replace(some, which=found.enter(some.which)), found):
@@ -110,7 +111,7 @@ class MeshSet(ShapeSet):
         at, bands = banded(triangles.bounds, tuning.SPANNED_PIXELS)
         triangles = triangles.only(at, bands)
         rest: list[Open] = []
-        for some in _pieces(bands, tuning.SPANNED_PIXELS):
+        for some in pieces(bands, tuning.SPANNED_PIXELS):
             rest.append(self._span(rays, lattice, reach, triangles.part(some), found))
             yield
         self._test(rays, rest, found)
@@ -172,7 +173,7 @@ class MeshSet(ShapeSet):
     def _in_pixels(self, rays: SearchRays, reach: Reach, triangles: Triangles, found: Found) -> Iterator[None]:
         """Keep the hits on triangles that are tested pixel by pixel, in small steps."""
         bounds = triangles.bounds
-        for some in _pieces(bounds, tuning.TRACED_PIXELS) if rays.origin is None else batches(bounds):
+        for some in pieces(bounds, tuning.TRACED_PIXELS) if rays.origin is None else batches(bounds):
             own = triangles.part(some) if isinstance(some, slice) else triangles.only(some)
             meets, corners = self.meshes.facing(own.corners)
             if meets.size:
@@ -256,35 +257,3 @@ def _doubt(corners: Any, reach: Reach) -> np.ndarray:
 def _longest(vectors: Any) -> float:
     """Return an upper bound of the lengths of vectors, from components that broadcast; NaN is ignored."""
     return math.sqrt(sum(float(np.fmax.reduce(np.square(component), axis=None, initial=0.0)) for component in vectors))
-
-
-def _nearest_first(near: np.ndarray, count: np.ndarray, most: int) -> Iterator[np.ndarray]:
-    """Yield blocks in parts with at most ``most`` triangles, those with the least t first."""
-    order = np.argsort(near, kind="stable")
-    part = (np.cumsum(count[order]) - 1) // most
-    yield from np.split(order, np.flatnonzero(np.diff(part)) + 1)
-
-
-def _slabs(triangles: Triangles, pixels: int) -> Iterator[np.ndarray]:
-    """Yield triangles in parts of about the same number, those with the least t first. The number of parts grows with
-    their work compared with the pixels of their tile, since the tile's farthest t are computed before each part.
-    """
-    near = triangles.near
-    if not near.size:
-        return
-    work = tuning.TRIANGLE_PIXELS * len(near) + pixels_in(triangles.bounds).sum()
-    count = max(1, round(tuning.SLABS * math.sqrt(work / (pixels + tuning.SLAB_PIXELS))))
-    cuts = np.quantile(near[:: max(1, len(near) >> 12)], np.arange(1, count) / count)
-    slab = np.searchsorted(cuts, near)
-    for k in range(count):
-        yield np.flatnonzero(slab == k)
-
-
-def _pieces(bounds: np.ndarray, most: int) -> Iterator[slice]:
-    """Yield slices of at most SPANNED triangles, which end once their bounds have more than ``most`` pixels."""
-    pixels = np.cumsum(pixels_in(bounds))
-    first = 0
-    while first < len(bounds):
-        end = min(first + tuning.SPANNED, int(np.searchsorted(pixels, pixels[first] + most)) + 1)
-        yield slice(first, end)
-        first = end

@@ -1,0 +1,44 @@
+"""The order in which triangles are tested: the nearest first, in parts, so that these hide many of the others."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+
+from .. import tuning
+from .mesh_in_camera import Triangles
+from .windows import pixels_in
+
+
+def nearest_first(near: np.ndarray, count: np.ndarray, most: int) -> Iterator[np.ndarray]:
+    """Yield blocks in parts with at most ``most`` triangles, those with the least t first."""
+    order = np.argsort(near, kind="stable")
+    part = (np.cumsum(count[order]) - 1) // most
+    yield from np.split(order, np.flatnonzero(np.diff(part)) + 1)
+
+
+def slabs(triangles: Triangles, pixels: int) -> Iterator[np.ndarray]:
+    """Yield triangles in parts of about the same number, those with the least t first. The number of parts grows with
+    their work compared with the pixels of their tile, since the tile's farthest t are computed before each part.
+    """
+    near = triangles.near
+    if not near.size:
+        return
+    work = tuning.TRIANGLE_PIXELS * len(near) + pixels_in(triangles.bounds).sum()
+    count = max(1, round(tuning.SLABS * math.sqrt(work / (pixels + tuning.SLAB_PIXELS))))
+    cuts = np.quantile(near[:: max(1, len(near) >> 12)], np.arange(1, count) / count)
+    slab = np.searchsorted(cuts, near)
+    for k in range(count):
+        yield np.flatnonzero(slab == k)
+
+
+def pieces(bounds: np.ndarray, most: int) -> Iterator[slice]:
+    """Yield slices of at most SPANNED triangles, which end once their bounds have more than ``most`` pixels."""
+    pixels = np.cumsum(pixels_in(bounds))
+    first = 0
+    while first < len(bounds):
+        end = min(first + tuning.SPANNED, int(np.searchsorted(pixels, pixels[first] + most)) + 1)
+        yield slice(first, end)
+        first = end
