@@ -98,9 +98,9 @@ def _write(camera: Any, x, y, origins, directions) -> None:
 
 def _write_by_formula(camera: Any, x, y, origins, directions) -> None:
     origin, direction = camera.camera_rays(x, y)
-    scale = 1.0 / camera.length_of(direction) if camera.model.planar else 1.0
+    scale = 1.0 / camera.length_of(direction) if camera.model.planar else None
     for axis, row in enumerate(camera.pose.basis):
-        np.multiply(dot(row, direction), scale, out=directions[..., axis])
+        directions[..., axis] = dot(row, direction) if scale is None else dot(row, direction) * scale
         if not camera.model.central:
             np.add(dot(row, origin), camera.pose.eye[axis], out=origins[..., axis])
 

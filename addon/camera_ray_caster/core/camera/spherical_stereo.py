@@ -113,7 +113,7 @@ class SphericalStereo(Model):
         size = across if on_tube else np.sqrt(square)
         offset = self._offset_at(_altitude(across, np.abs(up), on_tube)) if self.merge else self.offset
         share = offset / across
-        beside = _turned(self.tilted, (-z * share, 0.0 * share, x * share))  # all NaN straight up and down
+        beside = _turned(self.tilted, (-z * share, 0.0, x * share))  # NaN straight up and down
         turn = self.nearness * size
         scale = 1 / np.sqrt(square + (turn * offset) ** 2)  # the side is perpendicular to D
         turn = turn * scale
