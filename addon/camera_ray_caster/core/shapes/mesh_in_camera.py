@@ -1,7 +1,6 @@
-"""Meshes as a camera sees them: vertices in its frame, and the pixels in which blocks and triangles may be seen.
+"""Meshes as a camera sees them: vertices in its frame, and the pixels in which each triangle may be seen.
 
-A block is some consecutive triangles: in most meshes these are neighbors. Only the triangles of blocks that are neither
-out of view nor hidden are bounded one by one.
+Only the triangles of blocks that are neither out of view nor hidden are bounded one by one: see ``mesh_blocks``.
 """
 
 from __future__ import annotations
@@ -9,20 +8,19 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import partial
-from itertools import pairwise, product
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
 
 from .. import tuning
-from ..conventions import gamma
 from ..maths.speed import Shared, lazy, taken
-from ..maths.vector import inverse
 from ..memory import require
 from ..mesh import Mesh
 from .frames import InCamera
 from .hulls import Points
 from .kind import Visible
+from .mesh_blocks import BlockRows, Blocks, camera_axes, vertex_count
 from .triangles import side
 from .windows import counted
 
@@ -30,34 +28,6 @@ VERTEX_BYTES, TRIANGLE_BYTES = 40, 8
 """Upper bounds of the memory of each vertex and each triangle in view, beside those that are tested at once."""
 
 FEWER = "show fewer instances, or reduce the subdivision"
-
-
-@dataclass(frozen=True, eq=False)
-class Blocks:
-    """The blocks of the meshes in view that some pixel may see, in the order of their shapes; (b,) arrays."""
-
-    shape: np.ndarray
-    """Indices into ``Shapes``."""
-    first: np.ndarray
-    """The first triangle of each block, an index into the triangles of the mesh."""
-    count: np.ndarray
-    """The number of triangles in each block."""
-    vertex: np.ndarray
-    """The index of the first vertex of the shape."""
-    bounds: np.ndarray
-    """(b, 4): x0, x1, y0, y1 in the pixels of the plan."""
-    near: np.ndarray
-    """Lower bounds of t; -inf where none is known."""
-
-    @lazy
-    def start(self) -> np.ndarray:
-        """(b + 1,): the number of triangles before each block, and of all."""
-        return np.append(0, np.cumsum(self.count))
-
-    def numbers(self, which: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return the shapes of some triangles of all blocks, and their indices in the meshes."""
-        block = np.searchsorted(self.start, which, side="right") - 1
-        return self.shape[block], which + (self.first - self.start[:-1])[block]
 
 
 @dataclass(frozen=True, eq=False)
@@ -107,21 +77,24 @@ class MeshesInView:
     def __init__(self, shapes: InCamera, visible: Visible):
         self._shapes, self._pixels, self._from_eye = shapes, visible.pixels, visible.from_eye
         groups = list(_groups(shapes, visible.at))
-        total, count = (sum(len(group.rows) * n(group.mesh) for group in groups) for n in (_vertex_count, len))
+        total, count = (sum(len(group.rows) * n(group.mesh) for group in groups) for n in (vertex_count, len))
         require(VERTEX_BYTES * total + TRIANGLE_BYTES * count, f"{count:,} triangles in view", FEWER)
         self._vertices = Points(visible.pixels, total)
         self._index = np.int32 if total < 2**31 else np.int64
         self._placing = Shared([
             partial(self._place, group, part)
             for group in groups
-            for part in _parts(_vertex_count(group.mesh), tuning.CHUNK)
+            for part in _parts(vertex_count(group.mesh), tuning.CHUNK)
         ])  # fmt: skip
         self._imaging = Shared([
             partial(self._vertices.image, part)
             for part in _parts(total, tuning.CHUNK)
         ])  # fmt: skip
-        self._boxing = Shared([partial(self._boxes, group) for group in groups])
-        self._joining = Shared([self._join])
+        rows = BlockRows(shapes, visible.at)
+        self._boxing = Shared([
+            partial(rows.in_view, visible.pixels, part)
+            for part in _parts(max(len(rows), 1), tuning.CHUNK)
+        ])  # fmt: skip
 
     def prepare(self) -> Iterator[None]:
         """Do all work that is left, in small steps."""
@@ -132,7 +105,7 @@ class MeshesInView:
     @lazy
     def blocks(self) -> Blocks:
         """The blocks that some pixel may see."""
-        return self._joining.results()[0]
+        return Blocks.joined(self._boxing.results())
 
     @property
     def most(self) -> int:
@@ -173,8 +146,8 @@ class MeshesInView:
 
     def _place(self, group: Instances, some: slice) -> None:
         """Transform some vertices of a mesh for all instances of the group."""
-        rows, count = group.rows, _vertex_count(group.mesh)
-        axes = self._axes(group)
+        rows, count = group.rows, vertex_count(group.mesh)
+        axes = camera_axes(self._shapes, rows)[..., None]
         q = group.mesh.vertices[:, some] - group.mesh.middle[:, None]
         own = slice(group.start, group.start + len(rows) * count)
         for i in range(3):
@@ -182,43 +155,6 @@ class MeshesInView:
             np.add(axes[:, i, 1] * q[1], axes[:, i, 2] * q[2], out=place)
             place += axes[:, i, 0] * q[0]
             place += self._shapes.center[rows, i, None]
-
-    def _axes(self, group: Instances) -> np.ndarray:
-        """Return the axes of a group's shapes in the camera's frame, (n, 3, 3, 1)."""
-        axes = self._shapes.shapes.axes[group.rows]
-        return np.einsum("ij,njk->nik", inverse(self._shapes.pose.basis), axes)[..., None]
-
-    def _boxes(self, group: Instances) -> Blocks:
-        """Return the blocks of a group's shapes, from boxes in the camera's frame that hold the rounded vertices."""
-        axes, center = self._axes(group), self._shapes.center[group.rows, :, None]
-        offset, half = group.mesh.blocks
-        size = np.abs(axes)
-        lost = size.sum(axis=(1, 2)) * (np.abs(offset) + half).sum(axis=0) + np.abs(center).sum(axis=1)
-        middle = center + (axes * offset).sum(axis=2)
-        reach = (size * half).sum(axis=2) + gamma(16) * lost[:, None]
-        signs = np.array(list(product((-1.0, 1.0), repeat=3)))
-        places = middle + signs[:, None, :, None] * reach  # corner, shape, component, block
-        corners = Points(self._pixels, places.size // 3)
-        corners.places[...] = places.swapaxes(0, 2).swapaxes(1, 2).reshape(3, -1)
-        corners.image(slice(None))
-        bounds, near, seen = corners.hulls(np.arange(places.size // 3).reshape(8, -1))
-        shape, block = np.divmod(seen, offset.shape[1])
-        return Blocks(
-            shape=group.rows[shape],
-            first=block * tuning.MESH_BLOCK,
-            count=np.minimum(len(group.mesh) - block * tuning.MESH_BLOCK, tuning.MESH_BLOCK),
-            vertex=group.start + shape * _vertex_count(group.mesh),
-            bounds=bounds,
-            near=near,
-        )
-
-    def _join(self) -> Blocks:
-        parts = [vars(part) for part in self._boxing.results()]
-        return Blocks(**{name: np.concatenate([part[name] for part in parts]) for name in Blocks.__dataclass_fields__})
-
-
-def _vertex_count(mesh: Mesh) -> int:
-    return mesh.vertices.shape[1]
 
 
 def _parts(count: int, most: int) -> Iterator[slice]:
@@ -233,7 +169,7 @@ def _groups(shapes: InCamera, rows: np.ndarray) -> Iterator[Instances]:
     cuts = np.flatnonzero(np.diff(mesh)) + 1
     for first, last in pairwise((0, *cuts.tolist(), len(rows))):
         own = shapes.shapes.meshes[mesh[first]]
-        for part in _parts(last - first, max(1, tuning.CHUNK // max(_vertex_count(own), len(own), 1))):
+        for part in _parts(last - first, max(1, tuning.CHUNK // max(vertex_count(own), len(own), 1))):
             group = Instances(own, rows[first:last][part], start)
-            start += len(group.rows) * _vertex_count(own)
+            start += len(group.rows) * vertex_count(own)
             yield group
