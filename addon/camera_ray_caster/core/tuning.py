@@ -50,12 +50,8 @@ the time of the casts of SLABS.
 
 CHUNK = 1 << 16
 """Number of mesh vertices placed, or triangles bounded, at once; before that, blocks behind the hits so far are left
-out. In the casts of SLABS: 2**14 1.0, 1.0, 1.45 and 1.2 times, 2**18 1.0, 1.0, 1.0 and 1.3.
-"""
-
-BOUNDED = 1 << 14
-"""Number of triangles whose bounding balls are bounded at once. With a strip camera each takes some microseconds, and
-the cast can be stopped only between two calls. 2**12: 1.05 times the time of a fisheye.
+out. In the casts of SLABS: 2**14 1.0, 1.0, 1.45 and 1.2 times, 2**18 1.0, 1.0, 1.0 and 1.3. A strip camera takes a
+microsecond to bound a triangle, and a cast can be stopped only between two chunks.
 """
 
 SURFACES = 1 << 14

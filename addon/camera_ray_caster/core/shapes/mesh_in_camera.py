@@ -75,7 +75,7 @@ class MeshesInView:
     """
 
     def __init__(self, shapes: InCamera, visible: Visible):
-        self._shapes, self._pixels, self._from_eye = shapes, visible.pixels, visible.from_eye
+        self._shapes, self._from_eye = shapes, visible.from_eye
         groups = list(_groups(shapes, visible.at))
         total, count = (sum(len(group.rows) * n(group.mesh) for group in groups) for n in (vertex_count, len))
         require(VERTEX_BYTES * total + TRIANGLE_BYTES * count, f"{count:,} triangles in view", FEWER)
@@ -106,11 +106,6 @@ class MeshesInView:
     def blocks(self) -> Blocks:
         """The blocks that some pixel may see."""
         return Blocks.joined(self._boxing.results())
-
-    @property
-    def most(self) -> int:
-        """Maximum number of triangles that are bounded together."""
-        return tuning.CHUNK if self._pixels.has_straight_lines else tuning.BOUNDED
 
     def triangles(self, some: np.ndarray) -> Triangles:
         """Return the triangles of some blocks, ascending, that some pixel may see."""

@@ -12,10 +12,10 @@ from .mesh_in_camera import Triangles
 from .windows import pixels_in
 
 
-def nearest_first(near: np.ndarray, count: np.ndarray, most: int) -> Iterator[np.ndarray]:
-    """Yield blocks in parts with at most ``most`` triangles, those with the least t first."""
+def nearest_first(near: np.ndarray, count: np.ndarray) -> Iterator[np.ndarray]:
+    """Yield blocks in parts of about CHUNK triangles, those with the least t first."""
     order = np.argsort(near, kind="stable")
-    part = (np.cumsum(count[order]) - 1) // most
+    part = (np.cumsum(count[order]) - 1) // tuning.CHUNK
     yield from np.split(order, np.flatnonzero(np.diff(part)) + 1)
 
 

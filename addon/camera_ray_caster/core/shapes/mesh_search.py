@@ -78,7 +78,7 @@ class MeshSet(ShapeSet):
         reach = _longest(rays.direction), _longest(rays.origin or (0.0,))
         near = blocks.near.take(here)
         cast = partial(self._in_spans, lattice) if lattice else self._in_windows
-        for batch in nearest_first(near, blocks.count[here], self.meshes.most):
+        for batch in nearest_first(near, blocks.count[here]):
             batch = batch.take(found.may_show(bounds.take(batch, axis=0), near.take(batch)))
             triangles = self.meshes.triangles(np.sort(here.take(batch)))
             inside, parts = in_tile(self._in_plan(triangles.bounds), rays.corner, rays.shape)
