@@ -29,7 +29,7 @@ class SearchRays:
         """Return the rays of some rows and columns of the tile."""
         (rows, columns), (first_column, first_row) = window, self.corner
         origin, direction = (  # copied once, not at each later lookup
-            vector and tuple(np.array(cut(component, window)) for component in vector)
+            None if vector is None else tuple(np.array(cut(component, window)) for component in vector)
             for vector in (self.origin, self.direction)
         )
         corner = first_column + columns.start, first_row + rows.start

@@ -53,7 +53,7 @@ class Calibrated(Radial):
         """See Radial."""
         if not self.distortion.bends:
             return super().rays(x, y)
-        return (0.0, 0.0, 0.0), on_raster(self._directions, x, y, count=3)
+        return (0.0, 0.0, 0.0), tuple(on_raster(self._directions, x, y, count=3))
 
     def _directions(self, x, y):
         a, b = self._plane(x, y)
