@@ -47,7 +47,12 @@ def volume(d: Any, a: Any, b: Any) -> Any:
         for i, j, k in ((1, 2, 0), (2, 0, 1), (0, 1, 2))
         if np.ndim(d[i]) or d[i] != 0
     )  # y and z first: for a pinhole only one sum is two-dimensional
-    return reduce(np.add, terms)
+    return reduce(_added, terms)
+
+
+def _added(total: Any, term: Any) -> Any:
+    """Return the sum; in place of the first if that has its shape: new memory costs more than the addition."""
+    return np.add(total, term, out=total if np.shape(total) == np.broadcast_shapes(total.shape, term.shape) else None)
 
 
 def volumes(corners: Any, d: Any, moment: Any = None) -> tuple[Any, Any, Any]:
@@ -63,7 +68,10 @@ def volumes(corners: Any, d: Any, moment: Any = None) -> tuple[Any, Any, Any]:
 
 def _edge_volume(d: Any, moment: Any, a: Any, b: Any) -> Any:
     own = volume(d, a, b)
-    return own if moment is None else own + dot(moment, difference(b, a))
+    if moment is None:
+        return own
+    beside = (along * component for along, component in zip(moment, difference(b, a), strict=True))
+    return _added(own, reduce(_added, beside))
 
 
 def signs(corners: np.ndarray, d: np.ndarray) -> np.ndarray:
