@@ -63,8 +63,8 @@ def test_more_triangles_than_the_memory_holds_are_refused_in_one_line(blender, s
     points = blender.data.objects.new("Points", cloud)
     scene.collection.objects.link(points)
     points.instance_type, monkey.parent = "VERTS", points
-    monkeypatch.setattr(memory, "available", lambda: 8 << 30)
-    said = r"100,\d\d\d,\d\d\d triangles in view take [\d.]+ GiB of memory and 8 GiB are available: show "
+    monkeypatch.setattr(memory, "available", lambda: 4 << 30)
+    said = r"100,\d\d\d,\d\d\d triangles in view take [\d.]+ GiB of memory and 4 GiB are available: show "
     with pytest.raises(InputError, match=said):
         files.render(scene, tmp_path / "out", "frame")
     with pytest.raises(RuntimeError, match=said) as refused:

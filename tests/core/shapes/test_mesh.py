@@ -284,7 +284,7 @@ def test_the_grid_is_that_of_the_map_or_of_the_edges_of_faces():
 
 def test_more_triangles_than_the_memory_holds_are_refused_before_any_is_placed(monkeypatch):
     """A hundred million, of instances that share a mesh: one line that says what they take."""
-    monkeypatch.setattr(memory, "available", lambda: 2 << 30)
+    monkeypatch.setattr(memory, "available", lambda: 4 << 30)
     monkeypatch.setattr(np, "empty", None)
     many = shapes_of(*[(ball(100, 100), (0, 0, -5), 1.0)] * 5050)
     with pytest.raises(InputError, match=r"^99,990,000 triangles in view take .* GiB are available: show"):

@@ -24,8 +24,8 @@ from .mesh_blocks import BlockRows, Blocks, camera_axes, vertex_count
 from .triangles import side
 from .windows import counted
 
-VERTEX_BYTES, TRIANGLE_BYTES = 40, 8
-"""Upper bounds of the memory of each vertex and each triangle in view, beside those that are tested at once."""
+VERTEX_BYTES, TRIANGLE_BYTES = 40, 32
+"""Upper bounds of the memory of each vertex and each triangle in view."""
 
 FEWER = "show fewer instances, or reduce the subdivision"
 
