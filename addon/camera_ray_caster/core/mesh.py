@@ -47,12 +47,13 @@ class Mesh:
         each. A block is MESH_BLOCK consecutive triangles; the last may have fewer.
         """
         starts = np.arange(0, len(self), MESH_BLOCK)
-        corners = [self.vertices.take(corner, axis=1) for corner in self.triangles]
-        low, high = (
-            end.reduce([end.reduceat(corner, starts, axis=1) for corner in corners]).astype(np.float64)
-            for end in (np.minimum, np.maximum)
-        )
-        return low / 2 + high / 2 - self.middle[:, None], high / 2 - low / 2
+        lows, highs = [], []
+        for corner in self.triangles:
+            places = self.vertices.take(corner, axis=1)
+            lows.append(np.minimum.reduceat(places, starts, axis=1))
+            highs.append(np.maximum.reduceat(places, starts, axis=1))
+        low, high = (ends.astype(np.float64) / 2 for ends in (np.min(lows, axis=0), np.max(highs, axis=0)))
+        return low + high - self.middle[:, None], high - low
 
     @cached_property
     def is_outer(self) -> np.ndarray:

@@ -256,6 +256,28 @@ def test_meshes_pay_for_what_is_seen_of_them(monkeypatch):
     assert EPS < images["depth"].min() < 2
 
 
+@pytest.mark.parametrize("far", [0.0, 1e7])
+@each_model
+def test_blocks_leave_out_nothing_that_is_seen(key, far):
+    """Triangles in random order, so that blocks hold neighbors and others; far from the world's origin, too, where
+    vertices are rounded to 1e-9.
+    """
+    rng = np.random.default_rng(5)
+    mesh = ball(12, 20)
+    mixed = replace(mesh, triangles=mesh.triangles[:, rng.permutation(len(mesh))].copy())
+    matrix = np.eye(4)
+    matrix[:3, 3] = far
+    flat = np.diag([1, -0.5, 0])
+    shapes = shapes_of((mesh, (far + 0.5, far, far - 3), 1.2), (mixed, (far - 0.5, far, far - 2), flat))
+    for settings in EXAMPLES[key]:
+        cam = camera(key, settings | SMALL | {"matrix_world": matrix})
+        if cam.pixel_time is not None:
+            continue
+        seen, everywhere = (cast(cam, shapes, ("shape_index", "face_index"), cull=cull) for cull in (True, False))
+        for name, image in seen.items():
+            np.testing.assert_array_equal(image, everywhere[name])
+
+
 def test_the_grid_is_that_of_the_map_or_of_the_edges_of_faces():
     """Two squares of two triangles each, without the diagonals between these; with a map its lines, 24 and 12."""
     mesh = grid(1, 2, lambda u, v: (2 * u - 1, v - 0.5, 0 * u))

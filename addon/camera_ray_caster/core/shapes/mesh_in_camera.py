@@ -46,12 +46,10 @@ class Triangles:
     def __len__(self) -> int:
         return len(self.which)
 
-    def part(self, some: slice) -> Triangles:
-        """Return a part of them."""
-        return Triangles(self.which[some], self.corners[:, some], self.bounds[some], self.near[some])
-
-    def only(self, some: np.ndarray, bounds: np.ndarray | None = None) -> Triangles:
-        """Return some of them, with other bounds if these are given."""
+    def only(self, some: np.ndarray | slice, bounds: np.ndarray | None = None) -> Triangles:
+        """Return some of them, by index, with other bounds if these are given; or a part of them, as views."""
+        if isinstance(some, slice):
+            return Triangles(self.which[some], self.corners[:, some], self.bounds[some], self.near[some])
         bounds = self.bounds.take(some, axis=0) if bounds is None else bounds
         return Triangles(taken(self.which, some), taken(self.corners, some), bounds, taken(self.near, some))
 

@@ -112,7 +112,7 @@ class MeshSet(ShapeSet):
         triangles = triangles.only(at, bands)
         rest: list[Open] = []
         for some in pieces(bands, tuning.SPANNED_PIXELS):
-            rest.append(self._span(rays, lattice, reach, triangles.part(some), found))
+            rest.append(self._span(rays, lattice, reach, triangles.only(some), found))
             yield
         self._test(rays, rest, found)
 
@@ -174,7 +174,7 @@ class MeshSet(ShapeSet):
         """Keep the hits on triangles that are tested pixel by pixel, in small steps."""
         bounds = triangles.bounds
         for some in pieces(bounds, tuning.TRACED_PIXELS) if rays.origin is None else batches(bounds):
-            own = triangles.part(some) if isinstance(some, slice) else triangles.only(some)
+            own = triangles.only(some)
             meets, corners = self.meshes.facing(own.corners)
             if meets.size:
                 cast = self._from_eye if rays.origin is None else self._from_anywhere
