@@ -1,8 +1,14 @@
-"""The pixels within bounds that have a ray, against a loop."""
+"""The rays of a tile: the pixels within bounds that have a ray, against a loop, and rays at even distances."""
 
 import numpy as np
+import pytest
 
-from camera_ray_caster.core.shapes.search_rays import Present
+from camera_ray_caster.core.casting.rays import chief_rays
+from camera_ray_caster.core.maths.speed import Scratch
+from camera_ray_caster.core.shapes.mesh_spans import Lattice
+from camera_ray_caster.core.shapes.search_rays import Present, SearchRays
+
+from ..casting.test_cast import camera_at
 
 
 def test_each_window_has_its_rays_row_by_row_and_nothing_else():
@@ -27,3 +33,16 @@ def test_rays_that_broadcast_are_there_everywhere():
     there = Present((np.zeros((1, 5)), np.zeros((4, 1)), -1.0), (4, 5))
     pixels, which = there.within(np.array([[1, 3, 2, 4]]))
     assert (pixels.tolist(), which.tolist()) == ([11, 12, 16, 17], [0, 0, 0, 0])
+
+
+@pytest.mark.parametrize("kind", ["PERSP", "ORTHO"])
+def test_each_part_of_a_picture_of_planar_rays_is_a_lattice(kind):
+    """However its coordinates are rounded: otherwise its triangles are tested pixel by pixel, in twice the time."""
+    cam = camera_at(type=kind, resolution_x=1920, resolution_y=1080, shift_x=0.13, ortho_scale=7.3)
+    x, y = cam.raster.columns(), cam.raster.rows()
+    rays = chief_rays(cam, x, y, (0, 0), Scratch())
+    whole = SearchRays(None if rays.from_eye else rays.origin, rays.direction, (0, 0), rays.shape, rays.scratch)
+    random = np.random.default_rng(0)
+    for _ in range(500):
+        (first_row, last_row), (first, last) = (np.sort(random.choice(size, 2, replace=False)) for size in rays.shape)
+        assert Lattice.of(whole.within((slice(first_row, last_row + 1), slice(first, last + 1)))) is not None
