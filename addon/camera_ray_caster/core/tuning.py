@@ -87,3 +87,6 @@ TRACED_PIXELS = 1 << 17
 """Number of pixels in the bounds of triangles that are tested ray by ray at once. 2**15: 1.1 times the time of a
 fisheye; 2**18: within 3 %.
 """
+
+DIRECTIONS = 16
+"""Side, in pixels, of the cells that say where a large triangle cannot be seen."""

@@ -6,7 +6,8 @@ import pytest
 from camera_ray_caster.core.casting.rays import chief_rays
 from camera_ray_caster.core.maths.speed import Scratch
 from camera_ray_caster.core.shapes.mesh_spans import Lattice
-from camera_ray_caster.core.shapes.search_rays import Present, SearchRays
+from camera_ray_caster.core.shapes.search_rays import Cells, Present, SearchRays
+from camera_ray_caster.core.shapes.triangles import EDGES
 
 from ..casting.test_cast import camera_at
 
@@ -46,3 +47,26 @@ def test_each_part_of_a_picture_of_planar_rays_is_a_lattice(kind):
     for _ in range(500):
         (first_row, last_row), (first, last) = (np.sort(random.choice(size, 2, replace=False)) for size in rays.shape)
         assert Lattice.of(whole.within((slice(first_row, last_row + 1), slice(first, last + 1)))) is not None
+
+
+def test_the_cells_cut_off_no_ray_within_three_planes_and_many_others():
+    """Rays of a fisheye, some missing, against the products of each with three normals."""
+    random = np.random.default_rng(3)
+    y, x = np.mgrid[-1:1:90j, -1:1:130j]
+    r = np.maximum(np.hypot(x, y), 1e-9)
+    direction = np.where(r < 1.2, [x / r * np.sin(2 * r), y / r * np.sin(2 * r), -np.cos(2 * r)], np.nan)
+    cells, kept, asked = Cells(direction, x.shape), 0, 0
+    for _ in range(300):
+        corners = random.normal(size=3) + random.uniform(0, 0.5) * random.normal(size=(3, 3))
+        normals = np.array([np.cross(corners[i], corners[j]) for i, j in EDGES])
+        normals *= np.sign(corners[0] @ normals[0])
+        (x0, x1), (y0, y1) = (sorted(random.choice(size + 1, 2, replace=False).tolist()) for size in x.shape[::-1])
+        met = (np.tensordot(normals, direction[:, y0:y1, x0:x1], 1) >= 0).all(axis=0)
+        part = cells.meeting(normals, 0.0, [x0, x1, y0, y1])
+        asked += met.size
+        if part is not None:
+            left, right, low, high = part
+            kept += (right - left) * (high - low)
+            met[low - y0 : high - y0, left - x0 : right - x0] = False
+        assert not met.any()
+    assert 0 < kept < 0.6 * asked

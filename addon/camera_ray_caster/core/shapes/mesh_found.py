@@ -91,9 +91,9 @@ class Found:
         """Note one triangle in a window, where it is hit and is the nearest so far."""
         self._farthest.clear()
         before, first = self.t[window], self.number[window]
-        closer, tied = t < before, np.nonzero(t == before)
-        if tied[0].size:
-            closer[tied] = self._precede(number, first[tied])
+        closer, tied = t < before, (t == before) & met
+        if tied.any():
+            closer |= tied & self._precede(number, first)
         closer &= met
         np.copyto(before, t, where=closer)
         np.copyto(first, number, where=closer)

@@ -131,12 +131,16 @@ class MeshSet(ShapeSet):
     def _fill(self, rays: SearchRays, reach: Reach, which: int, vertices: np.ndarray, bounds: list[int], found: Found):
         """Keep the hits on one triangle in a window of the tile. Return the pixels in which it still has to be tested.
         """
-        x0, x1, y0, y1 = bounds
-        window = slice(y0, y1), slice(x0, x1)
         corners: Any
         meets, corners = self.meshes.facing(vertices)
-        if not meets.size:
+        part: list[int] | None = bounds
+        if meets.size and rays.origin is None:
+            normals = [np.array(cross(corners[i], corners[j])) for i, j in EDGES]
+            part = rays.cells.meeting(normals, 2 * _doubt(corners, reach).item(), bounds)
+        if not meets.size or part is None:
             return Open.none()
+        x0, x1, y0, y1 = part
+        window = slice(y0, y1), slice(x0, x1)
         corners = corners[..., None]
         direction = tuple(cut(component, window) for component in rays.direction)
         doubt = _doubt(corners, reach).item()
@@ -151,6 +155,8 @@ class MeshSet(ShapeSet):
         open_ = (np.abs(inner) <= doubt) | (poor & (inner > doubt)) if poor.any() else np.abs(inner) <= doubt
         met &= ~open_
         found.fill(window, met, t, which)
+        if not open_.any():
+            return Open.none()
         row, column = np.nonzero(np.broadcast_to(open_, inner.shape))
         pixel = (y0 + row) * rays.shape[1] + x0 + column
         return Open(np.full(len(row), which), np.repeat(vertices, len(row), axis=1), pixel)

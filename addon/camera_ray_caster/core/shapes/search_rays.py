@@ -7,8 +7,9 @@ from typing import Any
 
 import numpy as np
 
+from .. import tuning
 from ..maths.speed import Scratch, lazy, taken
-from ..maths.vector import cross, cut
+from ..maths.vector import cross, cut, dot
 from .windows import counted
 
 
@@ -47,6 +48,11 @@ class SearchRays:
     def present(self) -> Present:
         """The rays that exist: their directions are not NaN."""
         return Present(self.direction, self.shape)
+
+    @lazy
+    def cells(self) -> Cells:
+        """The cells of the directions."""
+        return Cells(self.direction, self.shape)
 
     def at(self, pixel: np.ndarray) -> tuple[np.ndarray | None, np.ndarray]:
         """Return the origins, None for the eye, and the directions at (m,) pixels of the tile, (3, m) float64 each."""
@@ -90,3 +96,36 @@ class Present:
         first = taken(self._before, row + taken(x0, at))
         run, ray = counted(taken(self._before, row + taken(x1, at)) - first, first)
         return taken(self._pixels, ray), taken(at, run)
+
+
+class Cells:
+    """Squares of pixels of a tile, and boxes that hold the directions of the rays in each; NaN is ignored."""
+
+    def __init__(self, direction: Any, shape: tuple[int, int]):
+        rows, columns = (np.arange(0, side, tuning.DIRECTIONS) for side in shape)
+        whole = [np.broadcast_to(component, shape) for component in direction]
+        low, high = (
+            np.array([end.reduceat(end.reduceat(part, rows, axis=0), columns, axis=1) for part in whole])
+            for end in (np.fmin, np.fmax)
+        )
+        self._middle, self._half = low / 2 + high / 2, high / 2 - low / 2
+
+    def meeting(self, normals: Any, margin: float, bounds: list[int]) -> list[int] | None:
+        """Return the part of bounds x0, x1, y0, y1 outside of which each direction has a product below -margin with one
+        of some normals, three numbers each; None if that is so everywhere.
+        """
+        side = tuning.DIRECTIONS
+        x0, x1, y0, y1 = bounds
+        left, low = x0 // side, y0 // side
+        window = np.s_[:, low : -(-y1 // side), left : -(-x1 // side)]
+        middle, half = self._middle[window], self._half[window]
+        meets = np.logical_and.reduce([dot(middle, n) + dot(half, np.abs(n)) >= -margin for n in normals])
+        rows, columns = (np.flatnonzero(meets.any(axis=axis)) for axis in (1, 0))
+        if not rows.size:
+            return None
+        return [
+            max(x0, (left + columns[0]) * side),
+            min(x1, (left + columns[-1] + 1) * side),
+            max(y0, (low + rows[0]) * side),
+            min(y1, (low + rows[-1] + 1) * side),
+        ]

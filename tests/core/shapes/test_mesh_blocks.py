@@ -1,0 +1,88 @@
+"""Blocks of triangles, and pictures as a whole: nothing that is seen is left out, and what is hidden costs little."""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from camera_ray_caster.core import tuning
+from camera_ray_caster.core.cast import cast
+from camera_ray_caster.core.casting.pixels import passes_at
+from camera_ray_caster.core.conventions import EPS
+from camera_ray_caster.core.shapes.mesh_in_camera import MeshesInView
+
+from ..cameras.model_examples import EXAMPLES, camera
+from ..casting.test_cast import camera_at
+from .meshes import ball, shapes_of, soup
+from .test_mesh import SMALL, each_model
+
+
+def test_meshes_pay_for_what_is_seen_of_them(monkeypatch):
+    """A mesh out of the picture is not placed, and no triangle of one behind another is looked at, if they are too many
+    to be looked at together.
+    """
+    monkeypatch.setattr(tuning, "CHUNK", 1 << 10)
+    cam = camera_at(resolution_x=400, resolution_y=400)
+    front, apart = ball(40, 40), ball(9, 9)
+    behind = ball(30, 30)
+    shapes = shapes_of((front, (0, 0, -2), 1.0), (apart, (0, 50, -5), 1.0), (behind, (0.1, 0, -9), 0.5))
+    looked_at = Counter()
+
+    def triangles(self, some):
+        looked_at.update(np.repeat(self.blocks.shape[some], self.blocks.count[some]).tolist())
+        return own(self, some)
+
+    own = MeshesInView.triangles
+    monkeypatch.setattr(MeshesInView, "triangles", triangles)
+    images = cast(cam, shapes, ("depth", "shape_index"))
+    ((meshes,),) = ([one.meshes] for one in images.plan.sets)
+    assert set(meshes.blocks.shape) == {0, 2}
+    assert looked_at[0] > len(front) / 2
+    assert looked_at[2] == 0
+    assert set(np.unique(images["shape_index"])) == {-1, 0}
+    assert EPS < images["depth"].min() < 2
+
+
+@pytest.mark.parametrize("far", [0.0, 1e7])
+@each_model
+def test_blocks_leave_out_nothing_that_is_seen(key, far):
+    """Triangles in random order, so that blocks hold neighbors and others; far from the world's origin, too, where
+    vertices are rounded to 1e-9.
+    """
+    rng = np.random.default_rng(5)
+    mesh = ball(12, 20)
+    mixed = replace(mesh, triangles=mesh.triangles[:, rng.permutation(len(mesh))].copy())
+    matrix = np.eye(4)
+    matrix[:3, 3] = far
+    flat = np.diag([1, -0.5, 0])
+    shapes = shapes_of((mesh, (far + 0.5, far, far - 3), 1.2), (mixed, (far - 0.5, far, far - 2), flat))
+    for settings in EXAMPLES[key]:
+        cam = camera(key, settings | SMALL | {"matrix_world": matrix})
+        if cam.pixel_time is not None:
+            continue
+        seen, everywhere = (cast(cam, shapes, ("shape_index", "face_index"), cull=cull) for cull in (True, False))
+        for name, image in seen.items():
+            np.testing.assert_array_equal(image, everywhere[name])
+
+
+@each_model
+def test_pictures_whose_rays_are_polynomials_show_what_single_pixels_show(key):
+    """Such pictures have at least 36 x 256 pixels; single pixels take the formula."""
+    shapes = shapes_of((ball(9, 12), (0.5, 0, -3), 1.2), (soup(np.random.default_rng(3), 60), (0.3, -0.2, -2), 1.5))
+    for settings in EXAMPLES[key]:
+        frame = {"resolution_x": 320, "resolution_y": 180, "resolution_percentage": 100, "use_border": False}
+        cam = camera(key, settings | frame)
+        if cam.pixel_time is not None:
+            continue
+        whole = cast(cam, shapes, ("depth", "face_index"), np.float64)
+        columns, rows = np.arange(3, 320, 29), np.arange(5, 180, 17)
+        some = passes_at(cam, shapes, columns, rows, ("depth", "face_index", "distance_bound"))
+        at = np.ix_(rows, columns)
+        same = some["face_index"] == whole["face_index"][at]
+        assert same.mean() > 0.99  # rounding may decide otherwise at an edge
+        met = same & np.isfinite(some["depth"])
+        error = np.abs(some["depth"][met] - whole["depth"][at][met])
+        assert (error <= 2 * some["distance_bound"][met]).all()
