@@ -89,4 +89,6 @@ fisheye; 2**18: within 3 %.
 """
 
 DIRECTIONS = 16
-"""Side, in pixels, of the cells that say where a large triangle cannot be seen."""
+"""Side, in pixels, of the cells that say where a large triangle cannot be seen by rays from the eye. 8 to 64: within
+3 % of the time of a fisheye over a floor; without cells 1.9 times.
+"""
