@@ -55,18 +55,23 @@ def test_the_cells_cut_off_no_ray_within_three_planes_and_many_others():
     y, x = np.mgrid[-1:1:90j, -1:1:130j]
     r = np.maximum(np.hypot(x, y), 1e-9)
     direction = np.where(r < 1.2, [x / r * np.sin(2 * r), y / r * np.sin(2 * r), -np.cos(2 * r)], np.nan)
-    cells, kept, asked = Cells(direction, x.shape), 0, 0
-    for _ in range(300):
-        corners = random.normal(size=3) + random.uniform(0, 0.5) * random.normal(size=(3, 3))
-        normals = np.array([np.cross(corners[i], corners[j]) for i, j in EDGES])
-        normals *= np.sign(corners[0] @ normals[0])
-        (x0, x1), (y0, y1) = (sorted(random.choice(size + 1, 2, replace=False).tolist()) for size in x.shape[::-1])
-        met = (np.tensordot(normals, direction[:, y0:y1, x0:x1], 1) >= 0).all(axis=0)
-        part = cells.meeting(normals, 0.0, [x0, x1, y0, y1])
-        asked += met.size
-        if part is not None:
-            left, right, low, high = part
-            kept += (right - left) * (high - low)
-            met[low - y0 : high - y0, left - x0 : right - x0] = False
-        assert not met.any()
-    assert 0 < kept < 0.6 * asked
+    corners = random.normal(size=(3, 1, 300)) + random.uniform(0, 0.5, 300) * random.normal(size=(3, 3, 300))
+    normals = np.array([np.cross(corners[i], corners[j], axis=0) for i, j in EDGES])
+    normals *= np.sign((corners[0] * normals[0]).sum(axis=0))
+    ends = [np.sort(random.integers(0, size + 1, (2, 300)), axis=0) for size in x.shape[::-1]]
+    bounds = np.concatenate(ends).T
+    at, parts = Cells(direction, x.shape).parts(normals, np.zeros(300), bounds)
+    kept = 0
+    for k, (x0, x1, y0, y1) in enumerate(bounds.tolist()):
+        met = (np.tensordot(normals[..., k], direction, 1) >= 0).all(axis=0)
+        within = np.zeros(x.shape, bool)
+        within[y0:y1, x0:x1] = True
+        covered = np.zeros(x.shape, int)
+        for left, right, low, high in parts[at == k].tolist():
+            covered[low:high, left:right] += 1
+        assert covered.max() <= 1
+        assert not covered[~within].any()
+        assert covered[within & met].all()
+        kept += covered.sum()
+    asked = ((bounds[:, 1] - bounds[:, 0]) * (bounds[:, 3] - bounds[:, 2])).sum()
+    assert 0 < kept < 0.3 * asked

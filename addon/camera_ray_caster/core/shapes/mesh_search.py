@@ -117,8 +117,8 @@ class MeshSet(ShapeSet):
         self._test(rays, rest, found)
 
     def _in_windows(self, rays: SearchRays, reach: Reach, triangles: Triangles, found: Found) -> Iterator[None]:
-        """Keep the hits of any rays on triangles, in small steps: large triangles one by one."""
-        is_large = pixels_in(triangles.bounds) >= tuning.SMALL_PIXELS
+        """Keep the hits of any rays on triangles, in small steps: of rays with many origins large ones one by one."""
+        is_large = (pixels_in(triangles.bounds) >= tuning.SMALL_PIXELS) & (rays.origin is not None)
         large = triangles.only(np.flatnonzero(is_large))
         at, bands = banded(large.bounds, tuning.BLOCK_PIXELS)
         rest: list[Open] = []
@@ -129,24 +129,20 @@ class MeshSet(ShapeSet):
         yield from self._in_pixels(rays, reach, triangles.only(np.flatnonzero(~is_large)), found)
 
     def _fill(self, rays: SearchRays, reach: Reach, which: int, vertices: np.ndarray, bounds: list[int], found: Found):
-        """Keep the hits on one triangle in a window of the tile. Return the pixels in which it still has to be tested.
+        """Keep the hits of rays with many origins on one triangle in a window of the tile. Return where it still has to
+        be tested.
         """
         corners: Any
         meets, corners = self.meshes.facing(vertices)
-        part: list[int] | None = bounds
-        if meets.size and rays.origin is None:
-            normals = [np.array(cross(corners[i], corners[j])) for i, j in EDGES]
-            part = rays.cells.meeting(normals, 2 * _doubt(corners, reach).item(), bounds)
-        if not meets.size or part is None:
+        if not meets.size:
             return Open.none()
-        x0, x1, y0, y1 = part
+        x0, x1, y0, y1 = bounds
         window = slice(y0, y1), slice(x0, x1)
         corners = corners[..., None]
         direction = tuple(cut(component, window) for component in rays.direction)
         doubt = _doubt(corners, reach).item()
-        if rays.origin is not None:
-            corners = [difference(corner, tuple(cut(part, window) for part in rays.origin)) for corner in corners]
-        inner = _inside(volumes(corners, direction), rays.origin is None)
+        corners = [difference(corner, tuple(cut(part, window) for part in rays.origin)) for corner in corners]
+        inner = _inside(volumes(corners, direction), is_turned=False)
         normal, product = plane(corners)
         slope = dot(normal, direction)
         t = dot(normal, corners[0]) / slope
@@ -178,6 +174,8 @@ class MeshSet(ShapeSet):
 
     def _in_pixels(self, rays: SearchRays, reach: Reach, triangles: Triangles, found: Found) -> Iterator[None]:
         """Keep the hits on triangles that are tested pixel by pixel, in small steps."""
+        if rays.origin is None:
+            triangles = triangles.only(*banded(triangles.bounds, tuning.TRACED_PIXELS))
         bounds = triangles.bounds
         for some in pieces(bounds, tuning.TRACED_PIXELS) if rays.origin is None else batches(bounds):
             own = triangles.only(some)
@@ -189,9 +187,16 @@ class MeshSet(ShapeSet):
 
     def _from_eye(self, rays: SearchRays, corners, doubt, triangles: Triangles, found: Found) -> None:
         """Keep the hits of rays from the eye in triangles' bounds: all rays share the planes through eye and edges."""
-        pixel, k = rays.present.within(triangles.bounds)
+        normals = np.array([cross(corners[i], corners[j]) for i, j in EDGES])
+        is_wide = pixels_in(triangles.bounds) >= tuning.WIDE_PIXELS
+        wide, at = np.flatnonzero(is_wide), np.flatnonzero(~is_wide)
+        bounds = triangles.bounds.take(at, axis=0)
+        if wide.size:
+            own, parts = rays.cells.parts(taken(normals, wide), 2 * doubt[wide], triangles.bounds.take(wide, axis=0))
+            at, bounds = np.concatenate((at, wide[own])), np.concatenate((bounds, parts))
+        pixel, part = rays.present.within(bounds)
+        k = taken(at, part)
         _, direction = rays.at(pixel)
-        normals = (np.array(cross(corners[i], corners[j])) for i, j in EDGES)
         inner = _inside(tuple(dot(taken(normal, k), direction) for normal in normals), is_turned=True)
         self._decide(rays, inner, taken(doubt, k), triangles, k, pixel, found)
 

@@ -51,7 +51,7 @@ class SearchRays:
 
     @lazy
     def cells(self) -> Cells:
-        """The cells of the directions."""
+        """The directions in cells of the tile."""
         return Cells(self.direction, self.shape)
 
     def at(self, pixel: np.ndarray) -> tuple[np.ndarray | None, np.ndarray]:
@@ -102,30 +102,36 @@ class Cells:
     """Squares of pixels of a tile, and boxes that hold the directions of the rays in each; NaN is ignored."""
 
     def __init__(self, direction: Any, shape: tuple[int, int]):
+        """Take components that broadcast to ``shape``."""
         rows, columns = (np.arange(0, side, tuning.DIRECTIONS) for side in shape)
         whole = [np.broadcast_to(component, shape) for component in direction]
         low, high = (
             np.array([end.reduceat(end.reduceat(part, rows, axis=0), columns, axis=1) for part in whole])
             for end in (np.fmin, np.fmax)
         )
-        self._middle, self._half = low / 2 + high / 2, high / 2 - low / 2
+        self._wide = len(columns)
+        self._middle, self._half = ((high / 2 + sign * low / 2).reshape(3, -1) for sign in (1, -1))
 
-    def meeting(self, normals: Any, margin: float, bounds: list[int]) -> list[int] | None:
-        """Return the part of bounds x0, x1, y0, y1 outside of which each direction has a product below -margin with one
-        of some normals, three numbers each; None if that is so everywhere.
+    def parts(self, normals: np.ndarray, margin: np.ndarray, bounds: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return the cells of bounds (k, 4) in which the products of directions with all of three normals, (3, 3, k):
+        normal, component, may be -margin, (k,), or more: the index of the bounds, (p,), and their part in the cell,
+        (p, 4).
         """
         side = tuning.DIRECTIONS
-        x0, x1, y0, y1 = bounds
-        left, low = x0 // side, y0 // side
-        window = np.s_[:, low : -(-y1 // side), left : -(-x1 // side)]
-        middle, half = self._middle[window], self._half[window]
-        meets = np.logical_and.reduce([dot(middle, n) + dot(half, np.abs(n)) >= -margin for n in normals])
-        rows, columns = (np.flatnonzero(meets.any(axis=axis)) for axis in (1, 0))
-        if not rows.size:
-            return None
-        return [
-            max(x0, (left + columns[0]) * side),
-            min(x1, (left + columns[-1] + 1) * side),
-            max(y0, (low + rows[0]) * side),
-            min(y1, (low + rows[-1] + 1) * side),
-        ]
+        x0, x1, y0, y1 = bounds.T.astype(np.intp)
+        first, last = x0 // side, -(-x1 // side)
+        at, row = counted(-(-y1 // side) - y0 // side, y0 // side)
+        run, column = counted(taken(last - first, at), taken(first, at))
+        at, row = taken(at, run), taken(row, run)
+        cell = row * self._wide + column
+        middle, half = taken(self._middle, cell), taken(self._half, cell)
+        least = -taken(margin, at)
+        meets = np.ones(len(at), bool)
+        for normal in normals:
+            own = taken(normal, at)
+            meets &= dot(middle, own) + dot(half, np.abs(own)) >= least
+        some = np.flatnonzero(meets)
+        at, x, y = taken(at, some), side * taken(column, some), side * taken(row, some)
+        ends = (np.maximum(x, taken(x0, at)), np.minimum(x + side, taken(x1, at)),
+                np.maximum(y, taken(y0, at)), np.minimum(y + side, taken(y1, at)))  # fmt: skip
+        return at, np.stack(ends, axis=1)
