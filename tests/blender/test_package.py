@@ -59,7 +59,8 @@ def test_nothing_is_imported_before_it_is_asked_for():
 
 @pytest.mark.skipif(bool(bpy.app.binary_path), reason="needs pip's bpy; Blender disables add-ons before it ends")
 def test_a_python_that_leaves_it_registered_ends_well():
-    assert python("import bpy, camera_ray_caster as crc", "crc.register()", "print('done')") == ["done"]
+    said = python("import bpy, camera_ray_caster as crc", "crc.register()", "print('done')")
+    assert said[-1] == "done"  # Blender may have named its color management before
 
 
 def test_registering_twice_is_registering_once(plain):
