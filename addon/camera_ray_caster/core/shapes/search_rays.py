@@ -106,7 +106,7 @@ class Cells:
         rows, columns = (np.arange(0, side, tuning.DIRECTIONS) for side in shape)
         whole = [np.broadcast_to(component, shape) for component in direction]
         low, high = (
-            np.array([end.reduceat(end.reduceat(part, rows, axis=0), columns, axis=1) for part in whole])
+            np.array([end.reduceat(end.reduceat(part, rows, axis=0), columns, axis=1) for part in whole], np.float64)
             for end in (np.fmin, np.fmax)
         )
         self._wide = len(columns)
