@@ -14,7 +14,7 @@ import numpy as np
 
 from ..maths.panels import ROWS, is_raster, on_raster
 from ..maths.speed import whole_rows
-from ..maths.vector import ALL, components, cut, dot, inverse, is_grid, norm
+from ..maths.vector import ALL, components, cut, dot, inverse, is_grid, matvec, norm
 from ..records import Rays
 from .pixels import in_blocks
 
@@ -72,7 +72,9 @@ def pixels_of(camera: Any, points: np.ndarray) -> np.ndarray:
 
     def put(part: slice) -> None:
         with _quiet(near):
-            pixels[part] = camera.model.project((points[part] - camera.pose.eye) @ camera_from_world.T)
+            # not by BLAS, which rounds a single point otherwise
+            seen = matvec(camera_from_world, components(points[part] - camera.pose.eye))
+            pixels[part] = camera.model.project(np.stack(seen, axis=-1))
 
     in_blocks(put, (len(points), 1), BLOCK_POINTS)
     if not near:
@@ -98,9 +100,9 @@ def _write(camera: Any, x, y, origins, directions) -> None:
 
 def _write_by_formula(camera: Any, x, y, origins, directions) -> None:
     origin, direction = camera.camera_rays(x, y)
-    scale = 1.0 / camera.length_of(direction) if camera.model.planar else None
+    scale = 1.0 / camera.length_of(direction) if camera.model.planar else 1.0
     for axis, row in enumerate(camera.pose.basis):
-        directions[..., axis] = dot(row, direction) if scale is None else dot(row, direction) * scale
+        np.multiply(dot(row, direction), scale, out=directions[..., axis])
         if not camera.model.central:
             np.add(dot(row, origin), camera.pose.eye[axis], out=origins[..., axis])
 

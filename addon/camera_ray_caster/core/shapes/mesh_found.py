@@ -68,7 +68,7 @@ class Found:
         seen = np.flatnonzero(is_seen[:NONE])
         place = np.zeros(len(is_seen), np.int32)
         place[seen] = np.arange(len(seen))
-        return which[seen], place.take(self.number, mode="wrap")
+        return which[seen], taken(place, self.number)
 
     def keep(self, pixel: np.ndarray, t: np.ndarray, number: np.ndarray) -> None:
         """Note the hits that are the nearest so far; a pixel may have several."""

@@ -77,7 +77,8 @@ class MeshSet(ShapeSet):
         lattice = Lattice.of(rays)
         reach = _longest(rays.direction), _longest(rays.origin or (0.0,))
         near = blocks.near.take(here)
-        cast = partial(self._in_spans, lattice) if lattice else self._in_windows
+        single = self._in_pixels if rays.origin is None else self._in_windows
+        cast = partial(self._in_spans, lattice) if lattice else single
         for batch in nearest_first(near, blocks.count[here]):
             batch = batch.take(found.may_show(bounds.take(batch, axis=0), near.take(batch)))
             triangles = self.meshes.triangles(np.sort(here.take(batch)))
@@ -117,8 +118,8 @@ class MeshSet(ShapeSet):
         self._test(rays, rest, found)
 
     def _in_windows(self, rays: SearchRays, reach: Reach, triangles: Triangles, found: Found) -> Iterator[None]:
-        """Keep the hits of any rays on triangles, in small steps: of rays with many origins large ones one by one."""
-        is_large = (pixels_in(triangles.bounds) >= tuning.SMALL_PIXELS) & (rays.origin is not None)
+        """Keep the hits of rays with many origins on triangles, in small steps: large triangles one by one."""
+        is_large = pixels_in(triangles.bounds) >= tuning.SMALL_PIXELS
         large = triangles.only(np.flatnonzero(is_large))
         at, bands = banded(large.bounds, tuning.BLOCK_PIXELS)
         rest: list[Open] = []
@@ -129,9 +130,7 @@ class MeshSet(ShapeSet):
         yield from self._in_pixels(rays, reach, triangles.only(np.flatnonzero(~is_large)), found)
 
     def _fill(self, rays: SearchRays, reach: Reach, which: int, vertices: np.ndarray, bounds: list[int], found: Found):
-        """Keep the hits of rays with many origins on one triangle in a window of the tile. Return where it still has to
-        be tested.
-        """
+        """Keep the hits on one triangle in a window of the tile. Return where it still has to be tested."""
         corners: Any
         meets, corners = self.meshes.facing(vertices)
         if not meets.size:
