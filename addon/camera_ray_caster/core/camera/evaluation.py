@@ -95,24 +95,28 @@ def _write(camera: Any, x, y, origins, directions) -> None:
         on_raster(lambda x, y: _by_formula(endless, x, y), x, y, camera.model.disc, 3 * len(out), out)
     else:
         with whole_rows(directions.shape[1]):
-            _write_by_formula(camera, x, y, origins, directions)
+            _write_by_formula(camera, x, y, components(origins), components(directions))
 
 
 def _write_by_formula(camera: Any, x, y, origins, directions) -> None:
+    """Write the components of the world rays; those of the origins only if the rays do not all leave the eye."""
     origin, direction = camera.camera_rays(x, y)
-    scale = 1.0 / camera.length_of(direction) if camera.model.planar else 1.0
-    for axis, row in enumerate(camera.pose.basis):
-        np.multiply(dot(row, direction), scale, out=directions[..., axis])
+    scale = 1.0 / camera.length_of(direction) if camera.model.planar else None
+    for axis, row in enumerate(camera.pose.basis.tolist()):
+        if scale is None:
+            np.add(row[0] * direction[0], row[1] * direction[1] + row[2] * direction[2], out=directions[axis])
+        else:
+            np.multiply(dot(row, direction), scale, out=directions[axis])
         if not camera.model.central:
-            np.add(dot(row, origin), camera.pose.eye[axis], out=origins[..., axis])
+            np.add(dot(row, origin), camera.pose.eye[axis], out=origins[axis])
 
 
 def _by_formula(camera: Any, x, y):
-    """Return the directions, and the origins unless all rays leave the eye, as components."""
-    directions, origins = np.empty((2, *np.broadcast_shapes(x.shape, y.shape), 3))
+    """Return the components of the directions, and of the origins unless all rays leave the eye."""
+    directions, origins = np.empty((2, 3, *np.broadcast_shapes(x.shape, y.shape)))
     with np.errstate(all="ignore"):  # the formula may have no value beyond the model's disc
         _write_by_formula(camera, x, y, origins, directions)
-    return components(directions) if camera.model.central else (*components(directions), *components(origins))
+    return (*directions,) if camera.model.central else (*directions, *origins)
 
 
 def _is_near(places) -> bool:

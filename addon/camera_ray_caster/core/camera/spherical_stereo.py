@@ -116,8 +116,7 @@ class SphericalStereo(Model):
         beside = _turned(self.tilted, (-z * share, 0.0, x * share))  # NaN straight up and down
         turn = self.nearness * size
         scale = 1 / np.sqrt(square + (turn * offset) ** 2)  # the side is perpendicular to D
-        turn = turn * scale
-        return beside, tuple(scale * a - turn * b for a, b in zip(ahead, beside, strict=True))
+        return beside, tuple(scale * (a - turn * b) for a, b in zip(ahead, beside, strict=True))
 
     def project(self, points):
         """See Model: in closed form, with a pole merge by bisection; NaN also for points nearer to the axis than any

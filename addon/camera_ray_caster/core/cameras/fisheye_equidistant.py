@@ -12,12 +12,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
-import numpy as np
 
 from ..records import BlenderCamera, Raster
 from .model import Step
 from .parts.film import SHIFT, Window
-from .parts.radial import FISHEYE_FOV, RADIUS, RAY, WHOLE_PLANE, Radial, radii_of
+from .parts.radial import FISHEYE_FOV, RADIUS, RAY, WHOLE_PLANE, Radial, factors_of, radii_of
 from .parts.settings import Setting
 
 
@@ -47,7 +46,7 @@ class FisheyeEquidistant(Radial):
         """See Radial."""
         r = radii_of(r_squared)
         theta = r * self.half_fov
-        return np.sin(theta) / r, np.cos(theta)
+        return factors_of(theta, r)
 
     def radius(self, theta):
         """See Radial."""

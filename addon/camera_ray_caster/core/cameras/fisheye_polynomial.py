@@ -24,7 +24,7 @@ from ..maths.polynomials import positive_roots
 from ..records import BlenderCamera, InputError, Raster
 from .model import Step
 from .parts.film import FILM, Film, Window
-from .parts.radial import FISHEYE_FOV, RADIUS, RAY, SENSOR_PLANE, TINY, Radial, radii_of, up_to
+from .parts.radial import FISHEYE_FOV, RADIUS, RAY, SENSOR_PLANE, TINY, Radial, factors_of, radii_of, up_to
 from .parts.settings import CAMERA, FULL_TURN, Number
 from .parts.silhouette import pixel_bounds, radial_intervals
 
@@ -101,7 +101,7 @@ class FisheyePolynomial(Radial):
         r = radii_of(r_squared)
         theta = self.angle(r)
         theta = np.where(np.abs(theta) > self.half_fov, np.nan, theta)
-        return np.sin(theta) / r, np.cos(theta)
+        return factors_of(theta, r)
 
     @property
     def _sign(self) -> float:

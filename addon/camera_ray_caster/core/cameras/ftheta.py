@@ -16,7 +16,6 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from math import inf, pi
 
-import numpy as np
 from numpy.polynomial import Polynomial
 
 from ..maths.inversion import Inverse
@@ -25,7 +24,7 @@ from ..records import BlenderCamera, Raster
 from .model import Step
 from .parts.calibrated import Calibrated
 from .parts.calibration import PRINCIPAL_POINT, Calibration
-from .parts.radial import RAY, radii_of
+from .parts.radial import RAY, factors_of, radii_of
 from .parts.settings import ABOVE_ZERO, Choice, Coefficients, Item, Number
 
 ANGLE_TO_RADIUS = "ANGLE_TO_RADIUS"
@@ -144,7 +143,7 @@ class FTheta(Calibrated):
         """See Radial."""
         r = radii_of(r_squared)
         theta = self._inverse(r) if self.forward else self.value(r)
-        return np.sin(theta) / r, np.cos(theta)
+        return factors_of(theta, r)
 
     def radius(self, theta):
         """See Radial."""

