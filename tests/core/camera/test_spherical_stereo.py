@@ -26,12 +26,14 @@ STEREO = {
     "use_pole_merge": False, "pole_merge_angle_from": 0.4, "pole_merge_angle_to": 1.2,
 }  # fmt: skip
 MERGED = {"use_pole_merge": True}
+FADING = {"pole_merge_angle_from": pi / 3, "pole_merge_angle_to": pi * 5 / 12}
 PARALLEL = {"convergence_mode": "PARALLEL"}
 MODES = [
     {},
     MERGED,
     PARALLEL,
     PARALLEL | MERGED,
+    MERGED | FADING,
     MERGED | {"pole_merge_angle_from": 0.0, "pole_merge_angle_to": pi / 2},
 ]
 KINDS = (
@@ -235,6 +237,18 @@ def test_a_merge_that_ends_where_it_begins_jumps():
     cam = eye("EQUIRECTANGULAR", matrix=IDENTITY, **MERGED | {"pole_merge_angle_from": 1.2, "pole_merge_angle_to": 0.5})
     up = 27 + np.array([0.499, 0.501]) * 54 / pi
     assert np.linalg.norm(cam.rays_at(np.full(2, 48.0), up).origins, axis=-1) == pytest.approx([0.25, 0.0], abs=EPS)
+
+
+@pytest.mark.parametrize("key", ["MIRRORBALL", "FISHEYE_EQUISOLID"])
+def test_a_merge_left_out_where_no_ray_fades_changes_no_bit(key):
+    """Of a few rows at a time, most of which it leaves out, and of all rays at once, some of which fade."""
+    cam = eye(key, **MERGED, **FADING)
+    x, y = cam.raster.columns(), cam.raster.rows()
+    whole = cam.rays_at(x, y)
+    for own, row in enumerate(y[:, 0]):
+        alone = cam.rays_at(x[0], row)
+        np.testing.assert_array_equal(alone.origins, whole.origins[own])
+        np.testing.assert_array_equal(alone.directions, whole.directions[own])
 
 
 def test_pivot_and_shift_of_an_eye_do_not_count():

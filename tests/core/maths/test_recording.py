@@ -10,7 +10,7 @@ import pytest
 from camera_ray_caster.core.cameras import MODELS
 from camera_ray_caster.core.conventions import EPS
 from camera_ray_caster.core.maths.panels import is_raster
-from camera_ray_caster.core.maths.recording import NUMPY, NotRecordable, look_up, loop, record, roundoff
+from camera_ray_caster.core.maths.recording import NUMPY, NotRecordable, look_up, loop, may_hold, record, roundoff
 from camera_ray_caster.core.maths.recording.record import COMPARISONS, LOGICAL, NUMERIC
 from camera_ray_caster.core.maths.vector import is_grid, is_lattice, is_one
 
@@ -152,6 +152,15 @@ def test_a_state_may_hold_what_is_true_and_what_stays():
 
     for x in (5.0, 8.0):
         assert evaluate(until, x) == 16 + x
+
+
+def test_what_no_entry_needs_may_be_left_out_and_is_recorded():
+    def root(x):
+        return np.sqrt(np.maximum(x, 0.0)) if may_hold(x > 0) else 0.0
+
+    assert root(np.array([-1.0, -4.0])) == 0.0
+    np.testing.assert_array_equal(root(np.array([-1.0, 4.0])), [0.0, 2.0])
+    assert [evaluate(root, x) for x in (-1.0, 4.0)] == [0.0, 2.0]
 
 
 @pytest.mark.parametrize("place", [0, 3.0])

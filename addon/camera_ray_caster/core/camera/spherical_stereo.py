@@ -19,7 +19,7 @@ References: Blender manual, Stereoscopy; source of Cycles, kernel/camera; rays r
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from math import inf, pi
+from math import cos, inf, pi, sin
 
 import numpy as np
 
@@ -30,6 +30,7 @@ from ..cameras.parts.aperture import Aperture
 from ..cameras.perspective import Perspective
 from ..conventions import gamma
 from ..maths.panels import Disc
+from ..maths.recording import may_hold
 from ..maths.vector import along, components, difference, dot, inverse, matvec, norm
 from ..records import BlenderCamera, Pose
 
@@ -108,10 +109,11 @@ class SphericalStereo(Model):
         """
         x, up, z = upright = _turned(self.upright, ahead)
         across = np.sqrt(x * x + z * z)
-        across = np.where(across > 0, across, np.nan)
+        if may_hold(across == 0):
+            across = np.where(across > 0, across, np.nan)
         square = 1.0 if is_unit else dot(upright, upright)
         size = across if on_tube else np.sqrt(square)
-        offset = self._offset_at(_altitude(across, np.abs(up), on_tube)) if self.merge else self.offset
+        offset = self._offset_beside(across, np.abs(up), on_tube)
         share = offset / across
         beside = _turned(self.tilted, (-z * share, 0.0, x * share))  # NaN straight up and down
         turn = self.nearness * size
@@ -178,6 +180,14 @@ class SphericalStereo(Model):
         moves = [norm(difference(self.lens.rays(*near)[1], here)) for near in ((x + STEP, y), (x, y + STEP))]
         rounding = gamma(32) * norm(here) * STEP / np.maximum(*moves)
         return tuple(own + rounding for own in self.lens.pixel_rounding(x, y))
+
+    def _offset_beside(self, across, up, on_tube: bool):
+        """Return the offset of the rays whose D has these horizontal and vertical parts; ``up`` is not negative."""
+        if self.merge is None:
+            return self.offset
+        reach = (sin(self.merge[0]), 1.0) if on_tube else (sin(self.merge[0]), cos(self.merge[0]))
+        fades = up * reach[1] > across * reach[0]
+        return self._offset_at(_altitude(across, up, on_tube)) if may_hold(fades) else self.offset
 
     def _offset_at(self, altitude):
         if self.merge is None:

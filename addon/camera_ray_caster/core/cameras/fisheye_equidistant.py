@@ -12,7 +12,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
-
 from ..records import BlenderCamera, Raster
 from .model import Step
 from .parts.film import SHIFT, Window

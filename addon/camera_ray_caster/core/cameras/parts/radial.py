@@ -161,10 +161,10 @@ def radii_of(r_squared):
 
 
 def factors_of(theta, r):
-    """Return sin(theta) / r and cos(theta), the first right to gamma(10) of 1 / r, the second to gamma(8) of 1.
+    """Return sin(theta) / r and cos(theta), right to gamma(10) of the first and gamma(8) of 1.
 
-    By the tangent of half the angle: numpy 1.26 and 2.5 take one tangent in place of a sine and a cosine, each of which
-    takes 6 to 8 times as long on processors with AVX-512, and as long on others.
+    They follow from the tangent of theta / 2 (right to gamma(4) in numpy). A sine takes as long as a tangent; on
+    processors with AVX-512 it takes 6 to 8 times as long (numpy 1.26 and 2.5), and a cosine as well.
     """
     tangent = np.tan(theta / 2)
     share = 2 / (1 + tangent * tangent)

@@ -6,10 +6,21 @@ iterates and reads tables, for arrays as well as for recorded numbers.
 """
 
 from .derivatives import Dual, differentiate
-from .number import NotRecordable, Parameter, Recorded, is_recorded, look_up, loop, record, roundoff, stop_gradient
+from .number import (
+    NotRecordable,
+    Parameter,
+    Recorded,
+    is_recorded,
+    look_up,
+    loop,
+    may_hold,
+    record,
+    roundoff,
+    stop_gradient,
+)
 from .record import DOMAIN, NUMPY, Record, Step
 
 __all__ = [
     "DOMAIN", "NUMPY", "Dual", "NotRecordable", "Parameter", "Record", "Recorded", "Step", "differentiate",
-    "is_recorded", "look_up", "loop", "record", "roundoff", "stop_gradient",
+    "is_recorded", "look_up", "loop", "may_hold", "record", "roundoff", "stop_gradient",
 ]  # fmt: skip

@@ -67,6 +67,13 @@ def look_up(table, place):
     return place.tape.add("take", [place], (_entries(table),)) if is_recorded(place) else table[place]
 
 
+def may_hold(condition) -> bool:
+    """Return whether a condition holds for any entry of an array; True for a recorded condition. A formula may skip
+    work that no entry needs, if the work would leave all numbers as they are.
+    """
+    return is_recorded(condition) or bool(np.any(condition))
+
+
 def stop_gradient(number):
     """Return a number without its derivatives, to start an iteration to a root: one more step of Newton's method after
     the iteration then gives the derivatives of the root.
