@@ -93,7 +93,10 @@ DIRECTIONS = 8
 0.95 to 1.1 times the time of rooms and toys in fisheyes and panoramas; 16: 1.05 to 1.2; without cells 1.9 to 5 times.
 """
 
-WIDE_PIXELS = 1 << 7
+CELL_PIXELS = 1 << 21
+"""Number of pixels in the bounds of triangles whose cells are tested at once."""
+
+WIDE_PIXELS = 1 << 8
 """Number of pixels in the bounds of a triangle from which on its cells are tested before its pixels. 2**5 and 2**9:
 within 5 % of the times of DIRECTIONS.
 """

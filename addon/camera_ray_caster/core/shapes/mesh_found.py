@@ -87,17 +87,6 @@ class Found:
             lost = np.flatnonzero(taken(first, pixel) != number)
             pixel, t, number = pixel[lost], t[lost], number[lost]
 
-    def fill(self, window: tuple[slice, slice], met: np.ndarray, t: np.ndarray, number: int) -> None:
-        """Note one triangle in a window, where it is hit and is the nearest so far."""
-        self._farthest.clear()
-        before, first = self.t[window], self.number[window]
-        closer, tied = t < before, (t == before) & met
-        if tied.any():
-            closer |= tied & self._precede(number, first)
-        closer &= met
-        np.copyto(before, t, where=closer)
-        np.copyto(first, number, where=closer)
-
     def _precede(self, number: Any, other: np.ndarray) -> np.ndarray:
         """Return whether triangles have lower indices than others; any triangle precedes NONE."""
         which = self._which()

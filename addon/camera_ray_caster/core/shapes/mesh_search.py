@@ -12,14 +12,14 @@ import numpy as np
 
 from .. import tuning
 from ..maths.speed import merged, taken
-from ..maths.vector import cross, cut, difference, dot, norm
+from ..maths.vector import dot, norm
 from .kind import Candidates, PixelBounds, ShapeSet
 from .mesh_found import NONE, SEEN, Found, SeenTriangles
 from .mesh_in_camera import MeshesInView, Triangles
 from .mesh_order import nearest_first, pieces, slabs
 from .mesh_spans import Lattice, spans
 from .search_rays import SearchRays
-from .triangles import EDGES, ROUNDING, STEEP, crossing, plane, signs, volumes
+from .triangles import ROUNDING, crossing, edge_vectors, signs, volumes
 from .windows import Windows, banded, batches, in_tile, pixels_in, union
 
 Reach = tuple[float, float]
@@ -77,8 +77,7 @@ class MeshSet(ShapeSet):
         lattice = Lattice.of(rays)
         reach = _longest(rays.direction), _longest(rays.origin or (0.0,))
         near = blocks.near.take(here)
-        single = self._in_pixels if rays.origin is None else self._in_windows
-        cast = partial(self._in_spans, lattice) if lattice else single
+        cast = partial(self._in_spans, lattice) if lattice else self._in_cells
         for batch in nearest_first(near, blocks.count[here]):
             batch = batch.take(found.may_show(bounds.take(batch, axis=0), near.take(batch)))
             triangles = self.meshes.triangles(np.sort(here.take(batch)))
@@ -117,44 +116,20 @@ class MeshSet(ShapeSet):
             yield
         self._test(rays, rest, found)
 
-    def _in_windows(self, rays: SearchRays, reach: Reach, triangles: Triangles, found: Found) -> Iterator[None]:
-        """Keep the hits of rays with many origins on triangles, in small steps: large triangles one by one."""
-        is_large = pixels_in(triangles.bounds) >= tuning.SMALL_PIXELS
-        large = triangles.only(np.flatnonzero(is_large))
-        at, bands = banded(large.bounds, tuning.BLOCK_PIXELS)
-        rest: list[Open] = []
-        for k, band in zip(at.tolist(), bands.tolist(), strict=True):
-            rest.append(self._fill(rays, reach, large.which[k], large.corners[:, k : k + 1], band, found))
-            yield
-        self._test(rays, rest, found)
-        yield from self._in_pixels(rays, reach, triangles.only(np.flatnonzero(~is_large)), found)
-
-    def _fill(self, rays: SearchRays, reach: Reach, which: int, vertices: np.ndarray, bounds: list[int], found: Found):
-        """Keep the hits on one triangle in a window of the tile. Return where it still has to be tested."""
-        corners: Any
-        meets, corners = self.meshes.facing(vertices)
-        if not meets.size:
-            return Open.none()
-        x0, x1, y0, y1 = bounds
-        window = slice(y0, y1), slice(x0, x1)
-        corners = corners[..., None]
-        direction = tuple(cut(component, window) for component in rays.direction)
-        doubt = _doubt(corners, reach).item()
-        corners = [difference(corner, tuple(cut(part, window) for part in rays.origin)) for corner in corners]
-        inner = _inside(volumes(corners, direction), is_turned=False)
-        normal, product = plane(corners)
-        slope = dot(normal, direction)
-        t = dot(normal, corners[0]) / slope
-        poor = np.abs(slope) <= STEEP * product * reach[0]
-        met = (inner > doubt) & (t >= self.clip_start) & (t < np.inf)
-        open_ = (np.abs(inner) <= doubt) | (poor & (inner > doubt)) if poor.any() else np.abs(inner) <= doubt
-        met &= ~open_
-        found.fill(window, met, t, which)
-        if not open_.any():
-            return Open.none()
-        row, column = np.nonzero(np.broadcast_to(open_, inner.shape))
-        pixel = (y0 + row) * rays.shape[1] + x0 + column
-        return Open(np.full(len(row), which), np.repeat(vertices, len(row), axis=1), pixel)
+    def _in_cells(self, rays: SearchRays, reach: Reach, triangles: Triangles, found: Found) -> Iterator[None]:
+        """Keep the hits on triangles, in small steps; wide triangles are tested only in cells where they may be hit."""
+        is_wide = pixels_in(triangles.bounds) >= tuning.WIDE_PIXELS
+        yield from self._in_pixels(rays, reach, triangles.only(np.flatnonzero(~is_wide)), found)
+        wide = triangles.only(np.flatnonzero(is_wide))
+        wide = wide.only(*banded(wide.bounds, tuning.CELL_PIXELS))
+        for some in pieces(wide.bounds, tuning.CELL_PIXELS):
+            own = wide.only(some)
+            meets, corners = self.meshes.facing(own.corners)
+            own = own.only(meets)
+            edges = edge_vectors(corners, rays.origin is None)
+            own = own.only(*rays.cells.parts(edges, 4 * _doubt(corners, reach), own.bounds))
+            own = own.only(found.may_show(own.bounds, own.near))
+            yield from self._in_pixels(rays, reach, own, found)
 
     def _span(self, rays: SearchRays, lattice: Lattice, reach: Reach, triangles: Triangles, found: Found) -> Open:
         """Keep the hits on triangles in spans, and ray by ray on triangles without spans. Return the pixels in which
@@ -167,7 +142,7 @@ class MeshSet(ShapeSet):
         at, pixel = seen.met
         self._keep(found, pixel, seen.t, taken(triangles.which, at))
         if not seen.clear.all():
-            for _ in self._in_pixels(rays, reach, triangles.only(np.flatnonzero(~seen.clear)), found):
+            for _ in self._in_cells(rays, reach, triangles.only(np.flatnonzero(~seen.clear)), found):
                 pass
         return Open.of(triangles, *seen.open)
 
@@ -186,16 +161,9 @@ class MeshSet(ShapeSet):
 
     def _from_eye(self, rays: SearchRays, corners, doubt, triangles: Triangles, found: Found) -> None:
         """Keep the hits of rays from the eye in triangles' bounds: all rays share the planes through eye and edges."""
-        normals = np.array([cross(corners[i], corners[j]) for i, j in EDGES])
-        is_wide = pixels_in(triangles.bounds) >= tuning.WIDE_PIXELS
-        wide, at = np.flatnonzero(is_wide), np.flatnonzero(~is_wide)
-        bounds = triangles.bounds.take(at, axis=0)
-        if wide.size:
-            own, parts = rays.cells.parts(taken(normals, wide), 2 * doubt[wide], triangles.bounds.take(wide, axis=0))
-            at, bounds = np.concatenate((at, wide[own])), np.concatenate((bounds, parts))
-        pixel, part = rays.present.within(bounds)
-        k = taken(at, part)
+        pixel, k = rays.present.within(triangles.bounds)
         _, direction = rays.at(pixel)
+        normals = edge_vectors(corners, from_eye=True)
         inner = _inside(tuple(dot(taken(normal, k), direction) for normal in normals), is_turned=True)
         self._decide(rays, inner, taken(doubt, k), triangles, k, pixel, found)
 

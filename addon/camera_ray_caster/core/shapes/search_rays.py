@@ -9,7 +9,7 @@ import numpy as np
 
 from .. import tuning
 from ..maths.speed import Scratch, lazy, taken
-from ..maths.vector import cross, cut, dot
+from ..maths.vector import cross, cut
 from .windows import counted
 
 
@@ -51,8 +51,8 @@ class SearchRays:
 
     @lazy
     def cells(self) -> Cells:
-        """The directions in cells of the tile."""
-        return Cells(self.direction, self.shape)
+        """The directions, and the moments of rays with many origins, in cells of the tile."""
+        return Cells(self.direction, self.moment, self.shape)
 
     def at(self, pixel: np.ndarray) -> tuple[np.ndarray | None, np.ndarray]:
         """Return the origins, None for the eye, and the directions at (m,) pixels of the tile, (3, m) float64 each."""
@@ -99,23 +99,27 @@ class Present:
 
 
 class Cells:
-    """Squares of pixels of a tile, and boxes that hold the directions of the rays in each; NaN is ignored."""
+    """Squares of pixels of a tile, and boxes that hold the directions of the rays in each, and their moments if these
+    are given; NaN is ignored.
+    """
 
-    def __init__(self, direction: Any, shape: tuple[int, int]):
-        """Take components that broadcast to ``shape``."""
+    def __init__(self, direction: Any, moment: Any, shape: tuple[int, int]):
+        """Take components that broadcast to ``shape``; ``moment`` may be None."""
         rows, columns = (np.arange(0, side, tuning.DIRECTIONS) for side in shape)
-        whole = [np.broadcast_to(component, shape) for component in direction]
+        whole = [np.broadcast_to(component, shape) for component in (*direction, *(() if moment is None else moment))]
         low, high = (
             np.array([end.reduceat(end.reduceat(part, rows, axis=0), columns, axis=1) for part in whole], np.float64)
             for end in (np.fmin, np.fmax)
         )
-        self._wide = len(columns)
-        self._middle, self._half = ((high / 2 + sign * low / 2).reshape(3, -1) for sign in (1, -1))
+        self._wide, self._from_eye = len(columns), moment is None
+        self._middle, self._half = ((high / 2 + sign * low / 2).reshape(len(whole), -1) for sign in (1, -1))
 
-    def parts(self, normals: np.ndarray, margin: np.ndarray, bounds: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return the cells of bounds (k, 4) in which the products of directions with all of three normals, (3, 3, k):
-        normal, component, may be -margin, (k,), or more: the index of the bounds, (p,), and their part in the cell,
-        (p, 4).
+    def parts(self, edges: np.ndarray, margin: np.ndarray, bounds: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return the cells of bounds (k, 4) in which some ray may hit a triangle: the index of the bounds, (p,), and
+        their part in the cell, (p, 4).
+
+        edges: (3, c, k), the vectors whose products with a ray's direction and moment are the three ``volumes`` of a
+        triangle. All of them are -margin, (k,), or more at a hit, or, of rays with moments, margin or less.
         """
         side = tuning.DIRECTIONS
         x0, x1, y0, y1 = bounds.T.astype(np.intp)
@@ -125,12 +129,15 @@ class Cells:
         at, row = taken(at, run), taken(row, run)
         cell = row * self._wide + column
         middle, half = taken(self._middle, cell), taken(self._half, cell)
-        least = -taken(margin, at)
-        meets = np.ones(len(at), bool)
-        for normal in normals:
-            own = taken(normal, at)
-            meets &= dot(middle, own) + dot(half, np.abs(own)) >= least
-        some = np.flatnonzero(meets)
+        margin = taken(margin, at)
+        above, below = np.ones(len(at), bool), np.full(len(at), not self._from_eye)
+        for edge in edges:
+            own = taken(edge, at)
+            product, reach = np.einsum("ij,ij->j", middle, own), np.einsum("ij,ij->j", half, np.abs(own))
+            reach += margin
+            above &= product >= -reach
+            below &= product <= reach
+        some = np.flatnonzero(above | below)
         at, x, y = taken(at, some), side * taken(column, some), side * taken(row, some)
         ends = (np.maximum(x, taken(x0, at)), np.minimum(x + side, taken(x1, at)),
                 np.maximum(y, taken(y0, at)), np.minimum(y + side, taken(y1, at)))  # fmt: skip

@@ -66,6 +66,16 @@ def volumes(corners: Any, d: Any, moment: Any = None) -> tuple[Any, Any, Any]:
     return first, second, third
 
 
+def edge_vectors(corners: Any, from_eye: bool) -> np.ndarray:
+    """Return the vectors, (3, 3, k), whose products with a direction are the volumes of triangles, (3, 3, k): corner,
+    component; unless all rays leave the eye, (3, 6, k), for direction and moment.
+    """
+    found = [np.array(cross(corners[i], corners[j])) for i, j in EDGES]
+    if not from_eye:
+        found = [np.append(own, corners[j] - corners[i], axis=0) for own, (i, j) in zip(found, EDGES, strict=True)]
+    return np.array(found)
+
+
 def _edge_volume(d: Any, moment: Any, a: Any, b: Any) -> Any:
     own = volume(d, a, b)
     if moment is None:
