@@ -49,9 +49,11 @@ def test_each_part_of_a_picture_of_planar_rays_is_a_lattice(kind):
         assert Lattice.of(whole.within((slice(first_row, last_row + 1), slice(first, last + 1)))) is not None
 
 
-@pytest.mark.parametrize(("spread", "most"), [(0.0, 0.3), (0.01, 0.35), (0.1, 0.6)])
+@pytest.mark.parametrize(("spread", "most"), [(0.0, 0.3), (0.01, 0.6), (0.1, 0.6)])
 def test_the_cells_cut_off_no_ray_that_hits_a_triangle_and_many_others(spread, most):
-    """Rays of a fisheye, some missing, from the eye or from points around it, against each triangle's volumes."""
+    """Rays of a fisheye, some missing, from the eye or from points around it, against each triangle's volumes. Those of
+    many origins keep the triangles behind them, too.
+    """
     random = np.random.default_rng(3)
     y, x = np.mgrid[-1:1:90j, -1:1:130j]
     r = np.maximum(np.hypot(x, y), 1e-9)
