@@ -9,8 +9,9 @@ A new model is one file, with a frozen dataclass that inherits ``Model``, and on
 exclude nothing. A closed form is an improvement, not a duty. One contract test runs over MODELS
 (tests/core/cameras/test_model.py), and a test adds a model of 25 lines (tests/blender/add_a_camera).
 
-``rays`` is arithmetic on two numbers or arrays. It branches on their values only by numpy's ``where``, so that the
-formula can be recorded (``core.maths.recording``) and evaluated with any number of digits.
+``rays`` is arithmetic on two numbers or arrays. It branches on their values only by numpy's ``where``, and leaves out
+work only where ``may_hold`` says that no value needs it, so that the formula can be recorded
+(``core.maths.recording``) and evaluated with any number of digits.
 """
 
 from __future__ import annotations
