@@ -5,6 +5,8 @@ import json
 import numpy as np
 import pytest
 
+import camera_ray_caster as crc
+
 from ..exr import read_exr
 from .running import left, refused, small
 
@@ -62,10 +64,41 @@ def test_arrays_of_layers_and_eyes(command, blender, tmp_path):
     blender.ops.wm.save_as_mainfile(filepath=str(path))
     done = command("cast", path, "--passes", "ray_origin", "--format", "npz", "--output", tmp_path / "out")
     assert (done.returncode, done.stderr) == (0, "")
+    with pytest.raises(crc.InputError, match="the views left, right: choose one"):
+        crc.camera_from_json(tmp_path / "out" / "report.json")
     for eye, side in ("L", -1), ("R", 1):
+        view = {"L": "left", "R": "right"}[eye]
+        assert np.sign(crc.camera_from_json(tmp_path / "out" / "report.json", camera=view).pose.eye[0]) == side
         with np.load(tmp_path / "out" / f"stereo_{eye}.npz") as file:
             assert set(file) == {"ViewLayer.ray_origin", "Second.ray_origin"}
             assert (np.sign(file["Second.ray_origin"][..., 0]) == side).all()
+
+
+def test_bounds_hold_for_what_16_bits_store_and_what_they_cannot_hold_is_refused(command, blender, tmp_path):
+    path = small(blender, tmp_path / "small.blend")
+    passes = ("distance", "depth", "position", "normal", "distance_bound", "position_bound", "normal_bound")
+    words = ("--passes", ",".join(passes), "--format", "npz", "--output")
+    assert command("cast", path, *words, tmp_path / "all").returncode == 0
+    assert command("cast", path, *words, tmp_path / "half", "--half").returncode == 0
+    with np.load(tmp_path / "all" / "small.npz") as exact, np.load(tmp_path / "half" / "small.npz") as half:
+        met = np.isfinite(exact["depth"])
+        assert met.any()
+        for name, bound in (("distance",) * 2, ("depth", "distance"), ("position",) * 2, ("normal",) * 2):
+            off = exact[name][met].astype(float) - half[name][met]
+            off = np.abs(off) if off.ndim == 1 else np.linalg.norm(off, axis=-1)
+            assert off.max() > 1e-6
+            assert (off <= half[f"{bound}_bound"][met]).all(), name
+    said = json.loads((tmp_path / "half" / "report.json").read_text())["accuracy"]
+    assert said["rounding_when_stored"] == 2.0**-11
+    blender.context.scene.camera.data.clip_end = 1e6
+    for item in blender.context.scene.objects:
+        item.location *= 1e5
+        item.scale *= 1e5
+    blender.ops.wm.save_as_mainfile(filepath=str(path))
+    done = command("cast", path, *words, tmp_path / "far", "--half")
+    assert done.returncode == 2
+    assert "above 65504, the largest of 16 bits: write it without --half" in done.stderr
+    assert not (tmp_path / "far").exists()
 
 
 @pytest.mark.parametrize("kind", ["npz", "exr"])

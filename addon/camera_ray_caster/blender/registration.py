@@ -52,7 +52,7 @@ CLASSES = (
 
 MODULES = (
     groups, kept, follow, reports, images, gallery, scene_cache, viewport, cast_operator, overlay, lesson, notice,
-    render_panels, menus, gallery_operators, presets, export_operators, commands,
+    render_panels, menus, gallery_operators, lesson_operators, presets, export_operators, commands,
 )  # fmt: skip
 """Modules that register more than classes. Their ``register(undo)`` gives ``undo`` the callbacks that undo it."""
 

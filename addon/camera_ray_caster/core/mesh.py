@@ -9,6 +9,12 @@ import numpy as np
 
 from .tuning import MESH_BLOCK
 
+SAMPLED = 1024
+"""Number of vertices, evenly spaced in their order, that say where most of them lie."""
+
+FARTHEST = 1e6
+"""Size of a mesh over that of its middle half from which on the middle of its bounding box is not its own middle."""
+
 
 @dataclass(frozen=True, eq=False)
 class Mesh:
@@ -38,8 +44,13 @@ class Mesh:
 
     @cached_property
     def middle(self) -> np.ndarray:
-        """(3,) float64: the middle of the bounding box."""
-        return (self.vertices.min(axis=1) / 2.0 + self.vertices.max(axis=1) / 2.0).astype(np.float64)
+        """(3,) float64: the middle of the bounding box, from which places are computed. If a few vertices lie so far
+        away that the others would lose their digits, it is the median of some of the vertices instead.
+        """
+        low, high = self.vertices.min(axis=1).astype(np.float64), self.vertices.max(axis=1).astype(np.float64)
+        some = np.sort(self.vertices[:, :: max(1, self.vertices.shape[1] // SAMPLED)].astype(np.float64))
+        first, median, last = (some[:, some.shape[1] * k // 4] for k in (1, 2, 3))
+        return np.where(high - low > FARTHEST * (last - first), median, low / 2 + high / 2)
 
     @cached_property
     def blocks(self) -> tuple[np.ndarray, np.ndarray]:

@@ -49,8 +49,9 @@ def test_what_the_gallery_does_not_have_is_refused(blender):
             operator(name="cat")
 
 
-def test_an_example_is_opened(blender):
+def test_an_example_is_opened_as_a_new_file(blender):
     blender.ops.camera_ray_caster.open_example(name="omnimax")
+    assert blender.data.filepath == "", "the extension's own file would be saved over"
     assert blender.context.scene.camera.data.camera_ray_caster.model == "OMNIMAX"
 
 

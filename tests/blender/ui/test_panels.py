@@ -47,7 +47,11 @@ def test_the_panels_say_what_the_camera_is_and_why_it_is_none(blender, scene):
     own = scene.camera.data.camera_ray_caster
     own.model = "PUSHBROOM"
     settings = drawn(blender, camera_panels.SidebarSettings).split()
-    assert {"slit_1", "ortho_scale", "lens", "shift_x", "time_mode"} <= set(settings)  # there is no lens panel there
+    assert {"ortho_scale", "lens", "shift_x", "time_mode"} <= set(settings)  # there is no lens panel there
+    assert "slit_1" not in settings, "a missing object is drawn once"
+    assert "slit_1" in drawn(blender, camera_panels.SidebarCamera)
+    blender.ops.camera_ray_caster.add_line(setting="slit_1")
+    assert "slit_1" in drawn(blender, camera_panels.SidebarSettings)
     own.model = "BLENDER"
     blender.ops.camera_ray_caster.cast()
     for panel in (*sidebar, camera_panels.SidebarSettings, *cast_panels.CLASSES[3:]):

@@ -34,6 +34,25 @@ def test_images_are_saved_with_the_file_exactly_and_cast_anew_after_it_is_loaded
     assert np.array_equal(pixels_of(blender.data.images[names[2]])[..., :3], expected)
 
 
+def test_images_that_a_redo_has_not_brought_back_are_removed_not_black(blender, scene):
+    passes.tick(scene, blender.context.view_layer, ["combined", "depth"])
+    push = blender.ops.ed.undo_push
+    push(message="before")
+    blender.ops.camera_ray_caster.cast()
+    push(message="cast")
+    before = {name: pixels_of(blender.data.images[name]) for name in images.results()}
+    blender.context.scene.camera.location.x += 1
+    push(message="moved")
+    blender.ops.ed.undo()
+    assert len(before) == 2
+    for name in before:
+        assert np.array_equal(pixels_of(blender.data.images[name]), before[name]), name
+    blender.ops.ed.undo()
+    assert images.results() == {}
+    blender.ops.ed.redo()
+    assert images.results() == {}
+
+
 def test_passes_of_all_widths_are_stored_beside_each_other(blender, scene):
     keys = ["combined", "normal", "flow_forward", "depth", "ray_direction"]
     passes.tick(scene, blender.context.view_layer, keys)

@@ -14,7 +14,7 @@ from camera_ray_caster.core.cast import cast
 from camera_ray_caster.core.casting.pixels import passes_at
 from camera_ray_caster.core.motion.evaluations import resolve
 from camera_ray_caster.core.motion.matching import rows_in
-from camera_ray_caster.core.records import PLANE, SPHERE, InputError
+from camera_ray_caster.core.records import PLANE, SPHERE, InputError, no_shapes
 
 from ..camera.test_pixel_time import SHUTTER, turn
 from ..camera.test_pixel_time import camera as timed_camera
@@ -261,6 +261,12 @@ def test_shapes_are_known_by_their_names():
     assert rows_in(before, one_less).tolist() == [-1, 0, -1, -1]
     flow = cast(*with_others(camera_at(), before, camera_at(), one_less), ("flow_forward", "shape_index"), float)
     assert (np.isnan(flow["flow_forward"][..., 0]) == (flow["shape_index"] != 1)).all()
+    assert rows_in(before, no_shapes()).tolist() == [-1] * 4
+    passes = "flow_forward", "flow_hidden", "shape_index"
+    flow = cast(*with_others(camera_at(), before, camera_at(), no_shapes()), passes, float)
+    assert (flow["shape_index"] >= 0).any()
+    assert np.isnan(flow["flow_forward"]).all()
+    assert not flow["flow_hidden"].any()
 
 
 def test_a_frame_that_was_not_read_is_named():

@@ -144,6 +144,13 @@ def test_a_calibration_file_is_not_asked_for_again(tmp_path):
 GOOD = crc.camera_to_json(camera("PERSP"))
 
 
+def without_frames(text):
+    """The file with a camera that has no frame."""
+    document = json.loads(text)
+    document["cameras"][0]["frames"] = []
+    return json.dumps(document)
+
+
 @pytest.mark.parametrize(
     ("change", "asked", "says"),
     [
@@ -157,6 +164,7 @@ GOOD = crc.camera_to_json(camera("PERSP"))
         (lambda text: "missing.json", {}, "cannot read 'missing.json': No such file"),
         (lambda text: "\0", {}, "cannot read"),
         (lambda text: 3, {}, "cannot read"),
+        (lambda text: without_frames(text), {}, "'Camera' has no frame in this file"),
         (lambda text: text, {"frame": 7}, "no frame 7 in this file: the nearest is 0"),
         (lambda text: text, {"frame": "first"}, "frame is 'first': it must be a number"),
         (lambda text: text, {"camera": "Side"}, "has the cameras 'Camera': set camera"),

@@ -246,3 +246,22 @@ def test_many_triangles_in_one_pixel_are_a_hit_of_the_nearest():
     images = cast(camera_at(), shapes_of((ball(100, 200), (0, 0, -5), 0.01)), ("depth", "shape_index"), np.float64)
     assert (images["shape_index"] >= 0).sum() == 1
     assert images["depth"][16, 16] == pytest.approx(4.99, abs=1e-5)
+
+
+@pytest.mark.parametrize("away", [1e9, 1e17, 3e38])
+def test_a_vertex_far_away_takes_no_digits_from_the_others(away):
+    """Loose, or of a triangle of its own."""
+    alone = grid(4, 5, lambda u, v: (2 * u - 1, 1.5 * v - 0.75, -3 - u * v))
+    near, triangles = alone.vertices.T.tolist(), alone.triangles.T.tolist()
+    beside = [(away, 0.0, -3.0), (away, away, -3.0), (away, 0.0, -away)]
+    expected = cast(camera_at(**SMALL), shapes_of((alone, tuple(alone.middle), 1.0)), BOUNDS, float)
+    assert (expected["shape_index"] == 0).any()
+    first = len(near)
+    for others in ([], [(first, first + 1, first + 2)]):
+        mesh = mesh_of(near + beside, triangles + others)
+        shapes = shapes_of((mesh, tuple(mesh.middle), 1.0))
+        found = cast(camera_at(**SMALL), shapes, BOUNDS, float)
+        np.testing.assert_array_equal(found["face_index"], expected["face_index"])
+        hit = expected["shape_index"] == 0
+        assert (np.abs(found["distance"][hit] - expected["distance"][hit]) <= found["distance_bound"][hit]).all()
+        assert found["distance_bound"][hit].max() < 1e-12

@@ -87,7 +87,8 @@ class CameraRayCaster(Viewport, bpy.types.RenderEngine):
         images |= given
         if self.images is not None:
             self.images[layer, view] = images
-        report = replace(report, passes=tuple(keys), combined=made_by)
+        views = {view: report.record} if view else {}
+        report = replace(report, passes=tuple(keys), combined=made_by, views=views)
         started = perf_counter()
         self.store({entry.label: (entry.key, images[entry.key]) for entry in wanted}, layer, view)
         return report.with_seconds(write=perf_counter() - started)

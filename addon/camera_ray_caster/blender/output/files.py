@@ -89,6 +89,8 @@ def render(
         else:
             suffixes = {view.name: view.file_suffix for view in scene.render.views}
             arrays.save(temporary / f"{name}.npz", images, suffixes, half)
+            if half:
+                report = replace(report, accuracy=replace(report.accuracy, stored=float(arrays.HALF.eps) / 2))
         if keypoints is not None:
             shows = f"{name}.png" if shown else f"{name}.{layers.lower()}"
             text = annotated(scene, next(iter(images.values())), shows, keypoints)

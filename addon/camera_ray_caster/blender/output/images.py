@@ -104,9 +104,18 @@ def pack(*_) -> None:
             image.pack()
 
 
+@persistent
+def drop_lost(*_) -> None:
+    """Remove images whose pixels a redo has not brought back: Blender would show and save them as black."""
+    for name in (*results(), VIEW):
+        image = bpy.data.images.get(name)
+        if image is not None and image.source == "GENERATED" and not image.has_data:
+            bpy.data.images.remove(image)
+
+
 def register(undo) -> None:
     """Register this module; see ``registration``."""
-    undo.add_handlers([("save_pre", pack)])
+    undo.add_handlers([("save_pre", pack), ("undo_post", drop_lost), ("redo_post", drop_lost)])
 
 
 def _rgba(pixels: np.ndarray, lent: np.ndarray | None = None) -> np.ndarray:

@@ -65,7 +65,7 @@ class Visibility:
 
         listed: the objects that the depsgraph lists where they stand; instanced: those whose instances it lists.
         """
-        own = {item for item in self.rendered - listed if item.is_instancer or _shows_itself(item)}
+        own = {item for item in self.rendered - listed if _shows_itself(item) or _instances_others(item)}
         sources = {item for item in self.rendered if _is_instanced(item) and item.parent in self.rendered}
         for item in self.rendered:
             if item.instance_type == "COLLECTION" and item.instance_collection is not None:
@@ -82,6 +82,11 @@ def _involved(instance) -> list:
     """Return the object of an instance and, if there is one, the object that instances it."""
     owner = [instance.parent.original] if instance.is_instance else []
     return [original_source(instance), *owner]
+
+
+def _instances_others(item) -> bool:
+    """Return whether geometry nodes or particles of an object instance others; parents and empties name their own."""
+    return item.is_instancer and item.instance_type == "NONE"
 
 
 def _shows_itself(item) -> bool:

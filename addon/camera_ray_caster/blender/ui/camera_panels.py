@@ -11,6 +11,7 @@ from .gallery_operators import ExamplesMenu
 from .gallery_panels import draw_model
 from .model_drawing import PRESETS, draw_lens, draw_model_settings, draw_setting, draw_times
 from .model_settings import read_settings
+from .operators import LoadCalibration
 from .see_through import SeeThrough, is_seen_through
 
 
@@ -48,6 +49,7 @@ class SidebarCamera(Sidebar, bpy.types.Panel):
         row = layout.row(align=True)
         row.menu(ExportMenu.bl_idname, text="Export", icon="EXPORT")
         row.menu(ExamplesMenu.bl_idname, text="Examples", icon="FILE_BLEND")
+        layout.operator(LoadCalibration.bl_idname, icon="FILE_FOLDER")
 
 
 def drawn_alike(camera) -> bool:
@@ -86,7 +88,7 @@ class SidebarSettings(Sidebar, bpy.types.Panel):
         if getattr(camera, GROUP).model == BLENDERS_OWN:
             draw_lens(layout, context, camera)
         else:
-            draw_model_settings(layout, context, camera, beside_lens=False)
+            draw_model_settings(layout, context, camera, beside_lens=False, drawn=missing(context.scene.camera))
         draw_times(layout, context, camera)
 
 

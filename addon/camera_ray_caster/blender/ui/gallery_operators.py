@@ -26,7 +26,7 @@ class OfGallery:
 
 
 class OpenExample(OfGallery, bpy.types.Operator):
-    """Open this scene of the gallery; Blender asks first whether to save changes"""
+    """Open this scene of the gallery as a new, unsaved file; Blender asks first whether to save changes"""
 
     bl_idname = "camera_ray_caster.open_example"
     bl_label = "Open Example Scene"
@@ -37,7 +37,7 @@ class OpenExample(OfGallery, bpy.types.Operator):
         path = self.path()
         if path is None:
             return {"CANCELLED"}
-        return bpy.ops.wm.open_mainfile("INVOKE_DEFAULT", filepath=path, display_file_selector=False, load_ui=False)
+        return bpy.ops.wm.read_homefile("INVOKE_DEFAULT", filepath=path, load_ui=False)
 
 
 class AppendCamera(OfGallery, bpy.types.Operator):

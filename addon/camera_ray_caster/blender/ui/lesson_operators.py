@@ -7,17 +7,27 @@ import bpy
 from ..view3d import lesson
 from ..view3d.camera_frame import frame_in
 from ..view3d.scene_cache import cached_scene
-from .needs import OfScene
+from .needs import NO_CAMERA
 
 HINT = "Click a pixel in the camera's view or an Image Editor      Shift: One More      Esc, Enter: Done"
 
 
-class StepThrough(OfScene, bpy.types.Operator):
+_waiting: list[str] = []
+"""The name of the workspace in which Step Through waits for clicks."""
+
+
+class StepThrough(bpy.types.Operator):
     """Click pixels in the camera's view or in an Image Editor, and see each step from the pixel to its color"""
 
     bl_idname = "camera_ray_caster.step_through"
     bl_label = "Step Through"
     bl_options = {"REGISTER"}
+
+    @classmethod
+    def poll(cls, context):
+        """Gray out the operator without a camera and while it waits for clicks."""
+        cls.poll_message_set("Click a pixel, or press Esc" if _waiting else NO_CAMERA)
+        return context.scene.camera is not None and not _waiting
 
     def invoke(self, context, event):
         """Wait for clicks. If no 3D View is in camera view, put the first one into camera view."""
@@ -26,13 +36,14 @@ class StepThrough(OfScene, bpy.types.Operator):
         if views and not through:
             views[0].spaces.active.region_3d.view_perspective = "CAMERA"
         context.window_manager.modal_handler_add(self)
+        _waiting.append(context.workspace.name)
         context.workspace.status_text_set(HINT)
         context.window.cursor_modal_set("CROSSHAIR")
         return {"RUNNING_MODAL"}
 
     def modal(self, context, event):
         """Handle clicks on pixels; pass all other events to Blender."""
-        if event.type in {"ESC", "RET", "RIGHTMOUSE"} and event.value == "PRESS":
+        if not _waiting or (event.type in {"ESC", "RET", "RIGHTMOUSE"} and event.value == "PRESS"):
             self.cancel(context)
             return {"FINISHED"}
         if event.type != "LEFTMOUSE" or event.value != "PRESS":
@@ -48,8 +59,16 @@ class StepThrough(OfScene, bpy.types.Operator):
 
     def cancel(self, context):
         """Restore the status bar and the cursor."""
-        context.workspace.status_text_set(None)
+        end()
         context.window.cursor_modal_restore()
+
+
+def end() -> None:
+    """End the waiting for clicks: remove the hint from the workspace in which it was shown."""
+    while _waiting:
+        workspace = bpy.data.workspaces.get(_waiting.pop())
+        if workspace is not None:
+            workspace.status_text_set(None)
 
 
 def pixel_at(context, x: int, y: int) -> tuple[int, int] | None:
@@ -121,3 +140,8 @@ class ClearSteps(OfLesson, bpy.types.Operator):
 
 
 CLASSES = (StepThrough, CopySteps, ClearSteps)
+
+
+def register(undo) -> None:
+    """Register this module; see ``registration``."""
+    undo.callback(end)

@@ -1,5 +1,7 @@
 """Functions that draw the settings of a camera's model and lens, in the Properties editor and in the sidebar."""
 
+from collections.abc import Sequence
+
 from ...core.camera import pixel_time
 from ...core.cameras.parts.calibration import UNIT
 from ...core.cameras.parts.film import FILM, LENS
@@ -15,18 +17,19 @@ PRESETS = "CAMERA_RAY_CASTER_PT_presets"
 """Identifier of the presets' panel."""
 
 
-def draw_model_settings(layout, context, camera, beside_lens: bool = True) -> None:
+def draw_model_settings(
+    layout, context, camera, beside_lens: bool = True, drawn: Sequence[Setting] = ()
+) -> None:
     """Draw the settings of the chosen model; next to a panel of the lens (``beside_lens``), without the settings of
-    that panel. A calibration file grays out the numbers that it replaces.
+    that panel, and without those that are ``drawn`` elsewhere. A calibration file hides the numbers that it replaces.
     """
     own = getattr(camera, GROUP)
     column, settings = layout.column(align=True), read_settings(camera)
     for setting in settings:
-        if not beside_lens or shown(setting, camera, context.engine):
+        if setting not in drawn and (not beside_lens or shown(setting, camera, context.engine)):
             draw_setting(column, context, camera, setting)
-        if setting.replaces_the_rest:
-            column = layout.column(align=True)
-            column.active = not getattr(own, setting.name)
+        if setting.replaces_the_rest and getattr(own, setting.name):
+            break
     if UNIT in settings:
         draw_message(layout, context, lengths_in_words(own))
     if beside_lens and context.engine != ENGINE and camera.type != CUSTOM and (labels := not_used(camera)):
@@ -49,7 +52,7 @@ def draw_lens(layout, context, camera) -> None:
             row = column.row()
             row.active = setting in read
             by_angle = setting == LENS and camera.lens_unit == "FOV"
-            row.prop(camera, "angle" if by_angle else setting.name)
+            row.prop(camera, "angle" if by_angle else setting.name, text="Field of View" if by_angle else setting.label)
     if LENS in (*offered, *read):
         row = column.row()
         row.active = LENS in read

@@ -61,7 +61,7 @@ def not_counted(settings, own) -> tuple[Setting, ...]:
     """Return the settings of a model that are not used with its unit of length; () if it has no unit."""
     if UNIT not in settings:
         return ()
-    return IN_PIXELS if in_millimeters(own) else (LENS,)
+    return IN_PIXELS if in_millimeters(own) else (LENS, *FILM)
 
 
 def in_millimeters(own) -> bool:

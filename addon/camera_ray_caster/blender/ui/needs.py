@@ -7,6 +7,9 @@ from ...core.records import InputError
 NO_CAMERA = "The scene has no active camera: add a camera, or set a camera in the Scene properties"
 
 
+LINKED = "The camera is linked from another file: make it local, or an override, first"
+
+
 def camera_object_of(context):
     """Return the camera object that a panel shows: the active object if it is a camera, else the scene's camera."""
     item = context.object
@@ -37,9 +40,11 @@ class OfCamera:
 
     @classmethod
     def poll(cls, context):
-        """Gray out the operator without a camera in the context."""
-        cls.poll_message_set("Select a camera object first")
-        return camera_object_of(context) is not None
+        """Gray out the operator without a camera in the context, and for one that cannot be changed."""
+        item = camera_object_of(context)
+        is_linked = item is not None and item.data is not None and not item.data.is_editable
+        cls.poll_message_set(LINKED if is_linked else "Select a camera object first")
+        return item is not None and not is_linked
 
 
 def reporting(execute):

@@ -7,7 +7,7 @@ from mathutils import Matrix, Vector
 from ..view3d import lesson
 from ..view3d.scene_cache import cached_scene
 from .lesson_operators import OfLesson, redraw
-from .needs import OfScene
+from .needs import OfScene, select_alone
 
 
 class PixelOfPoint(OfScene, bpy.types.Operator):
@@ -28,6 +28,8 @@ class PixelOfPoint(OfScene, bpy.types.Operator):
         size = camera.raster.width, camera.raster.height
         inside = np.isfinite(places).all(axis=1) & ((places >= 0) & (places < size)).all(axis=1)
         if not inside.any():
+            lesson.pixels.clear()
+            redraw(context)
             self.report({"WARNING"}, f"{what}: no pixel of the camera sees this point")
             return {"CANCELLED"}
         lesson.pixels[:] = dict.fromkeys((int(x), int(y)) for x, y in places[inside])
@@ -69,12 +71,15 @@ class EmptyAtHit(OfLesson, bpy.types.Operator):
         if not found:
             self.report({"WARNING"}, "the rays of these pixels hit no surface")
             return {"CANCELLED"}
+        added = []
         for one in found:
             empty = bpy.data.objects.new(f"Pixel {one.seen.pixel[0]}, {one.seen.pixel[1]}", None)
             empty.empty_display_type, empty.empty_display_size = "SINGLE_ARROW", 0.5
             turn = Vector(one.normal).to_track_quat("Z", "Y")
             empty.matrix_world = Matrix.LocRotScale(Vector(one.point), turn, None)
             context.collection.objects.link(empty)
+            added.append(empty)
+        select_alone(context, *added)
         return {"FINISHED"}
 
 

@@ -167,6 +167,7 @@ def _bound(values: HitValues, out, of: Callable[[HitErrors], tuple[np.ndarray, A
     out[...] = 0
     for where, errors in values.errors:
         bound, size = of(errors)
+        bound = np.where(size <= np.finfo(out.dtype).max, bound, np.inf)  # larger numbers are stored as infinite
         out[where] = (bound + np.finfo(out.dtype).eps * size) * ROUNDED_UP
 
 

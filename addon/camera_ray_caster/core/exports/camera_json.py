@@ -70,8 +70,8 @@ def camera_from_json(path_or_text: str | Path, frame: float | None = None, camer
 
     The rays are those of the camera that was written, bit for bit, on the same machine and numpy version.
 
-    ``frame``: a frame in the file; default the first. ``camera``: the camera's name in the file; default the only
-    camera.
+    ``frame``: a frame in the file; default the first. ``camera``: the camera's name in the file, or the view's name in
+    the report of a stereo scene; default the only camera.
     Raises InputError, in one line, for a file that cannot be read or is of another kind, and for an unknown camera or
     frame.
     """
@@ -79,7 +79,7 @@ def camera_from_json(path_or_text: str | Path, frame: float | None = None, camer
     try:
         document = restored(json.loads(text))
         if "record" in document:
-            return _of_report(document, frame)
+            return _of_report(document, frame, camera)
         if document.get("format") != FORMAT:
             raise InputError(
                 "this is neither a camera.json nor a report.json of the Camera Ray Caster: export a camera.json"
@@ -93,13 +93,19 @@ def camera_from_json(path_or_text: str | Path, frame: float | None = None, camer
         raise InputError(f"this camera.json is damaged ({type(error).__name__}: {error}): export it again") from error
 
 
-def _of_report(report: Mapping[str, Any], frame: float | None) -> Camera:
-    """Return the camera of a report.json."""
-    if report["record"] is None:
+def _of_report(report: Mapping[str, Any], frame: float | None, view: str | None) -> Camera:
+    """Return the camera of a report.json, or of one of its views."""
+    views = report.get("views") or {}
+    if view is None and len(views) > 1:
+        raise InputError(f"this report has the cameras of the views {', '.join(views)}: choose one by its name")
+    if view is not None and view not in views:
+        raise InputError(f"this report has no view {shown(view)}" + (f", only {', '.join(views)}" if views else ""))
+    record = report["record"] if view is None else views[view]
+    if record is None:
         raise InputError("this report has no record of its camera, whose time is an image: export a camera.json")
     if frame not in (None, report[FRAME]):
         raise InputError(f"this report is of frame {report[FRAME]:g}, not {shown(frame)}")
-    return _camera(report["record"])
+    return _camera(record)
 
 
 def _text(shots: Sequence[Shot]) -> str:
@@ -190,6 +196,8 @@ def _chosen(cameras: Sequence[Mapping[str, Any]], name: str | None) -> Mapping[s
 
 def _frame(camera: Mapping[str, Any], frame: float | None) -> dict[str, Any]:
     frames = {own[FRAME]: own for own in camera["frames"]}
+    if not frames:
+        raise InputError(f"camera {camera['name']!r} has no frame in this file: export it again")
     chosen = next(iter(frames)) if frame is None else number(frame, "frame", pixel_time.LAST_FRAME)
     if chosen not in frames:
         nearest = min(frames, key=lambda own: abs(own - chosen))

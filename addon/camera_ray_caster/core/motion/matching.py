@@ -25,7 +25,9 @@ def rows_in(before: Shapes, after: Shapes) -> np.ndarray:
     here = there[np.argsort(own[there], kind="stable")]
     found = np.flatnonzero((counts == other_counts)[other])
     rows[here] = found[np.argsort(other[found], kind="stable")]
-    is_other = (rows >= 0) & (before.kind != after.kind[rows])
+    own = np.flatnonzero(rows >= 0)
+    is_other = np.zeros(len(before), bool)
+    is_other[own] = before.kind[own] != after.kind[rows[own]]
     meshes = np.flatnonzero((rows >= 0) & ~is_other & (before.kind == MESH))
     pairs = np.stack((before.mesh[meshes], after.mesh[rows[meshes]])) if meshes.size else np.zeros((2, 0), int)
     for one, another in np.unique(pairs, axis=1).T:

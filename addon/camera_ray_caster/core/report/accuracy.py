@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from math import isqrt
 
 import numpy as np
@@ -34,13 +34,15 @@ QUANTITIES = {
 class Accuracy:
     """Error bounds of the sampled pixels that hit something.
 
-    The bounds hold for the numbers as calculated. Blender stores float32, which adds up to EPS32 of each number.
+    The bounds hold for the numbers as calculated. Storing them adds up to ``stored`` of each number.
     """
 
     pixels: int = 0
     """Number of sampled pixels; 0 if nothing was cast."""
     bounds: np.ndarray = field(default_factory=lambda: np.zeros((0, len(QUANTITIES))))
     """Bounds (hits, 4), one column for each of QUANTITIES; inf where no bound is known."""
+    stored: float = EPS32
+    """The unit roundoff of the numbers that are stored: Blender's are float32."""
 
     @property
     def hits(self) -> int:
@@ -61,14 +63,14 @@ class Accuracy:
             name: {"unit": unit, "median_bound": self.median(name), "worst_bound": self.worst(name)}
             for name, unit in QUANTITIES.items()
         }
-        return {"sampled_pixels": self.pixels, "hits": self.hits, **bounds, "rounding_when_stored": EPS32}
+        return {"sampled_pixels": self.pixels, "hits": self.hits, **bounds, "rounding_when_stored": self.stored}
 
     def _column(self, quantity: str) -> np.ndarray:
         return self.bounds[:, list(QUANTITIES).index(quantity)]
 
     def __add__(self, other: Accuracy) -> Accuracy:
         """Return both samples as one."""
-        return Accuracy(self.pixels + other.pixels, np.concatenate((self.bounds, other.bounds)))
+        return replace(self, pixels=self.pixels + other.pixels, bounds=np.concatenate((self.bounds, other.bounds)))
 
 
 def accuracy(camera: Camera, shapes: Shapes, plan: Plan) -> Accuracy:

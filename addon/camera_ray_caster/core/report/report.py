@@ -65,6 +65,8 @@ class Report:
     """``blender``: Blender's version; ``meters``: length of a Blender unit in meters."""
     record: Mapping[str, Any] | None = None
     """Record of the camera for ``camera_from_json``: see ``recorded``; None if its pixel times are an image."""
+    views: Mapping[str, Any] = field(default_factory=dict)
+    """The ``record`` of each view of a stereo scene, by the view's name; {} otherwise."""
     indices: Mapping[str, Any] = field(default_factory=dict)
     """Meanings of the numbers in the index passes, by view layer: see ``indices_of``."""
     made: Mapping[str, Any] = field(default_factory=dict)
@@ -86,12 +88,14 @@ class Report:
         return replace(self, seconds=_sum(self.seconds, seconds))
 
     def __add__(self, other: Report) -> Report:
-        """Return the report of both: another view layer or eye of the same frame. The camera is that of ``self``."""
+        """Return the report of both: another view layer or eye of the same frame. The camera is that of ``self``; eyes
+        see the same shapes.
+        """
         return replace(
             self,
             layers=_union(self.layers, other.layers),
             passes=_union(self.passes, other.passes),
-            shapes=self.shapes + other.shapes,
+            shapes=max(self.shapes, other.shapes) if self.layers == other.layers else self.shapes + other.shapes,
             pixels=self.pixels + other.pixels,
             seconds=_sum(self.seconds, other.seconds),
             findings=_union(self.findings, other.findings),
@@ -100,6 +104,7 @@ class Report:
             exact=_union(self.exact, other.exact),
             motion=_union(self.motion, other.motion),
             accuracy=self.accuracy + other.accuracy,
+            views={**self.views, **other.views},
             indices={**self.indices, **other.indices},
         )
 

@@ -98,6 +98,12 @@ projection_matrix:
   cols: 4
   data: [300, 0, 320.5, 0, 0, 301, 239.25, 0, 0, 0, 1, 0]
 """
+TOPIC = """height: 480
+width: 640
+distortion_model: plumb_bob
+D: []
+K: [300, 0, 320.5, 0, 301, 239.25, 0, 0, 1]
+"""
 OMNIDIR = """%YAML:1.0
 ---
 image_width: 640
@@ -147,6 +153,7 @@ SAID = [
     ("transforms.json", transforms(fl_x=300, camera_angle_y=2 * atan(240 / 301)), "OPENCV_PINHOLE", {}),
     ("ros.yaml", ROS.format("plumb_bob", 5, FOUR + ", 0.003"), "OPENCV_PINHOLE", RADTAN | {"k3": 0.003}),
     ("ros.yaml", ROS.format("equidistant", 4, FOUR), "OPENCV_FISHEYE", EQUIDISTANT),
+    ("topic.yaml", TOPIC, "OPENCV_PINHOLE", {}),
     ("omnidir.yml", OMNIDIR, "UCM", RADTAN | {"unified_xi": 1.25, "skew": 1.5}),
 ]  # fmt: skip
 

@@ -9,6 +9,7 @@ Calibration; ROS documentation, sensor_msgs/CameraInfo.
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from reprlib import repr as shortened
 
 from ...records import InputError
@@ -24,6 +25,8 @@ TERMS = {
 }
 """Our models and their settings, in the order of OpenCV's vector of coefficients."""
 
+NO_DISTORTION = (0.0,)
+"""What an empty list of coefficients stands for."""
 COUNTS = {"OPENCV_PINHOLE": (4, 5, 8, 12, 14), "OPENCV_FISHEYE": (4,), "UCM": (4,)}
 """How many coefficients OpenCV takes; of zeros any number."""
 
@@ -54,7 +57,7 @@ def read(document: Document, key: str) -> list[Lens]:
         raise InputError(f"{said}: cx and cy must be up to {FARTHEST_PIXELS:.0f}")
     model = _model(entries, document.path, key)
     names = TERMS[model]
-    found = _numbers(entries, DISTORTION_NAMES, document.path)
+    found = _numbers(entries, DISTORTION_NAMES, document.path, empty=NO_DISTORTION)
     if any(found) and len(found) not in COUNTS[model]:
         counts, order = " or ".join(map(str, COUNTS[model])), ", ".join(names)
         raise InputError(
@@ -80,16 +83,18 @@ def _model(entries, path: str, key: str) -> str:
             raise InputError(f"{own} in {path!r} is {shortened(value)}: it must be one of {known}")
         told.append(word in FISHEYE_MODELS)
     pinhole, fisheye, _ = TERMS
-    coefficients = _numbers(entries, DISTORTION_NAMES, path)
+    coefficients = _numbers(entries, DISTORTION_NAMES, path, empty=NO_DISTORTION)
     may_be_fisheye = len(coefficients) in COUNTS[fisheye] or not any(coefficients)
     chosen = fisheye if key == fisheye and may_be_fisheye else pinhole
     return chosen if not told or (chosen == fisheye) in told else {pinhole: fisheye, fisheye: pinhole}[chosen]
 
 
-def _numbers(entries, spellings, path: str) -> list[float]:
-    """Return the numbers of the first entry of these names. Raises InputError if it is missing or not of numbers."""
+def _numbers(entries, spellings, path: str, empty: Sequence[float] = ()) -> list[float]:
+    """Return the numbers of the first entry of these names, or ``empty`` if it is an empty list. Raises InputError if
+    it is missing or not of numbers.
+    """
     for name, value in (entries[spelling] for spelling in spellings if spelling in entries):
-        numbers = numbers_of(flat(value, name, path))
+        numbers = list(empty) if empty and value == [] else numbers_of(flat(value, name, path))
         if not numbers or not all(abs(one) <= LARGEST for one in numbers):
             limits = f"finite numbers, up to {LARGEST:g}"
             raise InputError(f"{name} in {path!r} is {shortened(value)}: it must be of {limits}")
