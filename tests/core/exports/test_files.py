@@ -127,6 +127,14 @@ def test_what_is_left_out_is_said():
     assert export("bop", shot)[1][1:] == [blur, border]
 
 
+def test_pixels_without_a_ray_to_which_a_format_gives_one_are_said():
+    shot = [Shot("Camera", 1, camera("FISHEYE_EQUIDISTANT", {"resolution_x": 96, "resolution_y": 96}))]
+    line = "corners of the frame of camera 'Camera' have no ray, but the files' formula gives them one"
+    assert [line in export(key, shot)[1] for key in ("colmap", "opencv", "npz", "json")] == [True, True, False, False]
+    whole = [Shot("Camera", 1, camera("OPENCV_FISHEYE"))]
+    assert line not in export("colmap", whole)[1]
+
+
 @pytest.mark.parametrize("degrees", [0, 1e-7, 90, 179.9999, 180, 270])
 @pytest.mark.parametrize("axis", [(1, 0, 0), (0, 0, -1), (0.6, -0.48, 0.64)])
 def test_vectors_and_quaternions_of_rotations_are_exact_up_to_half_a_turn(axis, degrees):

@@ -14,6 +14,8 @@ from ..engine.passes import PASSES, stored
 PREFIX = "Ray Caster "
 VIEW = "Ray Caster: Shown"
 """Name of the image that shows a pass in colors."""
+OF = "of"
+"""Name of its property with the name of the pass's image."""
 
 
 def image_name(key: str, view: str = "") -> str:
@@ -92,6 +94,7 @@ def show_in_colors(name: str) -> tuple[bpy.types.Image, str]:
     image.scale(width, height)
     image.pixels.foreach_set(_rgba(colors.reshape(-1, 3)).ravel())
     image.update()
+    image[OF] = name
     return image, said
 
 
@@ -131,7 +134,13 @@ def _rgba(pixels: np.ndarray, lent: np.ndarray | None = None) -> np.ndarray:
 
 
 def show(window_manager, names: list[str]) -> None:
-    """Show the first of these images in every open Image Editor, unless the editor already shows one of them."""
+    """Show the first of these images in every open Image Editor, unless the editor already shows one of them. A pass
+    that is shown in colors is shown anew.
+    """
+    colored = bpy.data.images.get(VIEW)
+    if colored is not None and colored.get(OF) in names:
+        show_in_colors(colored[OF])
+        names = [*names, VIEW]
     for window in window_manager.windows:
         for area in window.screen.areas:
             space = area.spaces.active

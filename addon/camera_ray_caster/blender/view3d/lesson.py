@@ -73,7 +73,9 @@ def _parts(camera, one: Lesson, size: float):
     if others:
         yield "POLYLINE", "LINES", [origin + end * direction, origin + max(others) * direction], OTHERS, WIDTH / 2
         yield "POINT", "POINTS", [origin + t * direction for t in others], OTHERS, POINT * 0.75
-    if one.point is not None:
+    if one.point is None:
+        yield "POINT", "POINTS", [origin + end * direction], RAY, POINT  # a ray is a point in the camera's view
+    else:
         yield "POLYLINE", "LINES", [one.point, one.point + size * one.normal], NORMAL, WIDTH
         yield "POINT", "POINTS", [one.point], SEEN, POINT
 

@@ -16,6 +16,7 @@ import numpy as np
 
 from ..camera.camera import Camera
 from ..names import frame_digits
+from ..records import Raster
 
 Content = str | bytes | np.ndarray
 """Content of a file: text, bytes, or an image, (rows, columns, 3) float32 from the bottom up, stored as float32 EXR."""
@@ -68,6 +69,8 @@ class Format(ABC):
     """Whether the format stores a pose as a rotation. It then gets cameras with the rotation nearest to their axes."""
     takes_target: ClassVar[bool] = False
     """Whether the format uses ``Shot.target``."""
+    formula: ClassVar[bool] = True
+    """Whether the files have a formula for all pixels, rather than a ray for each pixel that has one."""
 
     @abstractmethod
     def refusal(self, shot: Shot) -> str | None:
@@ -84,6 +87,9 @@ class Format(ABC):
             f"the files are of the full frame of camera {camera.name!r}, without its render border": (
                 raster.shape != (raster.height, raster.width)
             ),
+            f"corners of the frame of camera {camera.name!r} have no ray, but the files' formula gives them one": (
+                self.formula and not camera.rays_at(*_corners(raster)).valid.all()
+            ),
         }
         return [line for line, is_so in lines.items() if is_so]
 
@@ -93,3 +99,8 @@ class Format(ABC):
 
         Raises InputError for shots that cannot be exported together.
         """
+
+
+def _corners(raster: Raster) -> tuple[np.ndarray, np.ndarray]:
+    """Return x (2,) and y (2, 1) of the pixel centers in the corners of the full frame."""
+    return np.array([0.5, raster.width - 0.5]), np.array([[0.5], [raster.height - 0.5]])

@@ -25,6 +25,8 @@ class Npz(Format):
         """See Format."""
         return None
 
+    formula = False
+
     def unsaid(self, shot):
         """See Format. The render border is in the files, so that only depth of field is missing."""
         return super().unsaid(shot)[: shot.camera.aperture is not None]

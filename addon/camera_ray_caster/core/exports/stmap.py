@@ -39,6 +39,8 @@ class Stmap(Format):
                 return f"{of}whose rays have no eye in common"
         return None
 
+    formula = False
+
     def unsaid(self, shot):
         """See Format. A line on the distance between the two eyes is added if they are apart."""
         one, other = shot.camera, shot.target or shot.camera
