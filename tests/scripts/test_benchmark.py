@@ -40,7 +40,7 @@ def test_every_model_is_timed_and_eyes_of_spherical_stereo(tmp_path):
     text, rows = figures(tmp_path, "--models", "--size", "48x32", "--rounds", "1")
     names = [row["model"] for row in rows]
     assert names[: len(MODELS)] == [model.key for model in MODELS]
-    assert {"eye, PERSP", "eye, MIRRORBALL, merged"} <= {*names[len(MODELS) :]}
+    assert {"eye, PERSP", "eye, MIRRORBALL, merged at 60°"} <= {*names[len(MODELS) :]}
     assert all(row[name] > 0 for row in rows for name in ("fill", "rays", "pinhole", "cast"))
     assert all(row["model"] in text for row in rows)
 
