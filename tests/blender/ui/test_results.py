@@ -107,3 +107,28 @@ def test_the_steps_of_pixels_are_copied_and_forgotten(blender, scene):
     assert SidebarLesson.is_registered
     assert blender.ops.camera_ray_caster.clear_steps() == {"FINISHED"}
     assert lesson.lessons(blender.context) == {}
+
+
+def test_step_through_waits_once_and_its_hint_goes_where_it_was_shown(blender, scene):
+    from camera_ray_caster.blender.ui import lesson_operators
+
+    step = blender.ops.camera_ray_caster.step_through
+    assert step.poll()
+    lesson_operators._waiting.append(blender.data.workspaces[0].name)
+    assert not step.poll()
+    lesson_operators.end()
+    assert step.poll()
+
+
+def test_a_camera_of_another_file_is_not_changed(blender, scene, tmp_path):
+    path = str(tmp_path / "library.blend")
+    blender.data.libraries.write(path, {scene.camera})
+    with blender.data.libraries.load(path, link=True) as (there, here):
+        here.objects = list(there.objects)
+    (linked,) = here.objects
+    scene.collection.objects.link(linked)
+    assert blender.ops.camera_ray_caster.load_calibration.poll()
+    blender.context.view_layer.objects.active = linked
+    scene.camera = linked
+    for name in ("load_calibration", "add_line"):
+        assert not getattr(blender.ops.camera_ray_caster, name).poll()
