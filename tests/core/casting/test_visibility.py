@@ -12,7 +12,7 @@ from camera_ray_caster.core.casting import aimed
 from camera_ray_caster.core.casting.visibility import Visibility, visible
 from camera_ray_caster.core.exports.camera_json import camera_to_json
 from camera_ray_caster.core.motion.evaluations import resolve
-from camera_ray_caster.core.records import PLANE, SPHERE, InputError
+from camera_ray_caster.core.records import PLANE, SPHERE, InputError, no_shapes
 
 from ..camera.test_pixel_time import SHUTTER
 from ..camera.test_pixel_time import camera as timed_camera
@@ -22,6 +22,11 @@ from .test_cast import camera_at, pose, random_shapes, shapes_of
 
 OUTSIDE, HIDDEN, SEEN = Visibility
 SIZE = {"resolution_x": 64, "resolution_y": 48}
+
+
+def test_a_point_whose_distance_overflows_is_outside():
+    points = [(1e308, 1e308, 1e308), (0.0, 0.0, -2.0)]
+    assert visible(camera_at(), no_shapes(), points).tolist() == [OUTSIDE, SEEN]
 
 
 def test_by_hand():

@@ -43,7 +43,8 @@ def visible(camera: Camera, shapes: Shapes, points, tolerance: float = 0.0) -> n
     if tolerance < 0:
         raise InputError(f"tolerance is {tolerance:g}: it must be a length of 0 or more")
     each = points.reshape(-1, 3)
-    still, picture = _Still(each, tolerance + gamma(2) * norm(components(each))), Picture(camera, shapes)
+    with np.errstate(over="ignore"):  # a place whose length overflows has no pixel
+        still, picture = _Still(each, tolerance + gamma(2) * norm(components(each))), Picture(camera, shapes)
     before = picture.before(still, picture.pixels(still, len(each)))
     found = np.array([Visibility.SEEN, Visibility.HIDDEN, Visibility.OUTSIDE], np.uint8)[before]
     return found.reshape(points.shape[:-1])

@@ -25,6 +25,15 @@ def alike(before: Sequence[Mesh], after: Sequence[Mesh]) -> bool:
     )
 
 
+def same_faces(before: Mesh, after: Mesh) -> bool:
+    """Whether two meshes have the same faces of the same vertices. Blender may divide a face otherwise as it bends."""
+    return alike([before], [after]) or (
+        before.vertices.shape == after.vertices.shape
+        and _same(before, after, "polygon")
+        and np.array_equal(*(np.unique(mesh.polygon * np.int64(1 << 32) + mesh.triangles) for mesh in (before, after)))
+    )
+
+
 def deformed(shapes: Shapes, evaluations: Sequence[Shapes], weights: Sequence[float]) -> Shapes:
     """Return shapes with their meshes interpolated between evaluations; the weights have the sum 1."""
     meshes, center = list(shapes.meshes), shapes.center.copy()

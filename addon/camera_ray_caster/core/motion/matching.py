@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..records import MESH, Shapes
-from .deformation import alike
+from .deformation import same_faces
 from .interpolation import matched
 
 
@@ -13,7 +13,7 @@ def rows_in(before: Shapes, after: Shapes) -> np.ndarray:
     """Return the rows (n,) of the shapes of ``before`` in ``after``; -1 for shapes that are not in ``after``.
 
     Two shapes correspond if they have the same place among the shapes with the name of their object, both readings have
-    the same number of these, the kinds are equal, and meshes have the same triangles.
+    the same number of these, the kinds are equal, and meshes have the same faces.
     """
     if matched(before, after):
         return np.arange(len(before))
@@ -31,7 +31,7 @@ def rows_in(before: Shapes, after: Shapes) -> np.ndarray:
     meshes = np.flatnonzero((rows >= 0) & ~is_other & (before.kind == MESH))
     pairs = np.stack((before.mesh[meshes], after.mesh[rows[meshes]])) if meshes.size else np.zeros((2, 0), int)
     for one, another in np.unique(pairs, axis=1).T:
-        if not alike([before.meshes[one]], [after.meshes[another]]):
+        if not same_faces(before.meshes[one], after.meshes[another]):
             is_other[meshes[(pairs == [[one], [another]]).all(axis=0)]] = True
     rows[is_other] = -1
     return rows

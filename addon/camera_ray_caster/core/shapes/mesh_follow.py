@@ -10,7 +10,7 @@ from ..conventions import gamma
 from ..maths.vector import difference, matrix_rows, matvec, norm
 from ..records import Shapes
 from .follow import Follow, Moved
-from .mesh_surface import LOST, HitTriangles, corners_from_middle
+from .mesh_surface import LOST, HitTriangles, places_from_middle
 
 
 def follow_meshes(with_frames: Follow, all_triangles: HitTriangles, point: Any) -> Follow:
@@ -43,12 +43,15 @@ def _are_others(triangles: HitTriangles, then: Shapes, rows: np.ndarray) -> np.n
 
 
 def _with_triangles(triangles: HitTriangles, then: Shapes, rows: np.ndarray, point: Any) -> Moved:
-    """Return how points, components relative to the eye, move with their triangles: affinely, as the corners do."""
+    """Return how points, components relative to the eye, move with their triangles: affinely, as the corners do. Where
+    the face is divided otherwise in ``then``, they move with the triangles that it has here.
+    """
     corners = np.empty_like(triangles.local)
     pairs, which = _pairs(triangles, then, rows)
-    for pair, other in enumerate(pairs[1].tolist()):
+    for pair, (own, other) in enumerate(pairs.T.tolist()):
         some = which == pair
-        corners[..., some] = corners_from_middle(then.meshes[other], triangles.number[some])
+        corner = triangles.shapes.shapes.meshes[own].triangles.take(triangles.number[some], axis=1)
+        corners[..., some] = places_from_middle(then.meshes[other], corner)
     there = rows[triangles.at]
     axes, shift = matrix_rows(then.axes[there]), (then.center[there] - triangles.shapes.shapes.center[triangles.at]).T
     steps = np.array([

@@ -193,7 +193,12 @@ def affine_at(which: np.ndarray, constant: np.ndarray, slope: np.ndarray, point:
 
 def corners_from_middle(mesh: Mesh, which: np.ndarray) -> np.ndarray:
     """Return the corners of triangles (k,) relative to the mesh's middle, (3, 3, k): corner, component."""
-    return mesh.vertices.take(mesh.triangles.take(which, axis=1), axis=1).swapaxes(0, 1) - mesh.middle[:, None]
+    return places_from_middle(mesh, mesh.triangles.take(which, axis=1))
+
+
+def places_from_middle(mesh: Mesh, vertices: np.ndarray) -> np.ndarray:
+    """Return the places of vertices, (3, k) indices, relative to the mesh's middle, (3, 3, k): corner, component."""
+    return mesh.vertices.take(vertices, axis=1).swapaxes(0, 1) - mesh.middle[:, None]
 
 
 def _at_loops(values: np.ndarray, loops: Any, which: np.ndarray) -> np.ndarray:
