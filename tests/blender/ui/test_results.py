@@ -132,3 +132,19 @@ def test_a_camera_of_another_file_is_not_changed(blender, scene, tmp_path):
     scene.camera = linked
     for name in ("load_calibration", "add_line"):
         assert not getattr(blender.ops.camera_ray_caster, name).poll()
+
+
+def test_the_images_of_the_latest_cast_come_first(blender, scene):
+    from camera_ray_caster.blender.ui.show_result import ResultsMenu
+
+    from .test_panels import drawn
+
+    def listed():
+        return [word for word in drawn(blender, ResultsMenu).split() if word not in {"camera_ray_caster.show_result"}]
+
+    passes.tick(scene, blender.context.view_layer, ["combined", "depth"])
+    blender.ops.camera_ray_caster.cast()
+    assert listed() == ["Combined", "Depth"]
+    passes.tick(scene, blender.context.view_layer, ["depth"])
+    blender.ops.camera_ray_caster.cast()
+    assert listed() == ["Depth", "Earlier", "Casts", "Combined"]

@@ -17,6 +17,9 @@ VIEW = "Ray Caster: Shown"
 OF = "of"
 """Name of its property with the name of the pass's image."""
 
+latest: list[str] = []
+"""Names of the images of the latest cast since the file was loaded."""
+
 
 def image_name(key: str, view: str = "") -> str:
     """Return the name of a pass's Image datablock; ``view`` is the view's name in a stereo scene."""
@@ -116,9 +119,15 @@ def drop_lost(*_) -> None:
             bpy.data.images.remove(image)
 
 
+@persistent
+def forget(*_) -> None:
+    """Forget which images are the latest: another file is loaded."""
+    latest.clear()
+
+
 def register(undo) -> None:
     """Register this module; see ``registration``."""
-    undo.add_handlers([("save_pre", pack), ("undo_post", drop_lost), ("redo_post", drop_lost)])
+    undo.add_handlers([("save_pre", pack), ("load_pre", forget), ("undo_post", drop_lost), ("redo_post", drop_lost)])
 
 
 def _rgba(pixels: np.ndarray, lent: np.ndarray | None = None) -> np.ndarray:
@@ -137,6 +146,7 @@ def show(window_manager, names: list[str]) -> None:
     """Show the first of these images in every open Image Editor, unless the editor already shows one of them. A pass
     that is shown in colors is shown anew.
     """
+    latest[:] = names
     colored = bpy.data.images.get(VIEW)
     if colored is not None and colored.get(OF) in names:
         show_in_colors(colored[OF])

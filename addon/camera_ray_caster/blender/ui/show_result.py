@@ -47,8 +47,13 @@ class ResultsMenu(bpy.types.Menu):
     bl_label = "Show Result"
 
     def draw(self, context):
-        """Draw an entry for each image."""
-        for name in images.results():
+        """Draw an entry for each image, those of the latest cast first."""
+        names = list(images.results())
+        before = [name for name in names if images.latest and name not in images.latest]
+        for name in sorted(names, key=before.__contains__):
+            if before and name == before[0]:
+                self.layout.separator()
+                self.layout.label(text="Earlier Casts")
             text = name.removeprefix(images.PREFIX).capitalize()
             self.layout.operator(ShowResult.bl_idname, text=text).name = name
 
