@@ -277,3 +277,9 @@ def test_without_cycles_its_setting_is_not_shown(blender, data, monkeypatch):
     data.camera_ray_caster.time_mode = "ROLLING_SHUTTER"
     monkeypatch.setitem(owners.OWNERS, owners.CYCLES, lambda camera, scene: None)
     assert "rolling_shutter_duration" not in drawn(blender, TimePanel, data)[0]
+
+
+def test_messages_in_panels_have_the_labels_of_settings(blender):
+    from camera_ray_caster.blender.ui.model_settings import in_labels
+
+    assert in_labels("slit_1 of camera 'A_b' is no line of the lens") == "Slit of camera 'A_b' is no line of the lens"

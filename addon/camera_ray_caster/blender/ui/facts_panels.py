@@ -10,6 +10,7 @@ from ...core.records import InputError
 from ..properties.declared import GROUP
 from ..read.evaluated import camera_at
 from .drawing import Sidebar, draw_message, draw_row, length
+from .model_settings import in_labels
 
 
 def camera_of(context, camera_object) -> tuple[Camera | None, str]:
@@ -17,7 +18,7 @@ def camera_of(context, camera_object) -> tuple[Camera | None, str]:
     try:
         return camera_at(camera_object, context.evaluated_depsgraph_get())[1], ""
     except InputError as error:
-        return None, str(error)
+        return None, in_labels(str(error))
 
 
 def facts_of(context, camera_object) -> tuple[dict[str, object] | None, str]:

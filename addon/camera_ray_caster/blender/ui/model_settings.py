@@ -1,5 +1,7 @@
 """Which settings a camera uses: those of its model, or of its type for Blender's own models."""
 
+import re
+
 from ...core.cameras import MODELS
 from ...core.cameras.parts.calibration import IN_PIXELS, MILLIMETERS, SIZE, UNIT
 from ...core.cameras.parts.film import FILM, LENS
@@ -10,8 +12,16 @@ from ..read.camera import shader_mark
 
 SETTINGS = {model.key: model.SETTINGS for model in MODELS}
 
+LABELS = {setting.name: setting.label for own in SETTINGS.values() for setting in own if "_" in setting.name}
+"""Labels of settings by their names in files, without names that are words of the language, too."""
+
 SHOWN_FOR = {"lens": "PERSP", "ortho_scale": "ORTHO"}
 """Camera types by Blender setting, for settings that Blender's panel shows for one type only; film is always shown."""
+
+
+def in_labels(text: str) -> str:
+    """Return a message with the names of settings replaced by their labels in the panels."""
+    return re.sub(r"\w+", lambda word: LABELS.get(word[0], word[0]), text)
 
 
 def shown(setting: Setting, camera, engine: str) -> bool:
