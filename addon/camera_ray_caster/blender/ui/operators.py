@@ -1,5 +1,7 @@
 """Operators: verify the camera, copy it, load a calibration, select what was left out, write the report."""
 
+from functools import partial
+
 import bpy
 from bpy.props import BoolProperty, StringProperty
 
@@ -8,7 +10,7 @@ from ...core.cameras.parts.calibration import FILE_WRITERS
 from ...core.exports.camera_json import recorded
 from ...core.report.report import Report, as_json
 from ..output import reports
-from ..properties.calibration import set_calibration
+from ..properties.calibration import cameras_in, set_calibration
 from ..read.scene import read_camera
 from ..verification.check import verified
 from .needs import OfCamera, OfScene, camera_object_of, reporting, select_alone
@@ -85,10 +87,21 @@ class LoadCalibration(OfCamera, bpy.types.Operator):
 
     @reporting
     def execute(self, context):
-        """Read the file, set the model and report the values."""
-        said = set_calibration(camera_object_of(context).data, bpy.path.abspath(self.filepath), self.camera)
-        self.report({"INFO"}, said)
+        """Read the file, set the model and report the values; in a window, ask for one of several cameras."""
+        data, path = camera_object_of(context).data, bpy.path.abspath(self.filepath)
+        if not (self.camera or bpy.app.background) and len(names := cameras_in(data, path)) > 1:
+            context.window_manager.popup_menu(partial(draw_cameras, path, names), title="Camera in File")
+            return {"CANCELLED"}
+        self.report({"INFO"}, set_calibration(data, path, self.camera))
         return {"FINISHED"}
+
+
+def draw_cameras(path: str, names: list[str], menu, context) -> None:
+    """Draw an entry for each camera in a calibration file, which loads it."""
+    menu.layout.operator_context = "EXEC_DEFAULT"
+    for name in names:
+        entry = menu.layout.operator(LoadCalibration.bl_idname, text=name)
+        entry.filepath, entry.camera = path, name
 
 
 class SelectLeftOut(bpy.types.Operator):
