@@ -50,7 +50,7 @@ class Mesh:
         low, high = self.vertices.min(axis=1).astype(np.float64), self.vertices.max(axis=1).astype(np.float64)
         some = np.sort(self.vertices[:, :: max(1, self.vertices.shape[1] // SAMPLED)].astype(np.float64))
         first, median, last = (some[:, some.shape[1] * k // 4] for k in (1, 2, 3))
-        return np.where(high - low > FARTHEST * (last - first), median, low / 2 + high / 2)
+        return np.where(high - low > FARTHEST * (last - first).max(), median, low / 2 + high / 2)
 
     @cached_property
     def blocks(self) -> tuple[np.ndarray, np.ndarray]:

@@ -17,9 +17,7 @@ PRESETS = "CAMERA_RAY_CASTER_PT_presets"
 """Identifier of the presets' panel."""
 
 
-def draw_model_settings(
-    layout, context, camera, beside_lens: bool = True, drawn: Sequence[Setting] = ()
-) -> None:
+def draw_model_settings(layout, context, camera, beside_lens: bool = True, drawn: Sequence[Setting] = ()) -> None:
     """Draw the settings of the chosen model; next to a panel of the lens (``beside_lens``), without the settings of
     that panel, and without those that are ``drawn`` elsewhere. A calibration file hides the numbers that it replaces.
     """
