@@ -94,12 +94,12 @@ DIRECTIONS = 8
 6 times for a street by a pushbroom and rooms by eyes of spherical stereo.
 """
 
-CELL_PIXELS = 1 << 21
+BOXED_PIXELS = 1 << 21
 """Number of pixels in the bounds of triangles whose cells are tested at once. Processor time of four passes of 63,000
 triangles by cross-slit, pushbroom and general linear cameras: 2**18: 1.05, 1.1 and 1.2 times; 2**22: 1.0 to 1.07.
 """
 
 WIDE_PIXELS = 1 << 8
 """Number of pixels in the bounds of a triangle from which on its cells are tested before its pixels. In the casts of
-CELL_PIXELS 2**6: 1.1, 1.15 and 1.0 times the time; 2**10: 1.05, 1.0 and 1.25.
+BOXED_PIXELS 2**6: 1.1, 1.15 and 1.0 times the time; 2**10: 1.05, 1.0 and 1.25.
 """

@@ -64,11 +64,13 @@ def test_the_3d_cursor_has_a_pixel_and_its_ray_hits_what_hides_it(blender, scene
     assert blender.ops.camera_ray_caster.empty_at_hit() == {"FINISHED"}
     empty = next(item for item in blender.data.objects if item.type == "EMPTY")
     blender.context.view_layer.update()
+    assert blender.context.view_layer.objects.active == empty
     on_the_ball = np.array(empty.matrix_world.translation)
     assert np.linalg.norm(on_the_ball) == pytest.approx(1, abs=1e-6)
     assert np.array(empty.matrix_world)[:3, 2] == pytest.approx(on_the_ball, abs=1e-6)
     scene.cursor.location = (0, 0, 10)  # behind the camera
     assert blender.ops.camera_ray_caster.pixel_of_point() == {"CANCELLED"}
+    assert lesson.pixels == [], "the pixel of the point before would pass for this one's"
 
 
 def test_a_selected_vertex_has_a_pixel(blender, scene):

@@ -6,6 +6,7 @@ import pytest
 from camera_ray_caster.blender.engine import passes
 from camera_ray_caster.blender.output import images
 from camera_ray_caster.blender.read.scene import read_camera, read_shapes
+from camera_ray_caster.blender.view3d import lesson
 from camera_ray_caster.core.cast import cast
 
 from .conftest import HEIGHT, WIDTH
@@ -86,6 +87,12 @@ def test_a_result_is_shown_in_colors(blender, scene):
     assert said == f"white to dark: {depth.min():.4g} to {depth[depth < 1e9].max():.4g}"
     assert shown[near][0] == 1
     assert not shown[depth > 1e9][:, :3].any()
+    scene.camera.location.z += 1
+    blender.ops.camera_ray_caster.cast()
+    there = blender.data.images[images.VIEW]
+    assert not np.array_equal(pixels_of(there), shown), "the next cast shows it anew"
+    shown = pixels_of(there)
+    assert np.array_equal(pixels_of(images.show_in_colors(images.image_name("depth"))[0]), shown)
     assert images.show_in_colors(images.image_name("combined"))[0].name == images.image_name("combined")
     with pytest.raises(RuntimeError, match="no cast has made an image 'Cat'"):
         blender.ops.camera_ray_caster.show_result(name="Cat")
@@ -107,6 +114,17 @@ def test_the_steps_of_pixels_are_copied_and_forgotten(blender, scene):
     assert SidebarLesson.is_registered
     assert blender.ops.camera_ray_caster.clear_steps() == {"FINISHED"}
     assert lesson.lessons(blender.context) == {}
+
+
+def test_a_pixel_that_shows_nothing_has_a_mark_on_its_ray(blender, scene):
+    camera, shapes = read_camera(scene), read_shapes(scene)
+    hit, missed = (lesson.lesson(camera, shapes, *pixel) for pixel in ((WIDTH // 2, HEIGHT // 2), (0, 0)))
+    assert hit.point is not None
+    assert missed.point is None
+    for one in hit, missed:
+        (mark,) = (points for _, form, points, _, width in lesson._parts(camera, one, 1.0) if form == "POINTS" and
+                   width == lesson.POINT)  # fmt: skip
+        assert camera.project(np.array(mark))[0] == pytest.approx(np.array(one.seen.pixel) + 0.5, abs=1e-3)
 
 
 def test_step_through_waits_once_and_its_hint_goes_where_it_was_shown(blender, scene):

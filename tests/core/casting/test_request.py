@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from camera_ray_caster.core.cast import cast
-from camera_ray_caster.core.records import SPHERE, Cancelled, InputError
+from camera_ray_caster.core.records import PLANE, SPHERE, Cancelled, InputError
 
 from .test_cast import camera_at, shapes_of
 
@@ -68,3 +68,14 @@ def test_many_samples_stop_soon_and_tell_how_far_they_are():
         )  # fmt: skip
     assert 0 < heard[-1] < 0.01
     assert heard == sorted(heard)
+
+
+def test_a_number_too_large_for_its_type_has_an_infinite_bound():
+    """The wall is 1e5 away, and float16 ends at 65504."""
+    camera, wall = camera_at(clip_end=1e6), shapes_of((PLANE, (0, 0, -1e5), 1e6))
+    images = cast(camera, wall, ("distance", "distance_bound", "normal_bound", "shape_index"), np.float16)
+    hit = images["shape_index"] == 0
+    assert hit.any()
+    assert np.isinf(images["distance"][hit]).all()
+    assert np.isinf(images["distance_bound"][hit]).all()
+    assert np.isfinite(images["normal_bound"][hit]).all()

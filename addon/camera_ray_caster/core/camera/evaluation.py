@@ -101,12 +101,9 @@ def _write(camera: Any, x, y, origins, directions) -> None:
 def _write_by_formula(camera: Any, x, y, origins, directions) -> None:
     """Write the components of the world rays; those of the origins only if the rays do not all leave the eye."""
     origin, direction = camera.camera_rays(x, y)
-    scale = 1.0 / camera.length_of(direction) if camera.model.planar else None
-    for axis, row in enumerate(camera.pose.basis.tolist()):
-        if scale is None:
-            np.add(row[0] * direction[0], row[1] * direction[1] + row[2] * direction[2], out=directions[axis])
-        else:
-            np.multiply(dot(row, direction), scale, out=directions[axis])
+    scale = 1.0 / camera.length_of(direction) if camera.model.planar else 1.0
+    for axis, row in enumerate(camera.pose.basis):
+        np.multiply(dot(row, direction), scale, out=directions[axis])
         if not camera.model.central:
             np.add(dot(row, origin), camera.pose.eye[axis], out=origins[axis])
 

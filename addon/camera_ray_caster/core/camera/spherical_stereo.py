@@ -109,8 +109,7 @@ class SphericalStereo(Model):
         """
         x, up, z = upright = _turned(self.upright, ahead)
         across = np.sqrt(x * x + z * z)
-        if may_hold(across == 0):
-            across = np.where(across > 0, across, np.nan)
+        across = np.where(across > 0, across, np.nan)
         square = 1.0 if is_unit else dot(upright, upright)
         size = across if on_tube else np.sqrt(square)
         offset = self._offset_beside(across, np.abs(up), on_tube)

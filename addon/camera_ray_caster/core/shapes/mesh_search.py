@@ -121,8 +121,8 @@ class MeshSet(ShapeSet):
         is_wide = pixels_in(triangles.bounds) >= tuning.WIDE_PIXELS
         yield from self._in_pixels(rays, reach, triangles.only(np.flatnonzero(~is_wide)), found)
         wide = triangles.only(np.flatnonzero(is_wide))
-        wide = wide.only(*banded(wide.bounds, tuning.CELL_PIXELS))
-        for some in pieces(wide.bounds, tuning.CELL_PIXELS):
+        wide = wide.only(*banded(wide.bounds, tuning.BOXED_PIXELS))
+        for some in pieces(wide.bounds, tuning.BOXED_PIXELS):
             own = wide.only(some)
             meets, corners = self.meshes.facing(own.corners)
             own = own.only(meets)
