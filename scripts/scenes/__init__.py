@@ -42,6 +42,7 @@ GALLERY = {
     ),
     "Lenses": _by_name(
         lenses.pinhole,
+        lenses.isometric,
         lenses.camera_obscura,
         lenses.thin_lens,
         lenses.fisheye_orthographic,

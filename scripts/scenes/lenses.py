@@ -16,6 +16,14 @@ def pinhole(scene):
     photograph(scene, CORNER, AHEAD, lens=22)
 
 
+def isometric(scene):
+    """Orthographic rays along a diagonal of the room show its three directions at the same scale. Parallel lines stay
+    parallel, and the size of a ball does not depend on its distance.
+    """
+    room(scene)
+    photograph(scene, (0.2, 0.5, 3.3), (1.2, 1.5, 2.3), type="ORTHO", ortho_scale=9)
+
+
 def camera_obscura(scene):
     """A box 2 m deep has a hole of 3 cm. The picture on its back wall is upside down and blurred by the width of the
     hole.

@@ -47,10 +47,10 @@ def test_the_zip_holds_the_package_its_license_and_the_gallery(archive):
 
 def test_every_model_of_the_menu_has_a_picture_and_a_scene(blender):
     from camera_ray_caster.blender import gallery
-    from camera_ray_caster.blender.properties.declared import MODEL
+    from camera_ray_caster.core.cameras import MODELS
 
-    for item in MODEL.items:
-        name = gallery.scene_name(item.key)
+    for model in MODELS:
+        name = gallery.scene_name(model.key)
         assert (gallery.folder() / f"{name}.blend").is_file()
         assert (gallery.folder() / "pictures" / f"{name}.png").is_file()
 

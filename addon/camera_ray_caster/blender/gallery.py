@@ -14,13 +14,13 @@ FOLDERS = (PACKAGE / "gallery", PACKAGE.parents[1] / "blend_scenes")
 """Folders of the scenes in the extension and in the source tree. The pictures are in the subfolder ``pictures``."""
 
 NAMES = {
-    "BLENDER": "pinhole", "PERSP": "pinhole", "ORTHO": "orthographic", "EQUIANGULAR_CUBEMAP_FACE": "cubemap_face",
+    "PERSP": "pinhole", "ORTHO": "isometric", "EQUIANGULAR_CUBEMAP_FACE": "cubemap_face",
     "FISHEYE_LENS_POLYNOMIAL": "fisheye_polynomial", "STEREOGRAPHIC_PANORAMA": "little_planet",
 }  # fmt: skip
 """Scene names by model key. Any other model's scene is named after its key, in lower case."""
 
 LECTURE = {
-    "Camera Obscura": "camera_obscura", "Pinhole": "pinhole", "Thin Lens": "thin_lens", "Orthographic": "orthographic",
+    "Camera Obscura": "camera_obscura", "Pinhole": "pinhole", "Thin Lens": "thin_lens", "Orthographic": "isometric",
     "Fisheye": "fisheye_equidistant", "Omnimax": "omnimax", "Slit Scan": "slit_scan_rows",
 }  # fmt: skip
 """Scenes of an introduction to cameras, by label, in the order of the introduction."""

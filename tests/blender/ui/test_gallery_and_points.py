@@ -6,6 +6,7 @@ from mathutils import Vector
 
 from camera_ray_caster.blender import gallery
 from camera_ray_caster.blender.read.scene import read_camera
+from camera_ray_caster.blender.ui.gallery_panels import COLUMNS, rows
 from camera_ray_caster.blender.view3d import lesson
 from camera_ray_caster.core.cameras import MODELS
 
@@ -30,7 +31,29 @@ SHOWN = {name for entries in gallery.groups().values() for name in entries.value
 def test_the_menus_offer_all_that_has_a_picture():
     pictures = gallery.folder() / "pictures"
     with_picture = {path.stem for path in gallery.scenes() if (pictures / f"{path.stem}.png").is_file()}
-    assert with_picture | {"orthographic"} == SHOWN
+    assert with_picture == SHOWN
+
+
+@pytest.mark.parametrize("model", MODELS, ids=lambda model: model.key)
+def test_the_gallery_has_a_picture_and_a_button_for_each_model(blender, scene, model):
+    """Blender's own by their types; the others by the setting that a button sets."""
+    assert (gallery.folder() / "pictures" / f"{gallery.scene_name(model.key)}.png").is_file()
+    assert [model in models for row in rows() for models in row.values()].count(True) == 1
+    own = scene.camera.data.camera_ray_caster
+    own.model = "CAMERA_OBSCURA"
+    if model.number is None:
+        assert blender.ops.camera_ray_caster.choose_type(key=model.key) == {"FINISHED"}
+        assert own.model == "BLENDER"
+    else:
+        own.model = model.key
+    blender.context.view_layer.update()
+    if not any(setting.kind == "OBJECT" for setting in model.SETTINGS):  # without slits there is no camera
+        assert read_camera(scene).model.key == model.key
+
+
+def test_the_rows_of_the_gallery_have_no_more_models_than_fit():
+    for row in rows():
+        assert len(row) == 1 or sum(map(len, row.values())) <= COLUMNS
 
 
 @pytest.mark.parametrize("name", [*gallery.TIMES, "unrolled_monkey", "living_room"])

@@ -1,19 +1,57 @@
 """The gallery panel: camera models to choose by their pictures."""
 
+from collections.abc import Iterator
 from itertools import groupby
 
 import bpy
+from bpy.props import EnumProperty
 
+from ...core.cameras import MODELS
 from ...core.cameras.model import GROUPS
 from .. import gallery
-from ..properties.declared import GROUP, MODEL
-from .needs import camera_object_of
+from ..properties.declared import BLENDERS_OWN, GROUP, MODEL
+from .model_settings import blender_type
+from .needs import OfCamera, camera_object_of
 
 POINTER = "camera_ray_caster_data"
 """Name of the context pointer to the camera that a gallery button changes."""
-COLUMNS = 8
-WIDTH = 4.5
-"""Width of a picture, in interface units."""
+COLUMNS = 7
+WIDTH, HEIGHT = 7.8, 3.2
+"""Width of a button, at least, and height of a picture, in interface units."""
+
+
+def chosen_camera(context):
+    """Return the data of the camera that a gallery button changes."""
+    return getattr(context, POINTER, None) or camera_object_of(context).data
+
+
+class ChooseType(OfCamera, bpy.types.Operator):
+    """Use this camera type of Blender, with Blender's own model"""
+
+    bl_idname = "camera_ray_caster.choose_type"
+    bl_label = "Choose Camera Type"
+    bl_options = {"UNDO", "INTERNAL"}
+
+    key: EnumProperty(
+        name="Type",
+        items=[(it.key, it.label, it.description) for it in MODELS if it.group == GROUPS[0]],
+        options={"SKIP_SAVE"},
+    )
+
+    @classmethod
+    def description(cls, context, properties):
+        """Return the tooltip, which is the model's."""
+        return cls.bl_rna.properties["key"].enum_items[properties.key].description
+
+    def execute(self, context):
+        """Set the model, the type, and the type of panorama."""
+        camera = chosen_camera(context)
+        getattr(camera, GROUP).model = BLENDERS_OWN
+        if self.key in camera.bl_rna.properties["type"].enum_items:
+            camera.type = self.key
+        else:
+            camera.type, camera.panorama_type = "PANO", self.key
+        return {"FINISHED"}
 
 
 class ModelGallery(bpy.types.Panel):
@@ -27,28 +65,41 @@ class ModelGallery(bpy.types.Panel):
 
     def draw(self, context):
         """Draw each group: a heading, and a picture with a button for each model. Small groups share a row."""
-        camera = getattr(context, POINTER, None) or camera_object_of(context).data
-        free = 0
-        for group, items in groupby(MODEL.items, lambda item: item.group):
-            members = list(items)
-            if len(members) > free:
-                row, free = self.layout.row(), COLUMNS
-            free -= len(members)
-            column = row.column()
-            column.ui_units_x = WIDTH * min(len(members), COLUMNS)
-            column.label(text=group)
-            draw_pictures(column, getattr(camera, GROUP), members)
-            if free > 0 and group == GROUPS[-1]:
-                row.column().ui_units_x = WIDTH * free
+        camera = chosen_camera(context)
+        self.layout.context_pointer_set(POINTER, camera)
+        for groups in rows():
+            row, count = self.layout.row(), sum(map(len, groups.values()))
+            for group, models in groups.items():
+                column = row.column()
+                column.ui_units_x = COLUMNS * WIDTH * len(models) / count
+                column.label(text=group)
+                draw_pictures(column, camera, models)
 
 
-def draw_pictures(layout, own, members) -> None:
-    """Draw the models of a group, each with its picture."""
-    grid = layout.grid_flow(row_major=True, columns=min(len(members), COLUMNS), even_columns=True)
-    for item in members:
+def rows() -> Iterator[dict[str, list]]:
+    """Yield the rows of the gallery: the models of one or more groups, by group."""
+    row: dict[str, list] = {}
+    for group, models in groupby(sorted(MODELS, key=lambda it: GROUPS.index(it.group)), lambda it: it.group):
+        members = list(models)
+        if row and sum(map(len, row.values())) + len(members) > COLUMNS:
+            yield row
+            row = {}
+        row[group] = members
+    yield row
+
+
+def draw_pictures(layout, camera, models) -> None:
+    """Draw the models of a group, each with its picture, in lines of about the same length."""
+    own, lines = getattr(camera, GROUP), -(-len(models) // COLUMNS)
+    grid = layout.grid_flow(row_major=True, columns=-(-len(models) // lines), even_columns=True)
+    for it in models:
         cell = grid.column(align=True)
-        cell.template_icon(gallery.icon(gallery.scene_name(item.key)), scale=WIDTH)
-        cell.prop_enum(own, MODEL.name, item.key)
+        cell.template_icon(gallery.icon(gallery.scene_name(it.key)), scale=HEIGHT)
+        if it.number is None:
+            is_chosen = own.model == BLENDERS_OWN and blender_type(camera) == it.key
+            cell.operator(ChooseType.bl_idname, text=it.label, depress=is_chosen).key = it.key
+        else:
+            cell.prop_enum(own, MODEL.name, it.key)
 
 
 def draw_model(layout, camera, **options):
@@ -62,4 +113,4 @@ def draw_model(layout, camera, **options):
     return row
 
 
-CLASSES = (ModelGallery,)
+CLASSES = (ChooseType, ModelGallery)

@@ -35,15 +35,19 @@ def shown(setting: Setting, camera, engine: str) -> bool:
     return setting.owner in (OWN, STEREO)
 
 
-def settings_of(camera) -> tuple[Setting, ...]:
-    """Return the settings of a camera's model, or of its type for Blender's own models. For a custom camera that this
-    add-on made, use the type before.
+def blender_type(camera) -> str:
+    """Return the key of the model of a camera's Blender type. For a custom camera that this add-on made, that of the
+    type before.
     """
-    mark, own = shader_mark(camera), getattr(camera, GROUP)
-    if own.model != BLENDERS_OWN:
-        return SETTINGS.get(own.model, ())
+    mark = shader_mark(camera)
     kind = camera.type if mark is None else mark.blender_type
-    return SETTINGS.get(camera.panorama_type if kind == "PANO" else kind, ())
+    return camera.panorama_type if kind == "PANO" else kind
+
+
+def settings_of(camera) -> tuple[Setting, ...]:
+    """Return the settings of a camera's model, or of its type for Blender's own models: see ``blender_type``."""
+    model = getattr(camera, GROUP).model
+    return SETTINGS.get(blender_type(camera) if model == BLENDERS_OWN else model, ())
 
 
 def read_settings(camera) -> list[Setting]:
