@@ -17,6 +17,7 @@ STORED = {
     "portrait": ("PERSP", {"lens": 40, "sensor_height": 20, "shift_x": 0.11, "shift_y": -0.17}),
     "vertical_fit": ("PERSP", {"lens": 28, "sensor_fit": "VERTICAL", "sensor_width": 50, "sensor_height": 18}),
     "orthographic": ("ORTHO", {"ortho_scale": 6.5, "shift_x": 0.05, "shift_y": 0.08}),
+    "isometric": ("ORTHO", {"ortho_scale": 9}),
     "toys": ("PERSP", {"lens": 43}),
     "toys_cross_slit": (
         "CROSS_SLIT", {"slit_1": ((0, 8.8, 0), (0, 8.8, 1)), "slit_2": ((0, -18, 8), (1, -18, 8)), "lens": 18 / 5.8},
