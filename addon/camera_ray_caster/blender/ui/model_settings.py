@@ -20,8 +20,10 @@ SHOWN_FOR = {"lens": "PERSP", "ortho_scale": "ORTHO"}
 
 
 def in_labels(text: str) -> str:
-    """Return a message with the names of settings replaced by their labels in the panels."""
-    return re.sub(r"\w+", lambda word: LABELS.get(word[0], word[0]), text)
+    """Return a message with the names of settings replaced by their labels in the panels, and without the names of the
+    terminal's options in parentheses.
+    """
+    return re.sub(r"\w+", lambda word: LABELS.get(word[0], word[0]), re.sub(r" \(--[a-z-]+\)", "", text))
 
 
 def shown(setting: Setting, camera, engine: str) -> bool:
