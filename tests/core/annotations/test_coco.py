@@ -123,6 +123,16 @@ def test_key_points_have_pixels_depths_and_are_hidden_as_they_are():
     }  # fmt: skip
 
 
+def test_a_key_point_beside_the_border_is_outside_of_the_picture():
+    points = [KeyPoint("left", "shape 0", (-0.5, -0.5, -5.0)), KeyPoint("right", "shape 0", (0.5, -0.5, -5.0))]
+    border = timed_camera({}, use_border=True, border_min_x=0.5, border_max_x=1.0, border_min_y=0.0, border_max_y=0.5)
+    seen = seen_key_points(border, WALLS, points)
+    assert [one.visibility.name for one in seen] == ["OUTSIDE", "SEEN"]
+    for sheet, right in ((SHEET, [40, 32, 2]), (Sheet(32, 24, (32, 0)), [8, 8, 2])):
+        found = annotated(border, sheet=sheet, points=seen)["annotations"][0]
+        assert found["keypoints"] == pytest.approx([0, 0, 0, *right])
+
+
 @pytest.mark.parametrize("key", ["PERSP", "EQUIRECTANGULAR", "CROSS_SLIT", "ORTHO"])
 def test_the_depth_of_a_key_point_is_that_of_the_depth_pass(key):
     camera = camera_from(raw_of(key, {"resolution_x": 64, "resolution_y": 48}))

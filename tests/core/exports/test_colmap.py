@@ -53,3 +53,12 @@ def test_each_lens_of_each_camera_is_a_camera_of_colmaps(tmp_path):
     cameras, images = colmap(read, str(tmp_path))
     assert cameras == {1: "OPENCV", 2: "OPENCV_FISHEYE", 3: "PINHOLE", 4: "PINHOLE"}
     assert [images[number][1] for number in range(1, 9)] == [1, 1, 1, 2, 2, 2, 3, 4]
+
+
+def test_the_whole_sphere_with_angles_as_blender_stores_them_is_exported():
+    turn = {"longitude_min": -np.pi, "longitude_max": np.pi, "latitude_min": -np.pi / 2, "latitude_max": np.pi / 2}
+    stored = {name: float(np.float32(angle)) for name, angle in turn.items()}
+    size = {"resolution_x": 1024, "resolution_y": 512}
+    (shot,) = shots("panorama", [1])
+    files = dict(export("colmap", [type(shot)("panorama", 1, camera("EQUIRECTANGULAR", size | stored))])[0])
+    assert "1 EQUIRECTANGULAR 1024 512" in files["cameras.txt"]

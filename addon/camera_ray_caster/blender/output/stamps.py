@@ -33,7 +33,7 @@ def stamp_of(settings: Mapping[str, Any]) -> dict[str, Any]:
         "file": path.name,
         "sha256": file_hash(path) if path.is_file() else None,
         "uses": hashlib.sha256(seen.encode()).hexdigest() if states else None,
-        "settings": dict(settings),
+        "settings": json.loads(json.dumps(dict(settings))),  # as they are read back: lists instead of tuples
     }
 
 

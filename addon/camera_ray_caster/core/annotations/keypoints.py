@@ -41,7 +41,7 @@ class SeenKeyPoint:
 
 
 def seen_key_points(camera: Camera, shapes: Shapes, points: Sequence[KeyPoint]) -> list[SeenKeyPoint]:
-    """Return key points with their pixels, depths and visibility.
+    """Return key points with their pixels, depths and visibility; outside of the render window they are OUTSIDE.
 
     A surface does not hide a point within ROUNDING of it; a point inside of a body is hidden. See ``visible``.
     """
@@ -49,7 +49,9 @@ def seen_key_points(camera: Camera, shapes: Shapes, points: Sequence[KeyPoint]) 
     pixels = camera.project(places)
     tolerance = ROUNDING * float(np.abs(places).max(initial=0.0))
     found = [Visibility(code) for code in visible(camera, shapes, places, tolerance).tolist()]
-    rays = camera.rays_at(*pixels.T)
+    rays, raster = camera.rays_at(*pixels.T), camera.raster
+    low, high = (raster.x0, raster.y0), (raster.x1, raster.y1)
+    is_inside = ((pixels >= low) & (pixels <= high)).all(axis=1)
     result = []
     for k, point in enumerate(points):
         pixel, depth = None, None
@@ -59,5 +61,5 @@ def seen_key_points(camera: Camera, shapes: Shapes, points: Sequence[KeyPoint]) 
             if camera.model.planar:
                 there = camera if rays.time is None else camera.at(float(rays.time[k]))
                 depth /= float(there.length_of(there.camera_rays(*pixels[k])[1]))
-        result.append(SeenKeyPoint(point, pixel, depth, found[k]))
+        result.append(SeenKeyPoint(point, pixel, depth, found[k] if is_inside[k] else Visibility.OUTSIDE))
     return result

@@ -13,7 +13,7 @@ import numpy as np
 
 from ..cameras.files.colmap import MODELS
 from ..cameras.files.document import Lens, matrix_of
-from ..conventions import gamma
+from ..conventions import EPS32
 from ..maths.rotations import quaternion
 from . import lenses
 from .format import Shot
@@ -79,7 +79,9 @@ def _line(shot: Shot) -> str:
 
 
 def _is_whole(lens: Lens, size: tuple[int, int]) -> bool:
-    """Whether a panorama is the whole sphere with the viewing direction in the middle."""
-    (width, height), near = size, gamma(16)
+    """Whether a panorama is the whole sphere with the viewing direction in the middle, up to the rounding of Blender's
+    angles, which are float32: pi is off by 3e-8 of itself.
+    """
+    (width, height), near = size, EPS32
     found = matrix_of(lens.settings, 0.5)
     return bool(np.allclose(found, (width / (2 * pi), height / pi, width / 2, height / 2), near, near * max(size)))
