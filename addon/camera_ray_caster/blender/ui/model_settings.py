@@ -61,7 +61,7 @@ def read_settings(camera) -> list[Setting]:
 
 def of_type(camera) -> tuple[Setting, ...]:
     """Return the settings of a camera's Blender type, whatever its model is."""
-    return SETTINGS.get(camera.panorama_type if camera.type == "PANO" else camera.type, ())
+    return SETTINGS.get(blender_type(camera), ())
 
 
 def not_used(camera) -> list[str]:

@@ -5,6 +5,7 @@ The lengths of error vectors are Euclidean. Like gamma(n) they are worst-case bo
 
 from __future__ import annotations
 
+from functools import reduce
 from typing import Any
 
 import numpy as np
@@ -22,7 +23,8 @@ def world_rays(camera: Camera, x: np.ndarray, y: np.ndarray) -> WorldRays:
     """Return the rays at pixel coordinates with error bounds: a model's rounding acts as a small move of the pixel.
 
     The effect of such a move on the ray is measured, for every model: near a singular place, such as the rim of a
-    mirror ball, rays turn fast and errors grow.
+    mirror ball, rays turn fast and errors grow. Within STEP of a rim the effect of a move is taken to grow with its
+    square root, as at the rim of an orthographic fisheye, and to be the same along the rim as across it.
     """
     x, y = np.asarray(x), np.asarray(y)
     here = camera.camera_rays(x, y)
@@ -33,9 +35,17 @@ def world_rays(camera: Camera, x: np.ndarray, y: np.ndarray) -> WorldRays:
 
     def moved(part: int) -> tuple[Any, Any]:
         """Return a vector in the world and its error bound."""
-        error = (camera.stretch * camera.model.ray_rounding + gamma(8)) * norm(here[part])
-        for there, rounding in zip(beside, pixels, strict=True):
-            error = error + camera.stretch / STEP * rounding * _farthest(difference(there[part], here[part]))
+        own = (camera.stretch * camera.model.ray_rounding + gamma(8)) * norm(here[part])
+        moves = [_lengths(difference(there[part], here[part])) for there in beside]
+        farthest = [np.fmax.reduce(lengths, axis=0) if np.ndim(lengths) else lengths for lengths in moves]
+        shares = [rounding / STEP for rounding in pixels]
+        error = own + camera.stretch * sum(share * length for share, length in zip(shares, farthest, strict=True))
+        at_rim = reduce(np.logical_or, (np.isnan(lengths).any(axis=0) for lengths in moves if np.ndim(lengths)), False)
+        if np.any(at_rim):  # there a ray may turn with the square root of a move, and an axis may have no neighbor
+            most = sum(np.maximum(share, np.sqrt(share)) for share in shares)
+            worst = np.fmax(*farthest)
+            worst = np.where(np.isnan(worst), np.inf, worst)
+            error = np.where(at_rim, own + camera.stretch * most * worst, error)
         return matvec(basis, here[part]), error
 
     origin, origin_error = ((0.0, 0.0, 0.0), 0.0) if camera.model.central else moved(0)
@@ -43,7 +53,6 @@ def world_rays(camera: Camera, x: np.ndarray, y: np.ndarray) -> WorldRays:
     return WorldRays(origin, direction, camera.length_of(here[1]), origin_error, direction_error)
 
 
-def _farthest(moves) -> Any:
-    """Return the greatest length along the first axis, without NaN; a row or a column stays one if possible."""
-    lengths = norm([component if np.any(component) else 0.0 for component in moves])
-    return np.fmax.reduce(lengths, axis=0) if np.ndim(lengths) else lengths
+def _lengths(moves) -> Any:
+    """Return the lengths of vectors; those of a row or a column stay one if possible."""
+    return norm([component if np.any(component) else 0.0 for component in moves])
