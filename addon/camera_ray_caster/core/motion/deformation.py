@@ -45,7 +45,7 @@ def deformed(shapes: Shapes, evaluations: Sequence[Shapes], weights: Sequence[fl
         if normals is not None:
             lengths = np.sqrt((normals * normals).sum(axis=1, keepdims=True))
             normals = normals / np.maximum(lengths, np.finfo(float).tiny)
-        meshes[k] = replace(forms[0], vertices=places, normals=normals)
+        meshes[k] = replace(meshes[k], vertices=places, normals=normals)
         rows = shapes.mesh == k
         center[rows] += shapes.axes[rows] @ meshes[k].middle  # positions are relative to the middle
     return replace(shapes, meshes=tuple(meshes), center=center)

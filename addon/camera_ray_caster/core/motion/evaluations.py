@@ -6,6 +6,9 @@ this against the motion of the scene: it must lie on the parabola through the ot
 tolerance in pixels. If it does not, the interval is cut at its probes. The method is the embedded pair of adaptive
 integration (E. Hairer et al., Solving Ordinary Differential Equations I, section II.4): smooth motion takes few
 evaluations, and the estimate is on the safe side.
+
+The errors are those of places. Colors, lights, maps and indices are those of the last evaluation before a frame, and no
+error is stated for them. An event shorter than the distance of the evaluations can be missed.
 """
 
 from __future__ import annotations
@@ -77,7 +80,7 @@ class Motion:
         """Return lines for the report on the accuracy of the motion."""
         first, last = self.intervals[0].frames[0], self.intervals[-1].frames[-1]
         lines = [
-            f"frames {first:g} to {last:g} from {len(self.states)} evaluations: error of {self.estimated:.2g} pixels "
+            f"frames {first:g} to {last:g} from {len(self.states)} evaluations: motion off by {self.estimated:.2g} pixels "
             f"as estimated, {self.measured:.2g} as measured; the tolerance is {self.tolerance:g}"
         ]
         if self.unresolved:

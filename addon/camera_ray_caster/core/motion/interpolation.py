@@ -42,13 +42,16 @@ class TimeInterval:
         return replace(cameras[0], pose=pose, model=model.posed(pose), aperture=aperture)
 
     def shapes_at(self, frame: float) -> Shapes:
-        """Return the shapes at a frame; if shapes appear or disappear, the shapes of the last evaluation before it."""
+        """Return the shapes at a frame. What is not interpolated (colors, lights, indices, and all if shapes appear or
+        disappear) is that of the last evaluation before it.
+        """
         shapes = [shapes for _, shapes in self.states]
+        last = shapes[max(bisect_right(self.frames, frame) - 1, 0)]
         if frame in self.frames or self._shape_axes is None:
-            return shapes[max(bisect_right(self.frames, frame) - 1, 0)]
+            return last
         weights = self._weights(frame)
         center = _sum([one.center for one in shapes], weights)
-        return deformed(replace(shapes[0], center=center, axes=self._shape_axes.at(weights)), shapes, weights)
+        return deformed(replace(last, center=center, axes=self._shape_axes.at(weights)), shapes, weights)
 
     def at(self, frame: float) -> State:
         """Return camera and shapes at a frame."""
