@@ -80,8 +80,8 @@ class Motion:
         """Return lines for the report on the accuracy of the motion."""
         first, last = self.intervals[0].frames[0], self.intervals[-1].frames[-1]
         lines = [
-            f"frames {first:g} to {last:g} from {len(self.states)} evaluations: motion off by {self.estimated:.2g} pixels "
-            f"as estimated, {self.measured:.2g} as measured; the tolerance is {self.tolerance:g}"
+            f"frames {first:g} to {last:g} from {len(self.states)} evaluations: motion off by {self.estimated:.2g} "
+            f"pixels as estimated, {self.measured:.2g} as measured; the tolerance is {self.tolerance:g}"
         ]
         if self.unresolved:
             low, high = self.unresolved[0]
