@@ -19,7 +19,7 @@ from .mesh_in_camera import MeshesInView, Triangles
 from .mesh_order import nearest_first, pieces, slabs
 from .mesh_spans import Lattice, spans
 from .search_rays import SearchRays
-from .triangles import ROUNDING, crossing, edge_vectors, signs, volumes
+from .triangles import ROUNDING, crossing, edge_vectors, from_origin, signs, volumes
 from .windows import Windows, banded, batches, in_tile, pixels_in, union
 
 Reach = tuple[float, float]
@@ -181,8 +181,7 @@ class MeshSet(ShapeSet):
         """Keep the hits on triangles, one per pixel, given how far inside the rays are and the error bound of that."""
         is_open, is_met = np.abs(inner) <= doubt, inner > doubt
         self._test(rays, [Open.of(triangles, k[is_open], pixel[is_open])], found)
-        met = Open.of(triangles, k[is_met], pixel[is_met])
-        self._keep(found, met.pixel, crossing(*self._meeting(rays, met)), met.which)
+        self._meet(rays, Open.of(triangles, k[is_met], pixel[is_met]), found)
 
     def _test(self, rays: SearchRays, rest: list[Open], found: Found) -> None:
         """Keep the hits among triangles that have to be tested, by exact signs where rounding could decide. All are
@@ -190,8 +189,9 @@ class MeshSet(ShapeSet):
         """
         if not any(len(one.which) for one in rest):
             return
-        which, vertices, pixel = (np.concatenate(part, axis=-1) for part in zip(*rest, strict=True))
-        corners, direction = self._meeting(rays, Open(which, vertices, pixel))
+        some = Open(*(np.concatenate(part, axis=-1) for part in zip(*rest, strict=True)))
+        origin, direction = rays.at(some.pixel)
+        corners = np.array([from_origin(corner, origin) for corner in self.meshes.places(some.vertices)])
         doubt = ROUNDING * np.maximum.reduce([norm(corner) for corner in corners]) ** 2 * norm(direction)
         inner = _inside(volumes(corners, direction), is_turned=False)
         met = inner > doubt
@@ -199,7 +199,11 @@ class MeshSet(ShapeSet):
         if open_.size:
             exact = signs(corners[:, :, open_], direction[:, open_])
             met[open_] = ((exact >= 0).all(axis=0) | (exact <= 0).all(axis=0)) & exact.any(axis=0)
-        self._keep(found, pixel[met], crossing(corners[:, :, met], direction[:, met]), which[met])
+        self._meet(rays, Open(some.which[met], some.vertices[:, met], some.pixel[met]), found)
+
+    def _meet(self, rays: SearchRays, met: Open, found: Found) -> None:
+        """Keep the hits on triangles that are known to be hit, one per pixel."""
+        self._keep(found, met.pixel, crossing(self.meshes.places(met.vertices), *rays.at(met.pixel)), met.which)
 
     def _keep(self, found: Found, pixel: np.ndarray, t: np.ndarray, which: np.ndarray) -> None:
         """Keep hits at or beyond the clip start."""
@@ -207,11 +211,6 @@ class MeshSet(ShapeSet):
         if not met.all():
             pixel, t, which = pixel[met], t[met], which[met]
         found.keep(pixel, t, which)
-
-    def _meeting(self, rays: SearchRays, some: Open) -> tuple[np.ndarray, np.ndarray]:
-        """Return corners relative to the rays' origins (3, 3, m) and directions (3, m), one triangle per pixel."""
-        corners, (origin, direction) = self.meshes.places(some.vertices), rays.at(some.pixel)
-        return corners if origin is None else corners - origin, direction
 
 
 def _inside(volumes: tuple[Any, Any, Any], is_turned: bool) -> np.ndarray:

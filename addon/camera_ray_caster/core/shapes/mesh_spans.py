@@ -2,7 +2,7 @@
 
 The volume of an edge is affine in the pixel then: in a row it changes its sign at one pixel coordinate. Where this
 coordinate is so near to a pixel's center that rounding could decide, the exact sign decides, as for all other rays: see
-``triangles``. t or 1 / t is affine in the pixel, too.
+``triangles``. t is computed as ``crossing`` computes it, so that it does not depend on which way finds a hit.
 Reference: M. Olano and T. Greer, Triangle Scan Conversion using 2D Homogeneous Coordinates, 1997.
 """
 
@@ -41,6 +41,11 @@ class Lattice:
     A pinhole's directions are (l[0], l[1], z); parallel rays have the origins (l[0], l[1], 0) and directions (0, 0, z).
     """
 
+    x: np.ndarray
+    """l[0] of each column, as it is: the formula is right to EVEN."""
+    y: np.ndarray
+    """l[1] of each row, as it is."""
+
     first: tuple[float, float]
     step: tuple[float, float]
     z: float
@@ -60,8 +65,9 @@ class Lattice:
                 return None
         else:
             return None
+        x, y = x.ravel().astype(float), y.ravel().astype(float)
         first, step = [], []
-        for places in (x.ravel().astype(float), y.ravel().astype(float)):
+        for places in (x, y):
             pitch = (places[-1] - places[0]) / max(len(places) - 1, 1)
             even = places[0] + pitch * np.arange(len(places))
             if not pitch or np.abs(places - even).max() > EVEN * np.abs(places).max():
@@ -69,7 +75,7 @@ class Lattice:
             first.append(float(places[0]))
             step.append(float(pitch))
         reach = float(np.sqrt(np.square(x).max() + np.square(y).max() + 1))
-        return cls((first[0], first[1]), (step[0], step[1]), float(z), rays.origin is not None, reach)
+        return cls(x, y, (first[0], first[1]), (step[0], step[1]), float(z), rays.origin is not None, reach)
 
     def edges(self, corners: Any) -> list[tuple[Any, Any, Any]]:
         """Return the coefficients of the three volumes as linear functions of l."""
@@ -107,10 +113,8 @@ def spans(lattice: Lattice, corners: Any, bounds: np.ndarray, width: int) -> Spa
     edges = np.array(lattice.edges(corners))  # edge, coefficient, triangle
     if lattice.is_parallel:
         edges *= np.sign(slope)
-        t_terms = np.array((-normal[0], -normal[1], height)) / slope
         steep, clear = np.abs(slope), np.abs(slope) > scale
     else:
-        t_terms = np.array((normal[0], normal[1], slope)) / height
         steep, clear = np.abs(height) / np.abs(corners[:, 2]).max(axis=0), True
     clear = clear & (steep > STEEP * product * lattice.reach)
     inverse = 1 / (edges[:, 0] * lattice.step[0])
@@ -143,18 +147,29 @@ def spans(lattice: Lattice, corners: Any, bounds: np.ndarray, width: int) -> Spa
         last -= right
         last[is_open] = first[is_open] - 1
     span, column = counted(last - first + 1, first)
-    x, y, z = t_terms
-    at_row = taken(x * lattice.first[0] + z, at) + taken(y, at) * (lattice.first[1] + row * lattice.step[1])
-    t = taken(taken(x * lattice.step[0], at), span)
-    t *= column
-    t += taken(at_row, span)
+    t = _crossing(lattice, corners[0], normal, at, row, span, column)
     column += taken(place, span)
     return Spans(
         clear=np.broadcast_to(clear, len(bounds)),
         met=(taken(at, span), column),
-        t=t if lattice.is_parallel else np.reciprocal(t, out=t),
+        t=t,
         open=(np.concatenate([one for one, _ in rest]), np.concatenate([one for _, one in rest])),
     )
+
+
+def _crossing(lattice: Lattice, corner: Any, normal: Any, at: np.ndarray, row, span: np.ndarray, column) -> np.ndarray:
+    """Return t, (m,), at columns of spans of some rows of triangles ``at``; equal to that of ``crossing``."""
+    x, y = taken(lattice.x, column), taken(lattice.y, row)
+    if lattice.is_parallel:
+        terms = normal[0], normal[1], normal[2] * corner[2], normal[2] * lattice.z, corner[0], corner[1]
+        first, second, third, slope, right, up = taken(np.array(terms), at)
+        first, rest, slope, right = taken(np.array((first, second * (up - y) + third, slope, right)), span)
+        return (first * (right - x) + rest) / slope
+    first, second, third, height = taken(np.array((normal[0], normal[1], normal[2] * lattice.z, dot(normal, corner))), at)
+    first, rest, height = taken(np.array((first, second * y + third, height)), span)
+    first *= x
+    first += rest
+    return np.divide(height, first, out=first)
 
 
 def _level(lattice: Lattice, edges: np.ndarray, is_level: np.ndarray, scale, bounds: np.ndarray, at, row):

@@ -109,16 +109,21 @@ def side(corners: np.ndarray) -> np.ndarray:
     return sign
 
 
-def crossing(corners: Any, d: Any) -> np.ndarray:
-    """Return t, (m,), at which rays meet the planes of their triangles, from directions and from corners relative to
-    the rays' origins. Where rounding could make t far wrong (see STEEP), it is clamped to the t of the corners.
+def crossing(corners: Any, origin: Any, d: Any) -> np.ndarray:
+    """Return t, (m,), at which rays meet the planes of their triangles; ``origin`` is None for rays from the eye. Where
+    rounding could make t far wrong (see STEEP), it is clamped to the t of the corners.
     """
     normal, product = plane(corners)
     slope = dot(normal, d)
-    t = dot(normal, corners[0]) / slope
+    t = dot(normal, from_origin(corners[0], origin)) / slope
     poor = np.flatnonzero(~(np.abs(slope) > STEEP * product * norm(d)))
     if poor.size:
-        own = tuple(np.broadcast_to(component, t.shape)[poor] for component in d)
-        ends = [dot([c[poor] for c in corner], own) / dot(own, own) for corner in corners]
+        own, start = (None if vector is None else tuple(part[poor] for part in vector) for vector in (d, origin))
+        ends = [dot(from_origin([c[poor] for c in corner], start), own) / dot(own, own) for corner in corners]
         t[poor] = np.fmax(np.fmin(t[poor], np.maximum.reduce(ends)), np.minimum.reduce(ends))
     return t
+
+
+def from_origin(point: Any, origin: Any) -> Any:
+    """Return a point relative to rays' origins, None for the eye."""
+    return point if origin is None else difference(point, origin)
