@@ -6,9 +6,11 @@ import numpy as np
 import pytest
 
 from camera_ray_caster.core.cast import cast
+from camera_ray_caster.core.errors.rays import world_rays
 from camera_ray_caster.core.records import SPHERE
 
-from ..cameras.model_examples import camera
+from ..cameras.model_examples import camera, raw_of
+from ..truth import truth
 from .extreme_cases import shapes_of
 
 RADIUS = 5.0
@@ -45,6 +47,29 @@ def test_every_ray_has_bounds(key):
             images = bounds(camera(key, {"resolution_x": width, "resolution_y": height, "fov": 2.0}))
             for name in ("distance_bound", "position_bound"):
                 assert np.isfinite(images[name][images["valid"]]).all()
+
+
+def test_bounds_hold_where_a_cross_slits_rays_meet_in_a_small_place():
+    """Slits near each other, nearly parallel, or far away; against rays with 60 digits."""
+    rng = np.random.default_rng(6)
+    worst = 0.0
+    for _ in range(80):
+        first = rng.normal(size=3) * 10 ** rng.uniform(-6, 2)
+        second = first + rng.normal(size=3) * 10 ** rng.uniform(-6, 1)
+        along = rng.normal(size=3) * [1, 1, rng.choice([0, 1e-3, 1])]
+        other = along + rng.normal(size=3) * 10 ** rng.uniform(-3, 0)
+        settings = {"slit_1": (first, first + along), "slit_2": (second, second + other)}
+        settings |= {"resolution_x": 9, "resolution_y": 7}
+        raw, cam = raw_of("CROSS_SLIT", settings), camera("CROSS_SLIT", settings)
+        x, y = (part.ravel() for part in np.meshgrid(cam.raster.columns(), cam.raster.rows()))
+        rays = world_rays(cam, x, y)
+        for k in rng.integers(0, 63, 4):
+            exact = truth.ray(raw, x[k], y[k])
+            for name in ("origin", "direction"):
+                found = truth.exact([np.broadcast_to(part, x.shape)[k] for part in getattr(rays, name)])
+                off = truth.norm(truth.minus(found, getattr(exact, name)))
+                worst = max(worst, float(off / getattr(rays, f"{name}_error")[k]))
+    assert 0.01 < worst <= 1
 
 
 def bounds(cam):

@@ -18,6 +18,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..conventions import gamma
 from ..maths.intervals import Interval
 from ..maths.vector import components, cross, difference, dot, norm
 from ..records import BlenderCamera, InputError, Raster
@@ -35,6 +36,8 @@ class CrossSlit(WindowModel):
     """Two slits, each given by its point nearest to the window's middle and a unit direction, camera frame."""
 
     slits: tuple[tuple[np.ndarray, np.ndarray], tuple[np.ndarray, np.ndarray]]
+    farthest: float
+    """Distance of the farthest point that gives a slit: the points above are right to some EPS of it."""
 
     key = "CROSS_SLIT"
     label = "Cross-Slit"
@@ -57,9 +60,10 @@ class CrossSlit(WindowModel):
 
         Raises InputError for slits that are parallel, or in the window's plane, where they determine no ray.
         """
-        slits = []
+        slits, farthest = [], 0.0
         for slit in (SLIT, SECOND_SLIT):
             point, direction = slit_from(raw, slit)
+            farthest = max(farthest, float(np.linalg.norm(point)))
             point = point + direction * ((MIDDLE - point) @ direction)  # small numbers keep the digits
             if max(abs(direction[2]), abs(point[2] + 1)) <= ROUNDING:
                 raise InputError(
@@ -70,12 +74,12 @@ class CrossSlit(WindowModel):
         first, second = slits
         if np.linalg.norm(np.cross(first[1], second[1])) <= ROUNDING:
             raise InputError(f"slit_1 and slit_2 of camera {raw.name!r} are parallel: turn one of them")
-        return cls(raster.size, Perspective.from_blender(raw, raster).window, (first, second))
+        return cls(raster.size, Perspective.from_blender(raw, raster).window, (first, second), farthest)
 
     @property
     def formula_reach(self) -> float:
         """See Model."""
-        return max(float(np.linalg.norm(point)) for point, _ in self.slits)
+        return self.farthest
 
     def rays(self, x, y):
         """Return origin and unit direction, each a tuple of three broadcastable arrays, camera frame.
@@ -89,6 +93,19 @@ class CrossSlit(WindowModel):
         origin = plane_x + direction[0] / rise, plane_y + direction[1] / rise, 0.0
         scale = -np.sign(rise) / norm(direction)
         return origin, tuple(component * scale for component in direction)
+
+    def formula_rounding(self, x, y):
+        """See Model: the normals are rounded relative to the distances of the slits, their product is short where the
+        planes are nearly one, and the origin is a difference. The slits are taken as they are in the camera's frame.
+        """
+        plane = *self.window.plane_from_pixels(x, y), -1.0
+        first, second = self._normals(plane)
+        direction = cross(first, second)
+        size = norm(direction)
+        away = norm(plane) + self.formula_reach
+        turned = gamma(16) * away * (norm(first) + norm(second)) / np.where(size > 0, size, np.nan)
+        slope = size / np.where(direction[2] != 0, direction[2], np.nan)
+        return gamma(4) * norm(plane) + turned * slope * slope, turned
 
     def project(self, points):
         """Return the pixel coordinates (..., 2) of camera-frame points (..., 3); NaN on slits and behind z = 0."""

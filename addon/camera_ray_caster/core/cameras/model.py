@@ -191,6 +191,12 @@ class Model(ABC):
         """
         return gamma(16)
 
+    def formula_rounding(self, x, y) -> tuple[Any, Any]:
+        """Return further rounding errors of rays, those of a formula in which numbers cancel: of the origin as a length
+        in the camera's frame, and of the direction over its length. The default is that there are none.
+        """
+        return 0.0, 0.0
+
 
 @dataclass(frozen=True)
 class WindowModel(Model):

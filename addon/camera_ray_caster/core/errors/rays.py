@@ -31,11 +31,14 @@ def world_rays(camera: Camera, x: np.ndarray, y: np.ndarray) -> WorldRays:
     sides = STEP, -STEP
     beside = camera.camera_rays(np.add.outer(sides, x), y[None]), camera.camera_rays(x[None], np.add.outer(sides, y))
     pixels = camera.model.pixel_rounding(x, y)
+    further = camera.model.formula_rounding(x, y)
     basis = camera.pose.basis.tolist()
 
     def moved(part: int) -> tuple[Any, Any]:
         """Return a vector in the world and its error bound."""
-        own = (camera.stretch * camera.model.ray_rounding + gamma(8)) * norm(here[part])
+        length = norm(here[part])
+        own = (camera.stretch * camera.model.ray_rounding + gamma(8)) * length
+        own = own + camera.stretch * further[part] * (length if part else 1.0)
         moves = [_lengths(difference(there[part], here[part])) for there in beside]
         farthest = [np.fmax.reduce(lengths, axis=0) if np.ndim(lengths) else lengths for lengths in moves]
         shares = [rounding / STEP for rounding in pixels]
