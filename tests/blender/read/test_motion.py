@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from camera_ray_caster.blender.output import reports
-from camera_ray_caster.blender.read.scene import read_camera
+from camera_ray_caster.blender.read.scene import read_camera, read_shapes
 from camera_ray_caster.core.records import InputError
 
 from ..pictures import picture
@@ -86,6 +86,30 @@ def test_shapes_that_are_switched_on_come_at_their_frame(scene, sphere):
     x, y, frame = coordinates()
     hit, unsure = disc(x, y, 0.0)
     same(walked(scene)["shape_index"] == 0, hit & (frame >= 13), unsure)
+
+
+def test_what_is_hidden_for_a_few_of_a_hundred_frames_is_hidden_then(scene, sphere):
+    """The keys are evaluated, since whole frames are too many and the first probes miss them."""
+    for frame, hidden in ((1, False), (42, True), (56, False)):
+        sphere.hide_render = hidden
+        sphere.keyframe_insert("hide_render", frame=frame)
+    own = scene.camera.data.camera_ray_caster
+    own.time_start, own.time_end = 1.0, 100.0
+    x, y, _ = coordinates()
+    sphere.scale.y = 9.0  # over all rows
+    frame = 1 + 99 * (np.arange(SIZE)[:, None] + 0.5) / SIZE
+    expected = (np.hypot(x, y / 9) <= 1) & ~((frame >= 42) & (frame < 56))
+    same(walked(scene)["shape_index"] == 0, expected, np.abs(np.hypot(x, y / 9) - 1) < 1e-4)
+
+
+def test_a_keyed_color_changes_from_row_to_row(blender, scene, sphere):
+    material = blender.data.materials.new("Paint")
+    sphere.data.materials.append(material)
+    key(material, "diffuse_color", (1, (0, 0, 0, 1)), (25, (1, 0.5, 0, 1)))
+    shapes = read_shapes(scene)
+    for frame in (1.0, 7.3, 24.9):
+        share = (frame - 1) / 24
+        np.testing.assert_allclose(shapes.motion.shapes_at(frame).color, [[share, share / 2, 0, 1]], atol=1e-6)
 
 
 def test_an_image_displaces_time(blender, scene, sphere):

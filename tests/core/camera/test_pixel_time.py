@@ -8,7 +8,7 @@ import pytest
 from camera_ray_caster.core import tuning
 from camera_ray_caster.core.camera.build import camera_from
 from camera_ray_caster.core.cast import cast
-from camera_ray_caster.core.motion.evaluations import measure, resolve
+from camera_ray_caster.core.motion.evaluations import measured, resolve
 from camera_ray_caster.core.records import PLANE, SPHERE, BlenderCamera, InputError, Shapes
 
 EFFORT = {"time_tolerance": 0.1, "time_evaluations": 256}
@@ -155,9 +155,9 @@ def test_curved_motion_is_evaluated_until_the_tolerance_holds_and_the_estimate_i
     for tolerance in (0.5, 0.05, 0.005):
         _, _, motion = moving(evaluate, 10, 20, tolerance)
         assert not motion.unresolved
-        measured = measure(motion, evaluate, np.random.default_rng(1).uniform(10, 20, 50))
+        off = measured(motion, evaluate, np.random.default_rng(1).uniform(10, 20, 50)).measured
         assert motion.estimated <= tolerance
-        assert measured <= 1.5 * tolerance
+        assert off <= 1.5 * tolerance
         counts.append(len(motion.states))
     assert counts[2] > counts[1] > counts[0]
     assert counts[2] < 8 * counts[0]  # third order: a hundred times as exact for some five times as many
@@ -173,7 +173,7 @@ def test_a_fan_at_many_turns_a_frame_does_not_alias(turns):
         assert turns > 20
         return
     assert len(motion.states) > 3 * turns
-    assert measure(motion, evaluate, np.random.default_rng(2).uniform(4.75, 5.25, 50)) <= 0.15
+    assert measured(motion, evaluate, np.random.default_rng(2).uniform(4.75, 5.25, 50)).measured <= 0.15
     hit = cast(replace(camera(SHUTTER), motion=motion), scene, ("shape_index",))["shape_index"]
     time = camera(SHUTTER).rays().time
     x, y = (np.arange(64) + 0.5 - 32)[None] / 16, (np.arange(48) + 0.5 - 24)[:, None] / 16

@@ -6,7 +6,7 @@ import numpy as np
 
 from camera_ray_caster.core.maths.rotations import polar
 from camera_ray_caster.core.mesh import Mesh
-from camera_ray_caster.core.motion.evaluations import measure, resolve
+from camera_ray_caster.core.motion.evaluations import measured, resolve
 
 from ..casting.test_cast import camera_at
 from ..shapes.meshes import ball, grid, shapes_of
@@ -37,7 +37,7 @@ def test_vertices_between_evaluations_keep_the_tolerance():
     assert not motion.unresolved
     assert 10 < len(motion.states) < 60
     frames = np.linspace(0.1, 11.9, 29)
-    off = measure(motion, scene, frames)
+    off = measured(motion, scene, frames).measured
     assert 1e-9 < off <= 0.05
     for frame in frames[::7]:
         found, (_, true) = motion.shapes_at(frame), scene(frame)

@@ -3,11 +3,12 @@
 from collections.abc import Callable, Collection
 from dataclasses import replace
 
+import bpy
 import numpy as np
 
 from ...core.camera.camera import Camera
 from ...core.casting.flow import NEXT, PREVIOUS, frames_of
-from ...core.motion.evaluations import Motion, measure, resolve
+from ...core.motion.evaluations import Motion, measured, resolve
 from ...core.records import Shapes
 from ..terminal.signals import raise_if_stopping
 from .evaluated import Eye, SceneRecord, scene_at
@@ -54,6 +55,20 @@ def motion_of(camera: Camera, camera_object, visit: Callable, eye: Eye | None = 
         found = scene_at(camera_object, depsgraph, eye)
         return replace(found.camera, pixel_time=pixel_time), found.shapes
 
-    motion = resolve(evaluate, pixel_time.first, pixel_time.last, pixel_time.tolerance, pixel_time.most)
-    frames = np.random.default_rng(0).uniform(pixel_time.first, pixel_time.last, CHECKS)
-    return replace(motion, measured=measure(motion, evaluate, frames))
+    first, last = pixel_time.first, pixel_time.last
+    motion = resolve(evaluate, first, last, pixel_time.tolerance, pixel_time.most, keyed_frames())
+    return measured(motion, evaluate, np.random.default_rng(0).uniform(first, last, CHECKS))
+
+
+def keyed_frames() -> np.ndarray:
+    """Return the frames at which some property of the file has a key; an action is read as it is, also if an NLA strip
+    moves it.
+    """
+    keys = [np.zeros(0, np.float32)]
+    for action in bpy.data.actions:
+        bags = [bag for layer in action.layers for strip in layer.strips for bag in strip.channelbags]
+        for curve in (curve for bag in bags for curve in bag.fcurves):
+            places = np.empty(2 * len(curve.keyframe_points), np.float32)
+            curve.keyframe_points.foreach_get("co", places)
+            keys.append(places[::2])
+    return np.unique(np.concatenate(keys))

@@ -36,6 +36,10 @@ FRAME = "frame"
 """Name of the setting that holds the frame at which a record was read."""
 
 
+ACCURACY = "tolerance", "estimated", "unresolved", "measured", "appearance"
+"""Fields of ``Motion`` beside its evaluations and intervals."""
+
+
 class CameraJson(Format):
     """One file with all cameras and frames."""
 
@@ -139,8 +143,7 @@ def recorded(camera: Camera) -> dict[str, Any]:
             for frame, (state, _) in sorted(motion.states.items())
         ]
         said["intervals"] = plain([interval.frames for interval in motion.intervals])
-        known = {name: getattr(motion, name) for name in ("tolerance", "estimated", "unresolved", "measured")}
-        said["motion"] = plain(known)
+        said["motion"] = plain({name: getattr(motion, name) for name in ACCURACY})
     return said
 
 
@@ -173,10 +176,8 @@ def _camera(said: Mapping[str, Any]) -> Camera:
         motion=Motion(
             tuple(TimeInterval.of(states, tuple(frames)) for frames in said["intervals"]),
             states,
-            motion["tolerance"],
-            motion["estimated"],
-            tuple(map(tuple, motion["unresolved"])),
-            motion["measured"],
+            **motion
+            | {"unresolved": tuple(map(tuple, motion["unresolved"])), "appearance": tuple(motion["appearance"])},
         ),
     )
 

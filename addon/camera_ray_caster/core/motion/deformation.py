@@ -9,6 +9,7 @@ import numpy as np
 
 from ..mesh import Mesh
 from ..records import Shapes
+from .means import mean
 
 FIXED = "triangles", "polygon", "loops", "slot"
 """Fields of ``Mesh`` that must be equal if the vertices of two meshes correspond."""
@@ -38,14 +39,14 @@ def deformed(shapes: Shapes, evaluations: Sequence[Shapes], weights: Sequence[fl
     """Return shapes with their meshes interpolated between evaluations; the weights have the sum 1."""
     meshes, center = list(shapes.meshes), shapes.center.copy()
     for k, forms in enumerate(zip(*(one.meshes for one in evaluations), strict=True)):
-        if all(_same(forms[0], other, name) for other in forms[1:] for name in ("vertices", "normals")):
+        if all(_same(forms[0], other, name) for other in forms[1:] for name in ("vertices", "normals", "uv")):
             continue
-        places = _mean([form.vertices - form.middle[:, None] for form in forms], weights)
-        normals = None if forms[0].normals is None else _mean([form.normals for form in forms], weights)
+        places = mean([form.vertices - form.middle[:, None] for form in forms], weights)
+        normals, uv = (_mean_of([getattr(form, name) for form in forms], weights) for name in ("normals", "uv"))
         if normals is not None:
             lengths = np.sqrt((normals * normals).sum(axis=1, keepdims=True))
             normals = normals / np.maximum(lengths, np.finfo(float).tiny)
-        meshes[k] = replace(meshes[k], vertices=places, normals=normals)
+        meshes[k] = replace(meshes[k], vertices=places, normals=normals, uv=uv)
         rows = shapes.mesh == k
         center[rows] += shapes.axes[rows] @ meshes[k].middle  # positions are relative to the middle
     return replace(shapes, meshes=tuple(meshes), center=center)
@@ -72,5 +73,9 @@ def _same(one: Mesh, other: Mesh, name: str) -> bool:
     return first is second or (first is not None and second is not None and np.array_equal(first, second))
 
 
-def _mean(values: Sequence[np.ndarray], weights: Sequence[float]) -> np.ndarray:
-    return np.sum([weight * value for weight, value in zip(weights, values, strict=True)], axis=0)
+def _mean_of(values: Sequence[np.ndarray | None], weights: Sequence[float]) -> np.ndarray | None:
+    """Return the weighted mean of arrays, None if one is missing or has another shape."""
+    known = [value for value in values if value is not None]
+    if len(known) < len(values) or len({value.shape for value in known}) > 1:
+        return None
+    return mean(known, weights)

@@ -7,14 +7,15 @@ tolerance in pixels. If it does not, the interval is cut at its probes. The meth
 integration (E. Hairer et al., Solving Ordinary Differential Equations I, section II.4): smooth motion takes few
 evaluations, and the estimate is on the safe side.
 
-The errors are those of places. Colors, lights, maps and indices are those of the last evaluation before a frame, and no
-error is stated for them. An event shorter than the distance of the evaluations can be missed.
+Colors, lights and maps are interpolated in the same way, within APPEARANCE. Indices change in steps, and shapes appear
+or disappear: such a moment is found to SHORTEST. An event between two evaluations, and shorter than their distance, is
+missed; whole frames or frames with keys are evaluated so that this needs an event without keys.
 """
 
 from __future__ import annotations
 
 from bisect import bisect_right
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
@@ -23,6 +24,7 @@ import numpy as np
 from ..camera.camera import Camera
 from ..maths.rotations import polar, sine_and_angle
 from ..records import Shapes
+from .appearance import difference, same_indices
 from .deformation import alike, changed, vertices
 from .interpolation import State, TimeInterval, matched
 
@@ -33,7 +35,10 @@ WIDEST_TURN = 1.0
 """Maximum rotation from one evaluation to the next, radians: the three in an interval stay below a half turn."""
 
 SHORTEST = 2.0**-10
-"""Accuracy, in frames, of the moment at which shapes appear or disappear."""
+"""Accuracy, in frames, of the moment at which shapes appear or disappear, or an index or a color changes at once."""
+
+APPEARANCE = 1 / 255
+"""Largest error of colors and maps between evaluations: one step of an 8 bit image. See ``appearance.difference``."""
 
 UNRESOLVED = "NOT RESOLVED"
 """Beginning of the report's line on unresolved intervals."""
@@ -54,6 +59,8 @@ class Motion:
     """Intervals in which the tolerance is not kept."""
     measured: float = np.nan
     """The largest error, in pixels, at frames that were evaluated only as a check; NaN without a check."""
+    appearance: tuple[float, float] = (0.0, np.nan)
+    """The estimated and the measured largest error of colors, lights and maps: see ``appearance.difference``."""
 
     def camera_at(self, frame: float) -> Camera:
         """Return the camera at a frame, without its pixel_time."""
@@ -83,21 +90,35 @@ class Motion:
             f"frames {first:g} to {last:g} from {len(self.states)} evaluations: motion off by {self.estimated:.2g} "
             f"pixels as estimated, {self.measured:.2g} as measured; the tolerance is {self.tolerance:g}"
         ]
+        estimated, measured = self.appearance
+        if estimated > 0 or measured > 0:
+            lines.append(
+                f"colors, lights and maps off by {estimated:.2g} as estimated, {measured:.2g} as measured, of 1; the "
+                f"tolerance is {APPEARANCE:.2g}"
+            )
         if self.unresolved:
             low, high = self.unresolved[0]
             lines.append(
                 f"{UNRESOLVED}: {len(self.unresolved)} intervals, the first at frames {low:g} to {high:g}: "
-                "the motion is too fast for the evaluations allowed"
+                "the scene changes too fast for the evaluations allowed"
             )
         return lines
 
 
-def resolve(evaluate: Callable[[float], State], first: float, last: float, tolerance: float, most: int) -> Motion:
+def resolve(
+    evaluate: Callable[[float], State],
+    first: float,
+    last: float,
+    tolerance: float,
+    most: int,
+    keys: Iterable[float] = (),
+) -> Motion:
     """Evaluate a scene at as few frames as keep the motion between them within ``tolerance`` pixels.
 
     ``evaluate(frame)`` returns camera and shapes; it is called at most ``most`` times. All whole frames are evaluated
-    first, since keys and cuts lie there, unless they are more than a quarter of ``most``. Then intervals are tested,
-    the longest first. Those that remain when the budget is used up are reported as unresolved.
+    first, since keys and cuts lie there, or else ``keys``, the frames with keys, unless both are more than a quarter of
+    ``most``. Then intervals are tested, the longest first. Those that remain when the budget is used up are reported as
+    unresolved.
     """
     states: dict[float, State] = {}
 
@@ -110,17 +131,20 @@ def resolve(evaluate: Callable[[float], State], first: float, last: float, toler
         know(first)
         return Motion((TimeInterval.of(states, (first,)),), states, tolerance, 0.0, ())
     whole = np.arange(np.floor(first) + 1, np.ceil(last)).tolist()
-    ends = [first, *(whole if len(whole) <= most // 4 else []), last]
+    keyed = sorted({float(frame) for frame in keys if first < frame < last})
+    ends = [first, *next((some for some in (whole, keyed) if len(some) <= most // 4), []), last]
     know(*ends)
     waiting = list(pairwise(ends))
     done: list[tuple[float, ...]] = []
-    unresolved, estimated = [], 0.0
+    unresolved, estimated, seen = [], 0.0, 0.0
     while waiting:
         waiting.sort(key=lambda ends: ends[1] - ends[0])
         a, b = waiting.pop()
         p, q = (a + (b - a) * place for place in PROBES)
-        matched_ends = matched(states[a][1], states[b][1])
-        if not matched_ends and b - a <= SHORTEST:
+        is_moment = b - a <= SHORTEST
+        before, after = states[a][1], states[b][1]
+        is_step = not (matched(before, after) and same_indices(before, after))
+        if is_step and is_moment:
             done.append((a, b))
             continue
         if len(states) + (p not in states) + (q not in states) > most or not a < p < q < b:
@@ -128,26 +152,36 @@ def resolve(evaluate: Callable[[float], State], first: float, last: float, toler
             done.append((a, b))
             continue
         know(p, q)
-        off = max(
-            _difference(TimeInterval.of(states, others).at(probe), states[probe])
+        probed = [
+            (TimeInterval.of(states, others).at(probe), states[probe])
             for probe, others in ((p, (a, q, b)), (q, (a, p, b)))
-        )
+        ]
+        off, change = (max(error(*both) for both in probed) for error in (_difference, _change))
         turn = max(_turn(states[early], states[late]) for early, late in pairwise((a, p, q, b)))
-        if matched_ends and off <= tolerance and turn <= WIDEST_TURN:
-            estimated = max(estimated, off)
-            done.append((a, p, q, b))
-        else:
+        if is_step or off > tolerance or turn > WIDEST_TURN or (change > APPEARANCE and not is_moment):
             waiting += pairwise((a, p, q, b))
+            continue
+        estimated = max(estimated, off)
+        if change > APPEARANCE:
+            done.append((a, b))
+        else:
+            seen = max(seen, change)
+            done.append((a, p, q, b))
     intervals = tuple(TimeInterval.of(states, frames) for frames in sorted(done))
-    return Motion(intervals, states, tolerance, estimated, tuple(sorted(unresolved)))
+    return Motion(intervals, states, tolerance, estimated, tuple(sorted(unresolved)), appearance=(seen, np.nan))
 
 
-def measure(motion: Motion, evaluate: Callable[[float], State], frames) -> float:
-    """Return the largest difference, in pixels, between the interpolated and the evaluated scene at some frames."""
-    return max(
-        (_difference(motion.at(frame), evaluate(frame)) for frame in frames),
-        default=0.0,
-    )
+def measured(motion: Motion, evaluate: Callable[[float], State], frames) -> Motion:
+    """Return a motion with its errors measured at some frames: the interpolated against the evaluated scene."""
+    both = [(motion.at(frame), evaluate(frame)) for frame in frames]
+    off, change = (max((error(*pair) for pair in both), default=0.0) for error in (_difference, _change))
+    return replace(motion, measured=off, appearance=(motion.appearance[0], change))
+
+
+def _change(state: State, truth: State) -> float:
+    """Return the largest difference in the appearance of two states' shapes; infinite if the shapes differ."""
+    shapes, true_shapes = state[1], truth[1]
+    return difference(shapes, true_shapes, truth[0].pose.eye) if matched(shapes, true_shapes) else np.inf
 
 
 def _difference(state: State, truth: State) -> float:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from bisect import bisect_right
-from dataclasses import dataclass, fields, is_dataclass, replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 from math import prod
 
@@ -12,7 +12,9 @@ import numpy as np
 from ..camera.camera import Camera
 from ..maths.rotations import polar, rotation, rotation_vector
 from ..records import Pose, Shapes
+from .appearance import appearance
 from .deformation import alike, deformed
+from .means import mean, mixed
 
 State = tuple[Camera, Shapes]
 """A scene as it was evaluated at one frame."""
@@ -36,22 +38,23 @@ class TimeInterval:
         if frame in self.frames:
             return cameras[self.frames.index(frame)]
         weights = self._weights(frame)
-        model, aperture = _mixed([(camera.model, camera.aperture) for camera in cameras], weights)
+        model, aperture = mixed([(camera.model, camera.aperture) for camera in cameras], weights)
         basis = self._camera_axes.at(weights)[0]
-        pose = Pose(_sum([camera.pose.eye for camera in cameras], weights), basis / np.linalg.norm(basis, axis=0))
+        pose = Pose(mean([camera.pose.eye for camera in cameras], weights), basis / np.linalg.norm(basis, axis=0))
         return replace(cameras[0], pose=pose, model=model.posed(pose), aperture=aperture)
 
     def shapes_at(self, frame: float) -> Shapes:
-        """Return the shapes at a frame. What is not interpolated (colors, lights, indices, and all if shapes appear or
-        disappear) is that of the last evaluation before it.
+        """Return the shapes at a frame. What is not interpolated (indices, and all if shapes appear or disappear) is
+        that of the last evaluation before it.
         """
         shapes = [shapes for _, shapes in self.states]
         last = shapes[max(bisect_right(self.frames, frame) - 1, 0)]
         if frame in self.frames or self._shape_axes is None:
             return last
         weights = self._weights(frame)
-        center = _sum([one.center for one in shapes], weights)
-        return deformed(replace(last, center=center, axes=self._shape_axes.at(weights)), shapes, weights)
+        center = mean([one.center for one in shapes], weights)
+        moved = replace(last, center=center, axes=self._shape_axes.at(weights))
+        return deformed(appearance(moved, shapes, weights), shapes, weights)
 
     def at(self, frame: float) -> State:
         """Return camera and shapes at a frame."""
@@ -101,7 +104,7 @@ class Turning:
 
     def at(self, weights) -> np.ndarray:
         """Return the matrices interpolated with the weights of the times."""
-        moved = rotation(_sum(self.turns, weights)) @ self.rotations @ _sum(self.stretches, weights)
+        moved = rotation(mean(self.turns, weights)) @ self.rotations @ mean(self.stretches, weights)
         return np.where(self.still, self.first, moved)
 
 
@@ -114,25 +117,3 @@ def matched(before: Shapes, after: Shapes) -> bool:
         and np.array_equal(before.mesh, after.mesh)
         and alike(before.meshes, after.meshes)
     )
-
-
-def _mixed(values, weights):
-    """Return the weighted mean of all numbers in records of one type; other values are those of the first record."""
-    first = values[0]
-    if is_dataclass(first) and not isinstance(first, type) and all(type(value) is type(first) for value in values):
-        parts = {part.name: _mixed([getattr(value, part.name) for value in values], weights) for part in fields(first)}
-        changed = {name: part for name, part in parts.items() if part is not getattr(first, name)}
-        return replace(first, **changed) if changed else first
-    if isinstance(first, tuple) and all(isinstance(value, tuple) and len(value) == len(first) for value in values):
-        return tuple(_mixed(entries, weights) for entries in zip(*values, strict=True))
-    if not isinstance(first, float | np.ndarray) or all(np.array_equal(first, value) for value in values[1:]):
-        return first
-    return _sum(values, weights)
-
-
-def _sum(values, weights) -> np.ndarray:
-    """Return the weighted mean, computed as an addition to the first value; the weights have the sum 1."""
-    total = values[0]
-    for value, weight in zip(values[1:], weights[1:], strict=True):
-        total = total + weight * (value - values[0])
-    return total

@@ -161,11 +161,12 @@ def _crossing(lattice: Lattice, corner: Any, normal: Any, at: np.ndarray, row, s
     """Return t, (m,), at columns of spans of some rows of triangles ``at``; equal to that of ``crossing``."""
     x, y = taken(lattice.x, column), taken(lattice.y, row)
     if lattice.is_parallel:
-        terms = normal[0], normal[1], normal[2] * corner[2], normal[2] * lattice.z, corner[0], corner[1]
-        first, second, third, slope, right, up = taken(np.array(terms), at)
+        terms = np.array((normal[0], normal[1], normal[2] * corner[2], normal[2] * lattice.z, corner[0], corner[1]))
+        first, second, third, slope, right, up = taken(terms, at)
         first, rest, slope, right = taken(np.array((first, second * (up - y) + third, slope, right)), span)
         return (first * (right - x) + rest) / slope
-    first, second, third, height = taken(np.array((normal[0], normal[1], normal[2] * lattice.z, dot(normal, corner))), at)
+    terms = np.array((normal[0], normal[1], normal[2] * lattice.z, dot(normal, corner)))
+    first, second, third, height = taken(terms, at)
     first, rest, height = taken(np.array((first, second * y + third, height)), span)
     first *= x
     first += rest
