@@ -1,4 +1,6 @@
-"""Passes as NPZ files of NumPy: one array per pass, with rows from the bottom, as they were cast."""
+"""Passes as NPZ files of NumPy: one array per pass, with rows from the bottom, as they were cast: the pixels of the
+render border only. Images and EXR files have the whole frame, unless it is cropped to the border.
+"""
 
 from __future__ import annotations
 

@@ -4,6 +4,7 @@ import argparse
 import re
 from collections.abc import Callable, Sequence
 from functools import wraps
+from math import isnan
 from typing import TypeVar
 
 from ...core.camera.pixel_time import LAST_FRAME
@@ -58,7 +59,9 @@ def of_form(form: str) -> Callable[[Callable[[str], T]], Callable[[str], T]]:
 def frame_number(text: str) -> float:
     """Return a frame number."""
     frame = float(text)
-    if not abs(frame) <= LAST_FRAME:
+    if isnan(frame):
+        raise ValueError(text)
+    if abs(frame) > LAST_FRAME:
         raise argparse.ArgumentTypeError(f"{text} is beyond Blender's last frame, {LAST_FRAME}")
     return frame
 

@@ -59,5 +59,6 @@ def chosen_lens(path: str, key: str, name: str = "") -> Lens:
             raise InputError(f"calibration file {path!r} has {said}")
         said = f"no camera {name!r}" if name and not chosen else f"{len(chosen)} cameras"
         setting = f"{FILE_CAMERA.label} (--calibration-camera)"
-        raise InputError(f"calibration file {path!r} has {said}: set {setting} to one of {', '.join(names)}")
+        remedy = f"set {setting} to one of {', '.join(names)}" if names != [""] else f"leave {setting} empty"
+        raise InputError(f"calibration file {path!r} has {said}: {remedy}")
     return chosen[0]

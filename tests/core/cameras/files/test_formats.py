@@ -222,6 +222,11 @@ def test_a_camera_that_is_not_in_the_file_is_refused_with_those_that_are(tmp_pat
         of_file(tmp_path / "camchain.yaml", GOOD, "OPENCV_PINHOLE", calibration_camera="cam7")
 
 
+def test_of_a_file_whose_camera_has_no_name_none_is_chosen(tmp_path):
+    with pytest.raises(InputError, match=r"no camera 'cam7': leave Camera in File \(--calibration-camera\) empty$"):
+        of_file(tmp_path / "lens", mrcal("PINHOLE", NUMBERS), "OPENCV_PINHOLE", calibration_camera="cam7")
+
+
 @pytest.mark.parametrize(
     "frame",
     [
