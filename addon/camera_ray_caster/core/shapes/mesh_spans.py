@@ -8,9 +8,7 @@ Reference: M. Olano and T. Greer, Triangle Scan Conversion using 2D Homogeneous 
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import reduce
 from typing import Any
 
 import numpy as np
@@ -77,18 +75,17 @@ class Lattice:
         reach = float(np.sqrt(np.square(x).max() + np.square(y).max() + 1))
         return cls(x, y, (first[0], first[1]), (step[0], step[1]), float(z), rays.origin is not None, reach)
 
-    def edges(self, corners: Any) -> list[tuple[Any, Any, Any]]:
-        """Return the coefficients of the three volumes as linear functions of l."""
+    def edges(self, corners: np.ndarray) -> tuple[Any, Any, Any]:
+        """Return the coefficients of the three volumes as linear functions of l, (3, k) each: edge, triangle."""
+        a, b = (corners[[edge[end] for edge in EDGES]].swapaxes(0, 1) for end in (0, 1))
         if self.is_parallel:
-            return [
-                tuple(self.z * part for part in (a[1] - b[1], b[0] - a[0], a[0] * b[1] - a[1] * b[0]))
-                for a, b in ((corners[i], corners[j]) for i, j in EDGES)
-            ]
-        return [(x, y, z * self.z) for x, y, z in (cross(corners[i], corners[j]) for i, j in EDGES)]
+            return self.z * (a[1] - b[1]), self.z * (b[0] - a[0]), self.z * (a[0] * b[1] - a[1] * b[0])
+        x, y, z = cross(a, b)
+        return x, y, z * self.z
 
-    def scale(self, corners: Any) -> Any:
+    def scale(self, corners: np.ndarray) -> np.ndarray:
         """Return the scale of the volumes: their errors are at most ROUNDING times it."""
-        longest = np.maximum.reduce([norm(corner) for corner in corners])
+        longest = norm(corners.swapaxes(0, 1)).max(axis=0)
         return (longest + self.reach) ** 2 if self.is_parallel else longest**2 * self.reach
 
 
@@ -110,14 +107,15 @@ def spans(lattice: Lattice, corners: Any, bounds: np.ndarray, width: int) -> Spa
     normal, product = plane(corners)
     height, slope = dot(normal, corners[0]), normal[2] * lattice.z
     scale = 2 * ROUNDING * lattice.scale(corners)
-    edges = np.array(lattice.edges(corners))  # edge, coefficient, triangle
+    edges = to_x, to_y, to_z = lattice.edges(corners)
     if lattice.is_parallel:
-        edges *= np.sign(slope)
+        for coefficient in edges:
+            coefficient *= np.sign(slope)
         steep, clear = np.abs(slope), np.abs(slope) > scale
     else:
         steep, clear = np.abs(height) / np.abs(corners[:, 2]).max(axis=0), True
     clear = clear & (steep > STEEP * product * lattice.reach)
-    inverse = 1 / (edges[:, 0] * lattice.step[0])
+    inverse = 1 / (to_x * lattice.step[0])
     doubt = scale * np.abs(inverse)
     is_level = ~(doubt < CLEAR)
     x0, x1, y0, y1 = bounds.T
@@ -125,10 +123,11 @@ def spans(lattice: Lattice, corners: Any, bounds: np.ndarray, width: int) -> Spa
     is_open = np.zeros(len(at), bool)
     if is_level.any():
         at, row, is_open = _level(lattice, edges, is_level, scale, bounds, at, row)
-    start = -(edges[:, 0] * lattice.first[0] + (edges[:, 1] * lattice.first[1] + edges[:, 2])) * inverse
-    change = -edges[:, 1] * lattice.step[1] * inverse
-    low = reduce(np.maximum, _at_rows(start, change, ~is_level & (inverse > 0), -np.inf, at, row))
-    high = reduce(np.minimum, _at_rows(start, change, ~is_level & (inverse < 0), np.inf, at, row))
+    start = -(to_x * lattice.first[0] + (to_y * lattice.first[1] + to_z)) * inverse
+    moved = taken(np.where(is_level, 0.0, -to_y * lattice.step[1] * inverse), at)
+    moved *= row
+    low = (taken(np.where(~is_level & (inverse > 0), start, -np.inf), at) + moved).max(axis=0)
+    high = (taken(np.where(~is_level & (inverse < 0), start, np.inf), at) + moved).min(axis=0)
     doubt = taken(np.where(is_level, 0, doubt).max(axis=0), at)
     first = np.maximum(np.ceil(low - doubt), taken(x0, at))
     last = np.minimum(np.floor(high + doubt), taken(x1, at) - 1)
@@ -173,7 +172,7 @@ def _crossing(lattice: Lattice, corner: Any, normal: Any, at: np.ndarray, row, s
     return np.divide(height, first, out=first)
 
 
-def _level(lattice: Lattice, edges: np.ndarray, is_level: np.ndarray, scale, bounds: np.ndarray, at, row):
+def _level(lattice: Lattice, edges: Any, is_level: np.ndarray, scale, bounds: np.ndarray, at, row):
     """Return the rows of triangles, as ``at`` and ``row``, without those that lie outside of an edge nearly parallel to
     the rows, and in which of them rounding could decide.
     """
@@ -182,15 +181,9 @@ def _level(lattice: Lattice, edges: np.ndarray, is_level: np.ndarray, scale, bou
     k = at[some]
     x = lattice.first[0] + lattice.step[0] * np.stack((bounds[k, 0], bounds[k, 1] - 1))
     y = lattice.first[1] + lattice.step[1] * row[some]
-    for (to_x, to_y, to_z), meant in zip(edges, is_level, strict=True):
+    for to_x, to_y, to_z, meant in zip(*edges, is_level, strict=True):
         ends = to_x[k] * x + (to_y[k] * y + to_z[k])
         gone[some] |= meant[k] & (ends.max(axis=0) < -scale[k])
         is_open[some] |= meant[k] & (ends.min(axis=0) <= scale[k])
     stay = ~gone
     return at[stay], row[stay], is_open[stay]
-
-
-def _at_rows(start, change, meant: np.ndarray, without: float, at: np.ndarray, row: np.ndarray) -> Iterator[np.ndarray]:
-    """Yield the columns at which each edge crosses the rows, (m,); ``without`` unless the edge is ``meant``, (3, k)."""
-    for own_start, own_change in zip(np.where(meant, start, without), np.where(meant, change, 0.0), strict=True):
-        yield taken(own_start, at) + taken(own_change, at) * row
