@@ -60,7 +60,8 @@ class PixelBounds:
             frame = self.camera.model.bounds(centers, radii)
         frame[endless] = (-np.inf, np.inf, -np.inf, np.inf)
         seen = ~np.isnan(frame).any(axis=1)
-        bounds = self._in_plan(np.where(seen[:, None], frame, 0.0).T)
+        bounds = np.empty((len(radii), 4), np.int64)
+        self._in_plan(np.where(seen[:, None], frame, 0.0).T, bounds)
         return bounds, seen & (bounds[:, 0] < bounds[:, 1]) & (bounds[:, 2] < bounds[:, 3])
 
     def within(self, bounds: np.ndarray) -> np.ndarray:
@@ -88,23 +89,25 @@ class PixelBounds:
         """See ``shapes.kind.PixelBounds``."""
         return self.cull and self.camera.model.straight and not (self.sampled and self.camera.aperture)
 
-    def of_points(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def of_points(self, points: np.ndarray, out: np.ndarray) -> np.ndarray:
         """See ``shapes.kind.PixelBounds``."""
         with np.errstate(all="ignore"):
             x, y = self.camera.model.project(points).T
             counts = (np.abs(x) <= FARTHEST) & (np.abs(y) <= FARTHEST)
         if not counts.all():
             x, y = np.where(counts, (x, y), 0.0)
-        m = POINT_MARGIN
-        return self._in_plan((x - m, x + m, y - m, y + m)), counts
+        self._in_plan((x, x, y, y), out, POINT_MARGIN)
+        return counts
 
-    def _in_plan(self, frame: Iterable[np.ndarray]) -> np.ndarray:
-        """Return bounds x0, x1, y0, y1 in the full frame, (n,) each, as bounds in the pixels of the plan."""
-        raster, margin = self.camera.raster, SAMPLE_MARGIN if self.sampled else 0.0
-        x0, x1, y0, y1 = frame
-        edges = []
-        for low, high, corner, size in ((x0, x1, raster.x0, raster.shape[1]), (y0, y1, raster.y0, raster.shape[0])):
-            first = np.ceil(low - (margin + 0.5)) - corner  # pixel centers, not pixels
-            last = np.floor(high + (margin + 0.5)) - corner
-            edges += [np.clip(first, 0, size, out=first), np.clip(last, 0, size, out=last)]
-        return self.within(np.stack(edges, axis=1).astype(np.int64))
+    def _in_plan(self, frame: Iterable[np.ndarray], out: np.ndarray, margin: float = 0.0) -> None:
+        """Write bounds x0, x1, y0, y1 in the full frame, (n,) each, as bounds in the pixels of the plan, (n, 4)."""
+        raster = self.camera.raster
+        away = margin + (SAMPLE_MARGIN if self.sampled else 0.0) + 0.5  # pixel centers, not pixels
+        ends = ((np.ceil, -away, raster.x0, raster.shape[1]), (np.floor, away, raster.x0, raster.shape[1]),
+                (np.ceil, -away, raster.y0, raster.shape[0]), (np.floor, away, raster.y0, raster.shape[0]))  # fmt: skip
+        for column, place, (whole, move, corner, size) in zip(out.T, frame, ends, strict=True):
+            edge = place + move
+            whole(edge, out=edge)
+            edge -= corner
+            column[...] = np.clip(edge, 0, size, out=edge)
+        out[...] = self.within(out)

@@ -27,12 +27,11 @@ class Points:
         """Compute the images of some points, whose ``places`` are written."""
         if self._images is None:
             return
-        bounds, counts = self._pixels.of_points(self.places[:, some].T)
-        bounds[~counts] = self._pixels.whole
         images = self._images[some]
-        images[...] = bounds
+        others = np.flatnonzero(~self._pixels.of_points(self.places[:, some].T, images))
+        images[others] = self._pixels.whole
         _turn_ends(images)  # the bounds of a hull are the minima over its corners then
-        images[~counts, 0] = self._unknown
+        images[others, 0] = self._unknown
 
     def at(self, corners: np.ndarray) -> np.ndarray:
         """Return the places of the corners, (c, 3, k): corner, component."""

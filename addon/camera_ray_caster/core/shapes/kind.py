@@ -49,9 +49,10 @@ class PixelBounds(Protocol):
     def whole(self) -> np.ndarray:
         """(4,) int: all pixels of the plan."""
 
-    def of_points(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return the bounds of points (n, 3) in the camera's frame, most of which hold no pixel center, and which
-        points have an image that counts. Points between these are seen from the least x0, y0 to the largest x1, y1.
+    def of_points(self, points: np.ndarray, out: np.ndarray) -> np.ndarray:
+        """Write the bounds of points (n, 3) in the camera's frame, most of which hold no pixel center, to ``out``, and
+        return which points have an image that counts. Points between these are seen from the least x0, y0 to the
+        largest x1, y1.
         """
 
 
