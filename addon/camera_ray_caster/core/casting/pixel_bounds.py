@@ -49,8 +49,9 @@ class PixelBounds:
 
     def of_balls(self, centers: np.ndarray, radii: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """See ``shapes.kind.PixelBounds``."""
+        bounds = np.tile(self.whole, (len(radii), 1))
         if not self.cull:
-            return np.tile(self.whole, (len(radii), 1)), np.ones(len(radii), bool)
+            return bounds, np.ones(len(radii), bool)
         endless = np.isinf(radii)
         with np.errstate(all="ignore"):
             radii = np.where(endless, 0.0, radii)
@@ -60,7 +61,6 @@ class PixelBounds:
             frame = self.camera.model.bounds(centers, radii)
         frame[endless] = (-np.inf, np.inf, -np.inf, np.inf)
         seen = ~np.isnan(frame).any(axis=1)
-        bounds = np.empty((len(radii), 4), np.int64)
         self._in_plan(np.where(seen[:, None], frame, 0.0).T, bounds)
         return bounds, seen & (bounds[:, 0] < bounds[:, 1]) & (bounds[:, 2] < bounds[:, 3])
 
