@@ -59,14 +59,14 @@ SURFACES = 1 << 14
 1.0 and 1.08.
 """
 
-SLABS, SLAB_PIXELS = 2, 1 << 17
+SLABS, SLAB_PIXELS = 1, 1 << 17
 """Factors of the number of slabs in which triangles are tested, the nearest first; triangles behind a tested slab are
 skipped. The number is SLABS times the square root of the triangles' work over (the tile's pixels plus SLAB_PIXELS):
-before each slab all pixels of the tile are checked, and SLAB_PIXELS stands for the numpy calls. Processor time of depth
-and shape index for a monkey head of 1,000, 63,000 and a million triangles before a wall, and for a thousand heads:
-SLABS 1: 0.97, 1.01, 0.98 and 1.04 times; 3: 1.06, 1.04, 1.11 and 1.07. Always four slabs, without skipping triangles
-larger than a cell: 1.1 to 1.4 times, for the thousand 3 times. SLAB_PIXELS 0: 1.5 times the time for 60 heads of 3,936
-triangles in 200 x 119 pixels; up to 2**18: within the noise.
+before each slab all pixels of the tile are checked, and SLAB_PIXELS stands for the numpy calls. Time of four passes for
+a monkey head of 1,000, 252,000 and a million triangles before a wall, and for a thousand heads, medians of 30 pairs on
+two threads: SLABS 2: 1.01, 1.02, 1.06 and 1.01 times; 0.7: 1.1, 1.09, 1.01 and 1.05. Always four slabs, without skipping
+triangles larger than a cell: 1.1 to 1.4 times, for the thousand 3 times. SLAB_PIXELS 0: 1.5 times the time for 60 heads
+of 3,936 triangles in 200 x 119 pixels; up to 2**18: within the noise.
 """
 
 TRIANGLE_PIXELS = 16
@@ -74,6 +74,7 @@ TRIANGLE_PIXELS = 16
 
 FEW_HITS = 1 / 64
 """Hits, as a fraction of a tile's pixels, that do not make its farthest t be computed again: the old ones are larger.
+0: 1.03 to 1.05 times the time of the casts of SLABS with 252,000 and a million triangles; 1/16 and 1/8: within 2 %.
 """
 
 CELL = 8
