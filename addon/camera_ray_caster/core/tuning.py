@@ -64,7 +64,7 @@ SLABS, SLAB_PIXELS = 1, 1 << 17
 skipped. The number is SLABS times the square root of the triangles' work over (the tile's pixels plus SLAB_PIXELS):
 before each slab all pixels of the tile are checked, and SLAB_PIXELS stands for the numpy calls. Time of four passes for
 a monkey head of 1,000, 252,000 and a million triangles before a wall, and for a thousand heads, medians of 30 pairs on
-two threads: SLABS 2: 1.01, 1.02, 1.06 and 1.01 times; 0.7: 1.1, 1.09, 1.01 and 1.05. Always four slabs, without skipping
+two threads: 2: 1.01, 1.02, 1.06 and 1.01 times; 0.7: 1.1, 1.09, 1.01 and 1.05. Always four slabs, without skipping
 triangles larger than a cell: 1.1 to 1.4 times, for the thousand 3 times. SLAB_PIXELS 0: 1.5 times the time for 60 heads
 of 3,936 triangles in 200 x 119 pixels; up to 2**18: within the noise.
 """

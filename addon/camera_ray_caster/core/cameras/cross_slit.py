@@ -46,6 +46,7 @@ class CrossSlit(WindowModel):
     number = 11
     central = False
     by_polynomials = True
+    ray_rounding = gamma(4)
     SETTINGS = (SLIT, SECOND_SLIT, *Perspective.SETTINGS)
     FORMULA = (
         Step("Point on the perspective window", "P = (X, Y, -1)"),
@@ -103,7 +104,7 @@ class CrossSlit(WindowModel):
         direction = cross(first, second)
         size = norm(direction)
         away = norm(plane) + self.formula_reach
-        turned = gamma(16) * away * (norm(first) + norm(second)) / np.where(size > 0, size, np.nan)
+        turned = gamma(12) * away * (norm(first) + norm(second)) / np.where(size > 0, size, np.nan)
         slope = size / np.where(direction[2] != 0, direction[2], np.nan)
         return gamma(4) * norm(plane) + turned * slope * slope, turned
 

@@ -103,11 +103,10 @@ class PixelBounds:
         """Write bounds x0, x1, y0, y1 in the full frame, (n,) each, as bounds in the pixels of the plan, (n, 4)."""
         raster = self.camera.raster
         away = margin + (SAMPLE_MARGIN if self.sampled else 0.0) + 0.5  # pixel centers, not pixels
-        ends = ((np.ceil, -away, raster.x0, raster.shape[1]), (np.floor, away, raster.x0, raster.shape[1]),
-                (np.ceil, -away, raster.y0, raster.shape[0]), (np.floor, away, raster.y0, raster.shape[0]))  # fmt: skip
-        for column, place, (whole, move, corner, size) in zip(out.T, frame, ends, strict=True):
-            edge = place + move
-            whole(edge, out=edge)
+        sides = (raster.x0, raster.shape[1]), (raster.y0, raster.shape[0])
+        for k, place in enumerate(frame):
+            corner, size = sides[k // 2]
+            edge = np.floor(place + away) if k % 2 else np.ceil(place - away)
             edge -= corner
-            column[...] = np.clip(edge, 0, size, out=edge)
+            out[:, k] = np.clip(edge, 0, size, out=edge)
         out[...] = self.within(out)
