@@ -8,8 +8,8 @@ integration (E. Hairer et al., Solving Ordinary Differential Equations I, sectio
 evaluations, and the estimate is on the safe side.
 
 Colors, lights and maps are interpolated in the same way, within APPEARANCE. Indices change in steps, and shapes appear
-or disappear: such a moment is found to SHORTEST. An event between two evaluations, and shorter than their distance, is
-missed; whole frames or frames with keys are evaluated so that this needs an event without keys.
+or disappear: such a moment is found to SHORTEST. An event shorter than the distance of the evaluations can be missed;
+whole frames, or those with keys, are evaluated first.
 """
 
 from __future__ import annotations
