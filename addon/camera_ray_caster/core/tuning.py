@@ -45,12 +45,12 @@ measured with 1 to 15 tiles. If this part is ignored, 16 threads take two to fou
 
 MESH_BLOCK = 64
 """Number of consecutive triangles of a mesh that are found visible or hidden together. 16, 32 and 128: within 5 % of
-the time of the casts of SLABS.
+the time of the casts of SLAB_PIXELS.
 """
 
 CHUNK = 1 << 16
 """Number of mesh vertices placed, or triangles bounded, at once; before that, blocks behind the hits so far are left
-out. In the casts of SLABS: 2**14 1.0, 1.0, 1.45 and 1.2 times, 2**18 1.0, 1.0, 1.0 and 1.3. A strip camera takes a
+out. In the casts of SLAB_PIXELS: 2**14 1.0, 1.0, 1.45, 1.2 times, 2**18 1.0, 1.0, 1.0, 1.3. A strip camera takes a
 microsecond to bound a triangle, and a cast can be stopped only between two chunks.
 """
 
@@ -59,32 +59,27 @@ SURFACES = 1 << 14
 1.0 and 1.08.
 """
 
-SLABS, SLAB_PIXELS = 1, 1 << 17
-"""Factors of the number of slabs in which triangles are tested, the nearest first; triangles behind a tested slab are
-skipped. The number is SLABS times the square root of the triangles' work over (the tile's pixels plus SLAB_PIXELS):
-before each slab all pixels of the tile are checked, and SLAB_PIXELS stands for the numpy calls. Time of four passes for
-a monkey head of 1,000, 252,000 and a million triangles before a wall, and for a thousand heads, medians of 30 pairs on
-two threads: 2: 1.01, 1.02, 1.06 and 1.01 times; 0.7: 1.1, 1.09, 1.01 and 1.05. Always four slabs, without skipping
-triangles larger than a cell: 1.1 to 1.4 times, for the thousand 3 times. SLAB_PIXELS 0: 1.5 times the time for 60 heads
-of 3,936 triangles in 200 x 119 pixels; up to 2**18: within the noise.
+SLAB_PIXELS = 1 << 17
+"""Number of pixels that take as long to check as the numpy calls for a slab. Triangles are tested in slabs, the nearest
+first, and those behind a tested slab are skipped; the number of slabs is the square root of the triangles' work over
+(the tile's pixels plus SLAB_PIXELS). Time of four passes for a monkey head of 1,000, 252,000 and a million triangles
+before a wall, and for a thousand heads, medians of 30 pairs on two threads: twice as many slabs 1.01, 1.02, 1.06 and
+1.01 times, 0.7 of the number 1.1, 1.09, 1.01 and 1.05. Always four, without skipping triangles larger than a cell:
+1.1 to 1.4 times, for the thousand 3 times. 0: 1.5 times the time for 60 heads of 3,936 triangles in 200 x 119 pixels;
+up to 2**18: within the noise.
 """
 
 TRIANGLE_PIXELS = 16
 """Number of pixel tests that take as long as the other work for a triangle: 8 to 20 in profiles of these casts."""
 
-FEW_HITS = 1 / 64
-"""Hits, as a fraction of a tile's pixels, that do not make its farthest t be computed again: the old ones are larger.
-0: 1.03 to 1.05 times the time of the casts of SLABS with 252,000 and a million triangles; 1/16 and 1/8: within 2 %.
-"""
-
 CELL = 8
 """Side, in pixels, of the smallest cells whose farthest t is computed. 4: 1.03 to 1.09 times the time of the casts of
-SLABS; 16: 1.0 to 1.04 times.
+SLAB_PIXELS; 16: 1.0 to 1.04 times.
 """
 
 SPANNED, SPANNED_PIXELS = 1 << 15, 1 << 19
 """Number of triangles whose spans are computed at once, and number of pixels in their bounds. An eighth of the
-triangles: 1.1 times the time for a million; a quarter of the pixels: 1.1 to 1.25 times that of the casts of SLABS;
+triangles: 1.1 times the time for a million; a quarter of the pixels: 1.1 to 1.25 times that of casts of SLAB_PIXELS;
 twice as many: within 4 %, but more memory.
 """
 

@@ -34,7 +34,7 @@ def check_annotations(scene) -> None:
 def annotated(scene, images: Images, file_name: str, keypoints: Sequence[str] = ()) -> str:
     """Return the annotations of a picture that was just rendered from the scene, as JSON in COCO's format.
 
-    ``file_name`` is the picture's file; for ``keypoints``, see ``read.keypoints``.
+    ``file_name`` is the PNG or, if combined is not cast, the file of passes; for ``keypoints``, see ``read.keypoints``.
     """
     camera, render = images.camera, scene.render
     raster = camera.raster

@@ -41,10 +41,8 @@ class Found:
     """The indices of the triangles that have numbers."""
     _farthest: list[np.ndarray] = field(default_factory=list)
     """The largest t in the square of 1, 2, 4 ... cells a side that begins at each cell, to the right and upwards, as
-    far as it was asked for; or larger values, from before the last few hits.
+    far as it was asked for since the last hit.
     """
-    _hits: int = 0
-    """Number of hits since the largest t were computed."""
 
     @classmethod
     def of(cls, nearest: np.ndarray, rays: SearchRays) -> Found:
@@ -74,7 +72,7 @@ class Found:
 
     def keep(self, pixel: np.ndarray, t: np.ndarray, number: np.ndarray) -> None:
         """Note the hits that are the nearest so far; a pixel may have several."""
-        self._hits += len(pixel)
+        self._farthest.clear()
         nearest, first = self.t.reshape(-1), self.number.reshape(-1)
         while pixel.size:
             before = taken(nearest, pixel)
@@ -118,9 +116,6 @@ class Found:
     def _cells(self, most: int) -> np.ndarray:
         """Return the farthest t in squares of up to ``most`` cells, (levels, rows, columns)."""
         levels = self._farthest
-        if self._hits > tuning.FEW_HITS * self.t.size:
-            levels.clear()
-            self._hits = 0
         if not levels:
             levels.append(_largest(_largest(self.t, tuning.CELL).T, tuning.CELL).T)
         while (size := 1 << len(levels) - 1) < most:

@@ -27,7 +27,7 @@ def slabs(triangles: Triangles, pixels: int) -> Iterator[np.ndarray]:
     if not near.size:
         return
     work = tuning.TRIANGLE_PIXELS * len(near) + pixels_in(triangles.bounds).sum()
-    count = max(1, round(tuning.SLABS * math.sqrt(work / (pixels + tuning.SLAB_PIXELS))))
+    count = max(1, round(math.sqrt(work / (pixels + tuning.SLAB_PIXELS))))
     cuts = np.quantile(near[:: max(1, len(near) >> 12)], np.arange(1, count) / count)
     slab = np.searchsorted(cuts, near)
     for k in range(count):
