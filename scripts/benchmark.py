@@ -100,7 +100,7 @@ def spheres(count: int, width: int, height: int, rounds: int, threads: int) -> l
     if c.has("mitsuba"):
         entries["Mitsuba 3, aov, 4 passes"] = c.mitsuba("d:depth,n:sh_normal,p:position,i:shape_index")
         entries["Mitsuba 3, intersection"] = c.mitsuba(None)
-    if c.has("embreex") and count <= EMBREE_MOST:
+    if c.has("embreex") and c.has("trimesh") and count <= EMBREE_MOST:
         entries["Embree, distance"] = c.embree
     camera, shapes = c.scene(count, width, height)
     title = f"{count:,} spheres and a wall, {width} x {height}, {threads} threads"

@@ -10,8 +10,7 @@ from tests.core.errors.extreme_cases import Case, shapes_of
 from camera_ray_caster.core.cameras.parts.aperture import Aperture
 from camera_ray_caster.core.cast import cast
 from camera_ray_caster.core.maths.inversion import Inverse
-from camera_ray_caster.core.motion.evaluations import measure as difference
-from camera_ray_caster.core.motion.evaluations import resolve
+from camera_ray_caster.core.motion.evaluations import measured, resolve
 from camera_ray_caster.core.records import PLANE, SPHERE
 from camera_ray_caster.core.report.verification import verify
 
@@ -72,7 +71,7 @@ def evaluated() -> list[Point]:
     )
     found = []
     for tolerance, ((motion, calls), seconds, spread) in zip(TOLERANCES, results, strict=True):
-        errors = [difference(motion, evaluate, [frame]) for frame in frames]
+        errors = [measured(motion, evaluate, [frame]).measured for frame in frames]
         scene = f"{tolerance:g} px: {calls}"
         found.append(Point("time", scene, "slit scan", np.median(errors), max(errors), "px", seconds, spread))
     return found

@@ -2,8 +2,10 @@
 
 import ast
 import graphlib
+import importlib
 import sys
 import tomllib
+from importlib.util import find_spec
 from pathlib import Path
 
 import pytest
@@ -11,7 +13,7 @@ import pytest
 ROOT = Path(__file__).parents[2]
 PACKAGE = ROOT / "addon" / "camera_ray_caster"
 MODULES = sorted(PACKAGE.rglob("*.py"))
-SOURCES = [*MODULES, *sorted((ROOT / "scripts").glob("*.py")), *sorted((ROOT / "tests").rglob("*.py"))]
+SOURCES = [*MODULES, *sorted((ROOT / "scripts").rglob("*.py")), *sorted((ROOT / "tests").rglob("*.py"))]
 
 # What a part of the package may import of the package: the longest name that fits counts. The lowest layer comes first.
 LOW = {"core.conventions", "core.tuning", "core.mesh", "core.records", "core.arguments", "core.memory", "core.maths"}
@@ -121,6 +123,16 @@ def test_arrows_point_down(path):
     allowed = longest(name_of(path), MAY_IMPORT)
     wrong = {name for name in inside if not any(fits(name, part) for part in allowed)}
     assert not wrong, f"imports {wrong}, may import only {sorted(allowed)}"
+
+
+@each_source
+def test_a_name_from_core_exists(path):
+    """Scripts import while they run, some of them rarely: a name that was changed would be found late."""
+    for node in ast.walk(ast.parse(path.read_text())):
+        if isinstance(node, ast.ImportFrom) and (node.module or "").startswith("camera_ray_caster.core"):
+            module = importlib.import_module(node.module)
+            for alias in node.names:
+                assert hasattr(module, alias.name) or find_spec(f"{node.module}.{alias.name}"), f"{path}: {alias.name}"
 
 
 def test_no_arrow_comes_back():
