@@ -43,6 +43,7 @@ def cast(
     cull: bool = True,
     precision: str = AUTOMATIC,
     progress: Callable[[float], bool] | None = None,
+    finished: Callable[[Images, slice], None] | None = None,
 ) -> Images:
     """Return the passes of the camera's render window as a mapping of name to array.
 
@@ -52,6 +53,8 @@ def cast(
     other passes show the chief rays. ``threads`` is the maximum number of threads, by default one per processor; fewer
     are used if they would wait for each other. ``progress(fraction)`` is called in the calling thread after each tile,
     and twenty times a second; if it returns False, the cast stops before the next shape and raises Cancelled.
+    ``finished(images, rows)`` is called there, too, as soon as some rows, a slice, are complete in all passes, once for
+    each row; the other rows are undefined.
     ``cull=False`` tests every shape at every pixel: the same picture, but slower.
     Raises InputError for an unknown pass, shading or precision, for a dtype that is not a floating-point type, for a
     number of samples or threads that is not whole or below 1, for more than MOST_SAMPLES samples, for flow to frames
@@ -63,7 +66,7 @@ def cast(
     threads = processors() if threads is None else arguments.count(threads, "threads")
     samples = arguments.count(samples, "samples", MOST_SAMPLES)
     dtype = arguments.real_type(dtype, "dtype")
-    progress = arguments.function(progress, "progress")
+    progress, finished = arguments.function(progress, "progress"), arguments.function(finished, "finished")
     passes = arguments.words(passes, "passes", PASSES)
     request = Request(passes, tuple(PASSES), shading, arguments.flag(cull, "cull"), precision=precision)
     memory.require(image_bytes(camera.raster.shape, passes, dtype), memory.of_pixels("the passes", camera.raster.shape))
@@ -95,11 +98,28 @@ def cast(
                     seconds += cast_tile(plan, tile, count, into, scratch, effort)
         return seconds
 
+    write = 0.0
+
+    def tell(rows: slice) -> None:
+        nonlocal write
+        if finished is not None:
+            since = perf_counter()
+            finished(images, rows)
+            write += perf_counter() - since
+
+    def end(tile: Tile) -> None:
+        if time is None:
+            tell(tile.rows)
+
     began = perf_counter()
     others = round(whole.work.sum() / len(tiles) / tuning.SERIAL_WORK)  # may hold the interpreter in turn
-    busy = in_threads(run, tiles, min(threads, 1 + others), request.real, effort, progress)
-    share = (perf_counter() - began) / max(busy.sum(), np.finfo(float).tiny)
+    busy = in_threads(run, tiles, min(threads, 1 + others), request.real, effort, progress, end)
+    if time is not None:  # a row may have pixels of many times
+        tell(slice(0, camera.raster.shape[0]))
+    share = (perf_counter() - began - write) / max(busy.sum(), np.finfo(float).tiny)
     images.seconds |= dict(zip(STEPS, busy * share, strict=True))
+    if finished is not None:
+        images.seconds["write"] = write
     return images
 
 

@@ -50,8 +50,12 @@ the time of the casts of SLAB_PIXELS.
 
 CHUNK = 1 << 16
 """Number of mesh vertices placed, or triangles bounded, at once; before that, blocks behind the hits so far are left
-out. In the casts of SLAB_PIXELS: 2**14 1.0, 1.0, 1.45, 1.2 times, 2**18 1.0, 1.0, 1.0, 1.3. A strip camera takes a
-microsecond to bound a triangle, and a cast can be stopped only between two chunks.
+out. In the casts of SLAB_PIXELS: 2**14 1.0, 1.0, 1.45, 1.2 times, 2**18 1.0, 1.0, 1.0, 1.3.
+"""
+
+BALLS = 1 << 15
+"""The same for triangles that are bounded as balls, since lines may look curved. A cast can be stopped only between two
+chunks, and a strip camera takes 2 to 4 microseconds for a ball.
 """
 
 SURFACES = 1 << 14

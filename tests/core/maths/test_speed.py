@@ -6,7 +6,7 @@ from threading import Barrier
 import numpy as np
 import pytest
 
-from camera_ray_caster.core.maths.speed import Scratch, lazy, sharing, whole_rows
+from camera_ray_caster.core.maths.speed import Scratch, Shared, lazy, sharing, whole_rows
 from camera_ray_caster.core.maths.vector import inverse, linear, matvec
 
 RNG = np.random.default_rng(5)
@@ -62,6 +62,40 @@ def test_the_inverse_is_right_to_its_condition():
         matrix = RNG.normal(size=(3, 3)) + skew * RNG.normal(size=(3, 1))
         bound = 16 * np.finfo(float).eps * np.linalg.cond(matrix)
         assert np.abs(inverse(matrix) @ matrix - np.eye(3)).max() <= bound
+
+
+def test_threads_share_parts_and_do_only_those_that_are_needed():
+    """Each needs three of the four; the two that both need are done once, by both threads at a time."""
+    both, done = Barrier(2, timeout=20), []
+    parts = [lambda: done.append(0), lambda: (both.wait(), done.append(1)), lambda: (both.wait(), done.append(2))]
+    shared = Shared([*parts, lambda: done.append(3)])
+
+    def needs(some):
+        for _ in shared.work(some):
+            pass
+        return {*some} <= {*done}
+
+    with ThreadPoolExecutor(2) as pool:
+        assert all(pool.map(needs, ([1, 2], [1, 2])))
+    assert sorted(done) == [1, 2]
+    assert needs([0, 1])
+    assert sorted(done) == [0, 1, 2]
+    assert len(shared.results()) == 4
+    assert sorted(done) == [0, 1, 2, 3]
+
+
+def test_an_error_in_a_shared_part_is_raised_wherever_parts_are_needed():
+    both = Barrier(2, timeout=20)
+
+    def fail():
+        both.wait()
+        raise KeyError("part")
+
+    shared = Shared([fail, both.wait])
+    with ThreadPoolExecutor(2) as pool:
+        for found in [pool.submit(shared.results) for _ in range(2)]:
+            with pytest.raises(KeyError, match="part"):
+                found.result()
 
 
 def test_threads_work_out_a_property_of_different_objects_at_once():

@@ -21,27 +21,33 @@ from .test_mesh import SMALL, each_model
 
 
 def test_meshes_pay_for_what_is_seen_of_them(monkeypatch):
-    """A mesh out of the picture is not placed, and no triangle of one behind another is looked at, if they are too many
-    to be looked at together.
+    """A mesh out of the picture is not bounded. One behind another is not placed, and none of its triangles is looked
+    at. Small meshes would be looked at together.
     """
     monkeypatch.setattr(tuning, "CHUNK", 1 << 10)
     cam = camera_at(resolution_x=400, resolution_y=400)
     front, apart = ball(40, 40), ball(9, 9)
     behind = ball(30, 30)
     shapes = shapes_of((front, (0, 0, -2), 1.0), (apart, (0, 50, -5), 1.0), (behind, (0.1, 0, -9), 0.5))
-    looked_at = Counter()
+    looked_at, placed = Counter(), set()
+
+    def place(self, some, part):
+        placed.update(some.tolist())
+        return own_place(self, some, part)
 
     def triangles(self, some):
         looked_at.update(np.repeat(self.blocks.shape[some], self.blocks.count[some]).tolist())
         return own(self, some)
 
-    own = MeshesInView.triangles
+    own, own_place = MeshesInView.triangles, MeshesInView._place
     monkeypatch.setattr(MeshesInView, "triangles", triangles)
+    monkeypatch.setattr(MeshesInView, "_place", place)
     images = cast(cam, shapes, ("depth", "shape_index"))
     ((meshes,),) = ([one.meshes] for one in images.plan.sets)
     assert set(meshes.blocks.shape) == {0, 2}
     assert looked_at[0] > len(front) / 2
     assert looked_at[2] == 0
+    assert placed == {0}
     assert set(np.unique(images["shape_index"])) == {-1, 0}
     assert EPS < images["depth"].min() < 2
 

@@ -5,7 +5,6 @@ from collections.abc import Mapping
 from dataclasses import replace
 from functools import partial, reduce
 from operator import add
-from time import perf_counter
 
 import bpy
 import numpy as np
@@ -80,29 +79,31 @@ class CameraRayCaster(Viewport, bpy.types.RenderEngine):
         given, made_by = {}, {"engine": self.bl_idname, "samples": depsgraph.scene_eval.camera_ray_caster.samples}
         if self.picture is not None and "combined" in keys:
             given, made_by = {"combined": self.picture.pixels[layer, view]}, self.picture.made_by
+
+        def store(images: Images, rows: slice) -> None:
+            found = images | given
+            self.store({entry.label: (entry.key, found[entry.key]) for entry in wanted}, rows, layer, view)
+
         images, report = run(
-            depsgraph, self.camera_override, [key for key in keys if key not in given], self.advance,
+            depsgraph, self.camera_override, [key for key in keys if key not in given], self.advance, store,
             visit=partial(self.visit, depsgraph), view=view, eye=partial(self.eye, view=view),
         )  # fmt: skip
         images |= given
         if self.images is not None:
             self.images[layer, view] = images
         views = {view: report.record} if view else {}
-        report = replace(report, passes=tuple(keys), combined=made_by, views=views)
-        started = perf_counter()
-        self.store({entry.label: (entry.key, images[entry.key]) for entry in wanted}, layer, view)
-        return report.with_seconds(write=perf_counter() - started)
+        return replace(report, passes=tuple(keys), combined=made_by, views=views)
 
-    def store(self, passes: Mapping[str, tuple[str, np.ndarray]], layer: str, view: str) -> None:
-        """Store passes, given as (key, image) by Blender's labels, in Blender's result, in bands of rows."""
-        height, width = next(iter(passes.values()))[1].shape[:2]
+    def store(self, passes: Mapping[str, tuple[str, np.ndarray]], rows: slice, layer: str, view: str) -> None:
+        """Store some rows of passes, given as (key, image) by Blender's labels, in Blender's result, in bands."""
+        width = next(iter(passes.values()))[1].shape[1]
         step = max(1, BAND_PIXELS // width)
-        for first in range(0, height, step):
-            rows = slice(first, min(first + step, height))
-            result = self.begin_result(0, first, width, rows.stop - first, layer=layer, view=view)
+        for first in range(rows.start, rows.stop, step):
+            band = slice(first, min(first + step, rows.stop))
+            result = self.begin_result(0, first, width, band.stop - first, layer=layer, view=view)
             for label, (key, image) in passes.items():
                 found = result.layers[0].passes.find_by_name(label, view)
-                found.rect.foreach_set(stored(key, image[rows]))
+                found.rect.foreach_set(stored(key, image[band]))
             self.end_result(result)
 
     def visit(self, depsgraph, frame: float):

@@ -100,13 +100,17 @@ class Job:
             several=several,
         )
 
-    def cast(self, progress: Callable[[float], bool] | None = None) -> tuple[Images, Report]:
-        """Cast the passes; return images and report. ``progress`` and Cancelled are as in ``cast``."""
+    def cast(
+        self,
+        progress: Callable[[float], bool] | None = None,
+        finished: Callable[[Images, slice], None] | None = None,
+    ) -> tuple[Images, Report]:
+        """Cast the passes; return images and report. ``progress``, ``finished`` and Cancelled are as in ``cast``."""
         settings = {"shading": self.shading, "samples": self.samples, "precision": self.precision}
         shapes = [self.camera.raster.shape, self.stored]
         needed = sum(image_bytes(shape, self.passes, np.float32) for shape in shapes)
         require(needed, of_pixels("the passes", self.stored))
-        images = cast(self.camera, self.shapes, self.passes, **settings, progress=progress)
+        images = cast(self.camera, self.shapes, self.passes, **settings, progress=progress, finished=finished)
         began = perf_counter()
         bounds = accuracy(self.camera, self.shapes, images.plan)
         seconds = {**self.seconds, **images.seconds, "accuracy": perf_counter() - began}
@@ -117,6 +121,6 @@ class Job:
         return images, report
 
 
-def run(depsgraph, camera_object, passes: Sequence[str], progress=None, **eye) -> tuple[Images, Report]:
+def run(depsgraph, camera_object, passes: Sequence[str], progress=None, finished=None, **eye) -> tuple[Images, Report]:
     """Read and cast in one call: see ``Job``."""
-    return Job.read(depsgraph, camera_object, passes, **eye).cast(progress)
+    return Job.read(depsgraph, camera_object, passes, **eye).cast(progress, finished)

@@ -144,9 +144,10 @@ def in_threads(
     real: type,
     effort: Effort,
     progress: Callable[[float], bool] | None,
+    finished: Callable[[Tile], None],
 ) -> np.ndarray:
     """Run tiles on threads (numpy releases the interpreter), each with working arrays of its own, and return the sum of
-    the seconds of all tiles. ``progress`` and Cancelled: as in ``cast``.
+    the seconds of all tiles. ``progress`` and Cancelled: as in ``cast``. ``finished(tile)`` is called in this thread.
     """
     own = local()
 
@@ -155,12 +156,13 @@ def in_threads(
 
     total = np.zeros(len(STEPS))
     with ThreadPoolExecutor(workers, initializer=begin) as pool:
-        waiting = {pool.submit(lambda tile: run(tile, own.scratch), tile) for tile in tiles}
+        waiting = {pool.submit(lambda tile: run(tile, own.scratch), tile): tile for tile in tiles}
         try:
             while waiting:
-                done, waiting = wait(waiting, LISTEN, FIRST_COMPLETED)
-                for seconds in [future.result() for future in done] or [np.zeros(len(STEPS))]:
-                    total += seconds
+                for future in wait(waiting, LISTEN, FIRST_COMPLETED).done or [None]:
+                    if future is not None:
+                        total += future.result()
+                        finished(waiting.pop(future))
                     if progress is not None and not progress(effort.fraction):
                         raise Cancelled
         finally:

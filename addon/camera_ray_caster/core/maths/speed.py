@@ -12,7 +12,7 @@ import os
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from math import prod, sqrt
-from threading import Event, Lock
+from threading import Condition
 from typing import Any, Generic, TypeVar, overload
 
 import numpy as np
@@ -105,49 +105,49 @@ class Scratch:
 
 
 class Shared(Generic[T]):
-    """Work in parts that threads share: each thread that needs the results works on parts until none is left, then
-    waits for the parts that other threads have begun.
+    """Work in parts that threads share: a thread does those of the parts it needs that no other thread has begun, then
+    waits for those that others have.
     """
 
     def __init__(self, parts: Sequence[Callable[[], T]]):
-        self._parts, self._next, self._lock = parts, iter(range(len(parts))), Lock()
+        self._parts, self._changed = parts, Condition()
         self._results: list[T | None] = [None] * len(parts)
-        self._left, self._ended = len(parts), Event()
+        self._begun, self._done = (np.zeros(len(parts), bool) for _ in range(2))
         self._error: BaseException | None = None
-        if not parts:
-            self._ended.set()
 
-    def work(self) -> Iterator[None]:
-        """Work on parts until none is left, one part per step of the iteration."""
-        while True:
-            with self._lock:
-                k = next(self._next, None)
-            if k is None:
-                return
+    def work(self, some: Sequence[int] | None = None) -> Iterator[None]:
+        """Do some of the parts, by default all, one part per step of the iteration; wait for the parts that other
+        threads have begun. Raises the error of a part that failed.
+        """
+        needed = np.arange(len(self._parts)) if some is None else np.asarray(some, np.intp)
+        for k in needed[~self._begun[needed]].tolist():
+            with self._changed:
+                if self._begun[k] or self._error is not None:
+                    continue
+                self._begun[k] = True
             self._run(k)
             yield
-
-    def results(self) -> list[T]:
-        """Return the results of the parts, in their order; raise the error of a part that failed."""
-        for _ in self.work():
-            pass
-        self._ended.wait()
+        with self._changed:
+            self._changed.wait_for(lambda: self._error is not None or self._done[needed].all())
         if self._error is not None:
             raise self._error
+
+    def results(self) -> list[T]:
+        """Return the results of all parts, in their order; raise the error of a part that failed."""
+        for _ in self.work():
+            pass
         return self._results  # type: ignore[return-value]  # all parts are done
 
     def _run(self, k: int) -> None:
         try:
-            if self._error is None:
-                self._results[k] = self._parts[k]()
+            self._results[k] = self._parts[k]()
         except BaseException as error:
             self._error = error
             raise
         finally:
-            with self._lock:
-                self._left -= 1
-                if not self._left:
-                    self._ended.set()
+            with self._changed:
+                self._done[k] = True
+                self._changed.notify_all()
 
 
 class lazy(Generic[T]):

@@ -23,15 +23,17 @@ class Points:
         """Marks the x0 of a point without an image."""
         return np.iinfo(self._type).min
 
-    def image(self, some: slice) -> None:
-        """Compute the images of some points, whose ``places`` are written."""
+    def write(self, at: slice | np.ndarray, places: np.ndarray) -> None:
+        """Write the places, (3, m), of some points, which may be given by index, and their images."""
+        self.places[:, at] = places
         if self._images is None:
             return
-        images = self._images[some]
-        others = np.flatnonzero(~self._pixels.of_points(self.places[:, some].T, images))
+        images = np.empty((places.shape[1], 4), self._type)
+        others = np.flatnonzero(~self._pixels.of_points(places.T, images))
         images[others] = self._pixels.whole
         _turn_ends(images)  # the bounds of a hull are the minima over its corners then
         images[others, 0] = self._unknown
+        self._images[at] = images
 
     def at(self, corners: np.ndarray) -> np.ndarray:
         """Return the places of the corners, (c, 3, k): corner, component."""

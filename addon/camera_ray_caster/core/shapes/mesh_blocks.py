@@ -53,17 +53,16 @@ class Blocks:
 
 
 class BlockRows:
-    """All blocks of some shapes, given by their indices (n,), each of which shows a mesh."""
+    """All blocks of some shapes, given by their indices (n,), each of which shows a mesh, and their first vertices."""
 
-    def __init__(self, shapes: InCamera, rows: np.ndarray):
-        self._shapes, self._rows = shapes, rows
+    def __init__(self, shapes: InCamera, rows: np.ndarray, vertex: np.ndarray):
+        self._shapes, self._rows, self._vertex = shapes, rows, vertex
         used, mesh = np.unique(shapes.shapes.mesh[rows], return_inverse=True)
         self._meshes = [shapes.shapes.meshes[k] for k in used.tolist()]
-        sizes = np.array([(_block_count(one), len(one), vertex_count(one)) for one in self._meshes]).reshape(-1, 3)
-        blocks, self._triangles, vertices = sizes[mesh].T
+        sizes = np.array([(_block_count(one), len(one)) for one in self._meshes]).reshape(-1, 2)
+        blocks, self._triangles = sizes[mesh].T
         self._row, self._block = counted(blocks, np.zeros_like(blocks))
         self._box = self._block + (np.cumsum(sizes[:, 0]) - sizes[:, 0])[mesh][self._row]
-        self._vertex = np.cumsum(vertices) - vertices
 
     def __len__(self) -> int:
         return len(self._row)
@@ -88,9 +87,8 @@ class BlockRows:
         reach = (size * half).sum(axis=1) + gamma(16) * lost
         count = len(row)
         corners = Points(pixels, 8 * count)
-        for k, signs in enumerate(product((-1.0, 1.0), repeat=3)):
-            np.add(middle, reach * np.array(signs)[:, None], out=corners.places[:, k * count : (k + 1) * count])
-        corners.image(slice(None))
+        signs = np.array([*product((-1.0, 1.0), repeat=3)]).T
+        corners.write(slice(None), (middle[:, None] + reach[:, None] * signs[..., None]).reshape(3, -1))
         bounds, near, seen = corners.hulls(np.arange(8 * count).reshape(8, -1))
         row, first = row[seen], block[seen] * tuning.MESH_BLOCK
         return Blocks(

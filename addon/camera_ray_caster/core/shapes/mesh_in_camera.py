@@ -1,22 +1,22 @@
 """Meshes as a camera sees them: vertices in its frame, and the pixels in which each triangle may be seen.
 
-Only the triangles of blocks that are neither out of view nor hidden are bounded one by one: see ``mesh_blocks``.
+Only shapes with blocks that are neither out of view nor hidden are placed, and only the triangles of these blocks are
+bounded one by one: see ``mesh_blocks``.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import partial
 from itertools import pairwise
-from typing import NamedTuple
+from typing import Any
 
 import numpy as np
 
 from .. import tuning
 from ..maths.speed import Shared, lazy, taken
 from ..memory import require
-from ..mesh import Mesh
 from .frames import InCamera
 from .hulls import Points
 from .kind import Visible
@@ -54,18 +54,9 @@ class Triangles:
         return Triangles(taken(self.which, some), taken(self.corners, some), bounds, taken(self.near, some))
 
 
-class Instances(NamedTuple):
-    """Some consecutive shapes that show the same mesh."""
-
-    mesh: Mesh
-    rows: np.ndarray
-    """Indices into ``Shapes``."""
-    start: int
-    """Index of the first vertex of the first instance; the other instances follow."""
-
-
 class MeshesInView:
-    """The meshes in view, computed at first use by all threads that need them.
+    """The meshes in view. Threads share the work: the blocks of all meshes are bounded, vertices are placed shape by
+    shape, if a block of the shape may be seen.
 
     Rounding: the error of a vertex is at most gamma(8) times the sum of two lengths: that of the axes times that of the
     vertex from the mesh's middle, and that of the shape's center. All triangles that share a vertex use the same
@@ -73,32 +64,37 @@ class MeshesInView:
     """
 
     def __init__(self, shapes: InCamera, visible: Visible):
-        self._shapes, self._from_eye = shapes, visible.from_eye
-        groups = list(_groups(shapes, visible.at))
-        total, count = (sum(len(group.rows) * n(group.mesh) for group in groups) for n in (vertex_count, len))
+        self._shapes, self._at, self._from_eye = shapes, visible.at, visible.from_eye
+        self._mesh = shapes.shapes.mesh[visible.at]
+        sizes = np.array([(vertex_count(mesh), len(mesh)) for mesh in shapes.shapes.meshes])[self._mesh]
+        total, count = sizes.sum(axis=0).tolist()
         require(VERTEX_BYTES * total + TRIANGLE_BYTES * count, f"{count:,} triangles in view", FEWER)
+        self._start = np.cumsum(sizes[:, 0]) - sizes[:, 0]
+        self.chunk = tuning.CHUNK if visible.pixels.has_straight_lines else tuning.BALLS
+        """Number of triangles or blocks to be bounded at once."""
         self._vertices = Points(visible.pixels, total)
         self._index = np.int32 if total < 2**31 else np.int64
-        self._placing = Shared([
-            partial(self._place, group, part)
-            for group in groups
-            for part in _parts(vertex_count(group.mesh), tuning.CHUNK)
-        ])  # fmt: skip
-        self._imaging = Shared([
-            partial(self._vertices.image, part)
-            for part in _parts(total, tuning.CHUNK)
-        ])  # fmt: skip
-        rows = BlockRows(shapes, visible.at)
+        rows = BlockRows(shapes, visible.at, self._start)
         self._boxing = Shared([
             partial(rows.in_view, visible.pixels, part)
-            for part in _parts(max(len(rows), 1), tuning.CHUNK)
+            for part in _parts(max(len(rows), 1), self.chunk)
         ])  # fmt: skip
+        placing: list[Callable[[], None]] = []
+        self._placed_by = np.zeros((2, len(visible.at)), np.intp)
+        for some in _together(self._mesh, visible.near, sizes.max(axis=1)):
+            parts = [partial(self._place, some, part) for part in _parts(sizes[some[0], 0], tuning.CHUNK)]
+            self._placed_by[:, some] = [[len(placing)], [len(parts)]]
+            placing += parts
+        self._placing = Shared(placing)
 
     def prepare(self) -> Iterator[None]:
-        """Do all work that is left, in small steps."""
-        for step in (self._placing, self._imaging, self._boxing):
-            yield from step.work()
-            step.results()
+        """Bound the blocks, in small steps."""
+        yield from self._boxing.work()
+
+    def place(self, some: np.ndarray) -> Iterator[None]:
+        """Place the shapes of some blocks, in small steps."""
+        first, count = self._placed_by[:, np.searchsorted(self._at, np.unique(self.blocks.shape[some]))]
+        yield from self._placing.work(np.unique(counted(count, first)[1]))
 
     @lazy
     def blocks(self) -> Blocks:
@@ -137,17 +133,21 @@ class MeshesInView:
         corners[1:] = np.where(turn > 0, corners[1:], corners[:0:-1])
         return meets, corners
 
-    def _place(self, group: Instances, some: slice) -> None:
-        """Transform some vertices of a mesh for all instances of the group."""
-        rows, count = group.rows, vertex_count(group.mesh)
-        axes = camera_axes(self._shapes, rows)[..., None]
-        q = group.mesh.vertices[:, some] - group.mesh.middle[:, None]
-        own = slice(group.start, group.start + len(rows) * count)
-        for i in range(3):
-            place = self._vertices.places[i, own].reshape(len(rows), count)[:, some]
+    def _place(self, some: np.ndarray, part: slice) -> None:
+        """Transform a part of the vertices of some shapes in view, which show the same mesh."""
+        mesh, own = self._shapes.shapes.meshes[self._mesh[some[0]]], self._at[some]
+        axes = camera_axes(self._shapes, own)[..., None]
+        q = mesh.vertices[:, part] - mesh.middle[:, None]
+        places = np.empty((3, len(some), q.shape[1]))
+        for i, place in enumerate(places):
             np.add(axes[:, i, 1] * q[1], axes[:, i, 2] * q[2], out=place)
             place += axes[:, i, 0] * q[0]
-            place += self._shapes.center[rows, i, None]
+            place += self._shapes.center[own, i, None]
+        first = self._start[some]
+        at: Any = slice(first[0] + part.start, first[0] + part.stop)
+        if len(some) > 1:
+            at = (first[:, None] + np.arange(part.start, part.stop)).reshape(-1)
+        self._vertices.write(at, places.reshape(3, -1))
 
 
 def _parts(count: int, most: int) -> Iterator[slice]:
@@ -156,13 +156,11 @@ def _parts(count: int, most: int) -> Iterator[slice]:
         yield slice(first, min(first + most, count))
 
 
-def _groups(shapes: InCamera, rows: np.ndarray) -> Iterator[Instances]:
-    """Yield the instances of each mesh, in groups that fill a chunk with vertices or triangles."""
-    mesh, start = shapes.shapes.mesh[rows], 0
-    cuts = np.flatnonzero(np.diff(mesh)) + 1
-    for first, last in pairwise((0, *cuts.tolist(), len(rows))):
-        own = shapes.shapes.meshes[mesh[first]]
-        for part in _parts(last - first, max(1, tuning.CHUNK // max(vertex_count(own), len(own), 1))):
-            group = Instances(own, rows[first:last][part], start)
-            start += len(group.rows) * vertex_count(own)
-            yield group
+def _together(mesh: np.ndarray, near: np.ndarray, size: np.ndarray) -> Iterator[np.ndarray]:
+    """Yield the indices of shapes, given their meshes, least t and number of vertices or triangles, in groups of about
+    CHUNK of these: neighbors in depth that show one mesh.
+    """
+    order = np.lexsort((near, mesh))
+    for own in np.split(order, np.flatnonzero(np.diff(mesh[order])) + 1):
+        for part in _parts(len(own), max(1, tuning.CHUNK // max(1, size[own[0]]))):
+            yield own[part]

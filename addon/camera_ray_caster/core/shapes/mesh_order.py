@@ -12,10 +12,10 @@ from .mesh_in_camera import Triangles
 from .windows import pixels_in
 
 
-def nearest_first(near: np.ndarray, count: np.ndarray) -> Iterator[np.ndarray]:
-    """Yield blocks in parts of about CHUNK triangles, those with the least t first."""
+def nearest_first(near: np.ndarray, count: np.ndarray, most: int) -> Iterator[np.ndarray]:
+    """Yield blocks in parts of about ``most`` triangles, those with the least t first."""
     order = np.argsort(near, kind="stable")
-    part = (np.cumsum(count[order]) - 1) // tuning.CHUNK
+    part = (np.cumsum(count[order]) - 1) // most
     yield from np.split(order, np.flatnonzero(np.diff(part)) + 1)
 
 
@@ -23,12 +23,14 @@ def slabs(triangles: Triangles, pixels: int) -> Iterator[np.ndarray]:
     """Yield triangles in parts of about the same number, those with the least t first. The number of parts grows with
     their work compared with the pixels of their tile, since the tile's farthest t are computed before each part.
     """
-    near = triangles.near
+    near, work = triangles.near, tuning.TRIANGLE_PIXELS + pixels_in(triangles.bounds)
     if not near.size:
         return
-    work = tuning.TRIANGLE_PIXELS * len(near) + pixels_in(triangles.bounds).sum()
-    count = max(1, round(math.sqrt(work / (pixels + tuning.SLAB_PIXELS))))
-    cuts = np.quantile(near[:: max(1, len(near) >> 12)], np.arange(1, count) / count)
+    count = max(1, round(math.sqrt(work.sum() / (pixels + tuning.SLAB_PIXELS))))
+    some = np.arange(0, len(near), max(1, len(near) >> 12))
+    some = some[np.argsort(near[some])]
+    done = np.cumsum(work[some])
+    cuts = near[some[np.searchsorted(done, done[-1] * np.arange(1, count) / count)]]
     slab = np.searchsorted(cuts, near)
     for k in range(count):
         yield np.flatnonzero(slab == k)

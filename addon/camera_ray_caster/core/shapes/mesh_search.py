@@ -78,15 +78,18 @@ class MeshSet(ShapeSet):
         reach = _longest(rays.direction), _longest(rays.origin or (0.0,))
         near = blocks.near.take(here)
         cast = partial(self._in_spans, lattice) if lattice else self._in_cells
-        for batch in nearest_first(near, blocks.count[here]):
+        for batch in nearest_first(near, blocks.count[here], self.meshes.chunk):
             batch = batch.take(found.may_show(bounds.take(batch, axis=0), near.take(batch)))
-            triangles = self.meshes.triangles(np.sort(here.take(batch)))
+            some = np.sort(here.take(batch))
+            for _ in self.meshes.place(some):
+                yield None
+            triangles = self.meshes.triangles(some)
             inside, parts = in_tile(self._in_plan(triangles.bounds), rays.corner, rays.shape)
             triangles = triangles.only(inside, parts.astype(np.intp))  # their products may exceed the type of bounds
             for slab in slabs(triangles, found.t.size):
                 slab = slab.take(found.may_show(triangles.bounds.take(slab, axis=0), triangles.near.take(slab)))
-                some = triangles.only(slab)
-                for _ in cast(rays, reach, replace(some, which=found.enter(some.which)), found):
+                tested = triangles.only(slab)
+                for _ in cast(rays, reach, replace(tested, which=found.enter(tested.which)), found):
                     yield None
             yield None
         seen, of_pixel = found.seen()
