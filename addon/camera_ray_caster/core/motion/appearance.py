@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..records import Shapes
+from ..records import Lights, Shapes
 from .means import mixed
 
 INTERPOLATED = "color", "slots", "lights", "world_color"
@@ -27,20 +27,23 @@ def appearance(shapes: Shapes, evaluations: Sequence[Shapes], weights: Sequence[
     return replace(shapes, **dict(zip(INTERPOLATED, found, strict=True)))
 
 
-def difference(shapes: Shapes, truth: Shapes, eye: np.ndarray) -> float:
-    """Return the largest difference of colors, of maps, of the lights' directions from the eye, and of their strengths
-    over the strongest one's; infinite if indices differ.
+def difference(shapes: Shapes, truth: Shapes, points: np.ndarray) -> float:
+    """Return the largest difference of colors, of maps, of the lights' colors over the strongest one's, and of the
+    light at some points, (n, 3), over all light there; infinite if indices differ.
     """
     if not same_indices(shapes, truth):
         return np.inf
-    own, true = (_values(one, eye) for one in (shapes, truth))
     strongest = float(np.abs(truth.lights.color).max(initial=0.0)) or 1.0
-    pairs = [*zip(own, true, strict=True), (shapes.lights.color / strongest, truth.lights.color / strongest)]
+    pairs = [*zip(_colors(shapes), _colors(truth), strict=True)]
+    pairs.append((shapes.lights.color / strongest, truth.lights.color / strongest))
     pairs += [
         (one.uv, other.uv)
         for one, other in zip(shapes.meshes, truth.meshes, strict=True)
         if one.uv is not None and other.uv is not None and one.uv.shape == other.uv.shape
     ]
+    light, true_light = (_light(one.lights, points) for one in (shapes, truth))
+    all_light = np.maximum(np.linalg.norm(true_light, axis=-1).sum(axis=0), np.finfo(float).tiny)
+    pairs.append((light / all_light[:, None], true_light / all_light[:, None]))
     return max(float(np.abs(np.subtract(one, other)).max(initial=0.0)) for one, other in pairs)
 
 
@@ -49,9 +52,17 @@ def _indices(shapes: Shapes) -> tuple:
     return shapes.object_index, shapes.material_index, np.concatenate((np.zeros(0), *slots)), shapes.lights.is_sun
 
 
-def _values(shapes: Shapes, eye: np.ndarray) -> tuple:
-    lights = shapes.lights
-    toward = np.where(lights.is_sun[:, None], lights.position, lights.position - eye)
-    length = np.linalg.norm(toward, axis=1, keepdims=True)
-    slots = np.zeros((0, 4)) if shapes.slots is None else shapes.slots.color
-    return shapes.color, slots, shapes.world_color, toward / np.where(length > 0, length, 1.0)
+def _colors(shapes: Shapes) -> tuple:
+    return shapes.color, np.zeros((0, 4)) if shapes.slots is None else shapes.slots.color, shapes.world_color
+
+
+def _light(lights: Lights, points: np.ndarray) -> np.ndarray:
+    """Return the light of each lamp at points, as vectors towards it, (lamps, points, 3), in the units of
+    ``shading.shade`` times 4 pi^2; of a lamp at the point itself none.
+    """
+    is_sun = lights.is_sun[:, None, None]
+    toward = np.where(is_sun, lights.position[:, None], lights.position[:, None] - points)
+    square = np.where(is_sun, 1 / (4 * np.pi), (toward * toward).sum(axis=-1, keepdims=True))
+    length = np.maximum(np.linalg.norm(toward, axis=-1, keepdims=True), np.finfo(float).tiny)
+    strength = lights.color.max(axis=-1, initial=0.0)[:, None, None]
+    return np.where(square > 0, strength / np.where(square > 0, square, 1.0), 0.0) * toward / length

@@ -7,9 +7,9 @@ tolerance in pixels. If it does not, the interval is cut at its probes. The meth
 integration (E. Hairer et al., Solving Ordinary Differential Equations I, section II.4): smooth motion takes few
 evaluations, and the estimate is on the safe side.
 
-Colors, lights and maps are interpolated in the same way, within APPEARANCE. Indices change in steps, and shapes appear
-or disappear: such a moment is found to SHORTEST. An event shorter than the distance of the evaluations can be missed;
-whole frames, or those with keys, are evaluated first.
+Colors, lights, maps, clipping and focus are interpolated in the same way, within APPEARANCE. Indices change in steps,
+and shapes appear or disappear: such a moment is found to SHORTEST. An event shorter than the distance of the
+evaluations can be missed; whole frames and those with keys are evaluated first.
 """
 
 from __future__ import annotations
@@ -25,8 +25,8 @@ from ..camera.camera import Camera
 from ..maths.rotations import polar, sine_and_angle
 from ..records import Shapes
 from .appearance import difference, same_indices
-from .deformation import alike, changed, vertices
 from .interpolation import State, TimeInterval, matched
+from .landmarks import apart, lit
 
 PROBES = (0.381966, 0.618034)
 """Probes as fractions of an interval: the golden section, so that no motion of a simple period is missed by both."""
@@ -60,7 +60,7 @@ class Motion:
     measured: float = np.nan
     """The largest error, in pixels, at frames that were evaluated only as a check; NaN without a check."""
     appearance: tuple[float, float] = (0.0, np.nan)
-    """The estimated and the measured largest error of colors, lights and maps: see ``appearance.difference``."""
+    """The estimated and the measured largest error of colors, lights, maps, clipping and focus: see ``_change``."""
 
     def camera_at(self, frame: float) -> Camera:
         """Return the camera at a frame, without its pixel_time."""
@@ -93,8 +93,8 @@ class Motion:
         estimated, measured = self.appearance
         if estimated > 0 or measured > 0:
             lines.append(
-                f"colors, lights and maps off by {estimated:.2g} as estimated, {measured:.2g} as measured, of 1; the "
-                f"tolerance is {APPEARANCE:.2g}"
+                f"colors, lights, maps, clipping and focus off by {estimated:.2g} as estimated, {measured:.2g} as "
+                f"measured, of 1; the tolerance is {APPEARANCE:.2g}"
             )
         if self.unresolved:
             low, high = self.unresolved[0]
@@ -115,10 +115,10 @@ def resolve(
 ) -> Motion:
     """Evaluate a scene at as few frames as keep the motion between them within ``tolerance`` pixels.
 
-    ``evaluate(frame)`` returns camera and shapes; it is called at most ``most`` times. All whole frames are evaluated
-    first, since keys and cuts lie there, or else ``keys``, the frames with keys, unless both are more than a quarter of
-    ``most``. Then intervals are tested, the longest first. Those that remain when the budget is used up are reported as
-    unresolved.
+    ``evaluate(frame)`` returns camera and shapes; it is called at most ``most`` times. Whole frames, since cuts lie
+    there, and ``keys``, the frames with keys, are evaluated first; if these are more than a quarter of ``most``, those
+    with keys only, or else whole frames only, or else evenly spaced ones of both. Then intervals are tested, the
+    longest first. Those that remain when the budget is used up are reported as unresolved.
     """
     states: dict[float, State] = {}
 
@@ -132,7 +132,9 @@ def resolve(
         return Motion((TimeInterval.of(states, (first,)),), states, tolerance, 0.0, ())
     whole = np.arange(np.floor(first) + 1, np.ceil(last)).tolist()
     keyed = sorted({float(frame) for frame in keys if first < frame < last})
-    ends = [first, *next((some for some in (whole, keyed) if len(some) <= most // 4), []), last]
+    both, few = sorted({*whole, *keyed}), max(1, most // 4)
+    at_once = next((some for some in (both, keyed, whole) if len(some) <= few), both[:: -(-len(both) // few) or 1])
+    ends = [first, *at_once, last]
     know(*ends)
     waiting = list(pairwise(ends))
     done: list[tuple[float, ...]] = []
@@ -142,8 +144,7 @@ def resolve(
         a, b = waiting.pop()
         p, q = (a + (b - a) * place for place in PROBES)
         is_moment = b - a <= SHORTEST
-        before, after = states[a][1], states[b][1]
-        is_step = not (matched(before, after) and same_indices(before, after))
+        is_step = not _continuous(states[a], states[b])
         if is_step and is_moment:
             done.append((a, b))
             continue
@@ -156,7 +157,7 @@ def resolve(
             (TimeInterval.of(states, others).at(probe), states[probe])
             for probe, others in ((p, (a, q, b)), (q, (a, p, b)))
         ]
-        off, change = (max(error(*both) for both in probed) for error in (_difference, _change))
+        off, change = (max(error(*both) for both in probed) for error in (apart, _change))
         turn = max(_turn(states[early], states[late]) for early, late in pairwise((a, p, q, b)))
         if is_step or off > tolerance or turn > WIDEST_TURN or (change > APPEARANCE and not is_moment):
             waiting += pairwise((a, p, q, b))
@@ -174,48 +175,35 @@ def resolve(
 def measured(motion: Motion, evaluate: Callable[[float], State], frames) -> Motion:
     """Return a motion with its errors measured at some frames: the interpolated against the evaluated scene."""
     both = [(motion.at(frame), evaluate(frame)) for frame in frames]
-    off, change = (max((error(*pair) for pair in both), default=0.0) for error in (_difference, _change))
+    off, change = (max((error(*pair) for pair in both), default=0.0) for error in (apart, _change))
     return replace(motion, measured=off, appearance=(motion.appearance[0], change))
 
 
+def _continuous(before: State, after: State) -> bool:
+    """Whether two states have the same shapes with the same indices, and both an aperture or none."""
+    (camera, shapes), (other, others) = before, after
+    same = matched(shapes, others) and same_indices(shapes, others)
+    return same and (camera.aperture is None) == (other.aperture is None)
+
+
 def _change(state: State, truth: State) -> float:
-    """Return the largest difference in the appearance of two states' shapes; infinite if the shapes differ."""
-    shapes, true_shapes = state[1], truth[1]
-    return difference(shapes, true_shapes, truth[0].pose.eye) if matched(shapes, true_shapes) else np.inf
-
-
-def _difference(state: State, truth: State) -> float:
-    """Return the largest distance in pixels between the images of two states' landmarks: the centers of the shapes, the
-    ends of their axes, and vertices of the meshes that deform.
-
-    Landmarks that the true camera does not see in or near its picture are ignored; if the numbers of shapes differ, the
-    distance is infinite.
+    """Return the largest difference in the appearance of two states' shapes, and the largest relative difference in the
+    clipping and the aperture of their cameras; infinite if the shapes differ, or only one camera has an aperture.
     """
     (camera, shapes), (true_camera, true_shapes) = state, truth
-    if len(shapes) != len(true_shapes):
+    lens, true_lens = _lens(camera), _lens(true_camera)
+    if not matched(shapes, true_shapes) or len(lens) != len(true_lens):
         return np.inf
-    deforming = changed(shapes, true_shapes) if alike(shapes.meshes, true_shapes.meshes) else np.zeros(0, int)
     with np.errstate(all="ignore"):
-        there = replace(true_camera, pixel_time=None, motion=None).project(
-            _landmarks(true_shapes, true_camera, deforming)
-        )
-        here = replace(camera, pixel_time=None, motion=None).project(_landmarks(shapes, true_camera, deforming))
-    raster = true_camera.raster
-    size = np.array([raster.width, raster.height])
-    counts = (there >= -size).all(axis=-1) & (there <= 2 * size).all(axis=-1)
-    apart = np.sqrt(((here - there) ** 2).sum(axis=-1))[counts]
-    return float(np.where(np.isnan(apart), np.inf, apart).max(initial=0.0))
+        off = np.where(lens == true_lens, 0.0, np.abs(lens - true_lens) / np.abs(true_lens))
+    return max(float(off.max()), difference(shapes, true_shapes, lit(truth)))
 
 
-def _landmarks(shapes: Shapes, camera: Camera, deforming: np.ndarray) -> np.ndarray:
-    """Return the center and both ends of each axis of every shape, and vertices of the rows ``deforming``, (n, 3);
-    without shapes, points in front of the camera.
-    """
-    if not len(shapes):
-        return camera.pose.eye + (camera.pose.basis @ [[0, 3, 0], [0, 0, 3], [-10.0, -10.0, -10.0]]).T
-    ends = np.swapaxes(shapes.axes, 1, 2)
-    offsets = np.concatenate((np.zeros_like(ends[:, :1]), ends, -ends), axis=1)
-    return np.concatenate(((shapes.center[:, None, :] + offsets).reshape(-1, 3), vertices(shapes, deforming)))
+def _lens(camera: Camera) -> np.ndarray:
+    """Return the numbers of a camera that change what its rays show, but not the rays through pixel centers."""
+    opening = camera.aperture
+    numbers = () if opening is None else (opening.radius, opening.focus, opening.rotation, opening.ratio)
+    return np.array((camera.clip_start, camera.clip_end, *numbers))
 
 
 def _turn(before: State, after: State) -> float:

@@ -38,10 +38,12 @@ class TimeInterval:
         if frame in self.frames:
             return cameras[self.frames.index(frame)]
         weights = self._weights(frame)
-        model, aperture = mixed([(camera.model, camera.aperture) for camera in cameras], weights)
+        lens = [(camera.model, camera.aperture, camera.clip_start, camera.clip_end) for camera in cameras]
+        model, aperture, start, end = mixed(lens, weights)
         basis = self._camera_axes.at(weights)[0]
         pose = Pose(mean([camera.pose.eye for camera in cameras], weights), basis / np.linalg.norm(basis, axis=0))
-        return replace(cameras[0], pose=pose, model=model.posed(pose), aperture=aperture)
+        model = model.posed(pose)
+        return replace(cameras[0], pose=pose, model=model, aperture=aperture, clip_start=start, clip_end=end)
 
     def shapes_at(self, frame: float) -> Shapes:
         """Return the shapes at a frame. What is not interpolated (indices, and all if shapes appear or disappear) is

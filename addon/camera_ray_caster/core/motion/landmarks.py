@@ -1,0 +1,100 @@
+"""How far apart, in pixels, two states of a scene show the same points: the error of the one if the other is true."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from itertools import product
+
+import numpy as np
+
+from ..camera.camera import Camera
+from ..maths.vector import cross, dot
+from ..records import INFINITE_PLANE, MESH, SPHERE, Shapes
+from .deformation import alike, changed, vertices
+from .interpolation import State
+
+GRID = 1 / 6, 1 / 2, 5 / 6
+"""Columns and rows of the rays that are tested, as fractions of the frame: also those of a circular image."""
+
+AHEAD = 10.0
+"""Distance, in Blender units, of the points on these rays that say how the camera moves where they hit nothing."""
+
+ENDLESS = 1e6
+"""Half the side of the part of an infinite plane on which landmarks are looked for, in lengths of its axes."""
+
+
+LIT = 1 << 12
+"""Maximum number of points at which light is compared."""
+
+
+def apart(state: State, truth: State) -> float:
+    """Return the largest distance in pixels between the images of two states' landmarks: see ``_landmarks``, vertices
+    of meshes that deform, and points on some of the true camera's rays.
+
+    Landmarks that the true camera does not see in or near its picture are ignored; if the numbers of shapes differ, the
+    distance is infinite.
+    """
+    shapes, true_shapes = state[1], truth[1]
+    if len(shapes) != len(true_shapes):
+        return np.inf
+    camera, true_camera = (replace(one[0], pixel_time=None, motion=None) for one in (state, truth))
+    deforming = changed(shapes, true_shapes) if alike(shapes.meshes, true_shapes.meshes) else np.zeros(0, int)
+    size = np.array(true_camera.raster.size)
+    with np.errstate(all="ignore"):
+        origins, directions = rays = _rays(true_camera)
+        local = _landmarks(true_shapes, *rays)
+        here, there = (
+            one.project(np.concatenate((
+                _places(own, local).reshape(-1, 3), vertices(own, deforming), origins + AHEAD * directions
+            )))
+            for one, own in ((camera, shapes), (true_camera, true_shapes))
+        )  # fmt: skip
+    counts = (there >= -size).all(axis=-1) & (there <= 2 * size).all(axis=-1)
+    distance = np.sqrt(((here - there) ** 2).sum(axis=-1))[counts]
+    return float(np.where(np.isnan(distance), np.inf, distance).max(initial=0.0))
+
+
+def lit(state: State) -> np.ndarray:
+    """Return points of the shapes at which light may fall, (n, 3): landmarks other than centers, at most LIT."""
+    camera, shapes = state
+    with np.errstate(all="ignore"):
+        local = _landmarks(shapes, *_rays(replace(camera, pixel_time=None, motion=None)))
+        points = _places(shapes, local[:, 1:]).reshape(-1, 3)
+    points = points[np.isfinite(points).all(axis=1)]
+    return points[:: -(-len(points) // LIT) or 1]
+
+
+def _rays(camera: Camera) -> tuple[np.ndarray, np.ndarray]:
+    """Return origins and directions of the rays through GRID, (9, 3) each."""
+    width, height = camera.raster.size
+    x, y = np.meshgrid(GRID, GRID)
+    rays = camera.rays_at(width * x.ravel(), height * y.ravel())
+    return np.broadcast_to(rays.origins, rays.directions.shape), rays.directions
+
+
+def _places(shapes: Shapes, local: np.ndarray) -> np.ndarray:
+    """Return points in the shapes' frames, (n, m, 3), as points in the world."""
+    return shapes.center[:, None] + np.einsum("nij,nmj->nmi", shapes.axes, local)
+
+
+def _landmarks(shapes: Shapes, origins: np.ndarray, directions: np.ndarray) -> np.ndarray:
+    """Return landmarks of shapes in their own frames, (n, 18, 3): the center, the corners of the bounding box, and the
+    points at which rays meet the box; NaN where a ray misses it or the frame is flat.
+    """
+    half = np.tile((1.0, 1.0, 0.0), (len(shapes), 1, 1))
+    half[shapes.kind == SPHERE] = 1.0
+    if shapes.meshes:
+        is_mesh = shapes.kind == MESH
+        half[is_mesh, 0] = np.array([mesh.half_size for mesh in shapes.meshes])[shapes.mesh[is_mesh]]
+    corners = half * np.array([(0.0, 0.0, 0.0), *product((-1.0, 1.0), repeat=3)])
+    first, second, third = (shapes.axes[:, :, k].T for k in range(3))
+    rows = np.array([cross(second, third), cross(third, first), cross(first, second)])
+    inverse = (rows / dot(first, rows[0])).transpose(2, 0, 1)
+    start = (origins - shapes.center[:, None]) @ inverse.swapaxes(1, 2)
+    along = directions @ inverse.swapaxes(1, 2)
+    half[shapes.kind == INFINITE_PLANE, :, :2] = ENDLESS
+    sides = (-half - start) / along, (half - start) / along
+    enter, leave = np.fmin(*sides).max(axis=-1), np.fmax(*sides).min(axis=-1)
+    t = np.where(enter > 0, enter, leave)[..., None]
+    meets = (leave >= np.maximum(enter, 0))[..., None]
+    return np.concatenate((corners, np.where(meets, np.clip(start + t * along, -half, half), np.nan)), axis=1)
