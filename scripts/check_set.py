@@ -16,6 +16,7 @@ if __name__ == "__main__":
 import sys
 from itertools import pairwise
 from pathlib import Path
+from zipfile import BadZipFile
 
 import numpy as np
 from arguments import Parser
@@ -39,7 +40,8 @@ HEAD = ROW.format("views", "pixels", "in next", "flow off", "same shape", "dista
 
 def views(folder: Path) -> list[tuple[int, Path]]:
     """Return the frame and the file of each view, in order."""
-    return sorted((int(path.stem.rpartition("_")[2]), path) for path in folder.glob("*_[0-9]*.npz"))
+    found = [(path.stem.rpartition("_")[2], path) for path in folder.glob("*_*.npz")]
+    return sorted((int(digits), path) for digits, path in found if digits.isdecimal())
 
 
 def check(folder: Path, first: tuple[int, Path], second: tuple[int, Path]) -> tuple[list[str], bool]:
@@ -89,6 +91,9 @@ def main(arguments: list[str] | None = None) -> int:
             row, right = check(folder, first, second)
         except crc.InputError as error:
             parser.error(str(error))
+        except (OSError, ValueError, KeyError, BadZipFile) as error:
+            names = " or ".join(repr(path.name) for _, path in (first, second))
+            parser.error(f"{names} is no view made by clevr_set.py: {str(error).splitlines()[0]}")
         print(ROW.format(*row), flush=True)
         passed &= right
     print("all as it has to be" if passed else "the views do not fit together")

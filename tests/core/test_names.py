@@ -26,7 +26,10 @@ def test_a_name_that_is_given_twice_is_one():
 
 @pytest.mark.parametrize(
     ("frame", "digits"),
-    [(1, "0001"), (12345, "12345"), (-3, "-003"), (12.5, "0012.5"), (-0.25, "-000.25"), (10, "0010"), (0, "0000")],
+    [
+        *((1, "0001"), (12345, "12345"), (12.5, "0012.5"), (10, "0010"), (0, "0000")),
+        *((-3, "-0003"), (-0.25, "-0000.25"), (-1e-9, "0000")),
+    ],
 )
 def test_frames_have_four_digits_or_more(frame, digits):
     assert frame_digits(frame) == digits

@@ -46,6 +46,22 @@ def test_passes_of_another_view_are_found_out(made, tmp_path, name):
     assert "do not fit together" in done.stdout
 
 
+@pytest.mark.parametrize("content", [b"no zip", None])
+def test_a_broken_view_is_refused_in_one_line(made, tmp_path, content):
+    """A damaged file; and one without the rays that are needed, beside a name that is no frame's."""
+    folder = tmp_path / "set"
+    shutil.copytree(made, folder)
+    (folder / "clevr_2.5.npz").write_bytes(b"")
+    if content is None:
+        with np.load(folder / "clevr_0001.npz") as file:
+            np.savez(folder / "clevr_0001.npz", distance=file["distance"])
+    else:
+        (folder / "clevr_0001.npz").write_bytes(content)
+    done = script("check_set", folder)
+    assert (done.returncode, done.stderr.count("\n")) == (2, 1)
+    assert "'clevr_0001.npz' or 'clevr_0002.npz' is no view made by clevr_set.py" in done.stderr
+
+
 def test_what_is_no_set_is_refused_in_one_line(tmp_path):
     done = script("check_set", tmp_path)
     assert done.returncode == 2

@@ -43,6 +43,12 @@ WRONG = {
     "no format": ([], "--format"),
     "no such format": (["--format", "fbx"], "'fbx'"),
     "no such camera": (["--format", "json", "--cameras", "Top", "Front"], "no camera 'Front'"),
+    "no such camera beside all": (["--format", "json", "--cameras", "ALL", "Front"], "no camera 'Front'"),
+    "camera and cameras": (["--format", "json", "--camera", "Top", "--cameras", "Side"], "exclude each other"),
+    "a calibration of several": (
+        ["--format", "json", "--cameras", "Side", "--calibration", "small.blend"],
+        "applies to one camera",
+    ),
     "a target for no map": (["--format", "json", "--to", "Side"], "only maps have a target"),
     "a file for a folder": (["--format", "json", "--output", "small.blend"], "cannot write into 'small.blend'"),
 }

@@ -34,6 +34,7 @@ WRONG_FOR_CAST = {
     ),
     "no share": (["small.blend", "--frames", "1:4", "--shard", "5/4"], "shares of 4 are 1/4 to 4/4"),
     "share 0": (["small.blend", "--frames", "1:4", "--shard", "0/4"], "shares of 4"),
+    "a share of none": (["small.blend", "--frames", "1:4", "--shard", "0/0"], "give K/N, such as 1/4"),
     "half a share": (["small.blend", "--frames", "1:4", "--shard", "3"], "'3'"),
     "a share of one frame": (["small.blend", "--shard", "1/4"], "of the frames of --frames"),
     "no size": (["small.blend", "--resolution", "640"], "'640'"),

@@ -25,7 +25,7 @@ class Mesh:
     """
 
     vertices: np.ndarray
-    """(3, v) float32."""
+    """(3, v) float32; float64 if interpolated between evaluations."""
     triangles: np.ndarray
     """(3, k) int32: the vertices of each triangle, counterclockwise as seen from its front."""
     polygon: np.ndarray

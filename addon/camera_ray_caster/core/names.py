@@ -31,6 +31,9 @@ def file_names(names: Iterable[str]) -> dict[str, str]:
 
 
 def frame_digits(frame: float) -> str:
-    """Return a frame for a file name: four digits or more, and up to six decimals if it lies between whole frames."""
-    whole, point, rest = f"{frame:.6f}".rstrip("0").partition(".")
-    return whole.zfill(4) + (point + rest if rest else "")
+    """Return a frame for a file name: as Blender's own: four digits or more, a minus before them, and up to six
+    decimals if it lies between whole frames.
+    """
+    whole, point, rest = f"{abs(frame):.6f}".rstrip("0").partition(".")
+    digits = whole.zfill(4) + (point + rest if rest else "")
+    return f"-{digits}" if round(frame, 6) < 0 else digits

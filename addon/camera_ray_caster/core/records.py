@@ -185,6 +185,8 @@ class Shapes:
     name_index: np.ndarray
     """(n,) int32: indices into ``names``; instances and points share the name of their object."""
     names: tuple[str, ...] = ()
+    instanced: tuple[bool, ...] = ()
+    """Whether each of ``names`` stands for instances of the object, not for the object itself; empty if none does."""
     materials: tuple[tuple[int, str], ...] = ()
     """Pass index and name of each material of the shapes."""
     lights: Lights = field(default_factory=Lights)

@@ -99,6 +99,21 @@ def test_two_cameras_with_one_file_name_are_refused(scene, tmp_path):
         exports.write(scene, "colmap", find_cameras(scene, ["ALL"]), [1], tmp_path)
 
 
+@pytest.mark.parametrize("key", ["opencv", "ros"])
+def test_a_camera_named_as_another_at_a_frame_is_refused(blender, scene, tmp_path, key):
+    """A lens that changes has a file for each frame."""
+    camera = scene.camera
+    camera.data.type = "PERSP"
+    for frame, lens in ((1, 30.0), (2, 60.0)):
+        camera.data.lens = lens
+        camera.data.keyframe_insert("lens", frame=frame)
+    other = blender.data.objects.new(f"{camera.name}_0001", blender.data.cameras.new("Other"))
+    scene.collection.objects.link(other)
+    with pytest.raises(InputError, match=rf"two cameras would have the file '{camera.name}_0001\."):
+        exports.write(scene, key, [camera, other], [1, 2], tmp_path / "out")
+    assert names(tmp_path / "out") == []
+
+
 @pytest.mark.parametrize("target", [None, "Still/one"])
 def test_maps_are_written_as_they_are_computed(scene, tmp_path, target):
     scene.camera.data.type = "PANO"

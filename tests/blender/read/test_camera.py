@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from mathutils import Matrix
 
-from camera_ray_caster.blender.read.camera import camera_record, find_camera
+from camera_ray_caster.blender.read.camera import camera_record, check_markers, find_camera
 from camera_ray_caster.blender.read.scene import evaluated, read_camera
 from camera_ray_caster.core.records import InputError
 
@@ -108,6 +108,15 @@ def test_a_marker_chooses_the_camera_of_its_frame(scene):
     scene.frame_set(1)
     assert [read_camera(scene, frame=frame).name for frame in (5, 15)] == ["Camera", "Late"]
     assert scene.camera.name == "Camera"
+
+
+def test_markers_that_change_the_camera_are_refused_where_one_is_meant(scene):
+    check_markers(scene, range(1, 9))
+    for frame, camera in ((1, scene.camera), (5, new_camera("Other"))):
+        scene.timeline_markers.new("cut", frame=frame).camera = camera
+    check_markers(scene, None)
+    with pytest.raises(InputError, match=r"markers change the camera of scene 'Scene' .'Camera', 'Other'.: name cam"):
+        check_markers(scene, range(1, 9))
 
 
 def test_a_hidden_camera_is_evaluated_when_it_is_asked_for(scene):

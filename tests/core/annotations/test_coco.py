@@ -13,7 +13,7 @@ from camera_ray_caster.core.camera.build import camera_from
 from camera_ray_caster.core.cast import cast
 from camera_ray_caster.core.casting.visibility import Visibility
 from camera_ray_caster.core.motion.evaluations import resolve
-from camera_ray_caster.core.records import PLANE, SPHERE
+from camera_ray_caster.core.records import PLANE, SPHERE, InputError
 
 from ..camera.test_pixel_time import SHUTTER
 from ..camera.test_pixel_time import camera as timed_camera
@@ -101,6 +101,42 @@ def test_a_shape_that_moves_while_rows_are_read_has_the_box_of_its_picture():
     assert one.whole == one.visible
     assert one.whole[1] - one.whole[0] > 16
     assert one.whole_pixels == (index == 0).sum()
+
+
+def timed(evaluate, first=4.75, last=5.25):
+    camera, shapes = evaluate(first)
+    motion = resolve(evaluate, first, last, 0.01, 64)
+    return replace(camera, motion=motion), replace(shapes, motion=motion)
+
+
+def test_shapes_that_are_others_at_the_times_of_other_pixels_are_refused():
+    """The row of a shape would mean the one in some pixels, and the other in others."""
+
+    def evaluate(frame):
+        shapes = shapes_of((PLANE, (0, 0, -3), 0.5))
+        return timed_camera(SHUTTER), shapes if frame < 5 else replace(shapes, names=("other",))
+
+    with pytest.raises(InputError, match=r"frame 5\S* differs in 'other', 'shape 0': show it at all"):
+        annotated(*timed(evaluate))
+
+
+def test_key_points_of_what_moves_between_the_times_of_pixels_are_refused():
+    def evaluate(frame):
+        return timed_camera(SHUTTER), shapes_of((PLANE, (frame, 0, -3), 0.5), (PLANE, (0, 0, -5), 0.5))
+
+    camera, shapes = timed(evaluate)
+    still, moving = (seen_key_points(CAMERA, WALLS, [KeyPoint("a", f"shape {k}", (0, 0, -5))]) for k in (1, 0))
+    assert annotated(camera, shapes, points=still)["keypoints"]
+    with pytest.raises(InputError, match="key points of 'shape 0' are places at one time"):
+        annotated(camera, shapes, points=moving)
+
+
+def test_key_points_belong_to_the_object_and_not_to_its_instances():
+    twice = replace(WALLS, names=("wall", "wall", "third"), instanced=(False, True, False))
+    seen = seen_key_points(CAMERA, twice, [KeyPoint("corner", "wall", (-0.5, -0.5, -5.0))])
+    own, instance = annotated(shapes=twice, points=seen)["annotations"]
+    assert (own["num_keypoints"], instance["num_keypoints"]) == (1, 0)
+    assert instance["keypoints"] == [0, 0, 0]
 
 
 def test_key_points_have_pixels_depths_and_are_hidden_as_they_are():

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from threading import get_ident
-
 import numpy as np
 import pytest
 
@@ -13,7 +11,6 @@ from camera_ray_caster.core.cast import cast
 from camera_ray_caster.core.conventions import EPS
 from camera_ray_caster.core.records import INFINITE_PLANE, PLANE, SPHERE, BlenderCamera, Cancelled, InputError, Shapes
 
-from ..camera.test_pixel_time import ROWS
 from ..still import STILL
 
 
@@ -257,36 +254,6 @@ def test_one_pass_may_be_named_alone_and_no_threads_are_refused():
     for threads in (0, -1):
         with pytest.raises(InputError, match=f"threads is {threads}"):
             cast(camera_at(), ball, "depth", threads=threads)
-
-
-@pytest.mark.parametrize("samples", [1, 4])
-def test_rows_are_told_once_each_when_they_are_complete(samples, monkeypatch):
-    """In the calling thread, before the whole picture is done."""
-    monkeypatch.setattr(tuning, "TILE_WORK", 1 << 16)
-    camera, told = camera_at(resolution_x=1024, resolution_y=512), []
-
-    def finished(images, rows):
-        assert get_ident() == here
-        told.append((rows, {name: image[rows].copy() for name, image in images.items()}))
-
-    here = get_ident()
-    images = cast(
-        camera, shapes_of((SPHERE, (0, 0, -5), 1.0)), ("depth", "combined"), samples=samples, finished=finished
-    )
-    assert len(told) >= 2
-    assert sorted(row for rows, _ in told for row in range(512)[rows]) == list(range(512))
-    for rows, parts in told:
-        for name, part in parts.items():
-            np.testing.assert_array_equal(part, images[name][rows])
-    assert images.seconds["write"] > 0
-
-
-def test_a_picture_of_many_times_is_told_as_a_whole():
-    """Though it is cast time by time, since columns are complete long before a row is."""
-    told = []
-    camera = camera_at(settings=ROWS | {"time_mode": "COLUMNS"})
-    cast(camera, shapes_of((SPHERE, (0, 0, -5), 1.0)), finished=lambda images, rows: told.append(rows))
-    assert told == [slice(0, 33)]
 
 
 def test_progress_rises_to_one_and_can_stop_the_cast(monkeypatch):

@@ -53,7 +53,8 @@ def category_of(name: str) -> str:
     item = bpy.data.objects.get(name)
     if item is None:
         return name
-    return str(item.get(CATEGORY) or (item.data.name if item.data else name))
+    given = item.get(CATEGORY)
+    return (item.data.name if item.data else name) if given in (None, "") else str(given)
 
 
 def collect(folder: Path, names: Iterable[str]) -> Path:

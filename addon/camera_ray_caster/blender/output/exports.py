@@ -28,9 +28,13 @@ def write(scene, key: str, cameras: Sequence, frames: Iterable[float], folder: P
     if target is not None and not find_format(key).takes_target:
         raise InputError(f"format {key} has no target camera: only maps have a target")
     files, said = export(key, shots(scene, cameras, frames, target))
+    written: set[str] = set()
     with appearing(folder) as temporary:
         for name, content in files:
             signals.raise_if_stopping()
+            if name.casefold() in written:
+                raise InputError(f"two cameras would have the file {name!r}: rename one of the cameras")
+            written.add(name.casefold())
             _write(temporary / name, content)
         names = sorted(os.listdir(temporary))
     return said, [folder / name for name in names]

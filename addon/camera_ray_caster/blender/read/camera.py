@@ -1,6 +1,6 @@
 """A camera and its render settings, copied from Blender under Blender's own names."""
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import replace
 
 import bpy
@@ -129,9 +129,21 @@ def find_cameras(scene, names: Sequence[str]) -> list:
 
     Raises InputError for an unknown name, and if there is no camera.
     """
+    names = dict.fromkeys(names)
+    for name in names:
+        if name != ALL:
+            find_camera(scene, name)
     if ALL in names:
         names = sorted(item.name for item in scene.objects if item.type == "CAMERA") or [ALL]
-    return [find_camera(scene, name) for name in dict.fromkeys(names)]
+    return [find_camera(scene, name) for name in names]
+
+
+def check_markers(scene, frames: Collection[float] | None) -> None:
+    """Raise InputError if markers of the timeline may give the scene another camera at some of the frames."""
+    bound = {marker.camera.name for marker in scene.timeline_markers if marker.camera} | {scene.camera.name}
+    if len(bound) > 1 and frames is not None:
+        known = ", ".join(map(repr, sorted(bound)))
+        raise InputError(f"markers change the camera of scene {scene.name!r} ({known}): name cameras with --cameras")
 
 
 def views_of(scene) -> list:

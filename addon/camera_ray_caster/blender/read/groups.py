@@ -24,6 +24,8 @@ class Group:
     """The instances of one mesh, point cloud or light of one object."""
 
     name: str
+    is_instanced: bool = False
+    """Whether something else shows the object here: a collection, vertices, a modifier."""
     primitive: Primitive | None = None
     reason: str = ""
     object_index: int = 0
@@ -80,6 +82,7 @@ def gathered(groups: list[Group], left_out: Counter, world: tuple[float, float, 
         color=column([color for _, color in looks], np.float32, (4,)),
         name_index=column(range(len(cast)), np.int32),
         names=tuple(group.name for group in cast),
+        instanced=tuple(group.is_instanced for group in cast),
         lights=lights_in_world([(group.is_sun, group.looks[0][1], group.placings()) for group in lights]),
         world_color=world,
         left_out=tuple((name, _counted(reason, count)) for (name, reason), count in left_out.items()),

@@ -70,7 +70,7 @@ class _Scene:
     def opened(self, instance) -> Group:
         """Return the group of an instance, without any matrices."""
         item = instance.object
-        group = Group(original_source(instance).name)
+        group = Group(original_source(instance).name, instance.is_instance)
         if not self.visibility.is_rendered(instance):
             return group
         if item.type == "LIGHT":

@@ -22,7 +22,7 @@ from ..output import files
 from ..output.annotations import collect
 from ..output.file_set import appearing, clear_up
 from ..output.stamps import differing
-from ..read.camera import check_camera
+from ..read.camera import check_camera, check_markers
 from . import farm
 from .options import command_parser, warn
 from .pictures import Pictures, add_words, follow, parsed, summary
@@ -89,10 +89,11 @@ def run(arguments: Sequence[str], prog: str) -> int:
 def _complete(options: Namespace, pictures: Pictures) -> None:
     """Fill in missing options from the file, and make all paths absolute, so that they hold in every process."""
     scene = pictures.scene
+    options.frames = options.frames or range(scene.frame_start, scene.frame_end + 1, scene.frame_step)
     if options.cameras is None:
         check_camera(scene, scene.camera)
+        check_markers(scene, options.frames)
         options.cameras = [scene.camera.name]
-    options.frames = options.frames or range(scene.frame_start, scene.frame_end + 1, scene.frame_step)
     options.pictures = any("combined" in keys for keys in pictures.passes.values())
     options.file, options.output = Path(bpy.data.filepath).absolute(), options.output.absolute()
     options.calibration = options.calibration and options.calibration.absolute()

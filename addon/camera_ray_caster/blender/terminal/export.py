@@ -5,10 +5,10 @@ from pathlib import Path
 
 from ...core.exports import FORMATS
 from ..output import exports
-from ..read.camera import check_camera, find_camera, find_cameras
+from ..read.camera import check_camera, check_markers, find_camera, find_cameras
 from .opening import not_run
 from .options import command_parser, open_scene, warn
-from .words import add_cameras, add_frames, joined
+from .words import add_cameras, add_frames, check_cameras, joined
 
 
 def run(arguments: Sequence[str], prog: str) -> int:
@@ -29,9 +29,11 @@ def run(arguments: Sequence[str], prog: str) -> int:
                                                      "default: a perspective camera with the same lens")  # fmt: skip
     parser.add_argument("--output", type=Path, default=Path("out"), metavar="FOLDER", help="default: %(default)s")
     options = parser.parse_args(joined(arguments, "--frames"))
+    check_cameras(options)
     scene = open_scene(options)
     if not options.cameras:
         check_camera(scene, scene.camera)
+        check_markers(scene, options.frames)
     cameras = find_cameras(scene, options.cameras) if options.cameras else [scene.camera]
     target = find_camera(scene, options.to) if options.to is not None else None
     frames = options.frames or [scene.frame_current_final]

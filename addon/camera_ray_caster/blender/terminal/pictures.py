@@ -28,7 +28,7 @@ from . import ray_maps, signals
 from .jobs import Job, Outcome, RayMap
 from .options import go_to, open_scene, stem, use_camera, warn
 from .progress import Progress
-from .words import Parser, add_cameras, joined, pass_names, picture_size, sample_count
+from .words import Parser, add_cameras, check_cameras, joined, pass_names, picture_size, sample_count
 
 CYCLES = "CYCLES"
 ENGINES = CameraRayCaster.bl_idname, CYCLES
@@ -77,10 +77,7 @@ def add_words(parser) -> None:
 def parsed(parser: Parser, arguments: Sequence[str]) -> Namespace:
     """Return the options of a command line. Raises InputError for options that cannot be combined."""
     options = parser.parse_args(joined(arguments, "--frames"))
-    if options.cameras and options.camera:
-        raise InputError("--camera and --cameras exclude each other: leave out --camera")
-    if options.cameras and options.calibration:
-        raise InputError("--calibration applies to one camera: name the camera with --camera instead of --cameras")
+    check_cameras(options)
     if options.samples and options.engine != CYCLES:
         raise InputError(f"--samples applies to --engine {CYCLES} only: the samples of the add-on are set in the file")
     if options.shard and options.frames is None:

@@ -26,11 +26,15 @@ class Parser(argparse.ArgumentParser):
 
 
 def joined(arguments: Sequence[str], option: str) -> list[str]:
-    """Return the arguments with an option and its value joined by "=": argparse would take -3:-1 for an option."""
-    words = list(arguments)
-    if option in words[:-1]:
-        at = words.index(option)
-        words[at : at + 2] = [f"{option}={words[at + 1]}"]
+    """Return the arguments with an option and its value joined by "=", wherever the option is: argparse would take
+    -3:-1 for an option.
+    """
+    words: list[str] = []
+    for word in arguments:
+        if words and words[-1] == option:
+            words[-1] = f"{option}={word}"
+        else:
+            words.append(word)
     return words
 
 
@@ -91,6 +95,14 @@ def add_cameras(parser) -> None:
     )
 
 
+def check_cameras(options: argparse.Namespace) -> None:
+    """Raise InputError for options of cameras that exclude each other."""
+    if options.cameras and options.camera:
+        raise InputError("--camera and --cameras exclude each other: leave out --camera")
+    if options.cameras and options.calibration:
+        raise InputError("--calibration applies to one camera: name the camera with --camera instead of --cameras")
+
+
 @of_form("a whole number")
 def count(text: str) -> int:
     """Return a number of things, 1 or more."""
@@ -107,9 +119,12 @@ def scheduler_address(text: str) -> str:
     return text
 
 
+@of_form("a share: give K/N, such as 1/4")
 def share(text: str) -> tuple[int, int]:
-    """Return K and N of "K/N"; argparse puts this function's name into the error message."""
+    """Return K and N of "K/N"."""
     number, of = (int(part) for part in text.split("/"))
+    if of < 1:
+        raise ValueError(text)
     if not 1 <= number <= of:
         raise argparse.ArgumentTypeError(f"{text} is not a share: shares of {of} are 1/{of} to {of}/{of}")
     return number, of

@@ -1,10 +1,10 @@
 """Annotations in COCO's format: images, categories, boxes, masks and key points, of one picture or of many.
 
 Boxes are x, y, width and height in pixels from the top left corner of the picture, y down. Key points are x, y and
-visibility: 0 outside, 1 hidden, 2 seen; a pixel's center is at + 0.5. Masks are run lengths, column by column. Besides
-COCO's own keys there are ``bbox_whole`` and ``area_whole``, of the object if it were alone in the picture,
-``visible_fraction``, ``object`` and ``shape_index``; and the lists ``hidden``, of objects without visible pixels, and
-``keypoints``, of all key points with their world coordinates and depth.
+visibility: 0 outside, 1 hidden, 2 seen; a pixel's center is at + 0.5. Instances of an object have no key points. Masks
+are run lengths, column by column. Besides COCO's own keys there are ``bbox_whole`` and ``area_whole``, of the object if
+it were alone in the picture, ``visible_fraction``, ``object`` and ``shape_index``; and the lists ``hidden``, of objects
+without visible pixels, and ``keypoints``, of all key points with their world coordinates and depth.
 Reference: https://cocodataset.org/#format-data.
 """
 
@@ -21,6 +21,7 @@ from ..camera.camera import Camera
 from ..records import Shapes
 from ..version import VERSION
 from .keypoints import SeenKeyPoint
+from .moments import check_rows, check_still
 from .silhouettes import Box, Silhouette, silhouettes
 
 Document = dict[str, Any]
@@ -57,7 +58,10 @@ def document(
     """Return the annotations of one picture.
 
     image: ``file_name``, and any further entries of the image. category_of: maps an object's name to its category.
+    Raises InputError if pixels have their own times, and objects appear or disappear, or those with key points move.
     """
+    check_rows(shapes)
+    check_still(shapes, {seen.point.owner for seen in points})
     found, index = silhouettes(camera, shapes)
     raster = camera.raster
     names = [shapes.names[shapes.name_index[one.row]] for one in found]
@@ -86,7 +90,8 @@ def document(
         }  # fmt: skip
 
     def visible(name: str, one: Silhouette, ends: Box) -> Document:
-        own = {seen.point.name: _triple(sheet, seen) for seen in points if seen.point.owner == name}
+        is_own = not (shapes.instanced and shapes.instanced[shapes.name_index[one.row]])
+        own = {seen.point.name: _triple(sheet, seen) for seen in points if is_own and seen.point.owner == name}
         return whole(name, one) | {
             "iscrowd": 0, "bbox": box(ends), "area": one.visible_pixels, "segmentation": mask(one.row),
             "visible_fraction": one.visible_pixels / one.whole_pixels, **_key_points(own, key_names[category[name]]),

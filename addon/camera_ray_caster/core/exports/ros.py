@@ -45,7 +45,7 @@ def _lens(shot: Shot) -> str:
         "rectification_matrix": (3, 3, [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0]),
         "projection_matrix": (3, 4, [fx, 0.0, cx, 0.0, 0.0, fy, cy, 0.0, 0.0, 0.0, 1.0, 0.0]),
     }
-    text = f"image_width: {width}\nimage_height: {height}\ncamera_name: {json.dumps(shot.name)}\n"
+    text = f"image_width: {width}\nimage_height: {height}\ncamera_name: {json.dumps(shot.name, ensure_ascii=False)}\n"
     for name, (rows, columns, values) in matrices.items():
         data = ", ".join(map(repr, values))
         text += f"distortion_model: {kind}\n" if name == "distortion_coefficients" else ""
