@@ -17,6 +17,7 @@ WRONG_WORDS = {
     "no such camera": (["small.blend", "--camera", "Front"], "no camera 'Front'; its cameras are: 'Side', 'Top'"),
     "no such option": (["small.blend", "--depth"], "unrecognized arguments: --depth"),
     "no number": (["small.blend", "--frame", "half"], "'half'"),
+    "a negative number": (["small.blend", "--frame", "-1e9"], "-1e9 is beyond Blender's last frame"),
     "not finite": (["small.blend", "--frame", "nan"], "'nan' is not a frame number"),
     "beyond Blender's frames": (["small.blend", "--frame", "1e300"], "last frame"),
 }

@@ -8,7 +8,7 @@ from ..output import exports
 from ..read.camera import check_camera, check_markers, find_camera, find_cameras
 from .opening import not_run
 from .options import command_parser, open_scene, warn
-from .words import add_cameras, add_frames, check_cameras, joined
+from .words import add_cameras, add_frames, check_cameras
 
 
 def run(arguments: Sequence[str], prog: str) -> int:
@@ -28,7 +28,7 @@ def run(arguments: Sequence[str], prog: str) -> int:
     parser.add_argument("--to", metavar="NAME", help="target camera of the maps, for stmap only; "
                                                      "default: a perspective camera with the same lens")  # fmt: skip
     parser.add_argument("--output", type=Path, default=Path("out"), metavar="FOLDER", help="default: %(default)s")
-    options = parser.parse_args(joined(arguments, "--frames"))
+    options = parser.parse_args(arguments)
     check_cameras(options)
     scene = open_scene(options)
     if not options.cameras:

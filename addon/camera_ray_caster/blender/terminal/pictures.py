@@ -28,7 +28,7 @@ from . import ray_maps, signals
 from .jobs import Job, Outcome, RayMap
 from .options import go_to, open_scene, stem, use_camera, warn
 from .progress import Progress
-from .words import Parser, add_cameras, check_cameras, joined, pass_names, picture_size, sample_count
+from .words import Parser, add_cameras, check_cameras, pass_names, picture_size, sample_count
 
 CYCLES = "CYCLES"
 ENGINES = CameraRayCaster.bl_idname, CYCLES
@@ -76,7 +76,7 @@ def add_words(parser) -> None:
 
 def parsed(parser: Parser, arguments: Sequence[str]) -> Namespace:
     """Return the options of a command line. Raises InputError for options that cannot be combined."""
-    options = parser.parse_args(joined(arguments, "--frames"))
+    options = parser.parse_args(arguments)
     check_cameras(options)
     if options.samples and options.engine != CYCLES:
         raise InputError(f"--samples applies to --engine {CYCLES} only: the samples of the add-on are set in the file")

@@ -17,25 +17,26 @@ LEAST_SIDE, LARGEST_SIDE = 4, 65536
 """Blender's limits of a picture's width and height, in pixels."""
 
 
+MAY_BE_NEGATIVE = "--frame", "--frames", "--pixel"
+"""Options whose values may begin with a minus, such as -3:-1, which argparse would take for an option."""
+
+
 class Parser(argparse.ArgumentParser):
     """A parser that reports errors in one line."""
+
+    def parse_args(self, args: Sequence[str]) -> argparse.Namespace:
+        """Return the options of a command line; a value of MAY_BE_NEGATIVE belongs to the option before it."""
+        words: list[str] = []
+        for word in args:
+            if words and words[-1] in MAY_BE_NEGATIVE:
+                words[-1] += f"={word}"
+            else:
+                words.append(word)
+        return super().parse_args(words)
 
     def error(self, message):
         """Raise InputError."""
         raise InputError(f"{message} (--help lists the options)")
-
-
-def joined(arguments: Sequence[str], option: str) -> list[str]:
-    """Return the arguments with an option and its value joined by "=", wherever the option is: argparse would take
-    -3:-1 for an option.
-    """
-    words: list[str] = []
-    for word in arguments:
-        if words and words[-1] == option:
-            words[-1] = f"{option}={word}"
-        else:
-            words.append(word)
-    return words
 
 
 T = TypeVar("T")
