@@ -7,10 +7,9 @@ import bpy
 import numpy as np
 
 from ...core.camera.camera import Camera
-from ...core.camera.pixel_time import LAST_FRAME
 from ...core.casting.flow import NEXT, PREVIOUS, frames_of
 from ...core.motion.evaluations import Motion, measured, resolve
-from ...core.records import InputError, Shapes
+from ...core.records import Shapes
 from ..terminal.signals import raise_if_stopping
 from .evaluated import Eye, SceneRecord, scene_at
 
@@ -27,12 +26,10 @@ def with_other_frames(
     """Return the record of a scene with its motion, and with its next and previous frame if passes need them.
 
     The motion is None unless pixels have their own times. All frames are of the same camera object. See ``motion_of``
-    for ``visit``. Raises InputError if passes need a frame that Blender does not have.
+    for ``visit``.
     """
     found = found.with_motion(motion_of(found.camera, camera_object, visit, eye))
     for name in frames_of(passes):
-        if abs(frame + STEPS[name]) > LAST_FRAME:
-            raise InputError(f"flow at frame {frame:g} needs frame {frame + STEPS[name]:g}: Blender does not have it")
         there = scene_at(camera_object, visit(frame + STEPS[name]), eye)
         there = there.with_motion(motion_of(there.camera, camera_object, visit, eye))
         found = replace(
