@@ -20,7 +20,7 @@ def nearest_first(near: np.ndarray, count: np.ndarray, most: int) -> Iterator[np
 
 
 def slabs(triangles: Triangles, pixels: int) -> Iterator[np.ndarray]:
-    """Yield triangles in parts of about the same number, those with the least t first. The number of parts grows with
+    """Yield triangles in parts of about the same work, those with the least t first. The number of parts grows with
     their work compared with the pixels of their tile, since the tile's farthest t are computed before each part.
     """
     near, work = triangles.near, tuning.TRIANGLE_PIXELS + pixels_in(triangles.bounds)
