@@ -70,4 +70,6 @@ def test_what_is_no_set_is_refused_in_one_line(tmp_path):
     done = script("clevr_set", "--views", 1, "--resolution", "8x8", "--engine", "CAMERA_RAY_CASTER",
                   "--output", tmp_path / "file")  # fmt: skip
     assert (done.returncode, done.stderr.count("\n")) == (2, 1)
+    done = script("clevr_set", "--resolution", "99999999x2", "--output", tmp_path / "set")
+    assert (done.returncode, "outside Blender's range" in done.stderr) == (2, True)
     assert left(tmp_path) == ["file"]

@@ -115,6 +115,12 @@ def test_axes_that_are_no_rotation_are_refused_where_poses_are_rotations(change)
             assert files(one.key, [shot])
 
 
+def test_ros_has_every_letter_of_a_name():
+    """YAML's escapes of JSON would be two halves of a letter beyond 16 bits."""
+    (_, text), *_ = export("ros", [Shot("Cam😀", 1.0, camera("PERSP"), 1.0)])[0]
+    assert 'camera_name: "Cam😀"' in text.splitlines()
+
+
 def test_what_is_left_out_is_said():
     lens = {"use_dof": True, "focus_distance": 3.0, "aperture_fstop": 1.4, "aperture_blades": 0, "aperture_rotation": 0,
             "aperture_ratio": 1.0, "focus_position": None}  # fmt: skip
