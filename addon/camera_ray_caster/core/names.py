@@ -31,8 +31,8 @@ def file_names(names: Iterable[str]) -> dict[str, str]:
 
 
 def frame_digits(frame: float) -> str:
-    """Return a frame for a file name: as Blender's own: four digits or more, a minus before them, and up to six
-    decimals if it lies between whole frames.
+    """Return a frame for a file name, as Blender writes it: four digits or more, after a minus if it is negative; and
+    up to six decimals if it lies between whole frames.
     """
     whole, point, rest = f"{abs(frame):.6f}".rstrip("0").partition(".")
     digits = whole.zfill(4) + (point + rest if rest else "")

@@ -111,12 +111,11 @@ def test_a_marker_chooses_the_camera_of_its_frame(scene):
 
 
 def test_markers_that_change_the_camera_are_refused_where_one_is_meant(scene):
-    check_markers(scene, range(1, 9))
+    check_markers(scene)
     for frame, camera in ((1, scene.camera), (5, new_camera("Other"))):
         scene.timeline_markers.new("cut", frame=frame).camera = camera
-    check_markers(scene, None)
     with pytest.raises(InputError, match=r"markers change the camera of scene 'Scene' .'Camera', 'Other'.: name cam"):
-        check_markers(scene, range(1, 9))
+        check_markers(scene)
 
 
 def test_a_hidden_camera_is_evaluated_when_it_is_asked_for(scene):

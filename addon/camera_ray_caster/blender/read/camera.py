@@ -1,6 +1,6 @@
 """A camera and its render settings, copied from Blender under Blender's own names."""
 
-from collections.abc import Collection, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 
 import bpy
@@ -138,10 +138,10 @@ def find_cameras(scene, names: Sequence[str]) -> list:
     return [find_camera(scene, name) for name in names]
 
 
-def check_markers(scene, frames: Collection[float] | None) -> None:
-    """Raise InputError if markers of the timeline may give the scene another camera at some of the frames."""
+def check_markers(scene) -> None:
+    """Raise InputError if markers of the timeline change the scene's camera from frame to frame."""
     bound = {marker.camera.name for marker in scene.timeline_markers if marker.camera} | {scene.camera.name}
-    if len(bound) > 1 and frames is not None:
+    if len(bound) > 1:
         known = ", ".join(map(repr, sorted(bound)))
         raise InputError(f"markers change the camera of scene {scene.name!r} ({known}): name cameras with --cameras")
 

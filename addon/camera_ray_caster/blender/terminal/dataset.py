@@ -89,11 +89,11 @@ def run(arguments: Sequence[str], prog: str) -> int:
 def _complete(options: Namespace, pictures: Pictures) -> None:
     """Fill in missing options from the file, and make all paths absolute, so that they hold in every process."""
     scene = pictures.scene
-    options.frames = options.frames or range(scene.frame_start, scene.frame_end + 1, scene.frame_step)
     if options.cameras is None:
         check_camera(scene, scene.camera)
-        check_markers(scene, options.frames)
+        check_markers(scene)
         options.cameras = [scene.camera.name]
+    options.frames = options.frames or range(scene.frame_start, scene.frame_end + 1, scene.frame_step)
     options.pictures = any("combined" in keys for keys in pictures.passes.values())
     options.file, options.output = Path(bpy.data.filepath).absolute(), options.output.absolute()
     options.calibration = options.calibration and options.calibration.absolute()

@@ -33,7 +33,8 @@ def run(arguments: Sequence[str], prog: str) -> int:
     scene = open_scene(options)
     if not options.cameras:
         check_camera(scene, scene.camera)
-        check_markers(scene, options.frames)
+        if options.frames:
+            check_markers(scene)
     cameras = find_cameras(scene, options.cameras) if options.cameras else [scene.camera]
     target = find_camera(scene, options.to) if options.to is not None else None
     frames = options.frames or [scene.frame_current_final]

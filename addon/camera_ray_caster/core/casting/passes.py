@@ -142,7 +142,7 @@ def flow_backward(values: HitValues, out):
 
 
 def flow_hidden(values: HitValues, out):
-    """Whether the surface point is hidden or clipped in the next frame, and whether it is so in the previous frame."""
+    """Whether the surface point is hidden or clipped in the next frame (X), and in the previous frame (Y)."""
     for k, name in enumerate((NEXT, PREVIOUS)):
         flow_of(values, name).write_hidden(out[..., k])
 

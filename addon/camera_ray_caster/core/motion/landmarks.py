@@ -22,7 +22,6 @@ AHEAD = 10.0
 ENDLESS = 1e6
 """Half the side of the part of an infinite plane on which landmarks are looked for, in lengths of its axes."""
 
-
 LIT = 1 << 12
 """Maximum number of points at which light is compared."""
 
