@@ -61,4 +61,6 @@ def chosen_lens(path: str, key: str, name: str = "") -> Lens:
         setting = f"{FILE_CAMERA.label} (--calibration-camera)"
         remedy = f"set {setting} to one of {', '.join(names)}" if names != [""] else f"leave {setting} empty"
         raise InputError(f"calibration file {path!r} has {said}: {remedy}")
+    if chosen[0].refusal is not None:
+        raise chosen[0].refusal
     return chosen[0]

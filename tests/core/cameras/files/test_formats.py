@@ -52,6 +52,8 @@ NUMBERS = "300.0, 301.0, 320.5, 239.25"
 RADTAN = {"k1": -0.1, "k2": 0.02, "p1": 1e-3, "p2": -2e-3}
 EQUIDISTANT = {"k1": -0.1, "k2": 0.02, "k3": 1e-3, "k4": -2e-3}
 FOUR = "-0.1, 0.02, 0.001, -0.002"
+LIST = [-0.1, 0.02, 0, 0, 1e-3, -2e-3]
+"""RADTAN as nerfstudio's distortion_params: k1, k2, k3, k4, p1, p2."""
 
 
 def camchain(model, intrinsics, bend, coefficients):
@@ -104,6 +106,13 @@ distortion_model: plumb_bob
 D: []
 K: [300, 0, 320.5, 0, 301, 239.25, 0, 0, 1]
 """
+PAIR = """image_width: 640
+image_height: 480
+M1: [300, 0, 320.5, 0, 301, 239.25, 0, 0, 1]
+D1: [-0.1, 0.02, 0.001, -0.002]
+M2: [400, 0, 320.5, 0, 301, 239.25, 0, 0, 1]
+D2: [-0.3, 0.02, 0.001, -0.002]
+"""
 OMNIDIR = """%YAML:1.0
 ---
 image_width: 640
@@ -150,10 +159,19 @@ SAID = [
     # nerfstudio distorts a PINHOLE, too; an entry at the top counts for all frames, then those of the frame do
     ("transforms.json", transforms(fl_x=300, fl_y=301, camera_model="PINHOLE", **RADTAN), "OPENCV_PINHOLE", RADTAN),
     ("transforms.json", transforms(fl_x=300, fl_y=301, frames=[{"fl_x": 9, **RADTAN}]), "OPENCV_PINHOLE", RADTAN),
+    # the list stands for all coefficients, and one of the whole file takes those of the frames away
+    ("transforms.json", transforms(fl_x=300, fl_y=301, distortion_params=LIST, k1=9.0), "OPENCV_PINHOLE", RADTAN),
+    ("transforms.json", transforms(fl_x=300, fl_y=301, frames=[{"distortion_params": LIST}]), "OPENCV_PINHOLE", RADTAN),
+    ("transforms.json", transforms(fl_x=300, fl_y=301, is_fisheye=True,
+                                   distortion_params=[*EQUIDISTANT.values(), 0, 0]), "OPENCV_FISHEYE", EQUIDISTANT),
+    ("transforms.json", transforms(fl_x=300, fl_y=301, frames=[{"k2": 0.3}], **RADTAN | {"k2": 0.0}), "OPENCV_PINHOLE",
+     RADTAN | {"k2": 0.0}),
     ("transforms.json", transforms(fl_x=300, camera_angle_y=2 * atan(240 / 301)), "OPENCV_PINHOLE", {}),
     ("ros.yaml", ROS.format("plumb_bob", 5, FOUR + ", 0.003"), "OPENCV_PINHOLE", RADTAN | {"k3": 0.003}),
     ("ros.yaml", ROS.format("equidistant", 4, FOUR), "OPENCV_FISHEYE", EQUIDISTANT),
     ("topic.yaml", TOPIC, "OPENCV_PINHOLE", {}),
+    ("plain.yml", "width: 640\nheight: 480\nK:\n- - 300.0\n  - 0.0\n  - 320.5\n- - 0.0\n  - 301.0\n  - 239.25\n"
+     "- - 0.0\n  - 0.0\n  - 1.0\nD:\n- 0.0\n", "OPENCV_PINHOLE", {}),
     ("omnidir.yml", OMNIDIR, "UCM", RADTAN | {"unified_xi": 1.25, "skew": 1.5}),
 ]  # fmt: skip
 
@@ -193,7 +211,11 @@ GOOD = camchain("pinhole", NUMBERS, "radtan", FOUR)
         (aria("Spherical", [1.0]), "Projection of 'camera-rgb' is 'Spherical'"),
         (aria("Linear", [1.0]), "Params of 'camera-rgb' .* 4 finite numbers"),
         (transforms(fl_x=300, camera_model="EQUIRECTANGULAR"), "camera_model is 'EQUIRECTANGULAR'"),
-        (transforms(fl_x=300, k4=0.1), "k4 is the coefficient of r.8"),
+        (transforms(fl_x=300, k4=0.1), "k4 is not 0, but OpenCV's pinhole has no"),
+        (transforms(fl_x=300, distortion_params=[0, 0, 0, 0.1, 0, 0]), "k4 is not 0"),
+        (transforms(fl_x=300, distortion_params=[0.1, 0]), "distortion_params is .* 6 finite numbers"),
+        (transforms(fl_x=300, is_fisheye=True, p2=0.1), "p2 is not 0, but OpenCV's fisheye has no"),
+        (transforms(fl_x=300, latlong=True), "its entry latlong of instant-ngp is not read"),
         (transforms(fl_x="wide"), "fl_x is .*'wide'.* finite number"),
         (transforms(fl_x=300, camera_model=["OPENCV"]), "camera_model is .'OPENCV'.: it must be one of"),
         (transforms(camera_angle_x=0), "camera_angle_x is 0: it must be above 0 and below pi"),
@@ -207,6 +229,13 @@ GOOD = camchain("pinhole", NUMBERS, "radtan", FOUR)
         (GOOD.replace("distortion_model: radtan", ""), "cam0 has distortion_coeffs and no distortion_model"),
         (GOOD.replace("[640,", "[640.4,"), "its image size is 640.4 x 480: .* whole numbers above 0"),
         ("1 PINHOLE 0 0 500 500 320 240\n", "its image size is 0 x 0"),
+        ("1 PINHOLE -640 480 500 500 320 240\n", "its image size is -640 x 480"),
+        (TOPIC + "camera_matrix: [600, 0, 320.5, 0, 301, 239.25, 0, 0, 1]\n", "camera_matrix and K differ"),
+        (TOPIC + "image_width: 1280\n", "image_width and width differ: leave one out"),
+        (TOPIC.replace("plumb_bob", "none").replace("[]", "[0.1, 0, 0, 0]"), "distortion_model none: say which it is"),
+        (PAIR, "2 cameras: set Camera in File .* to one of 1, 2"),
+        (TOPIC + "roi: {x_offset: 1, width: 640}\n", "roi reaches beyond the picture of 640 x 480"),
+        (TOPIC + "roi: {x_offset: left}\n", "x_offset is .*'left'.* finite number"),
         (2 * "1 PINHOLE 640 480 500 500 320 240\n", "two cameras of one name: give each its own"),
     ],
 )
@@ -215,6 +244,29 @@ def test_a_file_without_meaning_is_refused_by_its_field(tmp_path, text, says):
         of_file(tmp_path / "lens", text, "OPENCV_PINHOLE")
     assert "\n" not in str(refusal.value)
     assert "lens" in str(refusal.value)
+
+
+def test_a_region_of_interest_is_the_picture(tmp_path):
+    """As ROS's image_geometry crops the camera matrix of the whole sensor."""
+    region = "roi:\n  x_offset: 160\n  y_offset: 120\n  height: 240\n  width: 320\n"
+    frame = {"resolution_x": 320, "resolution_y": 240}
+    cropped = of_file(tmp_path / "region.yaml", TOPIC + region, "OPENCV_PINHOLE", **frame)
+    whole = of_file(tmp_path / "whole.yaml", TOPIC + "roi: {width: 0, height: 0}\n", "OPENCV_PINHOLE")
+    points = np.array([(0.1, 0.2, -1.0), (-0.3, 0.1, -1.0), (0.0, 0.0, -1.0)])
+    np.testing.assert_allclose(cropped.project(points), whole.project(points) - [(160, 120)], rtol=1e-13)
+
+
+@pytest.mark.parametrize(("name", "fx", "k1"), [("1", 300, -0.1), ("2", 400, -0.3)])
+def test_a_stereo_pair_of_opencv_has_two_cameras(tmp_path, name, fx, k1):
+    found = of_file(tmp_path / "pair.yml", PAIR, "OPENCV_PINHOLE", calibration_camera=name).settings
+    assert (found["fx"], found["k1"], found["k2"]) == (fx, k1, 0.02)
+
+
+def test_a_camera_that_cannot_be_read_does_not_hide_the_others(tmp_path):
+    chain = GOOD + GOOD.replace("cam0:", "cam1:").replace("radtan", "spline")
+    assert of_file(tmp_path / "camchain.yaml", chain, "OPENCV_PINHOLE", calibration_camera="cam0").settings["fx"] == 300
+    with pytest.raises(InputError, match="distortion_model of cam1, pinhole, is 'spline'"):
+        of_file(tmp_path / "camchain.yaml", chain, "OPENCV_PINHOLE", calibration_camera="cam1")
 
 
 def test_a_camera_that_is_not_in_the_file_is_refused_with_those_that_are(tmp_path):

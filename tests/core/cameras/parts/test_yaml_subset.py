@@ -58,6 +58,14 @@ def test_roses_camera_info():
     assert found["points"] == [{"x": "1", "y": "2"}, {"x": "3"}]
 
 
+@pytest.mark.parametrize("indent", ["", "  "])
+def test_nested_lists_as_yaml_dump_writes_them(indent):
+    lines = "- - 300.0", "  - 0.0", "- - 0.0", "  - -301.0", "-   - k: 1", "      m: 2"
+    rows = "".join(f"{indent}{line}\n" for line in lines)
+    nested = [["300.0", "0.0"], ["0.0", "-301.0"], [{"k": "1", "m": "2"}]]
+    assert parse(f"K:\n{rows}width: 640\n") == {"K": nested, "width": "640"}
+
+
 def test_tags_directives_and_values_that_are_missing():
     text = '%YAML:1.0\n---\nK: !!opencv-matrix\n   rows: 3\nname:\nnone: ""\n...'
     assert parse(text) == {"K": {"rows": "3"}, "name": "", "none": ""}
@@ -74,6 +82,7 @@ def test_tags_directives_and_values_that_are_missing():
         ("a: |\n  text", "line 1 has a value that is not read"),
         ("a: " + "[" * (DEEPEST + 1), "nested deeper"),
         ("".join(f"{' ' * k}a:\n" for k in range(DEEPEST + 1)), "nested deeper"),
+        ("a:\n" + "- " * (DEEPEST + 1), "nested deeper"),
         ("- 1", "line 1 has an indentation"),
     ],
 )
@@ -86,7 +95,7 @@ def test_what_is_not_read_is_refused_with_its_line(text, says):
     "piece",
     [
         "a:\n ", "#", " #\n", "\n", '"', '\\"', "[", "a: [", "-\n", "data: [1,\n", "// ", "{", '{"a":', "'", "x: 1\n",
-        "a.b-c",
+        "a.b-c", "- ", "x:\n - - - ",
     ],
 )  # fmt: skip
 @pytest.mark.parametrize("begin", ["", '{"a": ', "K: [", '{"'])
@@ -101,6 +110,13 @@ def test_no_text_takes_more_than_linear_time(tmp_path, piece, begin):
         said = str(error)
     assert "\n" not in said
     assert len(said) < 500
+
+
+def test_a_name_of_json_that_is_there_twice_is_found_in_linear_time():
+    """To compare each of these names with each other would take minutes."""
+    text = "{" + "".join(f'"a{k:05x}":0,' for k in range(80_000)) + '"zz":0,"zz":1}'
+    with pytest.raises(InputError, match="it has 'zz' twice"):
+        entries_of(text, "lens")
 
 
 @pytest.mark.parametrize(

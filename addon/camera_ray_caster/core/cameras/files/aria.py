@@ -6,7 +6,7 @@ Reference: Project Aria documentation, Camera Intrinsic Models for Project Aria 
 
 from __future__ import annotations
 
-from .document import Document, Lens, matrix
+from .document import Document, Lens, mapping, matrix, one_of_several
 
 MODELS = {
     "FisheyeRadTanThinPrism": (
@@ -27,13 +27,12 @@ def read(document: Document, key: str) -> list[Lens] | None:
     cameras = document.entries.get("CameraCalibrations")
     if not isinstance(cameras, list):
         return None
-    return [_lens(document, camera) for camera in cameras]
+    named = [(str(camera.get("Label", "")), camera) for camera in map(mapping, cameras)]
+    return [one_of_several(name, _lens, document, name, camera) for name, camera in named]
 
 
-def _lens(document: Document, camera) -> Lens:
-    camera = camera if isinstance(camera, dict) else {}
-    name, projection = str(camera.get("Label", "")), camera.get("Projection")
-    projection = projection if isinstance(projection, dict) else {}
+def _lens(document: Document, name: str, camera: dict) -> Lens:
+    projection = mapping(camera.get("Projection"))
     model, terms, count = MODELS[document.one_of(projection.get("Name"), f"Projection of {name!r}", MODELS)]
     given = document.numbers(projection.get("Params"), f"Params of {name!r}", count + 2 + len(terms))
     focal, center, rest = given[:count], given[count : count + 2], given[count + 2 :]

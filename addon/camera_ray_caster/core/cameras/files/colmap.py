@@ -8,9 +8,9 @@ from __future__ import annotations
 
 import re
 
-from .document import Document, Lens, matrix
+from .document import Document, Lens, matrix, one_of_several
 
-LINE = re.compile(r"\d+\s+[A-Z][A-Z_0-9]+\s+\d+\s+\d+(\s|$)")
+LINE = re.compile(r"\d+\s+[A-Z][A-Z_0-9]+(\s+[-+.\d]\S*){2}(\s|$)")
 FISHEYE_TERMS, PINHOLE_TERMS = "k1 k2 k3 k4", "k1 k2 p1 p2"
 MODELS = {
     "SIMPLE_PINHOLE": ("OPENCV_PINHOLE", "f cx cy"),
@@ -39,7 +39,7 @@ def read(document: Document, key: str) -> list[Lens] | None:
     lines = [line.split() for line in document.text.splitlines() if line.strip() and not line.lstrip().startswith("#")]
     if not lines or not LINE.match(" ".join(lines[0][:5])):
         return None
-    return [_lens(document, line) for line in lines]
+    return [one_of_several(line[0], _lens, document, line) for line in lines]
 
 
 def _lens(document: Document, words: list[str]) -> Lens:

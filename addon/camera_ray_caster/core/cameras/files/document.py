@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Collection
+from collections.abc import Callable, Collection
 from functools import cached_property
 from reprlib import repr as shortened
 from typing import Any, NamedTuple
@@ -22,6 +22,8 @@ class Lens(NamedTuple):
     name: str
     model: str
     settings: dict[str, Any]
+    refusal: InputError | None = None
+    """Why the lens cannot be read; it has only a name then."""
 
 
 class Document:
@@ -70,6 +72,16 @@ class Document:
         return self.numbers(owner.get(name, default), name, 1)[0]
 
 
+def one_of_several(name: str, read: Callable[..., Lens], *given) -> Lens:
+    """Return the lens that ``read`` returns for what is given, or a lens with the reason why it cannot be read: the
+    other lenses of its file may be chosen.
+    """
+    try:
+        return read(*given)
+    except InputError as refusal:
+        return Lens(name, "", {}, refusal)
+
+
 def numbers_of(value) -> list[float]:
     """Return a number or a list of numbers as floats; empty if an entry is not a number, as True and words are not."""
     items = value if isinstance(value, list | tuple) else [value]
@@ -79,6 +91,11 @@ def numbers_of(value) -> list[float]:
         return [float(item) for item in items]
     except (TypeError, ValueError, OverflowError):
         return []
+
+
+def mapping(value) -> dict:
+    """Return a value if it is a mapping; else an empty one."""
+    return value if isinstance(value, dict) else {}
 
 
 def matrix_of(settings: dict[str, Any], first: float = 0.0) -> list[float]:

@@ -10,7 +10,7 @@ References: NVIDIA DriveWorks SDK documentation, Rig Configuration; NVIDIA NCore
 
 from __future__ import annotations
 
-from .document import Document, Lens
+from .document import Document, Lens, mapping, one_of_several
 
 REFERENCES = {
     "angle-to-pixeldistance": "ANGLE_TO_RADIUS",
@@ -23,16 +23,18 @@ REFERENCES = {
 
 def read(document: Document, key: str) -> list[Lens] | None:
     """Return the lenses of a document; see the package."""
-    rig, calibrations = _mapping(document.entries.get("rig")), _mapping(document.entries.get("camera_calibrations"))
+    rig, calibrations = mapping(document.entries.get("rig")), mapping(document.entries.get("camera_calibrations"))
     if "sensors" in rig:
         sensors = rig["sensors"] if isinstance(rig["sensors"], list) else []
-        cameras = [one for one in map(_mapping, sensors) if _mapping(one.get("properties")).get("Model") == "ftheta"]
+        cameras = [one for one in map(mapping, sensors) if mapping(one.get("properties")).get("Model") == "ftheta"]
         if not cameras:
             raise document.refusal("none of its sensors has properties with the Model 'ftheta'")
-        return [_of_rig(document, str(camera.get("name", "")), camera["properties"]) for camera in cameras]
+        named = [(str(camera.get("name", "")), camera["properties"]) for camera in cameras]
+        return [one_of_several(name, _of_rig, document, name, properties) for name, properties in named]
     if calibrations:
-        return [_of_nurec(document, name, _mapping(one)) for name, one in calibrations.items()]
-    for parameters in (document.entries, _mapping(document.entries.get("camera_model_parameters"))):
+        named = [(str(mapping(one).get("logical_sensor_name", key)), mapping(one)) for key, one in calibrations.items()]
+        return [one_of_several(name, _of_nurec, document, name, calibration) for name, calibration in named]
+    for parameters in (document.entries, mapping(document.entries.get("camera_model_parameters"))):
         if "reference_poly" in parameters:
             return [_of_parameters(document, "", parameters)]
     return None
@@ -49,11 +51,11 @@ def _of_rig(document: Document, name: str, properties: dict) -> Lens:
     return _lens(document, name, "polynomial-type", kind, (polynomial, f"{entry} of {name}"), center, linear, sides)
 
 
-def _of_nurec(document: Document, key: str, calibration: dict) -> Lens:
-    name, model = str(calibration.get("logical_sensor_name", key)), _mapping(calibration.get("camera_model"))
+def _of_nurec(document: Document, name: str, calibration: dict) -> Lens:
+    model = mapping(calibration.get("camera_model"))
     if model.get("type") != "ftheta":
         raise document.refusal(f"camera_model of {name} is of type {model.get('type')!r}: it must be 'ftheta'")
-    return _of_parameters(document, name, _mapping(model.get("parameters")))
+    return _of_parameters(document, name, mapping(model.get("parameters")))
 
 
 def _of_parameters(document: Document, name: str, parameters: dict) -> Lens:
@@ -80,7 +82,3 @@ def _lens(document: Document, name: str, field: str, kind: str, polynomial, cent
         "ftheta_reference": REFERENCES[kind], f"ftheta_{REFERENCES[kind].lower()}": " ".join(map(repr, numbers)),
         **{f"ftheta_{one}": number for one, number in zip("cde", linear, strict=True)},
     })  # fmt: skip
-
-
-def _mapping(value) -> dict:
-    return value if isinstance(value, dict) else {}

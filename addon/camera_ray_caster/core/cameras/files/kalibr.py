@@ -6,7 +6,7 @@ Reference: Kalibr wiki, Supported models; YAML formats.
 
 from __future__ import annotations
 
-from .document import Document, Lens, matrix
+from .document import Document, Lens, matrix, one_of_several
 
 SHAPES = {
     "pinhole": ("OPENCV_PINHOLE", ()),
@@ -27,7 +27,7 @@ DISTORTIONS = {
 def read(document: Document, key: str) -> list[Lens] | None:
     """Return the lenses of a document; see the package."""
     cameras = {name: one for name, one in document.entries.items() if isinstance(one, dict) and "camera_model" in one}
-    return [_lens(document, name, camera) for name, camera in cameras.items()] or None
+    return [one_of_several(name, _lens, document, name, camera) for name, camera in cameras.items()] or None
 
 
 def _lens(document: Document, name: str, camera: dict) -> Lens:

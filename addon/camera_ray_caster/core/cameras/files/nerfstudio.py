@@ -1,7 +1,8 @@
 """transforms.json of nerfstudio and instant-ngp: one lens for all frames, or one per frame.
 
 The center of the first pixel is (0.5, 0.5). k3 and k4 are the coefficients of r^6 and r^8; OpenCV's pinhole has no r^8.
-Reference: nerfstudio documentation, Data conventions.
+Entries of the whole file count before those of a frame; if it has one coefficient, those of frames do not count at all.
+Reference: nerfstudio documentation, Data conventions; its reader, nerfstudio_dataparser.py.
 """
 
 from __future__ import annotations
@@ -15,7 +16,11 @@ MODELS = {
     "OPENCV_FISHEYE": ("OPENCV_FISHEYE", ("k1", "k2", "k3", "k4")),
 }
 MODELS |= {"PINHOLE": MODELS["OPENCV"], "SIMPLE_PINHOLE": MODELS["OPENCV"]}
-"""Of a pinhole the coefficients count, too: nerfstudio distorts by them whatever the model is called."""
+"""Our model, and its coefficients. Those of a pinhole count, too: nerfstudio distorts by them whatever the model is
+called.
+"""
+COEFFICIENTS, LIST = ("k1", "k2", "k3", "k4", "p1", "p2"), "distortion_params"
+"""All coefficients, in the order of the list that may stand in their place."""
 
 
 def read(document: Document, key: str) -> list[Lens] | None:
@@ -26,15 +31,18 @@ def read(document: Document, key: str) -> list[Lens] | None:
         return None
     if any(name.startswith("ftheta_p") for name in entries):
         raise document.refusal("it has an f-theta lens of instant-ngp, which is not read: give a file of NVIDIA's")
+    for name in ("latlong", "equirectangular", "orthographic"):
+        if entries.get(name):
+            raise document.refusal(f"its entry {name} of instant-ngp is not read: choose that model for the camera")
     shared = not {"fl_x", "camera_angle_x"}.isdisjoint(entries)
     lenses: dict[str, Lens] = {}
     for number, frame in enumerate(frames):
-        lens = _lens(document, frame | entries, str(frame.get("file_path", number)))
+        lens = _lens(document, frame, str(frame.get("file_path", number)))
         lenses.setdefault(str(lens[1:]), lens)
     if not frames and not shared:
         raise document.refusal("it has no fl_x, and no frames")
     if len(lenses) < 2 and shared:
-        return [_lens(document, (frames or [{}])[0] | entries, "camera")]
+        return [_lens(document, (frames or [{}])[0], "camera")]
     return list(lenses.values())
 
 
@@ -49,14 +57,25 @@ def _focal(document: Document, entries: dict, axis: str, side: float) -> float:
     return side / (2 * tan(angle / 2))
 
 
-def _lens(document: Document, entries: dict, name: str) -> Lens:
+def _lens(document: Document, frame: dict, name: str) -> Lens:
+    entries = frame | document.entries
     kind = entries.get("camera_model", "OPENCV_FISHEYE" if entries.get("is_fisheye") else "OPENCV")
     model, terms = MODELS[document.one_of(kind, "camera_model", MODELS)]
-    if model == "OPENCV_PINHOLE" and document.number(entries, "k4", 0.0):
-        raise document.refusal("k4 is the coefficient of r^8, which OpenCV's pinhole does not have: it must be 0")
     width, height = (document.number(entries, side) for side in ("w", "h"))
     focal = _focal(document, entries, "x", width)
     focal_y = _focal(document, entries, "y", height) if {"fl_y", "camera_angle_y"} & set(entries) else focal
     cx, cy = (document.number(entries, one, side / 2) for one, side in (("cx", width), ("cy", height)))
-    rest = {term: document.number(entries, term, 0.0) for term in terms}
+    rest = _coefficients(document, frame)
+    for term in COEFFICIENTS:
+        if term not in terms and rest.pop(term):
+            raise document.refusal(f"{term} is not 0, but OpenCV's {model[7:].lower()} has no such coefficient")
     return Lens(name, model, document.size(width, height) | matrix(focal, focal_y, cx, cy, 0.5) | rest)
+
+
+def _coefficients(document: Document, frame: dict) -> dict[str, float]:
+    """Return all coefficients of a frame."""
+    shared = document.entries
+    owner = frame if {LIST, *COEFFICIENTS}.isdisjoint(shared) else shared
+    if LIST in owner:
+        return dict(zip(COEFFICIENTS, document.numbers(owner[LIST], LIST, len(COEFFICIENTS)), strict=True))
+    return {term: document.number(owner, term, 0.0) for term in COEFFICIENTS}

@@ -12,14 +12,14 @@ import re
 
 from .document import Document, Lens
 
-BEGIN = re.compile(r"\d+\s+[-+.\d]")
-"""Pattern of the first line: no other format begins with two numbers."""
+BEGIN, COMMENT = re.compile(r"\d+\s+[-+.\d]"), "#polynomial"
+"""Pattern of the first line, and what the toolbox writes before it. COLMAP's files of poses begin with numbers, too."""
 
 
 def read(document: Document, key: str) -> list[Lens] | None:
     """Return the lens of a document; see the package."""
     lines = [line for line in map(str.strip, document.text.splitlines()) if line and not line.startswith("#")]
-    if not lines or not BEGIN.match(lines[0]):
+    if not lines or not BEGIN.match(lines[0]) or not (len(lines) == 5 or COMMENT in document.text):
         return None
     if len(lines) != 5:
         raise document.refusal(f"it has {len(lines)} lines of numbers: a calib_results.txt of OCamCalib has 5")

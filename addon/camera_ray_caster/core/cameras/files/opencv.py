@@ -16,7 +16,7 @@ from ...records import InputError
 from ..parts.calibration import LARGEST
 from ..parts.filestorage import flat
 from ..parts.film import FARTHEST_PIXELS
-from .document import Document, Lens, matrix, numbers_of
+from .document import Document, Lens, mapping, matrix, numbers_of, one_of_several
 
 TERMS = {
     "OPENCV_PINHOLE": ("k1", "k2", "p1", "p2", "k3", "k4", "k5", "k6", "s1", "s2", "s3", "s4", "tau_x", "tau_y"),
@@ -42,12 +42,25 @@ PINHOLE_MODELS = (
 
 
 def read(document: Document, key: str) -> list[Lens]:
-    """Return the lens of a document; see the package. Every JSON or YAML file is read as one of OpenCV's."""
+    """Return the lens of a document, or both of a stereo pair; see the package. Every JSON or YAML file is read as one
+    of OpenCV's.
+    """
     entries: dict[str, tuple] = {}
     for name, value in document.entries.items():
         before = entries.setdefault(re.sub("[_-]", "", name).lower(), (name, value))
         if before[0] != name:
             raise document.refusal(f"it has {before[0]} and {name}: leave one out")
+    if "m2" not in entries:
+        return [_lens(document, "", entries, key)]
+    pair = []
+    for side, other in ("12", "21"):
+        own = {name.replace(side, "1") if name in ("m2", "d2") else name: entries[name]
+               for name in entries if name not in (f"m{other}", f"d{other}")}  # fmt: skip
+        pair.append(one_of_several(side, _lens, document, side, own, key))
+    return pair
+
+
+def _lens(document: Document, name: str, entries: dict[str, tuple], key: str) -> Lens:
     values = _numbers(entries, MATRIX_NAMES, document.path)
     is_plain = len(values) == 9 and [values[3], *values[6:]] == [0, 0, 0, 1]
     said = f"the camera matrix in {document.path!r} is {shortened(values)}"
@@ -58,6 +71,8 @@ def read(document: Document, key: str) -> list[Lens]:
     model = _model(entries, document.path, key)
     names = TERMS[model]
     found = _numbers(entries, DISTORTION_NAMES, document.path, empty=NO_DISTORTION)
+    if any(found) and str(entries.get("distortionmodel", ("", ""))[1]).lower() == "none":
+        raise document.refusal("it has distortion coefficients and distortion_model none: say which it is")
     if any(found) and len(found) not in COUNTS[model]:
         counts, order = " or ".join(map(str, COUNTS[model])), ", ".join(names)
         raise InputError(
@@ -66,9 +81,21 @@ def read(document: Document, key: str) -> list[Lens]:
     settings = {"skew": values[1], **dict(zip(names, found, strict=False))}
     if model == "UCM":
         settings["unified_xi"] = _numbers(entries, ("xi",), document.path)[0]
+    x, y, width, height = _region(document, entries)
+    camera_matrix = matrix(values[0], values[4], values[2] - x, values[5] - y)
+    return Lens(name, model, document.size(width, height) | camera_matrix | settings)
+
+
+def _region(document: Document, entries) -> list[float]:
+    """Return x, y, width and height of the picture in the calibrated one: all of it, unless ROS's roi tells a part."""
     width, height = (_numbers(entries, spellings, document.path)[0] for spellings in (WIDTH_NAMES, HEIGHT_NAMES))
-    camera_matrix = matrix(values[0], values[4], values[2], values[5])
-    return [Lens("", model, document.size(width, height) | camera_matrix | settings)]
+    name, region = entries.get("roi", ("roi", {}))
+    region = mapping(region)
+    x, y, *size = (document.number(region, one, 0.0) for one in ("x_offset", "y_offset", "width", "height"))
+    size = size if any(size) else [width, height]
+    if min(x, y) < 0 or x + size[0] > width or y + size[1] > height:
+        raise document.refusal(f"{name} reaches beyond the picture of {width:g} x {height:g}")
+    return [x, y, *size]
 
 
 def _model(entries, path: str, key: str) -> str:
@@ -90,10 +117,14 @@ def _model(entries, path: str, key: str) -> str:
 
 
 def _numbers(entries, spellings, path: str, empty: Sequence[float] = ()) -> list[float]:
-    """Return the numbers of the first entry of these names, or ``empty`` if it is an empty list. Raises InputError if
-    it is missing or not of numbers.
+    """Return the numbers of the entry with one of these names, or ``empty`` if it is an empty list. Raises InputError
+    if it is missing, not of numbers, or there twice with different values.
     """
-    for name, value in (entries[spelling] for spelling in spellings if spelling in entries):
+    given = [entries[spelling] for spelling in spellings if spelling in entries]
+    for name, value in given:
+        if repr(flat(value, name, path)) != repr(flat(given[0][1], given[0][0], path)):
+            raise InputError(f"calibration file {path!r}: {given[0][0]} and {name} differ: leave one out")
+    for name, value in given:
         numbers = list(empty) if empty and value == [] else numbers_of(flat(value, name, path))
         if not numbers or not all(abs(one) <= LARGEST for one in numbers):
             limits = f"finite numbers, up to {LARGEST:g}"

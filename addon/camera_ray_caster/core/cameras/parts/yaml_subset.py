@@ -58,9 +58,7 @@ def parse(text: str) -> dict[str, Value]:
             if column > above or (is_item and column == above and isinstance(owner, dict)):
                 node: list | dict = [] if is_item else {}
                 owner[name] = node  # type: ignore[index]
-                levels.append(_Level(column, node))
-                if len(levels) > DEEPEST:
-                    raise YamlError(f"line {number} is nested deeper than {DEEPEST} levels")
+                _open(levels, column, node, number)
             waiting = None
         while len(levels) > 1 and (column < levels[-1].column or (column == levels[-1].column and not is_item
                                                                  and isinstance(levels[-1].node, list))):  # fmt: skip
@@ -72,11 +70,15 @@ def parse(text: str) -> dict[str, Value]:
             level.node.append("")
             entry: tuple[dict | list, str | int, int] = level.node, len(level.node) - 1, column
             rest = content[1:].lstrip()
+            inner = column + len(content) - len(rest)
+            while rest == "-" or rest.startswith("- "):  # a sequence that begins behind the dash
+                entry[0][entry[1]] = node = [""]  # type: ignore[index]
+                _open(levels, inner, node, number)
+                entry, behind = (node, 0, inner), rest[1:].lstrip()
+                inner, rest = inner + len(rest) - len(behind), behind
             if KEY.match(rest):  # a mapping that begins behind the dash
-                inner = column + len(content) - len(rest)
-                node = {}
-                level.node[-1] = node
-                levels.append(_Level(inner, node))
+                entry[0][entry[1]] = node = {}  # type: ignore[index]
+                _open(levels, inner, node, number)
                 entry, rest = _entry(node, rest, inner, number)
         else:
             entry, rest = _entry(level.node, content, column, number)
@@ -91,6 +93,13 @@ def parse(text: str) -> dict[str, Value]:
         else:
             waiting = entry
     return root
+
+
+def _open(levels: list[_Level], column: int, node: list | dict, number: int) -> None:
+    """Begin a mapping or a sequence in a line."""
+    levels.append(_Level(column, node))
+    if len(levels) > DEEPEST:
+        raise YamlError(f"line {number} is nested deeper than {DEEPEST} levels")
 
 
 def _entry(node: dict, content: str, column: int, number: int):
