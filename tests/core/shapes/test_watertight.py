@@ -70,3 +70,24 @@ def test_no_pixel_is_lost_in_a_sheet(name, kind):
         covered = np.abs(crossing[..., :2]).max(axis=2) < 4.1
         assert covered.sum() > 300
         assert (images["face_index"][covered] >= 0).all()
+
+
+@pytest.mark.parametrize("turn", [0.0, 0.3, 2.0])
+def test_a_scene_of_any_size_has_the_same_picture(turn):
+    """All numbers are scaled by powers of two, so that every rounding is, too; but the lattice of an orthographic camera
+    counts in units, so that in small scenes it leaves more pixels to the exact test, which has to find the same hits.
+    """
+    rng = np.random.default_rng(2)
+    rolled = np.array([[np.cos(turn), -np.sin(turn), 0], [np.sin(turn), np.cos(turn), 0], [0, 0, 1]])
+    round_one = ball(40, 60)
+    uneven = (round_one.vertices * rng.uniform(0.7, 1.3, round_one.vertices.shape[1])).T
+    pictures = []
+    for size in (1.0, 2.0**-13, 2.0**-17):
+        mesh = mesh_of(uneven * np.float32(size), round_one.triangles.T)
+        cam = camera_at(pose(rolled, (0, 0, 8 * size)), type="ORTHO", ortho_scale=3 * size, resolution_x=150,
+                        resolution_y=150, clip_start=size / 64)  # fmt: skip
+        found = cast(cam, shapes_of((mesh, mesh.middle, 1.0)), ("depth", "face_index"), np.float64)
+        pictures.append((found["depth"] / size, found["face_index"]))
+    for depth, face in pictures[1:]:
+        np.testing.assert_array_equal(face, pictures[0][1])
+        np.testing.assert_array_equal(depth, pictures[0][0])

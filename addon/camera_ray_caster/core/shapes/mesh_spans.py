@@ -140,7 +140,7 @@ def spans(lattice: Lattice, corners: Any, bounds: np.ndarray, width: int) -> Spa
     if is_open.any() or left.any() or right.any():
         span, column = counted(np.where(is_open, last - first + 1, 0), first)
         rest.append((at[span], place[span] + column))
-        left, right = left & ~is_open, right & ~is_open & (last > first)
+        left, right = left & ~is_open, right & ~is_open & ((last > first) | ~left)  # a pixel is tested once
         rest += [(at[some], place[some] + end[some]) for some, end in ((left, first), (right, last))]
         first += left
         last -= right

@@ -256,29 +256,6 @@ def test_a_region_of_interest_is_the_picture(tmp_path):
     np.testing.assert_allclose(cropped.project(points), whole.project(points) - [(160, 120)], rtol=1e-13)
 
 
-@pytest.mark.parametrize(("name", "fx", "k1"), [("1", 300, -0.1), ("2", 400, -0.3)])
-def test_a_stereo_pair_of_opencv_has_two_cameras(tmp_path, name, fx, k1):
-    found = of_file(tmp_path / "pair.yml", PAIR, "OPENCV_PINHOLE", calibration_camera=name).settings
-    assert (found["fx"], found["k1"], found["k2"]) == (fx, k1, 0.02)
-
-
-def test_a_camera_that_cannot_be_read_does_not_hide_the_others(tmp_path):
-    chain = GOOD + GOOD.replace("cam0:", "cam1:").replace("radtan", "spline")
-    assert of_file(tmp_path / "camchain.yaml", chain, "OPENCV_PINHOLE", calibration_camera="cam0").settings["fx"] == 300
-    with pytest.raises(InputError, match="distortion_model of cam1, pinhole, is 'spline'"):
-        of_file(tmp_path / "camchain.yaml", chain, "OPENCV_PINHOLE", calibration_camera="cam1")
-
-
-def test_a_camera_that_is_not_in_the_file_is_refused_with_those_that_are(tmp_path):
-    with pytest.raises(InputError, match=r"no camera 'cam7': set Camera in File \(--calibration-camera\) to .*cam0"):
-        of_file(tmp_path / "camchain.yaml", GOOD, "OPENCV_PINHOLE", calibration_camera="cam7")
-
-
-def test_of_a_file_whose_camera_has_no_name_none_is_chosen(tmp_path):
-    with pytest.raises(InputError, match=r"no camera 'cam7': leave Camera in File \(--calibration-camera\) empty$"):
-        of_file(tmp_path / "lens", mrcal("PINHOLE", NUMBERS), "OPENCV_PINHOLE", calibration_camera="cam7")
-
-
 @pytest.mark.parametrize(
     "frame",
     [
