@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 
 from camera_ray_caster.blender.read.scene import read_shapes
+from camera_ray_caster.core.records import MESH, PLANE, SPHERE
 
 from .scene_parts import ball, new_object
 
@@ -25,7 +26,8 @@ def test_color_and_indices_come_from_the_first_faces_material(scene):
     for item in (first, second):
         item.data.materials.append(red)
         item.data.materials.append(green)
-    second.data.polygons[0].material_index = 1
+    for polygon in second.data.polygons:
+        polygon.material_index = 1
     own.data.materials.append(red)
     own.material_slots[0].link = "OBJECT"
     own.material_slots[0].material = green
@@ -36,6 +38,24 @@ def test_color_and_indices_come_from_the_first_faces_material(scene):
     }
     red, green = (1, (1, 0, 0, 1)), (2, (0, 1, 0, 0.5))
     assert looks == {"Plain": (0, (0.5, 0.25, 0, 1)), "First": red, "Second": green, "Own": green}
+
+
+def test_a_ball_or_floor_of_several_materials_is_cast_as_its_mesh(scene):
+    """Unless its setting says which shape it is; a slot beyond the last one is the last one."""
+    bpy.ops.mesh.primitive_grid_add(x_subdivisions=2, y_subdivisions=1, size=2)
+    floor, painted, forced = bpy.context.object, ball("Painted"), ball("Forced")
+    forced.camera_ray_caster.primitive = "SPHERE"
+    for item in (floor, painted, forced):
+        for _ in range(2):
+            item.data.materials.append(bpy.data.materials.new("Material"))
+        item.data.polygons[0].material_index = 9
+    shapes = read_shapes(scene)
+    kinds = {shapes.names[name]: kind for name, kind in zip(shapes.name_index, shapes.kind, strict=True)}
+    assert kinds == {"Grid": MESH, "Painted": MESH, "Forced": SPHERE}
+    for item in (floor, painted):
+        for polygon in item.data.polygons:
+            polygon.material_index = 1 + polygon.index
+    assert set(read_shapes(scene).kind) == {PLANE, SPHERE}
 
 
 def principled(color=None):

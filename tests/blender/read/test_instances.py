@@ -203,3 +203,14 @@ def test_what_the_camera_does_not_see_is_named(scene):
     assert counts(shapes) == {"Hole": 1}
     assert {name for name, _ in shapes.left_out} == {"No camera rays", "Indirect"}
     np.testing.assert_array_equal(shapes.color, [(0, 0, 0, 0)])
+
+
+def test_a_holdout_that_is_instanced_is_one_if_its_instancer_is(scene):
+    """As Cycles has it, whose pictures decided."""
+    parts = bpy.data.collections.new("Parts")
+    ball("Part", parts).is_holdout = True
+    for name in ("Seen", "Hole"):
+        owner = bpy.data.objects.new(name, None)
+        owner.instance_type, owner.instance_collection, owner.is_holdout = "COLLECTION", parts, name == "Hole"
+        scene.collection.objects.link(owner)
+    assert sorted(read_shapes(scene).color[:, 3]) == [0, 1]

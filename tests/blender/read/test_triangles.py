@@ -117,7 +117,13 @@ def free(domain):
     return shade
 
 
+def free_among_flat_faces(item):
+    free("POINT")(item)
+    some_flat(item)
+
+
 SHADINGS = (
+    free_among_flat_faces,
     smooth,
     some_flat,
     sharp_edges,
@@ -136,7 +142,12 @@ def by_blender(mesh):
         return np.array([corner.vector for corner in mesh.corner_normals])
     normals = np.array([each.vector for each in free.data])
     normals = normals / np.linalg.norm(normals, axis=1, keepdims=True)
-    return normals if free.domain == "CORNER" else normals[[loop.vertex_index for loop in mesh.loops]]
+    if free.domain == "CORNER":
+        return normals
+    return np.array([
+        normals[mesh.loops[loop].vertex_index] if polygon.use_smooth else polygon.normal
+        for polygon in mesh.polygons for loop in polygon.loop_indices
+    ])  # fmt: skip
 
 
 @pytest.mark.parametrize("with_uv", [True, False])

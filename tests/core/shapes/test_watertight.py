@@ -74,8 +74,8 @@ def test_no_pixel_is_lost_in_a_sheet(name, kind):
 
 @pytest.mark.parametrize("turn", [0.0, 0.3, 2.0])
 def test_a_scene_of_any_size_has_the_same_picture(turn):
-    """All numbers are scaled by powers of two, so that every rounding is, too; but the lattice of an orthographic camera
-    counts in units, so that in small scenes it leaves more pixels to the exact test, which has to find the same hits.
+    """All numbers are scaled by powers of two, and so is every rounding; but an orthographic camera's lattice counts in
+    units, so that in small scenes it leaves more pixels to the exact test, which has to find the same hits.
     """
     rng = np.random.default_rng(2)
     rolled = np.array([[np.cos(turn), -np.sin(turn), 0], [np.sin(turn), np.cos(turn), 0], [0, 0, 1]])

@@ -60,7 +60,7 @@ def mesh_shapes(mesh, setting: str) -> Found:
         if isinstance(found, Primitive) and (found.kind == SPHERE) == (kind == SPHERE):
             return replace(found, kind=kind), ""
         return _enclosing(kind, arrays.vertices)
-    if isinstance(found, Primitive) and not _is_solid(found, mesh):
+    if isinstance(found, Primitive) and not _is_solid(found, mesh) and not _is_colorful(mesh):
         return found, ""
     if wrong:
         return None, wrong
@@ -75,6 +75,15 @@ def _enclosing(kind, places: np.ndarray) -> Found:
 def _is_solid(found: Primitive, mesh) -> bool:
     """Return whether a mesh recognized as a sphere is too coarse for a sphere, with faces that are not all smooth."""
     return found.kind == SPHERE and found.apart > COARSE and not is_smooth(mesh)
+
+
+def _is_colorful(mesh) -> bool:
+    """Return whether faces have different materials: an exact shape has one."""
+    slot = mesh.attributes.get("material_index")
+    if slot is None or len(mesh.materials) < 2:
+        return False
+    slots = np.clip(fetched(slot.data, "value", np.int32), 0, len(mesh.materials) - 1)
+    return bool((slots != slots[0]).any())
 
 
 _known: dict[bytes, Primitive | str] = {}

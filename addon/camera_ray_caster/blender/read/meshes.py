@@ -35,7 +35,7 @@ def mesh_record(mesh, arrays: MeshArrays) -> Mesh:
     slot = mesh.attributes.get("material_index")
     polygon = fetched(mesh.loop_triangle_polygons, "value", np.int32)
     triangles = arrays.loop_vertices[loops]
-    by_vertex = uv is None and mesh.normals_domain == "POINT"
+    by_vertex = uv is None and mesh.normals_domain == "POINT" and (_free(mesh) is None or is_smooth(mesh))
     normals = _normals(mesh, arrays, by_vertex)
     if by_vertex:
         loops = triangles
@@ -53,7 +53,12 @@ def mesh_record(mesh, arrays: MeshArrays) -> Mesh:
 def is_smooth(mesh) -> bool:
     """Return whether every face is shaded smooth."""
     sharp = mesh.attributes.get("sharp_face")
-    return sharp is None or not fetched(sharp.data, "value", bool).any()
+    return sharp is None or not _flat(mesh).any()
+
+
+def _flat(mesh) -> np.ndarray:
+    """Return which faces of a mesh with the attribute sharp_face are shaded flat."""
+    return fetched(mesh.attributes["sharp_face"].data, "value", bool)
 
 
 def _triangle_loops(mesh) -> np.ndarray:
@@ -70,10 +75,8 @@ def _normals(mesh, arrays: MeshArrays, by_vertex: bool) -> np.ndarray | None:
     If corners have no normals of their own, the vertices' normals are used: Blender computes them in a tenth of the
     time.
     """
-    domain, free = mesh.normals_domain, mesh.attributes.get("custom_normal")
-    if free is not None and free.data_type != "FLOAT_VECTOR":
-        free = None
-    if domain == "FACE" or (domain == "POINT" and free is not None and not is_smooth(mesh)):
+    domain, free = mesh.normals_domain, _free(mesh)
+    if domain == "FACE":
         return None
     corners = mesh.vertex_normals if domain == "POINT" else mesh.corner_normals
     if free is None:
@@ -82,7 +85,23 @@ def _normals(mesh, arrays: MeshArrays, by_vertex: bool) -> np.ndarray | None:
         normals = fetched(free.data, "vector", np.float32, 3).reshape(-1, 3)
         lengths = np.sqrt((normals * normals).sum(axis=1, keepdims=True))
         normals /= np.where(lengths > 0, lengths, 1)
-    return normals[arrays.loop_vertices] if domain == "POINT" and not by_vertex else normals
+    if domain != "POINT" or by_vertex:
+        return normals
+    normals = normals[arrays.loop_vertices]
+    if free is not None and not is_smooth(mesh):  # they count for nothing on flat faces
+        face = np.repeat(np.arange(len(mesh.polygons)), np.diff(arrays.loop_starts, append=len(normals)))
+        flat = _flat(mesh)[face]
+        if flat.all():
+            return None
+        # not polygon_normals, which Blender 5.0 returns wrong beside such normals
+        normals[flat] = fetched(mesh.polygons, "normal", np.float32, 3).reshape(-1, 3)[face[flat]]
+    return normals
+
+
+def _free(mesh):
+    """Return the attribute of normals that are stored as plain vectors; None without it."""
+    free = mesh.attributes.get("custom_normal")
+    return free if free is not None and free.data_type == "FLOAT_VECTOR" else None
 
 
 def _slots(slots: np.ndarray, polygon: np.ndarray) -> np.ndarray | None:

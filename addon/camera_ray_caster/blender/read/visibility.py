@@ -51,9 +51,11 @@ class Visibility:
         return any(all(getattr(item, f"visible_{ray}") for item in objects) for ray in RAYS)
 
     def is_holdout(self, instance) -> bool:
-        """Return whether an instance is a holdout, which cuts a hole into the picture."""
-        objects = _involved(instance)
-        return any(item.is_holdout for item in objects) or objects[-1].holdout_get(view_layer=self.layer)
+        """Return whether an instance is a holdout, which cuts a hole into the picture: as in Cycles, if the object that
+        instances it is one.
+        """
+        owner = _involved(instance)[-1]
+        return owner.is_holdout or owner.holdout_get(view_layer=self.layer)
 
     def strands(self, item) -> list[str]:
         """Return the names of the particle systems whose hair a render draws on an evaluated object."""
