@@ -207,8 +207,10 @@ def test_what_cannot_be_a_shader_is_refused_and_left_alone(scene, settings, said
     assert not bpy.data.texts
 
 
-@pytest.mark.parametrize("mode", ["PARALLEL", "OFFAXIS", "TOE"])
-@pytest.mark.parametrize("model", ["BLENDER", "OMNIMAX"])
+@pytest.mark.parametrize(
+    ("model", "mode"),
+    [("BLENDER", "PARALLEL"), ("BLENDER", "OFFAXIS"), ("BLENDER", "TOE"), ("OMNIMAX", "PARALLEL"), ("OMNIMAX", "TOE")],
+)
 def test_both_eyes_of_stereo_are_those_that_are_read(scene, mode, model):
     camera = set_up(scene, {"model": model, "lens": 30.0} | SHIFT)
     scene.render.use_multiview = True
@@ -228,6 +230,10 @@ def test_eyes_that_cycles_would_shift_otherwise_are_refused(scene):
     with pytest.raises(InputError, match="Sensor Fit to the frame's width"):
         to_cycles(scene)
     scene.camera.data.sensor_fit = "HORIZONTAL"
+    own(scene.camera).model = "OMNIMAX"  # a dome takes no shift
+    with pytest.raises(InputError, match="choose Parallel"):
+        to_cycles(scene)
+    own(scene.camera).model = "BLENDER"
     to_cycles(scene)
 
 

@@ -9,6 +9,8 @@ from camera_ray_caster.core.camera.build import camera_from
 from camera_ray_caster.core.camera.stereo import camera_name, eye_record
 from camera_ray_caster.core.records import BlenderCamera, InputError
 
+from ..cameras.model_examples import raw_of
+
 DISTANCE, CONVERGENCE = 0.5, 4.0
 SETTINGS = {
     "views_format": "STEREO_3D",
@@ -51,6 +53,36 @@ def test_off_axis_frames_meet_at_the_convergence_distance(pivot, fit):
     assert left.project(points) == pytest.approx(right.project(points), rel=1e-13)
     nearer = points * (1, 1, 0.5)
     assert (left.project(nearer)[:, 0] > right.project(nearer)[:, 0]).all()
+
+
+LENS = {"fx": 210.0, "fy": 190.0, "cx": 201.0, "cy": 97.0, "skew": 3.0, "calibration_width": 300}
+LENSES = {
+    "in pixels": ("OPENCV_PINHOLE", LENS),
+    "in millimeters": ("OPENCV_PINHOLE", {"calibration_unit": "MILLIMETERS"}),
+    "inverted": ("CAMERA_OBSCURA", {"obscura_depth": 2.0, "obscura_width": 1.5}),
+}
+
+
+@pytest.mark.parametrize("name", LENSES)
+@pytest.mark.parametrize("kind", ["PERSP", "PANO"])
+def test_off_axis_frames_of_other_pinholes_meet_at_the_convergence_distance(name, kind):
+    """Whatever the sensor fit and the type of the camera in Blender; the camera itself sees these points there, too."""
+    key, settings = LENSES[name]
+    record = replace(raw_of(key, SETTINGS | settings | {"sensor_fit": "VERTICAL"}), type=kind)
+    left, right = eyes(record)
+    points = np.array([(x, y, -CONVERGENCE) for x in (-1, 0, 0.7) for y in (-0.5, 0.4)])
+    assert left.project(points) == pytest.approx(right.project(points), rel=1e-13)
+    assert left.project(points) == pytest.approx(camera_from(record).project(points), rel=1e-13)
+    assert np.abs(left.project(points / 2) - right.project(points / 2))[:, 0].min() > 1
+
+
+@pytest.mark.parametrize("key", ["FISHEYE_STEREOGRAPHIC", "CYLINDRICAL", "OMNIMAX", "PENCIL", "UCM"])
+@pytest.mark.parametrize("kind", ["PERSP", "ORTHO", "PANO"])
+def test_the_eyes_of_all_other_models_are_parallel(key, kind):
+    """As Blender's panoramas are; an unused type of the camera in Blender changes nothing."""
+    record = replace(raw_of(key, SETTINGS | {"shift_x": 0.1}), type=kind)
+    for own in eyes(record):
+        assert np.array_equal(own.rays().directions, camera_from(record).rays().directions, equal_nan=True)
 
 
 @pytest.mark.parametrize("pivot", ["CENTER", "LEFT", "RIGHT"])

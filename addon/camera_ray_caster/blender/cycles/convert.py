@@ -3,7 +3,7 @@
 import numpy as np
 
 from ...core.camera.camera import Camera
-from ...core.camera.stereo import SIDES, eye_record
+from ...core.camera.stereo import SIDES, blender_shift, eye_record
 from ...core.cameras import find_model
 from ...core.cameras.parts.settings import Line
 from ...core.conventions import EPS32
@@ -126,7 +126,7 @@ def _check(raw: BlenderCamera, camera: Camera, camera_object) -> None:
     check_time(raw, camera)
     if raw.settings["use_multiview"] and raw.settings["views_format"] == "STEREO_3D":
         for view in SIDES:
-            _check_eye(raw, camera, eye_record(raw, view))
+            _check_eye(raw, camera, view)
 
 
 def _check_editable(camera_object) -> None:
@@ -136,19 +136,22 @@ def _check_editable(camera_object) -> None:
         )
 
 
-def _check_eye(raw: BlenderCamera, camera: Camera, eye: BlenderCamera) -> None:
+def _check_eye(raw: BlenderCamera, camera: Camera, view: str) -> None:
     """Raise InputError for a Stereo 3D eye that is not simply the camera, moved, turned and shifted as by Cycles.
 
-    Cycles shifts an eye by fractions of the frame's width, whatever Sensor Fit is.
+    Cycles shifts an eye of any custom camera as Blender does, but by fractions of the frame's width, whatever Sensor
+    Fit is.
     """
+    shift = blender_shift(raw, view) - raw.shift_x
     width, height = camera.raster.size
     x, y = np.linspace(0, width, GRID)[None, :], np.linspace(0, height, GRID)[:, None]
+    eye = eye_record(raw, view)
     own = find_model(eye).from_blender(eye, camera.raster).rays(x, y)
-    moved = camera.model.rays(x + (eye.shift_x - raw.shift_x) * width, y)
+    moved = camera.model.rays(x + shift * width, y)
     for part, other in zip(own, moved, strict=True):
         one, two = (np.stack(np.broadcast_arrays(*vector)) for vector in (part, other))
         if not np.allclose(one, two, rtol=EPS32, atol=EPS32 * np.nanmax(np.abs(two)), equal_nan=True):
             raise InputError(
                 f"the eyes of camera {raw.name!r} differ from the eyes that Cycles makes of a custom camera: disable "
-                "Stereoscopy and render one eye at a time, or for Off-Axis set Sensor Fit to the frame's width"
+                "Stereoscopy and render one eye at a time, or choose Parallel, or set Sensor Fit to the frame's width"
             )

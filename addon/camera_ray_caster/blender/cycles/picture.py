@@ -19,7 +19,7 @@ import numpy as np
 from ...core.camera.build import camera_from
 from ...core.camera.camera import Camera
 from ...core.camera.pixel_time import LinearTime, groups
-from ...core.camera.stereo import eye_record
+from ...core.camera.stereo import blender_shift, eye_record
 from ...core.casting.passes import image_bytes
 from ...core.memory import of_pixels, require
 from ...core.records import BlenderCamera, InputError
@@ -92,8 +92,8 @@ def _eye(scene, view: str, frame: float | None = None) -> Eye:
         plain = camera_record(active, depsgraph)
         raw = eye_record(plain, view)
         moved = raw.matrix_world is not plain.matrix_world
-        shifted = eye_record(replace(plain, type="ORTHO", model=""), view) if moved else raw
-        return Eye(active, raw, camera_from(raw), moved, shifted.shift_x)
+        shift = blender_shift(plain, view) if moved else raw.shift_x
+        return Eye(active, raw, camera_from(raw), moved, shift)
 
 
 def _rolled(scene, eye: Eye, time: LinearTime, render: Render) -> Mapping[str, np.ndarray]:

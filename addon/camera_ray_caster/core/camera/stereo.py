@@ -8,6 +8,8 @@ that eye, 1 for the other). The camera's axes are normalized one by one.
     TOE       alpha = atan(iod / (2 cv)). CENTER: the eye moves as above and turns by alpha about its Y, inwards. LEFT
               and RIGHT: the other eye stands at (-s iod cos alpha, 0, -iod sin alpha) and turns by 2 alpha.
 Orthographic cameras take the off-axis shift with their lens, which they do not use otherwise; panoramas take no shift.
+Of the models that Blender does not have, the camera obscura and OpenCV's pinhole move their own picture so that points
+at the convergence distance have no parallax; all others take no shift, whatever the type of the Blender camera is.
 Spherical stereo does not move the camera: its eyes turn with every ray (see ``spherical_stereo``).
 A model with eyes of its own (omnidirectional stereo) is not moved either; the view selects its eye.
 Source: Blender manual, Stereoscopy; measured against RenderEngine.camera_model_matrix and camera_shift_x.
@@ -58,10 +60,14 @@ def eye_record(raw: BlenderCamera, view: str) -> BlenderCamera:
             return _moved(raw, -side * distance / 2, 0.0, -side * angle)
         distance *= share
         return _moved(raw, -side * distance * cos(angle), -distance * sin(angle), -side * share * 2 * angle)
-    shift = 0.0
-    if mode == "OFFAXIS" and raw.type != "PANO":
-        shift = side * share * distance / raw.sensor_width * raw.lens / convergence
-    return replace(_moved(raw, -side * share * distance, 0.0, 0.0), shift_x=raw.shift_x + shift)
+    if mode == "OFFAXIS":
+        raw = find_model(raw).off_axis(raw, side * share * distance / convergence)
+    return _moved(raw, -side * share * distance, 0.0, 0.0)
+
+
+def blender_shift(raw: BlenderCamera, view: str) -> float:
+    """Return shift_x of an eye as Blender itself sets it for a camera of type Custom, whose model it does not know."""
+    return eye_record(replace(raw, type="ORTHO", model=""), view).shift_x
 
 
 def camera_name(name: str, suffix: str, suffixes: list[str]) -> str:

@@ -12,7 +12,7 @@ pinhole camera).
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from ..records import BlenderCamera, Pose, Raster
 from .model import Step
@@ -65,6 +65,11 @@ class CameraObscura(Perspective):
         wall = Window.before_eye(raw, raster, WIDTH.read(raw) / depth, (WIDTH, DEPTH))
         turned = Window(wall.center_x, wall.center_y, -wall.pitch_x, -wall.pitch_y)
         return cls(raster.size, turned, Aperture(HOLE.read(raw) / 2, -depth))
+
+    @classmethod
+    def off_axis(cls, raw: BlenderCamera, slope: float) -> BlenderCamera:
+        """See Model: the picture is inverted."""
+        return replace(raw, shift_x=raw.shift_x - slope * DEPTH.read(raw) / WIDTH.read(raw))
 
     def aperture(self, raw: BlenderCamera, pose: Pose) -> Aperture:
         """Return the hole."""

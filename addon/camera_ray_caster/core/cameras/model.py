@@ -156,6 +156,15 @@ class Model(ABC):
         """
         return None
 
+    @classmethod
+    def off_axis(cls, raw: BlenderCamera, slope: float) -> BlenderCamera:
+        """Return the record of an eye with Off-Axis convergence, whose picture is moved so that the point at which the
+        eyes converge, at X / depth = slope in the eye's frame, is where the camera itself sees it.
+
+        The default is the record as it is: the eyes are parallel, as those of Blender's panoramas.
+        """
+        return raw
+
     def posed(self, pose: Pose) -> Model:
         """Return the model of a camera with this pose: itself, unless its rays depend on the world's up direction."""
         return self

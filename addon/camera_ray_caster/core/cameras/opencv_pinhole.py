@@ -10,7 +10,7 @@ Reference: OpenCV documentation, Camera Calibration and 3D Reconstruction (calib
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import atan
 
 import numpy as np
@@ -21,6 +21,7 @@ from ..maths.vector import components
 from ..records import BlenderCamera, Raster
 from .model import Step, WindowModel
 from .parts.calibration import CALIBRATION, PINHOLE, Calibration
+from .parts.film import OFF_AXIS
 from .parts.radial import up_to
 from .parts.radial_tangential import RadialTangential
 from .parts.silhouette import angular_radius, pixel_bounds, radial_intervals
@@ -77,6 +78,11 @@ class OpencvPinhole(WindowModel):
         coefficients = dict(calibration.coefficients)
         tilt = Tilt(coefficients.pop("tau_x"), coefficients.pop("tau_y"))
         return cls(raster.size, calibration.window(), RadialTangential(**coefficients), tilt)
+
+    @classmethod
+    def off_axis(cls, raw: BlenderCamera, slope: float) -> BlenderCamera:
+        """See Model: exactly for an undistorted lens, which sees the point that far from its center."""
+        return replace(raw, settings={**raw.settings, OFF_AXIS: slope})
 
     def rays(self, x, y):
         """Return origin and direction, each a tuple of three broadcastable arrays, camera frame, direction_z = -1.

@@ -15,7 +15,7 @@ import numpy as np
 from ..conventions import gamma
 from ..records import BlenderCamera, Raster
 from .model import Step, WindowModel
-from .parts.film import FILM, ORTHO_SCALE, Window
+from .parts.film import FILM, ORTHO_SCALE, Window, off_axis
 from .parts.silhouette import pixel_bounds
 
 
@@ -48,6 +48,11 @@ class Orthographic(WindowModel):
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> Orthographic:
         """Build the camera from the orthographic scale and shift."""
         return cls(raster.size, Window.from_blender(raw, raster, ORTHO_SCALE.read(raw)))
+
+    @classmethod
+    def off_axis(cls, raw: BlenderCamera, slope: float) -> BlenderCamera:
+        """See Model: as Blender does, with the lens that these cameras do not use otherwise."""
+        return off_axis(raw, slope)
 
     def rays(self, x, y):
         """Return origin and direction, each a tuple of three broadcastable arrays, camera frame, direction_z = -1.

@@ -18,7 +18,7 @@ import numpy as np
 from ..conventions import gamma
 from ..records import BlenderCamera, Raster
 from .model import Step, WindowModel
-from .parts.film import FILM, LENS, Film, Window
+from .parts.film import FILM, LENS, Film, Window, off_axis
 from .parts.settings import Setting
 from .parts.silhouette import pinhole_interval, pixel_bounds
 
@@ -50,6 +50,11 @@ class Perspective(WindowModel):
         """Build the camera from lens, sensor and shift."""
         film = Film.from_blender(raw, raster)
         return cls(raster.size, Window.before_eye(raw, raster, film.size / LENS.read(raw), (LENS, film.sensor)))
+
+    @classmethod
+    def off_axis(cls, raw: BlenderCamera, slope: float) -> BlenderCamera:
+        """See Model."""
+        return off_axis(raw, slope)
 
     def rays(self, x, y):
         """Return origin and direction, each a tuple of three broadcastable arrays, camera frame, direction_z = -1.

@@ -15,7 +15,7 @@ from math import radians
 
 from ...records import BlenderCamera, InputError, Raster
 from .affine import AffineWindow
-from .film import FARTHEST_PIXELS, FILM, LENS, Film, Window
+from .film import FARTHEST_PIXELS, FILM, LENS, OFF_AXIS, Film, Window
 from .settings import Choice, FilePath, Item, Number, Text, Whole
 
 MILLIMETERS = "MILLIMETERS"
@@ -149,6 +149,7 @@ class Calibration:
             center = (cx + 0.5) * scale[0], (height - (cy + 0.5)) * scale[1]
             if SKEW in settings:
                 (fx, fy), skew = (setting.read(raw) for setting in FOCAL), _within_largest(SKEW, raw)
+        center = center[0] - raw.settings.get(OFF_AXIS, 0.0) * fx * scale[0], center[1]
         return cls(fx, fy, skew, center, scale, coefficients)
 
     def window(self, linear: Linear | None = None) -> Window:

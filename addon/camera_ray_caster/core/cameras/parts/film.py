@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -21,6 +21,9 @@ STEEPEST = 2.0**30
 the image plane; with still steeper rays, float64 soon cannot either.
 """
 
+
+OFF_AXIS = "off_axis"
+"""Key in a record's settings: the slope of ``Model.off_axis``, for a lens with a center of its own."""
 
 LENS = Number("lens", "Focal Length", "Distance from the eye to the sensor", 50.0, ABOVE_ZERO, unit="mm", owner=CAMERA)
 ORTHO_SCALE = Number(
@@ -136,6 +139,11 @@ def check_slope(raw: BlenderCamera, slope: float, numbers: Iterable[Number]) -> 
 def _shift(shift: Number, raw: BlenderCamera, unit: float) -> float:
     """Return a shift whose unit is ``unit`` pixels. Raises InputError if it amounts to more than FARTHEST_PIXELS."""
     return shift.read(raw, -FARTHEST_PIXELS / unit, FARTHEST_PIXELS / unit)
+
+
+def off_axis(raw: BlenderCamera, slope: float) -> BlenderCamera:
+    """Return the record of an eye as Blender shifts it, whatever the sensor fit; see ``Model.off_axis``."""
+    return replace(raw, shift_x=raw.shift_x + slope * raw.lens / raw.sensor_width)
 
 
 @dataclass(frozen=True)
