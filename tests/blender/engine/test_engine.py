@@ -77,7 +77,7 @@ def test_each_tile_shows_progress_and_asks_whether_to_stop(stopped, ends, monkey
     from camera_ray_caster.blender.terminal import signals
 
     shown = []
-    stand_in = SimpleNamespace(update_progress=shown.append)
+    stand_in = SimpleNamespace(doing=("", ""), update_progress=shown.append, update_stats=lambda *words: None)
     monkeypatch.setattr(signals, "_stopping", ends)
     with signals.heard(lambda: stopped):
         assert engine.CameraRayCaster.advance(stand_in, 0.25) is not (stopped or ends)
@@ -135,6 +135,19 @@ def test_what_is_left_out_is_warned_of_in_one_line(blender, scene, capfd):
     said = "".join(capfd.readouterr())
     assert said.count("left out") == 1
     assert "12 objects left out: Suzanne, Suzanne.001" in said
+
+
+@pytest.mark.parametrize("model", ["BLENDER", "FISHEYE_STEREOGRAPHIC"])
+def test_lines_that_blender_draws_in_perspective_over_another_model_are_warned_of(blender, scene, capfd, model):
+    scene.camera.data.camera_ray_caster.model = model
+    scene.render.use_freestyle = True
+    blender.ops.object.grease_pencil_add(type="MONKEY")
+    blender.ops.render.render()
+    said = "Blender draws Freestyle and Grease Pencil over the picture in perspective, not through Fisheye"
+    assert (said in capfd.readouterr().out) == (model != "BLENDER")
+    from camera_ray_caster.blender.output import reports
+
+    assert len(reports.latest().warnings) == (model != "BLENDER")
 
 
 def test_the_report_is_kept_until_another_file_is_opened(blender, scene):

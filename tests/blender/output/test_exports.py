@@ -62,6 +62,18 @@ def test_a_stereo_scene_has_the_eyes_of_each_camera(scene, tmp_path):
     assert names(tmp_path / "mrcal") == ["Moving_0005_LEFT.cameramodel", "Moving_0005_R.cameramodel"]
 
 
+def test_a_multi_view_scene_has_the_camera_of_each_view(scene, tmp_path):
+    left = scene.camera
+    left.name = "Rig_L"
+    right = left.copy()
+    right.name, right.data, right.location.y = "Rig_R", left.data.copy(), 3
+    scene.collection.objects.link(right)
+    scene.render.use_multiview, scene.render.views_format = True, "MULTIVIEW"
+    _, (path,) = exports.write(scene, "json", [left], [5], tmp_path)
+    for camera, name in ((left, "Rig_L_L"), (right, "Rig_L_R")):  # as the renders of Rig_L are called
+        assert same(camera_from_json(path, camera=name), read_camera(scene, camera))
+
+
 def test_slits_paths_and_times_come_back_from_a_file(scene, tmp_path):
     own = scene.camera.data.camera_ray_caster
     bpy.ops.curve.primitive_bezier_curve_add(location=(1, 2, 3), rotation=(0.3, 0, 0))

@@ -147,6 +147,18 @@ def assert_same_position(folder, view, expected):
     assert (difference <= 64 * EPS32 * far * slope)[hit].all()
 
 
+@pytest.mark.parametrize("model", ["OPENCV_PINHOLE", "CAMERA_OBSCURA", "FISHEYE_STEREOGRAPHIC"])
+def test_eyes_of_other_models_are_rendered_as_they_are_read(blender, scene, tmp_path, model):
+    set_up(scene, "perspective", "OFFAXIS", "LEFT")
+    own = scene.camera.data.camera_ray_caster
+    own.model, own.fx, own.fy, own.cx, own.cy = model, 40.0, 40.0, 20.0, 12.0
+    own.calibration_width = own.calibration_height = 0
+    render_position(blender, scene, tmp_path)
+    for view in VIEWS:
+        seen = cast(read_camera(scene, view=view), read_shapes(scene), ["position"])["position"]
+        assert_same_position(tmp_path, view, seen)
+
+
 @pytest.mark.parametrize("view", VIEWS)
 @pytest.mark.parametrize(
     ("kind", "mode", "pivot"),

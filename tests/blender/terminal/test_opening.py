@@ -3,6 +3,7 @@
 import pytest
 
 from camera_ray_caster.blender.terminal import commands
+from camera_ray_caster.core.exports.camera_json import camera_from_json
 
 LEAD_AWAY = "/../../../away"
 
@@ -97,3 +98,18 @@ def test_names_that_look_like_paths_lead_nowhere(blender, scene, cast, tmp_path)
     inside = {path for path in appeared if path.startswith("a/b/c/out/")}
     assert appeared - inside == {"a", "a/b", "a/b/c", "a/b/c/file.blend", "a/b/c/out"}
     assert len(inside) == 3 * 2 + 1
+
+
+def test_a_calibration_is_that_of_every_camera_of_a_multi_view(blender, scene, cast, tmp_path):
+    for name in ("Rig_R", "Rig_L"):
+        scene.camera = scene.camera.copy()
+        scene.camera.name, scene.camera.data = name, scene.camera.data.copy()
+        scene.collection.objects.link(scene.camera)
+    scene.render.use_multiview, scene.render.views_format = True, "MULTIVIEW"
+    width, height = scene.render.resolution_x, scene.render.resolution_y
+    file = tmp_path / "lens.yaml"
+    file.write_text(f"width: {width}\nheight: {height}\nK: [60, 0, 3, 0, 60, 3, 0, 0, 1]\nD: []\n")
+    assert cast("--calibration", str(file)) == []
+    report = tmp_path / "a" / "b" / "c" / "out" / "report.json"
+    for view in ("left", "right"):
+        assert camera_from_json(report, camera=view).K[0, 0] == 60

@@ -10,6 +10,8 @@ import bpy
 import numpy as np
 
 from ...core.camera.stereo import eye_record
+from ...core.cameras.orthographic import Orthographic
+from ...core.cameras.perspective import Perspective
 from ...core.cast import Images
 from ...core.motion.evaluations import UNRESOLVED
 from ...core.records import BlenderCamera, Cancelled, InputError
@@ -34,6 +36,8 @@ class CameraRayCaster(Viewport, bpy.types.RenderEngine):
     bl_idname = ENGINE
     bl_label = "Camera Ray Caster"
     bl_use_eevee_viewport = True
+    doing = "", ""
+    """The view layer that is cast, and words for it."""
     done: Mapping[str, Report] = {}
     """Reports of this frame's view layers, by name."""
     stopped = False
@@ -68,13 +72,15 @@ class CameraRayCaster(Viewport, bpy.types.RenderEngine):
             if entry.key != "combined":  # Blender adds combined itself
                 self.add_pass(entry.label, len(entry.channels), entry.channels, layer=layer.name)
         eyes = [self.render_eye(depsgraph, wanted, view.name) for view in self.get_result().views]
-        return reduce(add, eyes)
+        report = reduce(add, eyes)
+        return replace(report, warnings=drawn_over(depsgraph, report.camera["model"]))
 
     def render_eye(self, depsgraph, wanted, view: str) -> Report:
         """Cast and store one eye; the view's name is empty if the scene is not multi-view."""
         layer = depsgraph.view_layer_eval.name
         self.active_view_set(view)
-        self.update_stats(layer, f"Casting rays {view}".rstrip())
+        self.doing = layer, f"Casting rays {view}".rstrip()
+        self.update_stats(*self.doing)
         keys = [entry.key for entry in wanted]
         given, made_by = {}, {"engine": self.bl_idname, "samples": depsgraph.scene_eval.camera_ray_caster.samples}
         if self.picture is not None and "combined" in keys:
@@ -117,8 +123,8 @@ class CameraRayCaster(Viewport, bpy.types.RenderEngine):
         if ours.matrix_world is raw.matrix_world:
             return ours
         camera = self.camera_override
-        shift_x = raw.shift_x if raw.type == "PANO" else self.camera_shift_x(camera)
-        return replace(raw, matrix_world=np.array(self.camera_model_matrix(camera), np.float64), shift_x=shift_x)
+        shift_x = ours.shift_x if raw.model or raw.type == "PANO" else self.camera_shift_x(camera)
+        return replace(ours, matrix_world=np.array(self.camera_model_matrix(camera), np.float64), shift_x=shift_x)
 
     def keep(self, report: Report, layer: str) -> None:
         """Warn of omissions and failures, and add the report to those of this frame's other view layers.
@@ -130,6 +136,8 @@ class CameraRayCaster(Viewport, bpy.types.RenderEngine):
         for line in report.motion:
             if line.startswith(UNRESOLVED):
                 self.report({"WARNING"}, line)
+        for line in report.warnings:
+            self.report({"WARNING"}, line)
         for finding in report.findings:
             if not finding.passed:
                 self.report({"WARNING"}, f"the reference check {finding.witness} failed: see the report")
@@ -137,9 +145,21 @@ class CameraRayCaster(Viewport, bpy.types.RenderEngine):
         reports.keep(reduce(add, self.done.values()))
 
     def advance(self, fraction: float) -> bool:
-        """Show the progress of the cast; return whether to continue."""
+        """Show the progress of the cast and the time; return whether to continue."""
+        layer, words = self.doing
+        self.update_stats(layer, f"{words} {fraction:.0%}")
         self.update_progress(fraction)
         return not signals.is_stopping()
+
+
+def drawn_over(depsgraph, model: str) -> tuple[str, ...]:
+    """Return a warning of the lines that Blender itself draws over a picture, in perspective; ``model``: its label."""
+    freestyle = depsgraph.scene_eval.render.use_freestyle and depsgraph.view_layer_eval.use_freestyle
+    pencil = any(item.type == "GREASEPENCIL" for item in depsgraph.objects)
+    lines = " and ".join(["Freestyle"] * freestyle + ["Grease Pencil"] * pencil)
+    if not lines or model in (Perspective.label, Orthographic.label):
+        return ()
+    return (f"Blender draws {lines} over the picture in perspective, not through {model}: disable it",)
 
 
 CLASSES = (CameraRayCaster,)

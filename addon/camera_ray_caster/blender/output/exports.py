@@ -11,6 +11,7 @@ from ...core.exports import export, find_format
 from ...core.exports.format import Content, Shot
 from ...core.names import file_name, file_names
 from ...core.records import InputError
+from ..read.camera import eye_object, views_of
 from ..read.scene import evaluated, go_to, read_camera
 from ..terminal import signals
 from ..terminal.opening import reported
@@ -21,7 +22,7 @@ def write(scene, key: str, cameras: Sequence, frames: Iterable[float], folder: P
     """Export camera objects of a scene at some frames, in the format ``key``, into ``folder``; return lines of messages
     and the paths of the files.
 
-    In a scene with Stereo 3D, each rendered eye of a camera is exported, with the suffix of its view. ``target`` is the
+    In a stereo scene each rendered view of a camera is exported, with its suffix. ``target`` is the
     camera object to which maps lead. The scene is restored afterwards. Raises InputError if a camera cannot be read or
     represented or the folder cannot be written, and Cancelled if stopped; then no files are left behind.
     """
@@ -42,7 +43,8 @@ def write(scene, key: str, cameras: Sequence, frames: Iterable[float], folder: P
 
 def shots(scene, cameras: Sequence, frames: Iterable[float], target=None) -> list[Shot]:
     """Return the cameras, or their eyes, at each frame, in the order of the frames; see ``write``."""
-    eyes = [(camera, suffix, view) for camera in cameras for suffix, view in _eyes(scene)]
+    views = [(view.file_suffix, view.name) for view in views_of(scene)] or [("", "")]
+    eyes = [(camera, suffix, view) for camera in cameras for suffix, view in views]
     file_names(f"{camera.name}{suffix}" for camera, suffix, _ in eyes)  # raises if two names are equal
     found = []
     with evaluated(scene):
@@ -51,18 +53,10 @@ def shots(scene, cameras: Sequence, frames: Iterable[float], target=None) -> lis
             go_to(scene, frame)
             to = read_camera(scene, target) if target is not None else None
             for camera, suffix, view in eyes:
-                read, meters = read_camera(scene, camera, view=view), scene.unit_settings.scale_length
-                suffix = file_name(suffix) if suffix else ""
-                found.append(Shot(file_name(camera.name), frame, read, meters, to, suffix))
+                read = read_camera(scene, eye_object(scene, view, camera), view=view)
+                name, end = file_name(camera.name), file_name(suffix) if suffix else ""
+                found.append(Shot(name, frame, read, scene.unit_settings.scale_length, to, end))
     return found
-
-
-def _eyes(scene) -> list[tuple[str, str]]:
-    """Return the suffix and the name of each rendered view."""
-    render = scene.render
-    if not render.use_multiview or render.views_format != "STEREO_3D":
-        return [("", "")]
-    return [(view.file_suffix, view.name) for view in render.stereo_views if view.use] or [("", "")]
 
 
 def _write(path: Path, content: Content) -> None:

@@ -128,10 +128,10 @@ def _composited(scene, file_output: bool) -> Report:
         before = file_outputs.files(scene, nodes)
         report = _rendered(scene)
         written = file_outputs.changed(before, file_outputs.files(scene, nodes))
-        return replace(report, file_outputs=written, warnings=not_run())
+        return replace(report, file_outputs=written, warnings=(*report.warnings, *not_run()))
     with file_outputs.muted(nodes):
         report = _rendered(scene)
-    return replace(report, warnings=(*not_run(), *([NOT_WRITTEN] if nodes else [])))
+    return replace(report, warnings=(*report.warnings, *not_run(), *([NOT_WRITTEN] if nodes else [])))
 
 
 def _rendered(scene) -> Report:

@@ -158,12 +158,13 @@ def view_names(scene) -> list[str]:
     return [view.name for view in views_of(scene)] or [""]
 
 
-def eye_object(scene, view: str):
-    """Return the camera object of a multi-view view: the active camera, or in the Multi-View format the view's own.
+def eye_object(scene, view: str, camera=None):
+    """Return the camera object of a multi-view view: ``camera``, or in the Multi-View format the view's own in its
+    place. The default is the active camera.
 
     Raises InputError in the Multi-View format for an unknown view.
     """
-    camera, views = scene.camera, scene.render.views
+    camera, views = camera or scene.camera, scene.render.views
     if not view or scene.render.views_format != "MULTIVIEW" or camera is None:
         return camera
     if view not in views:

@@ -13,7 +13,7 @@ from ...core.records import InputError
 from ...core.report.report import WIDTH, Report, as_json, as_lines
 from ..engine.engine import CameraRayCaster
 from ..properties.calibration import set_calibration
-from ..read.camera import check_camera, find_camera
+from ..read.camera import check_camera, eye_object, find_camera, view_names
 from . import signals
 from .opening import open_file
 from .words import Parser, frame_number
@@ -71,8 +71,9 @@ def open_scene(options):
     if options.camera is not None:
         use_camera(scene, find_camera(scene, options.camera))
     if options.calibration is not None:
-        check_camera(scene, scene.camera)
-        set_calibration(scene.camera.data, str(options.calibration.absolute()), options.calibration_camera)
+        for camera in [eye_object(scene, view) for view in view_names(scene)]:
+            check_camera(scene, camera)
+            set_calibration(camera.data, str(options.calibration.absolute()), options.calibration_camera)
     elif options.calibration_camera:
         raise InputError("--calibration-camera needs a calibration file: add --calibration FILE")
     return scene

@@ -37,9 +37,10 @@ class RenderPanel(EnginePanel, bpy.types.Panel):
         layout.use_property_decorate = False
         for setting in ("shading", "samples", "precision", "exact_shapes"):
             layout.prop(context.scene.camera_ray_caster, setting)
+        layout.prop(context.scene.render, "film_transparent")
         report = reports.latest()
         if report is not None:
-            layout.label(text=f"{report.pixels} rays in {sum(report.seconds.values()):.3f} s")
+            layout.label(text=f"{report.pixels:,} rays in {sum(report.seconds.values()):.3f} s")
             layout.label(text=f"Worst distance error: {reports.relative_error(report, 'worst')}")
         layout.operator("camera_ray_caster.write_report")
 
@@ -66,15 +67,15 @@ class PassesPanel(EnginePanel, bpy.types.Panel):
 CLASSES = (RenderPanel, PassesPanel)
 
 BORROWED = {
-    "EEVEE_MATERIAL_PT_context_material", "DATA_PT_EEVEE_light", "EEVEE_WORLD_PT_surface",
+    "EEVEE_MATERIAL_PT_context_material", "EEVEE_MATERIAL_PT_surface", "DATA_PT_EEVEE_light", "EEVEE_WORLD_PT_surface",
     "DATA_PT_camera_dof", "DATA_PT_camera_dof_aperture",
 }  # fmt: skip
-"""Panels of Blender's engines that are also shown for this engine: material slots, a light's strength, the world's
-color, depth of field.
+"""Panels of Blender's engines that are also shown for this engine: material slots, Base Color, a light's strength, the
+world's color, depth of field.
 """
 
-REPLACED = {"DATA_PT_camera", "DATA_PT_lens"}
-"""Blender panels that this engine replaces with its own."""
+REPLACED = {"DATA_PT_camera", "DATA_PT_lens", "DATA_PT_light", "DATA_PT_preview"}
+"""Blender panels that this engine replaces with its own, or with those that it borrows."""
 
 
 def compatible() -> Iterator[set[str]]:

@@ -104,6 +104,7 @@ class Report:
             exact=_union(self.exact, other.exact),
             motion=_union(self.motion, other.motion),
             accuracy=self.accuracy + other.accuracy,
+            warnings=_union(self.warnings, other.warnings),
             views={**self.views, **other.views},
             indices={**self.indices, **other.indices},
         )
