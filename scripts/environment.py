@@ -83,7 +83,9 @@ def main():
     """Print the fitting bpy, or with test-all run the tests; return the exit status."""
     if sys.argv[1:] == ["test-all"]:
         return test_all()
-    print(bpy_for(sys.version_info[:2]) if importlib.util.find_spec("pip") else f"needs pip: {sys.executable} has none")
+    bpy = bpy_for(sys.version_info[:2])
+    is_ready = os.path.exists(os.path.join(os.path.dirname(__file__), "..", ".venv", "bpy-" + bpy, "ready"))
+    print(bpy if is_ready or importlib.util.find_spec("pip") else f"needs pip: {sys.executable} has none")
     return 0
 
 

@@ -12,6 +12,7 @@ first access, so that ``core`` runs without Blender.
 from importlib import import_module
 
 __all__ = [
+    "Cancelled",
     "InputError",
     "camera_from_json",
     "camera_to_json",
@@ -25,6 +26,7 @@ __all__ = [
 ]
 
 _MODULES = {
+    "Cancelled": ".core.records",
     "InputError": ".core.records",
     "camera_from_json": ".core.exports.camera_json",
     "camera_to_json": ".core.exports.camera_json",

@@ -70,11 +70,11 @@ def test_the_folder_of_another_data_set_is_refused(command, blender, scene, out,
     command("dataset", scene, *WORDS, "--output", out)
     words, said = WORDS, "not the file of a data set"
     if case == "passes":
-        words, said = (*WORDS[:-1], "depth"), "a data set with a different passes:"
+        words, said = (*WORDS[:-1], "depth"), "a data set that differs in passes:"
     elif case == "sha256":
         blender.data.objects["Sphere"].location.x = 0.25
         blender.ops.wm.save_as_mainfile(filepath=str(scene))
-        said = "a data set with a different sha256:"
+        said = "a data set that differs in sha256:"
     else:
         (out / "dataset.json").write_text({"a word": "word", "a list": "[1]"}[case])
     before = {path.name: path.stat().st_mtime_ns for path in out.iterdir()}

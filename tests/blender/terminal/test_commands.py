@@ -1,6 +1,7 @@
 """The script in this Blender, whichever it is: pip's bpy runs it as a program, Blender as a script behind --python."""
 
 import json
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -27,6 +28,14 @@ def test_cast_leaves_its_three_files(cast, tmp_path):
     assert sorted(path.name for path in tmp_path.iterdir()) == ["orthographic.exr", "orthographic.png", "report.json"]
     assert json.loads((tmp_path / "report.json").read_text())["passed"] is True
     assert "Reference check" in done.stdout
+
+
+def test_no_option_is_one_that_cycles_reads_before_any_script():
+    """In Blender its add-on takes the beginning of an option of its own for that option, and ends Blender."""
+    folder = ROOT / "addon" / "camera_ray_caster" / "blender" / "terminal"
+    found = [name for file in folder.glob("*.py") for name in re.findall(r'"(--[a-z][a-z-]*)"', file.read_text())]
+    assert len(found) > 20
+    assert not [name for name in found for own in ("--cycles-device", "--cycles-print-stats") if own.startswith(name)]
 
 
 def test_bad_input_is_status_2(cast, tmp_path):

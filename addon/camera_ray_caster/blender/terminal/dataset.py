@@ -114,4 +114,4 @@ def _claim(folder: Path, stamp: dict[str, Any]) -> None:
             f"{str(path)!r} is not the file of a data set made by this version: choose another folder"
         ) from error
     if others:
-        raise InputError(f"{str(folder)!r} has a data set with a different {', '.join(others)}: choose another folder")
+        raise InputError(f"{str(folder)!r} has a data set that differs in {', '.join(others)}: choose another folder")

@@ -18,7 +18,7 @@ from . import signals
 from .opening import open_file
 from .words import Parser, frame_number
 
-ENDS = "exit status: 0 done; 1 done, but a reference check of the camera's rays failed; 2 bad input."
+ENDS = "exit status: 0 done; 1 done, but a reference check of the camera's rays failed; 2 bad input; 130 interrupted."
 
 
 def command_parser(prog: str, purpose: str, example: str, result: str, ends: str = ENDS) -> Parser:

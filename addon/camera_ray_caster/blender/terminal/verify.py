@@ -20,14 +20,14 @@ def run(arguments: Sequence[str], prog: str) -> int:
     add_frame(parser)
     add_json(parser)
     parser.add_argument(
-        "--cycles",
+        "--with-cycles",  # Cycles itself reads what begins with --cycles, and ends Blender
         action="store_true",
         help="also compare the rays with a picture that Cycles renders with the camera's shader",
     )
     options = parser.parse_args(arguments)
     scene = open_scene(options)
     go_to(scene, options.frame)
-    report = replace(verified(scene, options.cycles), warnings=not_run())
+    report = replace(verified(scene, options.with_cycles), warnings=not_run())
     signals.raise_if_stopping()
     for line in report.warnings:
         warn(prog, line)

@@ -22,7 +22,7 @@ SPHERE = "EQUIRECTANGULAR"
 TABLE = {
     kind: (key, tuple(name for name in names.split() if name not in lenses.MATRIX))
     for kind, (key, names) in MODELS.items()
-    if names.startswith("fx")
+    if names.startswith("fx") and kind != "FISHEYE"  # OPENCV_FISHEYE says the same, and every COLMAP reads it
 } | {SPHERE: (SPHERE, ())}
 
 CAMERAS = """# Camera list with one line of data per camera:

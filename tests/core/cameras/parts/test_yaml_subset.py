@@ -1,5 +1,7 @@
 """YAML as calibration tools write it: OpenCV's, Kalibr's, ROS's; and texts that would take a careless reader hours."""
 
+import os
+
 import pytest
 
 from camera_ray_caster.core.cameras.parts.filestorage import LARGEST, entries_of, text_of
@@ -117,6 +119,14 @@ def test_a_name_of_json_that_is_there_twice_is_found_in_linear_time():
     text = "{" + "".join(f'"a{k:05x}":0,' for k in range(80_000)) + '"zz":0,"zz":1}'
     with pytest.raises(InputError, match="it has 'zz' twice"):
         entries_of(text, "lens")
+
+
+def test_a_path_that_no_report_can_name_is_refused(tmp_path):
+    path = os.fsdecode(os.fsencode(tmp_path) + b"/lens\xff.yml")
+    with open(path, "w") as file:
+        file.write("a: 1")
+    with pytest.raises(InputError, match=r"lens.udcff.yml' cannot be read: its path is not UTF-8"):
+        text_of(path)
 
 
 @pytest.mark.parametrize(

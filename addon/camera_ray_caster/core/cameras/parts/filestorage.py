@@ -62,6 +62,8 @@ def text_of(path: str) -> str:
     try:
         if file.exists() and not file.is_file():
             raise InputError(f"{refusal}: it is a {'directory' if file.is_dir() else 'device'}, not a file")
+        if path.encode(errors="replace") != path.encode(errors="surrogatepass"):
+            raise InputError(f"{refusal}: its path is not UTF-8, as reports are: rename it")
         if file.stat().st_size > LARGEST:
             raise InputError(f"{refusal}: it is larger than {LARGEST >> 20} MB, too large for a calibration")
         return file.read_text(encoding="utf-8-sig")
