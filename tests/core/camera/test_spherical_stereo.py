@@ -15,6 +15,7 @@ from camera_ray_caster.core.conventions import EPS
 from camera_ray_caster.core.errors.rays import world_rays
 from camera_ray_caster.core.motion.interpolation import TimeInterval
 from camera_ray_caster.core.records import InputError
+from camera_ray_caster.core.report.verification import verify
 
 from ..cameras.model_examples import IDENTITY, TURNED, raw_of
 from ..cameras.test_model import inner_pixels, on_frame, points_between
@@ -277,3 +278,14 @@ def test_a_model_that_blender_does_not_have_is_refused():
     raw = replace(raw_of("OPENCV_PINHOLE", STEREO), type="PERSP")
     with pytest.raises(InputError, match="only Blender's own cameras have"):
         eye_record(raw, "left")
+
+
+@each_kind
+@pytest.mark.parametrize("merge", [{}, MERGED | FADING], ids=["", "merged"])
+@pytest.mark.parametrize("convergence", [1e-3, 1e-5])
+def test_eyes_that_converge_within_their_offset_go_there_and_back(key, merge, convergence):
+    """1e-5 is Blender's least convergence distance: D is 1/15,000 of such a ray."""
+    cam = eye(key, interocular_distance=0.3, convergence_distance=convergence, **merge)
+    (found,) = verify(cam)
+    assert found.passed
+    assert found.points > 40

@@ -19,7 +19,7 @@ References: Blender manual, Stereoscopy; source of Cycles, kernel/camera; rays r
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from math import cos, inf, pi, sin
+from math import cos, inf, pi, sin, sqrt
 
 import numpy as np
 
@@ -44,7 +44,9 @@ HALVINGS = 60
 """Number of halvings of the altitude range of a pole merge: down to rounding."""
 
 MET = 1e-9
-"""Largest error of the altitude, radians, at which bisection has found a ray; beyond it the offset jumps there."""
+"""Largest error of the altitude, radians, at which bisection has found a ray; beyond it the offset jumps there. An eye
+that converges within its offset multiplies it.
+"""
 
 SHORTEST = 1e-300
 """Range of altitudes, radians, in place of an empty one: the offset jumps there."""
@@ -177,8 +179,15 @@ class SphericalStereo(Model):
         """See Model: the rounding of the lens, plus that of D in pixels, since ``side`` turns fast near a pole."""
         here = self.lens.rays(x, y)[1]
         moves = [norm(difference(self.lens.rays(*near)[1], here)) for near in ((x + STEP, y), (x, y + STEP))]
-        rounding = gamma(32) * norm(here) * STEP / np.maximum(*moves)
+        rounding = self._amplified * gamma(32) * norm(here) * STEP / np.maximum(*moves)
         return tuple(own + rounding for own in self.lens.pixel_rounding(x, y))
+
+    @property
+    def _amplified(self) -> float:
+        """How much the rounding of D grows from a ray to a point and back: by the offset over the convergence distance
+        each time, since beside this much of ``side`` D is a small part of the ray.
+        """
+        return 1 + (self.offset * self.nearness) ** 2
 
     def _offset_beside(self, across, up, on_tube: bool):
         """Return the offset of the rays whose D has these horizontal and vertical parts; ``up`` is not negative."""
@@ -216,7 +225,8 @@ class SphericalStereo(Model):
             found = seen(self._offset_at(middle)) <= middle
             low, high = np.where(found, low, middle), np.where(found, middle, high)
         offset = self._offset_at(high)
-        offset = np.where(np.abs(seen(offset) - high) <= MET, offset, np.nan)
+        met = MET * sqrt(self._amplified)
+        offset = np.where(np.abs(seen(offset) - high) <= met, offset, np.nan)
         return np.where(seen(0.0) > self.merge[1], 0.0, offset)
 
 
