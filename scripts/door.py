@@ -21,8 +21,8 @@ def through(command: str) -> int:
     keep_output()
     try:
         import bpy
-    except ModuleNotFoundError:
-        print(f"{command}.py: needs Blender or pip's bpy: `make cast` sets it up", file=sys.stderr)
+    except ImportError as error:  # bpy is not there, or a library of the system that it needs
+        print(f"{command}.py: needs Blender or pip's bpy, which `make cast` sets up: {error}", file=sys.stderr)
         return 2
     import addon_utils
 

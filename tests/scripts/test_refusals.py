@@ -84,7 +84,7 @@ def test_a_refusal_is_one_line_and_status_2(scene, command, case):
 def test_a_python_without_bpy_is_told_what_it_needs(command):
     words = [sys.executable, "-S", ROOT / "scripts" / f"{command}.py"]  # -S: no packages
     done = subprocess.run(words, capture_output=True, text=True, timeout=60, env={})
-    assert "needs Blender or pip's bpy: `make cast`" in refused(done)
+    assert "needs Blender or pip's bpy, which `make cast`" in refused(done)
 
 
 @pytest.mark.parametrize("name", ["make_scenes", "make_pictures"])

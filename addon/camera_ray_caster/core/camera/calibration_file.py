@@ -8,7 +8,7 @@ from ..cameras import MODELS
 from ..cameras.files import lenses_of
 from ..cameras.files.document import Lens
 from ..cameras.model import Model
-from ..cameras.parts.calibration import FILE, FILE_CAMERA, SIZE
+from ..cameras.parts.calibration import CENTER, FILE, FILE_CAMERA, SIZE
 from ..records import BlenderCamera, InputError, Raster
 
 
@@ -33,9 +33,16 @@ def with_file(raw: BlenderCamera, model: type[Model], raster: Raster) -> Blender
 def _check_shape(path: str, lens: Lens, raster: Raster) -> None:
     """Raise InputError if the shape of the calibrated picture differs from a frame of square pixels by more than the
     pixel that a percentage of the resolution may have cut off. Frames of other pixels are not checked: they may have
-    been calibrated with their own or with square pixels.
+    been calibrated with their own or with square pixels. Of a file that does not tell the size, the center has to lie
+    in the frame.
     """
     width, height = (lens.settings[side.name] for side in SIZE)
+    x, y = (lens.settings[one.name] for one in CENTER)
+    if not width and not (0 <= x < raster.width and 0 <= y < raster.height):
+        raise InputError(
+            f"cx and cy of calibration file {path!r}, which has no size, are {x:g} and {y:g}, outside the frame of "
+            f"{raster.width} x {raster.height}: set the resolution to the size of the calibrated pictures"
+        )
     if raster.pixel_aspect != 1 or abs(raster.width * height - raster.height * width) <= width + height:
         return
     sizes = f"{SIZE[0].name} and {SIZE[1].name} of calibration file {path!r} are {width:g} x {height:g}"

@@ -4,7 +4,7 @@ import pytest
 
 from camera_ray_caster.core.records import InputError
 
-from .test_formats import GOOD, NUMBERS, PAIR, mrcal, of_file
+from .test_formats import GOOD, NUMBERS, PAIR, aria, mrcal, of_file
 
 
 @pytest.mark.parametrize(("name", "fx", "k1"), [("1", 300, -0.1), ("2", 400, -0.3)])
@@ -28,3 +28,11 @@ def test_a_camera_that_is_not_in_the_file_is_refused_with_those_that_are(tmp_pat
 def test_of_a_file_whose_camera_has_no_name_none_is_chosen(tmp_path):
     with pytest.raises(InputError, match=r"no camera 'cam7': leave Camera in File \(--calibration-camera\) empty$"):
         of_file(tmp_path / "lens", mrcal("PINHOLE", NUMBERS), "OPENCV_PINHOLE", calibration_camera="cam7")
+
+
+def test_a_center_outside_the_frame_belongs_to_a_picture_of_another_size(tmp_path):
+    """A file of Project Aria does not tell the size of its pictures."""
+    text = aria("Linear", [300.0, 300.0, 320.5, 239.25])
+    of_file(tmp_path / "aria.json", text, "OPENCV_PINHOLE")
+    with pytest.raises(InputError, match=r"which has no size, are 320\.5 and 239.25, outside the frame of 320 x 240"):
+        of_file(tmp_path / "aria.json", text, "OPENCV_PINHOLE", resolution_x=320, resolution_y=240)
