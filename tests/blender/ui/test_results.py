@@ -116,6 +116,19 @@ def test_the_steps_of_pixels_are_copied_and_forgotten(blender, scene):
     assert lesson.lessons(blender.context) == {}
 
 
+def test_the_color_of_a_clicked_pixel_follows_the_settings_of_the_picture(blender, scene):
+    lesson.pixels[:] = [(12, 8)]
+    settings = scene.camera_ray_caster
+    for settings.shading, settings.samples in (("MATERIAL", 1), ("GRID", 1), ("GRID", 4)):
+        blender.ops.camera_ray_caster.cast()
+        picture = pixels_of(blender.data.images[images.image_name("combined")])
+        told = lesson.lessons(blender.context)[12, 8].color
+        assert told == pytest.approx(picture.reshape(HEIGHT, WIDTH, 4)[8, 12], rel=1e-6)  # float32
+    settings.samples = lesson.MOST_SAMPLES + 1
+    assert lesson.lessons(blender.context)[12, 8].color is None
+    lesson.forget()
+
+
 def test_a_pixel_that_shows_nothing_has_a_mark_on_its_ray(blender, scene):
     camera, shapes = read_camera(scene), read_shapes(scene)
     hit, missed = (lesson.lesson(camera, shapes, *pixel) for pixel in ((WIDTH // 2, HEIGHT // 2), (0, 0)))

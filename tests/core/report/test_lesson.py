@@ -10,7 +10,7 @@ from camera_ray_caster.core.cast import cast
 from camera_ray_caster.core.mesh import Mesh
 from camera_ray_caster.core.records import INFINITE_PLANE, MESH, PLANE, SPHERE, BlenderCamera, InputError, Shapes
 from camera_ray_caster.core.report.lesson import lesson
-from camera_ray_caster.core.report.meetings import nearest
+from camera_ray_caster.core.report.meetings import nearest, words
 
 TETRAHEDRON = Mesh(
     vertices=np.array([[-1, 1, 0, 0], [-1, -1, 1, 0], [0, 0, 0, 2]], np.float32),
@@ -77,6 +77,40 @@ def test_the_plain_equations_find_what_the_search_finds(changed):
                 assert first[1].t == pytest.approx(images["distance"][row, column], rel=1e-12)
                 hits += 1
     assert hits > 50
+
+
+LENS = {"use_dof": True, "focus_distance": 4.0, "aperture_fstop": 0.05, "aperture_ratio": 1.0, "aperture_blades": 0,
+        "aperture_rotation": 0.0, "focus_position": None}  # fmt: skip
+FISHEYE = {"panorama_type": "FISHEYE_EQUIDISTANT", "fisheye_fov": 3.0}
+
+
+@pytest.mark.parametrize("shading", ["MATERIAL", "GRID"])
+@pytest.mark.parametrize(
+    ("changed", "samples"), [({}, 1), ({"settings": LENS}, 7), ({"type": "PANO", "settings": FISHEYE}, 5)]
+)
+def test_the_color_is_that_of_the_picture(changed, samples, shading):
+    eye, shapes = camera(**changed), replace(scene(), world_color=(0.1, 0.2, 0.3, 1.0))
+    one, picture = (
+        cast(eye, shapes, "combined", np.float64, shading=shading, samples=count)["combined"] for count in (1, samples)
+    )
+    differing = 0
+    for column, row in [(0, 0), (1, 14), (14, 17), (20, 5), (20, 15), (28, 16), (39, 29)]:
+        found = lesson(eye, shapes, column, row, shading=shading, samples=samples)
+        # to rounding: triangles are searched otherwise in a single pixel
+        assert found.color == pytest.approx(picture[row, column], rel=1e-12, abs=0)
+        said = dict(found.steps)["Color"]
+        assert words(one[row, column]) in said[-1 if samples == 1 else -2]
+        if samples > 1:
+            assert f"the mean of {samples} rays" in said[-1]
+            assert said[-1].endswith(f"linear {words(picture[row, column])}")
+        differing += not np.array_equal(one[row, column], picture[row, column])
+    assert (differing > 0) == (samples > 1)
+
+
+def test_a_mean_of_too_many_rays_is_named_and_left_out():
+    found = lesson(camera(), scene(), 20, 15, samples=300, most=256)
+    assert found.color is None
+    assert "the mean of 300 rays over the pixel: too many to cast here" in "\n".join(found.lines())
 
 
 def test_what_lies_outside_of_the_clip_range_says_so():

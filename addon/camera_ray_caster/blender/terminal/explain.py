@@ -39,7 +39,10 @@ def run(arguments: Sequence[str], prog: str) -> int:
         camera = camera.at(frame)
         print(f"At frame {frame:g}, the time of this pixel\n")
     signals.raise_if_stopping()
-    print("\n".join(lesson(camera, read_shapes(scene, frame), column, row).lines()), flush=True)
+    settings = scene.camera_ray_caster
+    look = {name: getattr(settings, name) for name in ("shading", "samples", "precision")}
+    steps = lesson(camera, read_shapes(scene, frame), column, row, **look, progress=lambda _: not signals.is_stopping())
+    print("\n".join(steps.lines()), flush=True)
     return 0
 
 

@@ -8,7 +8,7 @@ from .drawing import Sidebar, draw_message
 from .lesson_operators import ClearSteps, CopySteps, StepThrough
 from .point_operators import EmptyAtHit, PixelOfPoint
 
-OPEN = ("Ray", "Ray in the world", "Seen")
+OPEN = ("Ray", "Ray in the world", "Seen", "Color")
 """Titles of the steps that are open at first."""
 
 

@@ -5,6 +5,8 @@ An Image Editor with a picture of the camera shows a frame and the coordinates a
 
 from __future__ import annotations
 
+from typing import Any
+
 import blf
 import bpy
 import gpu
@@ -25,24 +27,28 @@ GROUND = (0.0, 0.0, 0.0, 1.0)
 WIDTH, POINT, MARK, TEXT = 2.5, 8.0, 5.0, 12.0
 """Sizes in pixels at interface scale 1: line width, point size, minimum half side of a mark, font size."""
 
+MOST_SAMPLES = 256
+"""Largest number of samples that are cast for a pixel while a sidebar is drawn: they take 0.2 s in a small scene."""
+
 pixels: list[tuple[int, int]] = []
 """Clicked pixels (column, row), the latest last."""
-_read: list[tuple[CachedScene, dict[tuple[int, int], Lesson]]] = []
+_read: list[tuple[CachedScene, dict[str, Any], dict[tuple[int, int], Lesson]]] = []
 
 
 def lessons(context) -> dict[tuple[int, int], Lesson]:
-    """Return the explanations of the pixels inside the frame, updated after a change of the scene."""
-    scene = cached_scene(context)
-    if not _read or _read[0][0] is not scene:
-        _read[:] = [(scene, {})]
-    known = _read[0][1]
+    """Return the explanations of the pixels inside the frame, updated after a change of the scene or its settings."""
+    scene, settings = cached_scene(context), context.scene.camera_ray_caster
+    look = {name: getattr(settings, name) for name in ("shading", "samples", "precision")}
+    if not _read or _read[0][0] is not scene or _read[0][1] != look:
+        _read[:] = [(scene, look, {})]
+    known = _read[0][2]
     if scene.camera is None:
         return {}
     raster = scene.camera.raster
     shown = [(x, y) for x, y in pixels if x < raster.width and y < raster.height]
     for pixel in shown:
         if pixel not in known:
-            known[pixel] = lesson(scene.camera, scene.shapes, *pixel)
+            known[pixel] = lesson(scene.camera, scene.shapes, *pixel, most=MOST_SAMPLES, **look)
     return {pixel: known[pixel] for pixel in shown}
 
 

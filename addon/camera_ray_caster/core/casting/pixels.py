@@ -31,16 +31,28 @@ def hits_at(plan: Plan, columns: np.ndarray, rows: np.ndarray) -> Hits:
 
 
 def passes_at(
-    camera: Camera, shapes: Shapes, columns: np.ndarray, rows: np.ndarray, passes: Sequence[str]
+    camera: Camera, shapes: Shapes, columns: np.ndarray, rows: np.ndarray, passes: Sequence[str], **options
 ) -> dict[str, np.ndarray]:
     """Return passes, (l, k[, channels]) float64 or of the pass's own type, at columns (k,) and rows (l,) of the full
     frame, ascending, also outside of the render window. The camera is taken as it is now, without its pixel times.
+    ``options`` are those of ``Request``.
+    """
+    still = window_of(camera, columns, rows)
+    request = Request(tuple(passes), tuple(PASSES), others=pictures(camera, shapes, passes), **options)
+    return stored(hits_at(make_plan(still, shapes, request), columns, rows))
+
+
+def window_of(camera: Camera, columns: np.ndarray, rows: np.ndarray) -> Camera:
+    """Return the camera as it is now, without its pixel times, with the smallest render window that has the pixels of
+    columns (k,) and rows (l,) of the full frame, ascending.
     """
     ends = {"x0": columns[0], "x1": columns[-1] + 1, "y0": rows[0], "y1": rows[-1] + 1}
-    still = replace(camera, raster=replace(camera.raster, **ends), pixel_time=None, motion=None)
-    request = Request(tuple(passes), tuple(PASSES), others=pictures(camera, shapes, passes))
-    plan = make_plan(still, shapes, request)
-    images = {name: PASSES[name].empty((len(rows), len(columns)), np.float64) for name in passes}
+    return replace(camera, raster=replace(camera.raster, **ends), pixel_time=None, motion=None)
+
+
+def stored(hits: Hits) -> dict[str, np.ndarray]:
+    """Return the requested passes of hits, (rows, columns[, channels]) float64 or of the pass's own type."""
+    images = {name: PASSES[name].empty(hits.rays.shape, np.float64) for name in hits.plan.request.passes}
     with np.errstate(all="ignore"):  # NaN and inf mean no ray and no hit
-        store(hits_at(plan, columns, rows), images)
+        store(hits, images)
     return images

@@ -90,10 +90,10 @@ def diagram(camera: Camera, shapes: Shapes, size: float, rays_across: int) -> Di
     )
 
 
-def probe(camera: Camera, shapes: Shapes, column: int, row: int) -> Probe:
-    """Return the ray of one pixel of the full frame and its hit."""
+def probe(camera: Camera, shapes: Shapes, column: int, row: int, **options) -> Probe:
+    """Return the ray of one pixel of the full frame and its hit; ``options`` are those of ``passes_at``."""
     passes = ("ray_origin", "ray_direction", "distance", "shape_index", "valid")
-    images = passes_at(camera, shapes, np.array([column]), np.array([row]), passes)
+    images = passes_at(camera, shapes, np.array([column]), np.array([row]), passes, **options)
     found = {name: image[0, 0] for name, image in images.items()}
     index = int(found["shape_index"])
     raster = camera.raster

@@ -1,7 +1,9 @@
-"""Step-by-step explanation of one pixel, with numbers: raster, view coordinates, model formula, ray, shapes, hit."""
+"""Step-by-step explanation of a pixel, with numbers: raster, view coordinates, model formula, ray, shapes, hit, color.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
@@ -10,7 +12,9 @@ import numpy as np
 from ..camera.camera import Camera
 from ..cameras.model import WindowModel
 from ..cameras.parts.film import Film
-from ..casting.pixels import passes_at
+from ..cast import MOST_SAMPLES, cast
+from ..casting.pixels import passes_at, window_of
+from ..casting.request import AUTOMATIC, MATERIAL
 from ..records import InputError, Shapes
 from .diagram import Probe, probe
 from .formula import worked_out
@@ -32,16 +36,31 @@ class Lesson:
     point: np.ndarray | None = None
     """World position of the visible point, (3,); None if nothing is hit."""
     normal: np.ndarray | None = None
+    color: np.ndarray | None = None
+    """The pixel's linear RGBA in the picture, (4,); None if it is the mean of too many rays."""
 
     def lines(self) -> list[str]:
         """Return all steps as lines of text."""
         return [line for title, texts in self.steps for line in (title, *(f"  {text}" for text in texts), "")][:-1]
 
 
-def lesson(camera: Camera, shapes: Shapes, column: int, row: int) -> Lesson:
+def lesson(
+    camera: Camera,
+    shapes: Shapes,
+    column: int,
+    row: int,
+    *,
+    shading: str = MATERIAL,
+    samples: int = 1,
+    precision: str = AUTOMATIC,
+    most: int = MOST_SAMPLES,
+    progress: Callable[[float], bool] | None = None,
+) -> Lesson:
     """Return the steps of a pixel at the camera's own frame. Pixels of the full frame are counted from the bottom left.
 
-    Raises InputError for a pixel outside of the frame.
+    The steps follow the chief ray. The color is that of ``cast`` with the same shading, samples and precision; the mean
+    of more than ``most`` samples is left out. ``progress`` and Cancelled are as in ``cast``. Raises InputError for a
+    pixel outside of the frame.
     """
     raster = camera.raster
     if not (0 <= column < raster.width and 0 <= row < raster.height):
@@ -49,25 +68,47 @@ def lesson(camera: Camera, shapes: Shapes, column: int, row: int) -> Lesson:
             f"pixel {column},{row} is outside the frame: give 0,0 (bottom left) to "
             f"{raster.width - 1},{raster.height - 1}"
         )
-    seen = probe(camera, shapes, column, row)
-    steps = [*_raster(camera, seen), ("Model", tuple(_formula(camera, seen)))]
-    if np.isnan(seen.direction).any():
-        return Lesson(seen, (*steps, ("Ray", ("none: the model has no ray for this pixel",))))
-    met = meetings(camera, shapes, seen.origin, seen.direction)
-    steps += [("Ray in the world", _world(camera, seen)), ("Shapes on the line of the ray", tuple(_shapes(met)))]
-    if nearest(met) is None:
-        color = words(shapes.world_color)
-        return Lesson(seen, (*steps, ("Seen", (f"nothing: the color of the world, {color}",))), tuple(met))
+    place = np.array([column]), np.array([row])
+    look: dict[str, Any] = {"shading": shading, "precision": precision}
+    seen = probe(camera, shapes, column, row, **look)
     names = ("position", "normal", "combined", "depth")
-    found = passes_at(camera, shapes, np.array([column]), np.array([row]), names)
+    found = passes_at(camera, shapes, *place, names, **look)
     point, normal, color, depth = (found[name][0, 0] for name in names)
-    lines = (
+    steps, met = [*_raster(camera, seen), ("Model", tuple(_formula(camera, seen)))], []
+    if np.isnan(seen.direction).any():
+        steps.append(("Ray", ("none: the model has no ray for this pixel",)))
+    else:
+        met = meetings(camera, shapes, seen.origin, seen.direction)
+        steps += [("Ray in the world", _world(camera, seen)), ("Shapes on the line of the ray", tuple(_shapes(met)))]
+        steps.append(("Seen", _seen(seen, point, normal, depth)))
+    lines, mean = [f"linear {words(color)}"], color
+    if samples > 1:
+        mean = None
+        if samples <= most:
+            still = window_of(camera, *place)
+            images = cast(still, shapes, "combined", np.float64, samples=samples, progress=progress, **look)
+            mean = images["combined"][0, 0]
+        lines.append(_mean(camera, samples, mean))
+    steps.append(("Color", tuple(lines)))
+    if seen.shape_index < 0:
+        point = normal = None
+    return Lesson(seen, tuple(steps), tuple(met), point, normal, mean)
+
+
+def _seen(seen: Probe, point: np.ndarray, normal: np.ndarray, depth: float) -> tuple[str, ...]:
+    if seen.shape_index < 0:
+        return ("nothing",)
+    return (
         f"{seen.name!r}, shape_index {seen.shape_index}",
         f"point o + t r = {words(point)}, distance {seen.distance:.9g}, depth {depth:.9g}",
         f"unit normal, turned towards the ray {words(normal)}",
-        f"color, linear {words(color)}",
     )
-    return Lesson(seen, (*steps, ("Seen", lines)), tuple(met), point, normal)
+
+
+def _mean(camera: Camera, samples: int, mean: np.ndarray | None) -> str:
+    over = "the pixel" if camera.aperture is None else "the pixel and the aperture"
+    told = "too many to cast here" if mean is None else f"linear {words(mean)}"
+    return f"the steps follow the chief ray; the picture has the mean of {samples} rays over {over}: {told}"
 
 
 def _raster(camera: Camera, seen: Probe):
