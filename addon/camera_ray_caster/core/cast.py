@@ -72,7 +72,7 @@ def cast(
     memory.require(image_bytes(camera.raster.shape, passes, dtype), memory.of_pixels("the passes", camera.raster.shape))
     request = replace(request, others=pictures(camera, shapes, passes))
     time = camera.pixel_time
-    whole = make_plan(*_moment(camera, shapes, (time.first + time.last) / 2 if time else None), request)
+    whole = make_plan(*moment(camera, shapes, (time.first + time.last) / 2 if time else None), request)
     images = Images({name: PASSES[name].empty(camera.raster.shape, dtype) for name in passes})
     images.camera, images.shapes, images.plan = camera, shapes, whole
     sampled = ("combined",) if samples > 1 and "combined" in passes else ()
@@ -89,7 +89,7 @@ def cast(
 
     def run(tile: Tile, scratch: Scratch) -> np.ndarray:
         seconds = np.zeros(len(STEPS))
-        then = _moment(camera, shapes, tile.frame)
+        then = moment(camera, shapes, tile.frame)
         with np.errstate(all="ignore"):  # NaN and inf mean no ray and no hit
             for part, count in parts:
                 if part.passes:
@@ -123,7 +123,7 @@ def cast(
     return images
 
 
-def _moment(camera: Camera, shapes: Shapes, frame: float | None) -> tuple[Camera, Shapes]:
+def moment(camera: Camera, shapes: Shapes, frame: float | None) -> tuple[Camera, Shapes]:
     """Return camera and shapes at a frame, or as they are if ``frame`` is None: the picture has one time."""
     if frame is None:
         return camera, shapes

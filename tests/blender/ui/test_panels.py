@@ -111,3 +111,17 @@ def test_sentences_of_a_lesson_begin_with_a_capital_and_formulas_as_they_are(ble
     assert "u = (1, 0, 0)" in said
     assert "U = " not in said
     lesson.forget()
+
+
+def test_step_through_names_the_objects_that_a_render_shows_otherwise(blender, scene):
+    from camera_ray_caster.blender.ui.lesson_panels import SidebarLesson
+    from camera_ray_caster.blender.view3d import lesson
+
+    lesson.pixels[:] = [(12, 8)]
+    assert "as in the viewport" not in drawn(blender, SidebarLesson)
+    for name in "ABCD":
+        blender.ops.mesh.primitive_cube_add(location=(50, 0, 0))
+        blender.context.object.name = name
+        blender.context.object.modifiers.new("Subdivision", "SUBSURF")  # 1 level, 2 in a render
+    assert "a render shows these otherwise: A, B, C and 1 more" in drawn(blender, SidebarLesson)
+    lesson.forget()

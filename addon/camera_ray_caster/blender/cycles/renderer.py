@@ -64,10 +64,15 @@ def cycles_engine(scene) -> Iterator[Render]:
     with ExitStack() as stack:
         bpy.utils.register_class(Pixels)
         stack.callback(bpy.utils.unregister_class, Pixels)
-        off = ("use_compositing", "use_sequencer", "use_freestyle", "use_persistent_data", "use_render_cache")
-        off = {name: False for name in off if hasattr(scene.render, name)}  # use_render_cache: before 5.2
-        changed(stack, scene.render, **off)
+        only_engine(stack, scene)
         yield render
+
+
+def only_engine(stack: ExitStack, scene) -> None:
+    """Leave out of renders all but the engine, and keep nothing of them, until the stack is closed."""
+    off = ("use_compositing", "use_sequencer", "use_freestyle", "use_persistent_data", "use_render_cache")
+    off = {name: False for name in off if hasattr(scene.render, name)}  # use_render_cache: before 5.2
+    changed(stack, scene.render, **off)
 
 
 def border(window: Raster) -> dict[str, object]:

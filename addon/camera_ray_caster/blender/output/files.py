@@ -106,7 +106,7 @@ def render(
 
 def check(scene) -> None:
     """Raise InputError for input that ``render`` refuses before it starts."""
-    _check_layers(scene)
+    check_layers(scene)
     _check_suffixes(scene.render)
     _check_memory(scene)
 
@@ -169,7 +169,7 @@ def _save(scene, path: Path, settings) -> None:
             raise OSError(0, str(error).strip()) from error
 
 
-def _check_layers(scene) -> None:
+def check_layers(scene) -> None:
     """Raise InputError if no view layer is enabled for rendering."""
     if not any(layer.use for layer in scene.view_layers):
         raise InputError(f"no view layer of scene {scene.name!r} is used for rendering: enable one")

@@ -5,8 +5,9 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from ...core.cast import moment
 from ...core.report.lesson import lesson
-from ..read.scene import read_camera, read_shapes
+from ..engine.reading import read_as_rendered
 from . import signals
 from .options import add_frame, command_parser, go_to, open_scene
 
@@ -31,17 +32,18 @@ def run(arguments: Sequence[str], prog: str) -> int:
     options = parser.parse_args(arguments)
     scene = open_scene(options)
     go_to(scene, options.frame)
-    column, row = options.pixel
-    camera = read_camera(scene)
-    frame = scene.frame_current_final
+    job = read_as_rendered(scene)
+    camera, shapes, (column, row) = job.camera, job.shapes, options.pixel
+    if job.several:
+        print(f"View layer {job.layer!r}\n")
     if camera.pixel_time is not None:
         frame = float(np.asarray(camera.pixel_time.frame_at(column + 0.5, row + 0.5)))
-        camera = camera.at(frame)
+        camera, shapes = moment(camera, shapes, frame)
         print(f"At frame {frame:g}, the time of this pixel\n")
-    signals.raise_if_stopping()
-    settings = scene.camera_ray_caster
-    look = {name: getattr(settings, name) for name in ("shading", "samples", "precision")}
-    steps = lesson(camera, read_shapes(scene, frame), column, row, **look, progress=lambda _: not signals.is_stopping())
+    steps = lesson(
+        camera, shapes, column, row, shading=job.shading, samples=job.samples, precision=job.precision,
+        progress=lambda _: not signals.is_stopping(),
+    )  # fmt: skip
     print("\n".join(steps.lines()), flush=True)
     return 0
 

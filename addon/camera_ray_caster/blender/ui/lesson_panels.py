@@ -1,15 +1,21 @@
 """Sidebar panels that show the steps of a pixel, in the 3D View and in an Image Editor with the camera's picture."""
 
+from collections.abc import Iterator
+
 import bpy
 
 from ..view3d.camera_frame import is_picture
 from ..view3d.lesson import lessons
+from ..view3d.scene_cache import cached_scene
 from .drawing import Sidebar, draw_message
 from .lesson_operators import ClearSteps, CopySteps, StepThrough
 from .point_operators import EmptyAtHit, PixelOfPoint
 
 OPEN = ("Ray", "Ray in the world", "Seen", "Color")
 """Titles of the steps that are open at first."""
+
+LISTED = 3
+"""Maximum number of objects that the panel names."""
 
 
 class Steps:
@@ -33,12 +39,24 @@ class Steps:
         if others:
             pixels = ", ".join(f"({x}, {y})" for x, y in (one.seen.pixel for one in others))
             draw_message(layout, context, f"Also drawn: {pixels}")
+        for text in _differences(context):
+            draw_message(layout, context, text)
         for title, lines in latest.steps:
             header, body = layout.panel(f"camera_ray_caster {title}", default_closed=title not in OPEN)
             header.label(text=f"{title} {latest.seen.pixel[0]}, {latest.seen.pixel[1]}" if title == "Pixel" else title)
             if body:
                 for line in lines:
                     draw_message(body, context, line, "BLANK1" if line.startswith(" ") else "DOT")
+
+
+def _differences(context) -> Iterator[str]:
+    """Yield sentences about how a render differs from what the steps show."""
+    scene = cached_scene(context)
+    yield from scene.differences
+    if scene.otherwise:
+        more = len(scene.otherwise) - LISTED
+        names = ", ".join(scene.otherwise[:LISTED]) + (f" and {more} more" if more > 0 else "")
+        yield f"Objects are shown as in the viewport; a render shows these otherwise: {names}"
 
 
 class SidebarLesson(Sidebar, Steps, bpy.types.Panel):

@@ -10,6 +10,7 @@ from bpy.app.handlers import persistent
 
 from ...core.camera.camera import Camera
 from ...core.records import BlenderCamera, InputError, Shapes
+from ..read.differences import evaluated_otherwise
 from ..read.evaluated import camera_at
 from ..read.shapes import shapes_record
 
@@ -27,6 +28,8 @@ class CachedScene:
     shapes: Shapes
     differences: tuple[str, ...] = ()
     """Differences between a render and the window, in sentences."""
+    otherwise: tuple[str, ...] = ()
+    """Names of the objects that a render evaluates otherwise: see ``evaluated_otherwise``."""
 
 
 _read: list[CachedScene] = []
@@ -40,12 +43,14 @@ def cached_scene(context) -> CachedScene:
     if _read and not _stale and _read[0].key == key:
         return _read[0]
     depsgraph = context.evaluated_depsgraph_get()
-    known = _read[0].shapes if _read and _read[0].key[:2] == key[:2] and "shapes" not in _stale else None
-    shapes = shapes_record(depsgraph) if known is None else known
+    if _read and _read[0].key[:2] == key[:2] and "shapes" not in _stale:
+        shapes, otherwise = _read[0].shapes, _read[0].otherwise
+    else:
+        shapes, otherwise = shapes_record(depsgraph), evaluated_otherwise(depsgraph)
     raw, camera = _camera(scene.camera, depsgraph)
     differences = tuple(_differences(camera, scene))
     camera = camera and replace(camera, pixel_time=None)
-    _read[:] = [CachedScene(key, raw, camera, shapes, differences)]
+    _read[:] = [CachedScene(key, raw, camera, shapes, differences, otherwise)]
     _stale.clear()
     return _read[0]
 
