@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
 import numpy as np
 
 from ..maths.speed import write_where
 from ..maths.vector import difference, dot, inner
-from ..records import Lights
 from .hit_values import HitValues
 from .request import GRID
 
@@ -15,6 +18,9 @@ GRID_CELLS = {"u": 24, "v": 12}
 
 LINE_WIDTH = 0.12
 """Width of a grid line in cells."""
+
+SUN, POINT, HEADLIGHT = "sun", "point light", "headlight"
+"""Kinds of lights."""
 
 
 def shade(values: HitValues, out: np.ndarray) -> None:
@@ -25,11 +31,9 @@ def shade(values: HitValues, out: np.ndarray) -> None:
     Without sun and point lights a headlight shines along each ray. GRID darkens lines of constant uv, or the edges of
     faces without a UV map.
     """
-    shapes, missed = values.plan.shapes, values.hits.missed
-    color = values.plan.colors
-    lit = _headlight(values) if len(shapes.lights.is_sun) == 0 else _lamps(values, shapes.lights)
-    grid = _grid(values) if values.plan.request.shading == GRID else None
-    for channel, world in enumerate(shapes.world_color):
+    color, world_color = values.plan.colors, values.plan.shapes.world_color
+    lit, grid = irradiance(values), grid_factor(values)
+    for channel, world in enumerate(world_color):
         surface = np.take(color[channel], values.material, mode="wrap", out=values.array("color"))
         if channel < len(lit):
             light = np.add(lit[channel], world, out=values.array("spare"))
@@ -37,11 +41,13 @@ def shade(values: HitValues, out: np.ndarray) -> None:
                 np.multiply(light, grid, out=light)
             np.multiply(surface, light, out=surface)
         out[..., channel] = surface
-    write_where(out, shapes.world_color, missed)
+    write_where(out, world_color, values.hits.missed)
 
 
-def _grid(values: HitValues) -> np.ndarray:
-    """Return 1 between the lines and 0.15 on them."""
+def grid_factor(values: HitValues) -> np.ndarray | None:
+    """Return 1 between the lines of the grid and 0.15 on them, (rows, columns); None without a grid."""
+    if values.plan.request.shading != GRID:
+        return None
     shade = np.ones(values.hits.t.shape)
     for (where, uv), (_, from_edge) in zip(values.uv, values.from_edge, strict=True):
         on_line = np.zeros(len(uv[0]), bool)
@@ -53,24 +59,49 @@ def _grid(values: HitValues) -> np.ndarray:
     return shade
 
 
-def _headlight(values: HitValues):
-    light, spare = values.array("light"), values.array("spare")
-    inner(values.normal, values.direction, light, spare)
-    np.divide(np.abs(light, out=light), values.length, out=light)
-    return light, light, light
+@dataclass(frozen=True, eq=False)
+class Light:
+    """The light of a lamp, or of the headlight, on the hit surfaces. It adds ``gain`` times ``strength``."""
+
+    kind: str
+    power: np.ndarray
+    """(3,): the lamp's entry in ``Lights.color``; 1 for the headlight."""
+    towards: Any
+    """Three components of vectors from the surfaces to the lamp, of any length, in the world; None for the headlight,
+    which shines along the rays.
+    """
+    square: Any
+    """Square of the lamp's distance; 1 for a sun and the headlight."""
+    gain: np.ndarray
+    """Cosine over ``square``, (rows, columns)."""
+    strength: np.ndarray
+    """(3,): the factor of ``gain``, red, green and blue."""
 
 
-def _lamps(values: HitValues, lights: Lights):
-    """Return the irradiance of each pixel's surface divided by pi: red, green and blue."""
-    total = [0.0, 0.0, 0.0]
-    for position, is_sun, color in zip(lights.position, lights.is_sun, lights.color, strict=True):
+def lights(values: HitValues) -> Iterator[Light]:
+    """Yield the light of each lamp in their order, or if there are none that of the headlight."""
+    lamps = values.plan.shapes.lights
+    if len(lamps.is_sun) == 0:
+        light, spare = values.array("light"), values.array("spare")
+        inner(values.normal, values.direction, light, spare)
+        np.divide(np.abs(light, out=light), values.length, out=light)
+        yield Light(HEADLIGHT, np.ones(3), None, 1.0, light, np.ones(3))
+    for position, is_sun, color in zip(lamps.position, lamps.is_sun, lamps.color, strict=True):
         if is_sun:
-            light = np.maximum(dot(values.normal, position), 0.0)
-            strength = color / np.pi
+            gain = np.maximum(dot(values.normal, position), 0.0)
+            yield Light(SUN, color, position, 1.0, gain, color / np.pi)
         else:
             towards = difference(position - values.plan.camera.pose.eye, values.point)
             square = np.maximum(dot(towards, towards), np.finfo(float).tiny)
-            light = np.maximum(dot(values.normal, towards), 0.0) / (square * np.sqrt(square))
-            strength = color / (4 * np.pi**2)
-        total = [sum_ + light * part for sum_, part in zip(total, strength, strict=True)]
+            gain = np.maximum(dot(values.normal, towards), 0.0) / (square * np.sqrt(square))
+            yield Light(POINT, color, towards, square, gain, color / (4 * np.pi**2))
+
+
+def irradiance(values: HitValues) -> list[Any]:
+    """Return the irradiance of each pixel's surface by the lights divided by pi: red, green and blue."""
+    total = [0.0, 0.0, 0.0]
+    for light in lights(values):
+        if light.kind == HEADLIGHT:
+            return [light.gain] * 3
+        total = [sum_ + light.gain * part for sum_, part in zip(total, light.strength, strict=True)]
     return total

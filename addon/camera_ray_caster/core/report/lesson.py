@@ -13,11 +13,14 @@ from ..camera.camera import Camera
 from ..cameras.model import WindowModel
 from ..cameras.parts.film import Film
 from ..cast import MOST_SAMPLES, cast
-from ..casting.pixels import passes_at, window_of
-from ..casting.request import AUTOMATIC, MATERIAL
+from ..casting.hit_values import HitValues
+from ..casting.pixels import hits_at, stored, window_of
+from ..casting.plan import make_plan
+from ..casting.request import AUTOMATIC, MATERIAL, Request
 from ..records import InputError, Shapes
 from .diagram import Probe, probe
 from .formula import worked_out
+from .light import color_lines
 from .meetings import Meeting, meetings, nearest, words
 
 NORMALIZED = "[-1, 1]²"
@@ -71,9 +74,9 @@ def lesson(
     place = np.array([column]), np.array([row])
     look: dict[str, Any] = {"shading": shading, "precision": precision}
     seen = probe(camera, shapes, column, row, **look)
-    names = ("position", "normal", "combined", "depth")
-    found = passes_at(camera, shapes, *place, names, **look)
-    point, normal, color, depth = (found[name][0, 0] for name in names)
+    names, still = ("position", "normal", "combined", "depth"), window_of(camera, *place)
+    hits = hits_at(make_plan(still, shapes, Request(names, names, **look)), *place)
+    point, normal, color, depth = (stored(hits)[name][0, 0] for name in names)
     steps, met = [*_raster(camera, seen), ("Model", tuple(_formula(camera, seen)))], []
     if np.isnan(seen.direction).any():
         steps.append(("Ray", ("none: the model has no ray for this pixel",)))
@@ -81,11 +84,10 @@ def lesson(
         met = meetings(camera, shapes, seen.origin, seen.direction)
         steps += [("Ray in the world", _world(camera, seen)), ("Shapes on the line of the ray", tuple(_shapes(met)))]
         steps.append(("Seen", _seen(seen, point, normal, depth)))
-    lines, mean = [f"linear {words(color)}"], color
+    lines, mean = list(color_lines(HitValues(hits), color)), color
     if samples > 1:
         mean = None
         if samples <= most:
-            still = window_of(camera, *place)
             images = cast(still, shapes, "combined", np.float64, samples=samples, progress=progress, **look)
             mean = images["combined"][0, 0]
         lines.append(_mean(camera, samples, mean))
@@ -107,7 +109,7 @@ def _seen(seen: Probe, point: np.ndarray, normal: np.ndarray, depth: float) -> t
 
 def _mean(camera: Camera, samples: int, mean: np.ndarray | None) -> str:
     over = "the pixel" if camera.aperture is None else "the pixel and the aperture"
-    told = "too many to cast here" if mean is None else f"linear {words(mean)}"
+    told = "too many to cast here" if mean is None else words(mean)
     return f"the steps follow the chief ray; the picture has the mean of {samples} rays over {over}: {told}"
 
 

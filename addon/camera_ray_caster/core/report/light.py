@@ -1,0 +1,61 @@
+"""The color of one pixel in words: its material, the light of each lamp and of the world, the grid, and the product."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from ..casting.hit_values import HitValues
+from ..casting.shading import HEADLIGHT, POINT, Light, grid_factor, irradiance, lights
+from .meetings import words
+
+MOST = 12
+"""Maximum number of lamps listed: those that give most."""
+
+
+def color_lines(values: HitValues, color: np.ndarray) -> Iterator[str]:
+    """Yield lines on the linear color (4,) of one pixel, whose values are (1, 1) arrays."""
+    if values.hits.lost is not None:
+        yield f"no ray, no color: {words(color)}"
+        return
+    if values.hits.missed is not None:
+        yield f"linear, of the world: {words(color)}"
+        return
+    world = values.plan.shapes.world_color[:3]
+    with np.errstate(all="ignore"):  # a lamp may be at the point itself
+        material = values.plan.colors[:, values.material[0, 0]]
+        given = [(_one(light.gain) * light.strength, *_told(light, number)) for number, light in
+                 enumerate(lights(values), 1)]  # fmt: skip
+        total = [_one(part) + own for part, own in zip(irradiance(values), world, strict=True)]
+        grid = grid_factor(values)
+    yield f"material {words(material)}"
+    ranked = sorted(range(len(given)), key=lambda k: -given[k][0].max())
+    for share, place, formula in (given[k] for k in sorted(ranked[:MOST])):
+        yield place
+        yield f"  {formula} = {words(share)}"
+    if len(given) > MOST:
+        yield f"{len(given) - MOST} more lamps, together {words(sum(given[k][0] for k in ranked[MOST:]))}"
+    yield f"world, from all directions {words(world)}"
+    yield f"light, of lamps and world {words(total)}"
+    if grid is not None:
+        yield f"grid {_one(grid):g}, {'on a line' if _one(grid) < 1 else 'between its lines'}"
+    yield f"linear, material · light{'' if grid is None else ' · grid'}: {words(color)}"
+
+
+def _told(light: Light, number: int) -> tuple[str, str]:
+    """Return the place of a light, and the formula of what it gives."""
+    cosine = f"cosine {_one(light.gain * light.square):.6g}"
+    if light.kind == HEADLIGHT:
+        return f"headlight along the ray, as there are no lamps: {cosine}", "cosine"
+    place = np.array([_one(part) for part in light.towards])
+    told = f"{light.kind} {number} towards {words(place / np.linalg.norm(place))}, {cosine}"
+    if light.kind == POINT:
+        return f"{told}, r = {np.sqrt(_one(light.square)):.6g}, P = {words(light.power)}", "P cosine / (4 pi² r²)"
+    return f"{told}, E = {words(light.power)}", "E cosine / pi"
+
+
+def _one(values: Any) -> float:
+    """Return the one value of a number or an array."""
+    return float(np.ravel(values)[0])
