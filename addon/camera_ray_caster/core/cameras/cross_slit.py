@@ -50,9 +50,12 @@ class CrossSlit(WindowModel):
     SETTINGS = (SLIT, SECOND_SLIT, *Perspective.SETTINGS)
     FORMULA = (
         Step("Point on the perspective window", "P = (X, Y, -1)"),
-        Step("Normals of the planes through P and each slit (point s, direction l)", "n_i = l_i × (P - s_i)"),
-        Step("Direction, ahead", "d = n_1 × n_2"),
-        Step("Origin, on the camera's plane", "o = P + d / d_z"),
+        Step(
+            "Normals of the planes through P and each slit (point s, direction l)",
+            "n_1 = l_1 × (P - s_1), n_2 = l_2 × (P - s_2)",
+        ),
+        Step("Direction, ahead", "m = n_1 × n_2, d = -m / m_z"),
+        Step("Origin, on the camera's plane", "o = P - d"),
     )
 
     @classmethod
@@ -81,6 +84,12 @@ class CrossSlit(WindowModel):
     def formula_reach(self) -> float:
         """See Model."""
         return self.farthest
+
+    def formula_values(self, x, y):
+        """See Model: the pixel's point on the window, and the slits."""
+        points = {f"s_{i}": point for i, (point, _) in enumerate(self.slits, 1)}
+        directions = {f"l_{i}": direction for i, (_, direction) in enumerate(self.slits, 1)}
+        return points | directions | dict(zip("XY", self.window.plane_from_pixels(x, y), strict=True))
 
     def rays(self, x, y):
         """Return origin and unit direction, each a tuple of three broadcastable arrays, camera frame.

@@ -92,6 +92,12 @@ class Model(ABC):
         """
         return cls(raster.size, *(setting.read(raw) for setting in cls.SETTINGS))
 
+    def formula_values(self, x: float, y: float) -> dict[str, Any]:
+        """Return the values, at a pixel, of the names in FORMULA that its steps do not assign and that are neither
+        settings nor facts: what is found by iteration, and points and lines. The default is none.
+        """
+        return {}
+
     @abstractmethod
     def rays(self, x, y) -> tuple[Any, Any]:
         """Return origin and direction of the chief rays through pixel coordinates, in the camera's frame.

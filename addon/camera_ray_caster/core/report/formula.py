@@ -1,7 +1,8 @@
 """Formulas of models, evaluated with the numbers of a pixel, one assignment after the other.
 
 A formula is text for readers: ``theta = 2 asin(r / (2 f))``, ``d = (a, b, -n) / sqrt(r² + n²)``. Adjacent terms are
-multiplied, from left to right together with divisions. A superscript is a power, ° the factor from degrees to radians.
+multiplied, from left to right together with divisions. A superscript is a power, ° the factor from degrees to radians,
+× the cross product. m_z is the last component of a vector m that was assigned.
 """
 
 from __future__ import annotations
@@ -17,7 +18,25 @@ FUNCTIONS = {
     "sqrt": np.sqrt, "min": np.minimum, "max": np.maximum,
 }  # fmt: skip
 POWERS = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹", "0123456789")
-TOKEN = re.compile(r"\s*(?:(\d+\.?\d*)|([A-Za-z_][A-Za-z_0-9]*'?)|([⁰¹²³⁴⁵⁶⁷⁸⁹]+)|(°)|([-+*/(),]))")
+TOKEN = re.compile(r"\s*(?:(\d+\.?\d*)|([A-Za-z_][A-Za-z_0-9]*'?)|([⁰¹²³⁴⁵⁶⁷⁸⁹]+)|(°)|([-+*/(),×]))")
+
+
+class Cross:
+    """The cross product of the vectors on both sides: ``a @ cross @ b``, with the precedence of a product."""
+
+    __array_ufunc__ = None  # numpy leaves @ to this class
+
+    def __init__(self, first=None):
+        self._first = first
+
+    def __rmatmul__(self, first):
+        return Cross(first)
+
+    def __matmul__(self, second):
+        return np.cross(self._first, second)
+
+
+SIGNS = {"degree": np.pi / 180, "cross": Cross()}
 NAME = re.compile(r"[A-Za-z_][A-Za-z_0-9]*'?")
 ASSIGNMENT = re.compile(r"([A-Za-z_][A-Za-z_0-9]*'?) = (.*)")
 
@@ -58,12 +77,13 @@ def value(expression: str, known: Mapping[str, Any]) -> Any:
                 return None
             words.append(f"known[{name!r}]")
         else:
+            sign = "@cross@" if sign == "×" else sign
             words.append(number or name or sign or (degrees and "*degree") or f"**{power.translate(POWERS)}")
         ended = bool(sign == ")" if sign else name not in FUNCTIONS)
     try:
         with np.errstate(all="ignore"):  # NaN means: no ray
-            return eval("".join(words), {"__builtins__": {}}, FUNCTIONS | {"known": known, "degree": np.pi / 180})
-    except (SyntaxError, TypeError, ZeroDivisionError):
+            return eval("".join(words), {"__builtins__": {}}, FUNCTIONS | SIGNS | {"known": known})
+    except (SyntaxError, TypeError, ValueError, ZeroDivisionError):
         return None
 
 
@@ -86,6 +106,8 @@ def worked_out(formulas: Sequence[tuple[str, Mapping[str, Any]]], known: Mapping
                 put_in, result = with_numbers(expression, own), shown(found)
                 lines[at] = f"{name} = {result}" if put_in == result else f"{name} = {put_in} = {result}"
                 known[name] = found
+                if np.ndim(found):
+                    known[f"{name}_z"] = found[-1]
     return [[lines[at] for at in sorted(lines) if parts[at][0] == k] for k in range(len(formulas))]
 
 

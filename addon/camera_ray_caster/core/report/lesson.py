@@ -19,7 +19,7 @@ from ..casting.plan import make_plan
 from ..casting.request import AUTOMATIC, MATERIAL, Request
 from ..records import InputError, Shapes
 from .diagram import Probe, probe
-from .formula import worked_out
+from .formula import shown, worked_out
 from .light import color_lines
 from .meetings import Meeting, meetings, nearest, words
 
@@ -135,13 +135,15 @@ def _formula(camera: Camera, seen: Probe):
     model = camera.model
     x, y = seen.pixel[0] + 0.5, seen.pixel[1] + 0.5
     yield model.label
-    moved = {}
+    given, moved = model.formula_values(x, y), {}
+    if given:
+        yield f"with {', '.join(f'{name} = {shown(number)}' for name, number in given.items())}"
     if isinstance(model, WindowModel):
         plane = model.window.plane_from_pixels(x, y)
         pitch = model.window.pitch_x, model.window.pitch_y
         moved = {name: 2 * X / (q * side) for name, X, q, side in zip("xy", plane, pitch, model.frame, strict=True)}
     formulas = [(step.symbols, moved if NORMALIZED in step.words else {}) for step in model.FORMULA]
-    for step, lines in zip(model.FORMULA, worked_out(formulas, _known(camera, x, y)), strict=True):
+    for step, lines in zip(model.FORMULA, worked_out(formulas, _known(camera, x, y) | given), strict=True):
         yield f"{step.words}: {step.symbols}"
         yield from (f"  {line}" for line in lines)
     with np.errstate(all="ignore"):  # NaN means: no ray

@@ -71,6 +71,11 @@ class KannalaBrandt(Calibrated):
         """Return the inverse of ``distorted``: a function from r to the angle."""
         return Inverse(self.distorted, self.slope, 0.0, self.limit)
 
+    def formula_values(self, x, y):
+        """See Model: the angle, unless it is beyond the rim."""
+        theta = float(self.angle(np.sqrt(self._r_squared(x, y))))
+        return {"theta": theta} if theta <= self.limit else {}
+
     def factors(self, r_squared):
         """See Radial."""
         r = radii_of(r_squared)
