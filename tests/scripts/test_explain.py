@@ -91,3 +91,13 @@ def test_explain_shows_the_first_view_layer_that_is_rendered(command, scene, ble
     said = command("explain", scene, "--pixel", "16,12").stdout
     assert said.startswith("View layer 'ViewLayer'\n")
     assert "Seen\n  'Sphere'" in said
+
+
+def test_explain_says_that_a_stereo_scene_has_other_pictures(command, scene, blender):
+    blender.ops.wm.open_mainfile(filepath=str(scene))
+    assert command("explain", scene, "--pixel", "16,12").stderr == ""
+    blender.context.scene.render.use_multiview = True
+    blender.ops.wm.save_as_mainfile(filepath=str(scene))
+    done = command("explain", scene, "--pixel", "16,12")
+    assert done.stderr.startswith("explain.py: warning: the scene has several views")
+    assert "Seen\n  'Sphere'" in done.stdout

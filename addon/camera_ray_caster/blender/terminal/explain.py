@@ -9,14 +9,14 @@ from ...core.cast import moment
 from ...core.report.lesson import lesson
 from ..engine.reading import read_as_rendered
 from . import signals
-from .options import add_frame, command_parser, go_to, open_scene
+from .options import add_frame, command_parser, go_to, open_scene, warn
 
 
 def run(arguments: Sequence[str], prog: str) -> int:
     """Print the steps from a pixel to its color; return the exit status."""
     parser = command_parser(
         prog,
-        "Explain a pixel of a Blender file: raster, view coordinates, the model's formula, ray, shapes, hit.",
+        "Explain a pixel of a Blender file: raster, view coordinates, the model's formula, ray, shapes, hit, color.",
         f"{prog} blend_scenes/spheres_and_planes.blend --pixel 960,540",
         "prints every step of that pixel with its numbers.",
         "exit status: 0 done; 2 bad input.",
@@ -34,6 +34,8 @@ def run(arguments: Sequence[str], prog: str) -> int:
     go_to(scene, options.frame)
     job = read_as_rendered(scene)
     camera, shapes, (column, row) = job.camera, job.shapes, options.pixel
+    if scene.render.use_multiview:
+        warn(prog, "the scene has several views with pictures of their own: the steps are those of the camera itself")
     if job.several:
         print(f"View layer {job.layer!r}\n")
     if camera.pixel_time is not None:

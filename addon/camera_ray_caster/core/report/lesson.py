@@ -14,6 +14,7 @@ from ..cameras.model import WindowModel
 from ..cameras.parts.film import Film
 from ..cast import MOST_SAMPLES, cast
 from ..casting.hit_values import HitValues
+from ..casting.passes import PASSES
 from ..casting.pixels import hits_at, stored, window_of
 from ..casting.plan import make_plan
 from ..casting.request import AUTOMATIC, MATERIAL, Request
@@ -75,8 +76,9 @@ def lesson(
     look: dict[str, Any] = {"shading": shading, "precision": precision}
     seen = probe(camera, shapes, column, row, **look)
     names, still = ("position", "normal", "combined", "depth"), window_of(camera, *place)
-    hits = hits_at(make_plan(still, shapes, Request(names, names, **look)), *place)
-    point, normal, color, depth = (stored(hits)[name][0, 0] for name in names)
+    hits = hits_at(make_plan(still, shapes, Request(names, tuple(PASSES), **look)), *place)
+    found = stored(hits)
+    point, normal, color, depth = (found[name][0, 0] for name in names)
     steps, met = [*_raster(camera, seen), ("Model", tuple(_formula(camera, seen)))], []
     if np.isnan(seen.direction).any():
         steps.append(("Ray", ("none: the model has no ray for this pixel",)))
@@ -135,7 +137,8 @@ def _formula(camera: Camera, seen: Probe):
     model = camera.model
     x, y = seen.pixel[0] + 0.5, seen.pixel[1] + 0.5
     yield model.label
-    given, moved = model.formula_values(x, y), {}
+    with np.errstate(all="ignore"):  # the pixel may have no ray
+        given, moved = model.formula_values(x, y), {}
     if given:
         yield f"with {', '.join(f'{name} = {shown(number)}' for name, number in given.items())}"
     if isinstance(model, WindowModel):
