@@ -151,6 +151,10 @@ class SphericalStereo(Model):
         upright = _rows(TO_Y_UP @ pose.basis)
         return replace(self, upright=upright, tilted=_rows(inverse(upright)))
 
+    def settled(self):
+        """See Model."""
+        return replace(self, lens=self.lens.settled())
+
     def facts(self):
         """See Model."""
         return {"lens": self.lens.label, "eye_offset": self.offset, **self.lens.facts()}

@@ -51,8 +51,13 @@ class Division(Calibrated):
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> Division:
         """Build the camera from its settings. Raises InputError for an invalid setting."""
-        window, bend = Calibration.from_blender(raw, raster).window(), LAMBDA.read(raw)
-        return cls(raster.size, window, 1 / sqrt(bend) if bend > 0 else inf, bend)
+        window = Calibration.from_blender(raw, raster).window()
+        return cls(raster.size, window, inf, LAMBDA.read(raw)).settled()
+
+    @property
+    def own_rim(self) -> float:
+        """See Calibrated."""
+        return 1 / sqrt(self.bend) if self.bend > 0 else inf
 
     def factors(self, r_squared):
         """See Radial."""

@@ -21,6 +21,7 @@ import numpy as np
 from ..conventions import gamma
 from ..maths.inversion import Inverse
 from ..maths.polynomials import positive_roots
+from ..maths.speed import lazy
 from ..records import BlenderCamera, InputError, Raster
 from .model import Step
 from .parts.film import FILM, Film, Window
@@ -47,8 +48,6 @@ class FisheyePolynomial(Radial):
     coefficients: tuple[float, ...]
     """Coefficients of theta, from the constant up, in rad / mm^i: Blender's, negated."""
     half_fov: float
-    limit: float
-    """Radius in mm up to which theta is monotone: its first turning point, or the corner of the frame."""
 
     key = "FISHEYE_LENS_POLYNOMIAL"
     label = "Fisheye Lens Polynomial"
@@ -71,20 +70,31 @@ class FisheyePolynomial(Radial):
         window = Window.round_pixels(raw, raster, film.size / film.fitted_pixels)
         coefficients = tuple(-coefficient.read(raw) for coefficient in COEFFICIENTS)
         half_fov = FISHEYE_FOV.read(raw) / 2
-        x0, x1, y0, y1 = window.extent(raster.size)
-        corner = hypot(max(-x0, x1), max(-y0, y1))
-        turns = _turns(coefficients, corner)
+        lens = cls(raster.size, window, np.inf, coefficients, half_fov)
+        corner, turns = lens._corner, _turns(coefficients, lens._corner)
         if turns.size and _is_seen_beyond(coefficients, turns, corner, half_fov):
             names = ", ".join(f"k{i} = {-k:g}" for i, k in enumerate(coefficients))
             raise InputError(
                 f"the fisheye polynomial of camera {raw.name!r} ({names}) turns back {turns[0]:.6g} mm from the axis "
                 f"and folds the picture: it must grow or fall all the way to the corner at {corner:.6g} mm"
             )
-        limit = float(turns[0]) if turns.size else corner
-        lens = cls(raster.size, window, np.inf, coefficients, half_fov, limit)
-        if lens.widest < half_fov or lens.widest == np.inf:
-            return lens
-        return replace(lens, rim=float(np.fmax(lens._inverse(half_fov), 0.0)) * BEYOND)  # 0 if theta begins beyond
+        return lens.settled()
+
+    def settled(self) -> FisheyePolynomial:
+        """See Model."""
+        ends = self.half_fov <= self.widest < np.inf
+        rim = float(np.fmax(self._inverse(self.half_fov), 0.0)) * BEYOND if ends else np.inf  # 0 if theta begins beyond
+        return self if rim == self.rim else replace(self, rim=rim)
+
+    @property
+    def _corner(self) -> float:
+        x0, x1, y0, y1 = self.window.extent(self.frame)
+        return hypot(max(-x0, x1), max(-y0, y1))
+
+    @lazy
+    def limit(self) -> float:
+        """The radius in mm up to which theta is monotone: its first turning point, or the corner of the frame."""
+        return float(min([self._corner, *_turns(self.coefficients, self._corner)]))
 
     def angle(self, r):
         """Return theta (rad) of radii in mm."""

@@ -10,7 +10,7 @@ References: F. Devernay and O. Faugeras, Straight Lines Have to Be Straight (200
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import pi, radians, tan
+from math import inf, pi, radians, tan
 
 import numpy as np
 
@@ -49,8 +49,12 @@ class FieldOfView(Calibrated):
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> FieldOfView:
         """Build the camera from its settings. Raises InputError for an invalid setting."""
         window = Calibration.from_blender(raw, raster).window()
-        omega = OMEGA.read(raw)
-        return cls(raster.size, window, pi / (2 * omega), omega)
+        return cls(raster.size, window, inf, OMEGA.read(raw)).settled()
+
+    @property
+    def own_rim(self) -> float:
+        """See Calibrated."""
+        return pi / (2 * self.omega)
 
     @property
     def _stretch(self) -> float:

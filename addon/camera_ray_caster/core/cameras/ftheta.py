@@ -12,7 +12,7 @@ References: NVIDIA DriveWorks SDK documentation, Camera Models (FTheta); NVIDIA 
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from math import inf, pi
 
@@ -20,6 +20,7 @@ from numpy.polynomial import Polynomial
 
 from ..maths.inversion import Inverse
 from ..maths.polynomials import horner, positive_roots
+from ..maths.speed import lazy
 from ..records import BlenderCamera, Raster
 from .model import Step
 from .parts.calibrated import Calibrated
@@ -81,8 +82,8 @@ class FTheta(Calibrated):
     """Coefficients, from the linear term up."""
     forward: bool
     """Whether the polynomial gives the radius of an angle."""
-    limit: float
-    """Largest angle (forward) or radius (backward) at which the polynomial is valid."""
+    max_angle: float
+    """Largest angle of the picture, radians."""
 
     key = "FTHETA"
     label = "F-Theta"
@@ -116,12 +117,20 @@ class FTheta(Calibrated):
         if constant != 0 or not coefficients or not coefficients[0] > 0:
             raise setting.refusal(raw, repr(setting.given(raw)), "0, a number above 0, and more")
         window = Calibration.from_blender(raw, raster, settings=PRINCIPAL_POINT).window(((c, d), (e, 1.0)))
-        forward, widest = reference == ANGLE_TO_RADIUS, MAX_ANGLE.read(raw)
-        polynomial = Polynomial((0.0, *coefficients))
-        end = [widest] if forward else positive_roots(polynomial - widest)
-        limit = float(min([*end, *positive_roots(polynomial.deriv())]))
-        lens = cls(raster.size, window, inf, tuple(coefficients), forward, limit)
-        return replace(lens, rim=lens.value(limit) if forward else limit)
+        forward = reference == ANGLE_TO_RADIUS
+        return cls(raster.size, window, inf, tuple(coefficients), forward, MAX_ANGLE.read(raw)).settled()
+
+    @lazy
+    def limit(self) -> float:
+        """The largest angle (forward) or radius (backward) at which the polynomial is valid."""
+        polynomial = Polynomial((0.0, *self.polynomial))
+        end = [self.max_angle] if self.forward else positive_roots(polynomial - self.max_angle)
+        return float(min([*end, *positive_roots(polynomial.deriv())]))
+
+    @property
+    def own_rim(self) -> float:
+        """See Calibrated."""
+        return self.value(self.limit) if self.forward else self.limit
 
     @property
     def K(self) -> None:

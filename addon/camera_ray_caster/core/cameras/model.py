@@ -175,6 +175,13 @@ class Model(ABC):
         """Return the model of a camera with this pose: itself, unless its rays depend on the world's up direction."""
         return self
 
+    def settled(self) -> Self:
+        """Return the model with the fields that follow from others computed again, such as where its rays end.
+
+        It is asked of a model whose fields have been interpolated. The default is the model itself.
+        """
+        return self
+
     @property
     def K(self) -> np.ndarray | None:
         """The camera matrix, (3, 3) float64 in OpenCV's convention: y down, the origin in the center of the top left

@@ -15,6 +15,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from math import inf
 
 import numpy as np
 from numpy.polynomial import Polynomial
@@ -22,6 +23,7 @@ from numpy.polynomial.polynomial import polyval
 
 from ..maths.inversion import Inverse
 from ..maths.polynomials import horner, positive_roots
+from ..maths.speed import lazy
 from ..records import BlenderCamera, Raster
 from .model import Step
 from .parts.calibrated import Calibrated
@@ -79,9 +81,19 @@ class OCam(Calibrated):
         if not coefficients[0] < 0:
             raise POLYNOMIAL.refusal(raw, repr(POLYNOMIAL.given(raw)), "a number below 0, and more")
         window = Calibration.from_blender(raw, raster, settings=PRINCIPAL_POINT).window(((1.0, e), (d, c)))
-        turns = positive_roots(Polynomial([(i - 1) * a for i, a in enumerate(coefficients)]))  # roots of r f' - f
-        corner = np.hypot(*window.plane_from_pixels(*np.meshgrid(*((0.0, side) for side in raster.size)))).max()
-        return cls(raster.size, window, float(min([corner, *turns])), coefficients)
+        return cls(raster.size, window, inf, coefficients).settled()
+
+    @lazy
+    def own_rim(self) -> float:
+        """See Calibrated; also the corner of the frame."""
+        corners = np.meshgrid(*((0.0, side) for side in self.frame))
+        corner = np.hypot(*self.window.plane_from_pixels(*corners)).max()
+        return float(min([corner, *positive_roots(Polynomial(self._slopes))]))
+
+    @property
+    def _slopes(self) -> list[float]:
+        """Return the coefficients of r f' - f, which is 0 where the angle stops growing."""
+        return [(i - 1) * a for i, a in enumerate(self.polynomial)]
 
     @property
     def K(self) -> None:
@@ -98,7 +110,7 @@ class OCam(Calibrated):
     @cached_property
     def radius(self):
         """Return the inverse of the angle as a function of the radius; see Radial."""
-        slopes = [(i - 1) * a for i, a in enumerate(self.polynomial)]
+        slopes = self._slopes
 
         def slope(r):
             behind = horner(r, self.polynomial)

@@ -42,7 +42,7 @@ class TimeInterval:
         model, aperture, start, end = mixed(lens, weights)
         basis = self._camera_axes.at(weights)[0]
         pose = Pose(mean([camera.pose.eye for camera in cameras], weights), basis / np.linalg.norm(basis, axis=0))
-        model = model.posed(pose)
+        model = model.settled().posed(pose)
         return replace(cameras[0], pose=pose, model=model, aperture=aperture, clip_start=start, clip_end=end)
 
     def shapes_at(self, frame: float) -> Shapes:

@@ -7,6 +7,7 @@ where r(theta) stops growing, or where the distortion stops being one-to-one, wh
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Self
@@ -28,9 +29,15 @@ class Calibrated(Radial):
 
     group = "Calibrated"
 
-    def within(self, rim: float) -> Self:
-        """Return the lens with its rim at this radius, or nearer if the distortion folds the picture before it."""
-        return replace(self, rim=min(rim, self.distortion.limit))
+    @property
+    @abstractmethod
+    def own_rim(self) -> float:
+        """Return the radius where r(theta) stops growing, the rim of the lens without distortion; inf without one."""
+
+    def settled(self) -> Self:
+        """See Model: the rim, which may jump or become infinite where the coefficients change little."""
+        rim = min(self.own_rim, self.distortion.limit)
+        return self if rim == self.rim else replace(self, rim=rim)
 
     @property
     def disc(self) -> Disc | None:

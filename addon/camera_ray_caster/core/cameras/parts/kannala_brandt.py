@@ -8,7 +8,7 @@ Reference: J. Kannala and S. Brandt, A Generic Camera Model and Calibration Meth
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from math import inf, pi, sqrt
 from typing import Self
@@ -17,6 +17,7 @@ import numpy as np
 
 from ...maths.inversion import Inverse
 from ...maths.polynomials import horner, positive_roots
+from ...maths.speed import lazy
 from ...records import Raster
 from .calibrated import Calibrated
 from .calibration import Calibration
@@ -30,8 +31,6 @@ class KannalaBrandt(Calibrated):
 
     coefficients: tuple[float, ...]
     """Coefficients k1, k2, ..."""
-    limit: float
-    """Largest angle from the axis, radians."""
 
     factors_by_polynomials = True
     by_polynomials = True
@@ -45,18 +44,8 @@ class KannalaBrandt(Calibrated):
         distortion: RadialTangential | None = None,
     ) -> Self:
         """Return the lens with these coefficients, as far as the polynomial and the distortion are one-to-one."""
-        slope = np.polynomial.Polynomial([1.0, *((2 * i + 3) * k for i, k in enumerate(coefficients))])
-        limit = min([pi, *map(sqrt, positive_roots(slope).tolist())])
-        lens = cls(
-            raster.size,
-            calibration.window(),
-            inf,
-            tuple(coefficients),
-            limit,
-            distortion=distortion or RadialTangential(),
-        )
-        lens = lens.within(lens.distorted(limit))
-        return replace(lens, limit=float(np.fmin(lens.angle(np.float64(lens.rim)), limit)))
+        distortion = distortion or RadialTangential()
+        return cls(raster.size, calibration.window(), inf, tuple(coefficients), distortion=distortion).settled()
 
     def distorted(self, theta):
         """Return the radii r of angles."""
@@ -64,7 +53,21 @@ class KannalaBrandt(Calibrated):
 
     def slope(self, theta):
         """Return the derivative of r by theta."""
-        return horner(theta * theta, [1.0, *((2 * i + 3) * k for i, k in enumerate(self.coefficients))])
+        return horner(theta * theta, self._slope)
+
+    @lazy
+    def _slope(self) -> list[float]:
+        return [1.0, *((2 * i + 3) * k for i, k in enumerate(self.coefficients))]
+
+    @lazy
+    def limit(self) -> float:
+        """The angle at which the polynomial stops growing, at most pi."""
+        return min([pi, *map(sqrt, positive_roots(np.polynomial.Polynomial(self._slope)).tolist())])
+
+    @property
+    def own_rim(self) -> float:
+        """See Calibrated."""
+        return self.distorted(self.limit)
 
     @cached_property
     def angle(self):
@@ -86,7 +89,7 @@ class KannalaBrandt(Calibrated):
         """See Radial."""
         return self.distorted(theta)
 
-    @property
+    @lazy
     def widest(self) -> float:
         """See Radial."""
-        return self.limit
+        return self.limit if self.rim >= self.own_rim else float(self.angle(self.rim))

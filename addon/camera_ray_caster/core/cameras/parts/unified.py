@@ -51,13 +51,17 @@ class Unified(Calibrated):
     def of(cls, raw: BlenderCamera, raster: Raster, calibration: Calibration, **shape: float) -> Self:
         """Return the lens with this shape and the calibration's coefficients as its distortion."""
         distortion = RadialTangential(**calibration.coefficients)
-        lens = cls(raster.size, calibration.window(), inf, **shape, distortion=distortion)
+        return cls(raster.size, calibration.window(), inf, **shape, distortion=distortion).settled()
+
+    @property
+    def own_rim(self) -> float:
+        """See Calibrated."""
         rims = [inf]
-        if lens.alpha > 0.5:
-            rims.append(1 / sqrt(lens.beta * (2 * lens.alpha - 1)))
-        if lens.xi > 1:  # alpha is 0 where xi may be so large
-            rims.append(1 / sqrt((lens.xi - 1) * (lens.xi + 1)))
-        return lens.within(min(rims))
+        if self.alpha > 0.5:
+            rims.append(1 / sqrt(self.beta * (2 * self.alpha - 1)))
+        if self.xi > 1:  # alpha is 0 where xi may be so large
+            rims.append(1 / sqrt((self.xi - 1) * (self.xi + 1)))
+        return min(rims)
 
     def factors(self, r_squared):
         """See Radial."""

@@ -1,0 +1,55 @@
+"""Lenses that change between evaluations, against the same lens read at each frame."""
+
+import numpy as np
+import pytest
+
+from camera_ray_caster.core.motion.interpolation import TimeInterval
+from camera_ray_caster.core.records import no_shapes
+
+from ..cameras.model_examples import camera
+
+WIDTH, HEIGHT = 96, 64
+PICTURE = {
+    "resolution_x": WIDTH, "resolution_y": HEIGHT, "calibration_width": WIDTH, "calibration_height": HEIGHT,
+    "cx": WIDTH / 2 - 0.5, "cy": HEIGHT / 2 - 0.5,
+}  # fmt: skip
+FRAMES = 0.0, 0.3, 0.7, 1.0
+
+
+def focal(length):
+    return {"fx": length, "fy": length}
+
+
+CHANGES = [
+    ("UCM", lambda u: focal(10.0) | {"unified_xi": 0.7 + 0.6 * u}),  # no rim up to 1
+    ("EUCM", lambda u: focal(10.0) | {"unified_alpha": 0.3 + 0.4 * u}),  # no rim up to 1/2
+    ("DOUBLE_SPHERE", lambda u: focal(10.0) | {"unified_xi": -0.2, "unified_alpha": 0.4 + 0.3 * u}),
+    ("DIVISION", lambda u: focal(20.0) | {"division_lambda": -0.2 + 0.8 * u}),  # no rim up to 0
+    ("FOV", lambda u: focal(15.0) | {"fov_omega": 0.6 + 1.4 * u}),
+    ("OPENCV_FISHEYE", lambda u: focal(15.0) | {"k1": -0.08 - 0.04 * u, "k2": 0.0045}),  # the rim jumps at -0.1
+    ("FISHEYE624", lambda u: focal(15.0) | {"k1": 0.05 - 0.15 * u, "p1": 0.03 * u, "s1": 0.01}),
+    ("FTHETA", lambda u: {"ftheta_angle_to_radius": f"0 18 0 {2 - 4 * u!r}", "ftheta_max_angle": 2.4 - u}),
+    ("OCAM", lambda u: {"ocam_polynomial": f"-20 0 {0.02 - 0.05 * u!r}"}),
+    (
+        "FISHEYE_LENS_POLYNOMIAL",
+        lambda u: {"fisheye_polynomial_k1": -0.05 - 0.15 * u, "fisheye_fov": 4.0, "sensor_width": 36.0},
+    ),
+]
+
+
+@pytest.mark.parametrize(("key", "at"), CHANGES, ids=[key for key, _ in CHANGES])
+def test_the_picture_ends_where_that_of_the_lens_at_the_frame_does(key, at):
+    """Coefficients change evenly, so that interpolation is exact; where the picture ends, does not follow evenly."""
+    read = lambda u: camera(key, PICTURE | at(u))  # noqa: E731
+    interval = TimeInterval.of({u: (read(u), no_shapes()) for u in FRAMES}, FRAMES)
+    counts = set()
+    for u in (0.11, 0.42, 0.53, 0.64, 0.93):
+        mixed, there = interval.camera_at(u), read(u)
+        found, true = mixed.rays(), there.rays()
+        assert np.array_equal(found.valid, true.valid), u
+        np.testing.assert_allclose(found.directions[true.valid], true.directions[true.valid], atol=1e-9)
+        assert np.abs(np.linalg.norm(found.directions[found.valid], axis=-1) - 1).max() < 1e-12
+        points = there.pose.eye + true.directions[true.valid]
+        np.testing.assert_allclose(mixed.project(points), there.project(points), atol=1e-6)
+        counts.add(np.count_nonzero(true.valid))
+    assert len(counts) > 1  # the edge moves within the frame
