@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from camera_ray_caster.core.motion.evaluations import resolve
 from camera_ray_caster.core.motion.interpolation import TimeInterval
 from camera_ray_caster.core.records import no_shapes
 
@@ -53,3 +54,35 @@ def test_the_picture_ends_where_that_of_the_lens_at_the_frame_does(key, at):
         np.testing.assert_allclose(mixed.project(points), there.project(points), atol=1e-6)
         counts.add(np.count_nonzero(true.valid))
     assert len(counts) > 1  # the edge moves within the frame
+
+
+def seen_by(key, at, first=0.0, last=4.0):
+    """The motion of a camera with a changing lens and nothing to see, and the function that reads the lens."""
+    evaluate = lambda frame: (camera(key, PICTURE | at(frame)), no_shapes())  # noqa: E731
+    return resolve(evaluate, first, last, 0.1, 1000), evaluate
+
+
+@pytest.mark.parametrize(("cx", "cy"), [(WIDTH / 2 - 0.5, HEIGHT / 2 - 0.5), (4.0, HEIGHT - 6.0), (-6.0, 20.0)])
+def test_a_small_image_circle_is_followed_wherever_it_is(cx, cy):
+    """A circle with a radius of 9 pixels, less than the distance of fixed places in the frame, whose content zooms."""
+
+    def at(frame):
+        scale = 1 + 0.3 * np.sin(5 * frame)
+        return {"ftheta_angle_to_radius": f"0 {12 * scale!r}", "ftheta_max_angle": 0.75 / scale, "cx": cx, "cy": cy}
+
+    motion, evaluate = seen_by("FTHETA", at)
+    assert not motion.unresolved
+    assert len(motion.states) > 20
+    angle, turn = np.meshgrid((0.2, 0.4, 0.55), np.arange(0, 2 * np.pi, 0.3))
+    points = np.stack((np.sin(angle) * np.cos(turn), np.sin(angle) * np.sin(turn), -np.cos(angle)), axis=-1)
+    off = [
+        np.hypot(*(motion.camera_at(frame).project(points) - evaluate(frame)[0].project(points)).T).max()
+        for frame in np.linspace(0.03, 3.97, 31)
+    ]
+    assert max(off) <= 0.15
+
+
+def test_a_camera_without_any_ray_is_at_rest():
+    motion, _ = seen_by("FTHETA", lambda _: {"ftheta_angle_to_radius": "0 1", "ftheta_max_angle": 0.5, "cx": -40.0})
+    assert not motion.unresolved
+    assert motion.estimated == 0

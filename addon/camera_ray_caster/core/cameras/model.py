@@ -30,6 +30,7 @@ from ..records import BlenderCamera, Pose, Raster
 from .parts.aperture import Aperture, thin_lens
 from .parts.film import Window
 from .parts.inverse import pixels_of
+from .parts.outline import outline_of
 from .parts.settings import Setting
 from .parts.silhouette import everywhere
 
@@ -121,6 +122,11 @@ class Model(ABC):
     def endless(self) -> Model:
         """The model whose rays go on beyond ``disc``, smoothly where the formula does; itself if ``disc`` is None."""
         return self
+
+    @lazy
+    def outline(self) -> np.ndarray:
+        """Where the picture ends within the frame, as pixel coordinates (9, 2): see ``outline_of``."""
+        return outline_of(self)
 
     def project(self, points) -> np.ndarray:
         """Return the pixel coordinates (..., 2) of points (..., 3) in the camera's frame; NaN where no ray meets them.

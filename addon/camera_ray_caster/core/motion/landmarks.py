@@ -13,8 +13,8 @@ from ..records import INFINITE_PLANE, MESH, SPHERE, Shapes
 from .deformation import alike, changed, vertices
 from .interpolation import State
 
-GRID = 1 / 6, 1 / 2, 5 / 6
-"""Columns and rows of the rays that are tested, as fractions of the frame: also those of a circular image."""
+ALONG = 2 / 3
+"""Place of the rays that are tested, as a fraction of the way from the middle of the picture to its end."""
 
 AHEAD = 10.0
 """Distance, in Blender units, of the points on these rays that say how the camera moves where they hit nothing."""
@@ -49,7 +49,7 @@ def apart(state: State, truth: State) -> float:
             for one, own in ((camera, shapes), (true_camera, true_shapes))
         )  # fmt: skip
     counts = (there >= -size).all(axis=-1) & (there <= 2 * size).all(axis=-1)
-    distance = np.sqrt(((here - there) ** 2).sum(axis=-1))[counts]
+    distance = np.hypot(*(here - there).T)[counts]
     return float(np.where(np.isnan(distance), np.inf, distance).max(initial=0.0))
 
 
@@ -64,10 +64,9 @@ def lit(state: State) -> np.ndarray:
 
 
 def _rays(camera: Camera) -> tuple[np.ndarray, np.ndarray]:
-    """Return origins and directions of the rays through GRID, (9, 3) each."""
-    width, height = camera.raster.size
-    x, y = np.meshgrid(GRID, GRID)
-    rays = camera.rays_at(width * x.ravel(), height * y.ravel())
+    """Return origins and directions of rays that are spread over the picture, (9, 3) each."""
+    start, ends = camera.model.outline[0], camera.model.outline
+    rays = camera.rays_at(*(start + ALONG * (ends - start)).T)
     return np.broadcast_to(rays.origins, rays.directions.shape), rays.directions
 
 

@@ -1,0 +1,41 @@
+"""Where the picture ends within the frame: along a few lines, by the rays alone, for any model."""
+
+from __future__ import annotations
+
+import numpy as np
+
+AROUND = np.array([(0, 0), (0.5, 0), (1, 0), (0, 0.5), (1, 0.5), (0, 1), (0.5, 1), (1, 1)])
+"""Ends of the lines: corners and middles of the sides, as fractions of the frame."""
+
+PARTS, PASSES = 32, 5
+"""Parts of a line among which the end of the picture is looked for, and how often: 32**-5 is 3e-8."""
+
+
+def outline_of(model) -> np.ndarray:
+    """Return the pixel coordinates of a place in the picture, and of those at which lines from there to the corners of
+    the frame and to the middles of its sides leave the picture or the frame, (9, 2).
+
+    The place is the frame's middle, or if it has no ray, the place in the frame nearest to the image of the viewing
+    direction. All are the same place if that has no ray, either.
+    """
+    frame = np.array(model.frame)
+
+    def has_ray(places):
+        x, y = np.moveaxis(places, -1, 0)
+        return np.broadcast_to(~np.isnan(model.rays(x, y)[1][0]), x.shape)
+
+    with np.errstate(all="ignore"):
+        start = frame / 2
+        if not has_ray(start[None]):
+            ahead = np.clip(model.project(np.array([[0.0, 0.0, -1.0]]))[0], 0, frame)
+            start = np.where(np.isnan(ahead), start, ahead)
+        way, parts = AROUND * frame - start, np.arange(PARTS + 1)[:, None] / PARTS
+        end, length = np.zeros(len(way)), np.ones(len(way))
+        for _ in range(PASSES):
+            seen = np.logical_and.accumulate(has_ray(start + (end + length * parts)[..., None] * way))
+            last = np.maximum(seen.sum(axis=0) - 1, 0)
+            end = end + length * last / PARTS
+            length = np.where(last == PARTS, 0.0, length / PARTS)
+            if not length.any():
+                break
+    return np.concatenate((start[None], start + end[:, None] * way))
