@@ -1,9 +1,11 @@
 """Lenses that change between evaluations, against the same lens read at each frame."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
-from camera_ray_caster.core.motion.evaluations import resolve
+from camera_ray_caster.core.motion.evaluations import UNRESOLVED, resolve
 from camera_ray_caster.core.motion.interpolation import TimeInterval
 from camera_ray_caster.core.records import no_shapes
 
@@ -62,6 +64,29 @@ def seen_by(key, at, first=0.0, last=4.0):
     return resolve(evaluate, first, last, 0.1, 1000), evaluate
 
 
+EDGES = [
+    ("FTHETA", lambda f: {"ftheta_angle_to_radius": "0 18", "ftheta_max_angle": 1.2 + 0.4 * np.sin(5 * f)}),
+    ("FISHEYE_EQUISOLID", lambda f: {"fisheye_lens": 8.0, "fisheye_fov": 2.4 + 0.8 * np.sin(5 * f)}),
+]
+
+
+@pytest.mark.parametrize(("key", "at"), EDGES)
+def test_the_edge_of_the_picture_is_within_the_tolerance_where_only_the_edge_moves(key, at):
+    """Counted along rows and columns of a static read: where the edge crosses them, rays begin or end there.
+
+    It is followed as closely as 1.5 times the tolerance, as places are.
+    """
+    motion, evaluate = seen_by(key, at)
+    assert not motion.unresolved
+    assert motion.estimated > 0.01
+    fine = np.arange(0.0, WIDTH, 0.02)
+    for frame in np.linspace(0.03, 3.97, 31):
+        own, true = (one.rays_at(fine, HEIGHT / 2 + 3.3).valid for one in (motion.camera_at(frame), evaluate(frame)[0]))
+        assert true.any()
+        assert not true.all()
+        assert np.count_nonzero(own != true) * 0.02 <= 0.15 + 0.02, frame
+
+
 @pytest.mark.parametrize(("cx", "cy"), [(WIDTH / 2 - 0.5, HEIGHT / 2 - 0.5), (4.0, HEIGHT - 6.0), (-6.0, 20.0)])
 def test_a_small_image_circle_is_followed_wherever_it_is(cx, cy):
     """A circle with a radius of 9 pixels, less than the distance of fixed places in the frame, whose content zooms."""
@@ -86,3 +111,11 @@ def test_a_camera_without_any_ray_is_at_rest():
     motion, _ = seen_by("FTHETA", lambda _: {"ftheta_angle_to_radius": "0 1", "ftheta_max_angle": 0.5, "cx": -40.0})
     assert not motion.unresolved
     assert motion.estimated == 0
+
+
+def test_what_is_measured_beyond_the_tolerance_is_said_as_clearly_as_what_is_not_resolved():
+    motion, _ = seen_by(*EDGES[0])
+    assert len(motion.in_words()) == 1
+    for off in (0.2, np.inf):
+        said = replace(motion, measured=off).in_words()
+        assert any(line.startswith(UNRESOLVED) and f"off by {off} pixels" in line for line in said)

@@ -41,7 +41,7 @@ APPEARANCE = 1 / 255
 """Largest error of colors and maps between evaluations: one step of an 8 bit image. See ``appearance.difference``."""
 
 UNRESOLVED = "NOT RESOLVED"
-"""Beginning of the report's line on unresolved intervals."""
+"""Beginning of the report's lines on motion that is not within the tolerance."""
 
 
 @dataclass(frozen=True)
@@ -95,6 +95,11 @@ class Motion:
             lines.append(
                 f"colors, lights, maps, clipping and focus off by {estimated:.2g} as estimated, {measured:.2g} as "
                 f"measured, of 1; the tolerance is {APPEARANCE:.2g}"
+            )
+        if self.measured > self.tolerance:
+            lines.append(
+                f"{UNRESOLVED}: motion off by {self.measured:.2g} pixels where it was measured, between evaluations: "
+                "lower the tolerance, or set a key where the motion changes"
             )
         if self.unresolved:
             low, high = self.unresolved[0]

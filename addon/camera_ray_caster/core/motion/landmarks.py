@@ -28,7 +28,8 @@ LIT = 1 << 12
 
 def apart(state: State, truth: State) -> float:
     """Return the largest distance in pixels between the images of two states' landmarks: see ``_landmarks``, vertices
-    of meshes that deform, and points on some of the true camera's rays.
+    of meshes that deform, and points on some of the true camera's rays; and between the ends of the two pictures within
+    the frame.
 
     Landmarks that the true camera does not see in or near its picture are ignored; if the numbers of shapes differ, the
     distance is infinite.
@@ -49,7 +50,8 @@ def apart(state: State, truth: State) -> float:
             for one, own in ((camera, shapes), (true_camera, true_shapes))
         )  # fmt: skip
     counts = (there >= -size).all(axis=-1) & (there <= 2 * size).all(axis=-1)
-    distance = np.hypot(*(here - there).T)[counts]
+    ends = np.hypot(*(camera.model.outline - true_camera.model.outline).T)
+    distance = np.concatenate((np.hypot(*(here - there).T)[counts], ends))
     return float(np.where(np.isnan(distance), np.inf, distance).max(initial=0.0))
 
 
