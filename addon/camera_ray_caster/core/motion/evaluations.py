@@ -8,8 +8,8 @@ integration (E. Hairer et al., Solving Ordinary Differential Equations I, sectio
 evaluations, and the estimate is on the safe side.
 
 Colors, lights, maps, clipping and focus are interpolated in the same way, within APPEARANCE. Indices change in steps,
-and shapes appear or disappear: such a moment is found to SHORTEST. An event shorter than the distance of the
-evaluations can be missed; whole frames and those with keys are evaluated first.
+shapes appear or disappear, and places jump: such a moment is found to SHORTEST. An event shorter than the distance of
+the evaluations can be missed; whole frames and those with keys are evaluated first.
 """
 
 from __future__ import annotations
@@ -35,7 +35,9 @@ WIDEST_TURN = 1.0
 """Maximum rotation from one evaluation to the next, radians: the three in an interval stay below a half turn."""
 
 SHORTEST = 2.0**-10
-"""Accuracy, in frames, of the moment at which shapes appear or disappear, or an index or a color changes at once."""
+"""Accuracy, in frames, of the moment at which shapes appear or disappear, or a place, an index or a color changes at
+once.
+"""
 
 APPEARANCE = 1 / 255
 """Largest error of colors and maps between evaluations: one step of an 8 bit image. See ``appearance.difference``."""
@@ -95,6 +97,12 @@ class Motion:
             lines.append(
                 f"colors, lights, maps, clipping and focus off by {estimated:.2g} as estimated, {measured:.2g} as "
                 f"measured, of 1; the tolerance is {APPEARANCE:.2g}"
+            )
+        jumps = [interval.frames[0] for interval in self.intervals[:-1] if len(interval.frames) == 1]
+        if jumps:
+            lines.append(
+                f"jumps: {len(jumps)}, the first at frame {jumps[0]:g}; between two frames {SHORTEST:.2g} apart, all "
+                "places are those of the earlier frame"
             )
         if self.measured > self.tolerance:
             lines.append(
@@ -163,9 +171,21 @@ def resolve(
             for probe, others in ((p, (a, q, b)), (q, (a, p, b)))
         ]
         off, change = (max(error(*both) for both in probed) for error in (apart, _change))
-        turn = max(_turn(states[early], states[late]) for early, late in pairwise((a, p, q, b)))
+        steps = [(states[early], states[late]) for early, late in pairwise((a, p, q, b))]
+        turn = max(_turn(*step) for step in steps)
+        moves = [apart(*step) for step in steps] if off > tolerance else []
+        is_jump = sum(move > tolerance for move in moves) == 1
+        if is_jump and is_moment:
+            estimated = max(estimated, sum(sorted(moves)[:-1]))
+            done += [(a,), (b,)] if b == last else [(a,)]  # held until the next interval begins
+            continue
         if is_step or off > tolerance or turn > WIDEST_TURN or (change > APPEARANCE and not is_moment):
-            waiting += pairwise((a, p, q, b))
+            cuts = [a, p, q, b]
+            beside = b - SHORTEST
+            if is_jump and moves[-1] > tolerance and b in keyed and beside > q and len(states) < most:
+                know(beside)  # a key may begin with a jump
+                cuts.insert(3, beside)
+            waiting += pairwise(cuts)
             continue
         estimated = max(estimated, off)
         if change > APPEARANCE:
