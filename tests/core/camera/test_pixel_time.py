@@ -243,3 +243,24 @@ def test_a_zoom_is_interpolated():
         found = motion.camera_at(frame).project(np.array([1.0, 0.0, -4.0]))
         assert found == pytest.approx([32 + zoom(frame) / 36 * 16, 24], abs=0.05)
     assert np.isfinite(cam.rays().directions).all()
+
+
+@pytest.mark.parametrize("settings", [ROWS, ROWS | {"time_mode": "COLUMNS"},
+                                      ROWS | {"time_mode": "IMAGE", "time_image": np.eye(8)}])  # fmt: skip
+@pytest.mark.filterwarnings("error")
+def test_places_that_are_not_numbers_have_no_ray_and_warn_of_nothing(settings):
+    def evaluate(frame):
+        matrix = np.eye(4)
+        matrix[0, 3] = np.sin(frame)
+        return camera(settings, matrix), shapes(((0, 0, -5), 1.0))
+
+    cam, _, _ = moving(evaluate, 10, 20)
+    known = cam.rays_at(3.5, 4.5).origins
+    x, y = np.array([np.nan, 3.5, 3.5]), np.array([4.5, np.nan, 4.5])
+    for rays in (cam.rays_at(x, y), cam.rays_jacobian_at(x, y)):
+        assert np.isnan(rays.directions[:2]).all()
+        assert np.isfinite(rays.directions[2]).all()
+    assert np.array_equal(cam.rays_at(x, y).valid, [False, False, True])
+    grid = cam.rays_at(x[None], y[:, None])
+    assert np.array_equal(grid.valid, np.outer([True, False, True], [False, True, True]))
+    assert np.array_equal(grid.origins[2, 2], known)

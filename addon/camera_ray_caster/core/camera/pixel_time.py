@@ -140,10 +140,14 @@ class ImageTime:
         return float(self.frames.max())
 
     def frame_at(self, x, y):
-        """Return the frame of the pixels that contain the coordinates; beyond the raster, that of the nearest pixel."""
-        row, column = np.floor(y).astype(int), np.floor(x).astype(int)
-        height, width = self.frames.shape
-        return self.frames[np.clip(row, 0, height - 1), np.clip(column, 0, width - 1)]
+        """Return the frame of the pixels that contain the coordinates; beyond the raster, that of the nearest pixel;
+        NaN for coordinates that are NaN.
+        """
+        row, column = (
+            np.nan_to_num(np.clip(np.floor(place), 0, size - 1)).astype(int)
+            for place, size in zip((y, x), self.frames.shape, strict=True)
+        )
+        return np.where(np.isnan(x) | np.isnan(y), np.nan, self.frames[row, column])
 
 
 PixelTime = LinearTime | ImageTime
@@ -165,17 +169,19 @@ class CameraMotion(Protocol):
 
 def groups(pixel_time: PixelTime, x, y):
     """Yield (frame, rows, columns, where) for each frame of the pixels x (1, columns), y (rows, 1). The slices contain
-    all pixels of the frame, and ``where``, a bool array of their shape, marks these pixels.
+    all pixels of the frame, and ``where``, a bool array of their shape, marks these pixels. NaN is no frame.
     """
     frames = np.broadcast_to(pixel_time.frame_at(x, y), np.broadcast_shapes(x.shape, y.shape))
     if isinstance(pixel_time, LinearTime):
         along_rows = pixel_time.per_column == 0
         for i, frame in enumerate(frames[:, 0] if along_rows else frames[0]):
+            if np.isnan(frame):
+                continue
             lane = slice(i, i + 1)
             rows, columns = (lane, slice(None)) if along_rows else (slice(None), lane)
             yield float(frame), rows, columns, np.ones(frames[rows, columns].shape, bool)
         return
-    for frame in np.unique(frames):
+    for frame in np.unique(frames[~np.isnan(frames)]):
         same = frames == frame
         held = [np.flatnonzero(same.any(axis=axis)) for axis in (1, 0)]
         box = tuple(slice(lane[0], lane[-1] + 1) for lane in held)

@@ -51,5 +51,5 @@ def by_time(pixel_time: PixelTime, time: np.ndarray, x, y) -> Iterator[tuple]:
             yield frame, x[:, columns], y[rows], np.s_[rows, columns], where
         return
     x, y = np.broadcast_arrays(x, y)
-    for frame in np.unique(time):
+    for frame in np.unique(time[~np.isnan(time)]):
         yield frame, x, y, np.s_[...], time == frame
