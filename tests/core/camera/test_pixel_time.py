@@ -264,3 +264,27 @@ def test_places_that_are_not_numbers_have_no_ray_and_warn_of_nothing(settings):
     grid = cam.rays_at(x[None], y[:, None])
     assert np.array_equal(grid.valid, np.outer([True, False, True], [False, True, True]))
     assert np.array_equal(grid.origins[2, 2], known)
+
+
+@pytest.mark.parametrize(("mode", "axis"), [("ROWS", 1), ("COLUMNS", 0)])
+@pytest.mark.filterwarnings("error")
+def test_beyond_the_frame_the_time_is_that_of_its_edge(mode, axis):
+    """The edges have the frames 10 and 20; the camera is where it is then, at any distance."""
+    settings = ROWS | {"time_mode": mode}
+
+    def evaluate(frame):
+        matrix = np.eye(4)
+        matrix[2, 3] = np.sin(frame)
+        return camera(settings, matrix), shapes(((0, 0, -5), 1.0))
+
+    cam, _, motion = moving(evaluate, 10 + 5 / (64, 48)[axis], 20 - 5 / (64, 48)[axis])
+    assert not motion.unresolved
+    for far, frame in ((0.0, 10), (-1.0, 10), (-1e6, 10), ((64, 48)[axis], 20), (1e6, 20)):
+        place = [7.5, 7.5]
+        place[axis] = far
+        rays = cam.rays_at(*place)
+        assert rays.time == pytest.approx(frame, rel=1e-14)
+        assert rays.origins[2] == pytest.approx(np.sin(frame), abs=0.01)
+    for far in (np.inf, -np.inf):
+        assert not cam.rays_at(7.5, far).valid
+        assert not cam.rays_at(far, 7.5).valid

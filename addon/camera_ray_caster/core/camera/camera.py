@@ -135,8 +135,9 @@ class Camera:
     def rays_at(self, x, y) -> Rays:
         """Return the world rays through pixel coordinates x, y (scalars or arrays that broadcast), as ``rays`` does.
 
-        Pixel coordinates that are not finite have no ray. Raises InputError for values that are not numbers, for shapes
-        that do not broadcast, and for rays that need more memory than is available.
+        Pixel coordinates that are not finite have no ray. With pixel times, coordinates beyond the frame have the time
+        of its nearest edge. Raises InputError for values that are not numbers, for shapes that do not broadcast, and for
+        rays that need more memory than is available.
         """
         x, y, shape = given(x, y)
         timed = self.pixel_time is not None
@@ -156,13 +157,15 @@ class Camera:
         returns for the camera at each pixel's own time.
         """
         pixel_time: Any = self.pixel_time
+        first, last = pixel_time.span
         time = np.broadcast_to(pixel_time.frame_at(x, y), np.broadcast_shapes(x.shape, y.shape))
         found = np.full((2, *time.shape, *axes), np.nan)
         for frame, part_x, part_y, place, where in by_time(pixel_time, time, x, y):
-            part, where = ask(self.at(frame), part_x, part_y), np.expand_dims(where, tuple(range(-len(axes), 0)))
+            there = self.at(min(max(frame, first), last))
+            part, where = ask(there, part_x, part_y), np.expand_dims(where, tuple(range(-len(axes), 0)))
             for own, value in zip(found, (part.origins, part.directions), strict=True):
                 np.copyto(own[place], value, where=where)
-        return time, found
+        return np.clip(time, first, last), found
 
     def rays(self) -> Rays:
         """Return the chief rays of the render window: through its pixel centers, world frame, unit directions.

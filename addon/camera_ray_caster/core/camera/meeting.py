@@ -61,8 +61,7 @@ def meeting(
                 seen = seen[pixel_time.frame_at(*pixels[seen].T) == frame]
                 found[left[seen]] = pixels[seen]
             return found
-        margin = (abs(pixel_time.per_column) + abs(pixel_time.per_row)) / 2  # half a pixel: centers to edges
-        first, last = pixel_time.first - margin, pixel_time.last + margin
+        first, last = pixel_time.span
         search = _Search(pixel_time, project, last - first)
         pieces = list(pairwise([first, *sorted({cut for cut in cuts if first < cut < last}), last]))
         if around is not None:

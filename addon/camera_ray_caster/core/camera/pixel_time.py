@@ -114,6 +114,12 @@ class LinearTime:
     most: int
     """Maximum number of evaluations of the scene."""
 
+    @property
+    def span(self) -> tuple[float, float]:
+        """The earliest and the latest frame within the picture, half a pixel beyond the outermost pixel centers."""
+        margin = (abs(self.per_column) + abs(self.per_row)) / 2
+        return self.first - margin, self.last + margin
+
     def frame_at(self, x, y):
         """Return the frame at pixel coordinates, in their broadcast shape or one that broadcasts to it."""
         if self.per_column == 0:
@@ -138,6 +144,11 @@ class ImageTime:
     def last(self) -> float:
         """The latest frame."""
         return float(self.frames.max())
+
+    @property
+    def span(self) -> tuple[float, float]:
+        """The earliest and the latest frame within the picture."""
+        return self.first, self.last
 
     def frame_at(self, x, y):
         """Return the frame of the pixels that contain the coordinates; beyond the raster, that of the nearest pixel;
