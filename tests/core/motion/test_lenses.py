@@ -119,3 +119,15 @@ def test_what_is_measured_beyond_the_tolerance_is_said_as_clearly_as_what_is_not
     for off in (0.2, np.inf):
         said = replace(motion, measured=off).in_words()
         assert any(line.startswith(UNRESOLVED) and f"off by {off} pixels" in line for line in said)
+
+
+def test_a_lens_that_rests_is_one_lens_at_all_frames():
+    """So that its tables are computed once, not at each pixel's time."""
+
+    def evaluate(frame):
+        matrix = np.eye(4)
+        matrix[0, 3] = np.sin(frame)
+        return camera("OPENCV_FISHEYE", PICTURE | focal(15.0) | {"matrix_world": matrix}), no_shapes()
+
+    motion = resolve(evaluate, 0.0, 4.0, 0.1, 100)
+    assert len({id(motion.camera_at(frame).model) for frame in np.linspace(0, 4, 30)}) == 1

@@ -136,8 +136,8 @@ class Camera:
         """Return the world rays through pixel coordinates x, y (scalars or arrays that broadcast), as ``rays`` does.
 
         Pixel coordinates that are not finite have no ray. With pixel times, coordinates beyond the frame have the time
-        of its nearest edge. Raises InputError for values that are not numbers, for shapes that do not broadcast, and for
-        rays that need more memory than is available.
+        of its nearest edge. Raises InputError for values that are not numbers, for shapes that do not broadcast, and
+        for rays that need more memory than is available.
         """
         x, y, shape = given(x, y)
         timed = self.pixel_time is not None

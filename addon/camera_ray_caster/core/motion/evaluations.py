@@ -27,6 +27,7 @@ from ..records import Shapes
 from .appearance import difference, same_indices
 from .interpolation import State, TimeInterval, matched
 from .landmarks import apart, lit
+from .means import same
 
 PROBES = (0.381966, 0.618034)
 """Probes as fractions of an interval: the golden section, so that no motion of a simple period is missed by both."""
@@ -138,7 +139,8 @@ def resolve(
     def know(*frames: float) -> None:
         for frame in frames:
             if frame not in states:
-                states[frame] = evaluate(frame)
+                found = evaluate(frame)
+                states[frame] = _with_lens_of(next(iter(states.values()), found), found)
 
     if first == last:
         know(first)
@@ -199,9 +201,16 @@ def resolve(
 
 def measured(motion: Motion, evaluate: Callable[[float], State], frames) -> Motion:
     """Return a motion with its errors measured at some frames: the interpolated against the evaluated scene."""
-    both = [(motion.at(frame), evaluate(frame)) for frame in frames]
+    known = next(iter(motion.states.values()))
+    both = [(motion.at(frame), _with_lens_of(known, evaluate(frame))) for frame in frames]
     off, change = (max((error(*pair) for pair in both), default=0.0) for error in (apart, _change))
     return replace(motion, measured=off, appearance=(motion.appearance[0], change))
+
+
+def _with_lens_of(known: State, state: State) -> State:
+    """Return a state with the very lens of a known one if both are the same, so that its tables are computed once."""
+    (other, _), (camera, shapes) = known, state
+    return (replace(camera, model=other.model), shapes) if same(other.model, camera.model) else state
 
 
 def _continuous(before: State, after: State) -> bool:

@@ -9,17 +9,31 @@ import numpy as np
 
 
 def mixed(values: Sequence, weights: Sequence[float]):
-    """Return the weighted mean of all numbers in records of one type; other values are those of the first record."""
+    """Return the weighted mean of all numbers in records of one type; other values are those of the first record. Of
+    records that are the same it is the first itself, with all that has been computed of it.
+    """
     first = values[0]
+    if all(same(first, value) for value in values[1:]):
+        return first
     if is_dataclass(first) and not isinstance(first, type) and all(type(value) is type(first) for value in values):
-        parts = {part.name: mixed([getattr(value, part.name) for value in values], weights) for part in fields(first)}
-        changed = {name: part for name, part in parts.items() if part is not getattr(first, name)}
-        return replace(first, **changed) if changed else first
+        names = [part.name for part in fields(first)]
+        return replace(first, **{name: mixed([getattr(value, name) for value in values], weights) for name in names})
     if isinstance(first, tuple) and all(isinstance(value, tuple) and len(value) == len(first) for value in values):
         return tuple(mixed(entries, weights) for entries in zip(*values, strict=True))
-    if not isinstance(first, float | np.ndarray) or all(np.array_equal(first, value) for value in values[1:]):
-        return first
-    return mean(values, weights)
+    return mean(values, weights) if isinstance(first, float | np.ndarray) else first
+
+
+def same(one, other) -> bool:
+    """Whether two records have the same type and the same values."""
+    if one is other:
+        return True
+    if is_dataclass(one):
+        return type(one) is type(other) and all(
+            same(getattr(one, part.name), getattr(other, part.name)) for part in fields(one)
+        )
+    if isinstance(one, tuple) and isinstance(other, tuple):
+        return len(one) == len(other) and all(map(same, one, other))
+    return np.array_equal(one, other)
 
 
 def mean(values: Sequence, weights: Sequence[float]) -> np.ndarray:
