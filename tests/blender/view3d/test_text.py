@@ -1,10 +1,20 @@
 """Where there is room for text in a 3D View."""
 
+from itertools import pairwise
 from types import SimpleNamespace
 
+import blf
+import bpy
 import pytest
 
-from camera_ray_caster.blender.view3d import text
+from camera_ray_caster.blender.view3d import mouse_gizmo, notice, text
+from camera_ray_caster.blender.view3d.scene_cache import cached_scene
+
+
+@pytest.fixture
+def interface():
+    """A context with an interface of scale 1, which a Blender without a window does not have."""
+    return SimpleNamespace(preferences=SimpleNamespace(system=SimpleNamespace(ui_scale=1.0)))
 
 
 def region(kind, x, width):
@@ -20,3 +30,52 @@ def test_a_sidebar_over_the_view_leaves_less_of_it(sidebar, expected):
     view = region("WINDOW", 50, 1200)
     area = SimpleNamespace(regions=[region("HEADER", 50, 1200), view, region("UI", *sidebar)])
     assert text.visible_width(SimpleNamespace(region=view, area=area)) == expected
+
+
+SENTENCE = "Every pixel is shown at frame 5; in a render, each pixel has its own time, from frame 1.024 to 24.98"
+
+
+@pytest.mark.parametrize("width", [40, 120, 300, 5000])
+def test_a_sentence_is_wrapped_to_the_width_of_the_view(width, interface):
+    lines = text.wrapped(interface, SENTENCE, width)
+    assert " ".join(lines) == SENTENCE
+    assert (len(lines) == 1) == (width == 5000)
+    blf.size(0, text.SIZE)
+    for line, after in pairwise([*lines, ""]):
+        assert " " not in line or blf.dimensions(0, line)[0] <= width
+        assert not after or blf.dimensions(0, f"{line} {after.split()[0]}")[0] > width
+
+
+@pytest.mark.parametrize("across", [120, 1000])
+def test_the_notice_is_wrapped_and_stays_in_the_view(across, interface, monkeypatch):
+    written = []
+    context = SimpleNamespace(**vars(interface))
+    monkeypatch.setattr(notice, "bpy", SimpleNamespace(context=context))
+    monkeypatch.setattr(notice, "cached_scene", lambda context: SimpleNamespace(differences=(SENTENCE,)))
+    monkeypatch.setattr(notice, "_shows_camera", lambda context: True)
+    monkeypatch.setattr(text, "visible_width", lambda context: across)
+    monkeypatch.setattr(text, "write", lambda context, lines, place: written.append((lines, place)))
+    notice.draw()
+    ((lines, place),) = written
+    assert " ".join(line for _, line in lines) == SENTENCE
+    blf.size(0, text.SIZE)
+    width = max(blf.dimensions(0, line)[0] for _, line in lines)
+    assert text.SIZE <= place(width, 20)[0] <= across - width - text.SIZE  # the ground is wider by the font's size
+
+
+@pytest.mark.parametrize(("mouse", "side"), [(40, "right"), (700, "left"), (400, "edge")])
+def test_the_text_at_the_mouse_is_of_the_ray_alone_and_in_the_view(mouse, side, camera_scene, interface, monkeypatch):
+    camera_scene.camera.data.dof.use_dof = True
+    camera_scene.camera.data.camera_ray_caster.time_mode = "ROWS"
+    scene, written, width = cached_scene(bpy.context), [], 500
+    assert len(scene.differences) == 2
+    context = SimpleNamespace(**vars(interface), scene=camera_scene)
+    monkeypatch.setattr(mouse_gizmo, "cached_scene", lambda context: scene)
+    monkeypatch.setattr(mouse_gizmo, "camera_frame", lambda context: (0, 0, 800, 600))
+    monkeypatch.setattr(text, "visible_width", lambda context: 800)
+    monkeypatch.setattr(text, "write", lambda context, lines, place: written.append((lines, place)))
+    mouse_gizmo.RayUnderMouse.draw(SimpleNamespace(mouse=(mouse, 300)), context)
+    ((lines, place),) = written
+    assert [name for name, _ in lines] == ["Pixel", "View", "Direction", "Hit"]
+    left, margin = place(width, 60)[0], mouse_gizmo.MARGIN
+    assert left == {"right": mouse + 2 * margin, "left": mouse - 2 * margin - width, "edge": margin}[side]

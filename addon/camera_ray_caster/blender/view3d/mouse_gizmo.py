@@ -40,7 +40,7 @@ class RayUnderMouse(bpy.types.Gizmo):
             return
         raster = scene.camera.raster
         found = probe(scene.camera, scene.shapes, int(x * raster.width), int(y * raster.height))
-        _write(context, self.mouse, [*_lines(context, found), *(("", line) for line in scene.differences)])
+        _write(context, self.mouse, _lines(context, found))
 
 
 class RayUnderMouseGroup(bpy.types.GizmoGroup):
@@ -78,13 +78,13 @@ def _lines(context, found: Probe) -> list[tuple[str, str]]:
 
 
 def _write(context, mouse, lines) -> None:
-    """Write lines next to the mouse, on the side where they fit."""
+    """Write lines next to the mouse, on the side where they fit, and never past the left edge."""
     margin = MARGIN * context.preferences.system.ui_scale
 
     def place(width, height):
-        right = mouse[0] + 2 * margin
+        right, left = mouse[0] + 2 * margin, mouse[0] - 2 * margin - width
         fits = right + width + margin <= text.visible_width(context)
-        return right if fits else mouse[0] - 2 * margin - width, max(mouse[1] - margin, height + margin)
+        return right if fits else max(left, margin), max(mouse[1] - margin, height + margin)
 
     text.write(context, lines, place)
 

@@ -19,9 +19,10 @@ MARGIN = 28
 def draw() -> None:
     """Write the notice if the view shows the camera's picture or the overlay; called by Blender for each 3D View."""
     context = bpy.context
-    lines = [("", line) for line in cached_scene(context).differences] if _shows_camera(context) else []
-    if lines:
+    sentences = cached_scene(context).differences if _shows_camera(context) else ()
+    if sentences:
         margin, across = MARGIN * context.preferences.system.ui_scale, text.visible_width(context)
+        lines = [("", line) for one in sentences for line in text.wrapped(context, one, across - 2 * margin)]
         text.write(context, lines, lambda width, height: ((across - width) / 2, height + margin))
 
 

@@ -8,25 +8,38 @@ import blf
 import gpu
 from gpu_extras.batch import batch_for_shader
 
+FONT = 0
+"""Blender's identifier of the interface's font."""
 SIZE = 12
 """Font size in pixels at interface scale 1."""
 
 
 def write(context, lines: Sequence[tuple[str, str]], place: Callable[[float, float], tuple[float, float]]) -> None:
     """Write (name, text) lines; ``place(width, height)`` returns the left and top of the text in the region."""
-    font, size = 0, SIZE * context.preferences.system.ui_scale
-    blf.size(font, size)
-    longest = max(blf.dimensions(font, name)[0] for name, _ in lines)
+    size = _set_size(context)
+    longest = max(_width(name) for name, _ in lines)
     names = longest + size if longest else 0.0
-    width, step = names + max(blf.dimensions(font, text)[0] for _, text in lines), 1.5 * size
+    width, step = names + max(_width(text) for _, text in lines), 1.5 * size
     x, y = place(width, step * len(lines))
     _ground(x - size, x + width + size, y - step * len(lines) - size, y + size / 2)
     for name, text in lines:
         y -= step
         for offset, color, word in ((0, 0.65, name), (names, 0.95, text)):
-            blf.color(font, color, color, color, 1.0)
-            blf.position(font, x + offset, y, 0)
-            blf.draw(font, word)
+            blf.color(FONT, color, color, color, 1.0)
+            blf.position(FONT, x + offset, y, 0)
+            blf.draw(FONT, word)
+
+
+def wrapped(context, sentence: str, width: float) -> list[str]:
+    """Return a sentence as lines that are at most ``width`` pixels wide; a word that is wider has its own line."""
+    _set_size(context)
+    lines: list[str] = []
+    for word in sentence.split():
+        if lines and _width(f"{lines[-1]} {word}") <= width:
+            lines[-1] += f" {word}"
+        else:
+            lines.append(word)
+    return lines
 
 
 def visible_width(context) -> int:
@@ -34,6 +47,17 @@ def visible_width(context) -> int:
     region = context.region
     sidebars = [other.x - region.x for other in context.area.regions if other.type == "UI" and other.width > 1]
     return min([region.width, *(left for left in sidebars if left > 0)])
+
+
+def _set_size(context) -> float:
+    """Set the font's size for this interface; return it in pixels."""
+    size = SIZE * context.preferences.system.ui_scale
+    blf.size(FONT, size)
+    return size
+
+
+def _width(text: str) -> float:
+    return blf.dimensions(FONT, text)[0]
 
 
 def _ground(left, right, bottom, top) -> None:
