@@ -1,5 +1,7 @@
 """What the panels draw, without a window."""
 
+import pytest
+
 from camera_ray_caster.blender.output import reports
 
 
@@ -125,3 +127,53 @@ def test_step_through_names_the_objects_that_a_render_shows_otherwise(blender, s
         blender.context.object.modifiers.new("Subdivision", "SUBSURF")  # 1 level, 2 in a render
     assert "a render shows these otherwise: A, B, C and 1 more" in drawn(blender, SidebarLesson)
     lesson.forget()
+
+
+@pytest.mark.parametrize("views_format", ["STEREO_3D", "MULTIVIEW"])
+@pytest.mark.parametrize("how", ["cast", "render"])
+def test_the_verdict_on_both_eyes_stands_until_the_camera_changes(blender, scene, views_format, how):
+    from camera_ray_caster.blender.ui.verify_panels import SidebarVerify
+
+    scene.render.use_multiview, scene.render.views_format = True, views_format
+    scene.render.engine, scene.camera.data.stereo.pivot = "CAMERA_RAY_CASTER", "CENTER"
+    scene.camera.name = "Camera_R"  # the second eye in the Multi-View format
+    other = blender.data.objects.new("Camera_L", scene.camera.data)
+    other.location = (-0.5, 0, 6)
+    scene.collection.objects.link(other)
+    (blender.ops.camera_ray_caster.cast if how == "cast" else blender.ops.render.render)()
+    assert len(reports.verified().findings) > 0
+    assert reports.latest().camera["eye"] != reports.verified().camera["eye"] == list(scene.camera.location)
+    said = drawn(blender, SidebarVerify)
+    assert "All reference checks passed" in said
+    assert "has changed" not in said
+    scene.camera.location.x = 1
+    assert "has changed since" in drawn(blender, SidebarVerify)
+
+
+@pytest.mark.parametrize("how", ["cast", "render"])
+def test_results_are_shown_in_their_own_scene_only(blender, scene, how):
+    from camera_ray_caster.blender.ui import cast_panels, left_out_panels, render_panels, verify_panels
+
+    def shown():
+        panels = left_out_panels.SidebarLeftOut, cast_panels.SidebarReport
+        said = (cast_panels.SidebarCast, render_panels.RenderPanel, verify_panels.SidebarVerify)
+        texts = " ".join(drawn(blender, panel) for panel in said)
+        ops = blender.ops.camera_ray_caster.select, blender.ops.camera_ray_caster.write_report
+        return [
+            *(panel.poll(blender.context) for panel in panels),
+            *(text in texts for text in ("rays at", "rays in", "passed")),
+            *(operator.poll() for operator in ops),
+        ]
+
+    scene.render.engine = "CAMERA_RAY_CASTER"
+    (blender.ops.camera_ray_caster.cast if how == "cast" else blender.ops.render.render)()
+    assert shown() == [True] * 7
+    window = blender.context.window
+    window.scene = blender.data.scenes.new("Other")
+    assert shown() == [False] * 7
+    window.scene.camera = scene.camera
+    blender.ops.camera_ray_caster.verify()
+    assert shown() == [False] * 4 + [True] + [False] * 2
+    window.scene = scene
+    scene.name = "Renamed"
+    assert shown() == [True] * 7

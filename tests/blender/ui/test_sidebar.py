@@ -67,7 +67,7 @@ def test_cast_casts_every_view_of_a_stereo_scene(blender, scene, kind):
 
 def test_the_progress_of_two_views_is_one(blender, scene):
     scene.render.use_multiview = True
-    read, seen = cast_operator.Cast.read(None, blender.context), []
+    (_, read), seen = cast_operator.Cast.read(None, blender.context), []
     cast_operator.cast_views(read, lambda fraction: seen.append(fraction) or True)
     assert list(read) == ["left", "right"]
     assert seen == sorted(seen)

@@ -1,39 +1,90 @@
-"""The reports of the latest render and verification, and the text datablock that shows a report."""
+"""The reports of the latest render and verification of each scene, and the text datablock that shows a report."""
 
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
 from textwrap import shorten
+from typing import Any
 
 import bpy
 from bpy.app.handlers import persistent
 
+from ...core.camera.facts import camera_facts
+from ...core.records import InputError
 from ...core.report.report import Report, as_lines
+from ..read.evaluated import camera_at
 
 TEXT = "Camera Ray Caster Report"
 NAMES_WIDTH = 60
 """Maximum number of characters for the names of left-out objects in a line."""
 
-_latest: list[Report] = []
-_verified: list[Report] = []
 
 
-def keep(report: Report) -> None:
-    """Remember the report of the latest render. It may be called on a render's thread."""
-    _latest[:] = [report]
-    keep_verified(report)
+@dataclass(frozen=True)
+class Source:
+    """What a report is of."""
+
+    scene: int
+    """``session_uid`` of the scene."""
+    camera: Mapping[str, Any]
+    """Facts of the scene's own camera, which is neither eye of a stereo scene; {} if it cannot be cast."""
+
+    @classmethod
+    def read(cls, scene, depsgraph) -> Source:
+        """Read the source at the depsgraph's frame."""
+        try:
+            camera = camera_facts(camera_at(scene.camera, depsgraph)[1])
+        except InputError:
+            camera = {}
+        return cls(scene.session_uid, camera)
 
 
-def keep_verified(report: Report) -> None:
-    """Remember the report of the latest verification."""
-    _verified[:] = [report]
+_latest: dict[int, Report] = {}
+_verified: dict[int, Report] = {}
+"""Reports by the scene's ``session_uid``, the latest last."""
+_rendering: list[Source] = []
+"""Source of the render that began last."""
 
 
-def latest() -> Report | None:
-    """Return the report of the latest render of this file, or None before the first."""
-    return _latest[0] if _latest else None
+def begin(depsgraph) -> None:
+    """Remember which scene is rendered. It may be called on a render's thread."""
+    _rendering[:] = [Source.read(depsgraph.scene, depsgraph)]
 
 
-def verified() -> Report | None:
-    """Return the report with the latest findings on this file's camera, or None before the first."""
-    return _verified[0] if _verified else None
+def keep(report: Report, source: Source | None = None) -> None:
+    """Remember the report of a cast, or by default of the render that ``begin`` has announced. It may be called on a
+    render's thread.
+    """
+    source = source or _rendering[0]
+    _keep(_latest, report, source.scene)
+    _keep(_verified, replace(report, camera=source.camera), source.scene)
+
+
+def keep_verified(report: Report, scene) -> None:
+    """Remember the report of the latest verification of a scene's camera."""
+    _keep(_verified, report, scene.session_uid)
+
+
+def latest(scene=None) -> Report | None:
+    """Return the report of the latest render of a scene, by default of any, or None before the first."""
+    return _last(_latest, scene)
+
+
+def verified(scene=None) -> Report | None:
+    """Return the report with the latest findings on a scene, by default on any, or None before the first. Its
+    ``camera`` has the facts of the scene's own camera, even if the findings are on the eyes.
+    """
+    return _last(_verified, scene)
+
+
+def _keep(reports: dict[int, Report], report: Report, scene: int) -> None:
+    reports.pop(scene, None)
+    reports[scene] = report
+
+
+def _last(reports: dict[int, Report], scene) -> Report | None:
+    return next(reversed(reports.values()), None) if scene is None else reports.get(scene.session_uid)
 
 
 def relative_error(report: Report, which: str) -> str:
@@ -72,8 +123,8 @@ def write_text(report: Report):
 @persistent
 def forget(*_):
     """Forget the reports: another file is loaded, and they do not apply to it."""
-    _latest.clear()
-    _verified.clear()
+    for reports in (_latest, _verified, _rendering):
+        reports.clear()
 
 
 def register(undo) -> None:

@@ -39,6 +39,7 @@ class Running:
 
     worker: Worker
     timer: Any
+    source: reports.Source
     stored: list[str] = field(default_factory=list)
     """Names of the images stored so far."""
 
@@ -78,18 +79,19 @@ class Cast(bpy.types.Operator):
     @reporting
     def execute(self, context):
         """Cast and wait for the result."""
-        passes, report = cast_views(self.read(context))
-        return self.finish(context, list(images.store(passes)), report)
+        source, jobs = self.read(context)
+        passes, report = cast_views(jobs)
+        return self.finish(context, list(images.store(passes)), report, source)
 
     def invoke(self, context, event):
         """Read the scene, then cast on a thread; Blender calls ``modal`` until the cast has ended."""
         try:
-            jobs = self.read(context)
+            source, jobs = self.read(context)
         except InputError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
         timer = context.window_manager.event_timer_add(INTERVAL, window=context.window)
-        _running.append(Running(Worker(partial(cast_views, jobs)), timer))
+        _running.append(Running(Worker(partial(cast_views, jobs)), timer, source))
         context.window_manager.modal_handler_add(self)
         show_progress()
         return {"RUNNING_MODAL"}
@@ -111,7 +113,7 @@ class Cast(bpy.types.Operator):
                     ending.pop_all()
                     return {"PASS_THROUGH"}
                 _, report = running.worker.result()
-                return self.finish(context, running.stored, report)
+                return self.finish(context, running.stored, report, running.source)
             except InputError as error:
                 self.report({"ERROR"}, str(error))
             except MemoryError:
@@ -124,18 +126,19 @@ class Cast(bpy.types.Operator):
         """Stop the cast. Blender calls this when it ends the operator itself, for example to load another file."""
         stop()
 
-    def read(self, context) -> dict[str, Job]:
-        """Return a job for each view, read from the scene as the window shows it."""
+    def read(self, context) -> tuple[reports.Source, dict[str, Job]]:
+        """Return what is cast, and a job for each view, read from the scene as the window shows it."""
+        source = reports.Source.read(context.scene, context.evaluated_depsgraph_get())
         keys, jobs = [entry.key for entry in ticked(context.scene, context.view_layer)], {}
         for view in view_names(context.scene):
             with evaluated_camera(context.scene, view=view) as (camera, depsgraph):
                 jobs[view] = Job.read(depsgraph, camera, keys, view=view)
-        return jobs
+        return source, jobs
 
-    def finish(self, context, made: list[str], report: Report):
+    def finish(self, context, made: list[str], report: Report, source: reports.Source):
         """Show the named images and keep the report."""
         images.show(context.window_manager, made)
-        reports.keep(report)
+        reports.keep(report, source)
         if report.shapes == 0:
             self.report({"WARNING"}, "The scene has no surface to cast: the images show the background")
         else:

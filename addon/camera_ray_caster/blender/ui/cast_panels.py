@@ -30,7 +30,7 @@ class SidebarCast(Sidebar, bpy.types.Panel):
             row.progress(factor=fraction, text=f"{fraction:.0%}, Esc: stop")
         if images.results():
             layout.menu(ResultsMenu.bl_idname, icon="IMAGE_DATA")
-        report = reports.latest()
+        report = reports.latest(context.scene)
         if report is not None:
             seconds = f"{sum(report.seconds.values()):.3g}\N{NO-BREAK SPACE}s"
             shapes = f"{report.shapes:,} {'shape' if report.shapes == 1 else 'shapes'}"
@@ -79,7 +79,7 @@ class SidebarReport(Sidebar, bpy.types.Panel):
     @classmethod
     def poll(cls, context):
         """Show the panel if there is a report."""
-        return reports.latest() is not None
+        return reports.latest(context.scene) is not None
 
     def draw_header_preset(self, context):
         """Draw a button that writes the whole report into a text datablock."""
@@ -87,7 +87,7 @@ class SidebarReport(Sidebar, bpy.types.Panel):
 
     def draw(self, context):
         """Draw the seconds per step, the rays per second and the relative error bounds of the distances."""
-        report = reports.latest()
+        report = reports.latest(context.scene)
         box = self.layout.box().column(align=True)
         for step, seconds in report.seconds.items():
             draw_row(box, step.capitalize(), [f"{seconds:.4f} s"], 0.5)
@@ -108,7 +108,7 @@ class SidebarNotDone(Sidebar, bpy.types.Panel):
 
     def draw(self, context):
         """Draw a message for each step."""
-        for line in reports.latest().not_done:
+        for line in reports.latest(context.scene).not_done:
             draw_message(self.layout, context, line.replace("_", " "), "DOT")
 
 

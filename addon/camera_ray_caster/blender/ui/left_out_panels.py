@@ -19,15 +19,16 @@ class SidebarLeftOut(Sidebar, bpy.types.Panel):
     @classmethod
     def poll(cls, context):
         """Show the panel if something was left out."""
-        return reports.latest() is not None and len(reports.latest().left_out) > 0
+        report = reports.latest(context.scene)
+        return report is not None and len(report.left_out) > 0
 
     def draw_header_preset(self, context):
         """Draw the number of objects."""
-        self.layout.label(text=str(len(reports.latest().left_out)))
+        self.layout.label(text=str(len(reports.latest(context.scene).left_out)))
 
     def draw(self, context):
         """Draw each reason with a button that selects its objects; below it each object's name and Cast As setting."""
-        for reason, names in reports.by_reason(reports.latest()).items():
+        for reason, names in reports.by_reason(reports.latest(context.scene)).items():
             column = self.layout.column(align=True)
             draw_message(column, context, reason, "DOT")
             count = f"{len(names)} {'Object' if len(names) == 1 else 'Objects'}"

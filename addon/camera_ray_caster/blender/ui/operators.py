@@ -41,7 +41,7 @@ class Verify(OfScene, bpy.types.Operator):
     def execute(self, context):
         """Verify, keep the report for the panel, and report the result in one line."""
         report = verified(context.scene, self.with_cycles)
-        reports.keep_verified(report)
+        reports.keep_verified(report, context.scene)
         if report.passed:
             self.report({"INFO"}, "All reference checks passed")
         else:
@@ -119,11 +119,11 @@ class SelectLeftOut(bpy.types.Operator):
     def poll(cls, context):
         """Gray out the operator before the first cast."""
         cls.poll_message_set(NO_REPORT)
-        return reports.latest() is not None
+        return reports.latest(context.scene) is not None
 
     def execute(self, context):
         """Select only these objects, as far as they are in the view layer."""
-        names = reports.by_reason(reports.latest()).get(self.reason, ())
+        names = reports.by_reason(reports.latest(context.scene)).get(self.reason, ())
         found = [context.view_layer.objects[name] for name in names if name in context.view_layer.objects]
         if not found:
             self.report(
@@ -145,11 +145,11 @@ class WriteReport(bpy.types.Operator):
     def poll(cls, context):
         """Gray out the operator before the first render."""
         cls.poll_message_set(NO_REPORT)
-        return reports.latest() is not None
+        return reports.latest(context.scene) is not None
 
     def execute(self, context):
         """Write the report into the text datablock and report its name."""
-        text = reports.write_text(reports.latest())
+        text = reports.write_text(reports.latest(context.scene))
         self.report({"INFO"}, f"The report is in the text {text.name!r}: open it in the Text Editor")
         return {"FINISHED"}
 

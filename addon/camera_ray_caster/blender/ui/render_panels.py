@@ -38,7 +38,7 @@ class RenderPanel(EnginePanel, bpy.types.Panel):
         for setting in ("shading", "samples", "precision", "exact_shapes"):
             layout.prop(context.scene.camera_ray_caster, setting)
         layout.prop(context.scene.render, "film_transparent")
-        report = reports.latest()
+        report = reports.latest(context.scene)
         if report is not None:
             layout.label(text=f"{report.pixels:,} rays in {sum(report.seconds.values()):.3f} s")
             layout.label(text=f"Worst distance error: {reports.relative_error(report, 'worst')}")

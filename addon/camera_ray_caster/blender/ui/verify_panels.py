@@ -28,7 +28,7 @@ class SidebarVerify(Sidebar, bpy.types.Panel):
         row = layout.row(align=True)
         row.operator("camera_ray_caster.verify", icon="CHECKMARK")
         row.operator("camera_ray_caster.verify", text="With Cycles").with_cycles = True
-        report = reports.verified()
+        report = reports.verified(context.scene)
         if report is None:
             return
         if report.camera != facts_of(context, context.scene.camera)[0]:
