@@ -1,11 +1,15 @@
 """What casts leave: images that are saved and shown, and the steps of pixels."""
 
+from functools import partial
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
 from camera_ray_caster.blender.engine import passes
 from camera_ray_caster.blender.output import images
 from camera_ray_caster.blender.read.scene import read_camera, read_shapes
+from camera_ray_caster.blender.registration import Undo
 from camera_ray_caster.blender.view3d import lesson
 from camera_ray_caster.core.cast import cast
 
@@ -179,3 +183,28 @@ def test_the_images_of_the_latest_cast_come_first(blender, scene):
     passes.tick(scene, blender.context.view_layer, ["depth"])
     blender.ops.camera_ray_caster.cast()
     assert listed() == ["Depth", "Earlier", "Casts", "Combined"]
+
+
+@pytest.mark.parametrize("why", ["disabled", "no camera", "Esc"])
+def test_step_through_gives_every_window_its_cursor_back(blender, scene, monkeypatch, why):
+    from camera_ray_caster.blender.ui import lesson_operators
+
+    restored = []
+    windows = [SimpleNamespace(cursor_modal_restore=partial(restored.append, i)) for i in range(2)]
+    context = SimpleNamespace(window_manager=SimpleNamespace(windows=windows), scene=scene)
+    monkeypatch.setattr(lesson_operators, "bpy", SimpleNamespace(data=blender.data, context=context))
+    lesson_operators._waiting.append(blender.data.workspaces[0].name)
+    move, escape = (SimpleNamespace(type=kind, value="PRESS") for kind in ("MOUSEMOVE", "ESC"))
+    step = partial(lesson_operators.StepThrough.modal, SimpleNamespace(), context)
+    assert step(move) == {"PASS_THROUGH"}
+    assert restored == []
+    if why == "disabled":
+        with Undo() as undo:
+            lesson_operators.register(undo)
+    if why == "no camera":
+        blender.data.objects.remove(scene.camera)
+    else:
+        assert why == "Esc" or restored == [0, 1]
+    assert step(escape if why == "Esc" else move) == {"FINISHED"}
+    assert restored == [0, 1]
+    assert not lesson_operators._waiting

@@ -42,9 +42,10 @@ class StepThrough(bpy.types.Operator):
         return {"RUNNING_MODAL"}
 
     def modal(self, context, event):
-        """Handle clicks on pixels; pass all other events to Blender."""
-        if not _waiting or (event.type in {"ESC", "RET", "RIGHTMOUSE"} and event.value == "PRESS"):
-            self.cancel(context)
+        """Handle clicks on pixels, and end without a camera; pass all other events to Blender."""
+        is_over = not _waiting or context.scene.camera is None
+        if is_over or (event.type in {"ESC", "RET", "RIGHTMOUSE"} and event.value == "PRESS"):
+            end()
             return {"FINISHED"}
         if event.type != "LEFTMOUSE" or event.value != "PRESS":
             return {"PASS_THROUGH"}
@@ -60,15 +61,16 @@ class StepThrough(bpy.types.Operator):
     def cancel(self, context):
         """Restore the status bar and the cursor."""
         end()
-        context.window.cursor_modal_restore()
 
 
 def end() -> None:
-    """End the waiting for clicks: remove the hint from the workspace in which it was shown."""
+    """End the waiting for clicks: remove the hint from the workspace in which it was shown, and restore the cursor."""
     while _waiting:
         workspace = bpy.data.workspaces.get(_waiting.pop())
         if workspace is not None:
             workspace.status_text_set(None)
+        for window in bpy.context.window_manager.windows:
+            window.cursor_modal_restore()
 
 
 def pixel_at(context, x: int, y: int) -> tuple[int, int] | None:
