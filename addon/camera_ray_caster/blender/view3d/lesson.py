@@ -55,7 +55,7 @@ def lessons(context) -> dict[tuple[int, int], Lesson]:
 def draw() -> None:
     """Draw the rays, the outlines of the pixels and the points on the rays; called by Blender for each 3D View."""
     context = bpy.context
-    if not pixels:
+    if not (pixels and context.space_data.overlay.show_overlays):
         return
     found, scale = lessons(context), context.preferences.system.ui_scale
     size = context.scene.camera.data.display_size if found else 0.0
@@ -89,7 +89,7 @@ def _parts(camera, one: Lesson, size: float):
 def draw_marks() -> None:
     """Draw a frame around each pixel in the picture; called by Blender for each Image Editor."""
     context = bpy.context
-    found = lessons(context) if pixels else {}
+    found = lessons(context) if pixels and context.space_data.overlay.show_overlays else {}
     frame = image_frame(context, cached_scene(context).camera.raster) if found else None
     if frame is None:
         return

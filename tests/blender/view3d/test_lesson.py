@@ -1,0 +1,22 @@
+"""When the pixels of Step Through are drawn."""
+
+from types import SimpleNamespace
+from unittest.mock import MagicMock
+
+import pytest
+
+from camera_ray_caster.blender.view3d import lesson
+
+
+@pytest.mark.parametrize("function", ["draw", "draw_marks"])
+@pytest.mark.parametrize(("pixels", "overlays"), [([(1, 2)], True), ([(1, 2)], False), ([], True)])
+def test_rays_and_marks_are_drawn_for_pixels_where_overlays_are_shown(function, pixels, overlays, monkeypatch):
+    asked = []
+    space = SimpleNamespace(overlay=SimpleNamespace(show_overlays=overlays))
+    context = SimpleNamespace(space_data=space, preferences=SimpleNamespace(system=SimpleNamespace(ui_scale=1.0)))
+    monkeypatch.setattr(lesson, "bpy", SimpleNamespace(context=context))
+    monkeypatch.setattr(lesson, "gpu", MagicMock())
+    monkeypatch.setattr(lesson, "pixels", pixels)
+    monkeypatch.setattr(lesson, "lessons", lambda context: asked.append(context) or {})
+    getattr(lesson, function)()
+    assert len(asked) == (overlays and len(pixels) > 0)
