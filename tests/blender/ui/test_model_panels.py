@@ -7,7 +7,7 @@ from camera_ray_caster.blender.ui.model_panels import LensPanel, ModelPanel, Sen
 from camera_ray_caster.core.records import InputError
 
 MATRIX = ("calibration_width", "calibration_height", "fx", "fy", "cx", "cy", "skew")
-FILE = ("calibration_camera", "calibration_file", "calibration_unit")
+FILE = ("calibration_file", "calibration_unit")
 CALIBRATION = (*FILE, *MATRIX)
 POINT = (*FILE, "calibration_width", "calibration_height", "cx", "cy")
 SHOWN = {
@@ -129,7 +129,7 @@ def test_the_settings_of_the_chosen_model_are_shown_in_order(blender, data):
 def test_in_a_narrow_editor_the_same_is_shown_with_labels_that_are_not_cut_off(blender, data):
     data.camera_ray_caster.model = "OPENCV_FISHEYE"
     wide = drawn(blender, ModelPanel, data)
-    label = "Camera in File"
+    label = "Calibration"
     assert label not in drawn.labels
     assert drawn(blender, ModelPanel, data, width=220) == wide
     assert label in drawn.labels
@@ -222,8 +222,7 @@ def test_a_missing_slit_or_path_is_added_where_the_camera_sees_something(blender
 def test_a_calibration_file_hides_the_numbers_that_it_replaces(blender, data):
     own = data.camera_ray_caster
     own.model, own.calibration_file = "OPENCV_FISHEYE", "//lens.yml"
-    camera, file, *_ = SHOWN["OPENCV_FISHEYE"]
-    assert drawn(blender, ModelPanel, data) == (("model", camera, file), ())
+    assert drawn(blender, ModelPanel, data) == (("model", "calibration_file", "calibration_camera"), ())
 
 
 def test_lengths_in_millimeters_are_blender_s_own_and_the_panel_says_so(blender, data):
@@ -238,7 +237,7 @@ def test_lengths_in_millimeters_are_blender_s_own_and_the_panel_says_so(blender,
     assert drawn(blender, ModelPanel, data)[0] == ("model", *FILE, "lens", "division_lambda")
     own.calibration_file = "//lens.yml"
     assert said() == "In pixels of the file's picture, scaled to the frame"
-    assert drawn(blender, ModelPanel, data) == (("model", *FILE[:2]), ())
+    assert drawn(blender, ModelPanel, data) == (("model", "calibration_file", "calibration_camera"), ())
 
 
 def test_a_camera_of_cycles_shows_the_settings_of_its_own_type_and_the_way_back(osl, blender, camera_scene):

@@ -11,7 +11,7 @@ from ..properties.declared import BLENDERS_OWN, ENGINE, GROUP
 from ..properties.owners import owner_of
 from .add_line import AddLine, SelectLine
 from .drawing import draw_field, draw_message
-from .model_settings import lengths_in_words, not_used, of_type, read_settings, shown
+from .model_settings import lengths_in_words, not_used, of_type, read_settings, settings_of, shown
 
 PRESETS = "CAMERA_RAY_CASTER_PT_presets"
 """Identifier of the presets' panel."""
@@ -19,17 +19,14 @@ PRESETS = "CAMERA_RAY_CASTER_PT_presets"
 
 def draw_model_settings(layout, context, camera, beside_lens: bool = True, drawn: Sequence[Setting] = ()) -> None:
     """Draw the settings of the chosen model; next to a panel of the lens (``beside_lens``), without the settings of
-    that panel, and without those that are ``drawn`` elsewhere. A calibration file hides the numbers that it replaces.
+    that panel, and without those that are ``drawn`` elsewhere.
     """
-    own = getattr(camera, GROUP)
-    column, settings = layout.column(align=True), read_settings(camera)
-    for setting in settings:
+    column = layout.column(align=True)
+    for setting in read_settings(camera):
         if setting not in drawn and (not beside_lens or shown(setting, camera, context.engine)):
             draw_setting(column, context, camera, setting)
-        if setting.replaces_the_rest and getattr(own, setting.name):
-            break
-    if UNIT in settings:
-        draw_message(layout, context, lengths_in_words(own))
+    if UNIT in settings_of(camera):
+        draw_message(layout, context, lengths_in_words(getattr(camera, GROUP)))
     if beside_lens and context.engine != ENGINE and camera.type != CUSTOM and (labels := not_used(camera)):
         draw_message(layout, context, f"The model does not use Blender's {', '.join(labels)}")
 

@@ -3,7 +3,7 @@
 import re
 
 from ...core.cameras import MODELS
-from ...core.cameras.parts.calibration import IN_PIXELS, MILLIMETERS, SIZE, UNIT
+from ...core.cameras.parts.calibration import FILE_CAMERA, FROM_FILE, IN_PIXELS, MILLIMETERS, SIZE, UNIT
 from ...core.cameras.parts.film import FILM, LENS
 from ...core.cameras.parts.settings import CAMERA, OWN, STEREO, Setting
 from ..cycles.shader import CUSTOM
@@ -53,7 +53,7 @@ def settings_of(camera) -> tuple[Setting, ...]:
 
 
 def read_settings(camera) -> list[Setting]:
-    """Return the settings of a camera's model that are used with its unit of length."""
+    """Return the settings of a camera's model that are used with its unit of length or its calibration file."""
     settings = settings_of(camera)
     hidden = not_counted(settings, getattr(camera, GROUP))
     return [setting for setting in settings if setting not in hidden]
@@ -74,22 +74,21 @@ def not_used(camera) -> list[str]:
 
 
 def not_counted(settings, own) -> tuple[Setting, ...]:
-    """Return the settings of a model that are not used with its unit of length; () if it has no unit."""
+    """Return the settings of a model that are not used with its unit of length or its calibration file, which takes
+    the place of all others; () if it has no unit.
+    """
     if UNIT not in settings:
         return ()
-    return IN_PIXELS if in_millimeters(own) else (LENS, *FILM)
-
-
-def in_millimeters(own) -> bool:
-    """Return whether a calibrated model's lengths are in millimeters; those of a calibration file are in pixels."""
-    return own.calibration_unit == MILLIMETERS and not own.calibration_file
+    if own.calibration_file:
+        return tuple(setting for setting in settings if setting not in FROM_FILE)
+    return FILE_CAMERA, *(IN_PIXELS if own.calibration_unit == MILLIMETERS else (LENS, *FILM))
 
 
 def lengths_in_words(own) -> str:
     """Return a description of the unit of a calibrated model's lengths."""
     if own.calibration_file:
         return "In pixels of the file's picture, scaled to the frame"
-    if in_millimeters(own):
+    if own.calibration_unit == MILLIMETERS:
         return "In millimeters on Blender's sensor; Shift sets the center"
     sides = [str(getattr(own, side.name) or "the frame's") for side in SIZE]
     return f"In pixels of a picture of {' × '.join(sides)}, scaled to the frame"

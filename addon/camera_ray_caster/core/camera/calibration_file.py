@@ -8,7 +8,7 @@ from ..cameras import MODELS
 from ..cameras.files import lenses_of
 from ..cameras.files.document import Lens
 from ..cameras.model import Model
-from ..cameras.parts.calibration import CENTER, FILE, FILE_CAMERA, SIZE
+from ..cameras.parts.calibration import CENTER, FILE, FILE_CAMERA, FROM_FILE, SIZE
 from ..records import BlenderCamera, InputError, Raster
 
 
@@ -26,8 +26,8 @@ def with_file(raw: BlenderCamera, model: type[Model], raster: Raster) -> Blender
         label = next(other.label for other in MODELS if other.key == lens.model)
         raise InputError(f"{path!r} is a calibration for {label}, not {model.label}: choose that model")
     _check_shape(path, lens, raster)
-    given = model.SETTINGS[model.SETTINGS.index(FILE) + 1 :]
-    return replace(raw, settings={**raw.settings, **{one.name: one.default for one in given}, **lens.settings})
+    given = {one.name: one.default for one in model.SETTINGS if one not in FROM_FILE}
+    return replace(raw, settings={**raw.settings, **given, **lens.settings})
 
 
 def _check_shape(path: str, lens: Lens, raster: Raster) -> None:

@@ -58,21 +58,22 @@ SIZE = (
         "calibration_height", "Height", "Of the calibrated picture, pixels; 0 is the frame's", 1080, 0, unit="pixels"
     ),
 )
-FILE_CAMERA = Text(
-    "calibration_camera", "Camera in File", "Name of the camera in a calibration file that has several cameras", ""
-)
 FILE_WRITERS = "OpenCV, ROS, COLMAP, nerfstudio, Kalibr, mrcal, Project Aria, NVIDIA (f-theta) or OCamCalib"
 FILE = FilePath(
     "calibration_file", "Calibration", f"Calibration file of {FILE_WRITERS}. If empty, the numbers below are used", ""
 )
+FILE_CAMERA = Text(
+    "calibration_camera", "Camera in File", "Name of the camera in a calibration file that has several cameras", ""
+)
+FROM_FILE = (FILE, FILE_CAMERA)
 SKEW = Number(
     "skew", "Skew", "Entry in row 1, column 2 of the camera matrix, in pixels of the calibrated "
                     "picture", 0.0, unit="pixels",
     digits=3,
 )  # fmt: skip
 IN_PIXELS = (*SIZE, *FOCAL, *CENTER, SKEW)
-PRINCIPAL_POINT = (FILE_CAMERA, FILE, UNIT, *SIZE, *CENTER, *FILM)
-CALIBRATION = (FILE_CAMERA, FILE, UNIT, *IN_PIXELS, LENS, *FILM)
+PRINCIPAL_POINT = (*FROM_FILE, UNIT, *SIZE, *CENTER, *FILM)
+CALIBRATION = (*FROM_FILE, UNIT, *IN_PIXELS, LENS, *FILM)
 """The settings of a model without a camera matrix, and of one with it: of the calibrated picture, or of the lens and
 its sensor. If a file is given, its numbers, in pixels, take their place.
 """

@@ -54,8 +54,6 @@ class Setting(ABC):
     """Where Blender keeps the setting: one of OWN, CAMERA, STEREO, RENDER, CYCLES."""
 
     kind: ClassVar[str]
-    replaces_the_rest: ClassVar[bool] = False
-    """Whether a value takes the place of the settings that follow this one in a model's SETTINGS."""
 
     def given(self, raw: BlenderCamera) -> Any:
         """Return the value in a record, unchanged. Raises InputError if the record has none."""
@@ -227,10 +225,9 @@ class Coefficients(Text):
 
 @dataclass(frozen=True)
 class FilePath(Setting):
-    """The path of a file that takes the place of the settings that follow, or empty. A record has the absolute path."""
+    """The path of a file, or empty. A record has the absolute path."""
 
     kind = "FILE"
-    replaces_the_rest = True
 
     def read(self, raw: BlenderCamera) -> str:
         """Return the path."""
