@@ -1,5 +1,8 @@
 """What the panels draw, without a window."""
 
+import math
+from ast import literal_eval
+
 import pytest
 
 from camera_ray_caster.blender.output import reports
@@ -177,3 +180,94 @@ def test_results_are_shown_in_their_own_scene_only(blender, scene, how):
     window.scene = scene
     scene.name = "Renamed"
     assert shown() == [True] * 7
+
+
+@pytest.mark.parametrize(
+    ("system", "unit", "meters", "text"),
+    [
+        ("METRIC", "ADAPTIVE", 1.2345678, "1.23457 m"),
+        ("METRIC", "ADAPTIVE", 0.0123456, "1.23456 cm"),
+        ("METRIC", "ADAPTIVE", -1e-9, "0 m"),
+        ("METRIC", "METERS", 0.0123456, "0.012346 m"),
+        ("METRIC", "METERS", -4.371e-8, "0 m"),
+        ("METRIC", "CENTIMETERS", 1.2345678, "123.457 cm"),
+        ("METRIC", "MILLIMETERS", 6000.0, "6000000 mm"),
+        ("METRIC", "MICROMETERS", 0.0123456, "12345.6 µm"),
+        ("METRIC", "KILOMETERS", -6.0, "-0.006 km"),
+        ("IMPERIAL", "FEET", 0.3048 * 1.5, "1.5'"),
+        ("IMPERIAL", "INCHES", 0.3048, '12"'),
+        ("IMPERIAL", "MILES", 1609.344, "1 mi"),
+        ("IMPERIAL", "THOU", 0.0254, "1000 thou"),
+        ("NONE", "METERS", 1.2345678, "1.23457"),
+        ("NONE", "METERS", -0.0, "0"),
+    ],
+)
+def test_lengths_are_in_the_unit_of_the_scene(blender, system, unit, meters, text):
+    from camera_ray_caster.blender.ui.drawing import length
+
+    units = blender.context.scene.unit_settings
+    units.system = system
+    if system != "NONE":
+        units.length_unit = unit
+    assert length(blender.context, meters) == text
+    units.scale_length = 0.5
+    assert length(blender.context, meters if system == "NONE" else 2 * meters) == text
+
+
+def test_every_unit_of_blender_is_known_with_its_length(blender):
+    from camera_ray_caster.blender.ui.drawing import UNITS
+
+    units, known = blender.context.scene.unit_settings, set()
+    for units.system in ("METRIC", "IMPERIAL"):
+        with pytest.raises(TypeError) as caught:
+            units.length_unit = "none of them"
+        known |= set(literal_eval(str(caught.value).partition(" not found in ")[2]))
+    assert known == {"ADAPTIVE", *UNITS}
+    for name, (meters, sign) in UNITS.items():
+        for word in (sign, name.lower()):
+            assert blender.utils.units.to_value("METRIC", "LENGTH", f"1{word}") == pytest.approx(meters, rel=1e-6)
+
+
+def test_what_rounds_to_zero_has_no_sign(blender, scene):
+    from camera_ray_caster.blender.ui.facts_panels import SidebarFacts
+    from camera_ray_caster.blender.view3d.mouse_gizmo import _lines
+    from camera_ray_caster.core.report.diagram import Probe
+
+    scene.camera.rotation_euler = (-1e-6, 1e-6, 1e-6)
+    scene.camera.location.x = -1e-9
+    said = drawn(blender, SidebarFacts).split()
+    assert "-0.0000" not in said
+    assert "-0" not in said
+    assert "0.0000" in said
+    small = (-1e-6, 1e-6, -1.0)
+    found = Probe((0, 0), view=small[:2], origin=small, direction=small, distance=math.inf, name="", shape_index=0)
+    assert dict(_lines(blender.context, found))["View"] == "0.0000, 0.0000"
+    assert dict(_lines(blender.context, found))["Direction"] == "0.0000, 0.0000, -1.0000"
+
+
+def test_rays_in_the_status_bar_have_a_separator(blender, scene, capfd):
+    scene.render.resolution_x = scene.render.resolution_y = 40
+    blender.ops.camera_ray_caster.cast()
+    assert "1,600 rays cast" in "".join(capfd.readouterr())
+
+
+def test_results_are_named_as_passes_are(blender, scene):
+    from camera_ray_caster.blender.engine import passes
+    from camera_ray_caster.blender.ui.show_result import ResultsMenu
+
+    keys = ["combined", "uv", "object_index", "distance", "distance_bound"]
+    passes.tick(scene, blender.context.view_layer, keys)
+    blender.ops.camera_ray_caster.cast()
+    said = drawn(blender, ResultsMenu)
+    for label in (entry.label for entry in passes.PASSES if entry.key in keys):
+        assert f"{label} camera_ray_caster.show_result" in said
+    scene.render.use_multiview = True
+    blender.ops.camera_ray_caster.cast()
+    assert "Distance Bound left camera_ray_caster.show_result" in drawn(blender, ResultsMenu)
+
+
+def test_the_dialogs_show_calibration_files_and_say_what_the_target_is(blender):
+    operators = blender.ops.camera_ray_caster.load_calibration, blender.ops.camera_ray_caster.export
+    load, export = (operator.get_rna_type().properties for operator in operators)
+    assert set(load["filter_glob"].default.split(";")) == {"*.yml", "*.yaml", "*.json", "*.txt", "*.cameramodel"}
+    assert export["target"].name == "Target Camera"

@@ -3,6 +3,7 @@
 from textwrap import wrap
 
 import bpy
+import numpy as np
 
 LETTER = 6.0
 """Approximate width of a letter in a panel, in pixels at interface scale 1."""
@@ -10,6 +11,16 @@ MARGIN = 20.0
 """Approximate margin on each side of a panel's fields, in pixels at interface scale 1."""
 NARROW = 280
 """Region width up to which a label next to its field would be cut off, in pixels at interface scale 1."""
+
+
+DIGITS = 6
+"""Significant digits of lengths, and digits after the point."""
+UNITS = {
+    "KILOMETERS": (1e3, " km"), "METERS": (1.0, " m"), "CENTIMETERS": (1e-2, " cm"), "MILLIMETERS": (1e-3, " mm"),
+    "MICROMETERS": (1e-6, " µm"), "MILES": (1609.344, " mi"), "FEET": (0.3048, "'"), "INCHES": (0.0254, '"'),
+    "THOU": (2.54e-5, " thou"),
+}  # fmt: skip
+"""Meters and sign of Blender's units of length, by key; the unit ADAPTIVE depends on the length."""
 
 
 class Sidebar:
@@ -57,11 +68,17 @@ def draw_message(layout, context, text: str, icon: str = "INFO") -> None:
 
 
 def length(context, value: float) -> str:
-    """Return a length as text in the scene's units."""
+    """Return a length as text in the scene's unit."""
     units = context.scene.unit_settings
+    meters = value * units.scale_length
     if units.system == "NONE":
-        return f"{value:.5g}"
-    return bpy.utils.units.to_string(units.system, "LENGTH", value * units.scale_length, precision=4)
+        text = f"{value:.{DIGITS}g}"
+    elif units.length_unit in UNITS:
+        size, sign = UNITS[units.length_unit]
+        text = np.format_float_positional(round(meters / size, DIGITS), DIGITS, fractional=False, trim="-") + sign
+    else:
+        text = bpy.utils.units.to_string(units.system, "LENGTH", meters, precision=DIGITS)
+    return text if set(text) & set("123456789") else text.lstrip("-")  # no -0
 
 
 def draw_row(layout, name: str, cells, factor: float) -> None:

@@ -47,7 +47,7 @@ class Export(OfScene, ExportHelper, bpy.types.Operator):
         ],
     )
     target: StringProperty(
-        name="To",
+        name="Target Camera",
         description="Name of the target camera of the maps. If empty, a perspective camera with the same lens",
     )
 

@@ -34,7 +34,7 @@ def draw_facts(layout, context, facts, camera) -> None:
     """Draw the facts of a camera object as tables, with lengths in the scene's units and angles in degrees."""
     box = layout.box().column(align=True)
     vectors = [("Eye", [length(context, value) for value in facts["eye"]])]
-    vectors += [(name, [f"{value:.4f}" for value in facts[name]]) for name in "uvw"]
+    vectors += [(name, [f"{value:z.4f}" for value in facts[name]]) for name in "uvw"]
     for name, cells in vectors:
         draw_row(box, name, cells, 0.16)
     box = layout.box().column(align=True)

@@ -3,6 +3,7 @@
 import bpy
 from bpy.props import StringProperty
 
+from ..engine.passes import PASSES
 from ..output import images
 
 
@@ -48,13 +49,14 @@ class ResultsMenu(bpy.types.Menu):
 
     def draw(self, context):
         """Draw an entry for each image, those of the latest cast first."""
-        names = list(images.results())
-        before = [name for name in names if images.latest and name not in images.latest]
-        for name in sorted(names, key=before.__contains__):
+        results, labels = images.results(), {entry.key: entry.label for entry in PASSES}
+        before = [name for name in results if images.latest and name not in images.latest]
+        for name in sorted(results, key=before.__contains__):
             if before and name == before[0]:
                 self.layout.separator()
                 self.layout.label(text="Earlier Casts")
-            text = name.removeprefix(images.PREFIX).capitalize()
+            key = results[name]
+            text = labels[key] + name.removeprefix(images.image_name(key))  # with the view
             self.layout.operator(ShowResult.bl_idname, text=text).name = name
 
 

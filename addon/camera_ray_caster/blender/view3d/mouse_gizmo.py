@@ -67,11 +67,11 @@ class RayUnderMouseGroup(bpy.types.GizmoGroup):
 def _lines(context, found: Probe) -> list[tuple[str, str]]:
     lines = [
         ("Pixel", f"{found.pixel[0]}, {found.pixel[1]} from the bottom left"),
-        ("View", f"{found.view[0]:.4f}, {found.view[1]:.4f}"),
+        ("View", f"{found.view[0]:z.4f}, {found.view[1]:z.4f}"),
     ]
     if math.isnan(found.direction[0]):
         return [*lines, ("Ray", "none: the camera sees nothing here")]
-    lines.append(("Direction", ", ".join(f"{component:.4f}" for component in found.direction)))
+    lines.append(("Direction", ", ".join(f"{component:z.4f}" for component in found.direction)))
     if math.isinf(found.distance):
         return [*lines, ("Hit", "nothing")]
     return [*lines, ("Hit", found.name), ("Distance", length(context, found.distance))]
