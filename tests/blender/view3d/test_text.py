@@ -23,13 +23,15 @@ def region(kind, x, width):
 
 @pytest.mark.parametrize(
     ("sidebar", "expected"),
-    [((1000, 300), 950), ((1250, 1), 1200), ((1250, 300), 1200), ((50, 300), 1200)],
+    [((1000, 300), (40, 950)), ((1250, 1), (40, 1200)), ((1250, 300), (40, 1200)), ((50, 300), (300, 1200))],
     ids=["over the view", "closed", "beside the view", "on the left"],
 )
-def test_a_sidebar_over_the_view_leaves_less_of_it(sidebar, expected):
+def test_a_toolbar_and_a_sidebar_over_the_view_leave_less_of_it(sidebar, expected):
     view = region("WINDOW", 50, 1200)
-    area = SimpleNamespace(regions=[region("HEADER", 50, 1200), view, region("UI", *sidebar)])
-    assert text.visible_width(SimpleNamespace(region=view, area=area)) == expected
+    regions = [region("HEADER", 50, 1200), region("TOOLS", 50, 40), view, region("UI", *sidebar)]
+    assert text.visible(SimpleNamespace(region=view, area=SimpleNamespace(regions=regions))) == expected
+    regions[1] = region("TOOLS", 10, 40)  # beside the view
+    assert text.visible(SimpleNamespace(region=view, area=SimpleNamespace(regions=regions)))[1] == expected[1]
 
 
 SENTENCE = "Every pixel is shown at frame 5; in a render, each pixel has its own time, from frame 1.024 to 24.98"
@@ -46,21 +48,21 @@ def test_a_sentence_is_wrapped_to_the_width_of_the_view(width, interface):
         assert not after or blf.dimensions(0, f"{line} {after.split()[0]}")[0] > width
 
 
-@pytest.mark.parametrize("across", [120, 1000])
-def test_the_notice_is_wrapped_and_stays_in_the_view(across, interface, monkeypatch):
+@pytest.mark.parametrize(("left", "right"), [(0, 120), (40, 1000)])
+def test_the_notice_is_wrapped_and_stays_in_the_view(left, right, interface, monkeypatch):
     written = []
     context = SimpleNamespace(**vars(interface))
     monkeypatch.setattr(notice, "bpy", SimpleNamespace(context=context))
     monkeypatch.setattr(notice, "cached_scene", lambda context: SimpleNamespace(differences=(SENTENCE,)))
     monkeypatch.setattr(notice, "_shows_camera", lambda context: True)
-    monkeypatch.setattr(text, "visible_width", lambda context: across)
+    monkeypatch.setattr(text, "visible", lambda context: (left, right))
     monkeypatch.setattr(text, "write", lambda context, lines, place: written.append((lines, place)))
     notice.draw()
     ((lines, place),) = written
     assert " ".join(line for _, line in lines) == SENTENCE
     blf.size(0, text.SIZE)
     width = max(blf.dimensions(0, line)[0] for _, line in lines)
-    assert text.SIZE <= place(width, 20)[0] <= across - width - text.SIZE  # the ground is wider by the font's size
+    assert left + text.SIZE <= place(width, 20)[0] <= right - width - text.SIZE  # the ground's margin
 
 
 @pytest.mark.parametrize(("mouse", "side"), [(40, "right"), (700, "left"), (400, "edge")])
@@ -72,10 +74,10 @@ def test_the_text_at_the_mouse_is_of_the_ray_alone_and_in_the_view(mouse, side, 
     context = SimpleNamespace(**vars(interface), scene=camera_scene)
     monkeypatch.setattr(mouse_gizmo, "cached_scene", lambda context: scene)
     monkeypatch.setattr(mouse_gizmo, "camera_frame", lambda context: (0, 0, 800, 600))
-    monkeypatch.setattr(text, "visible_width", lambda context: 800)
+    monkeypatch.setattr(text, "visible", lambda context: (40, 800))
     monkeypatch.setattr(text, "write", lambda context, lines, place: written.append((lines, place)))
     mouse_gizmo.RayUnderMouse.draw(SimpleNamespace(mouse=(mouse, 300)), context)
     ((lines, place),) = written
     assert [name for name, _ in lines] == ["Pixel", "View", "Direction", "Hit"]
     left, margin = place(width, 60)[0], mouse_gizmo.MARGIN
-    assert left == {"right": mouse + 2 * margin, "left": mouse - 2 * margin - width, "edge": margin}[side]
+    assert left == {"right": mouse + 2 * margin, "left": mouse - 2 * margin - width, "edge": 40 + margin}[side]

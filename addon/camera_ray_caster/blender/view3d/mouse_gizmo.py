@@ -78,13 +78,14 @@ def _lines(context, found: Probe) -> list[tuple[str, str]]:
 
 
 def _write(context, mouse, lines) -> None:
-    """Write lines next to the mouse, on the side where they fit, and never past the left edge."""
-    margin = MARGIN * context.preferences.system.ui_scale
+    """Write lines next to the mouse, on the side where they fit, and not past the left edge."""
+    margin, (left, right) = MARGIN * context.preferences.system.ui_scale, text.visible(context)
 
     def place(width, height):
-        right, left = mouse[0] + 2 * margin, mouse[0] - 2 * margin - width
-        fits = right + width + margin <= text.visible_width(context)
-        return right if fits else max(left, margin), max(mouse[1] - margin, height + margin)
+        x = mouse[0] + 2 * margin
+        if x + width + margin > right:
+            x = max(mouse[0] - 2 * margin - width, left + margin)
+        return x, max(mouse[1] - margin, height + margin)
 
     text.write(context, lines, place)
 

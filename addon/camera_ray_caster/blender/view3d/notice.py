@@ -21,9 +21,9 @@ def draw() -> None:
     context = bpy.context
     sentences = cached_scene(context).differences if _shows_camera(context) else ()
     if sentences:
-        margin, across = MARGIN * context.preferences.system.ui_scale, text.visible_width(context)
-        lines = [("", line) for one in sentences for line in text.wrapped(context, one, across - 2 * margin)]
-        text.write(context, lines, lambda width, height: ((across - width) / 2, height + margin))
+        margin, (left, right) = MARGIN * context.preferences.system.ui_scale, text.visible(context)
+        lines = [("", line) for one in sentences for line in text.wrapped(context, one, right - left - 2 * margin)]
+        text.write(context, lines, lambda width, height: ((left + right - width) / 2, height + margin))
 
 
 def _shows_camera(context) -> bool:

@@ -42,11 +42,15 @@ def wrapped(context, sentence: str, width: float) -> list[str]:
     return lines
 
 
-def visible_width(context) -> int:
-    """Return the visible width of the region in pixels: a sidebar may cover a part of it."""
+def visible(context) -> tuple[int, int]:
+    """Return the left and right of the region's visible part in pixels: the toolbar and the sidebar may cover it."""
     region = context.region
-    sidebars = [other.x - region.x for other in context.area.regions if other.type == "UI" and other.width > 1]
-    return min([region.width, *(left for left in sidebars if left > 0)])
+    left, right = 0, region.width
+    for other in context.area.regions:
+        if other.type in ("TOOLS", "UI") and other.width > 1:
+            start = other.x - region.x
+            left, right = (left, min(right, start)) if start > 0 else (max(left, start + other.width), right)
+    return left, right
 
 
 def _set_size(context) -> float:
