@@ -33,10 +33,10 @@ def facts_of(context, camera_object) -> tuple[dict[str, object] | None, str]:
 def draw_facts(layout, context, facts, camera) -> None:
     """Draw the facts of a camera object as tables, with lengths in the scene's units and angles in degrees."""
     box = layout.box().column(align=True)
-    vectors = [("Eye", [length(context, value) for value in facts["eye"]])]
-    vectors += [(name, [f"{value:z.4f}" for value in facts[name]]) for name in "uvw"]
-    for name, cells in vectors:
-        draw_row(box, name, cells, 0.16)
+    for name, value in zip(("Eye X", "Y", "Z"), facts["eye"], strict=True):
+        draw_row(box, name, [length(context, value)], 0.3)
+    for name in "uvw":
+        draw_row(box, name, [f"{value:z.4f}" for value in facts[name]], 0.16)
     box = layout.box().column(align=True)
     for name, text in scalars(context, facts, camera):
         draw_row(box, name, [text], min(0.5, max(0.3, len(name) / len(name + text))))
