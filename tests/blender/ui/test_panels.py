@@ -47,7 +47,8 @@ def test_the_panels_say_what_the_camera_is_and_why_it_is_none(blender, scene):
     sidebar = [camera_panels.SidebarCamera, verify, *cast_panels.CLASSES[:3], overlay_panels.SidebarOverlay]
     assert "camera_ray_caster.see_through" not in drawn(blender, camera_panels.SidebarCamera)  # there is no view
     said = drawn(blender, facts_panels.SidebarFacts)
-    for text in ("Eye X 0 m Y 0 m Z 6 m", "24 × 16 px", "39.6°", "Distance d", "2.77778", "K", "camera_ray_caster.copy_k"):
+    eye, copy = "Eye X 0 m Y 0 m Z 6 m", "camera_ray_caster.copy_k"
+    for text in (eye, "24 × 16 px", "39.6°", "Distance d", "2.77778", "K", copy):
         assert text in said
     own = scene.camera.data.camera_ray_caster
     own.model = "PUSHBROOM"

@@ -51,10 +51,8 @@ def test_a_sentence_is_wrapped_to_the_width_of_the_view(width, interface):
 @pytest.mark.parametrize(("left", "right"), [(0, 120), (40, 1000)])
 def test_the_notice_is_wrapped_and_stays_in_the_view(left, right, interface, monkeypatch):
     written = []
-    context = SimpleNamespace(**vars(interface))
-    monkeypatch.setattr(notice, "bpy", SimpleNamespace(context=context))
-    monkeypatch.setattr(notice, "cached_scene", lambda context: SimpleNamespace(differences=(SENTENCE,)))
-    monkeypatch.setattr(notice, "_shows_camera", lambda context: True)
+    monkeypatch.setattr(notice, "bpy", SimpleNamespace(context=interface))
+    monkeypatch.setattr(notice, "_sentences", lambda context: iter([SENTENCE]))
     monkeypatch.setattr(text, "visible", lambda context: (left, right))
     monkeypatch.setattr(text, "write", lambda context, lines, place: written.append((lines, place)))
     notice.draw()
@@ -81,3 +79,25 @@ def test_the_text_at_the_mouse_is_of_the_ray_alone_and_in_the_view(mouse, side, 
     assert [name for name, _ in lines] == ["Pixel", "View", "Direction", "Hit"]
     left, margin = place(width, 60)[0], mouse_gizmo.MARGIN
     assert left == {"right": mouse + 2 * margin, "left": mouse - 2 * margin - width, "edge": 40 + margin}[side]
+
+
+@pytest.mark.parametrize("perspective", ["CAMERA", "PERSP"])
+@pytest.mark.parametrize("shading", ["RENDERED", "SOLID"])
+@pytest.mark.parametrize("local_view", [None, "a view"])
+@pytest.mark.parametrize(("show", "show_overlays"), [(True, True), (True, False), (False, True)])
+def test_the_notice_is_in_views_that_show_rays(perspective, shading, local_view, show, show_overlays, monkeypatch):
+    context = SimpleNamespace(
+        scene=SimpleNamespace(
+            render=SimpleNamespace(engine="CAMERA_RAY_CASTER"), camera_ray_caster_overlay=SimpleNamespace(show=show)
+        ),
+        space_data=SimpleNamespace(
+            shading=SimpleNamespace(type=shading),
+            overlay=SimpleNamespace(show_overlays=show_overlays),
+            local_view=local_view,
+        ),
+        region_data=SimpleNamespace(view_perspective=perspective),
+    )
+    monkeypatch.setattr(notice, "cached_scene", lambda context: SimpleNamespace(differences=(SENTENCE,)))
+    said, overlaid = list(notice._sentences(context)), show and show_overlays
+    assert (SENTENCE in said) == (overlaid or (shading, perspective) == ("RENDERED", "CAMERA"))
+    assert (notice.LOCAL_VIEW in said) == (local_view is not None and (overlaid or shading == "RENDERED"))

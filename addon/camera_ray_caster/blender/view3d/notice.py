@@ -2,9 +2,12 @@
 
 The scene cannot be evaluated at other frames while a view is drawn. Doing it at other times would reset objects that
 the user has moved without a keyframe. So the view shows all pixels at one frame, and the notice tells this.
+The shapes are read once for all views, so the notice also tells that rays are not limited to Local View.
 """
 
 from __future__ import annotations
+
+from collections.abc import Iterator
 
 import bpy
 
@@ -14,24 +17,28 @@ from .scene_cache import cached_scene
 
 MARGIN = 28
 """Distance between the text and the edge, in pixels at interface scale 1."""
+LOCAL_VIEW = "Rays see the whole scene, not only the objects in Local View"
 
 
 def draw() -> None:
-    """Write the notice if the view shows the camera's picture or the overlay; called by Blender for each 3D View."""
+    """Write the notice, if there is one; called by Blender for each 3D View."""
     context = bpy.context
-    sentences = cached_scene(context).differences if _shows_camera(context) else ()
+    sentences = list(_sentences(context))
     if sentences:
         margin, (left, right) = MARGIN * context.preferences.system.ui_scale, text.visible(context)
         lines = [("", line) for one in sentences for line in text.wrapped(context, one, right - left - 2 * margin)]
         text.write(context, lines, lambda width, height: ((left + right - width) / 2, height + margin))
 
 
-def _shows_camera(context) -> bool:
+def _sentences(context) -> Iterator[str]:
+    """Yield the sentences for a view that shows the camera's picture or another one of this engine, or the overlay."""
     scene, space = context.scene, context.space_data
     is_rendered = space.shading.type == "RENDERED" and scene.render.engine == ENGINE
-    if is_rendered and context.region_data.view_perspective == "CAMERA":
-        return True
-    return scene.camera_ray_caster_overlay.show and space.overlay.show_overlays
+    is_overlaid = scene.camera_ray_caster_overlay.show and space.overlay.show_overlays
+    if is_overlaid or (is_rendered and context.region_data.view_perspective == "CAMERA"):
+        yield from cached_scene(context).differences
+    if space.local_view is not None and (is_overlaid or is_rendered):
+        yield LOCAL_VIEW
 
 
 def register(undo) -> None:
