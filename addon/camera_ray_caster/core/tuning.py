@@ -67,10 +67,10 @@ SLAB_PIXELS = 1 << 17
 """Number of pixels that take as long to check as the numpy calls for a slab. Triangles are tested in slabs, the nearest
 first, and those behind a tested slab are skipped; the number of slabs is the square root of the triangles' work over
 (the tile's pixels plus SLAB_PIXELS). Time of four passes for a monkey head of 1,000, 252,000 and a million triangles
-before a wall, and for a thousand heads, medians of 30 pairs on two threads: twice as many slabs 1.01, 1.02, 1.06 and
-1.01 times, 0.7 of the number 1.1, 1.09, 1.01 and 1.05. Always four, without skipping triangles larger than a cell:
-1.1 to 1.4 times, for the thousand 3 times. 0: 1.5 times the time for 60 heads of 3,936 triangles in 200 x 119 pixels;
-up to 2**18: within the noise.
+before a wall, and for a thousand heads: 1.4 times as many slabs 0.98, 1.01, 1.08 and 0.99 times; equal numbers of
+triangles in place of equal work 1.08, 1.07, 0.98 and 1.06; 0.7 of these slabs 1.1, 1.09, 1.01 and 1.05. Always four,
+without skipping triangles larger than a cell: 1.1 to 1.4 times, for the thousand 3 times. 0: 1.5 times the time for 60
+heads of 3,936 triangles in 200 x 119 pixels; up to 2**18: within the noise.
 """
 
 TRIANGLE_PIXELS = 16

@@ -19,7 +19,7 @@ References: Blender manual, Stereoscopy; source of Cycles, kernel/camera; rays r
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from math import cos, inf, pi, sin, sqrt
+from math import inf, pi, sin, sqrt, tan
 
 import numpy as np
 
@@ -111,12 +111,12 @@ class SphericalStereo(Model):
         """
         x, up, z = upright = _turned(self.upright, ahead)
         across = np.sqrt(x * x + z * z)
-        across = np.where(across > 0, across, np.nan)
         square = 1.0 if is_unit else dot(upright, upright)
         size = across if on_tube else np.sqrt(square)
-        offset = self._offset_beside(across, np.abs(up), on_tube)
-        share = offset / across
-        beside = _turned(self.tilted, (-z * share, 0.0, x * share))  # NaN straight up and down
+        with np.errstate(divide="ignore", invalid="ignore"):
+            offset = self._offset_beside(np.abs(up) / across, on_tube) if self.merge else self.offset
+            share = offset / across
+            beside = _turned(self.tilted, (-z * share, 0.0, x * share))  # NaN straight up and down: 0 times infinity
         turn = self.nearness * size
         scale = 1 / np.sqrt(square + (turn * offset) ** 2)  # the side is perpendicular to D
         return beside, tuple(scale * (a - turn * b) for a, b in zip(ahead, beside, strict=True))
@@ -193,13 +193,11 @@ class SphericalStereo(Model):
         """
         return 1 + (self.offset * self.nearness) ** 2
 
-    def _offset_beside(self, across, up, on_tube: bool):
-        """Return the offset of the rays whose D has these horizontal and vertical parts; ``up`` is not negative."""
-        if self.merge is None:
-            return self.offset
-        reach = (sin(self.merge[0]), 1.0) if on_tube else (sin(self.merge[0]), cos(self.merge[0]))
-        fades = up * reach[1] > across * reach[0]
-        return self._offset_at(_altitude(across, up, on_tube)) if may_hold(fades) else self.offset
+    def _offset_beside(self, slope, on_tube: bool):
+        """Return the offset of the rays whose D has this vertical part, not negative, over its horizontal part."""
+        begin, _ = self.merge or (inf, inf)
+        fades = slope > (sin(begin) if on_tube else tan(begin))
+        return self._offset_at(_altitude(slope, on_tube)) if may_hold(fades) else self.offset
 
     def _offset_at(self, altitude):
         if self.merge is None:
@@ -222,7 +220,7 @@ class SphericalStereo(Model):
         """Return the offset of the ray that sees a point; z is not negative."""
         if self.merge is None:
             return self.offset
-        seen = lambda offset: _altitude(self._flat_and_aside(across, z, offset)[0], z, self.on_tube)  # noqa: E731
+        seen = lambda offset: _altitude(z / self._flat_and_aside(across, z, offset)[0], self.on_tube)  # noqa: E731
         low, high = np.zeros(across.shape), np.full(across.shape, self.merge[1])
         for _ in range(HALVINGS):
             middle = (low + high) / 2
@@ -256,9 +254,9 @@ def with_eye(lens: Model, raw: BlenderCamera, pose: Pose) -> Model:
     return eye.posed(pose)
 
 
-def _altitude(across, up, on_tube: bool):
-    """Return the altitude of a direction as Cycles computes it, from its horizontal and vertical parts."""
-    return np.arcsin(np.minimum(up / across, 1.0)) if on_tube else np.arctan(up / across)
+def _altitude(slope, on_tube: bool):
+    """Return the altitude of a direction as Cycles computes it, from its vertical part over its horizontal part."""
+    return np.arcsin(np.minimum(slope, 1.0)) if on_tube else np.arctan(slope)
 
 
 def _turned(matrix: Matrix | None, vector):

@@ -20,15 +20,17 @@ def nearest_first(near: np.ndarray, count: np.ndarray, most: int) -> Iterator[np
 
 
 def slabs(triangles: Triangles, pixels: int) -> Iterator[np.ndarray]:
-    """Yield triangles in parts of about the same number, those with the least t first. The number of parts grows with
+    """Yield triangles in parts of about the same work, those with the least t first. The number of parts grows with
     their work compared with the pixels of their tile, since the tile's farthest t are computed before each part.
     """
-    near = triangles.near
+    near, work = triangles.near, tuning.TRIANGLE_PIXELS + pixels_in(triangles.bounds)
     if not near.size:
         return
-    work = tuning.TRIANGLE_PIXELS * len(near) + pixels_in(triangles.bounds).sum()
-    count = max(1, round(math.sqrt(work / (pixels + tuning.SLAB_PIXELS))))
-    cuts = np.quantile(near[:: max(1, len(near) >> 12)], np.arange(1, count) / count)
+    count = max(1, round(math.sqrt(work.sum() / (pixels + tuning.SLAB_PIXELS))))
+    some = np.arange(0, len(near), max(1, len(near) >> 12))
+    some = some[np.argsort(near[some])]
+    done = np.cumsum(work[some])
+    cuts = near[some[np.searchsorted(done, done[-1] * np.arange(1, count) / count)]]
     slab = np.searchsorted(cuts, near)
     for k in range(count):
         yield np.flatnonzero(slab == k)
