@@ -77,7 +77,7 @@ def test_the_watch_sees_what_it_is_for(camera_scene, threads):
 def test_threads_of_a_cast_never_reach_blender(camera_scene, threads, slow):
     bpy.ops.mesh.primitive_monkey_add()
     camera_scene.render.resolution_x = camera_scene.render.resolution_y = 900
-    jobs = Cast.read(None, bpy.context)
+    _, jobs = Cast.read(None, bpy.context)
     Worker(partial(cast_views, jobs)).result()
     assert {code.co_name for code in threads.codes} >= {"cast_views", "cast"}
     assert len(threads.given) > 2  # the worker, and tiles

@@ -92,7 +92,7 @@ def test_a_small_image_circle_is_followed_wherever_it_is(cx, cy):
     """A circle with a radius of 9 pixels, less than the distance of fixed places in the frame, whose content zooms."""
 
     def at(frame):
-        scale = 1 + 0.3 * np.sin(5 * frame)
+        scale = float(1 + 0.3 * np.sin(5 * frame))  # whose text is plain with any numpy
         return {"ftheta_angle_to_radius": f"0 {12 * scale!r}", "ftheta_max_angle": 0.75 / scale, "cx": cx, "cy": cy}
 
     motion, evaluate = seen_by("FTHETA", at)
