@@ -69,8 +69,8 @@ def check_export(status, out, errors, folder):
             document = json.loads(path.read_text(encoding="utf-8"), parse_constant=_refuse)
             names, scene = [camera["name"] for camera in document["cameras"]], bpy.context.scene
             render = scene.render
-            is_stereo = render.use_multiview and render.views_format == "STEREO_3D"
-            eyes = [view.name for view in render.stereo_views if view.use] if is_stereo else []
+            views = render.stereo_views if render.views_format == "STEREO_3D" else render.views
+            eyes = [view.name for view in views if view.use and render.use_multiview]
             for name, view in zip(names, eyes or [""], strict=True):
                 there = crc.read_camera(scene, view=view).rays()
                 back = crc.camera_from_json(path, camera=name).rays()
