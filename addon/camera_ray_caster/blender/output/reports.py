@@ -20,7 +20,6 @@ NAMES_WIDTH = 60
 """Maximum number of characters for the names of left-out objects in a line."""
 
 
-
 @dataclass(frozen=True)
 class Source:
     """What a report is of."""

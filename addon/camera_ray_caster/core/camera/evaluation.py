@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from contextlib import nullcontext
 from dataclasses import replace
-from functools import partial
 from typing import Any
 
 import numpy as np
@@ -93,7 +92,7 @@ def _write(camera: Any, x, y, origins, directions) -> None:
         parts = (directions,) if camera.model.central else (directions, origins)
         out = [np.moveaxis(part, -1, 0) for part in parts]
         endless = replace(camera, model=camera.model.endless)
-        on_raster(partial(_by_formula, endless), x, y, camera.model.disc, 3 * len(out), out, partial(_put, endless))
+        on_raster(lambda x, y: _by_formula(endless, x, y), x, y, camera.model.disc, 3 * len(out), out)
     else:
         with whole_rows(directions.shape[1]):
             _write_by_formula(camera, x, y, components(origins), components(directions))
@@ -111,15 +110,10 @@ def _write_by_formula(camera: Any, x, y, origins, directions) -> None:
 
 def _by_formula(camera: Any, x, y):
     """Return the components of the directions, and of the origins unless all rays leave the eye."""
-    parts = np.empty((1 if camera.model.central else 2, 3, *np.broadcast_shapes(x.shape, y.shape)))
-    _put(camera, x, y, parts)
-    return (*parts.reshape(-1, *parts.shape[2:]),)
-
-
-def _put(camera: Any, x, y, parts) -> None:
-    """Write the components of the directions, and of the origins unless all rays leave the eye."""
+    directions, origins = np.empty((2, 3, *np.broadcast_shapes(x.shape, y.shape)))
     with np.errstate(all="ignore"):  # the formula may have no value beyond the model's disc
-        _write_by_formula(camera, x, y, parts[-1], parts[0])
+        _write_by_formula(camera, x, y, origins, directions)
+    return (*directions,) if camera.model.central else (*directions, *origins)
 
 
 def _is_near(places) -> bool:

@@ -111,12 +111,12 @@ class SphericalStereo(Model):
         """
         x, up, z = upright = _turned(self.upright, ahead)
         across = np.sqrt(x * x + z * z)
+        across = np.where(across > 0, across, np.nan)
         square = 1.0 if is_unit else dot(upright, upright)
         size = across if on_tube else np.sqrt(square)
-        with np.errstate(divide="ignore", invalid="ignore"):
-            offset = self._offset_beside(np.abs(up) / across, on_tube) if self.merge else self.offset
-            share = offset / across
-            beside = _turned(self.tilted, (-z * share, 0.0, x * share))  # NaN straight up and down: 0 times infinity
+        offset = self._offset_beside(np.abs(up) / across, on_tube) if self.merge else self.offset
+        share = offset / across
+        beside = _turned(self.tilted, (-z * share, 0.0, x * share))  # NaN straight up and down
         turn = self.nearness * size
         scale = 1 / np.sqrt(square + (turn * offset) ** 2)  # the side is perpendicular to D
         return beside, tuple(scale * (a - turn * b) for a, b in zip(ahead, beside, strict=True))

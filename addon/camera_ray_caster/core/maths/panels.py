@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import partial
 from itertools import chain
 from math import floor
 
@@ -65,8 +64,7 @@ def _are_centers(places, fewest: int) -> bool:
 
 
 def on_raster(
-    function: Callable, x, y, disc: Disc | None = None, count: int = 2, out: Sequence[np.ndarray] | None = None,
-    put: Callable | None = None,
+    function: Callable, x, y, disc: Disc | None = None, count: int = 2, out: Sequence[np.ndarray] | None = None
 ):
     """Return a function's values at pixel coordinates, (count, rows, columns) on a raster; see ``is_raster``.
 
@@ -74,10 +72,9 @@ def on_raster(
     shape; if one of them is NaN, for no value, so are the others. Except on a raster, it is called directly. With a
     ``disc`` the values count only within the disc, and are NaN beyond; if the function is smooth beyond the disc, too,
     panels at the rim need no evaluation at each pixel. On a raster the arrays of ``out``, (some, rows, columns) with a
-    pixel's values contiguous in memory, are filled one after the other; each holds a vector. ``put(x, y, out)`` may be
-    given to write the function's values into such arrays, (some, 1, rows, columns), without a copy. The error is at
-    most 8 times the function's own error, 8 being the norm of the interpolation, plus the last coefficients, which are
-    left out: each is at most ROUNDING EPS of the vector's largest value in the panel.
+    pixel's values contiguous in memory, are filled one after the other; each holds a vector. The error is at most 8
+    times the function's own error, 8 being the norm of the interpolation, plus the last coefficients, which are left
+    out: each is at most ROUNDING EPS of the vector's largest value in the panel.
     """
     if not is_raster(x, y):
         return function(x, y)
@@ -92,7 +89,7 @@ def on_raster(
     if disc is not None:
         wanted &= disc.holds(*disc.nearest(*corners, SIZES[0]))
     first = panels[0], bands[0]
-    _write(function, put or partial(_put, function), found, wanted.copy(), first, (low, low + y.size), disc, SIZES)
+    _write(function, found, wanted.copy(), first, (low, low + y.size), disc, SIZES)
     if disc is not None:
         for _, values in _divided(found, SIZES[0]):
             values[:, ~wanted] = np.nan
@@ -104,12 +101,7 @@ def on_raster(
     return found[0][window]
 
 
-def _put(function, x, y, out) -> None:
-    for own, value in zip(chain(*out), function(x, y), strict=True):
-        own[...] = value
-
-
-def _write(function, put, found, wanted, corner, rows: tuple[int, int], disc: Disc | None, sizes) -> None:
+def _write(function, found, wanted, corner, rows: tuple[int, int], disc: Disc | None, sizes) -> None:
     """Write the values in the ``wanted`` panels, of the first of ``sizes``, within ``rows``: by polynomials, else by
     polynomials of quarters, else by evaluation at each pixel.
 
@@ -137,17 +129,17 @@ def _write(function, put, found, wanted, corner, rows: tuple[int, int], disc: Di
         wanted[band, panel] = rest
         if rest.any():
             wanted = wanted.repeat(2, axis=0).repeat(2, axis=1)
-            _write(function, put, found, wanted, (2 * corner[0], 2 * corner[1]), rows, disc, smaller)
+            _write(function, found, wanted, (2 * corner[0], 2 * corner[1]), rows, disc, smaller)
         return
     for run in _runs(band, panel, rest, AT_ONCE):
         low, high = spans[run.start]
         column, row = np.arange((run.stop - run.start) * size[1]), np.arange(low, high)[:, None]
-        top, left = band[run.start] * size[0], panel[run.start] * size[1]
-        window = np.s_[:, None, top + low : top + high, left : left + column.size]
         with whole_rows(column.size):
             # In three dimensions it is no raster: polynomials of a lens would round more than its formula.
-            place = x[run.start] + column[None, None] + 0.5, y[run.start] + row[None] + 0.5
-            put(*place, [own[window] for own in found])
+            asked = function(x[run.start] + column[None, None] + 0.5, y[run.start] + row[None] + 0.5)
+        top, left = band[run.start] * size[0], panel[run.start] * size[1]
+        for own, value in zip(chain(*found), asked, strict=True):
+            own[top + low : top + high, left : left + column.size] = value
 
 
 def _runs(band, panel, which, most: int) -> list[slice]:
