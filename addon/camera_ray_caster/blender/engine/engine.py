@@ -55,6 +55,7 @@ class CameraRayCaster(Viewport, bpy.types.RenderEngine):
     def render(self, depsgraph):
         """Render one view layer."""
         try:
+            source = reports.Source.read(depsgraph.scene, depsgraph)
             with signals.heard(self.test_break):
                 report = self.render_layer(depsgraph)
         except InputError as error:
@@ -62,7 +63,7 @@ class CameraRayCaster(Viewport, bpy.types.RenderEngine):
         except (Cancelled, KeyboardInterrupt):
             type(self).stopped = True
         else:
-            self.keep(report, depsgraph.view_layer_eval.name)
+            self.keep(report, depsgraph.view_layer_eval.name, source)
 
     def render_layer(self, depsgraph) -> Report:
         """Cast the enabled passes of a view layer, for every eye, and store them in Blender's result."""
@@ -126,7 +127,7 @@ class CameraRayCaster(Viewport, bpy.types.RenderEngine):
         shift_x = ours.shift_x if raw.model or raw.type == "PANO" else self.camera_shift_x(camera)
         return replace(ours, matrix_world=np.array(self.camera_model_matrix(camera), np.float64), shift_x=shift_x)
 
-    def keep(self, report: Report, layer: str) -> None:
+    def keep(self, report: Report, layer: str, source: reports.Source) -> None:
         """Warn of omissions and failures, and add the report to those of this frame's other view layers.
 
         With Persistent Data an engine renders several frames in succession: a repeated layer starts a new frame.
@@ -142,7 +143,7 @@ class CameraRayCaster(Viewport, bpy.types.RenderEngine):
             if not finding.passed:
                 self.report({"WARNING"}, f"the reference check {finding.witness} failed: see the report")
         self.done = {layer: report} if layer in self.done else {**self.done, layer: report}
-        reports.keep(reduce(add, self.done.values()))
+        reports.keep(reduce(add, self.done.values()), source)
 
     def advance(self, fraction: float) -> bool:
         """Show the progress of the cast and the time; return whether to continue."""

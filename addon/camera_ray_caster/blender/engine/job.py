@@ -19,7 +19,6 @@ from ...core.memory import of_pixels, require
 from ...core.records import Finding, Shapes
 from ...core.report.accuracy import accuracy
 from ...core.report.report import Report, report_cast
-from ..output import reports
 from ..read.evaluated import Eye, scene_at
 from ..read.motion import with_other_frames
 from ..read.scene import go_to
@@ -123,6 +122,5 @@ class Job:
 
 
 def run(depsgraph, camera_object, passes: Sequence[str], progress=None, finished=None, **eye) -> tuple[Images, Report]:
-    """Read and cast in one call, for a render: see ``Job``."""
-    reports.begin(depsgraph)
+    """Read and cast in one call: see ``Job``."""
     return Job.read(depsgraph, camera_object, passes, **eye).cast(progress, finished)

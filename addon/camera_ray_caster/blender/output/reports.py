@@ -42,20 +42,10 @@ class Source:
 _latest: dict[int, Report] = {}
 _verified: dict[int, Report] = {}
 """Reports by the scene's ``session_uid``, the latest last."""
-_rendering: list[Source] = []
-"""Source of the render that began last."""
 
 
-def begin(depsgraph) -> None:
-    """Remember which scene is rendered. It may be called on a render's thread."""
-    _rendering[:] = [Source.read(depsgraph.scene, depsgraph)]
-
-
-def keep(report: Report, source: Source | None = None) -> None:
-    """Remember the report of a cast, or by default of the render that ``begin`` has announced. It may be called on a
-    render's thread.
-    """
-    source = source or _rendering[0]
+def keep(report: Report, source: Source) -> None:
+    """Remember the report of the latest render of a scene. It may be called on a render's thread."""
     _keep(_latest, report, source.scene)
     _keep(_verified, replace(report, camera=source.camera), source.scene)
 
@@ -122,8 +112,8 @@ def write_text(report: Report):
 @persistent
 def forget(*_):
     """Forget the reports: another file is loaded, and they do not apply to it."""
-    for reports in (_latest, _verified, _rendering):
-        reports.clear()
+    _latest.clear()
+    _verified.clear()
 
 
 def register(undo) -> None:
