@@ -15,7 +15,7 @@ endif
 
 SCENE := blend_scenes/spheres_and_planes.blend
 
-.PHONY: cast test test-hostile test-all test-blender lint zip clean help
+.PHONY: cast test test-full test-hostile test-all test-blender lint zip clean help
 
 cast: $(VENV)/ready  ## render the example scene into out/ and print the report
 	$(VENV)/bin/python scripts/cast.py $(SCENE) --output out
@@ -24,8 +24,11 @@ cast: $(VENV)/ready  ## render the example scene into out/ and print the report
 # ends the run.
 PYTEST := $(VENV)/bin/python -m pytest --numprocesses auto --max-worker-restart 0 --timeout 600
 
-test: $(VENV)/ready  ## run every test with this Python, on all cores
+test: $(VENV)/ready  ## run the tests with this Python, on all cores
 	$(PYTEST) --dist loadfile
+
+test-full: $(VENV)/ready  ## the same with all further examples, some minutes
+	$(PYTEST) --dist loadfile -m "not hostile"
 
 test-hostile: $(VENV)/ready  ## try all hostile inputs, kills and full disks, some minutes
 	$(PYTEST) tests/hostile -m hostile
