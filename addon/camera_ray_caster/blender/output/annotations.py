@@ -13,6 +13,7 @@ from ...core.annotations.keypoints import seen_key_points
 from ...core.cast import Images
 from ...core.records import InputError
 from ..read.keypoints import key_points
+from ..read.unique import find_unique
 from .file_set import appearing
 
 ENDING = "_coco.json"
@@ -49,8 +50,10 @@ def annotated(scene, images: Images, file_name: str, keypoints: Sequence[str] = 
 
 
 def category_of(name: str) -> str:
-    """Return an object's category: its custom property CATEGORY, or else the name of its data, which copies share."""
-    item = bpy.data.objects.get(name)
+    """Return the category of the object with a unique name: its custom property CATEGORY, or else the name of its
+    data, which copies share.
+    """
+    item = find_unique(name, bpy.data.objects)
     if item is None:
         return name
     given = item.get(CATEGORY)

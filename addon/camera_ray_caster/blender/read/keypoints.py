@@ -2,12 +2,14 @@
 
 from collections.abc import Sequence
 
+import bpy
 import numpy as np
 
 from ...core.annotations.keypoints import KeyPoint
 from ...core.records import InputError
 from .camera import ALL
 from .meshes import vertices
+from .unique import unique_name
 
 
 def check_key_points(scene, names: Sequence[str]) -> None:
@@ -46,7 +48,7 @@ def _points_of(item, evaluated) -> list[KeyPoint]:
         owner = item.parent
         while owner is not None and owner.type != "MESH":
             owner = owner.parent
-        return [KeyPoint(item.name, owner.name if owner else "", tuple(matrix[:3, 3].tolist()))]
+        return [KeyPoint(item.name, _owner_name(owner), tuple(matrix[:3, 3].tolist()))]
     mesh = evaluated.data
     places = vertices(mesh) @ matrix[:3, :3].T + matrix[:3, 3]
     index = {group.name: group.index for group in evaluated.vertex_groups}  # modifiers may add groups, also before
@@ -56,4 +58,10 @@ def _points_of(item, evaluated) -> list[KeyPoint]:
             total[entry.group] += entry.weight * place
             weight[entry.group] += entry.weight
     named = [(group.name, index[group.name]) for group in item.vertex_groups if group.name in index]
-    return [KeyPoint(name, item.name, tuple((total[k] / weight[k]).tolist())) for name, k in named if weight[k] > 0]
+    owner = _owner_name(item)
+    return [KeyPoint(name, owner, tuple((total[k] / weight[k]).tolist())) for name, k in named if weight[k] > 0]
+
+
+def _owner_name(owner) -> str:
+    """Return the name that ``Shapes`` have of an object; "" for None."""
+    return "" if owner is None else unique_name(owner, bpy.data.objects)

@@ -6,6 +6,8 @@ from collections.abc import Iterable
 import bpy
 import numpy as np
 
+from .unique import unique_name
+
 ALWAYS_NODES = bpy.app.version >= (5, 0, 0)
 """Whether materials and worlds always use nodes."""
 
@@ -33,7 +35,8 @@ class Looks:
     @property
     def materials(self) -> tuple[tuple[int, str], ...]:
         """Pass index and name of each material that has been looked up."""
-        return tuple((index, material.name) for material, (index, _) in self._known.items())
+        names = (unique_name(material.original, bpy.data.materials) for material in self._known)
+        return tuple((index, name) for name, (index, _) in zip(names, self._known.values(), strict=True))
 
     def _of_slot(self, item, slot: int) -> Look:
         """Return the look of a slot, or of the last one for slots after it; the object's color without a material."""

@@ -5,6 +5,8 @@ from collections.abc import Hashable, Iterable
 from dataclasses import replace
 from functools import partial
 
+import bpy
+
 from ...core.mesh import Mesh
 from ...core.records import Shapes
 from ..properties.declared import EXACT_SHAPES, PRIMITIVE
@@ -14,6 +16,7 @@ from .kept import Reading
 from .lights import USED, light_color, world_color
 from .materials import Looks, first_slot, is_finite
 from .stored import own_value
+from .unique import unique_name
 from .visibility import Visibility, original_source
 
 NO_SURFACE = frozenset(
@@ -70,7 +73,7 @@ class _Scene:
     def opened(self, instance) -> Group:
         """Return the group of an instance, without any matrices."""
         item = instance.object
-        group = Group(original_source(instance).name, instance.is_instance)
+        group = Group(unique_name(original_source(instance), bpy.data.objects), instance.is_instance)
         if not self.visibility.is_rendered(instance):
             return group
         if item.type == "LIGHT":
@@ -125,7 +128,7 @@ class _Scene:
                 self.left_out[group.name, group.reason] += len(group.matrices)
         for item in self.visibility.unlisted(self.listed, self.instanced):
             if _may_have_surface(item) or item.instance_type == "COLLECTION":
-                self.left_out[item.name, HIDDEN] += 1
+                self.left_out[unique_name(item, bpy.data.objects), HIDDEN] += 1
         shapes = gathered(list(self.groups.values()), self.left_out, self.world)
         return replace(shapes, materials=self.looks.materials)
 
