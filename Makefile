@@ -24,23 +24,23 @@ cast: $(VENV)/ready  ## render the example scene into out/ and print the report
 # ends the run.
 PYTEST := $(VENV)/bin/python -m pytest --numprocesses auto --max-worker-restart 0 --timeout 600
 
-test: $(VENV)/ready  ## run the tests with this Python, on all cores
+test: $(VENV)/ready  ## run the tests with this Python, on all cores: each thing once, in some two minutes
 	$(PYTEST) --dist loadfile
 
-test-full: $(VENV)/ready  ## the same with all further examples, some minutes
+test-full: $(VENV)/ready  ## the same with all further examples, some ten minutes
 	$(PYTEST) --dist loadfile -m "not hostile"
 
 test-hostile: $(VENV)/ready  ## try all hostile inputs, kills and full disks, some minutes
 	$(PYTEST) tests/hostile -m hostile
 
-test-all:  ## run the tests on each supported bpy for which a Python is found, but those in a window
+test-all:  ## run the tests on each supported bpy for which a Python is found, all but those in a window on the newest
 	@$(PYTHON) scripts/environment.py test-all
 
 test-blender: .venv/pure/ready  ## run tests/blender inside a real Blender, and tests/gui in its window: BLENDER=/path
 	@if command -v "$(BLENDER)" >/dev/null; then \
 		"$(BLENDER)" --background --factory-startup --python-exit-code 1 \
 			--python tests/run_in_blender.py -- .venv/pure tests/blender && \
-		BLENDER="$(BLENDER)" PYTHONPATH=.venv/pure $(PYTHON) -m pytest tests/gui; \
+		BLENDER="$(BLENDER)" PYTHONPATH=.venv/pure $(PYTHON) -m pytest tests/gui -m "not hostile"; \
 	else \
 		echo "test-blender: skipped, no program $(BLENDER); run make BLENDER=/path/to/blender test-blender"; \
 	fi

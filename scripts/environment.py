@@ -1,7 +1,7 @@
 """Find the bpy that fits this Python, or run the tests with every supported bpy that this machine has a Python for.
 
     python scripts/environment.py             print the newest bpy for this Python, or the reason why there is none
-    python scripts/environment.py test-all    run the tests with each bpy, hostile inputs with the newest; print results
+    python scripts/environment.py test-all    run the tests with each bpy, all of them with the newest; print results
 
 Standard library only, and no syntax newer than Python 3.6, so that it can report that a Python is too old.
 """
@@ -48,19 +48,22 @@ def find_python(version):
 
 
 def test_all():
-    """Run `make test` for each supported bpy in turn, since each run uses all cores, and `make test-hostile` for the
-    newest. Return the exit status: 0 if at least one bpy passed and none failed.
+    """Run the tests for each supported bpy in turn, since each run uses all cores: `make test`, and for the newest
+    `make test-full` and `make test-hostile`. Return the exit status: 0 if at least one bpy passed and none failed.
     """
-    results, newest = {}, None
+    results, pythons = {}, {}
     for bpy, version in PYTHON_OF_BPY.items():
         python = find_python(version)
         if python is None:
             results[bpy] = f"not run, no Python {dotted(version)} with pip found"
-            continue
+        else:
+            pythons[bpy] = python
+    for bpy, python in pythons.items():
         print(f"== bpy {bpy} on {python}", flush=True)
-        results[bpy], newest = in_words(make("test", bpy, python)), (bpy, python)
-    if newest:
-        results[f"{newest[0]}, hostile inputs"] = in_words(make("test-hostile", *newest))
+        is_newest = bpy == list(pythons)[-1]
+        results[bpy] = in_words(make("test-full" if is_newest else "test", bpy, python))
+        if is_newest:
+            results[f"{bpy}, hostile inputs"] = in_words(make("test-hostile", bpy, python))
     for bpy, result in results.items():
         print(f"bpy {bpy}: {result}")
     return int("FAILED" in results.values() or "passed" not in results.values())

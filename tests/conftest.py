@@ -3,8 +3,11 @@
 import os
 import sys
 import tempfile
+from time import monotonic
 
 import pytest
+
+from . import tiers
 
 # Read once, at the first import of bpy: the tests neither see nor touch the user's settings. With pytest-xdist every
 # worker imports this file, and so has a folder of its own.
@@ -44,7 +47,26 @@ def unregister(blender):
     camera_ray_caster.register()
 
 
+_BEGAN = pytest.StashKey[float]()
 _STATUS = pytest.StashKey[int]()
+
+
+def pytest_configure(config):
+    """Begin to count seconds."""
+    config.stash[_BEGAN] = monotonic()
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(config, items):
+    """Mark what the default tier leaves out, before pytest leaves it out."""
+    config.stash[tiers.KEPT] = tiers.mark_the_rest(items)
+
+
+def pytest_terminal_summary(terminalreporter, config):
+    """Print the seconds of the whole default tier beside its budget."""
+    if "not full" in config.option.markexpr and config.args_source is config.ArgsSource.TESTPATHS:
+        seconds = monotonic() - config.stash[_BEGAN]
+        terminalreporter.write_line(f"default tier: {seconds:.0f} s of a budget of {tiers.BUDGET} s on two cores")
 
 
 def pytest_sessionfinish(session, exitstatus):

@@ -5,10 +5,11 @@ import graphlib
 import importlib
 import sys
 import tomllib
+from functools import cache
 from importlib.util import find_spec
 from pathlib import Path
 
-import pytest
+from ..tiers import KEPT, LIMIT
 
 ROOT = Path(__file__).parents[2]
 PACKAGE = ROOT / "addon" / "camera_ray_caster"
@@ -76,13 +77,15 @@ def name_of(path):
 
 
 NAMES = {name_of(path) for path in MODULES}
+TREES = {path: ast.parse(path.read_text()) for path in SOURCES}
+DEFINITIONS = ast.FunctionDef | ast.ClassDef
 
 
 def imports(path):
     """(inside, outside): the package's modules that a file imports, and the top names of all others."""
     inside, outside = set(), set()
     folder = path.relative_to(PACKAGE).parts[:-1]
-    for node in ast.walk(ast.parse(path.read_text())):
+    for node in ast.walk(TREES[path]):
         if isinstance(node, ast.Import):
             outside |= {alias.name.split(".")[0] for alias in node.names}
         elif isinstance(node, ast.ImportFrom) and node.level == 0:
@@ -96,6 +99,14 @@ def imports(path):
     return inside, outside
 
 
+IMPORTS = {name_of(path): imports(path) for path in MODULES}
+
+
+def offenders(found):
+    """What was found against a rule, by module or file, where anything was."""
+    return {str(where): what for where, what in found.items() if what}
+
+
 def fits(name, part):
     """Whether a module is a part of the package or inside it."""
     return name == part or name.startswith(part + ".") or part == ""
@@ -106,43 +117,46 @@ def longest(name, table):
     return table[max((part for part in table if fits(name, part)), key=len)]
 
 
-each_module = pytest.mark.parametrize("path", MODULES, ids=lambda path: name_of(path) or "__init__")
-each_source = pytest.mark.parametrize("path", SOURCES, ids=lambda path: str(path.relative_to(ROOT)))
+def test_only_blender_imports_blender_and_nobody_the_package_by_name():
+    found = {}
+    for name, (_, outside) in IMPORTS.items():
+        found[name] = outside - longest(name, OUTSIDE) - sys.stdlib_module_names
+    assert offenders(found) == {}
 
 
-@each_module
-def test_only_blender_imports_blender_and_nobody_the_package_by_name(path):
-    _, outside = imports(path)
-    allowed = longest(name_of(path), OUTSIDE) | sys.stdlib_module_names
-    assert outside <= allowed, f"imports {outside - allowed}"
+def test_arrows_point_down():
+    found = {}
+    for name, (inside, _) in IMPORTS.items():
+        found[name] = {other for other in inside if not any(fits(other, part) for part in longest(name, MAY_IMPORT))}
+    assert offenders(found) == {}
 
 
-@each_module
-def test_arrows_point_down(path):
-    inside, _ = imports(path)
-    allowed = longest(name_of(path), MAY_IMPORT)
-    wrong = {name for name in inside if not any(fits(name, part) for part in allowed)}
-    assert not wrong, f"imports {wrong}, may import only {sorted(allowed)}"
-
-
-@each_source
-def test_a_name_from_core_exists(path):
+def test_a_name_from_core_exists():
     """Scripts import while they run, some of them rarely: a name that was changed would be found late."""
-    for node in ast.walk(ast.parse(path.read_text())):
-        if isinstance(node, ast.ImportFrom) and (node.module or "").startswith("camera_ray_caster.core"):
-            module = importlib.import_module(node.module)
-            for alias in node.names:
-                assert hasattr(module, alias.name) or find_spec(f"{node.module}.{alias.name}"), f"{path}: {alias.name}"
+    found = {}
+    for path, tree in TREES.items():
+        names = {
+            (node.module, alias.name)
+            for node in ast.walk(tree)
+            if isinstance(node, ast.ImportFrom) and (node.module or "").startswith("camera_ray_caster.core")
+            for alias in node.names
+        }
+        found[path] = {".".join(name) for name in names if not exists(*name)}
+    assert offenders(found) == {}
+
+
+@cache
+def exists(module, name):
+    """Whether a module has a name, or a module of that name in it."""
+    return hasattr(importlib.import_module(module), name) or bool(find_spec(f"{module}.{name}"))
 
 
 def test_no_arrow_comes_back():
-    graph = {name_of(path): imports(path)[0] for path in MODULES}
-    graphlib.TopologicalSorter(graph).prepare()
+    graphlib.TopologicalSorter({name: inside for name, (inside, _) in IMPORTS.items()}).prepare()
 
 
-@pytest.mark.parametrize("part", [part for part in MAY_IMPORT if "." in part])
-def test_the_table_names_what_exists(part):
-    assert part in NAMES
+def test_the_table_names_what_exists():
+    assert {part for part in MAY_IMPORT if "." in part} <= NAMES
 
 
 def test_a_room_of_tests_is_named_as_the_room_that_it_tests():
@@ -152,28 +166,41 @@ def test_a_room_of_tests_is_named_as_the_room_that_it_tests():
     assert others == TESTS_OF_THEIR_OWN
 
 
-@each_source
-def test_a_file_is_one_room(path):
-    lines = path.read_text().splitlines()
-    assert len(lines) <= 300
-    assert ast.get_docstring(ast.parse(path.read_text())), "a module says in its first line what it is for"
+def test_a_file_is_one_room():
+    assert offenders({path: max(0, len(path.read_text().splitlines()) - 300) for path in SOURCES}) == {}
 
 
-@each_module
-def test_what_is_public_is_described(path):
-    nodes = ast.parse(path.read_text()).body
-    public = [node for node in nodes if isinstance(node, ast.FunctionDef | ast.ClassDef) and node.name[0] != "_"]
-    assert [node.name for node in public if not ast.get_docstring(node)] == []
+def test_a_module_says_what_it_is_for_and_so_does_what_is_public_in_it():
+    assert [path for path, tree in TREES.items() if not ast.get_docstring(tree)] == []
+    found = {}
+    for path in MODULES:
+        public = [node for node in TREES[path].body if isinstance(node, DEFINITIONS) and node.name[0] != "_"]
+        found[path] = [node.name for node in public if not ast.get_docstring(node)]
+    assert offenders(found) == {}
 
 
-@each_source
-def test_no_exception_is_swallowed(path):
-    for node in ast.walk(ast.parse(path.read_text())):
-        if isinstance(node, ast.ExceptHandler):
-            assert node.type, f"line {node.lineno}: a bare except"
-            wide = isinstance(node.type, ast.Name) and node.type.id in {"Exception", "BaseException"}
-            raises = any(isinstance(inner, ast.Raise) for inner in ast.walk(node))
-            assert raises or not wide, f"line {node.lineno}: catches everything and goes on"
+def test_no_exception_is_swallowed():
+    """By a bare except, nor by one that catches everything and goes on."""
+    found = {}
+    for path, tree in TREES.items():
+        handlers = [node for node in ast.walk(tree) if isinstance(node, ast.ExceptHandler)]
+        found[path] = [node.lineno for node in handlers if node.type is None or (is_wide(node) and not raises(node))]
+    assert offenders(found) == {}
+
+
+def is_wide(handler):
+    """Whether a handler catches every exception."""
+    return isinstance(handler.type, ast.Name) and handler.type.id in {"Exception", "BaseException"}
+
+
+def raises(handler):
+    """Whether a handler raises an exception."""
+    return any(isinstance(node, ast.Raise) for node in ast.walk(handler))
+
+
+def test_the_default_tier_of_tests_stays_small(request):
+    """What shows once more what is shown already is marked ``full``; here, unless only some tests are collected."""
+    assert request.config.stash[KEPT] <= LIMIT
 
 
 def test_one_version():

@@ -11,6 +11,7 @@ from camera_ray_caster.core.records import InputError
 from .model_examples import BORDER, EXAMPLES, FACTS, IDENTITY, REFUSED, TURNED, UNSEEN, camera
 
 KEYS = [model.key for model in MODELS]
+pytestmark = pytest.mark.one_for_each("key")
 
 
 def rows_of(table, default=()):

@@ -1,0 +1,63 @@
+"""Which cases the default tier of tests has: what shows each thing once. All others are marked ``full``.
+
+A test with many cases keeps ``CASES`` of them, spread evenly from a place that its name gives, so that all tests
+together try every model, file and pass. A test marked ``one_for_each("key")`` keeps one case for each value of that
+parameter, and of the k-th value the k-th of its cases. A test that is slow and says little that is new is marked
+``full`` by hand.
+"""
+
+from zlib import crc32
+
+import pytest
+
+CASES = 3
+"""Cases of one test in the default tier."""
+LIMIT = 2900
+"""Cases of all tests in the default tier, so that it stays within its budget."""
+BUDGET = 180
+"""Seconds of the default tier on two cores."""
+OUTSIDE = ("full", "hostile")
+"""The marks of what the default tier leaves out."""
+FULL = (
+    "tests/gui/", "tests/hostile/", "tests/core/exports/test_other_readers.py", "tests/scripts/test_openjd.py",
+    "tests/scripts/test_side_by_side.py", "tests/scripts/test_work_precision.py",
+)  # fmt: skip
+"""Rooms and files that need a window, other programs or hostile inputs: full as a whole."""
+KEPT = pytest.StashKey[int]()
+"""The number of cases that are kept of those that are collected."""
+
+
+def mark_the_rest(items):
+    """Mark as ``full`` what the default tier leaves out of collected tests; return the number that it keeps."""
+    cases = {}
+    for item in items:
+        if item.nodeid.startswith(FULL):
+            item.add_marker(pytest.mark.full)
+        elif not any(item.get_closest_marker(mark) for mark in OUTSIDE):
+            cases.setdefault(item.nodeid.split("[", 1)[0], []).append(item)
+    kept = 0
+    for name, group in cases.items():
+        chosen = one_for_each(group) or spread(group, name)
+        for item in set(group) - chosen:
+            item.add_marker(pytest.mark.full)
+        kept += len(chosen)
+    return kept
+
+
+def one_for_each(cases):
+    """The set of cases with each value of the marked parameter once, the others in turns; empty if there is none."""
+    mark = cases[0].get_closest_marker("one_for_each")
+    parameters = getattr(cases[0], "callspec", None)
+    values = {}
+    if mark and parameters and mark.args[0] in parameters.params:
+        for case in cases:
+            values.setdefault(str(case.callspec.params[mark.args[0]]), []).append(case)
+    return {those[k % len(those)] for k, those in enumerate(values.values())}
+
+
+def spread(cases, name):
+    """The set of at most CASES cases, evenly apart."""
+    if len(cases) <= CASES:
+        return set(cases)
+    first = crc32(name.encode()) % len(cases)
+    return {cases[(first + k * len(cases) // CASES) % len(cases)] for k in range(CASES)}
