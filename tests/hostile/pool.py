@@ -20,14 +20,15 @@ class Pool:
     """One process at a time."""
 
     def __init__(self, folder):
-        self.log, self.process = folder / "crash.txt", None
+        self.log, self.told, self.process = folder / "crash.txt", folder / "errors.txt", None
 
     def _start(self):
         words = [sys.executable, "-m", "tests.hostile.worker", str(self.log)]
         # this checkout's add-on, not that which pip has installed; scripts find what lies beside them
         places = os.environ | {"PYTHONPATH": os.pathsep.join(str(ROOT / name) for name in ("addon", "scripts"))}
-        pipes = dict.fromkeys(("stdin", "stdout", "stderr"), subprocess.PIPE)
-        self.process = subprocess.Popen(words, cwd=ROOT, env=places, text=True, **pipes)
+        pipes = dict.fromkeys(("stdin", "stdout"), subprocess.PIPE)
+        with self.told.open("w") as told:  # a pipe that nobody reads would stop Blender, which says much about drivers
+            self.process = subprocess.Popen(words, cwd=ROOT, env=places, text=True, stderr=told, **pipes)
 
     def tried(self, kind, number):
         """What came of an input: a dict with ``what`` it is, the ``outcome`` and what was ``said``.
@@ -52,7 +53,7 @@ class Pool:
 
     def _crashed(self):
         self.process.wait(10)
-        told, log = self.process.stderr.read()[-2000:], self.log.read_text()
+        told, log = self.told.read_text(errors="replace")[-2000:], self.log.read_text()
         self.process = None
         stack = log.partition("Current thread")[2].partition("\n\n")[0].splitlines()
         ours = next((line for line in stack if "camera_ray_caster" in line or "tests/hostile" in line), "")

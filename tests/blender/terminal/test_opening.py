@@ -1,8 +1,10 @@
 """What a .blend may not do to who casts it: run its scripts, or write outside the output folder."""
 
+from types import SimpleNamespace
+
 import pytest
 
-from camera_ray_caster.blender.terminal import commands
+from camera_ray_caster.blender.terminal import commands, options
 from camera_ray_caster.core.exports.camera_json import camera_from_json
 
 LEAD_AWAY = "/../../../away"
@@ -57,7 +59,29 @@ def style_module(blender, scene, tmp_path):
     module.script = text(blender, tmp_path, "style")
 
 
-@pytest.mark.parametrize("kind", [driver, registered_text, style_module])
+MODULES = "view_layers[0].freestyle_settings.modules[0].use"
+
+
+def style_module_by_driver(blender, scene, tmp_path, path=MODULES, expression="1"):
+    style_module(blender, scene, tmp_path)
+    scene.view_layers[0].freestyle_settings.modules[0].use = path != MODULES
+    scene.driver_add(path).driver.expression = expression
+
+
+def style_module_by_mode(blender, scene, tmp_path):
+    style_module_by_driver(blender, scene, tmp_path, "view_layers[0].freestyle_settings.mode")
+    scene.view_layers[0].freestyle_settings.mode = "EDITOR"
+
+
+def style_module_by_key(blender, scene, tmp_path):
+    style_module(blender, scene, tmp_path)
+    scene.keyframe_insert(MODULES, frame=1)
+
+
+STYLE_MODULES = style_module, style_module_by_driver, style_module_by_mode, style_module_by_key
+
+
+@pytest.mark.parametrize("kind", [driver, registered_text, *STYLE_MODULES])
 def test_scripts_run_only_where_they_are_let(blender, scene, cast, tmp_path, kind):
     kind(blender, scene, tmp_path)
     (line,) = cast("--frames", "1:2")
@@ -66,6 +90,28 @@ def test_scripts_run_only_where_they_are_let(blender, scene, cast, tmp_path, kin
     assert not list(tmp_path.glob("ran_*"))
     assert cast("--enable-autoexec") == []
     assert list(tmp_path.glob("ran_*"))
+
+
+def test_a_file_that_blender_has_open_already_runs_no_style_module(blender, scene, tmp_path, monkeypatch):
+    """As in ``blender --background FILE.blend --python scripts/cast.py``; afterwards the file has its scripts."""
+    style_module_by_driver(blender, scene, tmp_path)
+    blender.ops.wm.save_as_mainfile(filepath=str(tmp_path / "file.blend"))
+    app = SimpleNamespace(binary_path="blender", version=blender.app.version)
+    monkeypatch.setattr(options, "bpy", SimpleNamespace(app=app, context=blender.context, data=blender.data))
+    assert commands.main("cast", ["--output", str(tmp_path / "out")], "it") == 0
+    assert not list(tmp_path.glob("ran_*"))
+    assert scene.view_layers[0].freestyle_settings.modules[0].script.name == "style"
+
+
+def test_a_copy_for_cycles_has_the_style_modules_of_the_file(blender, osl, scene, cast, tmp_path):
+    style_module(blender, scene, tmp_path)
+    copy = tmp_path / "copy.blend"
+    (line,) = cast("--output", str(copy), command="to_cycles")
+    assert "scripts in the file were not run" in line
+    blender.ops.wm.open_mainfile(filepath=str(copy), use_scripts=False)
+    (module,) = blender.context.scene.view_layers[0].freestyle_settings.modules
+    assert module.use
+    assert module.script.name == "style"
 
 
 def test_verify_says_that_a_driver_did_not_run(blender, scene, cast, tmp_path):

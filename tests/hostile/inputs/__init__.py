@@ -2,11 +2,11 @@
 
 import random
 
-from . import blend_bytes, calibrations, command_lines, images, lines, meshes, names, numbers, settings
+from . import blend_bytes, calibrations, command_lines, images, lines, meshes, names, numbers, scripts, settings
 
 KINDS = {
     module.__name__.rpartition(".")[2]: module
-    for module in (settings, numbers, names, meshes, lines, images, calibrations, blend_bytes, command_lines)
+    for module in (settings, numbers, names, meshes, lines, images, calibrations, blend_bytes, scripts, command_lines)
 }
 """Modules by name. ``COUNT`` is how many inputs a module has; ``make(chance, number, folder)`` makes one of them of
 the small scene that is open, with files in the folder, and returns a ``Hostile``.

@@ -22,6 +22,8 @@ class Hostile:
     """One of scripts/, in place of cast and verify."""
     command: str = ""
     """One of the terminal's, which is given the file and is to refuse the words, in place of cast and verify."""
+    scripts: Path | None = None
+    """The file that scripts in the .blend make if they run."""
 
 
 def small_scene():

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 import bpy
 
 from ...core.records import Cancelled, InputError
-from . import cast, dataset, explain, export, signals, to_cycles, verify
+from . import cast, dataset, explain, export, opening, signals, to_cycles, verify
 from .standard_output import keep_output
 
 COMMANDS = {
@@ -32,6 +32,7 @@ def main(command: str, arguments: Sequence[str], prog: str) -> int:
         print(f"{prog}: {signals.STOPPED}", file=sys.stderr)
         return 130
     finally:
+        opening.give_back()
         signals.reset()
 
 

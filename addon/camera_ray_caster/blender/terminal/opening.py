@@ -1,14 +1,42 @@
 """Opening a .blend without running its Python, unless the user allows it; and saving a copy."""
 
-from contextlib import redirect_stdout
+from collections.abc import Iterator
+from contextlib import contextmanager, redirect_stdout
+from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import bpy
 
 from ...core.records import InputError
 
-_withheld: list[str] = []
-"""Freestyle style modules of the open file that were switched off."""
+
+@dataclass(frozen=True)
+class StyleModule:
+    """A Freestyle style module of the open file, and the script that was taken from it."""
+
+    scene: Any
+    layer: str
+    place: int
+    script: Any
+
+    @property
+    def settings(self):
+        """Freestyle's settings of its view layer."""
+        return self.scene.view_layers[self.layer].freestyle_settings
+
+    def has(self, script) -> None:
+        """Set the module's script, or None."""
+        self.settings.modules[self.place].script = script
+
+    @property
+    def is_on(self) -> bool:
+        """Whether Blender would run it in the current evaluation."""
+        on = self.scene.render.use_freestyle and self.scene.view_layers[self.layer].use_freestyle
+        return on and self.settings.mode == "SCRIPT" and self.settings.modules[self.place].use
+
+
+_withheld: list[StyleModule] = []
 
 
 def open_file(path: Path, enable_autoexec: bool = False) -> None:
@@ -29,7 +57,7 @@ def open_file(path: Path, enable_autoexec: bool = False) -> None:
         raise InputError(f"{str(path)!r} is not a .blend file that this Blender can open: {reported(error)}") from error
     _withheld.clear()
     if not enable_autoexec:
-        _withhold_style_modules()
+        withhold_style_modules()
 
 
 def save_copy(path: Path) -> None:
@@ -42,7 +70,7 @@ def save_copy(path: Path) -> None:
     if bpy.data.filepath and path.resolve() == Path(bpy.data.filepath).resolve():
         raise InputError(f"{str(path)!r} is the open file: give the copy another name")
     try:
-        with redirect_stdout(None):
+        with redirect_stdout(None), _given_back():
             bpy.ops.wm.save_as_mainfile(filepath=str(path.resolve()), copy=True, check_existing=False)
     except (RuntimeError, OSError) as error:
         raise InputError(f"cannot write {str(path)!r}: {reported(error)}; choose another place") from error
@@ -55,20 +83,41 @@ def reported(error: Exception) -> str:
 
 def not_run() -> tuple[str, ...]:
     """Return a warning, in a tuple, if Blender did not run some scripts of the open file; else ()."""
-    if not (bpy.app.autoexec_fail or _withheld):
+    modules = [f"Freestyle style module {module.script.name!r}" for module in _withheld if module.is_on]
+    if not (bpy.app.autoexec_fail or modules):
         return ()
-    first = " ".join((bpy.app.autoexec_fail_message or _withheld[0]).splitlines())
+    first = " ".join((bpy.app.autoexec_fail_message or modules[0]).splitlines())
     return (
         f"scripts in the file were not run, so the picture may differ: --enable-autoexec runs the scripts ({first})",
     )
 
 
-def _withhold_style_modules() -> None:
-    """Switch off Freestyle's style modules: Blender 5.0 runs them even with ``use_scripts=False``."""
+def withhold_style_modules() -> None:
+    """Take the scripts from Freestyle's style modules: Blender 5.0 runs them even with ``use_scripts=False``.
+
+    The modules cannot just be switched off: keys and drivers would switch them on. None can set a script.
+    """
     for scene in bpy.data.scenes:
         for layer in scene.view_layers:
-            settings = layer.freestyle_settings
-            for module in settings.modules if scene.render.use_freestyle and settings.mode == "SCRIPT" else ():
-                if module.use and module.script is not None:
-                    module.use = False
-                    _withheld.append(f"Freestyle style module {module.script.name!r}")
+            for place, module in enumerate(layer.freestyle_settings.modules):
+                if module.script is not None:
+                    _withheld.append(StyleModule(scene, layer.name, place, module.script))
+                    _withheld[-1].has(None)
+
+
+@contextmanager
+def _given_back() -> Iterator[None]:
+    """Give the style modules their scripts inside the context, for a file that has them as before."""
+    for module in _withheld:
+        module.has(module.script)
+    try:
+        yield
+    finally:
+        for module in _withheld:
+            module.has(None)
+
+
+def give_back() -> None:
+    """Give the style modules their scripts: the file that is open may stay open in Blender."""
+    with _given_back():
+        _withheld.clear()

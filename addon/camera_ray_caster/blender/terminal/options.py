@@ -15,7 +15,7 @@ from ..engine.engine import CameraRayCaster
 from ..properties.calibration import set_calibration
 from ..read.camera import check_camera, eye_object, find_camera, view_names
 from . import signals
-from .opening import open_file
+from .opening import open_file, withhold_style_modules
 from .words import Parser, frame_number
 
 ENDS = "exit status: 0 done; 1 done, but a reference check of the camera's rays failed; 2 bad input; 130 interrupted."
@@ -65,6 +65,8 @@ def open_scene(options):
         open_file(path, options.enable_autoexec)
     elif not bpy.app.binary_path:
         raise InputError("no file is open: give the path of a .blend")
+    elif not options.enable_autoexec:
+        withhold_style_modules()
     signals.raise_if_stopping()
     scene = bpy.context.scene
     scene.render.engine = CameraRayCaster.bl_idname
