@@ -28,6 +28,7 @@ MAY_IMPORT = {
     "core.arguments": {"core.records"},
     "core.memory": {"core.records"},
     "core.names": {"core.records"},
+    "core.file_set": {"core.records"},
     "core.version": set(),
     "core.maths": {"core.conventions", "core.maths"},
     "core.cameras": LOW | {"core.cameras"},

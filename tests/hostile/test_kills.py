@@ -51,9 +51,9 @@ def check_set(folder, ends):
 
 def write_next(folder):
     """The next run into the folder, of another file."""
-    from camera_ray_caster.blender.output.file_set import appearing
+    from camera_ray_caster.core.file_set import atomic_folder
 
-    with appearing(folder) as new:
+    with atomic_folder(folder) as new:
         (new / "next").write_text("next")
 
 

@@ -22,10 +22,10 @@ def content(name, number, size):
 
 def write(folder, name, number):
     """Write one set."""
-    from camera_ray_caster.blender.output.file_set import appearing
     from camera_ray_caster.blender.terminal import signals
+    from camera_ray_caster.core.file_set import atomic_folder
 
-    with appearing(folder) as new:
+    with atomic_folder(folder) as new:
         for file, size in FILES.items():
             (new / file).write_text(content(name, number, size))
             signals.raise_if_stopping()

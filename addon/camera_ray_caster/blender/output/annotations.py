@@ -11,10 +11,10 @@ import bpy
 from ...core.annotations.coco import Sheet, document, merged
 from ...core.annotations.keypoints import seen_key_points
 from ...core.cast import Images
+from ...core.file_set import atomic_folder
 from ...core.records import InputError
 from ..read.keypoints import key_points
 from ..read.unique import find_unique
-from .file_set import appearing
 
 ENDING = "_coco.json"
 """Ending of the name of a picture's annotation file."""
@@ -64,6 +64,6 @@ def collect(folder: Path, names: Iterable[str]) -> Path:
     """Merge the annotation files of the named pictures into one file in the folder, and return its path."""
     own = (json.loads((folder / f"{name}{ENDING}").read_text(encoding="utf-8")) for name in names)
     whole = merged(own)
-    with appearing(folder) as temporary:
+    with atomic_folder(folder) as temporary:
         (temporary / WHOLE).write_text(json.dumps(whole), encoding="utf-8")
     return folder / WHOLE

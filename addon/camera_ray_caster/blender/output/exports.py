@@ -9,13 +9,13 @@ import numpy as np
 
 from ...core.exports import export, find_format
 from ...core.exports.format import Content, Shot
+from ...core.file_set import atomic_folder
 from ...core.names import file_name, file_names
 from ...core.records import InputError
 from ..read.camera import eye_object, views_of
 from ..read.scene import evaluated, go_to, read_camera
 from ..terminal import signals
 from ..terminal.opening import reported
-from .file_set import appearing
 
 
 def write(scene, key: str, cameras: Sequence, frames: Iterable[float], folder: Path, target=None):
@@ -30,7 +30,7 @@ def write(scene, key: str, cameras: Sequence, frames: Iterable[float], folder: P
         raise InputError(f"format {key} has no target camera: only maps have a target")
     files, said = export(key, shots(scene, cameras, frames, target))
     written: set[str] = set()
-    with appearing(folder) as temporary:
+    with atomic_folder(folder) as temporary:
         for name, content in files:
             signals.raise_if_stopping()
             if name.casefold() in written:

@@ -13,6 +13,7 @@ import bpy
 import numpy as np
 
 from ...core.casting.passes import image_bytes
+from ...core.file_set import atomic_folder
 from ...core.memory import of_pixels, require
 from ...core.records import Cancelled, InputError
 from ...core.report.report import Report, as_json
@@ -24,7 +25,6 @@ from ..terminal import signals
 from ..terminal.opening import not_run, reported
 from . import arrays, file_outputs, reports
 from .annotations import ENDING, annotated
-from .file_set import appearing
 from .stamps import made
 
 PICTURE = {
@@ -78,7 +78,7 @@ def render(
     """
     check(scene)
     keeps = layers == NPZ or keypoints is not None
-    with _engine_has(picture, {} if keeps else None) as images, appearing(folder) as temporary:
+    with _engine_has(picture, {} if keeps else None) as images, atomic_folder(folder) as temporary:
         report = _composited(scene, file_output)
         report = report if picture is None else report.with_seconds(cycles=picture.seconds)
         started = perf_counter()

@@ -2,8 +2,8 @@
 
 from collections.abc import Sequence
 
+from ...core.file_set import clear_up
 from ..output.annotations import collect
-from ..output.file_set import clear_up
 from .options import add_frame, add_json, command_parser, show, warn
 from .pictures import Pictures, add_words, follow, parsed, summary
 from .words import add_frames, share

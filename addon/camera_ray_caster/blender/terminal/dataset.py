@@ -17,10 +17,10 @@ from typing import Any
 
 import bpy
 
+from ...core.file_set import atomic_folder, clear_up
 from ...core.records import InputError
 from ..output import files
 from ..output.annotations import collect
-from ..output.file_set import appearing, clear_up
 from ..output.stamps import differing
 from ..read.camera import check_camera, check_markers
 from . import farm
@@ -106,7 +106,7 @@ def _claim(folder: Path, stamp: dict[str, Any]) -> None:
     try:
         others = differing(stamp, json.loads(path.read_text(encoding="utf-8")))
     except FileNotFoundError:
-        with appearing(folder) as new:
+        with atomic_folder(folder) as new:
             (new / NAME).write_text(json.dumps(stamp, indent=2) + "\n", encoding="utf-8")
         return
     except (OSError, ValueError, KeyError, TypeError) as error:

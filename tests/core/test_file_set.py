@@ -9,16 +9,16 @@ from pathlib import Path
 
 import pytest
 
-from camera_ray_caster.blender.output import file_set
-from camera_ray_caster.blender.output.file_set import appearing
+from camera_ray_caster.core import file_set
+from camera_ray_caster.core.file_set import atomic_folder
 from camera_ray_caster.core.records import InputError
 
-ADDON = Path(file_set.__file__).parents[3]
+ADDON = Path(file_set.__file__).parents[2]
 NAMES = ("a.exr", "a.png", "report.json")
 
 
 def write(folder, text, names=NAMES):
-    with appearing(folder) as new:
+    with atomic_folder(folder) as new:
         for name in names:
             (new / name).write_text(text)
 
@@ -37,7 +37,7 @@ def test_files_appear_and_replace_those_that_were_there(tmp_path):
 
 def test_a_failure_leaves_what_was_there_and_no_new_folder(tmp_path):
     def fail(folder):
-        with appearing(folder) as new:
+        with atomic_folder(folder) as new:
             (new / "a.exr").write_text("half")
             raise KeyError("it went wrong")
 
@@ -65,7 +65,7 @@ def test_a_folder_that_another_run_has_begun_to_use_stays(tmp_path):
     out = tmp_path / "out"
 
     def fail():
-        with appearing(out):
+        with atomic_folder(out):
             (out / "theirs.png").write_text("theirs")
             raise KeyError
 
@@ -106,7 +106,7 @@ KILLED = """
 import os, signal, sys
 sys.path[:0] = [{addon!r}]
 from pathlib import Path
-from camera_ray_caster.blender.output.file_set import appearing
+from camera_ray_caster.core.file_set import atomic_folder
 count = iter(range(100))
 def dying(function):
     def one(*arguments, **options):
@@ -115,7 +115,7 @@ def dying(function):
         return function(*arguments, **options)
     return one
 os.replace, os.link, os.mkdir, os.unlink, os.rmdir = map(dying, (os.replace, os.link, os.mkdir, os.unlink, os.rmdir))
-with appearing(Path({out!r})) as new:
+with atomic_folder(Path({out!r})) as new:
     for name in {names!r}:
         (new / name).write_text("new")
 print("done")
@@ -152,7 +152,7 @@ def test_a_run_that_ends_while_another_begins_is_no_error(tmp_path, monkeypatch)
         return listed(path)
 
     monkeypatch.setattr(os, "listdir", ended)
-    with appearing(tmp_path) as new:
+    with atomic_folder(tmp_path) as new:
         (new / NAMES[0]).write_text("new")
     assert content(tmp_path) == {NAMES[0]: "new"}
 
@@ -163,9 +163,9 @@ def test_writers_into_one_folder_leave_the_set_of_one_of_them(tmp_path):
         "import sys\n"
         f"sys.path[:0] = [{str(ADDON)!r}]\n"
         "from pathlib import Path\n"
-        "from camera_ray_caster.blender.output.file_set import appearing\n"
+        "from camera_ray_caster.core.file_set import atomic_folder\n"
         "for k in range(30):\n"
-        f"    with appearing(Path({str(tmp_path)!r})) as new:\n"
+        f"    with atomic_folder(Path({str(tmp_path)!r})) as new:\n"
         f"        for name in {NAMES!r}:\n"
         "            (new / name).write_text(f'{sys.argv[1]} {k}')\n"
     )

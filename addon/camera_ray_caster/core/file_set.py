@@ -3,13 +3,14 @@
 A run writes new files into its own subfolder ``.writing_*`` and holds a lock on it. When all files are written, the run
 lists them in a journal and moves them to their places one by one, keeping the files that they replace. If a move
 fails, the run restores the old files. If a run was killed, the next run in the folder undoes or completes it: without
-a journal no file was moved yet; with a journal all new files exist. This module does not need Blender.
+a journal no file was moved yet; with a journal all new files exist.
 """
 
 from __future__ import annotations
 
 import json
 import os
+import sys
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from errno import EISDIR
@@ -17,15 +18,16 @@ from pathlib import Path
 from shutil import copy2, rmtree
 from tempfile import mkdtemp
 
-from ...core.records import InputError
+from .records import InputError
 
-try:
-    from fcntl import LOCK_EX, LOCK_NB, flock
-except ImportError:  # Windows: no protection against two simultaneous runs in one folder
+if sys.platform == "win32":  # no protection against two simultaneous runs in one folder
     LOCK_EX = LOCK_NB = 0
 
     def flock(file: int, how: int) -> None:
         """Do nothing."""
+
+else:
+    from fcntl import LOCK_EX, LOCK_NB, flock
 
 
 PREFIX = ".writing_"
@@ -36,7 +38,7 @@ OURS = {NEW, OLD, JOURNAL, DRAFT, LOCK}
 
 
 @contextmanager
-def appearing(folder: Path) -> Iterator[Path]:
+def atomic_folder(folder: Path) -> Iterator[Path]:
     """Yield an empty folder whose files move into ``folder`` at the end; if anything fails, none of them are left.
 
     Raises InputError, in one line, if the folder cannot be written.
