@@ -17,7 +17,7 @@ UNITS = {"angle": {"subtype": "ANGLE", "step": 100}, "length": {"unit": "LENGTH"
 
 def property_of(setting: Setting):
     """Return the Blender property of a setting, for a class's annotations."""
-    named = {"name": setting.label, "description": setting.text, "update": _tag}
+    named = {"name": setting.label, "description": setting.text, "update": _tag, "override": {"LIBRARY_OVERRIDABLE"}}
     return KINDS[setting.kind](setting, named)
 
 

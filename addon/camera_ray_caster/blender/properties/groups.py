@@ -36,5 +36,5 @@ OWNERS = {
 def register(undo) -> None:
     """Add the property groups to objects, cameras and scenes. Values stored in a file survive unregistering."""
     for owner, group in OWNERS.items():
-        setattr(owner, GROUP, bpy.props.PointerProperty(type=group))
+        setattr(owner, GROUP, bpy.props.PointerProperty(type=group, override={"LIBRARY_OVERRIDABLE"}))
         undo.callback(delattr, owner, GROUP)

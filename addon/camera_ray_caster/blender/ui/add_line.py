@@ -45,7 +45,8 @@ class AddLine(OfLine, bpy.types.Operator):
         line = bpy.data.objects.new(name, _path(name) if self.setting == PATH.name else None)
         line.empty_display_type = "ARROWS"
         line.show_name = True
-        for collection in camera.users_collection or (context.scene.collection,):
+        editable = [collection for collection in camera.users_collection if collection.is_editable]
+        for collection in editable or (context.scene.collection,):
             collection.objects.link(line)
         line.parent, line.matrix_local = camera, PLACES[self.setting]
         setattr(getattr(camera.data, GROUP), self.setting, line)

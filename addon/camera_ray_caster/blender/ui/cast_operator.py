@@ -20,7 +20,7 @@ from ..engine.passes import ticked
 from ..output import images, reports
 from ..read.camera import view_names
 from ..read.scene import evaluated_camera
-from .needs import NO_CAMERA, reporting
+from .needs import OfScene, reporting
 
 INTERVAL = 0.1
 """Seconds between two timer events, which update the progress and store images."""
@@ -63,7 +63,7 @@ def fraction() -> float | None:
     return _running[0].worker.fraction if _running else None
 
 
-class Cast(bpy.types.Operator):
+class Cast(OfScene, bpy.types.Operator):
     """Cast the chosen passes of the active camera into images; in a stereo scene, for each eye"""
 
     bl_idname = "camera_ray_caster.cast"
@@ -73,8 +73,8 @@ class Cast(bpy.types.Operator):
     @classmethod
     def poll(cls, context):
         """Gray out the operator without a camera and during a cast."""
-        cls.poll_message_set("A cast is running: press Esc to stop it" if _running else NO_CAMERA)
-        return context.scene.camera is not None and not _running
+        cls.poll_message_set("A cast is running: press Esc to stop it")
+        return not _running and super().poll(context)
 
     @reporting
     def execute(self, context):

@@ -24,7 +24,7 @@ class UseInCycles(OfCamera, bpy.types.Operator):
         return {"FINISHED"}
 
 
-class BackToBlender(bpy.types.Operator):
+class BackToBlender(OfCamera, bpy.types.Operator):
     """Restore the camera's former type, and remove the shader that the add-on made"""
 
     bl_idname = "camera_ray_caster.back_to_blender"
@@ -34,9 +34,10 @@ class BackToBlender(bpy.types.Operator):
     @classmethod
     def poll(cls, context):
         """Gray out the operator for a camera without the add-on's shader."""
+        if not super().poll(context):
+            return False
         cls.poll_message_set("The camera has no shader made by the add-on")
-        camera = camera_object_of(context)
-        return camera is not None and shader_mark(camera.data) is not None
+        return shader_mark(camera_object_of(context).data) is not None
 
     @reporting
     def execute(self, context):

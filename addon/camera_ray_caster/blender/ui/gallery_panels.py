@@ -10,19 +10,13 @@ from ...core.cameras import MODELS
 from ...core.cameras.model import GROUPS
 from .. import gallery
 from ..properties.declared import BLENDERS_OWN, GROUP, MODEL
+from .drawing import draw_message
 from .model_settings import blender_type
-from .needs import OfCamera, camera_object_of
+from .needs import OfCamera, camera_object_of, objection
 
-POINTER = "camera_ray_caster_data"
-"""Name of the context pointer to the camera that a gallery button changes."""
 COLUMNS = 7
 WIDTH, HEIGHT = 7.8, 3.2
 """Width of a button, at least, and height of a picture, in interface units."""
-
-
-def chosen_camera(context):
-    """Return the data of the camera that a gallery button changes."""
-    return getattr(context, POINTER, None) or camera_object_of(context).data
 
 
 class ChooseType(OfCamera, bpy.types.Operator):
@@ -45,7 +39,7 @@ class ChooseType(OfCamera, bpy.types.Operator):
 
     def execute(self, context):
         """Set the model, the type, and the type of panorama."""
-        camera = chosen_camera(context)
+        camera = camera_object_of(context).data
         getattr(camera, GROUP).model = BLENDERS_OWN
         if self.key in camera.bl_rna.properties["type"].enum_items:
             camera.type = self.key
@@ -65,8 +59,12 @@ class ModelGallery(bpy.types.Panel):
 
     def draw(self, context):
         """Draw each group: a heading, and a picture with a button for each model. Small groups share a row."""
-        camera = chosen_camera(context)
-        self.layout.context_pointer_set(POINTER, camera)
+        item = camera_object_of(context)
+        if reason := objection(context, item, is_changed=True):
+            draw_message(self.layout, context, reason, "ERROR")
+            return
+        camera = item.data
+        self.layout.context_pointer_set("camera", camera)
         for groups in rows():
             row, count = self.layout.row(), sum(map(len, groups.values()))
             for group, models in groups.items():
@@ -107,7 +105,7 @@ def draw_model(layout, camera, **options):
     passed to Blender's ``prop`` for the menu.
     """
     row = layout.row(align=True)
-    row.context_pointer_set(POINTER, camera)
+    row.context_pointer_set("camera", camera)
     row.prop(getattr(camera, GROUP), MODEL.name, **options)
     row.popover(ModelGallery.bl_idname, text="", icon="IMGDISPLAY")
     return row

@@ -7,7 +7,7 @@ import bpy
 from ..view3d import lesson
 from ..view3d.camera_frame import frame_in
 from ..view3d.scene_cache import cached_scene
-from .needs import NO_CAMERA
+from .needs import OfScene
 
 HINT = "Click a pixel in the camera's view or an Image Editor      Shift: One More      Esc, Enter: Done"
 
@@ -16,7 +16,7 @@ _waiting: list[str] = []
 """The name of the workspace in which Step Through waits for clicks."""
 
 
-class StepThrough(bpy.types.Operator):
+class StepThrough(OfScene, bpy.types.Operator):
     """Click pixels in the camera's view or in an Image Editor, and see each step from the pixel to its color"""
 
     bl_idname = "camera_ray_caster.step_through"
@@ -26,8 +26,8 @@ class StepThrough(bpy.types.Operator):
     @classmethod
     def poll(cls, context):
         """Gray out the operator without a camera and while it waits for clicks."""
-        cls.poll_message_set("Click a pixel, or press Esc" if _waiting else NO_CAMERA)
-        return context.scene.camera is not None and not _waiting
+        cls.poll_message_set("Click a pixel, or press Esc")
+        return not _waiting and super().poll(context)
 
     def invoke(self, context, event):
         """Wait for clicks. If no 3D View is in camera view, put the first one into camera view."""

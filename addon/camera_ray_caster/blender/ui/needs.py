@@ -3,17 +3,38 @@
 from functools import wraps
 
 from ...core.records import InputError
-
-NO_CAMERA = "The scene has no active camera: add a camera, or set a camera in the Scene properties"
-
+from ..read.camera import check_camera
 
 LINKED = "The camera is linked from another file: make it local, or an override, first"
 
 
 def camera_object_of(context):
-    """Return the camera object that a panel shows: the active object if it is a camera, else the scene's camera."""
-    item = context.object
-    return item if item is not None and item.type == "CAMERA" else context.scene.camera
+    """Return the object of the camera that the panels around an operator show, or None.
+
+    It is the camera of the Properties editor's tab, or of the layout's context pointer ``camera``; everywhere else, as
+    in the sidebar, it is the scene's camera, whatever is selected.
+    """
+    data = getattr(context, "camera", None)
+    if data is None:
+        return context.scene.camera
+    users = (context.object, *context.scene.objects)
+    return next((item for item in users if item is not None and item.data == data), None)
+
+
+def objection(context, item, is_changed: bool = False) -> str:
+    """Return why an object cannot be used as a camera, or not be changed if it ``is_changed``; "" if it can."""
+    try:
+        check_camera(context.scene, item)
+    except InputError as error:
+        return str(error)[:1].upper() + str(error)[1:]
+    return LINKED if is_changed and not item.data.is_editable else ""
+
+
+def can_use(operator, reason: str) -> bool:
+    """Return whether there is no reason against an operator; otherwise show the reason in its tooltip."""
+    if reason:
+        operator.poll_message_set(reason)
+    return not reason
 
 
 def select_alone(context, *items) -> None:
@@ -31,8 +52,7 @@ class OfScene:
     @classmethod
     def poll(cls, context):
         """Gray out the operator without a camera."""
-        cls.poll_message_set(NO_CAMERA)
-        return context.scene.camera is not None
+        return can_use(cls, objection(context, context.scene.camera))
 
 
 class OfCamera:
@@ -41,10 +61,7 @@ class OfCamera:
     @classmethod
     def poll(cls, context):
         """Gray out the operator without a camera in the context, and for one that cannot be changed."""
-        item = camera_object_of(context)
-        is_linked = item is not None and item.data is not None and not item.data.is_editable
-        cls.poll_message_set(LINKED if is_linked else "Select a camera object first")
-        return item is not None and not is_linked
+        return can_use(cls, objection(context, camera_object_of(context), is_changed=True))
 
 
 def reporting(execute):

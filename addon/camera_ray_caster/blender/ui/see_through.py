@@ -3,10 +3,10 @@
 import bpy
 
 from ..properties.declared import ENGINE
-from .needs import NO_CAMERA
+from .needs import OfScene
 
 
-class SeeThrough(bpy.types.Operator):
+class SeeThrough(OfScene, bpy.types.Operator):
     """Look through the scene's camera, whatever its model: the view becomes the camera's, its shading Rendered, and the
     scene's render engine Camera Ray Caster. Press again to return to Solid shading"""
 
@@ -17,8 +17,8 @@ class SeeThrough(bpy.types.Operator):
     @classmethod
     def poll(cls, context):
         """Gray out the operator without a camera, and outside a 3D View."""
-        cls.poll_message_set(NO_CAMERA if context.scene.camera is None else "Available only in a 3D View")
-        return context.scene.camera is not None and context.area is not None and context.area.type == "VIEW_3D"
+        cls.poll_message_set("Available only in a 3D View")
+        return context.area is not None and context.area.type == "VIEW_3D" and super().poll(context)
 
     def execute(self, context):
         """Switch between Rendered camera view and Solid; report a change of the scene's engine."""

@@ -1,0 +1,112 @@
+"""Buttons act on the camera that the panel around them shows, and never on another one that is selected."""
+
+import pytest
+
+from camera_ray_caster.blender.ui.gallery_panels import ModelGallery
+
+OPERATORS = ("cast", "verify", "step_through", "add_line", "select_line", "choose_type", "load_calibration",
+             "use_in_cycles", "back_to_blender", "pixel_of_point", "copy_facts", "copy_k", "export")  # fmt: skip
+"""Operators on a camera."""
+
+
+@pytest.fixture
+def two(blender, camera_scene):
+    """The scene's camera, and another one, which is selected and active."""
+    blender.ops.object.camera_add()
+    return camera_scene.camera, blender.context.object
+
+
+def own(camera):
+    return camera.data.camera_ray_caster
+
+
+def test_the_camera_that_the_sidebar_shows_is_changed_and_not_the_selected_one(blender, two, tmp_path):
+    shown, selected = two
+    ops = blender.ops.camera_ray_caster
+    own(shown).model = own(selected).model = "CROSS_SLIT"
+    ops.add_line(setting="slit_1")
+    assert own(shown).slit_1.parent == shown
+    assert own(selected).slit_1 is None
+    own(selected).slit_1 = selected.copy()
+    ops.select_line(setting="slit_1")
+    assert blender.context.object == own(shown).slit_1
+    blender.context.view_layer.objects.active = selected
+    path = tmp_path / "cameras.txt"
+    path.write_text("1 PINHOLE 8 8 70 70 4 4\n")
+    ops.load_calibration(filepath=str(path))
+    assert (own(shown).model, own(selected).model) == ("OPENCV_PINHOLE", "CROSS_SLIT")
+    ops.choose_type(key="ORTHO")
+    assert (shown.data.type, own(selected).model) == ("ORTHO", "CROSS_SLIT")
+
+
+def test_in_the_camera_s_tab_it_is_the_tab_s_camera(blender, two):
+    shown, other = two
+    own(shown).model = own(other).model = "CROSS_SLIT"
+    blender.context.view_layer.objects.active = shown
+    with blender.context.temp_override(camera=other.data):  # as a pinned tab has it
+        blender.ops.camera_ray_caster.add_line(setting="slit_1")
+    assert own(other).slit_1.parent == other
+    assert own(shown).slit_1 is None
+
+
+@pytest.mark.parametrize("kind", ["light", "empty", "mesh"])
+def test_a_scene_whose_camera_is_none_says_so_everywhere_in_one_line(blender, two, kind):
+    ops = blender.ops
+    {"light": ops.object.light_add, "empty": ops.object.empty_add, "mesh": ops.mesh.primitive_cube_add}[kind]()
+    blender.context.scene.camera = blender.context.object
+    area = next(area for area in blender.context.window.screen.areas if area.type == "VIEW_3D")
+    with blender.context.temp_override(area=area):
+        for name in (*OPERATORS, "see_through"):
+            operator = getattr(ops.camera_ray_caster, name)
+            assert not operator.poll(), name
+            with pytest.raises(RuntimeError, match=f"is of type {kind}, not a camera: set a camera") as raised:
+                operator()
+            assert "Traceback" not in str(raised.value)
+
+
+def test_the_gallery_of_models_says_why_there_is_no_camera_to_change(blender, two):
+    said = []
+
+    class Layout:
+        scale_y = 1.0
+        column = context_pointer_set = lambda self, *_, **__: self
+
+        def label(self, text, icon):
+            said.append(text)
+
+    class Context:
+        scene, object, preferences, region = (getattr(blender.context, name) for name in
+                                              ("scene", "object", "preferences", "region"))  # fmt: skip
+
+    Context.scene.camera = None
+    Context.region = type("Region", (), {"width": 900})
+    ModelGallery.draw(type("Panel", (), {"layout": Layout()}), Context)
+    assert "no active camera" in " ".join(said)
+
+
+def test_a_linked_camera_is_refused_and_its_override_can_be_changed(blender, two, tmp_path):
+    shown, _ = two
+    own(shown).model = "CROSS_SLIT"
+    path, name = str(tmp_path / "linked.blend"), shown.name
+    blender.ops.wm.save_as_mainfile(filepath=path)
+    blender.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
+    with blender.data.libraries.load(path, link=True) as (_, wanted):
+        wanted.objects = [name]
+    (linked,), scene = wanted.objects, blender.context.scene
+    scene.collection.objects.link(linked)
+    scene.camera = linked
+    assert not blender.ops.camera_ray_caster.add_line.poll()
+    with pytest.raises(RuntimeError, match="linked from another file"):
+        blender.ops.camera_ray_caster.add_line(setting="slit_1")
+    made = linked.override_create(remap_local_usages=True)
+    made.data.override_create(remap_local_usages=True)
+    assert scene.camera == made
+    blender.ops.camera_ray_caster.add_line(setting="slit_1")
+    blender.ops.camera_ray_caster.choose_type(key="ORTHO")
+    assert (own(made).model, made.data.type) == ("BLENDER", "ORTHO")
+    saved = str(tmp_path / "overridden.blend")
+    blender.ops.wm.save_as_mainfile(filepath=saved)
+    blender.ops.wm.open_mainfile(filepath=saved)
+    camera = blender.context.scene.camera
+    assert (own(camera).model, camera.data.type) == ("BLENDER", "ORTHO")
+    assert own(camera).slit_1.parent == camera
