@@ -10,6 +10,7 @@ from parts import BUTTON, MODULE, addon, load, timed
 from redraw_scenarios import REDRAW_SCENARIOS
 from stranger_scenarios import STRANGER_SCENARIOS
 from user import pixels_of
+from window_scenarios import WINDOW_SCENARIOS
 
 DRAWN = 0.002
 """Seconds that the drawing of a panel may take: a redraw must not be felt."""
@@ -242,6 +243,6 @@ SCENARIOS = {
     scenario.__name__: scenario
     for scenario in (
         panel, no_camera, left_out, *CAST_SCENARIOS, overlay, ray_under_mouse, viewport,
-        cycles, *CAMERA_SCENARIOS, *LESSON_SCENARIOS, *STRANGER_SCENARIOS, *REDRAW_SCENARIOS, disable,
+        cycles, *CAMERA_SCENARIOS, *LESSON_SCENARIOS, *STRANGER_SCENARIOS, *REDRAW_SCENARIOS, *WINDOW_SCENARIOS, disable,
     )
 }  # fmt: skip

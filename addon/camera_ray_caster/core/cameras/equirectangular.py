@@ -18,7 +18,7 @@ from .model import Step
 from .parts.film import SHIFT
 from .parts.meridians import RAY, Meridians, longitude
 from .parts.settings import CAMERA, Number, span
-from .parts.silhouette import everywhere
+from .parts.silhouette import MARGIN, everywhere, longitude_latitude
 
 LONGITUDES = tuple(
     Number(
@@ -78,7 +78,12 @@ class Equirectangular(Meridians):
         return np.arctan2(sine, cosine)
 
     def bounds(self, centers, radii):
-        """See Meridians; the bounds are everywhere in a frame that looks over a pole."""
+        """See Meridians; everywhere for spheres that a frame over a pole sees again in its rows beyond the pole."""
         bounds = super().bounds(centers, radii)
-        farthest_row = max(-self.extent[2], self.extent[3]) - abs(self.window.pitch_y) / 2
-        return everywhere(len(bounds)) if farthest_row > pi / 2 else bounds
+        low, high = self.extent[2:]
+        pitch = abs(self.window.pitch_y)
+        if max(-low, high) - pitch / 2 > pi / 2:
+            _, (bottom, top) = longitude_latitude(centers, radii)
+            again = (top >= pi - high - MARGIN * pitch) | (bottom <= -pi - low + MARGIN * pitch)
+            bounds[again] = everywhere(int(again.sum()))
+        return bounds

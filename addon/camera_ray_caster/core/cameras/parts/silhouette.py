@@ -48,16 +48,18 @@ def radial_intervals(centers, radii, radius, widest):
     theta is the angle from the axis; ``radius(theta)`` grows up to the angle ``widest``, where the image ends; azimuth
     is kept. A sphere with its center at theta and the half angle alpha lies in the sector between the radii of theta -
     alpha and theta + alpha, within asin(sin alpha / sin theta) of its azimuth, or all around if it holds the axis or
-    the opposite point. The intervals are endless for an image wider than a full turn, which repeats, and for a sphere
-    that holds the eye.
+    the opposite point. An image wider than a full turn repeats: it has the angles from 2 pi - widest twice. The
+    intervals are endless for a sphere that reaches these, and for one that holds the eye.
     """
     x, y, z = components(centers)
     across = np.hypot(x, y)
     distance = np.hypot(across, z)
     theta, phi = np.arctan2(across, -z), np.arctan2(y, x)
     alpha = angular_radius(distance, radii)
-    everywhere = (radii >= distance) | (widest > np.pi)
-    widest = min(widest, np.pi)
+    everywhere = radii >= distance
+    if widest > np.pi:  # 180 degrees in float32 are more
+        everywhere |= theta + alpha >= 2 * np.pi - widest
+        widest = np.pi
     nowhere = ~everywhere & (theta - alpha > widest)
     inner = radius(np.clip(theta - alpha, 0, widest))
     outer = radius(np.minimum(theta + alpha, widest))
