@@ -21,7 +21,8 @@ SCENARIOS = (
     "panel", "no_camera", "left_out", "stop", "stop_samples", "load_while_casting", "show_result", "overlay",
     "ray_under_mouse", "viewport", "cycles", "camera_settings", "model_gallery", "search", "told", "step_through",
     "step_through_image", "examples", "cast_a_cube", "see_through", "ray_of_a_pixel", "export_colmap",
-    "redraws_of_shapes", "redraws_of_monkeys", "shown_camera", "disable",
+    "redraws_of_shapes", "redraws_of_monkeys", "redraws_all_around",
+    "shown_camera", "disable",
 )  # fmt: skip
 SIZE = "1400x900"
 LIMIT = 1200

@@ -27,6 +27,11 @@ class Worker:
         """Whether the work has ended: with a result, with an error, or stopped."""
         return self._future.done()
 
+    def wait(self, seconds: float) -> bool:
+        """Wait for the end, but at most for some seconds; return ``done``."""
+        wait([self._future], seconds)
+        return self.done
+
     def result(self):
         """Wait for the end and return the result, or raise what the work raised."""
         return self._future.result()

@@ -1,0 +1,91 @@
+"""Rendered shading of a 3D View whose pictures take long: a redraw waits for none of them."""
+
+from time import perf_counter, sleep
+from types import SimpleNamespace
+
+import bpy
+import pytest
+from mathutils import Matrix
+
+from camera_ray_caster.blender.engine import viewport
+
+PICTURE = 1.0
+"""Seconds that each picture takes here, many times as long as a redraw may wait."""
+
+
+@pytest.fixture
+def view(camera_scene, monkeypatch):
+    """A view whose pictures are made and shown without a graphics card; ``shown`` has their steps, in order."""
+    cast = viewport._cast
+    view = viewport.Viewport()
+    view.shown, view.seconds = [], 0.0
+
+    def made(target, shapes, shown, step, progress=None):
+        sleep(view.seconds)
+        return step, cast(target, shapes, shown, step, progress)
+
+    def show(self, picture):
+        self.shown.append(picture[0])
+        self._picture = picture[1]
+
+    monkeypatch.setattr(viewport, "_cast", made)
+    monkeypatch.setattr(viewport.Viewport, "_show", show)
+    monkeypatch.setattr(viewport.Viewport, "_draw", lambda self, scene: None)
+    monkeypatch.setattr(viewport.Viewport, "update_stats", lambda *_: None, raising=False)
+    yield view
+    viewport.stop()
+
+
+def drawn(view, away=6):
+    """Draw the view from a distance; return the seconds that it took."""
+    projection = bpy.context.scene.camera.calc_matrix_camera(bpy.context.evaluated_depsgraph_get(), x=96, y=64)
+    looking = SimpleNamespace(
+        view_perspective="PERSP", view_matrix=Matrix.Translation((0, 0, -away)), window_matrix=projection
+    )
+    own = ("scene", "view_layer", "evaluated_depsgraph_get")
+    context = SimpleNamespace(
+        region=SimpleNamespace(width=96, height=64), region_data=looking,
+        **{name: getattr(bpy.context, name) for name in own},
+    )  # fmt: skip
+    started = perf_counter()
+    view.view_draw(context, bpy.context.evaluated_depsgraph_get())
+    return perf_counter() - started
+
+
+def finished(view):
+    """Wait for the picture that is being cast."""
+    assert view._worker.wait(60)
+
+
+def test_a_quick_picture_is_shown_at_once_and_the_last_one_follows(view):
+    drawn(view)
+    if view.shown != [8]:  # on a busy machine
+        finished(view)
+        drawn(view)
+    assert view.shown == [8]
+    while view._worker is not None:
+        finished(view)
+        drawn(view)
+    assert view.shown[-1] == 1
+
+
+def test_a_redraw_does_not_wait_for_a_slow_picture_and_the_next_one_is_coarser(view):
+    drawn(view)  # what is read and compiled once is not counted
+    while view._worker is not None:
+        finished(view)
+        drawn(view)
+    view.seconds, view._first = PICTURE, viewport.FIRST
+    assert drawn(view, 7) < PICTURE / 2
+    first = view._worker
+    assert drawn(view, 8) < PICTURE / 2
+    assert view._worker is first, "it is shown though the view has changed: a picture that is late is one"
+    finished(view)
+    count = len(view.shown)
+    assert drawn(view, 9) < PICTURE / 2
+    assert view.shown[count:] == [8]
+    finished(view)
+    drawn(view, 9)
+    assert view.shown[count:] == [8, 32]
+    finished(view)
+    drawn(view, 9)
+    assert view.shown[count:] == [8, 32, 8], "then it becomes finer"
