@@ -18,8 +18,8 @@ triangles: twice what is aimed at, 25 and 60 ms, since other work on the same co
 bounds the image of each triangle's ball, takes 150 to 260 ms of the monkeys.
 """
 STREET = 0.5
-"""Seconds that the window may stand still for a redraw of the street through all-around cameras, on busy cores: a redraw
-waits for 60 ms at most. It took 1 to 2.6 s when every triangle was sought in the whole picture.
+"""Seconds that the window may stand still for a redraw of the street through all-around cameras, on busy cores: a
+redraw waits for 60 ms at most. It took 1 to 2.6 s when every triangle was sought in the whole picture.
 """
 
 

@@ -223,7 +223,8 @@ def test_no_pixel_outside_of_its_bounds_sees_a_sphere(case):
         inside = (x >= x0) & (x <= x1) & (y >= y0) & (y <= y1)
         assert not (hit & ~inside).any()
         hidden += int((~inside).sum())
-    assert case in {"polynomial, across the axis", "polynomial, upside down"} or hidden > 300 * x.size / 4  # they do leave something out
+    some = case not in {"polynomial, across the axis", "polynomial, upside down"}
+    assert hidden > 300 * x.size / 4 or not some  # they do leave something out
 
 
 def test_bounds_touch_the_silhouette():

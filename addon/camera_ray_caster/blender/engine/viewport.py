@@ -1,7 +1,7 @@
 """Rendered shading in the 3D View: a coarse picture at once, then finer pictures by a thread until a change.
 
-A redraw waits for the coarse picture, but not long. A picture that takes longer is shown when it is finished, also if the
-view has changed meanwhile; the next one is coarser.
+A redraw waits for the coarse picture, but not long. A picture that takes longer is shown when it is finished, also if
+the view has changed meanwhile; the next one is coarser.
 """
 
 from __future__ import annotations
@@ -33,9 +33,9 @@ FIRST = 1
 """Index in STEPS of the first picture of a view whose pictures are quick."""
 
 QUICK = 0.06
-"""Longest time in seconds that a redraw waits for its first picture. If it takes less, the last picture follows directly.
-The pictures of 8, 2 and 1 pixels take 48, 178 and 327 ms of processor time for 60 monkeys of 3,936 triangles each, at
-1600 x 950 pixels.
+"""Longest time in seconds that a redraw waits for its first picture. If it takes less, the last picture follows
+directly. The pictures of 8, 2 and 1 pixels take 48, 178 and 327 ms of processor time for 60 monkeys of 3,936 triangles
+each, at 1600 x 950 pixels.
 """
 
 INTERVAL = 0.03
