@@ -122,6 +122,7 @@ print("done")
 """
 
 
+@pytest.mark.full
 @pytest.mark.skipif(sys.platform == "win32", reason="Windows has no SIGKILL")
 @pytest.mark.parametrize("there", [NAMES, NAMES[:1]])
 def test_what_a_killed_run_left_is_completed_or_undone_by_the_next(tmp_path, there):
@@ -157,6 +158,7 @@ def test_a_run_that_ends_while_another_begins_is_no_error(tmp_path, monkeypatch)
     assert content(tmp_path) == {NAMES[0]: "new"}
 
 
+@pytest.mark.full
 @pytest.mark.skipif(sys.platform == "win32", reason="Windows has no locks of this kind")
 def test_writers_into_one_folder_leave_the_set_of_one_of_them(tmp_path):
     code = (

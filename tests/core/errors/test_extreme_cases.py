@@ -99,6 +99,7 @@ def test_hits_and_misses_are_the_exact_ones_and_numbers_lie_within_their_bounds(
             assert images["distance_bound"][pixel] <= TIGHT * EPS * condition(case.raw, shapes, x, y), pixel
 
 
+@pytest.mark.full
 def test_a_million_spheres_at_one_point():
     """All hit at exactly the same t: the first counts, and none is lost on the way."""
     count, rows = 1_000_000, shapes_of([(SPHERE, (0, 0, -5), 2.0)])
@@ -128,6 +129,7 @@ def test_what_cannot_be_cast_is_refused_by_name(kind, axes):
         cast(Case("", "", []).camera, shapes)
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(("turns", "why"), STIFF.values(), ids=STIFF)
 def test_stiff_motion_is_resolved_or_said_not_to_be(turns, why):
     """A bar that spins about the viewing axis: where it ends is known exactly at each time, the closed form turned."""

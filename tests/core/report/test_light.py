@@ -49,6 +49,7 @@ def test_without_lamps_there_is_a_headlight_and_without_a_hit_the_world():
     assert color_of(beside) == ("linear, of the world: (0.1, 0.2, 0.3, 1)",)
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("count", [1, MOST, MOST + 1, 40])
 @pytest.mark.parametrize("shading", ["MATERIAL", "GRID"])
 def test_the_terms_make_the_color_of_the_picture(shading, count):
