@@ -35,6 +35,30 @@ def test_cycles_picture_stands_beside_our_passes(blender, tmp_path):
     assert lit[hit].mean() > 0.9
 
 
+def test_meshes_are_meshes_beside_cycles_picture(command, blender, tmp_path):
+    """Normals are those of the faces that the picture shows. A shape that an object asks for stays exact."""
+    path = small(blender, tmp_path / "small.blend")
+    blender.ops.mesh.primitive_uv_sphere_add(location=(0, 0, 50))
+    blender.context.object.name = "Asked"
+    blender.context.object.camera_ray_caster.primitive = "SPHERE"
+    blender.ops.wm.save_as_mainfile(filepath=str(path))
+    kinds, passes = {}, ("--passes", "combined,normal,face_index", "--format", "NPZ")
+    for engine, words in (("CYCLES", WORDS), ("CAMERA_RAY_CASTER", ())):
+        out = tmp_path / engine
+        done = command("cast", path, *words, *passes, "--output", out)
+        assert (done.returncode, done.stderr) == (0, "")
+        report = json.loads((out / "report.json").read_text())
+        kinds[engine] = {run["object"]: run["kind"] for run in report["indices"]["ViewLayer"]["shape_index"]}
+    assert kinds["CYCLES"] == {"Sphere": "MESH", "Asked": "SPHERE"}
+    assert kinds["CAMERA_RAY_CASTER"] == {"Sphere": "SPHERE", "Asked": "SPHERE"}
+    with np.load(tmp_path / "CYCLES" / "small.npz") as faces:
+        met = faces["face_index"] >= 0
+        polygons = blender.data.objects["Sphere"].data.polygons
+        normals = np.array([polygon.normal for polygon in polygons])[faces["face_index"][met]]
+        assert met.any()
+        np.testing.assert_allclose(np.abs((faces["normal"][met] * normals).sum(axis=-1)), 1, atol=1e-5)
+
+
 def test_each_frame_has_its_picture(command, blender, tmp_path):
     path = small(blender, tmp_path / "small.blend")
     blender.ops.object.light_add(type="SUN")

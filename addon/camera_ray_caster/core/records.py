@@ -150,6 +150,8 @@ class Lights:
     position: np.ndarray = field(default_factory=lambda: np.zeros((0, 3)))
     is_sun: np.ndarray = field(default_factory=lambda: np.zeros(0, bool))
     color: np.ndarray = field(default_factory=lambda: np.zeros((0, 3)))
+    left_out: tuple[tuple[str, str], ...] = ()
+    """Lights that are not used, each with the reason in one line."""
 
 
 class MovingShapes(Protocol):
@@ -207,6 +209,14 @@ class Shapes:
     exact: tuple[tuple[str, float], ...] = ()
     """Objects whose mesh is cast as an exact sphere or plane, each with the largest distance between the two, over the
     radius or the plane's longer half side.
+    """
+
+    uv: np.ndarray | None = None
+    """(names, 2, 3) float64: the UV map of spheres and planes by ``name_index``, affine in the two coordinates of the
+    surface: (u, v) = uv @ (first, second, 1). None if u and v are the coordinates themselves.
+    """
+    notes: tuple[tuple[str, str], ...] = ()
+    """Objects and materials that passes show otherwise than their settings or Cycles' passes, each with what differs.
     """
 
     next: Shapes | None = None

@@ -137,3 +137,33 @@ def _prepare(scene):
     cycles.samples, cycles.max_bounces = 1, 0
     cycles.use_adaptive_sampling = cycles.use_denoising = False
     cycles.filter_width = 0.01
+
+
+def cycles_truth(scene):
+    """Return Cycles' own passes of the scene as it is, at pixel centers, by our names: (h, w) or (h, w, 3) float64, the
+    depth 1e10 where nothing is met.
+    """
+    _prepare(scene)
+    layer, settings = scene.view_layers[0], scene.render.image_settings
+    for name in ("z", "position", "normal", "uv", "object_index", "material_index"):
+        setattr(layer, f"use_pass_{name}", True)
+    if bpy.app.version >= (5, 0):
+        settings.media_type, settings.use_exr_interleave = "MULTI_LAYER_IMAGE", True
+    settings.file_format, settings.color_depth = "OPEN_EXR_MULTILAYER", "32"
+    bpy.ops.render.render(write_still=True, scene=scene.name)
+    channels = read_exr(Path(scene.render.filepath))
+
+    def found(letters, *names):
+        """Return the channels of these letters of a pass, which has a longer name from Blender 5.0 on."""
+        (name,) = {name.rpartition(".")[0] for name in channels} & {f"{layer.name}.{name}" for name in names}
+        return np.stack([channels[f"{name}.{letter}"] for letter in letters], axis=-1).astype(np.float64)
+
+    uv = found("UV", "UV")
+    return {
+        "depth": found("Z", "Depth")[..., 0],
+        "position": found("XYZ", "Position"),
+        "normal": found("XYZ", "Normal"),
+        "uv": np.dstack((uv, np.zeros(uv.shape[:2]))),
+        "object_index": np.rint(found("X", "IndexOB", "Object Index")[..., 0]),
+        "material_index": np.rint(found("X", "IndexMA", "Material Index")[..., 0]),
+    }

@@ -3,20 +3,17 @@
 import numpy as np
 import pytest
 
-from camera_ray_caster.blender.read.scene import read_camera, read_shapes
-from camera_ray_caster.core.cast import cast
+from camera_ray_caster.blender.read.scene import read_shapes
 from camera_ray_caster.core.conventions import EPS32
 
 from .cycles import cycles_surface
+from .sure import seen, unambiguous
 
 REACH = 16.0
 """More than any coordinate in the scene."""
 
 TEXT = 4
 WITH_MAP = 1, 2, 3, 7
-
-OFF = 1 / 128
-"""Pixels. Where a ray so far aside meets another face, it may be another one that Cycles meets, in float32."""
 
 POSITION = 128 * EPS32
 """As of spheres and planes: see test_hits."""
@@ -92,21 +89,6 @@ def scene(blender):
     scene.render.resolution_x, scene.render.resolution_y = 144, 96
     scene.camera_ray_caster.exact_shapes = False
     return scene
-
-
-def seen(scene, names):
-    return cast(read_camera(scene), read_shapes(scene), names, np.float64)
-
-
-def unambiguous(scene):
-    """Where rays a little aside meet the same face: found without Cycles."""
-    data, found = scene.camera.data, []
-    for dx, dy in ((0, 0), (OFF, OFF), (OFF, -OFF), (-OFF, OFF), (-OFF, -OFF)):
-        data.shift_x, data.shift_y = (part / scene.render.resolution_x for part in (dx, dy))
-        images = seen(scene, ("shape_index", "face_index"))
-        found.append(np.stack((images["shape_index"], images["face_index"])))
-    data.shift_x = data.shift_y = 0
-    return (np.array(found) == found[0]).all(axis=(0, 1))
 
 
 @pytest.mark.parametrize("kind", ["PERSP", "ORTHO"])

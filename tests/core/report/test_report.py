@@ -10,7 +10,7 @@ from camera_ray_caster.core.camera.build import camera_from
 from camera_ray_caster.core.camera.facts import camera_facts
 from camera_ray_caster.core.cast import cast
 from camera_ray_caster.core.exports.camera_json import camera_from_json
-from camera_ray_caster.core.records import SPHERE, BlenderCamera, Finding, InputError, Shapes, no_shapes
+from camera_ray_caster.core.records import SPHERE, BlenderCamera, Finding, InputError, Lights, Shapes, no_shapes
 from camera_ray_caster.core.report.accuracy import Accuracy, accuracy
 from camera_ray_caster.core.report.indices import indices_of
 from camera_ray_caster.core.report.report import WIDTH, Report, as_data, as_json, as_lines, report_cast
@@ -42,6 +42,8 @@ def report():
         names=("Sphere",),
         left_out=(("Suzanne", "it is a monkey " + "of many words " * 20),),
         exact=(("Sphere", 0.0096), ("Floor", 0.0), ("Sphere", 0.0096)),
+        notes=tuple((name, "its map is another") for name in ("A", "B", "C", "D", "E")),
+        lights=Lights(left_out=(("Lamp", "its color is not finite"),)),
     )
     images = cast(camera(), shapes, ("depth",), precision="ROBUST")
     seconds = {"read": 0.5, "plan": 0.01, "cast": 0.02, "passes": 0.03, "write": 0.25}
@@ -93,6 +95,15 @@ def test_of_several_layers_each_is_named_beside_what_it_did_not_do(report):
     assert all(line.startswith("Layer: ") for line in several.not_done)
 
 
+def test_lights_are_left_out_of_a_picture_alone():
+    """Depth needs no light, and another engine's picture has its own."""
+    shapes = replace(no_shapes(), lights=Lights(left_out=(("Lamp", "its color is not finite"),)))
+    for passes, left_out in ((("depth",), ()), (("depth", "combined"), shapes.lights.left_out)):
+        images = cast(camera(), shapes, passes)
+        words = {"precision": "FAST", "accuracy": Accuracy()}
+        assert report_cast(camera(), shapes, images, {}, [], 1.0, "Layer", **words).left_out == left_out
+
+
 def test_json_is_strict_and_holds_the_record(report):
     broken = replace(report, findings=(replace(GOOD, worst_pixels=np.nan, bound_pixels=np.inf),))
     data = strict(as_json(broken))
@@ -108,6 +119,7 @@ def test_json_is_strict_and_holds_the_record(report):
     assert data["seconds"] == dict(report.seconds)
     assert data["left_out"][0]["name"] == "Suzanne"
     assert data["exact"][0] == {"name": "Sphere", "apart": 0.0096}
+    assert data["notes"][4] == {"name": "E", "note": "its map is another"}
     assert data["passed"] is True
 
 
@@ -120,6 +132,8 @@ def test_the_table_says_all_and_fits(report):
     verdicts = {line.split()[0]: line.split()[-1] for line in lines if "witness" in line}
     assert verdicts == {"good": "ok", "bad": "FAILED"}
     assert "2 meshes cast as spheres or planes, with a deviation of at most 0.96% of the radius, in 'Sphere'" in table
+    assert "'A', 'B', 'C' and 2 more: its map is another" in table
+    assert "'Sphere': the exact shape is up to 0.96% of its radius away from the mesh" in table
 
 
 def test_settings_and_formula_of_the_model_are_in_the_report(report):

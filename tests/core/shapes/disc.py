@@ -54,7 +54,7 @@ class Disc(AffineKind):
         normal = shapes.shape_from_world[at, 2] * -np.sign(shapes.offset[at, 2:])
         return np.hstack((np.zeros((len(at), 1)), normal / np.linalg.norm(normal, axis=1, keepdims=True))), None
 
-    def surface_uv(self, q):
+    def surface_coordinates(self, q):
         """Half of the diameter is 1/2."""
         return (q[0] + 1) / 2, (q[1] + 1) / 2
 

@@ -94,7 +94,7 @@ class Viewport:
         shown = {"shading": settings.shading, "precision": settings.precision}
         matrices = [tuple(row) for row in (*region_data.view_matrix, *region_data.window_matrix)]
         key = scene, matrices, context.region.width, context.region.height, shown
-        self.update_stats("", left_out_count(scene.shapes.left_out))
+        self.update_stats("", left_out_count((*scene.shapes.left_out, *scene.shapes.lights.left_out)))
         if self._worker is not None and self._worker.done:
             self._take()
             if self._key == key:

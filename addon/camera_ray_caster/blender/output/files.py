@@ -2,7 +2,7 @@
 
 import os
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from contextlib import contextmanager, redirect_stdout
+from contextlib import ExitStack, contextmanager, redirect_stdout
 from dataclasses import replace
 from math import ceil
 from pathlib import Path
@@ -18,6 +18,7 @@ from ...core.memory import of_pixels, require
 from ...core.records import Cancelled, InputError
 from ...core.report.report import Report, as_json
 from ..cycles.picture import Picture
+from ..cycles.renderer import changed
 from ..engine.engine import CameraRayCaster
 from ..engine.passes import ticked
 from ..read.camera import views_of
@@ -78,7 +79,7 @@ def render(
     """
     check(scene)
     keeps = layers == NPZ or keypoints is not None
-    with _engine_has(picture, {} if keeps else None) as images, atomic_folder(folder) as temporary:
+    with _engine_has(scene, picture, {} if keeps else None) as images, atomic_folder(folder) as temporary:
         report = _composited(scene, file_output)
         report = report if picture is None else report.with_seconds(cycles=picture.seconds)
         started = perf_counter()
@@ -112,13 +113,19 @@ def check(scene) -> None:
 
 
 @contextmanager
-def _engine_has(picture: Picture | None, images: dict | None) -> Iterator[dict | None]:
-    """Let the engine show another engine's picture and store its cast images in ``images``; yield ``images``."""
-    CameraRayCaster.picture, CameraRayCaster.images = picture, images
-    try:
-        yield images
-    finally:
-        CameraRayCaster.picture = CameraRayCaster.images = None
+def _engine_has(scene, picture: Picture | None, images: dict | None) -> Iterator[dict | None]:
+    """Let the engine show another engine's picture and store its cast images in ``images``; yield ``images``.
+
+    Beside the picture of another engine, which shows the faces of meshes, meshes are not cast as exact shapes.
+    """
+    with ExitStack() as stack:
+        if picture is not None:
+            changed(stack, scene.camera_ray_caster, exact_shapes=False)
+        CameraRayCaster.picture, CameraRayCaster.images = picture, images
+        try:
+            yield images
+        finally:
+            CameraRayCaster.picture = CameraRayCaster.images = None
 
 
 def _composited(scene, file_output: bool) -> Report:

@@ -7,10 +7,11 @@ import bpy
 import numpy as np
 
 from ...core.records import INFINITE_PLANE, PLANE, SPHERE
-from ...core.shapes.instances import Primitive, enclosing_primitive, mesh_primitive, points_primitive
+from ...core.shapes.instances import NO_MAP, Primitive, enclosing_primitive, mesh_primitive, points_primitive
 from ...core.shapes.recognize import NOT_FINITE, MeshArrays, defect, exclude, recognize
+from ...core.shapes.uv_maps import with_map
 from .kept import Found
-from .meshes import fetched, is_smooth, mesh_arrays, mesh_record, vertices
+from .meshes import fetched, is_smooth, mesh_arrays, mesh_record, uv_map, vertices
 
 FORCED = {"SPHERE": SPHERE, "PLANE": PLANE, "INFINITE_PLANE": INFINITE_PLANE}
 """Kinds of shapes that an object's own setting can force, whatever its geometry is."""
@@ -58,10 +59,13 @@ def mesh_shapes(mesh, setting: str) -> Found:
     found = wrong if wrong or setting == "MESH" else _recognized(arrays)
     if kind is not None:
         if isinstance(found, Primitive) and (found.kind == SPHERE) == (kind == SPHERE):
-            return replace(found, kind=kind), ""
-        return _enclosing(kind, arrays.vertices)
+            return _mapped(replace(found, kind=kind), mesh, arrays), ""
+        forced, reason = _enclosing(kind, arrays.vertices)
+        return (forced, reason) if forced is None or wrong else (_mapped(forced, mesh, arrays), "")
     if isinstance(found, Primitive) and not _is_solid(found, mesh) and not _is_colorful(mesh):
-        return found, ""
+        exact = _mapped(found, mesh, arrays)
+        if exact.kind == SPHERE or not exact.note:
+            return exact, ""
     if wrong:
         return None, wrong
     return mesh_primitive(mesh_record(mesh, arrays)), ""
@@ -69,7 +73,14 @@ def mesh_shapes(mesh, setting: str) -> Found:
 
 def _enclosing(kind, places: np.ndarray) -> Found:
     """Return the sphere or plane around (n, 3) places."""
-    return (enclosing_primitive(kind, places), "") if np.isfinite(places).all() else (None, NOT_FINITE)
+    if not np.isfinite(places).all():
+        return None, NOT_FINITE
+    return replace(enclosing_primitive(kind, places), uv=NO_MAP), ""
+
+
+def _mapped(exact: Primitive, mesh, arrays: MeshArrays) -> Primitive:
+    """Return an exact shape with the render UV map of a mesh whose arrays are valid."""
+    return with_map(exact, arrays.vertices[arrays.loop_vertices], uv_map(mesh))
 
 
 def _is_solid(found: Primitive, mesh) -> bool:
@@ -112,7 +123,7 @@ def _of_points(cloud, kind) -> Found:
         return _enclosing(kind, positions)
     radius = cloud.attributes.get("radius")
     radii = fetched(radius.data, "value", np.float32) if radius else np.full(len(positions), DEFAULT_RADIUS, np.float32)
-    primitive = points_primitive(positions, radii)
+    primitive = replace(points_primitive(positions, radii), uv=NO_MAP)
     missing = len(radii) - len(primitive)
     return primitive, (
         f"{missing} of its points have a radius that is not above zero, or a position that is not finite"

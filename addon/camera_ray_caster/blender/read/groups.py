@@ -31,6 +31,9 @@ class Group:
     object_index: int = 0
     looks: tuple[Look, ...] = ()
     """Look of the shape; for a mesh of several materials the look of each slot; for a light its color."""
+    notes: tuple[str, ...] = ()
+    """What the passes show otherwise than the object's settings say."""
+    is_light: bool = False
     is_sun: bool | None = None
     flattened: Callable[[], Found] | None = None
     """Function that returns the triangles that replace an exact shape if its matrix is singular."""
@@ -85,11 +88,13 @@ def gathered(groups: list[Group], left_out: Counter, world: tuple[float, float, 
         instanced=tuple(group.is_instanced for group in cast),
         lights=lights_in_world([(group.is_sun, group.looks[0][1], group.placings()) for group in lights]),
         world_color=world,
-        left_out=tuple((name, _counted(reason, count)) for (name, reason), count in left_out.items()),
+        left_out=listed(left_out),
         meshes=tuple(meshes.values()),
         mesh=column(rows, np.int32) if meshes else np.zeros(0, np.int32),
         shared=column([users[group.geometry] > 1 for group in cast], bool) if meshes else np.zeros(0, bool),
         slots=_slots(cast, column),
+        uv=np.array([group.primitive.uv for group in cast], np.float64).reshape(-1, 2, 3),
+        notes=tuple(_notes(cast)),
         exact=tuple((group.name, group.primitive.apart) for group in cast if group.primitive.apart is not None),
     )
 
@@ -129,5 +134,14 @@ def _slots(groups, column) -> Slots | None:
     )
 
 
-def _counted(reason: str, count: int) -> str:
-    return reason if count == 1 else f"{reason} ({count} instances)"
+def _notes(groups: Iterable[Group]) -> Iterator[tuple[str, str]]:
+    """Yield the notes on the groups, each with the name of its object, once."""
+    found = ((group.name, note) for group in groups for note in (group.primitive.note, *group.notes) if note)
+    yield from dict.fromkeys(found)
+
+
+def listed(left_out: Counter) -> tuple[tuple[str, str], ...]:
+    """Return names and reasons, the number of instances in the reason if there are several."""
+    return tuple(
+        (name, reason if count == 1 else f"{reason} ({count} instances)") for (name, reason), count in left_out.items()
+    )

@@ -31,7 +31,7 @@ def mesh_record(mesh, arrays: MeshArrays) -> Mesh:
     are no normals if all faces are flat.
     """
     loops = _triangle_loops(mesh)
-    uv = next((layer for layer in mesh.uv_layers if layer.active_render), None)
+    uv = uv_map(mesh)
     slot = mesh.attributes.get("material_index")
     polygon = fetched(mesh.loop_triangle_polygons, "value", np.int32)
     triangles = arrays.loop_vertices[loops]
@@ -45,9 +45,15 @@ def mesh_record(mesh, arrays: MeshArrays) -> Mesh:
         polygon=polygon,
         loops=None if normals is None and uv is None else loops,
         normals=normals,
-        uv=None if uv is None else fetched(uv.uv, "vector", np.float32, 2).reshape(-1, 2),
+        uv=uv,
         slot=None if slot is None else _slots(fetched(slot.data, "value", np.int32), polygon),
     )
+
+
+def uv_map(mesh) -> np.ndarray | None:
+    """Return the render UV map at the loops, (l, 2) float32; None without a UV map."""
+    layer = next((layer for layer in mesh.uv_layers if layer.active_render), None)
+    return None if layer is None else fetched(layer.uv, "vector", np.float32, 2).reshape(-1, 2)
 
 
 def is_smooth(mesh) -> bool:

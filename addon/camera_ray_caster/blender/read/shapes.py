@@ -11,7 +11,7 @@ from ...core.mesh import Mesh
 from ...core.records import Shapes
 from ..properties.declared import EXACT_SHAPES, PRIMITIVE
 from .geometry import mesh_shapes, shapes_of
-from .groups import Group, gathered, heeding
+from .groups import Group, gathered, heeding, listed
 from .kept import Reading
 from .lights import USED, light_color, world_color
 from .materials import Looks, first_slot, is_finite
@@ -77,6 +77,7 @@ class _Scene:
         if not self.visibility.is_rendered(instance):
             return group
         if item.type == "LIGHT":
+            group.is_light = True
             self.light(group, item.data)
         elif item.type not in NO_SURFACE:
             self.fill(group, instance)
@@ -123,14 +124,16 @@ class _Scene:
 
     def record(self) -> Shapes:
         """Return the record of all groups."""
+        dark: Counter[tuple[str, str]] = Counter()
         for group in self.groups.values():
             if group.reason:
-                self.left_out[group.name, group.reason] += len(group.matrices)
+                (dark if group.is_light else self.left_out)[group.name, group.reason] += len(group.matrices)
         for item in self.visibility.unlisted(self.listed, self.instanced):
             if _may_have_surface(item) or item.instance_type == "COLLECTION":
                 self.left_out[unique_name(item, bpy.data.objects), HIDDEN] += 1
         shapes = gathered(list(self.groups.values()), self.left_out, self.world)
-        return replace(shapes, materials=self.looks.materials)
+        lights = replace(shapes.lights, left_out=listed(dark))
+        return replace(shapes, lights=lights, materials=self.looks.materials)
 
 
 def _may_have_surface(item) -> bool:

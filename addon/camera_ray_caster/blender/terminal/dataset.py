@@ -19,6 +19,7 @@ import bpy
 
 from ...core.file_set import atomic_folder, clear_up
 from ...core.records import InputError
+from ...core.report.notes import sentences
 from ..output import files
 from ..output.annotations import collect
 from ..output.stamps import differing
@@ -65,6 +66,8 @@ def run(arguments: Sequence[str], prog: str) -> int:
         pictures.camera_at(job)  # refuse bad input before anything is made
         files.check(pictures.scene)
     passed, made = True, 0
+    notes: dict[tuple[str, str], None] = {}
+    exact: dict[tuple[str, float], None] = {}
     try:
         with farm.cluster(options) as client:
             _claim(options.output, stamp)
@@ -78,11 +81,14 @@ def run(arguments: Sequence[str], prog: str) -> int:
             for outcome in follow(chain(filter(None, taken.values()), making), len(jobs), prog):
                 passed &= outcome.passed
                 made += outcome.made
+                if outcome.report is not None:
+                    notes |= dict.fromkeys(outcome.report.notes)
+                    exact |= dict.fromkeys(outcome.report.exact)
         if pictures.keypoints is not None:
             collect(options.output, [job.name for job in jobs])
     finally:
         clear_up(options.output)  # files left behind by killed workers
-    print(summary(made, len(jobs), options.output), flush=True)
+    print(summary(made, len(jobs), options.output), *sentences([*notes], [*exact]), sep="\n", flush=True)
     return int(not passed)
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import bpy
 
+from ...core.report.notes import sentences
 from ..engine.passes import PASSES, ticked
 from ..output import images, reports
 from . import cast_operator
@@ -98,6 +99,30 @@ class SidebarReport(Sidebar, bpy.types.Panel):
             draw_row(box, name.capitalize(), [reports.relative_error(report, name)], 0.5)
 
 
+class SidebarNotes(Sidebar, bpy.types.Panel):
+    """What the passes of the latest cast show otherwise than expected."""
+
+    bl_idname = "CAMERA_RAY_CASTER_PT_notes"
+    bl_label = "Noted"
+    bl_parent_id = SidebarReport.bl_idname
+    bl_options = {"DEFAULT_CLOSED"}
+
+    @classmethod
+    def poll(cls, context):
+        """Show the panel if there is a note."""
+        return bool(_notes(context))
+
+    def draw(self, context):
+        """Draw a message for each note."""
+        for line in _notes(context):
+            draw_message(self.layout, context, line, "DOT")
+
+
+def _notes(context) -> list[str]:
+    report = reports.latest(context.scene)
+    return [] if report is None else sentences(report.notes, report.exact)
+
+
 class SidebarNotDone(Sidebar, bpy.types.Panel):
     """Steps that the latest cast did not need, and why."""
 
@@ -112,4 +137,4 @@ class SidebarNotDone(Sidebar, bpy.types.Panel):
             draw_message(self.layout, context, line.replace("_", " "), "DOT")
 
 
-CLASSES = (SidebarCast, SidebarPasses, SidebarQuality, SidebarReport, SidebarNotDone)
+CLASSES = (SidebarCast, SidebarPasses, SidebarQuality, SidebarReport, SidebarNotes, SidebarNotDone)

@@ -184,8 +184,13 @@ class HitValues:
 
     @lazy
     def uv(self) -> list[tuple[np.ndarray, tuple[np.ndarray, np.ndarray]]]:
-        """The surface coordinates, kind by kind: the pixels of the kind, (rows, columns) bool, and u and v there."""
+        """The UV maps, kind by kind: the pixels of the kind, (rows, columns) bool, and u and v there."""
         return self.by_kind(lambda kind, pixels: kind.uv(self.plan.in_camera, pixels, pixels.of(self.point)))
+
+    @property
+    def coordinates(self) -> list[tuple[np.ndarray, tuple[np.ndarray, np.ndarray]]]:
+        """The coordinates of the surfaces themselves, kind by kind: see ``Kind.coordinates``."""
+        return self.by_kind(lambda kind, pixels: kind.coordinates(self.plan.in_camera, pixels, pixels.of(self.point)))
 
     @property
     def from_edge(self) -> list[tuple[np.ndarray, np.ndarray]]:

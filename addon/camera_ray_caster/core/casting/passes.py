@@ -64,12 +64,14 @@ def position(values: HitValues, out):
 
 
 def normal(values: HitValues, out):
-    """The surface's unit normal in the world, turned towards the ray's origin."""
+    """The surface's unit normal in the world, turned towards the ray's origin, without normal and bump maps."""
     _write(out, *values.normal_terms, values.hits.missed)
 
 
 def uv(values: HitValues, out):
-    """The surface coordinates, (u, v, 0); see the kinds of shapes."""
+    """The render UV map of the mesh, (u, v, 0); 0 without a map. An exact sphere with a map has u = longitude / 2 pi +
+    1/2 and v = latitude / pi + 1/2, and shapes that are made without a mesh have the coordinates of their surface.
+    """
     out[...] = 0
     for where, (u, v) in values.uv:
         out[..., 0][where], out[..., 1][where] = u, v

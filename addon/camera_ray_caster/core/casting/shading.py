@@ -1,4 +1,4 @@
-"""The color of the combined pass: the material's color lit by the scene's lights, or a grid of constant uv."""
+"""The color of the combined pass: the material's color lit by the scene's lights, or a grid on the surfaces."""
 
 from __future__ import annotations
 
@@ -28,8 +28,8 @@ def shade(values: HitValues, out: np.ndarray) -> None:
 
     Lambert's law without shadows: a sun of E W/m^2 gives color E cos / pi; a point light of P W at distance r gives
     color P cos / (4 pi^2 r^2), in Blender's units; the world's color is added as uniform light from all directions.
-    Without sun and point lights a headlight shines along each ray. GRID darkens lines of constant uv, or the edges of
-    faces without a UV map.
+    Without sun and point lights a headlight shines along each ray. GRID darkens lines of constant longitude, latitude
+    or other coordinate of exact shapes, lines of constant uv of meshes, or the edges of faces without a UV map.
     """
     color, world_color = values.plan.colors, values.plan.shapes.world_color
     lit, grid = irradiance(values), grid_factor(values)
@@ -49,9 +49,9 @@ def grid_factor(values: HitValues) -> np.ndarray | None:
     if values.plan.request.shading != GRID:
         return None
     shade = np.ones(values.hits.t.shape)
-    for (where, uv), (_, from_edge) in zip(values.uv, values.from_edge, strict=True):
-        on_line = np.zeros(len(uv[0]), bool)
-        for coordinate, cells in zip(uv, GRID_CELLS.values(), strict=True):
+    for (where, places), (_, from_edge) in zip(values.coordinates, values.from_edge, strict=True):
+        on_line = np.zeros(len(places[0]), bool)
+        for coordinate, cells in zip(places, GRID_CELLS.values(), strict=True):
             offset = coordinate * cells
             on_line |= np.abs(offset - np.rint(offset)) < LINE_WIDTH / 2
         on_line = np.where(from_edge < np.inf, from_edge < LINE_WIDTH / 2, on_line)

@@ -10,8 +10,8 @@ import numpy as np
 from ..records import Lights, Shapes
 from .means import mixed
 
-INTERPOLATED = "color", "slots", "lights", "world_color"
-"""Fields of ``Shapes`` that hold colors and lights; the maps of meshes belong to ``deformation``."""
+INTERPOLATED = "color", "slots", "lights", "world_color", "uv"
+"""Fields of ``Shapes`` that hold colors, lights and maps; the maps of meshes belong to ``deformation``."""
 
 
 def same_indices(before: Shapes, after: Shapes) -> bool:
@@ -53,7 +53,8 @@ def _indices(shapes: Shapes) -> tuple:
 
 
 def _colors(shapes: Shapes) -> tuple:
-    return shapes.color, np.zeros((0, 4)) if shapes.slots is None else shapes.slots.color, shapes.world_color
+    slots = np.zeros((0, 4)) if shapes.slots is None else shapes.slots.color
+    return shapes.color, slots, shapes.world_color, np.zeros((0, 2, 3)) if shapes.uv is None else shapes.uv
 
 
 def _light(lights: Lights, points: np.ndarray) -> np.ndarray:

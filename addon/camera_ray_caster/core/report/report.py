@@ -19,6 +19,7 @@ from ..records import Finding, Shapes
 from ..version import VERSION
 from .accuracy import QUANTITIES, Accuracy
 from .indices import indices_of
+from .notes import sentences
 
 WIDTH = 100
 """Maximum width of the table in columns."""
@@ -49,6 +50,8 @@ class Report:
     """Work that the cast did not need to do, with reasons."""
     left_out: tuple[tuple[str, str], ...] = ()
     """Objects that were not cast, each with the reason."""
+    notes: tuple[tuple[str, str], ...] = ()
+    """Objects and materials that passes show otherwise than a reader may expect: see ``Shapes``."""
     exact: tuple[tuple[str, float], ...] = ()
     """Objects whose mesh is a sphere or plane and was cast as such: see ``Shapes``."""
     motion: tuple[str, ...] = ()
@@ -101,6 +104,7 @@ class Report:
             findings=_union(self.findings, other.findings),
             not_done=_union(self.not_done, other.not_done),
             left_out=_union(self.left_out, other.left_out),
+            notes=_union(self.notes, other.notes),
             exact=_union(self.exact, other.exact),
             motion=_union(self.motion, other.motion),
             accuracy=self.accuracy + other.accuracy,
@@ -135,7 +139,8 @@ def report_cast(
         seconds=seconds,
         findings=tuple(findings),
         not_done=tuple(f"{layer}: {line}" if several else line for line in images.plan.left_out()),
-        left_out=shapes.left_out,
+        left_out=(*shapes.left_out, *(shapes.lights.left_out if "combined" in images.plan.request.passes else ())),
+        notes=shapes.notes,
         exact=_union(shapes.exact, ()),
         motion=tuple(camera.motion.in_words()) if camera.motion is not None else (),
         precision=precision,
@@ -154,6 +159,7 @@ def as_data(report: Report) -> dict:
     data["passed"] = report.passed
     data["findings"] = [{**asdict(finding), "passed": finding.passed} for finding in report.findings]
     data["left_out"] = [{"name": name, "reason": reason} for name, reason in report.left_out]
+    data["notes"] = [{"name": name, "note": note} for name, note in report.notes]
     data["exact"] = [{"name": name, "apart": apart} for name, apart in report.exact]
     return plain(data, lambda number: None)
 
@@ -171,6 +177,7 @@ def as_lines(report: Report) -> list[str]:
         *_accuracy_lines(report),
         *_second_lines(report),
         *_exact_lines(report),
+        *_listed("Noted", sentences(report.notes, report.exact)),
         *_listed("Motion", report.motion),
         *_listed("Written by File Output nodes", report.file_outputs),
         *_listed("Left out", [*report.not_done, *(f"{name!r}: {reason}" for name, reason in report.left_out)]),

@@ -12,7 +12,7 @@ from typing import Any, Protocol
 import numpy as np
 
 from ..maths.speed import Scratch, lazy, merged
-from ..maths.vector import components, difference, matrix_rows, matvec
+from ..maths.vector import components, difference, dot, matrix_rows, matvec
 from .affine_search import AffineSet, Group, divide
 from .frames import InCamera, WorldRays
 from .kind import HitPixels, Kind, ShapeErrors, Visible
@@ -54,8 +54,8 @@ class AffineKind(Kind):
         return None
 
     @abstractmethod
-    def surface_uv(self, q: Any) -> tuple[np.ndarray, np.ndarray]:
-        """Return u and v at points of the surface, given as components in the frame of q."""
+    def surface_coordinates(self, q: Any) -> tuple[np.ndarray, np.ndarray]:
+        """Return the two coordinates of points of the surface, given as components in the frame of q."""
 
     @abstractmethod
     def root_error(self, hits: AffineErrors) -> np.ndarray:
@@ -78,10 +78,18 @@ class AffineKind(Kind):
         return AffineSet(tuple(groups), self.faces_eye or all(group.is_simple for group in groups))
 
     def uv(self, shapes: InCamera, pixels: HitPixels, point: Any) -> tuple[np.ndarray, np.ndarray]:
+        """See ``Kind``: the coordinates, under the shape's map."""
+        first, second = self.coordinates(shapes, pixels, point)
+        if (maps := shapes.shapes.uv) is None:
+            return first, second
+        u, v = matrix_rows(maps[shapes.shapes.name_index[merged(pixels.at)]])
+        return dot(u, (first, second, 1.0)), dot(v, (first, second, 1.0))
+
+    def coordinates(self, shapes: InCamera, pixels: HitPixels, point: Any) -> tuple[np.ndarray, np.ndarray]:
         """See ``Kind``; the points in the frame of q have errors of EPS (distance / size)."""
         at = merged(pixels.at)
         offset = difference(point, components(shapes.shapes.center[at] - shapes.pose.eye))
-        return self.surface_uv(matvec(matrix_rows(shapes.shape_from_world[at]), offset))
+        return self.surface_coordinates(matvec(matrix_rows(shapes.shape_from_world[at]), offset))
 
     def errors(self, shapes: InCamera, pixels: HitPixels, rays: WorldRays, from_eye: bool, unit: bool) -> AffineErrors:
         """See ``Kind``."""

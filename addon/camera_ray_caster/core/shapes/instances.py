@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
 from ..conventions import EPS32
 from ..mesh import Mesh
 from ..records import INFINITE_PLANE, MESH, SPHERE, Lights
+
+COORDINATES, NO_MAP = np.eye(2, 3), np.zeros((2, 3))
+"""The maps of a shape whose u and v are its coordinates, and of one without a UV map, whose u and v are 0."""
 
 
 @dataclass(frozen=True)
@@ -25,6 +28,10 @@ class Primitive:
     """(n,) float64."""
     mesh: Mesh | None = None
     """The triangles; None except for kind MESH."""
+    uv: np.ndarray = field(default_factory=lambda: COORDINATES)
+    """(2, 3) float64: the UV map of a sphere or plane: see ``Shapes``."""
+    note: str = ""
+    """What the shape's passes show otherwise than the mesh."""
     apart: float | None = None
     """Largest distance of the shape from the mesh that it was recognized in, over its radius or longer half side."""
 

@@ -229,6 +229,10 @@ class Kind(ABC):
     def uv(self, shapes: InCamera, pixels: HitPixels, point: Any) -> tuple[np.ndarray, np.ndarray]:
         """Return u and v, (m,) each, of hit points given as components relative to the eye, world."""
 
+    def coordinates(self, shapes: InCamera, pixels: HitPixels, point: Any) -> tuple[np.ndarray, np.ndarray]:
+        """Return the coordinates of the surface itself, (m,) each, whatever its UV map is; by default u and v."""
+        return self.uv(shapes, pixels, point)
+
     def follow(self, shapes: InCamera, pixels: HitPixels, point: Any) -> Follow:
         """Return a function that tells how hit points, components relative to the eye, world, move with their shapes.
 

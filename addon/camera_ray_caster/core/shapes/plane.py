@@ -100,7 +100,7 @@ class Plane(AffineKind):
         normal = normal / np.sqrt((normal * normal).sum(axis=1, keepdims=True)) + 0.0  # never -0
         return np.hstack((np.zeros((len(at), 1)), normal)), None
 
-    def surface_uv(self, q):
+    def surface_coordinates(self, q):
         """Return (q + 1) / 2: 0 .. 1 across a finite plane, unbounded on an infinite one."""
         return (q[0] + 1) / 2, (q[1] + 1) / 2
 

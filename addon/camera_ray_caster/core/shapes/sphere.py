@@ -62,7 +62,7 @@ class Sphere(AffineKind):
         curved = at[~is_round]
         return np.hstack((gain, offset)), _curved(shapes, curved) if curved.size else None
 
-    def surface_uv(self, q):
+    def surface_coordinates(self, q):
         """Return u = longitude / 2 pi + 1/2 and v = latitude / pi + 1/2, both 0 .. 1; u is undefined at the poles."""
         x, y, z = q
         return np.arctan2(y, x) / (2 * np.pi) + 0.5, np.arctan2(z, np.hypot(x, y)) / np.pi + 0.5
