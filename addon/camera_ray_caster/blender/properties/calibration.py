@@ -1,31 +1,63 @@
 """Choosing a calibration file for a camera, which also sets the camera's model."""
 
-from ...core.camera.calibration_file import chosen_lens
+from ...core.camera.calibration_file import FRAMES_SIZE, chosen_lens, has_size, model_of
 from ...core.cameras import MODELS
 from ...core.cameras.files import lenses_of
+from ...core.cameras.files.document import Lens
 from ...core.cameras.parts.calibration import FILE, FILE_CAMERA
-from .declared import GROUP, MODEL
+from ...core.cameras.parts.settings import CAMERA, OWN
+from ...core.records import InputError
+from .declared import BLENDERS_OWN, GROUP, MODEL
+from .owners import owner_of
 
 READING = {model.key: model.label for model in MODELS if FILE in model.SETTINGS}
 """Labels of the models that read calibration files, by key."""
 
-PLAIN = "OPENCV_PINHOLE"
-"""Model assumed for a file that does not name its model, unless a model of READING is already chosen."""
+KEPT = "FLOAT", "INT", "BOOLEAN", "ENUM", "VECTOR", "TEXT"
+"""Kinds of settings that a file can give; not objects and images of a .blend."""
 
 
-def set_calibration(camera, path: str, name: str = "") -> str:
+def set_calibration(camera, path: str, name: str = "", frame: tuple[int, int] | None = None, model: str = "") -> str:
     """Set the calibration file and the matching model of a camera's data; return a line about the values read.
 
-    ``name`` is the name of the camera in a file with several cameras. Raises InputError if the file cannot be read, or
-    if it has several cameras and none is chosen; the message names them. Nothing is changed then.
+    A camera of a model that reads calibration files is linked to the file; of any other model, such as a panorama, the
+    settings are set. ``name`` is the name of the camera in a file with several cameras, ``frame`` the size of the
+    scene's pictures, and ``model`` the key of the model that the file has to be for; default: any, and that of the
+    camera if the file does not tell. Raises InputError if the file cannot be read or is for another model, or if it has
+    several cameras and none is chosen; the message names them. Nothing is changed then.
     """
     own = getattr(camera, GROUP)
-    lens = chosen_lens(path, _key(own), name)
-    values = {MODEL.name: lens.model, FILE.name: path, FILE_CAMERA.name: name}
-    for setting, value in values.items():
-        setattr(own, setting, value)
+    lens = chosen_lens(path, model or _key(own), name, frame)
+    if model not in ("", lens.model):
+        label = model_of(lens).label
+        raise InputError(f"{path!r} is a calibration for {label}, not {READING[model]}: choose that model")
+    if lens.model in READING:
+        for setting, value in {MODEL.name: lens.model, FILE.name: path, FILE_CAMERA.name: name}.items():
+            setattr(own, setting, value)
+    else:
+        set_lens(camera, lens)
     numbers = ", ".join(f"{name} {value:.6g}" for name, value in lens.settings.items() if isinstance(value, float))
-    return f"Camera {lens.name or 'without a name'}: {READING[lens.model]}, {numbers}"
+    size = "" if has_size(lens) else f"; {FRAMES_SIZE}"
+    return f"Camera {lens.name or 'without a name'}: {model_of(lens).label}, {numbers}{size}"
+
+
+def set_lens(camera, lens: Lens) -> None:
+    """Set the model and all of its settings for a camera's data, without a link to a file.
+
+    Raises InputError for a model whose settings are objects or images, before anything is changed.
+    """
+    model, own = model_of(lens), getattr(camera, GROUP)
+    settings = [setting for setting in model.SETTINGS if setting.owner in (OWN, CAMERA)]
+    if others := [setting.label for setting in settings if setting.kind not in KEPT]:
+        raise InputError(f"{model.label} has objects or images of a .blend ({', '.join(others)}), which no file gives")
+    if model.number is None:
+        is_type = model.key in {item.identifier for item in camera.bl_rna.properties["type"].enum_items}
+        camera.type = model.key if is_type else "PANO"
+        if not is_type:
+            camera.panorama_type = model.key
+    setattr(own, MODEL.name, BLENDERS_OWN if model.number is None else model.key)
+    for setting in settings:
+        setattr(owner_of(setting, camera, None), setting.name, lens.settings.get(setting.name, setting.default))
 
 
 def cameras_in(camera, path: str) -> list[str]:
@@ -37,4 +69,4 @@ def cameras_in(camera, path: str) -> list[str]:
 
 def _key(own) -> str:
     """Return the model as which a file is read that does not state one."""
-    return own.model if own.model in READING else PLAIN
+    return own.model if own.model in READING else ""

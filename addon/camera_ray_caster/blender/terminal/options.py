@@ -3,20 +3,23 @@
 import argparse
 import math
 import sys
+from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from textwrap import fill
 
 import bpy
 
+from ...core.camera.calibration_file import FRAMES_SIZE
 from ...core.cameras.parts.calibration import FILE_WRITERS
 from ...core.records import InputError
 from ...core.report.report import WIDTH, Report, as_json, as_lines
 from ..engine.engine import CameraRayCaster
-from ..properties.calibration import set_calibration
+from ..properties.calibration import READING, set_calibration
 from ..read.camera import check_camera, eye_object, find_camera, view_names
 from . import signals
 from .opening import open_file, withhold_style_modules
-from .words import Parser, frame_number
+from .words import Parser, frame_number, picture_size
 
 ENDS = "exit status: 0 done; 1 done, but a reference check of the camera's rays failed; 2 bad input; 130 interrupted."
 
@@ -41,6 +44,14 @@ def command_parser(prog: str, purpose: str, example: str, result: str, ends: str
         metavar="NAME",
         help="name of the camera in a calibration file that has several cameras",
     )
+    parser.add_argument(
+        "--model",
+        type=str.upper,
+        choices=READING,
+        help="model that the calibration file is for; needed for four coefficients of OpenCV without the model's name",
+    )
+    parser.add_argument("--resolution", type=picture_size, metavar="WxH", help="size of pictures; default: the file's")
+    parser.set_defaults(prog=prog)
     parser.add_argument("--enable-autoexec", action="store_true",
                         help="run the Python scripts and drivers of FILE.blend; default: they do not run")  # fmt: skip
     return parser
@@ -58,8 +69,11 @@ def add_frame(parser) -> None:
     )
 
 
-def open_scene(options):
-    """Open the file that the options name; return its scene, set to this engine and to the chosen camera."""
+def open_scene(options, say: Callable[[str], object] | None = None):
+    """Open the file that the options name; return its scene, set to this engine, resolution and the chosen camera.
+
+    ``say`` is called with lines of warning; by default they are printed.
+    """
     path = options.file
     if path is not None:
         open_file(path, options.enable_autoexec)
@@ -70,15 +84,28 @@ def open_scene(options):
     signals.raise_if_stopping()
     scene = bpy.context.scene
     scene.render.engine = CameraRayCaster.bl_idname
+    if options.resolution:
+        scene.render.resolution_x, scene.render.resolution_y = options.resolution
+        scene.render.resolution_percentage = 100
     if options.camera is not None:
         use_camera(scene, find_camera(scene, options.camera))
     if options.calibration is not None:
-        for camera in [eye_object(scene, view) for view in view_names(scene)]:
-            check_camera(scene, camera)
-            set_calibration(camera.data, str(options.calibration.absolute()), options.calibration_camera)
-    elif options.calibration_camera:
-        raise InputError("--calibration-camera needs a calibration file: add --calibration FILE")
+        _calibrate(scene, options, say or partial(warn, options.prog))
+    for option in ("calibration_camera", "model"):
+        if options.calibration is None and getattr(options, option):
+            raise InputError(f"--{option.replace('_', '-')} needs a calibration file: add --calibration FILE")
     return scene
+
+
+def _calibrate(scene, options, say: Callable[[str], object]) -> None:
+    """Set the calibration of the scene's camera, or of the cameras of its views."""
+    path, render = str(options.calibration.absolute()), scene.render
+    frame = tuple(side * render.resolution_percentage // 100 for side in (render.resolution_x, render.resolution_y))
+    for camera in [eye_object(scene, view) for view in view_names(scene)]:
+        check_camera(scene, camera)
+        said = set_calibration(camera.data, path, options.calibration_camera, frame, options.model or "")
+        if said.endswith(FRAMES_SIZE):
+            say(f"{FRAMES_SIZE}, {frame[0]} x {frame[1]} ({options.calibration})")
 
 
 def use_camera(scene, camera) -> None:

@@ -28,7 +28,7 @@ from . import ray_maps, signals
 from .jobs import Job, Outcome, RayMap
 from .options import go_to, open_scene, stem, use_camera, warn
 from .progress import Progress
-from .words import Parser, add_cameras, check_cameras, pass_names, picture_size, sample_count
+from .words import Parser, add_cameras, check_cameras, pass_names, sample_count
 
 CYCLES = "CYCLES"
 ENGINES = CameraRayCaster.bl_idname, CYCLES
@@ -38,7 +38,7 @@ DEFAULT_PASSES = ("combined", "depth", "normal", "position", "object_index")
 
 SETTINGS = (
     "passes", "shading", "precision", "engine", "samples", "resolution", "format", "half", "calibration_camera",
-    "enable_autoexec", "annotations", "keypoints",
+    "model", "enable_autoexec", "annotations", "keypoints",
 )  # fmt: skip
 """Options that pictures depend on, in addition to the file, camera and frame."""
 
@@ -46,7 +46,6 @@ SETTINGS = (
 def add_words(parser) -> None:
     """Add the options for the content and the folder of pictures."""
     add_cameras(parser)
-    parser.add_argument("--resolution", type=picture_size, metavar="WxH", help="default: the file's")
     parser.add_argument("--passes", type=pass_names, metavar="A,B,...", help=
         f"passes to write, out of {', '.join(PASSES)}; default: the passes enabled in the file, or "
         f"{', '.join(DEFAULT_PASSES)} if only combined is enabled")  # fmt: skip
@@ -94,8 +93,8 @@ class Pictures:
         if by_cycles:
             check_cycles()
         self.options = options
-        self.scene = scene = open_scene(options)
         self.warnings: list[str] = []
+        self.scene = scene = open_scene(options, self.warnings.append)
         if self.keypoints is not None:
             check_annotations(scene)
             check_key_points(scene, self.keypoints)
@@ -104,9 +103,6 @@ class Pictures:
             self.warnings += said_of_device(scene)
         # Blender keeps evaluated data for the next picture: 0.3 s less of 1.2 s for six subdivided monkeys
         scene.render.use_persistent_data = True
-        if options.resolution:
-            scene.render.resolution_x, scene.render.resolution_y = options.resolution
-            scene.render.resolution_percentage = 100
         self.passes = {layer.name: [entry.key for entry in ticked(scene, layer)] for layer in scene.view_layers}
         for layer, own in self.passes.items():
             if options.passes or own == ["combined"]:

@@ -6,10 +6,16 @@ from dataclasses import replace
 
 from ..cameras import MODELS
 from ..cameras.files import lenses_of
-from ..cameras.files.document import Lens
+from ..cameras.files.document import FRAME_SIZE, Lens
 from ..cameras.model import Model
 from ..cameras.parts.calibration import CENTER, FILE, FILE_CAMERA, FROM_FILE, SIZE
+from ..cameras.parts.settings import RECORD_FIELDS
 from ..records import BlenderCamera, InputError, Raster
+
+FRAMES_SIZE = "the file does not tell the size of its pictures: it is taken to be the frame's"
+
+MOST_NAMED = 12
+"""Number of cameras of a file that a message names."""
 
 
 def with_file(raw: BlenderCamera, model: type[Model], raster: Raster) -> BlenderCamera:
@@ -21,13 +27,14 @@ def with_file(raw: BlenderCamera, model: type[Model], raster: Raster) -> Blender
     path = FILE.read(raw) if FILE in model.SETTINGS else ""
     if not path:
         return raw
-    lens = chosen_lens(path, model.key, FILE_CAMERA.read(raw))
+    lens = chosen_lens(path, model.key, FILE_CAMERA.read(raw), raster.size)
     if lens.model != model.key:
-        label = next(other.label for other in MODELS if other.key == lens.model)
-        raise InputError(f"{path!r} is a calibration for {label}, not {model.label}: choose that model")
+        raise InputError(f"{path!r} is a calibration for {model_of(lens).label}, not {model.label}: choose that model")
     _check_shape(path, lens, raster)
-    given = {one.name: one.default for one in model.SETTINGS if one not in FROM_FILE}
-    return replace(raw, settings={**raw.settings, **given, **lens.settings})
+    given = {one.name: one.default for one in model.SETTINGS if one not in FROM_FILE and one.name not in RECORD_FIELDS}
+    fields = {name: value for name, value in lens.settings.items() if name in RECORD_FIELDS}
+    settings = {name: value for name, value in lens.settings.items() if name not in RECORD_FIELDS}
+    return replace(raw, **fields, settings={**raw.settings, **given, **settings})
 
 
 def _check_shape(path: str, lens: Lens, raster: Raster) -> None:
@@ -48,22 +55,33 @@ def _check_shape(path: str, lens: Lens, raster: Raster) -> None:
     sizes = f"{SIZE[0].name} and {SIZE[1].name} of calibration file {path!r} are {width:g} x {height:g}"
     raise InputError(
         f"{sizes}, and the frame is {raster.width} x {raster.height}, of another shape: set the resolution to that "
-        "size, or a multiple of it"
+        f"size (--resolution {width:g}x{height:g}), or a multiple of it"
     )
 
 
-def chosen_lens(path: str, key: str, name: str = "") -> Lens:
-    """Return the lens of this name in a calibration file, or its only lens. ``key`` is the model's key, for formats
-    that do not state a model. Raises InputError for a file that cannot be read, and for a missing or ambiguous choice;
-    its message names the lenses in the file.
+def has_size(lens: Lens) -> bool:
+    """Whether the lens does not depend on the frame, as that of a file without the size of its pictures does."""
+    return not FRAME_SIZE.items() <= lens.settings.items()
+
+
+def model_of(lens: Lens) -> type[Model]:
+    """Return the model of a lens."""
+    return next(model for model in MODELS if model.key == lens.model)
+
+
+def chosen_lens(path: str, key: str = "", name: str = "", frame: tuple[int, int] | None = None) -> Lens:
+    """Return the lens of this name in a calibration file, or its only lens; see ``lenses_of`` for ``key`` and
+    ``frame``. Raises InputError for a file that cannot be read, and for a missing or ambiguous choice; its message
+    names the lenses in the file.
     """
-    lenses = lenses_of(path, key)
+    lenses = lenses_of(path, key, frame)
     chosen = [lens for lens in lenses if name in ("", lens.name)]
     if len(chosen) != 1:
         names = [repr(lens.name)[1:-1] for lens in lenses]  # what is not printable is escaped
         if not names or len(set(names)) < len(names):
             said = "two cameras of one name: give each its own" if names else "no camera: choose another file"
             raise InputError(f"calibration file {path!r} has {said}")
+        names = names if len(names) <= MOST_NAMED else [*names[:MOST_NAMED], f"{len(names) - MOST_NAMED} more"]
         said = f"no camera {name!r}" if name and not chosen else f"{len(chosen)} cameras"
         setting = f"{FILE_CAMERA.label} (--calibration-camera)"
         remedy = f"set {setting} to one of {', '.join(names)}" if names != [""] else f"leave {setting} empty"

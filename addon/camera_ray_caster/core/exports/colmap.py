@@ -11,14 +11,13 @@ from math import pi
 
 import numpy as np
 
-from ..cameras.files.colmap import MODELS
+from ..cameras.files.colmap import MODELS, SPHERE
 from ..cameras.files.document import Lens, matrix_of
 from ..conventions import EPS32
 from ..maths.rotations import quaternion
 from . import lenses
 from .format import Shot
 
-SPHERE = "EQUIRECTANGULAR"
 TABLE = {
     kind: (key, tuple(name for name in names.split() if name not in lenses.MATRIX))
     for kind, (key, names) in MODELS.items()

@@ -8,12 +8,12 @@ Reference: mrcal documentation, Lens models; The .cameramodel file format.
 from __future__ import annotations
 
 from ..cameras.files.document import Lens, matrix_of
-from ..cameras.files.mrcal import MODELS, STEREOGRAPHIC
+from ..cameras.files.mrcal import LONLAT, MODELS, STEREOGRAPHIC
 from ..maths.rotations import half_turn_vector
 from . import lenses
 
 TABLE = {kind: one for kind, one in MODELS.items() if kind != STEREOGRAPHIC} | {
-    "LENSMODEL_LONLAT": ("EQUIRECTANGULAR", ()),
+    LONLAT: ("EQUIRECTANGULAR", ()),
     STEREOGRAPHIC: ("UCM", ("unified_xi",)),
 }
 

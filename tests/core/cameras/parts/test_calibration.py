@@ -94,8 +94,8 @@ def test_the_text_that_the_refusals_start_from_is_good(tmp_path):
 @pytest.mark.parametrize(
     ("change", "says"),
     [
-        (("K:", "Q:"), "has no cameramatrix .*k, m1"),
-        (("D:", "Q:"), "has no distortioncoefficients"),
+        (("K:", "Q:"), "has no cameramatrix .*k, m, intrinsicmatrix"),
+        (("D:", "my_dist:"), "my_dist may be its distortion: name it distortion_coefficients"),
         (("image_width: 640", ""), "has no imagewidth"),
         (("image_width: 640", "image_width: 0"), "image size is 0 x 480: .* whole numbers above 0"),
         (("image_height: 480", "image_height: tall"), "image_height .* 'tall': it must be of finite numbers"),

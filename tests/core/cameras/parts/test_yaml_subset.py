@@ -1,12 +1,17 @@
 """YAML as calibration tools write it: OpenCV's, Kalibr's, ROS's; and texts that would take a careless reader hours."""
 
+import gzip
 import os
 
 import pytest
+import yaml
 
-from camera_ray_caster.core.cameras.parts.filestorage import LARGEST, entries_of, text_of
+from camera_ray_caster.core.cameras.parts import filestorage
+from camera_ray_caster.core.cameras.parts.filestorage import entries_of, text_of
 from camera_ray_caster.core.cameras.parts.yaml_subset import DEEPEST, YamlError, parse
 from camera_ray_caster.core.records import InputError
+
+MEGABYTE = 1 << 20
 
 KALIBR = """cam0:
   cam_overlaps: [1]
@@ -85,7 +90,7 @@ def test_tags_directives_and_values_that_are_missing():
         ("a: " + "[" * (DEEPEST + 1), "nested deeper"),
         ("".join(f"{' ' * k}a:\n" for k in range(DEEPEST + 1)), "nested deeper"),
         ("a:\n" + "- " * (DEEPEST + 1), "nested deeper"),
-        ("- 1", "line 1 has an indentation"),
+        ("a: 1\n- 1", "line 2 has an indentation"),
     ],
 )
 def test_what_is_not_read_is_refused_with_its_line(text, says):
@@ -104,7 +109,7 @@ def test_what_is_not_read_is_refused_with_its_line(text, says):
 def test_no_text_takes_more_than_linear_time(tmp_path, piece, begin):
     """A megabyte of each: what takes the square of it would not end today."""
     path = tmp_path / "lens.yml"
-    path.write_text((begin + piece * LARGEST)[:LARGEST])
+    path.write_text((begin + piece * MEGABYTE)[:MEGABYTE])
     said = ""
     try:
         entries_of(text_of(str(path)), "lens")
@@ -134,7 +139,6 @@ def test_a_path_that_no_report_can_name_is_refused(tmp_path):
     [
         (b'{"K": ' + b"9" * 5000 + b"}", None),
         (b'{"K": ' + b"[" * 100_000 + b"}", "nested too deeply"),
-        (b"a: 1\n" * LARGEST, "larger than 1 MB"),
         (b"\xff\xfe\x00", "not a text file"),
         (b"", "is empty"),
         (b"{}", "is empty"),
@@ -148,6 +152,37 @@ def test_files_that_break_careless_readers(tmp_path, text, says):
     else:
         with pytest.raises(InputError, match=says):
             entries_of(text_of(str(path)), "lens")
+
+
+@pytest.mark.parametrize("packed", [False, True])
+def test_a_file_that_takes_too_much_memory_is_refused_before_it_is_read(tmp_path, monkeypatch, packed):
+    monkeypatch.setattr(filestorage, "LARGEST", 2 * MEGABYTE)
+    path = tmp_path / "lens.json"
+    with (gzip.open if packed else open)(path, "wb") as file:
+        file.write(bytes(2 * MEGABYTE + 1))
+    with pytest.raises(InputError, match="larger than 2 MB"):
+        text_of(str(path))
+
+
+def test_reading_ends_when_its_time_is_over(monkeypatch):
+    monkeypatch.setattr(filestorage, "LONGEST", 0.0)
+    for text in ("a: 1\nb: 2\n", "<opencv_storage><a>1</a></opencv_storage>", "a: [1, 2]"):
+        with pytest.raises(InputError, match="'lens' takes longer than 0 s to read: is it a calibration"):
+            entries_of(text, "lens")
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "a:\n  [1, 2,\n   3]\nb:\n    {c: 1, d: [2]}\n", "a:\n  word\nb:\n - c:\n     [1]\n - 2\n",
+        "- a: 1\n- [2, 3]\n- x\n",
+        "0:\n  cam_K: [1.5, 0.0]\n'a b': 1\n\"c\": 2\nd e: 3\n", "a: 'it # is'\nb: x#y # z\nc: \"#\"\n",
+        "cameras:\n     - {T_SC:\n        [1, 0,\n         1],\n        size: [752, 480], kind: x}\n     - {T: [2]}\n",
+        *(KALIBR, ROS),
+    ],
+)  # fmt: skip
+def test_the_subset_is_read_as_pyyaml_reads_it(text):
+    assert parse(text) == yaml.load(text, yaml.BaseLoader)
 
 
 def test_what_is_no_file_is_not_waited_for():

@@ -6,7 +6,7 @@ Reference: Project Aria documentation, Camera Intrinsic Models for Project Aria 
 
 from __future__ import annotations
 
-from .document import Document, Lens, mapping, matrix, one_of_several
+from .document import FRAME_SIZE, Document, Lens, mapping, matrix, one_of_several
 
 MODELS = {
     "FisheyeRadTanThinPrism": (
@@ -16,10 +16,6 @@ MODELS = {
     "Linear": ("OPENCV_PINHOLE", (), 2),
 }  # fmt: skip
 """Our model, the settings that follow the center, and the number of focal lengths before it."""
-
-
-FRAME_SIZE = {"calibration_width": 0, "calibration_height": 0}
-"""The settings of a calibrated picture that is as large as the frame."""
 
 
 def read(document: Document, key: str) -> list[Lens] | None:

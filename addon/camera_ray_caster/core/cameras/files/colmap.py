@@ -33,19 +33,31 @@ MODELS = {
 }
 """Our model, and its settings in the order of COLMAP's parameters; f stands for both focal lengths."""
 
+SPHERE = "EQUIRECTANGULAR"
+"""The whole sphere, whose parameters are width and height again; our model has the same name."""
+
 
 def read(document: Document, key: str) -> list[Lens] | None:
     """Return the lenses of a document; see the package."""
     lines = [line.split() for line in document.text.splitlines() if line.strip() and not line.lstrip().startswith("#")]
     if not lines or not LINE.match(" ".join(lines[0][:5])):
         return None
-    return [one_of_several(line[0], _lens, document, line) for line in lines]
+    return [one_of_several(line[0], lens, document, line) for line in lines]
 
 
-def _lens(document: Document, words: list[str]) -> Lens:
+def count(kind: str) -> int:
+    """Return the number of parameters of one of COLMAP's models, its width and height in EQUIRECTANGULAR's case."""
+    return 2 if kind == SPHERE else len(MODELS[kind][1].split())
+
+
+def lens(document: Document, words: list[str]) -> Lens:
+    """Return the lens of the words of a line of cameras.txt. Raises InputError."""
     name, kind, *numbers = words if len(words) > 3 else [*words, "", "", ""]
+    if kind == SPHERE:
+        return Lens(name, SPHERE, document.size(*document.numbers(numbers, f"camera {name}", 4)[:2]))
     if kind not in MODELS:
-        raise document.refusal(f"camera {name} is of the model {kind!r}: it must be one of {', '.join(MODELS)}")
+        known = ", ".join((*MODELS, SPHERE))
+        raise document.refusal(f"camera {name} is of the model {kind!r}: it must be one of {known}")
     model, names = MODELS[kind]
     order = names.split()
     width, height, *values = document.numbers(numbers, f"camera {name}", len(order) + 2)

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Collection
+from copy import copy
 from functools import cached_property
 from reprlib import repr as shortened
 from typing import Any, NamedTuple
 
 from ...records import InputError
 from ..parts.calibration import LARGEST
-from ..parts.filestorage import entries_of, text_of
+from ..parts.filestorage import content_of, deadline, decoded, entries_of
 
 NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?", re.ASCII)
 """How files write a finite number."""
@@ -26,16 +27,35 @@ class Lens(NamedTuple):
     """Why the lens cannot be read; it has only a name then."""
 
 
-class Document:
-    """A calibration file. Raises InputError if it cannot be read."""
+FRAME_SIZE = {"calibration_width": 0.0, "calibration_height": 0.0}
+"""The settings of a calibrated picture that is as large as the frame."""
 
-    def __init__(self, path: str):
-        self.path, self.text = path, text_of(path)
+
+class Document:
+    """A calibration file. Raises InputError if it cannot be read.
+
+    ``frame``: width and height of the camera's frame, for files that do not tell the size of their pictures, and whose
+    lens depends on it; None if it does not matter.
+    """
+
+    def __init__(self, path: str, frame: tuple[int, int] | None = None):
+        self.path, self.frame, self.data, self.check = path, frame, content_of(path), deadline(path)
+
+    @cached_property
+    def text(self) -> str:
+        """Return the text of the file. Raises InputError if it is binary."""
+        return decoded(self.data, self.path)
 
     @cached_property
     def entries(self) -> dict:
-        """Return the entries of a JSON or YAML file. Raises InputError for any other file."""
-        return entries_of(self.text, self.path)
+        """Return the entries of a JSON, YAML or XML file. Raises InputError for any other file."""
+        return entries_of(self.text, self.path, self.check)
+
+    def part(self, entries: dict) -> Document:
+        """Return a document of these entries alone, with the path of this one."""
+        part = copy(self)
+        part.text, part.data, part.entries = "", b"", entries
+        return part
 
     def refusal(self, reason: str) -> InputError:
         """Return the error with this reason and the file's path."""
@@ -59,8 +79,15 @@ class Document:
             raise self.refusal(f"{name} is {shortened(value)}: it must be one of {', '.join(known)}")
         return value
 
-    def size(self, width: float, height: float) -> dict[str, Any]:
-        """Return the settings of a calibrated picture's size. Raises InputError unless both sides are whole pixels."""
+    def size(self, width: float | None, height: float | None) -> dict[str, Any]:
+        """Return the settings of a calibrated picture's size; without one, that of the frame.
+
+        Raises InputError unless both sides are whole pixels.
+        """
+        if width is None and height is None:
+            return FRAME_SIZE
+        if width is None or height is None:
+            raise self.refusal(f"it has {'a height and no width' if width is None else 'a width and no height'}")
         if min(width, height) < 1 or width % 1 or height % 1:
             raise self.refusal(f"its image size is {width:g} x {height:g}: it must be of whole numbers above 0")
         return {"calibration_width": width, "calibration_height": height}
@@ -74,8 +101,9 @@ class Document:
 
 def one_of_several(name: str, read: Callable[..., Lens], *given) -> Lens:
     """Return the lens that ``read`` returns for what is given, or a lens with the reason why it cannot be read: the
-    other lenses of its file may be chosen.
+    other lenses of its file may be chosen. The first thing given is the document.
     """
+    given[0].check()
     try:
         return read(*given)
     except InputError as refusal:

@@ -2,12 +2,15 @@
 
 The center of the first pixel is (0.5, 0.5). k3 and k4 are the coefficients of r^6 and r^8; OpenCV's pinhole has no r^8.
 Entries of the whole file count before those of a frame; if it has one coefficient, those of frames do not count at all.
+Without w and h the pictures are as large as the frame, as in the files of NeRF, which have camera_angle_x alone.
+EQUIRECTANGULAR is the whole sphere; an ORTHOPHOTO's rays are parallel.
 Reference: nerfstudio documentation, Data conventions; its reader, nerfstudio_dataparser.py.
 """
 
 from __future__ import annotations
 
 from math import pi, tan
+from typing import Any
 
 from .document import Document, Lens, matrix
 
@@ -15,12 +18,19 @@ MODELS = {
     "OPENCV": ("OPENCV_PINHOLE", ("k1", "k2", "k3", "p1", "p2")),
     "OPENCV_FISHEYE": ("OPENCV_FISHEYE", ("k1", "k2", "k3", "k4")),
 }
-MODELS |= {"PINHOLE": MODELS["OPENCV"], "SIMPLE_PINHOLE": MODELS["OPENCV"]}
+MODELS |= {"PINHOLE": MODELS["OPENCV"], "SIMPLE_PINHOLE": MODELS["OPENCV"], "PERSPECTIVE": MODELS["OPENCV"]}
+MODELS |= {"FISHEYE": MODELS["OPENCV_FISHEYE"]}
 """Our model, and its coefficients. Those of a pinhole count, too: nerfstudio distorts by them whatever the model is
 called.
 """
 COEFFICIENTS, LIST = ("k1", "k2", "k3", "k4", "p1", "p2"), "distortion_params"
 """All coefficients, in the order of the list that may stand in their place."""
+FISHEYE624, SPHERE, PARALLEL = "FISHEYE624", "EQUIRECTANGULAR", "ORTHOPHOTO"
+OF_ARIA = "k1", "k2", "k3", "k4", "k5", "k6", "p2", "p1", "s1", "s2", "s3", "s4"
+"""The list of a FISHEYE624."""
+SIZES, FOCAL, CENTER = ("w", "h"), ("fl_x", "fl_y", "camera_angle_x", "camera_angle_y"), ("cx", "cy")
+OF_LENS = (*SIZES, *FOCAL, *CENTER, *COEFFICIENTS, LIST, "camera_model", "is_fisheye")
+"""All entries of which a lens is made."""
 
 
 def read(document: Document, key: str) -> list[Lens] | None:
@@ -34,10 +44,14 @@ def read(document: Document, key: str) -> list[Lens] | None:
     for name in ("latlong", "equirectangular", "orthographic"):
         if entries.get(name):
             raise document.refusal(f"its entry {name} of instant-ngp is not read: choose that model for the camera")
-    shared = not {"fl_x", "camera_angle_x"}.isdisjoint(entries)
+    shared = not {"fl_x", "camera_angle_x"}.isdisjoint(entries) or entries.get("camera_model") == SPHERE
+    firsts: dict[str, tuple[str, dict]] = {}
+    for number, frame in enumerate(frames):  # a file may have 100,000 frames
+        firsts.setdefault(repr([frame.get(one) for one in OF_LENS]), (str(frame.get("file_path", number)), frame))
     lenses: dict[str, Lens] = {}
-    for number, frame in enumerate(frames):
-        lens = _lens(document, frame, str(frame.get("file_path", number)))
+    for name, frame in firsts.values():
+        lens = _lens(document, frame, name)
+        document.check()
         lenses.setdefault(str(lens[1:]), lens)
     if not frames and not shared:
         raise document.refusal("it has no fl_x, and no frames")
@@ -60,16 +74,39 @@ def _focal(document: Document, entries: dict, axis: str, side: float) -> float:
 def _lens(document: Document, frame: dict, name: str) -> Lens:
     entries = frame | document.entries
     kind = entries.get("camera_model", "OPENCV_FISHEYE" if entries.get("is_fisheye") else "OPENCV")
-    model, terms = MODELS[document.one_of(kind, "camera_model", MODELS)]
-    width, height = (document.number(entries, side) for side in ("w", "h"))
+    document.one_of(kind, "camera_model", (*MODELS, FISHEYE624, SPHERE, PARALLEL))
+    given = [document.number(entries, side) if side in entries else None for side in SIZES]
+    size = document.size(*given)
+    if kind == SPHERE:
+        return Lens(name, SPHERE, size)
+    width, height = (side or own for side, own in zip(given, document.frame or (1, 1), strict=True))
     focal = _focal(document, entries, "x", width)
     focal_y = _focal(document, entries, "y", height) if {"fl_y", "camera_angle_y"} & set(entries) else focal
     cx, cy = (document.number(entries, one, side / 2) for one, side in (("cx", width), ("cy", height)))
+    if kind == PARALLEL:
+        return Lens(name, "ORTHO", size | _orthographic(document, (focal, focal_y), (cx, cy), (width, height)))
+    size |= matrix(focal, focal_y, cx, cy, 0.5)
+    if kind == FISHEYE624:
+        owner = document.entries if LIST in document.entries else frame
+        numbers = document.numbers(owner.get(LIST), LIST, len(OF_ARIA))
+        return Lens(name, FISHEYE624, size | dict(zip(OF_ARIA, numbers, strict=True)))
+    model, terms = MODELS[kind]
     rest = _coefficients(document, frame)
     for term in COEFFICIENTS:
         if term not in terms and rest.pop(term):
             raise document.refusal(f"{term} is not 0, but OpenCV's {model[7:].lower()} has no such coefficient")
-    return Lens(name, model, document.size(width, height) | matrix(focal, focal_y, cx, cy, 0.5) | rest)
+    return Lens(name, model, size | rest)
+
+
+def _orthographic(document: Document, focal, center, size) -> dict[str, Any]:
+    """Return the settings of parallel rays, fl_x and fl_y of which pass through a unit of length."""
+    if focal[0] != focal[1] or focal[0] <= 0:
+        raise document.refusal(f"fl_x and fl_y of an {PARALLEL} are {focal[0]:g} and {focal[1]:g}: they must be equal")
+    longer = max(size)
+    return {
+        "ortho_scale": longer / focal[0], "sensor_fit": "AUTO",
+        "shift_x": (size[0] / 2 - center[0]) / longer, "shift_y": (center[1] - size[1] / 2) / longer,
+    }  # fmt: skip
 
 
 def _coefficients(document: Document, frame: dict) -> dict[str, float]:

@@ -58,7 +58,10 @@ SIZE = (
         "calibration_height", "Height", "Of the calibrated picture, pixels; 0 is the frame's", 1080, 0, unit="pixels"
     ),
 )
-FILE_WRITERS = "OpenCV, ROS, COLMAP, nerfstudio, Kalibr, mrcal, Project Aria, NVIDIA (f-theta) or OCamCalib"
+FILE_WRITERS = (
+    "OpenCV, ROS, COLMAP, nerfstudio, Kalibr, EuRoC, OKVIS, VINS, ORB-SLAM, Basalt, BOP, RealSense, mrcal, Project "
+    "Aria, NVIDIA (f-theta), OCamCalib or this add-on"
+)
 FILE = FilePath(
     "calibration_file", "Calibration", f"Calibration file of {FILE_WRITERS}. If empty, the numbers below are used", ""
 )

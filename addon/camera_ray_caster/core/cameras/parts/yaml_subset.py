@@ -1,20 +1,24 @@
 """Reads the YAML that calibration tools write, in one pass over the lines: without a library and in linear time.
 
 The subset: block mappings and block sequences by indentation; flow sequences and mappings, ``[ ... ]`` and ``{ ... }``,
-also over several lines; plain and quoted scalars; comments; tags, which are ignored, as are directives and document
-marks. Anchors, block scalars, several documents and keys that are not plain words are refused.
+also over several lines, and in the line below their key; plain and quoted scalars, each in one line; comments; tags,
+which are ignored, as are directives and document marks. Anchors, block scalars, several documents and keys that are
+neither quoted nor plain words are refused. A sequence in place of the outermost mapping is read, too.
 Reference: YAML 1.2.2, chapters 6 to 9; OpenCV documentation, File Input and Output using XML / YAML / JSON files.
 """
 
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 from dataclasses import dataclass
 
 DEEPEST = 32
 """Levels of nesting that are read: calibrations have three."""
 
-KEY = re.compile(r"[A-Za-z_][\w.-]*(?=[ \t]*:(?:[ \t]|$))")
+COLON = re.compile(r":(?=[ \t]|$)")
+KEY = re.compile(r"""[A-Za-z0-9_/.][\w./+ -]*|"[^"]*"|'[^']*'""")
+COMMENT = re.compile(r"""(?:^|(?<=[ \t]))#|(?:^|(?<=[ \t[{,:]))(?:"[^"]*"?|'[^']*'?)""")
 TOKEN = re.compile(r"""[\[\]{},]|"(?:\\.|[^"\\])*"?|'[^']*'?|[^\[\]{},"'\s][^\[\]{},"']*""")
 TAG = re.compile(r"!\S*[ \t]*")
 
@@ -34,14 +38,18 @@ class _Level:
     node: list | dict
 
 
-def parse(text: str) -> dict[str, Value]:
-    """Return the mapping that a text holds. Raises YamlError."""
-    root: dict[str, Value] = {}
+def parse(text: str, check: Callable[[], None] = lambda: None) -> dict[str, Value] | list[Value]:
+    """Return the mapping or the sequence that a text holds; ``check`` is called now and then, and may raise.
+
+    Raises YamlError.
+    """
+    root: dict[str, Value] | list[Value] = {}
     levels = [_Level(0, root)]
     waiting: tuple[dict | list, str | int, int] | None = None  # an entry whose value may follow, and its column
     lines = text.splitlines()
     at, ended = 0, False
     while at < len(lines):
+        check()
         number, line = at + 1, _without_comment(lines[at])
         at += 1
         content = line.strip()
@@ -53,6 +61,16 @@ def parse(text: str) -> dict[str, Value]:
         if ended:
             raise YamlError(f"line {number} begins a second document")
         column, is_item = len(line) - len(line.lstrip()), content == "-" or content.startswith("- ")
+        if is_item and not root and isinstance(root, dict):
+            root = []
+            levels = [_Level(column, root)]
+        if waiting is not None and column > waiting[2] and not is_item and (content[0] in "[{" or not _key(content)):
+            value: Value = _scalar(content)  # in the line below its key
+            if content[0] in "[{":
+                value, at = _flow(lines, at, content, number, check)
+            waiting[0][waiting[1]] = value  # type: ignore[index]
+            waiting = None
+            continue
         if waiting is not None:
             owner, name, above = waiting
             if column > above or (is_item and column == above and isinstance(owner, dict)):
@@ -76,7 +94,7 @@ def parse(text: str) -> dict[str, Value]:
                 _open(levels, inner, node, number)
                 entry, behind = (node, 0, inner), rest[1:].lstrip()
                 inner, rest = inner + len(rest) - len(behind), behind
-            if KEY.match(rest):  # a mapping that begins behind the dash
+            if _key(rest):  # a mapping that begins behind the dash
                 entry[0][entry[1]] = node = {}  # type: ignore[index]
                 _open(levels, inner, node, number)
                 entry, rest = _entry(node, rest, inner, number)
@@ -84,7 +102,7 @@ def parse(text: str) -> dict[str, Value]:
             entry, rest = _entry(level.node, content, column, number)
         rest = TAG.sub("", rest, count=1) if rest.startswith("!") else rest
         if rest[:1] in ("[", "{"):
-            value, at = _flow(lines, at, rest, number)
+            value, at = _flow(lines, at, rest, number, check)
             entry[0][entry[1]] = value  # type: ignore[index]
         elif rest[:1] in ("|", ">", "&", "*"):
             raise YamlError(f"line {number} has a value that is not read: {rest[:20]!r}")
@@ -104,36 +122,43 @@ def _open(levels: list[_Level], column: int, node: list | dict, number: int) -> 
 
 def _entry(node: dict, content: str, column: int, number: int):
     """Return where the value of a line's entry goes, and the text behind its colon."""
-    key = KEY.match(content)
-    if key is None:
+    found = _key(content)
+    if found is None:
         raise YamlError(f"line {number} is not an entry of the form name: value")
-    if key[0] in node:
-        raise YamlError(f"line {number} repeats {key[0]!r}")
-    node[key[0]] = ""
-    return (node, key[0], column), content[key.end() :].lstrip()[1:].strip()
+    key, rest = found
+    if key in node:
+        raise YamlError(f"line {number} repeats {key!r}")
+    node[key] = ""
+    return (node, key, column), rest
+
+
+def _key(content: str) -> tuple[str, str] | None:
+    """Return the key of an entry and the text behind its colon; None of a text that is no entry."""
+    quoted = content[:1] in ("'", '"')
+    colon = COLON.search(content, content.find(content[0], 1) + 1 if quoted else 0)
+    key = "" if colon is None else content[: colon.start()].rstrip()
+    if colon is None or not KEY.fullmatch(key):
+        return None
+    return _scalar(key), content[colon.end() :].strip()
 
 
 def _without_comment(line: str) -> str:
     """Return a line up to its comment: a # at its begin or behind a space, outside of quotes."""
-    quote = ""
-    for i, letter in enumerate(line):
-        if quote:
-            quote = "" if letter == quote else quote
-        elif letter in "\"'" and (i == 0 or line[i - 1] in " \t[{,:"):
-            quote = letter
-        elif letter == "#" and (i == 0 or line[i - 1] in " \t"):
-            return line[:i]
-    return line
+    if "#" not in line:
+        return line
+    return next((line[: found.start()] for found in COMMENT.finditer(line) if found[0] == "#"), line)
 
 
-def _flow(lines: list[str], at: int, first: str, number: int) -> tuple[Value, int]:
+def _flow(lines: list[str], at: int, first: str, number: int, check: Callable[[], None]) -> tuple[Value, int]:
     """Return the sequence or mapping that begins in a line, and the line behind it."""
     nodes: list[list | dict] = []
     name: str | None = None
     closed: Value | None = None
     text, before = first, "["
     while True:
-        for token in TOKEN.findall(text):
+        for match in TOKEN.finditer(text):
+            check()
+            token = match[0]
             if closed is not None:
                 raise YamlError(f"line {at} has text after a closing bracket: {token.strip()[:20]!r}")
             if token == "," and before in "[{,":
