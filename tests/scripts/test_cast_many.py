@@ -189,7 +189,7 @@ def test_a_witness_that_disagreed_still_does(command, scene, tmp_path):
 
 def test_what_a_kill_has_left_is_cleared_up_where_all_is_finished(command, scene, tmp_path):
     command("cast", scene, "--output", tmp_path / "out")
-    (tmp_path / "out" / ".writing_x").mkdir()
+    (tmp_path / "out" / f".writing_{'0' * 16}").mkdir()
     assert command("cast", scene, "--skip-existing", "--output", tmp_path / "out").returncode == 0
     assert left(tmp_path / "out") == ["report.json", "small.exr", "small.png"]
 

@@ -84,6 +84,41 @@ def test_the_folder_of_another_data_set_is_refused(command, blender, scene, out,
     assert {path.name: path.stat().st_mtime_ns for path in out.iterdir()} == before
 
 
+LENS = "width: 32\nheight: 24\nK: [{0}, 0, 16, 0, {0}, 12, 0, 0, 1]\nD: []\n"
+
+
+def test_a_calibration_file_that_the_file_names_is_part_of_the_set(command, blender, scene, out):
+    """A changed lens made frames of both lenses, with status 0."""
+    lens = scene.with_name("lens.yml")
+    lens.write_text(LENS.format(30))
+    own = blender.data.objects["Top"].data.camera_ray_caster
+    own.model, own.calibration_file = "OPENCV_PINHOLE", "//lens.yml"
+    blender.ops.wm.save_as_mainfile(filepath=str(scene))
+    assert command("dataset", scene, *WORDS, "--output", out).returncode == 0
+    assert command("dataset", scene, *WORDS, "--output", out).stdout.startswith("Wrote 0 of 4")
+    lens.write_text(LENS.format(31))
+    assert "a data set that differs in uses:" in refused(command("dataset", scene, *WORDS, "--output", out))
+
+
+def test_of_two_sets_that_begin_at_once_one_has_the_folder(out, monkeypatch):
+    """The other one comes between the moment at which the first sees no set there and that at which it writes."""
+    from camera_ray_caster.blender.terminal import dataset
+    from camera_ray_caster.core.records import InputError
+
+    stamps = [{"settings": {"passes": name}} for name in ("depth", "normal")]
+    begun = dataset.json.dumps
+
+    def between(*words, **options):
+        monkeypatch.undo()
+        dataset._claim(out, stamps[1])
+        return begun(*words, **options)
+
+    monkeypatch.setattr(dataset.json, "dumps", between)
+    with pytest.raises(InputError, match="a data set that differs in passes:"):
+        dataset._claim(out, stamps[0])
+    assert json.loads((out / "dataset.json").read_text()) == stamps[1]
+
+
 def test_no_space_leaves_whole_frames(command, scene, out, monkeypatch):
     from camera_ray_caster.blender.output import arrays
 

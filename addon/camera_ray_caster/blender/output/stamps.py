@@ -7,7 +7,9 @@ from __future__ import annotations
 
 import hashlib
 import json
+import os
 from collections.abc import Iterable, Mapping
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -15,24 +17,28 @@ import bpy
 
 from ...core.records import InputError
 from ...core.version import VERSION
+from ..read.camera import calibration_files
 
 
 def stamp_of(settings: Mapping[str, Any]) -> dict[str, Any]:
     """Return the stamp of the open file, cast with some settings, as values that JSON can hold.
 
     It holds the file's SHA-256, and a SHA-256 of the names, sizes and times of change of the other files that it uses
-    (libraries, images, caches).
+    (libraries, images, caches), and of the content of its cameras' calibration files.
     """
     path = Path(bpy.data.filepath)
-    others = sorted(set(map(Path, bpy.utils.blend_paths(absolute=True, packed=False))))
-    states = [(other.name, other.stat()) for other in others if other.is_file()]
-    seen = json.dumps([(name, state.st_size, state.st_mtime_ns) for name, state in states])
+    others = sorted(filter(os.path.isfile, set(bpy.utils.blend_paths(absolute=True, packed=False))))
+    states = [(os.path.basename(other), os.stat(other)) for other in others]
+    used: list[tuple] = [(name, state.st_size, state.st_mtime_ns) for name, state in states]
+    for calibration in filter(os.path.isfile, calibration_files()):
+        with suppress(InputError):  # it cannot be read: its camera is refused where it is cast
+            used.append((os.path.basename(calibration), file_hash(Path(calibration))))
     return {
         "version": VERSION,
         "blender": bpy.app.version_string,
         "file": path.name,
         "sha256": file_hash(path) if path.is_file() else None,
-        "uses": hashlib.sha256(seen.encode()).hexdigest() if states else None,
+        "uses": hashlib.sha256(json.dumps(used).encode()).hexdigest() if used else None,
         "settings": json.loads(json.dumps(dict(settings))),  # as they are read back: lists instead of tuples
     }
 

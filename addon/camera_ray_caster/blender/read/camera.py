@@ -1,6 +1,7 @@
 """A camera and its render settings, copied from Blender under Blender's own names."""
 
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import replace
 
 import bpy
@@ -10,6 +11,7 @@ from ...core.arguments import shown
 from ...core.camera import pixel_time
 from ...core.camera.stereo import camera_name
 from ...core.cameras import find_model
+from ...core.cameras.parts.calibration import FILE
 from ...core.cameras.parts.settings import OWN, RECORD_FIELDS, Setting
 from ...core.records import BlenderCamera, InputError
 from ...core.shaders.camera_shader import Mark, read_mark
@@ -104,6 +106,15 @@ KINDS = {
     "IMAGE": lambda setting, value, data, depsgraph: _gray(value),
 }
 """Conversions of a setting's value from Blender to a record, by kind of setting; other kinds need no conversion."""
+
+
+def calibration_files() -> list[str]:
+    """Return the sorted paths of the calibration files that cameras in the open file name."""
+    paths = set()
+    for data in bpy.data.cameras:
+        with suppress(InputError):  # a name that is no text: the camera is refused where it is cast
+            paths.add(bpy.path.abspath(own_value(data, FILE), library=data.library))
+    return sorted(paths)
 
 
 def copied(source, names) -> dict[str, object]:

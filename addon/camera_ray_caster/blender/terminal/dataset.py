@@ -11,13 +11,14 @@ from __future__ import annotations
 import json
 from argparse import Namespace
 from collections.abc import Sequence
+from contextlib import suppress
 from itertools import chain
 from pathlib import Path
 from typing import Any
 
 import bpy
 
-from ...core.file_set import atomic_folder, clear_up
+from ...core.file_set import Taken, atomic_folder, clear_up
 from ...core.records import InputError
 from ...core.report.notes import sentences
 from ..output import files
@@ -107,14 +108,11 @@ def _complete(options: Namespace, pictures: Pictures) -> None:
 
 def _claim(folder: Path, stamp: dict[str, Any]) -> None:
     """Mark a folder as that of a data set. Raises InputError if it belongs to another data set."""
-    clear_up(folder)
+    with suppress(Taken), atomic_folder(folder, replacing=False) as new:
+        (new / NAME).write_text(json.dumps(stamp, indent=2) + "\n", encoding="utf-8")
     path = folder / NAME
     try:
         others = differing(stamp, json.loads(path.read_text(encoding="utf-8")))
-    except FileNotFoundError:
-        with atomic_folder(folder) as new:
-            (new / NAME).write_text(json.dumps(stamp, indent=2) + "\n", encoding="utf-8")
-        return
     except (OSError, ValueError, KeyError, TypeError) as error:
         raise InputError(
             f"{str(path)!r} is not the file of a data set made by this version: choose another folder"
