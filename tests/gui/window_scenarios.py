@@ -30,4 +30,40 @@ def shown_camera(user, scenes):
     area.ui_type = "VIEW_3D"
 
 
-WINDOW_SCENARIOS = (shown_camera,)
+def set_frame(user, scenes):
+    """A button sets the frame of a fisheye; the load dialog shows both sizes, and sets the frame of a file."""
+    yield from load(user, scenes, "toys")
+    camera, render = bpy.context.scene.camera.data, bpy.context.scene.render
+    camera.type, camera.panorama_type = "PANO", "FISHEYE_EQUIDISTANT"
+    render.resolution_x, render.resolution_y = 1920, 1080
+    yield from user.wait(0.7)
+    user.picture("set_frame")
+    yield from user.press(f"{BUTTON}set_frame(")
+    yield from user.until(lambda: render.resolution_x == 1080, "the frame is square")
+    path = user.folder / "cameras.txt"
+    path.write_text("1 PINHOLE 1241 376 700 700 620 188\n")
+    yield from user.press(f"{BUTTON}load_calibration(")
+    browser = yield from dialog(user)
+    browser.spaces.active.params.directory = str(user.folder).encode()
+    browser.spaces.active.params.filename = path.name
+    yield from user.wait(1)
+    user.picture("load_dialog")
+    yield from user.point(browser.x + browser.width // 2, browser.y + browser.height // 2)
+    yield from user.key("Return")
+    yield from user.until(lambda: camera.camera_ray_caster.model == "OPENCV_PINHOLE", "the calibration is loaded")
+    assert (render.resolution_x, render.resolution_y) == (1241, 376)
+    yield from user.wait(0.5)
+    user.picture("loaded")
+
+
+def dialog(user):
+    """Wait for the file dialog, and return its area."""
+    def areas():
+        return [area for area in user.window.screen.areas if area.type == "FILE_BROWSER"]
+
+    yield from user.until(lambda: areas() and areas()[0].spaces.active.params, "the file dialog is open")
+    yield from user.wait(0.7)
+    return areas()[0]
+
+
+WINDOW_SCENARIOS = (shown_camera, set_frame)

@@ -20,6 +20,7 @@ from .ui import (
     cycles_operators,
     export_operators,
     facts_panels,
+    frame,
     gallery_operators,
     gallery_panels,
     left_out_panels,
@@ -41,7 +42,7 @@ from .view3d import lesson, mouse_gizmo, notice, overlay, scene_cache
 
 CLASSES = (
     *groups.CLASSES, *overlay.CLASSES, *engine.CLASSES, *operators.CLASSES, *cast_operator.CLASSES,
-    *cycles_operators.CLASSES, *add_line.CLASSES, *export_operators.CLASSES,
+    *cycles_operators.CLASSES, *frame.CLASSES, *add_line.CLASSES, *export_operators.CLASSES,
     *mouse_gizmo.CLASSES, *render_panels.CLASSES, *gallery_panels.CLASSES,
     *menus.CLASSES, *presets.CLASSES, *model_panels.CLASSES,
     *see_through.CLASSES, *camera_panels.CLASSES, *show_result.CLASSES, *cast_panels.CLASSES, *verify_panels.CLASSES,

@@ -27,7 +27,7 @@ def test_a_window_offers_the_cameras_of_a_file(blender, camera_scene, tmp_path):
             return entries[-1]
 
     menu = SimpleNamespace(layout=Drawn())
-    draw_cameras(str(path), names, menu, None)
+    draw_cameras(str(path), names, True, menu, None)
     assert menu.layout.operator_context == "EXEC_DEFAULT", "or the file would be asked for again"
     assert [(one.text, one.filepath, one.camera) for one in entries] == [(name, str(path), name) for name in names]
     for one in entries:

@@ -112,7 +112,8 @@ def data(blender):
 def drawn(bpy, panel, data, engine="CYCLES", width=300):
     layout = Layout()
     region = type("Region", (), {"width": width})
-    context = {"camera": data, "scene": bpy.context.scene, "engine": engine, "region": region}
+    context = {"camera": data, "object": None, "scene": bpy.context.scene, "engine": engine, "region": region}
+    context["evaluated_depsgraph_get"] = staticmethod(bpy.context.evaluated_depsgraph_get)
     context = type("Context", (), {**context, "preferences": bpy.context.preferences})
     panel.draw(type("Panel", (), {"layout": layout}), context)
     drawn.operators, drawn.labels = layout.operators, layout.labels

@@ -64,7 +64,12 @@ def cameras_in(camera, path: str) -> list[str]:
     """Return the names of the cameras in a calibration file, as ``set_calibration`` would read it for a camera's data.
     Raises InputError if the file cannot be read.
     """
-    return [lens.name for lens in lenses_of(path, _key(getattr(camera, GROUP)))]
+    return [lens.name for lens in lenses_in(camera, path)]
+
+
+def lenses_in(camera, path: str) -> list[Lens]:
+    """Return the lenses in a calibration file: see ``cameras_in``."""
+    return lenses_of(path, _key(getattr(camera, GROUP)))
 
 
 def _key(own) -> str:

@@ -7,6 +7,7 @@ from ..properties.declared import BLENDERS_OWN, GROUP
 from .drawing import Sidebar, draw_message, put_labels
 from .export_operators import ExportMenu
 from .facts_panels import camera_of
+from .frame import draw_frame
 from .gallery_operators import ExamplesMenu
 from .gallery_panels import draw_model
 from .model_drawing import PRESETS, draw_lens, draw_model_settings, draw_setting, draw_times
@@ -41,6 +42,7 @@ class SidebarCamera(Sidebar, bpy.types.Panel):
             draw_setting(layout, context, camera.data, setting)
         if reason and not lacking:
             draw_message(layout, context, reason, "ERROR")
+        draw_frame(layout, context, camera, is_refused=bool(reason))
         if context.space_data is not None:
             seen = is_seen_through(context)
             layout.operator(SeeThrough.bl_idname, icon="CAMERA_DATA", depress=seen)

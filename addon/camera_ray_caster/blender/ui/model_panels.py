@@ -7,9 +7,11 @@ from ..properties.declared import ENGINE
 from ..read.camera import shader_mark
 from .cycles_operators import BackToBlender, UseInCycles
 from .drawing import draw_field, put_labels
+from .frame import draw_frame
 from .gallery_panels import draw_model
 from .model_drawing import PRESETS, draw_lens, draw_model_settings, draw_times
 from .model_settings import read_settings
+from .needs import camera_object_of
 from .operators import LoadCalibration
 
 
@@ -45,6 +47,7 @@ class ModelPanel(CameraPanel, bpy.types.Panel):
         row.operator(LoadCalibration.bl_idname, text="", icon="FILEBROWSER")
         put_labels(layout, context)
         draw_model_settings(layout, context, camera)
+        draw_frame(layout, context, camera_object_of(context))
         draw_cycles(layout, camera)
 
 

@@ -1,18 +1,23 @@
 """Operators: verify the camera, copy it, load a calibration, select what was left out, write the report."""
 
 from functools import partial
+from pathlib import Path
 
 import bpy
 from bpy.props import BoolProperty, StringProperty
 
 from ...core.camera.facts import camera_facts
-from ...core.cameras.parts.calibration import FILE_WRITERS
+from ...core.cameras.parts.calibration import FILE_WRITERS, SIZE
 from ...core.exports.camera_json import recorded
+from ...core.records import InputError
 from ...core.report.report import Report, as_json
 from ..output import reports
-from ..properties.calibration import cameras_in, set_calibration
+from ..properties.calibration import cameras_in, lenses_in, set_calibration
 from ..read.scene import read_camera
 from ..verification.check import verified
+from .drawing import draw_message
+from .frame import SET_FRAME, framed
+from .model_settings import in_labels
 from .needs import OfCamera, OfScene, camera_object_of, reporting, select_alone
 
 NO_REPORT = "Render with the Camera Ray Caster first (F12), or cast from the sidebar"
@@ -78,31 +83,63 @@ class LoadCalibration(OfCamera, bpy.types.Operator):
     filepath: StringProperty(name="File", description="Path of the calibration file", subtype="FILE_PATH")
     filter_glob: StringProperty(default="*.yml;*.yaml;*.json;*.txt;*.cameramodel", options={"HIDDEN", "SKIP_SAVE"})
     camera: StringProperty(
-        name="Camera in File", description="Name of the camera in a calibration file that has several cameras"
+        name="Camera in File",
+        description="Name of the camera in a calibration file that has several cameras",
+        options={"SKIP_SAVE"},
     )
+    set_frame: BoolProperty(name=SET_FRAME.label, description=SET_FRAME.text, default=True, options={"SKIP_SAVE"})
 
     def invoke(self, context, event):
         """Ask for the file."""
         context.window_manager.fileselect_add(self)
         return {"RUNNING_MODAL"}
 
+    def draw(self, context):
+        """Draw the options in the file dialog, and the sizes of the file's pictures beside the frame's."""
+        layout, chosen = self.layout, context.space_data.params
+        layout.label(text="Camera in File")
+        layout.prop(self, "camera", text="")
+        layout.prop(self, "set_frame")
+        path = Path(bpy.path.abspath(chosen.directory.decode())) / chosen.filename
+        if path.is_file():
+            for line in sizes_in_words(context, camera_object_of(context), str(path)):
+                draw_message(layout, context, line)
+
     @reporting
     def execute(self, context):
         """Read the file, set the model and report the values; in a window, ask for one of several cameras."""
-        data, path = camera_object_of(context).data, bpy.path.abspath(self.filepath)
-        if not (self.camera or bpy.app.background) and len(names := cameras_in(data, path)) > 1:
-            context.window_manager.popup_menu(partial(draw_cameras, path, names), title="Camera in File")
+        item, path = camera_object_of(context), bpy.path.abspath(self.filepath)
+        if not (self.camera or bpy.app.background) and len(names := cameras_in(item.data, path)) > 1:
+            entries = partial(draw_cameras, path, names, self.set_frame)
+            context.window_manager.popup_menu(entries, title="Camera in File")
             return {"CANCELLED"}
-        self.report({"INFO"}, set_calibration(data, path, self.camera))
+        with framed(context, item, self.set_frame) as said:
+            said.append(set_calibration(item.data, path, self.camera))
+        for line in said:
+            self.report({"INFO"}, line)
         return {"FINISHED"}
 
 
-def draw_cameras(path: str, names: list[str], menu, context) -> None:
+def sizes_in_words(context, item, path: str) -> list[str]:
+    """Return the sizes of the pictures of a calibration file's cameras and of the frame, as lines; or what is wrong."""
+    try:
+        lenses = lenses_in(item.data, path)
+    except InputError as error:
+        return [in_labels(str(error))]
+    sizes = {f"{lens.name}: ".lstrip(": "): [int(lens.settings.get(one.name, 0)) for one in SIZE] for lens in lenses}
+    render = context.scene.render
+    return [
+        *(f"{name}{wide} × {high} pixels" for name, (wide, high) in sizes.items() if wide),
+        f"The frame: {render.resolution_x} × {render.resolution_y}",
+    ]
+
+
+def draw_cameras(path: str, names: list[str], set_frame: bool, menu, context) -> None:
     """Draw an entry for each camera in a calibration file, which loads it."""
     menu.layout.operator_context = "EXEC_DEFAULT"
     for name in names:
         entry = menu.layout.operator(LoadCalibration.bl_idname, text=name)
-        entry.filepath, entry.camera = path, name
+        entry.filepath, entry.camera, entry.set_frame = path, name, set_frame
 
 
 class SelectLeftOut(bpy.types.Operator):

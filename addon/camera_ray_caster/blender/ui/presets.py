@@ -5,12 +5,17 @@ from pathlib import Path
 import bpy
 from bl_operators.presets import AddPresetBase
 from bl_ui.utils import PresetPanel
+from bpy.props import BoolProperty, StringProperty
 
 from ...core.cameras.parts.settings import CAMERA, OWN
 from ..properties.declared import BLENDERS_OWN, GROUP, MODEL
+from .frame import SET_FRAME, framed
 from .model_drawing import PRESETS
 from .model_settings import settings_of
+from .needs import OfCamera, camera_object_of, reporting
 
+TICK = f"{GROUP}_set_frame"
+"""Name of the property of the window manager that the menu of presets shows as a tick box."""
 FOLDER = Path(__file__).resolve().parents[1]
 """Parent folder of ``presets``."""
 OWNERS = {OWN: "own", CAMERA: "camera"}
@@ -19,14 +24,42 @@ KEPT = {"FLOAT", "INT", "BOOLEAN", "ENUM", "VECTOR", "TEXT", "FILE"}
 """Kinds of settings that a preset stores; objects and images belong to a .blend file."""
 
 
+class ExecutePreset(OfCamera, bpy.types.Operator):
+    """Use this preset of a camera model, and set the frame that it asks for"""
+
+    bl_idname = "camera_ray_caster.preset_execute"
+    bl_label = "Use Camera Model Preset"
+    bl_options = {"REGISTER", "UNDO"}
+
+    filepath: StringProperty(name="File", description="Path of the preset", subtype="FILE_PATH", options={"SKIP_SAVE"})
+    menu_idname: StringProperty(name="Menu", description="Identifier of the menu of presets", options={"SKIP_SAVE"})
+    set_frame: BoolProperty(name=SET_FRAME.label, description=SET_FRAME.text, default=True, options={"SKIP_SAVE"})
+
+    @reporting
+    def execute(self, context):
+        """Run Blender's operator, then set the frame or refuse the preset."""
+        item, window = camera_object_of(context), context.window_manager
+        is_set = self.set_frame if self.properties.is_property_set("set_frame") else getattr(window, TICK)
+        with framed(context, item, is_set) as said, context.temp_override(camera=item.data):
+            done = bpy.ops.script.execute_preset(filepath=self.filepath, menu_idname=ModelPresets.bl_idname)
+        for line in said:
+            self.report({"INFO"}, line)
+        return done
+
+
 class ModelPresets(PresetPanel, bpy.types.Panel):
     """The list of presets."""
 
     bl_idname = PRESETS
     bl_label = "Camera Model Presets"
     preset_subdir = GROUP
-    preset_operator = "script.execute_preset"
+    preset_operator = ExecutePreset.bl_idname
     preset_add_operator = "camera_ray_caster.preset_add"
+
+    def draw(self, context):
+        """Draw the tick box Set Frame above the presets."""
+        self.layout.prop(context.window_manager, TICK)
+        super().draw(context)
 
 
 class AddModelPreset(AddPresetBase, bpy.types.Operator):
@@ -53,10 +86,13 @@ class AddModelPreset(AddPresetBase, bpy.types.Operator):
         return [f"own.{MODEL.name}", *types, *(f"{OWNERS[it.owner]}.{it.name}" for it in kept)]
 
 
-CLASSES = (ModelPresets, AddModelPreset)
+CLASSES = (ExecutePreset, ModelPresets, AddModelPreset)
 
 
 def register(undo) -> None:
     """Register this module; see ``registration``."""
+    tick = BoolProperty(name=SET_FRAME.label, description=SET_FRAME.text, default=True, options={"SKIP_SAVE"})
+    setattr(bpy.types.WindowManager, TICK, tick)
+    undo.callback(delattr, bpy.types.WindowManager, TICK)
     bpy.utils.register_preset_path(str(FOLDER))
     undo.callback(bpy.utils.unregister_preset_path, str(FOLDER))

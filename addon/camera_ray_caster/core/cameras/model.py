@@ -177,6 +177,15 @@ class Model(ABC):
         """
         return raw
 
+    @property
+    def shape(self) -> float | None:
+        """Width over height, on square pixels, of the frame in which the model stretches nothing; None, the default, if
+        it has no such frame.
+
+        Of a model with a calibration the size of the calibrated picture counts instead: see ``camera.own_frame``.
+        """
+        return None
+
     def posed(self, pose: Pose) -> Model:
         """Return the model of a camera with this pose: itself, unless its rays depend on the world's up direction."""
         return self
@@ -231,6 +240,12 @@ class WindowModel(Model):
     """A model that begins with an affine map from the pixel to an image plane."""
 
     window: Window
+
+    @property
+    def shape(self) -> float | None:
+        """See Model: that of the part of the plane that the frame shows. A model's plane has one unit on both axes."""
+        width, height = self.frame
+        return abs(width * self.window.pitch_x / (height * self.window.pitch_y))
 
     def pixel_rounding(self, x, y) -> tuple[Any, Any]:
         """See Model; the error is that of the window's few operations."""

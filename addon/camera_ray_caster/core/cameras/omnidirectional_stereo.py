@@ -82,6 +82,12 @@ class OmnidirectionalStereo(WindowModel):
             raise InputError(f"{both}: choose one eye, or disable Stereoscopy")
         return replace(raw, settings={**raw.settings, EYE.name: view.upper()})
 
+    @property
+    def shape(self) -> float:
+        """See Model."""
+        first, second = EYES[self.eyes]
+        return 2.0 if first == second else 1.0 if self.eyes == "TOP_BOTTOM" else 4.0
+
     def rays(self, x, y):
         """Return origin and unit direction, each a tuple of three broadcastable arrays, camera frame.
 

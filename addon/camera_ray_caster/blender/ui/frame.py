@@ -1,0 +1,109 @@
+"""Set Frame: the resolution becomes the one that the camera asks for, in which nothing is stretched."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+import bpy
+
+from ...core.camera.own_frame import OwnFrame, own_frame
+from ...core.cameras.parts.settings import CAMERA, Flag
+from ...core.records import InputError
+from ..properties.declared import CAMERA as OWN_SETTINGS
+from ..properties.declared import GROUP
+from ..read.camera import camera_record
+from .drawing import draw_message
+from .model_settings import SETTINGS
+from .needs import OfCamera, camera_object_of, reporting
+
+SET_FRAME = Flag(
+    "set_frame", "Set Frame",
+    "Set the scene's resolution to the size or the shape of the camera's pictures. If disabled, a camera whose "
+    "pictures have another shape than the frame is refused",
+    True,
+)  # fmt: skip
+TYPES = ("type", "panorama_type")
+
+
+class SetFrame(OfCamera, bpy.types.Operator):
+    """Set the scene's resolution to the size or the shape of the camera's pictures, so that nothing is stretched"""
+
+    bl_idname = "camera_ray_caster.set_frame"
+    bl_label = "Set Frame"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @reporting
+    def execute(self, context):
+        """Set the resolution and report it."""
+        wanted = frame_of(context, camera_object_of(context))
+        if wanted is None:
+            self.report({"INFO"}, "The frame has the shape of the camera's pictures already")
+            return {"CANCELLED"}
+        self.report({"INFO"}, set_frame(context.scene, wanted))
+        return {"FINISHED"}
+
+
+def frame_of(context, item) -> OwnFrame | None:
+    """Return the frame that a camera object asks for, or None: see ``own_frame``, which raises InputError."""
+    return own_frame(camera_record(item, context.evaluated_depsgraph_get()))
+
+
+def set_frame(scene, wanted: OwnFrame) -> str:
+    """Set a scene's resolution, and return a line that says so."""
+    render = scene.render
+    before = f"{render.resolution_x} × {render.resolution_y}"
+    render.resolution_x, render.resolution_y = wanted.width, wanted.height
+    return f"The frame is set to {wanted.width} × {wanted.height}; it was {before}"
+
+
+@contextmanager
+def framed(context, item, is_set: bool) -> Iterator[list[str]]:
+    """Let a camera object's settings be changed, then set the frame that the camera asks for, or refuse the change.
+
+    Yields a list to which the line about the frame is appended. If the frame is not to be set, the settings are
+    restored and InputError is raised, with both sizes.
+    """
+    said: list[str] = []
+    before = _settings(item.data)
+    yield said
+    item.data.update_tag()
+    context.view_layer.update()
+    wanted = frame_of(context, item)
+    if wanted is None:
+        return
+    if not is_set:
+        for owner, name, value in before:
+            setattr(owner, name, value)
+        raise InputError(f"{wanted.sentence}: enable {SET_FRAME.label}, or set the resolution")
+    said.append(set_frame(context.scene, wanted))
+
+
+def _settings(camera) -> list[tuple]:
+    """Return (owner, name, value) of all that a preset or a calibration may set in a camera's data."""
+    own = getattr(camera, GROUP)
+    names = {setting.name for settings in SETTINGS.values() for setting in settings if setting.owner == CAMERA}
+    owned = [(own, setting.name) for setting in OWN_SETTINGS] + [(camera, name) for name in (*TYPES, *sorted(names))]
+    return [(owner, name, _value(getattr(owner, name))) for owner, name in owned if hasattr(owner, name)]
+
+
+def _value(value):
+    return tuple(value) if isinstance(value, bpy.types.bpy_prop_array) else value
+
+
+def draw_frame(layout, context, item, is_refused: bool = False) -> None:
+    """Draw both sizes and the button Set Frame if a camera object asks for another frame; the button alone if the panel
+    says that the camera ``is_refused`` for it.
+    """
+    try:
+        wanted = frame_of(context, item)
+    except InputError:
+        return  # the panel shows the reason, also if there is no camera
+    if wanted is None:
+        return
+    if not is_refused:
+        draw_message(layout, context, wanted.sentence, "ERROR")
+    layout.operator(SetFrame.bl_idname, text=f"Set Frame to {wanted.width} × {wanted.height}", icon="FULLSCREEN_ENTER")
+
+
+CLASSES = (SetFrame,)
