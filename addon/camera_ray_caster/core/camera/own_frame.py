@@ -51,7 +51,8 @@ def own_frame(raw: BlenderCamera) -> OwnFrame | None:
     if shape is None or abs(raster.width / (shape * raster.height) - 1) <= 1 / raster.width + 1 / raster.height:
         return None
     sentence = f"the picture is stretched: the frame has {raster.width} × {raster.height} pixels, and {asked}"
-    return OwnFrame(*(min(max(int(side), LEAST), MOST) for side in (wide, high)), sentence)
+    wide, high = (min(max(side, LEAST), MOST) for side in (wide, high))
+    return OwnFrame(wide, high, sentence)
 
 
 def calibrated_size(raw: BlenderCamera, model: type[Model]) -> tuple[int, int]:
