@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from camera_ray_caster.core.cameras import MODELS
+from camera_ray_caster.core.cameras.files import lenses_of
 from camera_ray_caster.core.cameras.files.colmap import MODELS as COLMAP
 from camera_ray_caster.core.records import InputError
 
@@ -232,6 +233,10 @@ GOOD = camchain("pinhole", NUMBERS, "radtan", FOUR)
         ("1 PINHOLE -640 480 500 500 320 240\n", "its image size is -640 x 480"),
         (TOPIC + "camera_matrix: [600, 0, 320.5, 0, 301, 239.25, 0, 0, 1]\n", "camera_matrix and K differ"),
         (TOPIC + "image_width: 1280\n", "image_width and width differ: leave one out"),
+        *(
+            (TOPIC.replace("plumb_bob", word) + more, rf"{more.split(':')[0]} is .* contradict each other")
+            for word, more in [("equidistant", "fisheye: 0\n"), ("radtan", "fisheye: 1\n"), ("radtan", "type: KB4\n")]
+        ),
         (TOPIC.replace("plumb_bob", "none").replace("[]", "[0.1, 0, 0, 0]"), "distortion_model none: say which it is"),
         (PAIR, "2 cameras: set Camera in File .* to one of 1, 2"),
         (TOPIC + "roi: {x_offset: 1, width: 640}\n", "roi reaches beyond the picture of 640 x 480"),
@@ -244,6 +249,12 @@ def test_a_file_without_meaning_is_refused_by_its_field(tmp_path, text, says):
         of_file(tmp_path / "lens", text, "OPENCV_PINHOLE")
     assert "\n" not in str(refusal.value)
     assert "lens" in str(refusal.value)
+
+
+@pytest.mark.parametrize("key", ["OPENCV_PINHOLE", "OPENCV_FISHEYE"])
+def test_a_pinhole_with_an_equidistant_distortion_is_a_fisheye_whatever_is_chosen(tmp_path, key):
+    (tmp_path / "lens").write_text("camera_model: pinhole\n" + TOPIC.replace("plumb_bob", "equidistant"))
+    assert [lens.model for lens in lenses_of(str(tmp_path / "lens"), key)] == ["OPENCV_FISHEYE"]
 
 
 def test_a_region_of_interest_is_the_picture(tmp_path):

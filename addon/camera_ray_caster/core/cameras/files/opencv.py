@@ -38,6 +38,8 @@ COUNTS = {"OPENCV_PINHOLE": (4, 5, 8, 12, 14), "OPENCV_FISHEYE": (4,), "UCM": (4
 PINHOLE, FISHEYE, _ = TERMS
 FISHEYE_NAMES = ("fisheyemodel", "fisheye", "usefisheye", "isfisheye")
 MODEL_NAMES = ("distortionmodel", "cameramodel", "model", "cameratype", "distortiontype", "type")
+DISTORTION_NAMES = "distortionmodel", "distortiontype"
+"""Those of MODEL_NAMES that name the distortion alone, whatever the camera."""
 FISHEYE_MODELS = (
     "fisheye", "equidistant", "equi", "kannala_brandt", "kannala_brandt4", "kannala_brandt8", "opencv_fisheye", "kb4",
 )  # fmt: skip
@@ -161,22 +163,33 @@ def _model(document: Document, found: Spelled, coefficients: list[float], tangen
     """Return the model that a file names, or that its coefficients have by their names; else the chosen model."""
     if "xi" in found.found:
         return "UCM"
-    told = [found.number(FISHEYE_NAMES) != 0] if found.has(FISHEYE_NAMES) else []
+    told: dict[str, bool] = {}
+    flags = [name for name in FISHEYE_NAMES if name in found.found]
+    for name in flags:
+        told[name] = found.number((name,)) != 0
     for name in MODEL_NAMES:
         own, value = found.found.get(name, ("", None))
         word = plain_name(str(value)).removeprefix("distortion")
         if value is None or (word in INVERSE and not any(coefficients)):
             continue
         if word not in KNOWN_MODELS:
+            if told.keys() - flags:
+                continue  # it may be of something else
             known = ", ".join((*PINHOLE_MODELS, *FISHEYE_MODELS))
             raise InputError(f"{own} in {document.path!r} is {shortened(value)}: it must be one of {known}")
         if word == "none" and name == "distortionmodel" and any(coefficients):
             raise document.refusal("it has distortion coefficients and distortion_model none: say which it is")
         if word not in ("", "none"):
-            told.append(KNOWN_MODELS[word] == FISHEYE)
-            break  # a pinhole's camera_model may have a fisheye's distortion_model, which comes first
+            told[name] = KNOWN_MODELS[word] == FISHEYE
     if told:
-        return FISHEYE if any(told) else PINHOLE
+        bent = next((name for name, is_fisheye in told.items() if is_fisheye), None)
+        plain = [name for name in (*flags, *DISTORTION_NAMES) if told.get(name) is False]
+        if bent and plain:  # a pinhole's camera_model may have a fisheye's distortion_model
+            (one, first), (other, second) = (found.found[name] for name in (bent, plain[0]))
+            raise document.refusal(
+                f"{one} is {shortened(first)} and {other} is {shortened(second)}: they contradict each other"
+            )
+        return FISHEYE if bent else PINHOLE
     four = len(coefficients) == 4 and any(coefficients) and not tangential
     if four and key not in (PINHOLE, FISHEYE):
         raise document.refusal(
