@@ -117,14 +117,15 @@ def test_of_cameras_with_the_same_data_the_active_one_counts(scene):
     check(scene)
 
 
-def test_animation_is_keyframes_that_need_no_add_on(scene, monkeypatch):
+@pytest.mark.parametrize("stretch", [2, pytest.param(1, marks=pytest.mark.full)])
+def test_animation_is_keyframes_that_need_no_add_on(scene, monkeypatch, stretch):
     from camera_ray_caster.blender.cycles import follow
 
     camera = set_up(scene, {"lens": 30.0})
     for frame, lens in ((1, 30.0), (5, 60.0)):
         camera.data.lens = lens
-        camera.data.keyframe_insert("lens", frame=frame)
-    scene.frame_start, scene.frame_end = 1, 5
+        camera.data.keyframe_insert("lens", frame=frame * stretch)
+    scene.frame_start, scene.frame_end, scene.render.frame_map_old = 1, 5, 100 * stretch
     scene.frame_set(1)
     (said,) = to_cycles(scene)
     assert "keyframes at frames 1 to 5" in said

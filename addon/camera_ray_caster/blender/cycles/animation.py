@@ -10,8 +10,8 @@ CURVES = 'cycles_custom["'
 """Prefix of the data paths of the inputs' curves."""
 
 
-def insert_keyframes(camera, shaders: Mapping[int, CameraShader]) -> None:
-    """Insert keyframes with linear interpolation at each frame, for the inputs that differ between frames."""
+def insert_keyframes(camera, shaders: Mapping[float, CameraShader]) -> None:
+    """Insert keyframes with linear interpolation at times of the action, for the inputs that differ."""
     first, *others = (shader.values for shader in shaders.values())
     moving = [name for name in first if any(values[name] != first[name] for values in others)]
     for name in moving:

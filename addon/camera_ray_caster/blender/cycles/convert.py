@@ -12,7 +12,8 @@ from ...core.shaders.camera_shader import CameraShader, camera_shader
 from ..properties.declared import ENGINE
 from ..read.camera import shader_mark
 from ..read.evaluated import camera_at
-from ..read.scene import evaluated_camera, go_to
+from ..read.frames import action_time, frame_of, go_to
+from ..read.scene import evaluated_camera
 from .animation import insert_keyframes, is_animated
 from .device import said_of_device
 from .rolling import check_time, set_up_time
@@ -44,7 +45,7 @@ def to_cycles(scene, camera_object=None) -> list[str]:
     with evaluated_camera(scene, camera_object) as (active, depsgraph):
         raw, camera = camera_at(active, depsgraph)
         _check(raw, camera, active)
-        now = scene.frame_current_final
+        now = frame_of(scene)
         at_frames = {now: (raw, camera)}
         if _may_move(scene, active, raw):
             at_frames = {frame: camera_at(active, go_to(scene, frame)) for frame in (*_frames(scene), now)}
@@ -55,7 +56,7 @@ def to_cycles(scene, camera_object=None) -> list[str]:
     if any(each.source != shader.source for each in shaders.values()):
         said = ["The formula of the camera changes over time: Cycles follows this change only if the add-on is enabled"]
     else:
-        insert_keyframes(active.data, shaders)
+        insert_keyframes(active.data, {action_time(scene, frame): each for frame, each in shaders.items()})
         said = _said_of_keyframes(shaders)
     set_inputs(active.data, shader)
     return said + set_up_time(scene, raw, camera) + _engine_said(scene) + said_of_device(scene)

@@ -6,7 +6,7 @@ from ...core.camera.camera import Camera
 from ...core.camera.pixel_time import ROLLING_SHUTTER, LinearTime
 from ...core.records import BlenderCamera, InputError
 from ...core.shaders.turn import UPRIGHT, Turn, shutter_of
-from ..read.scene import go_to
+from ..read.frames import go_to
 
 MOTION_STEPS = 7
 """Motion steps of every object in a slit scan: 2^7 + 1 places over its frames, Cycles' maximum."""

@@ -19,6 +19,8 @@ from ...core.report.report import Report
 from ..cycles.picture import Picture
 from ..output import reports
 from ..properties.declared import ENGINE
+from ..read import physics
+from ..read.frames import frame_of
 from ..terminal import signals
 from .job import run
 from .passes import stored, ticked
@@ -74,7 +76,9 @@ class CameraRayCaster(Viewport, bpy.types.RenderEngine):
                 self.add_pass(entry.label, len(entry.channels), entry.channels, layer=layer.name)
         eyes = [self.render_eye(depsgraph, wanted, view.name) for view in self.get_result().views]
         report = reduce(add, eyes)
-        return replace(report, warnings=drawn_over(depsgraph, report.camera["model"]))
+        drawn = drawn_over(depsgraph, report.camera["model"])
+        jumped = physics.warning(depsgraph, frame_of(depsgraph.scene)) if bpy.app.background else ()
+        return replace(report, warnings=(*drawn, *jumped))
 
     def render_eye(self, depsgraph, wanted, view: str) -> Report:
         """Cast and store one eye; the view's name is empty if the scene is not multi-view."""

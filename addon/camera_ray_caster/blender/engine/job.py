@@ -20,8 +20,8 @@ from ...core.records import Finding, Shapes
 from ...core.report.accuracy import accuracy
 from ...core.report.report import Report, report_cast
 from ..read.evaluated import Eye, scene_at
+from ..read.frames import frame_of, go_to
 from ..read.motion import with_other_frames
-from ..read.scene import go_to
 from ..verification.check import verify_evaluated
 
 
@@ -70,14 +70,14 @@ class Job:
         read = perf_counter()
         findings = verify_evaluated(found.camera, camera_object, depsgraph, view)
         verified = perf_counter()
-        frame, layer = scene.frame_current_final, depsgraph.view_layer_eval.name
+        frame, layer = frame_of(scene), depsgraph.view_layer_eval.name
         several = sum(layer.use for layer in scene.view_layers) > 1
         settings = scene.camera_ray_caster
         shading, samples, precision = settings.shading, settings.samples, settings.precision
         if found.camera.pixel_time is not None or frames_of(passes):
             visit = visit or partial(go_to, depsgraph.scene)
             try:
-                found = with_other_frames(found, camera_object, frame, passes, visit, eye)
+                found = with_other_frames(found, depsgraph, camera_object, frame, passes, visit, eye)
             finally:
                 visit(frame)
         moved = perf_counter()

@@ -13,6 +13,7 @@ from ...core.annotations.keypoints import seen_key_points
 from ...core.cast import Images
 from ...core.file_set import atomic_folder
 from ...core.records import InputError
+from ..read.frames import frame_of
 from ..read.keypoints import key_points
 from ..read.unique import find_unique
 
@@ -43,7 +44,7 @@ def annotated(scene, images: Images, file_name: str, keypoints: Sequence[str] = 
         size, corner = raster.size, (0, 0)
     else:
         size, corner = raster.shape[::-1], (raster.x0, raster.y0)
-    image = {"file_name": file_name, "camera": camera.name, "frame": scene.frame_current_final}
+    image = {"file_name": file_name, "camera": camera.name, "frame": frame_of(scene)}
     points = key_points(scene, bpy.context.evaluated_depsgraph_get(), keypoints) if keypoints else []
     seen = seen_key_points(camera, images.shapes, points)
     return json.dumps(document(image, Sheet(*size, corner), camera, images.shapes, category_of, seen))

@@ -13,7 +13,8 @@ from ...core.file_set import atomic_folder
 from ...core.names import file_name, file_names
 from ...core.records import InputError
 from ..read.camera import eye_object, views_of
-from ..read.scene import evaluated, go_to, read_camera
+from ..read.frames import go_to
+from ..read.scene import evaluated, read_camera
 from ..terminal import signals
 from ..terminal.opening import reported
 

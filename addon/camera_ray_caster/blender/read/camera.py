@@ -17,6 +17,7 @@ from ...core.records import BlenderCamera, InputError
 from ...core.shaders.camera_shader import Mark, read_mark
 from ..properties.declared import BLENDERS_OWN, MODEL
 from ..properties.owners import owner_of
+from .frames import frame_of
 from .lines import line_record
 from .stored import own_value
 
@@ -60,7 +61,7 @@ def camera_record(camera_object, depsgraph) -> BlenderCamera:
             **copied(data.dof, DEPTH_OF_FIELD),
             **copied(data.stereo, STEREO),
             **copied(scene.render, MULTIVIEW),
-            "frame": scene.frame_current_final,
+            "frame": frame_of(scene),
             "focus_position": _focus_position(data.dof, depsgraph),
         },
         **copied(data, CAMERA),

@@ -12,6 +12,8 @@ from ...core.motion.evaluations import Motion, measured, resolve
 from ...core.records import Shapes
 from ..terminal.signals import raise_if_stopping
 from .evaluated import Eye, SceneRecord, scene_at
+from .frames import action_time
+from .physics import prepare
 
 CHECKS = 4
 """Number of frames at which the interpolation is compared with the scene, in addition to those that resolved it."""
@@ -21,17 +23,26 @@ STEPS = {NEXT: 1.0, PREVIOUS: -1.0}
 
 
 def with_other_frames(
-    found: SceneRecord, camera_object, frame: float, passes: Collection[str], visit: Callable, eye: Eye | None = None
+    found: SceneRecord,
+    depsgraph,
+    camera_object,
+    frame: float,
+    passes: Collection[str],
+    visit: Callable,
+    eye: Eye | None = None,
 ) -> SceneRecord:
     """Return the record of a scene with its motion, and with its next and previous frame if passes need them.
 
     The motion is None unless pixels have their own times. All frames are of the same camera object. See ``motion_of``
     for ``visit``.
     """
-    found = found.with_motion(motion_of(found.camera, camera_object, visit, eye))
-    for name in frames_of(passes):
-        there = scene_at(camera_object, visit(frame + STEPS[name]), eye)
-        there = there.with_motion(motion_of(there.camera, camera_object, visit, eye))
+    neighbors = {name: frame + STEPS[name] for name in frames_of(passes)}
+    if neighbors:
+        prepare(depsgraph, neighbors.values())
+    found = found.with_motion(motion_of(found.camera, depsgraph, camera_object, visit, eye))
+    for name, other in neighbors.items():
+        there = scene_at(camera_object, visit(other), eye)
+        there = there.with_motion(motion_of(there.camera, depsgraph, camera_object, visit, eye))
         found = replace(
             found,
             camera=replace(found.camera, **{name: there.camera}),
@@ -40,7 +51,7 @@ def with_other_frames(
     return found
 
 
-def motion_of(camera: Camera, camera_object, visit: Callable, eye: Eye | None = None) -> Motion | None:
+def motion_of(camera: Camera, depsgraph, camera_object, visit: Callable, eye: Eye | None = None) -> Motion | None:
     """Return the motion of a camera and its scene over the times of its pixels; None if all pixels have the same time.
 
     ``visit(frame)`` evaluates the scene at a frame and returns its depsgraph. The frame is not restored.
@@ -56,13 +67,14 @@ def motion_of(camera: Camera, camera_object, visit: Callable, eye: Eye | None = 
         return replace(found.camera, pixel_time=pixel_time), found.shapes
 
     first, last = pixel_time.first, pixel_time.last
-    motion = resolve(evaluate, first, last, pixel_time.tolerance, pixel_time.most, keyed_frames())
+    prepare(depsgraph, (first, last))
+    motion = resolve(evaluate, first, last, pixel_time.tolerance, pixel_time.most, keyed_frames(depsgraph.scene))
     return measured(motion, evaluate, np.random.default_rng(0).uniform(first, last, CHECKS))
 
 
-def keyed_frames() -> np.ndarray:
-    """Return the frames at which some property of the file has a key; an action is read as it is, also if an NLA strip
-    moves it.
+def keyed_frames(scene) -> np.ndarray:
+    """Return the frames of a scene at which some property of the file has a key; an action is read as it is, also if an
+    NLA strip moves it.
     """
     keys = [np.zeros(0, np.float32)]
     for action in bpy.data.actions:
@@ -71,4 +83,4 @@ def keyed_frames() -> np.ndarray:
             places = np.empty(2 * len(curve.keyframe_points), np.float32)
             curve.keyframe_points.foreach_get("co", places)
             keys.append(places[::2])
-    return np.unique(np.concatenate(keys))
+    return np.unique(np.concatenate(keys)) / action_time(scene)

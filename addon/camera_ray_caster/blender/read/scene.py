@@ -1,6 +1,5 @@
 """Reading of a scene's camera and shapes as plain records. The scene is restored afterwards."""
 
-import math
 from contextlib import contextmanager
 from dataclasses import replace
 from functools import partial
@@ -16,7 +15,9 @@ from ...core.casting.passes import PASSES
 from ...core.records import InputError, Shapes
 from .camera import check_camera, eye_object, has_pixel_times, is_removed
 from .evaluated import SceneRecord, camera_at, scene_at
+from .frames import frame_of, go_to, layer_of
 from .motion import motion_of, with_other_frames
+from .physics import prepare
 from .shapes import shapes_record
 
 
@@ -25,10 +26,11 @@ def read_scene(scene, frame=None, camera_object=None, view="", passes=()) -> Sce
 
     Camera and shapes are those of ``read_camera`` and ``read_shapes`` for the same arguments. If ``passes`` include
     flow, ``next`` and ``previous`` of camera and shapes are set to those of the neighboring frames that these passes
-    need. Raises the errors of ``read_camera``, and InputError for an unknown pass.
+    need. Raises the errors of ``read_camera``, and InputError for an unknown pass, and for physics that are not baked
+    if other frames than the current one are needed.
     """
     passes = words(passes, "passes", PASSES)
-    with evaluated_camera(scene, camera_object, frame, view, bool(frames_of(passes))) as (active, depsgraph):
+    with evaluated_camera(scene, camera_object, frame, view, bool(frames_of(passes)), True) as (active, depsgraph):
         return _with_motion(scene, active, depsgraph, view, passes)
 
 
@@ -44,7 +46,7 @@ def read_camera(scene, camera_object=None, frame=None, view="") -> Camera:
     with evaluated_camera(scene, camera_object, frame, view) as (active, depsgraph):
         eye = partial(eye_record, view=view)
         _, camera = camera_at(active, depsgraph, eye)
-        return replace(camera, motion=motion_of(camera, active, partial(go_to, scene), eye))
+        return replace(camera, motion=motion_of(camera, depsgraph, active, partial(go_to, scene), eye))
 
 
 def read_shapes(scene, frame=None, camera_object=None, view="") -> Shapes:
@@ -52,19 +54,20 @@ def read_shapes(scene, frame=None, camera_object=None, view="") -> Shapes:
 
     The arguments are as in ``read_camera``. The camera matters only if its pixels have their own times: the shapes then
     have their motion, and InputError is raised for a camera that cannot be cast.
+    InputError is raised, too, for another frame than the current one if physics are not baked.
     Outside a render, Blender evaluates the objects that the viewport shows, with the viewport's modifier and particle
     settings. Objects that only a render shows are named in ``left_out``.
     """
-    with evaluated_camera(scene, camera_object, frame, view) as (active, depsgraph):
+    with evaluated_camera(scene, camera_object, frame, view, moves=True) as (active, depsgraph):
         if has_pixel_times(active, depsgraph):
             return _with_motion(scene, active, depsgraph, view).shapes
         return shapes_record(depsgraph)
 
 
 def _with_motion(scene, camera_object, depsgraph, view: str, passes=()) -> SceneRecord:
-    eye, frame = partial(eye_record, view=view), depsgraph.scene_eval.frame_current_final
+    eye, frame = partial(eye_record, view=view), frame_of(depsgraph.scene_eval)
     found = scene_at(camera_object, depsgraph, eye)
-    return with_other_frames(found, camera_object, frame, passes, partial(go_to, scene), eye)
+    return with_other_frames(found, depsgraph, camera_object, frame, passes, partial(go_to, scene), eye)
 
 
 _readings: list[bool] = []
@@ -72,12 +75,12 @@ _readings: list[bool] = []
 
 
 @contextmanager
-def evaluated_camera(scene, camera_object=None, frame=None, view="", goes_on=False):
+def evaluated_camera(scene, camera_object=None, frame=None, view="", goes_on=False, moves=False):
     """Yield the camera object that ``read_camera`` reads for these arguments, and the depsgraph that evaluates it.
 
     If a handler calls this during another reading, the scene is read in its current evaluation. InputError is raised if
     that is not sufficient: for another frame, another camera or a view, for pixel times, and if the reading ``goes_on``
-    to other frames.
+    to other frames; and, if what ``moves`` is read, for another frame of physics that are not baked.
     """
     _check_scene(scene)
     frame = None if frame is None else number(frame, "frame", LAST_FRAME)
@@ -85,7 +88,7 @@ def evaluated_camera(scene, camera_object=None, frame=None, view="", goes_on=Fal
     if camera_object is not None:
         check_camera(scene, camera_object)
     if _readings:
-        depsgraph = _layer(scene).depsgraph
+        depsgraph = layer_of(scene).depsgraph
         active = scene.camera if camera_object is None else camera_object
         elsewhere = frame is not None or goes_on or view or active != scene.camera
         if elsewhere or has_pixel_times(active, depsgraph):
@@ -97,19 +100,28 @@ def evaluated_camera(scene, camera_object=None, frame=None, view="", goes_on=Fal
         return
     _readings.append(True)
     try:
-        with evaluated(scene, frame, camera_object), evaluated(scene, None, eye_object(scene, view)) as depsgraph:
+        with (
+            evaluated(scene, frame, camera_object, moves),
+            evaluated(scene, None, eye_object(scene, view)) as depsgraph,
+        ):
             yield scene.camera, depsgraph
     finally:
         _readings.clear()
 
 
 @contextmanager
-def evaluated(scene, frame=None, camera_object=None):
-    """Yield the scene's depsgraph at a frame with a camera active; restore frame and camera afterwards."""
-    layer = _layer(scene)
+def evaluated(scene, frame=None, camera_object=None, moves=False):
+    """Yield the scene's depsgraph at a frame with a camera active; restore frame and camera afterwards.
+
+    ``moves``: refuse another frame of physics that are not baked; see ``physics.prepare``.
+    """
+    layer = layer_of(scene)
     before = scene.frame_current, scene.frame_subframe, scene.camera
     try:
         if frame is not None:
+            if moves and frame != frame_of(scene):
+                layer.update()  # a scene may have no depsgraph yet
+                prepare(layer.depsgraph, (frame,))
             go_to(scene, frame)
         if camera_object is not None and camera_object != scene.camera:
             scene.camera = camera_object  # a hidden camera is evaluated only while it is active,
@@ -124,18 +136,8 @@ def evaluated(scene, frame=None, camera_object=None):
             layer.update()
 
 
-def go_to(scene, frame: float):
-    """Set a scene to a frame, whose fraction is the subframe, and return the depsgraph evaluated there."""
-    scene.frame_set(math.floor(frame), subframe=frame - math.floor(frame))
-    return _layer(scene).depsgraph
-
-
 def _check_scene(scene) -> None:
     if not isinstance(scene, bpy.types.Scene):
         raise InputError(f"{shown(scene)} is not a scene: give a scene such as bpy.context.scene")
     if is_removed(scene):
         raise InputError("the scene has been removed from the file: give an existing scene")
-
-
-def _layer(scene):
-    return bpy.context.view_layer if scene == bpy.context.scene else scene.view_layers[0]

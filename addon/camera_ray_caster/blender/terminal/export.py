@@ -6,8 +6,9 @@ from pathlib import Path
 from ...core.exports import FORMATS
 from ..output import exports
 from ..read.camera import check_camera, check_markers, find_camera, find_cameras
+from ..read.frames import frame_of
 from .opening import not_run
-from .options import command_parser, open_scene, warn
+from .options import command_parser, go_to, open_scene, warn
 from .words import add_cameras, add_frames, check_cameras
 
 
@@ -37,7 +38,8 @@ def run(arguments: Sequence[str], prog: str) -> int:
             check_markers(scene)
     cameras = find_cameras(scene, options.cameras) if options.cameras else [scene.camera]
     target = find_camera(scene, options.to) if options.to is not None else None
-    frames = options.frames or [scene.frame_current_final]
+    frames = options.frames or [frame_of(scene)]
+    go_to(scene, None, max(frames))
     said, paths = exports.write(scene, options.format, cameras, frames, options.output, target)
     for line in not_run():
         warn(prog, line)

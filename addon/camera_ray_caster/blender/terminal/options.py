@@ -16,7 +16,11 @@ from ...core.records import InputError
 from ...core.report.report import WIDTH, Report, as_json, as_lines
 from ..engine.engine import CameraRayCaster
 from ..properties.calibration import READING, set_calibration
-from ..read.camera import check_camera, eye_object, find_camera, view_names
+from ..read import frames
+from ..read.camera import check_camera, eye_object, find_camera, has_pixel_times, view_names
+from ..read.evaluated import camera_at
+from ..read.frames import frame_of, layer_of
+from ..read.physics import simulate
 from . import signals
 from .opening import open_file, withhold_style_modules
 from .words import Parser, frame_number, picture_size
@@ -115,10 +119,21 @@ def use_camera(scene, camera) -> None:
     scene.camera = camera
 
 
-def go_to(scene, frame: float | None) -> None:
-    """Set the scene's frame, unless ``frame`` is None."""
-    if frame is not None:
-        scene.frame_set(math.floor(frame), subframe=frame - math.floor(frame))
+def go_to(scene, frame: float | None, last: float = -math.inf) -> None:
+    """Set the scene's frame, unless ``frame`` is None.
+
+    Physics that are not baked are simulated, to the frame after it, after ``last`` and after the last frame that pixels
+    show. Raises InputError if that is not possible.
+    """
+    here = frame_of(scene) if frame is None else frame
+    depsgraph = layer_of(scene).depsgraph
+    simulate(depsgraph, max(here, last) + 1)
+    if frame_of(scene) != here or frame is not None:
+        frames.go_to(scene, here)
+    if has_pixel_times(scene.camera, depsgraph):
+        _, camera = camera_at(scene.camera, depsgraph)
+        simulate(depsgraph, max(0, last - here) + camera.pixel_time.last + 1)
+        frames.go_to(scene, here)
 
 
 def warn(prog: str, line: str) -> None:

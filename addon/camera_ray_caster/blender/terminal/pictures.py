@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from argparse import Namespace
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
@@ -22,6 +23,7 @@ from ..output import files
 from ..output.annotations import check_annotations
 from ..output.stamps import file_hash, finished, stamp_of
 from ..read.camera import ALL, find_camera, find_cameras
+from ..read.frames import frame_of
 from ..read.keypoints import check_key_points
 from ..read.scene import read_camera
 from . import ray_maps, signals
@@ -130,7 +132,7 @@ class Pictures:
             numbers = {asked.frame: ""} if frames is None else {frame: f"_{frame_digits(frame)}" for frame in frames}
             return [Job(asked.camera, frame, stem() + end, f"report{end}") for frame, end in numbers.items()]
         names = file_names(camera.name for camera in find_cameras(scene, asked.cameras))
-        own = scene.frame_current_final if asked.frame is None else asked.frame
+        own = frame_of(scene) if asked.frame is None else asked.frame
         return [
             Job(camera, frame, *2 * (f"{name}_{frame_digits(frame)}",))
             for frame in ([own] if frames is None else frames)
@@ -173,7 +175,7 @@ class Pictures:
         """Set the scene to a job's camera and frame, and return the camera. Raises InputError if it cannot be cast."""
         if job.camera is not None:
             use_camera(self.scene, find_camera(self.scene, job.camera))
-        go_to(self.scene, job.frame)
+        go_to(self.scene, job.frame, max(self.options.frames or [-math.inf]))
         return read_camera(self.scene)
 
     def tick(self, wanted: Callable[[str], bool]) -> None:

@@ -10,6 +10,7 @@ from ...core.exports import FORMATS, find_format
 from ...core.records import InputError
 from ..output import exports
 from ..read.camera import ALL, find_camera, find_cameras
+from ..read.frames import frame_of
 from ..read.scene import read_camera
 from .needs import OfScene, reporting
 
@@ -83,7 +84,7 @@ class Export(OfScene, ExportHelper, bpy.types.Operator):
             raise InputError("no camera is selected: select some, or export the active one")
         target = find_camera(scene, self.target) if self.target else None
         every = range(scene.frame_start, scene.frame_end + 1, scene.frame_step)
-        frames = [scene.frame_current_final] if self.frames == "CURRENT" else every
+        frames = [frame_of(scene)] if self.frames == "CURRENT" else every
         folder = Path(bpy.path.abspath(self.filepath))
         said, paths = exports.write(scene, self.format, cameras, frames, folder, target)
         for line in said:

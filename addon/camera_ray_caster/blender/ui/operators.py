@@ -13,6 +13,7 @@ from ...core.records import InputError
 from ...core.report.report import Report, as_json
 from ..output import reports
 from ..properties.calibration import cameras_in, lenses_in, set_calibration
+from ..read.frames import frame_of
 from ..read.scene import read_camera
 from ..verification.check import verified
 from .drawing import draw_message
@@ -66,7 +67,7 @@ class CopyFacts(OfScene, bpy.types.Operator):
     @reporting
     def execute(self, context):
         """Copy the camera."""
-        camera, frame = read_camera(context.scene), context.scene.frame_current_final
+        camera, frame = read_camera(context.scene), frame_of(context.scene)
         report = Report(camera=camera_facts(camera), frame=frame, record=recorded(camera))
         context.window_manager.clipboard = as_json(report)
         return {"FINISHED"}

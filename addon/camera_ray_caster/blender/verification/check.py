@@ -10,8 +10,9 @@ from ...core.records import Finding
 from ...core.report.report import Report
 from ...core.report.verification import verify
 from ..read.evaluated import camera_at
+from ..read.frames import frame_of, go_to
 from ..read.motion import motion_of
-from ..read.scene import evaluated_camera, go_to
+from ..read.scene import evaluated_camera
 from . import witness
 from .cycles_witness import cycles_finding
 
@@ -32,7 +33,7 @@ def verified(scene, with_cycles: bool = False) -> Report:
     camera, findings = _read_and_verified(scene)
     if with_cycles:
         findings.append(cycles_finding(camera))
-    return Report(camera=camera_facts(camera), frame=scene.frame_current_final, findings=tuple(findings))
+    return Report(camera=camera_facts(camera), frame=frame_of(scene), findings=tuple(findings))
 
 
 def _read_and_verified(scene, camera_object=None, frame=None, view="") -> tuple[Camera, list[Finding]]:
@@ -41,7 +42,7 @@ def _read_and_verified(scene, camera_object=None, frame=None, view="") -> tuple[
     with evaluated_camera(scene, camera_object, frame, view) as (active, depsgraph):
         _, camera = camera_at(active, depsgraph, eye)
         findings = verify_evaluated(camera, active, depsgraph, view)
-        camera = replace(camera, motion=motion_of(camera, active, partial(go_to, scene), eye))
+        camera = replace(camera, motion=motion_of(camera, depsgraph, active, partial(go_to, scene), eye))
     if camera.motion is not None:
         findings[-1:] = verify(camera, grid=MOVING_GRID)
     return camera, findings

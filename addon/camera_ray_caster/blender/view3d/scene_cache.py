@@ -12,6 +12,7 @@ from ...core.camera.camera import Camera
 from ...core.records import BlenderCamera, InputError, Shapes
 from ..read.differences import evaluated_otherwise
 from ..read.evaluated import camera_at
+from ..read.frames import frame_of
 from ..read.shapes import shapes_record
 
 
@@ -67,7 +68,7 @@ def _differences(camera: Camera | None, scene) -> Iterator[str]:
     if camera is None:
         return
     if camera.pixel_time is not None:
-        now, first, last = scene.frame_current_final, camera.pixel_time.first, camera.pixel_time.last
+        now, first, last = frame_of(scene), camera.pixel_time.first, camera.pixel_time.last
         yield (
             f"Every pixel is shown at frame {now:g}; in a render, each pixel has its own time, from frame {first:.4g} "
             f"to {last:.4g}"
