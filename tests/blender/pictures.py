@@ -9,6 +9,7 @@ FAR = 1e10
 
 LABELS = {
     "combined": ("Combined", "RGBA"),
+    "albedo": ("Albedo", "RGB"),
     "depth": ("Depth", "Z"),
     "distance": ("Distance", "X"),
     "position": ("Position", "XYZ"),

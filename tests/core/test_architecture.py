@@ -17,14 +17,18 @@ MODULES = sorted(PACKAGE.rglob("*.py"))
 SOURCES = [*MODULES, *sorted((ROOT / "scripts").rglob("*.py")), *sorted((ROOT / "tests").rglob("*.py"))]
 
 # What a part of the package may import of the package: the longest name that fits counts. The lowest layer comes first.
-LOW = {"core.conventions", "core.tuning", "core.mesh", "core.records", "core.arguments", "core.memory", "core.maths"}
+LOW = {
+    "core.conventions", "core.tuning", "core.materials", "core.mesh", "core.records", "core.arguments", "core.memory",
+    "core.maths",
+}  # fmt: skip
 RAYS = LOW | {"core.cameras", "core.camera"}
 HITS = RAYS | {"core.motion", "core.shapes", "core.errors", "core.casting"}
 MAY_IMPORT = {
     "core.conventions": set(),
     "core.tuning": set(),
     "core.mesh": {"core.tuning"},
-    "core.records": {"core.conventions", "core.mesh"},
+    "core.materials": {"core.materials"},
+    "core.records": {"core.conventions", "core.materials", "core.mesh"},
     "core.arguments": {"core.records"},
     "core.memory": {"core.records"},
     "core.names": {"core.records"},

@@ -38,6 +38,8 @@ class Mesh:
     """(l, 2) float32: the render UV map at the loops; None without a UV map."""
     slot: np.ndarray | None = None
     """(k,) int16: the material slot of each triangle; None if all have the first slot."""
+    layers: tuple[tuple[str, np.ndarray], ...] = ()
+    """Further attributes that the materials use, by name: at the corners of triangles, (3, k, channels) float32."""
 
     def __len__(self) -> int:
         return self.triangles.shape[1]

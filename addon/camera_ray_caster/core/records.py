@@ -8,6 +8,7 @@ from typing import Any, Protocol
 
 import numpy as np
 
+from .materials.surface import Surface
 from .mesh import Mesh
 
 
@@ -137,6 +138,8 @@ class Slots:
     """(s,) int32: pass indices of the materials."""
     color: np.ndarray
     """(s, 4) float32: linear RGBA, as ``Shapes.color``."""
+    surface: np.ndarray = field(default_factory=lambda: np.zeros(0, np.int32))
+    """(s,) int32: indices into ``Shapes.surfaces``, as ``Shapes.surface``."""
 
 
 @dataclass(frozen=True)
@@ -206,6 +209,10 @@ class Shapes:
     """
     slots: Slots | None = None
     """Materials of meshes that have several; None if no mesh has more than one."""
+    surfaces: tuple[Surface, ...] = ()
+    """The materials that change over a surface or glow."""
+    surface: np.ndarray = field(default_factory=lambda: np.zeros(0, np.int32))
+    """(n,) int32: indices into ``surfaces``, -1 where ``color`` is the material's; empty if there are no surfaces."""
     exact: tuple[tuple[str, float], ...] = ()
     """Objects whose mesh is cast as an exact sphere or plane, each with the largest distance between the two, over the
     radius or the plane's longer half side.

@@ -101,7 +101,7 @@ GOLD, GREEN = (1, 0.5, 0.125, 1), (0, 1, 0, 0.5)
         (GOLD, None, (*GOLD[:3], 0.5)),
         (None, None, GREEN),
         ((0.8, 0.8, 0.8, 1), None, GREEN),
-        (GOLD, mixed, GREEN),
+        (GOLD, mixed, (0.5, 0.25, 0.0625, 0.5)),
         (GOLD, textured, GREEN),
         (GOLD, turned_off, GREEN),
     ],

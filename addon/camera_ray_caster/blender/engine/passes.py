@@ -30,6 +30,7 @@ class RenderPass:
 
 PASSES = (
     RenderPass("combined", "Combined", "RGBA", "COLOR", "use_pass_combined"),
+    RenderPass("albedo", "Albedo", "RGB", "COLOR", "use_pass_albedo", own=True),
     RenderPass("depth", "Depth", "Z", "VALUE", "use_pass_z"),
     RenderPass("position", "Position", "XYZ", "VECTOR", "use_pass_position"),
     RenderPass("normal", "Normal", "XYZ", "VECTOR", "use_pass_normal"),

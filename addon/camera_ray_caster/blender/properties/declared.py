@@ -105,6 +105,7 @@ EXACT_SHAPES = Flag(
 PASSES = tuple(
     Flag(f"use_pass_{name}", name.replace("_", " ").title(), text, False)
     for name, text in (
+        ("albedo", "Color of the material without light; of emission, without its strength"),
         ("distance", "Distance along the ray. The Z pass has the planar depth"),
         ("shape_index", "Number of the shape. Each instance has its own number"),
         ("face_index", "Number of the face of the mesh after its modifiers, -1 where no face is hit"),

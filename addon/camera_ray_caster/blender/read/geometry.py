@@ -1,5 +1,6 @@
 """Shapes of evaluated data: exact shapes, triangles, or nothing that can be cast."""
 
+from collections.abc import Collection
 from dataclasses import replace
 from hashlib import blake2b
 
@@ -11,6 +12,7 @@ from ...core.shapes.instances import NO_MAP, Primitive, enclosing_primitive, mes
 from ...core.shapes.recognize import NOT_FINITE, MeshArrays, defect, exclude, recognize
 from ...core.shapes.uv_maps import with_map
 from .kept import Found
+from .layers import with_layers
 from .meshes import fetched, is_smooth, mesh_arrays, mesh_record, uv_map, vertices
 
 FORCED = {"SPHERE": SPHERE, "PLANE": PLANE, "INFINITE_PLANE": INFINITE_PLANE}
@@ -31,10 +33,10 @@ NOTHING = None, ""
 """Result for data of which a render shows nothing."""
 
 
-def shapes_of(item, setting: str) -> Found:
+def shapes_of(item, setting: str, layers: Collection[str] = ()) -> Found:
     """Return the shapes of an evaluated object's data, in object space, or the reason why it cannot be cast.
 
-    ``setting`` is AUTOMATIC, MESH or a key of FORCED.
+    ``setting`` is AUTOMATIC, MESH or a key of FORCED; ``layers`` are those of the mesh that its materials need.
     """
     data = item.data
     if isinstance(data, bpy.types.PointCloud):
@@ -42,7 +44,9 @@ def shapes_of(item, setting: str) -> Found:
     if not isinstance(data, bpy.types.Mesh):
         return None, f"it is of type {data.bl_rna.name.lower()}, but only surfaces and point clouds are cast"
     try:  # a mesh in Edit Mode has its faces only there
-        return mesh_shapes(item.to_mesh(), setting)
+        mesh = item.to_mesh()
+        found, reason = mesh_shapes(mesh, setting)
+        return (with_layers(found, mesh, layers) if found is not None and layers else found), reason
     finally:
         item.to_mesh_clear()
 

@@ -73,6 +73,12 @@ def gathered(groups: list[Group], left_out: Counter, world: tuple[float, float, 
     numbers = {key: number for number, key in enumerate(meshes)}
     rows = [numbers.get(id(group.primitive), -1) for group in cast]
     looks = [group.looks[0] for group in cast]
+    surfaces = dict.fromkeys(look.surface for group in cast for look in group.looks if look.surface is not None)
+    places = {surface: number for number, surface in enumerate(surfaces)}
+
+    def numbers_of(some: Iterable[Look]) -> list[int]:
+        return [-1 if look.surface is None else places[look.surface] for look in some]
+
     users: Counter[Hashable] = Counter()
     for group in groups:
         users[group.geometry] += len(group.matrices)
@@ -81,20 +87,22 @@ def gathered(groups: list[Group], left_out: Counter, world: tuple[float, float, 
         center=center,
         axes=axes,
         object_index=column([group.object_index for group in cast], np.int32),
-        material_index=column([index for index, _ in looks], np.int32),
-        color=column([color for _, color in looks], np.float32, (4,)),
+        material_index=column([look.index for look in looks], np.int32),
+        color=column([look.color for look in looks], np.float32, (4,)),
         name_index=column(range(len(cast)), np.int32),
         names=tuple(group.name for group in cast),
         instanced=tuple(group.is_instanced for group in cast),
-        lights=lights_in_world([(group.is_sun, group.looks[0][1], group.placings()) for group in lights]),
+        lights=lights_in_world([(group.is_sun, group.looks[0].color, group.placings()) for group in lights]),
         world_color=world,
         left_out=listed(left_out),
         meshes=tuple(meshes.values()),
         mesh=column(rows, np.int32) if meshes else np.zeros(0, np.int32),
         shared=column([users[group.geometry] > 1 for group in cast], bool) if meshes else np.zeros(0, bool),
-        slots=_slots(cast, column),
+        slots=_slots(cast, column, numbers_of),
         uv=np.array([group.primitive.uv for group in cast], np.float64).reshape(-1, 2, 3),
         notes=tuple(_notes(cast)),
+        surfaces=tuple(surfaces),
+        surface=column(numbers_of(looks), np.int32) if surfaces else np.zeros(0, np.int32),
         exact=tuple((group.name, group.primitive.apart) for group in cast if group.primitive.apart is not None),
     )
 
@@ -120,7 +128,7 @@ def _castable(groups: list[Group], left_out: Counter) -> Iterator[tuple[Group, n
             left_out[group.name, SINGULAR] += len(rest)
 
 
-def _slots(groups, column) -> Slots | None:
+def _slots(groups, column, surfaces_of) -> Slots | None:
     """Return the looks of the groups that have several looks; None if there are no such groups."""
     several = [group.looks if len(group.looks) > 1 else () for group in groups]
     looks = [look for looks in several for look in looks]
@@ -129,8 +137,9 @@ def _slots(groups, column) -> Slots | None:
     counts = np.array([len(looks) for looks in several])
     return Slots(
         first=column(np.where(counts > 0, np.cumsum(counts) - counts, -1), np.int64),
-        material_index=np.array([index for index, _ in looks], np.int32),
-        color=np.array([color for _, color in looks], np.float32),
+        material_index=np.array([look.index for look in looks], np.int32),
+        color=np.array([look.color for look in looks], np.float32),
+        surface=np.array(surfaces_of(looks), np.int32),
     )
 
 

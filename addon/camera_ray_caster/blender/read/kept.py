@@ -12,16 +12,17 @@ missed, and all geometry is read again:
 Meshes that are read again are compared with the cached meshes, so that equal triangles keep the same record.
 """
 
-from collections.abc import Callable
-from dataclasses import dataclass, field, fields
+from collections.abc import Callable, Hashable
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import bpy
-import numpy as np
 from bpy.app.handlers import persistent
 
 from ...core.mesh import Mesh
+from ...core.motion.means import same
 from ...core.shapes.instances import Primitive, mesh_primitive
+from . import images
 
 Found = tuple[Primitive | None, str]
 """Shapes of evaluated data, and a text on the parts that cannot be cast."""
@@ -44,7 +45,7 @@ class _Entry:
         return None if primitive is None else primitive.mesh
 
 
-_entries: dict[str, dict[tuple[int, str], _Entry]] = {}
+_entries: dict[str, dict[tuple[int, Hashable], _Entry]] = {}
 """Entries by the depsgraph's mode, VIEWPORT or RENDER: a render's thread and the window's share no entries."""
 
 
@@ -56,9 +57,9 @@ class Reading:
         active = depsgraph.view_layer.objects.active
         self._trusted = _is_told() and (active is None or active.mode in STEADY)
         self._before = _entries.get(self._mode, {})
-        self._used: dict[tuple[int, str], _Entry] = {}
+        self._used: dict[tuple[int, Hashable], _Entry] = {}
 
-    def find(self, data, owner, setting: str, read: Callable[[], Found]) -> Found:
+    def find(self, data, owner, setting: Hashable, read: Callable[[], Found]) -> Found:
         """Return the shapes of an original object's evaluated data, from the cache or from ``read``."""
         key, uid = (data.as_pointer(), setting), owner.session_uid
         entry = self._used.get(key)
@@ -77,7 +78,7 @@ class Reading:
         if mesh is None:
             return entry
         known = self._meshes.setdefault(_sample(mesh), mesh)
-        return entry if known is mesh or not _same(known, mesh) else _Entry((mesh_primitive(known), ""))
+        return entry if known is mesh or not same(known, mesh) else _Entry((mesh_primitive(known), ""))
 
     @cached_property
     def _meshes(self) -> dict[tuple, Mesh]:
@@ -92,11 +93,6 @@ def _sample(mesh: Mesh) -> tuple:
     """Return a key that is the same for equal meshes: sizes and some of the vertices."""
     vertices = mesh.vertices[:, :: max(1, mesh.vertices.shape[1] // 64)]
     return len(mesh), mesh.vertices.shape[1], vertices.tobytes()
-
-
-def _same(one: Mesh, other: Mesh) -> bool:
-    pairs = ((getattr(one, each.name), getattr(other, each.name)) for each in fields(Mesh))
-    return all(a is b or (a is not None and b is not None and np.array_equal(a, b)) for a, b in pairs)
 
 
 def _is_told() -> bool:
@@ -149,6 +145,7 @@ HANDLERS = (
     ("undo_post", distrust),
     ("redo_post", distrust),
     ("load_pre", forget),
+    ("load_pre", images.forget),
 )
 
 

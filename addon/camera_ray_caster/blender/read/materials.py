@@ -1,11 +1,17 @@
-"""Looks of materials in the combined pass, and their pass indices."""
+"""Looks of materials, what passes show of them: colors, transparent points and pass indices."""
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from dataclasses import replace
+from typing import NamedTuple
 
 import bpy
 import numpy as np
 
+from ...core.materials.surface import Surface
+from ...core.materials.values import Constant, Value, constant, function_of
+from .nodes import Unread
+from .shader_nodes import Parts, alpha_of, colors, material_nodes, transparency
 from .unique import unique_name
 
 ALWAYS_NODES = bpy.app.version >= (5, 0, 0)
@@ -14,16 +20,33 @@ ALWAYS_NODES = bpy.app.version >= (5, 0, 0)
 UNCHANGED = (float(np.float32(0.8)),) * 3
 """Default Base Color of a new Principled BSDF."""
 
-Look = tuple[int, tuple[float, ...]]
-"""Pass index and linear RGBA color."""
+
+class Look(NamedTuple):
+    """What passes show of a material, or of an object without one."""
+
+    index: int
+    """Pass index."""
+    color: tuple[float, ...]
+    """Linear RGBA, if nothing changes over the surface."""
+    surface: Surface | None = None
+    """The surface, if something changes over it, and of materials that glow or are transparent."""
+    needs: frozenset[str] = frozenset()
+    """What the surface needs of the mesh: see ``Nodes.needs``."""
+    unread: tuple[str, ...] = ()
+    """What is not read of the material, in words."""
+
+    def held_out(self) -> "Look":
+        """Return the look of a holdout: a hole, with the same transparent points."""
+        surface = self.surface and replace(self.surface, lit=constant(0, 0, 0), own=None, glow=None)
+        return self._replace(color=(0.0,) * 4, surface=surface)
 
 
 class Looks:
     """Looks of objects in a view layer; each material is looked up once."""
 
-    def __init__(self, override=None):
-        """Take the view layer's material override, if there is one."""
-        self._override = override
+    def __init__(self, layer):
+        """Take the evaluated view layer, with its material override, if there is one, and its Alpha Threshold."""
+        self._override, self._threshold = layer.material_override, layer.pass_alpha_threshold
         self._known: dict[object, Look] = {}
 
     def of_slots(self, item, slots: Iterable[int]) -> tuple[Look, ...]:
@@ -35,19 +58,32 @@ class Looks:
     @property
     def materials(self) -> tuple[tuple[int, str], ...]:
         """Pass index and name of each material that has been looked up."""
-        names = (unique_name(material.original, bpy.data.materials) for material in self._known)
-        return tuple((index, name) for name, (index, _) in zip(names, self._known.values(), strict=True))
+        return tuple((look.index, _name(material)) for material, look in self._known.items())
+
+    @property
+    def unread(self) -> Iterator[tuple[str, str]]:
+        """Yield what is not read of materials, with their names."""
+        for material, look in self._known.items():
+            yield from ((_name(material), reason) for reason in look.unread)
+
+    def needs(self, item) -> frozenset[str]:
+        """Return what the materials of an evaluated object need of its mesh."""
+        return frozenset().union(*(look.needs for look in self.of_slots(item, range(max(1, len(item.material_slots))))))
 
     def _of_slot(self, item, slot: int) -> Look:
         """Return the look of a slot, or of the last one for slots after it; the object's color without a material."""
         slots = item.material_slots
         material = slots[min(slot, len(slots) - 1)].material if len(slots) else None
-        return (0, shown(item.color)) if material is None else self._of(material)
+        return Look(0, shown(item.color)) if material is None else self._of(material)
 
     def _of(self, material) -> Look:
         if material not in self._known:
-            self._known[material] = _look(material)
+            self._known[material] = _look(material, self._threshold)
         return self._known[material]
+
+
+def _name(material) -> str:
+    return unique_name(material.original, bpy.data.materials)
 
 
 def first_slot(item) -> int:
@@ -74,10 +110,56 @@ def surface_node(owner, kind: str):
     return links[0].from_node if links and links[0].from_node.bl_idname == kind else None
 
 
-def _look(material) -> Look:
-    """Return a material's look: the Base Color of a Principled BSDF, if plain and changed, else the viewport color."""
+def _look(material, threshold: float) -> Look:
+    """Return a material's look: what its nodes say, or its viewport color if they say nothing that is read, or have a
+    Principled BSDF as it was made.
+    """
+    *viewport, opacity = material.diffuse_color
+    plain = Look(material.pass_index, shown((*viewport, opacity)))
+    uses_nodes = material.node_tree is not None and (ALWAYS_NODES or material.use_nodes)
+    output = material.node_tree.get_output_node("CYCLES") if uses_nodes else None
+    if output is None or not output.inputs["Surface"].is_linked:
+        return plain
+    nodes, socket, unread = material_nodes(), output.inputs["Surface"], []
+    alpha = through = None
+    try:
+        through = transparency(nodes, socket, ()) if threshold > 0 else None
+        alpha = None if through is None else alpha_of(through)
+    except Unread as error:
+        unread.append(f"its alpha is not read: {error}. It is cast opaque")
+    needs = set(nodes.needs) if alpha is not None else set()
+    lit: Value = constant(*viewport)
+    own = glow = None
+    try:
+        parts = _divided(colors(nodes, socket, ()), through, alpha)
+        needs |= nodes.needs
+        base, own, glow = (part and _as_color(part) for part in parts)
+        if base is None or not _as_made(material):
+            lit = base or constant(0, 0, 0)
+    except Unread as error:
+        unread.append(f"its color is not read: {error}. Its viewport color is shown")
+    if isinstance(alpha, Constant) and (alpha.values >= threshold).all():
+        alpha = None
+    look = plain._replace(unread=tuple(unread))
+    if alpha is None and own is None and glow is None and isinstance(lit, Constant):
+        return look._replace(color=shown((*lit.values[:, 0].tolist(), opacity)))
+    return look._replace(surface=Surface(lit, own, glow, alpha, threshold), needs=frozenset(needs))
+
+
+def _as_made(material) -> bool:
+    """Return whether a material is a Principled BSDF whose Base Color was not changed."""
     node = surface_node(material, "ShaderNodeBsdfPrincipled")
     base = node.inputs["Base Color"] if node else None
-    *viewport, alpha = material.diffuse_color
-    changed = base is not None and not base.is_linked and tuple(base.default_value)[:3] != UNCHANGED
-    return material.pass_index, shown((*(tuple(base.default_value)[:3] if changed else viewport), alpha))
+    return base is not None and not base.is_linked and tuple(base.default_value)[:3] == UNCHANGED
+
+
+def _divided(parts: Parts, through: Value | None, alpha: Value | None) -> tuple[Value | None, ...]:
+    """Return the parts over alpha: the hit surface is shown unblended."""
+    if through is None or alpha is None:
+        return parts
+    return tuple(part and function_of(lambda a, b: a / np.where(b > 0, b, 1.0), part, alpha) for part in parts)
+
+
+def _as_color(part: Value) -> Value:
+    """Return a part with three channels that are finite."""
+    return function_of(lambda one: np.nan_to_num(np.broadcast_to(one, (3, one.shape[1]))), part)

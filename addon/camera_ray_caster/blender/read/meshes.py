@@ -30,7 +30,7 @@ def mesh_record(mesh, arrays: MeshArrays) -> Mesh:
     In every Blender version the normals are those of Blender 5.2: corners of flat faces have the face's normal. There
     are no normals if all faces are flat.
     """
-    loops = _triangle_loops(mesh)
+    loops = triangle_loops(mesh)
     uv = uv_map(mesh)
     slot = mesh.attributes.get("material_index")
     polygon = fetched(mesh.loop_triangle_polygons, "value", np.int32)
@@ -67,7 +67,7 @@ def _flat(mesh) -> np.ndarray:
     return fetched(mesh.attributes["sharp_face"].data, "value", bool)
 
 
-def _triangle_loops(mesh) -> np.ndarray:
+def triangle_loops(mesh) -> np.ndarray:
     """Return the loops of each triangle, (3, k) int32."""
     if len(mesh.loops) == 3 * len(mesh.polygons):
         return np.arange(len(mesh.loops), dtype=np.int32).reshape(-1, 3).T.copy()

@@ -14,7 +14,7 @@ from .geometry import mesh_shapes, shapes_of
 from .groups import Group, gathered, heeding, listed
 from .kept import Reading
 from .lights import USED, light_color, world_color
-from .materials import Looks, first_slot, is_finite
+from .materials import Look, Looks, first_slot, is_finite
 from .stored import own_value
 from .unique import unique_name
 from .visibility import Visibility, original_source
@@ -50,7 +50,7 @@ class _Scene:
         self.world = world_color(depsgraph)
         self.visibility = Visibility(depsgraph)
         self.reading = Reading(depsgraph)
-        self.looks = Looks(depsgraph.view_layer_eval.material_override)
+        self.looks = Looks(depsgraph.view_layer_eval)
         self.exact = own_value(depsgraph.scene_eval, EXACT_SHAPES)
         self.groups: dict[tuple, Group] = {}
         self.left_out: Counter[tuple[str, str]] = Counter()
@@ -91,7 +91,7 @@ class _Scene:
         elif not is_finite(color):
             group.reason = DAZZLING
         else:
-            group.is_sun, group.looks = USED[data.type], ((0, color),)
+            group.is_sun, group.looks = USED[data.type], (Look(0, color),)
 
     def fill(self, group: Group, instance) -> None:
         """Set the primitive of an instance's geometry, or the reason why it cannot be cast."""
@@ -102,18 +102,19 @@ class _Scene:
         group.reason = _refusal(setting) or self.visibility.objection(instance)
         if group.reason:
             return
-        if setting == "AUTOMATIC" and not self.exact:
+        needs = self.looks.needs(item)
+        if setting == "AUTOMATIC" and (needs or not self.exact):
             setting = "MESH"
         find = partial(self.reading.find, item.data, source)
-        group.primitive, group.reason = find(setting, partial(shapes_of, item, setting))
+        group.primitive, group.reason = find((setting, needs), partial(shapes_of, item, setting, needs))
         if group.primitive is None:
             return
         if setting == "AUTOMATIC" and group.primitive.apart is not None:
-            group.flattened = partial(find, "MESH", partial(mesh_shapes, item.data, "MESH"))
+            group.flattened = partial(find, ("MESH", frozenset()), partial(mesh_shapes, item.data, "MESH"))
         group.object_index = item.pass_index
         group.looks = self.looks.of_slots(item, _slots(item, group.primitive.mesh))
         if self.visibility.is_holdout(instance):
-            group.looks = tuple((index, (0.0,) * 4) for index, _ in group.looks)
+            group.looks = tuple(look.held_out() for look in group.looks)
 
     def geometry(self, instance) -> Hashable:
         """Return a key of Cycles' geometry of an instance: its data, or its object if that has its own material slots.
@@ -131,6 +132,7 @@ class _Scene:
         for item in self.visibility.unlisted(self.listed, self.instanced):
             if _may_have_surface(item) or item.instance_type == "COLLECTION":
                 self.left_out[unique_name(item, bpy.data.objects), HIDDEN] += 1
+        self.left_out.update(self.looks.unread)
         shapes = gathered(list(self.groups.values()), self.left_out, self.world)
         lights = replace(shapes.lights, left_out=listed(dark))
         return replace(shapes, lights=lights, materials=self.looks.materials)

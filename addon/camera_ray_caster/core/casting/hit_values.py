@@ -13,10 +13,12 @@ import numpy as np
 from ..camera.jacobian import RayDerivatives
 from ..errors.hits import HitErrors
 from ..errors.rays import world_rays
+from ..materials.surface import Surface
 from ..maths.speed import Scratch, lazy
 from ..maths.vector import dot, inner, is_lattice, is_one, linear, matvec, norm
 from ..shapes.kind import HitPixels, Kind
 from ..shapes.kinds import by_kind
+from ..shapes.surface_places import KindPlaces, SurfacePlaces, material_rows
 from .hits import Hits
 from .plan import Plan
 
@@ -200,14 +202,25 @@ class HitValues:
     @lazy
     def material(self) -> np.ndarray:
         """The rows of the hit materials in the plan's tables, (rows, columns) intp."""
-        slots = self.plan.shapes.slots
-        if slots is None:
+        if self.plan.shapes.slots is None:
             return self.index
         row = self.index.copy()
         for where, slot in self.by_kind(lambda kind, pixels: kind.slot(self.plan.in_camera, pixels)):
-            first = slots.first[row[where]]
-            row[where] = np.where(first < 0, row[where], len(slots.first) + first + slot)
+            row[where] = material_rows(self.plan.shapes, row[where], slot)
         return row
+
+    @lazy
+    def painted(self) -> list[tuple[Surface, np.ndarray, SurfacePlaces]]:
+        """The surfaces that are hit and have no plain color: each with the flat indices of its pixels, (k,), and their
+        points.
+        """
+        found, shapes = [], self.plan.shapes
+        if shapes.surfaces:
+            for kind, pixels in self._kinds:
+                places = KindPlaces(kind, self.plan.in_camera, pixels, pixels.of(self.point))
+                for number, some in places.each_surface():
+                    found.append((shapes.surfaces[number], pixels.places[some], SurfacePlaces(places, some)))
+        return found
 
     @lazy
     def errors(self) -> list[tuple[np.ndarray, HitErrors]]:

@@ -18,10 +18,10 @@ import numpy as np
 from ..errors.hits import HitErrors
 from ..maths.speed import whole_rows, write_where
 from ..maths.vector import matvec, unit
+from . import shading
 from .flow import NEXT, PREVIOUS, flow_of
 from .hit_values import ZERO, HitValues
 from .hits import Hits
-from .shading import shade
 
 ROUNDED_UP = 1 + 2.0**-9
 """Factor that makes up for the rounding of the bounds themselves, to the type in which they are stored."""
@@ -43,8 +43,13 @@ class Pass:
 
 def combined(values: HitValues, out):
     """Linear RGBA: the shaded color, the world's color where nothing is hit, transparent black without a ray."""
-    shade(values, out)
+    shading.shade(values, out)
     write_where(out, 0, values.hits.lost)
+
+
+def albedo(values: HitValues, out):
+    """Linear RGB: the color of the material without light, of emission without its strength; see ``shading.albedo``."""
+    shading.albedo(values, out)
 
 
 def depth(values: HitValues, out):
@@ -185,6 +190,7 @@ def _write(out, vector, offset, blank):
 
 PASSES = {
     "combined": Pass(combined, 4),
+    "albedo": Pass(albedo, 3),
     "depth": Pass(depth),
     "distance": Pass(distance),
     "position": Pass(position, 3),

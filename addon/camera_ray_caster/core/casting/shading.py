@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -39,9 +39,33 @@ def shade(values: HitValues, out: np.ndarray) -> None:
             light = np.add(lit[channel], world, out=values.array("spare"))
             if grid is not None:
                 np.multiply(light, grid, out=light)
+            _paint(values, surface, lambda one: one.lit, channel)
             np.multiply(surface, light, out=surface)
+            _paint(values, surface, lambda one: one.glow, channel, np.add)
         out[..., channel] = surface
     write_where(out, world_color, values.hits.missed)
+
+
+def albedo(values: HitValues, out: np.ndarray) -> None:
+    """Write linear RGB into ``out``, (rows, columns, 3): the color of the material, without light, and of emission
+    without its strength; 0 where nothing is hit.
+    """
+    for channel in range(3):
+        surface = np.take(values.plan.colors[channel], values.material, mode="wrap", out=values.array("color"))
+        _paint(values, surface, lambda one: one.lit, channel)
+        _paint(values, surface, lambda one: one.own, channel, np.add)
+        out[..., channel] = surface
+
+
+def _paint(values: HitValues, image: np.ndarray, of: Callable, channel: int, how: Callable | None = None) -> None:
+    """Write a channel of a part of the hit surfaces, such as ``lit``, into an image, (rows, columns), or combine both.
+    """
+    flat = image.reshape(-1)
+    for surface, where, places in values.painted:
+        part = of(surface)
+        if part is not None:
+            color = np.broadcast_to(places.value(part), (3, len(where)))[channel]
+            flat[where] = color if how is None else how(flat[where], color)
 
 
 def grid_factor(values: HitValues) -> np.ndarray | None:

@@ -7,7 +7,7 @@ import numpy as np
 SIGNED = ("normal", "ray_direction")
 """Passes with values from -1 to 1."""
 COUNTED = ("object_index", "material_index", "shape_index", "face_index")
-SHARES = ("combined", "uv", "valid")
+SHARES = ("combined", "albedo", "uv", "valid")
 """Passes that are shown as they are."""
 NOTHING = 1e9
 """Distances from this one on mean that nothing is hit: Blender stores 1e10, the caster infinity."""

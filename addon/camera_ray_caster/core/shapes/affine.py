@@ -14,6 +14,7 @@ import numpy as np
 from ..maths.speed import Scratch, lazy, merged
 from ..maths.vector import components, difference, dot, matrix_rows, matvec
 from .affine_search import AffineSet, Group, divide
+from .cutouts import Cutouts
 from .frames import InCamera, WorldRays
 from .kind import HitPixels, Kind, ShapeErrors, Visible
 from .local_rays import LocalRays
@@ -38,10 +39,11 @@ class AffineKind(Kind):
 
     @abstractmethod
     def intersect(
-        self, constants: Any, origin: Any, direction: Any, start: float | None, scratch: Scratch
+        self, constants: Any, origin: Any, direction: Any, start: Any, scratch: Scratch
     ) -> tuple[Any, Any]:
         """Return t of the first crossing at or beyond ``start``, and where t is a hit, as ``Large.solve`` does.
 
+        ``start`` may be an array that broadcasts with the rays.
         ``constants`` hold one shape, or several shapes in arrays that broadcast with the rays. direction is three
         broadcastable components in the camera frame; so is origin, or it is None for rays from the eye. start is None
         if the eye is outside and no part of the shape lies before the clip start. A ray that is NaN hits nothing.
@@ -71,10 +73,11 @@ class AffineKind(Kind):
 
     def shape_set(self, shapes: InCamera, visible: Visible) -> AffineSet:
         """See ``Kind``."""
-        groups = []
-        for part, is_simple, is_small in divide(visible):
+        groups, cutouts = [], Cutouts.of(self, shapes, visible.at)
+        for part, is_simple, is_small, is_cut in divide(visible, None if cutouts is None else cutouts.may):
             constants = _rounded(self.constants(shapes, part.at, part.parallel), part.real)
-            groups.append(Group(self.intersect, self.lattice, part, is_simple, is_small, constants))
+            own = cutouts if is_cut else None
+            groups.append(Group(self.intersect, self.lattice, part, is_simple, is_small, constants, own))
         return AffineSet(tuple(groups), self.faces_eye or all(group.is_simple for group in groups))
 
     def uv(self, shapes: InCamera, pixels: HitPixels, point: Any) -> tuple[np.ndarray, np.ndarray]:

@@ -13,6 +13,7 @@ import numpy as np
 
 from .. import tuning
 from ..maths.vector import cut, is_lattice
+from .cutouts import Cutouts
 from .kind import Candidates, Large, ShapeSet, Visible
 from .search_rays import SearchRays
 from .windows import Windows, batches, in_tile, pixels_in
@@ -32,6 +33,8 @@ class Group:
     """Whether the shapes are tested many at once; if so, they are sorted by the lowest row that may see them."""
     constants: Any
     """A dataclass of arrays whose last axis counts the shapes."""
+    cutouts: Cutouts | None = None
+    """The transparent points of the shapes, if they may have any."""
 
     @cached_property
     def tallest(self) -> int:
@@ -65,7 +68,8 @@ class Group:
                 return lattice.meet
 
         def meet(k, window, scratch):
-            return self._intersect(rays, self._constants(here[k]), lambda component: cut(component, window))
+            at = self.visible.at[here[k]]
+            return self._intersect(rays, at, self._constants(here[k]), lambda component: cut(component, window))
 
         return meet
 
@@ -80,9 +84,10 @@ class Group:
         order = np.lexsort((-self.visible.at[here], -self.visible.near[here]))  # the nearest shapes are written last
         here = here[order]
         windows = Windows.around(bounds[order], rays.shape)
-        t, where = self._intersect(rays, self._constants(here, axes=2), windows.of)
+        at = self.visible.at[here][:, None, None]
+        t, where = self._intersect(rays, at, self._constants(here, axes=2), windows.of)
         t = np.broadcast_to(t, (len(here), *windows.size))
-        return Candidates(self.visible.at[here][:, None, None], (windows.row, windows.column), t, where)
+        return Candidates(at, (windows.row, windows.column), t, where)
 
     def _constants(self, here, axes: int = 0):
         """Return the constants of the shapes at ``here``, an index or indices; ``axes`` more axes are appended."""
@@ -90,10 +95,17 @@ class Group:
         extra = (1,) * axes
         return type(self.constants)(*(value.reshape(*value.shape, *extra) if axes else value for value in values))
 
-    def _intersect(self, rays: SearchRays, constants: Any, part: Callable) -> tuple[Any, Any]:
+    def _intersect(self, rays: SearchRays, at: Any, constants: Any, part: Callable) -> tuple[Any, Any]:
         origin = None if rays.origin is None else tuple(map(part, rays.origin))
-        start = None if self.is_simple else self.visible.clip_start
-        return self.intersect(constants, origin, tuple(map(part, rays.direction)), start, rays.scratch)
+        direction = tuple(map(part, rays.direction))
+        first = None if self.is_simple else self.visible.clip_start
+
+        def cross(start):
+            return self.intersect(constants, origin, direction, first if start is None else start, rays.scratch)
+
+        if self.cutouts is None:
+            return cross(None)
+        return self.cutouts.first_hit(at, origin, direction, rays.scratch, cross)
 
 
 @dataclass(frozen=True, eq=False)
@@ -115,11 +127,14 @@ class AffineSet(ShapeSet):
                 yield from group.batches(rays)
 
 
-def divide(visible: Visible) -> Iterator[tuple[Visible, bool, bool]]:
-    """Yield groups of shapes that are tested in the same way, and whether they are simple and small: see ``Group``."""
-    is_simple = visible.near >= visible.clip_start
+def divide(visible: Visible, may_be_cut: np.ndarray | None) -> Iterator[tuple[Visible, bool, bool, bool]]:
+    """Yield groups of shapes that are tested in the same way, and whether they are simple and small, see ``Group``, and
+    may have transparent points, which ``may_be_cut`` says for all ``Shapes``, (n,); None if no shape has any.
+    """
+    is_cut = np.zeros(len(visible.at), bool) if may_be_cut is None else may_be_cut[visible.at]
+    is_simple = (visible.near >= visible.clip_start) & ~is_cut
     is_small = pixels_in(visible.bounds) < tuning.SMALL_PIXELS
-    alike = 2 * is_simple + is_small
+    alike = 4 * is_cut + 2 * is_simple + is_small
     for code in np.unique(alike).tolist():
         some = np.flatnonzero(alike == code)
         if code & 1:
@@ -129,4 +144,5 @@ def divide(visible: Visible) -> Iterator[tuple[Visible, bool, bool]]:
             replace(visible, at=visible.at[some], bounds=bounds, near=visible.near[some]),
             bool(code & 2),
             bool(code & 1),
+            bool(code & 4),
         )

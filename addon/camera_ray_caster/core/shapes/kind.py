@@ -250,6 +250,16 @@ class Kind(ABC):
         """Return the face of the mesh that is hit, (m,) int32; by default -1, for no face."""
         return np.full(len(pixels.at), -1, np.int32)
 
+    def in_object(self, shapes: InCamera, pixels: HitPixels, point: Any) -> np.ndarray:
+        """Return hit points, components relative to the eye, world, in the spaces of their objects, (3, m); by default
+        0: the reader casts a shape as a mesh where a material needs them.
+        """
+        return np.zeros((3, len(pixels.at)))
+
+    def layer(self, shapes: InCamera, pixels: HitPixels, point: Any, name: str, channels: int) -> np.ndarray:
+        """Return a layer of the mesh, see ``Mesh.layers``, at hit points, (channels, m); by default 0."""
+        return np.zeros((channels, len(pixels.at)))
+
     def slot(self, shapes: InCamera, pixels: HitPixels) -> np.ndarray:
         """Return which material of a shape's ``Slots`` is hit, (m,); by default the first."""
         return np.zeros(len(pixels.at), np.int32)

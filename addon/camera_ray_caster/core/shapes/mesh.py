@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..records import MESH, Shapes
+from .cutouts import Cutouts
 from .follow import Follow
 from .frames import InCamera, WorldRays
 from .kind import HitPixels, Kind, PixelNormals, Visible
@@ -36,7 +37,8 @@ class Meshes(Kind):
         """See ``Kind``."""
         if isinstance(visible.whole, MeshSet):
             return visible.whole.at(visible.pixels)
-        return MeshSet(MeshesInView(shapes, visible), visible.clip_start)
+        cutouts = Cutouts.of(self, shapes, visible.at)
+        return MeshSet(MeshesInView(shapes, visible), visible.clip_start, cutouts)
 
     def normals(self, shapes: InCamera, at: np.ndarray) -> tuple[np.ndarray, PixelNormals | None]:
         """See ``Kind``; each pixel's normal comes from its triangle."""
@@ -67,6 +69,14 @@ class Meshes(Kind):
     def polygon(self, shapes: InCamera, pixels: HitPixels) -> np.ndarray:
         """See ``Kind``."""
         return HitTriangles.of(shapes, pixels).polygon
+
+    def in_object(self, shapes: InCamera, pixels: HitPixels, point) -> np.ndarray:
+        """See ``Kind``."""
+        return HitTriangles.of(shapes, pixels).in_object(point)
+
+    def layer(self, shapes: InCamera, pixels: HitPixels, point, name: str, channels: int) -> np.ndarray:
+        """See ``Kind``."""
+        return HitTriangles.of(shapes, pixels).layer(point, name, channels)
 
     def slot(self, shapes: InCamera, pixels: HitPixels) -> np.ndarray:
         """See ``Kind``."""

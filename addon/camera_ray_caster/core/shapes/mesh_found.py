@@ -92,6 +92,10 @@ class Found:
         which = self._which()
         return (other == NONE) | (which[number] < which[other])
 
+    def entry(self, number: np.ndarray) -> np.ndarray:
+        """Return the indices of triangles by their numbers."""
+        return self._which()[number]
+
     def _which(self) -> np.ndarray:
         """The indices of all triangles that have numbers."""
         self.entered[:] = [np.concatenate(self.entered)] if self.entered else [np.zeros(0, np.intp)]

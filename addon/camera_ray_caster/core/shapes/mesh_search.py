@@ -13,11 +13,13 @@ import numpy as np
 from .. import tuning
 from ..maths.speed import merged, taken
 from ..maths.vector import dot, norm
+from .cutouts import Cutouts, crossings
 from .kind import Candidates, PixelBounds, ShapeSet
 from .mesh_found import NONE, SEEN, Found, SeenTriangles
 from .mesh_in_camera import MeshesInView, Triangles
 from .mesh_order import nearest_first, pieces, slabs
 from .mesh_spans import Lattice, spans
+from .mesh_surface import TRIANGLES, HitTriangles
 from .search_rays import SearchRays
 from .triangles import ROUNDING, crossing, edge_vectors, from_origin, signs, volumes
 from .windows import Windows, banded, batches, in_tile, pixels_in, union
@@ -53,6 +55,8 @@ class MeshSet(ShapeSet):
 
     meshes: MeshesInView
     clip_start: float
+    cutouts: Cutouts | None = None
+    """The transparent points of the meshes; None if there are none."""
     pixels: PixelBounds | None = None
     """The columns and rows of the picture that are searched; None for all."""
     faces_eye = True
@@ -143,7 +147,7 @@ class MeshSet(ShapeSet):
             triangles = triangles.only(meets)
         seen = spans(lattice, corners, triangles.bounds, rays.shape[1])
         at, pixel = seen.met
-        self._keep(found, pixel, seen.t, taken(triangles.which, at))
+        self._keep(rays, found, pixel, seen.t, taken(triangles.which, at))
         if not seen.clear.all():
             for _ in self._in_cells(rays, reach, triangles.only(np.flatnonzero(~seen.clear)), found):
                 pass
@@ -206,14 +210,32 @@ class MeshSet(ShapeSet):
 
     def _meet(self, rays: SearchRays, met: Open, found: Found) -> None:
         """Keep the hits on triangles that are known to be hit, one per pixel."""
-        self._keep(found, met.pixel, crossing(self.meshes.places(met.vertices), *rays.at(met.pixel)), met.which)
+        t = crossing(self.meshes.places(met.vertices), *rays.at(met.pixel))
+        self._keep(rays, found, met.pixel, t, met.which)
 
-    def _keep(self, found: Found, pixel: np.ndarray, t: np.ndarray, which: np.ndarray) -> None:
-        """Keep hits at or beyond the clip start."""
+    def _keep(self, rays: SearchRays, found: Found, pixel: np.ndarray, t: np.ndarray, which: np.ndarray) -> None:
+        """Keep hits at or beyond the clip start, on points that are not transparent."""
         met = (t >= self.clip_start) & (t < np.inf)
+        if self.cutouts is not None:
+            met &= t <= taken(found.t.reshape(-1), pixel)
+            met[met] = self._is_hit(self.cutouts, rays, found, pixel[met], t[met], which[met])
         if not met.all():
             pixel, t, which = pixel[met], t[met], which[met]
         found.keep(pixel, t, which)
+
+    def _is_hit(self, cutouts: Cutouts, rays: SearchRays, found: Found, pixel, t, which) -> np.ndarray:
+        """Return which crossings with triangles, (m,), are hits: all but those with transparent points."""
+        own, triangle = np.unique(which, return_inverse=True)
+        at, number = self.meshes.blocks.numbers(found.entry(own))
+        is_hit = np.ones(len(pixel), bool)
+        some = np.flatnonzero(cutouts.may[at][triangle])
+        if some.size:
+            origin, direction = rays.at(pixel[some])
+            point = direction * t[some] if origin is None else origin + direction * t[some]
+            own = HitTriangles(cutouts.shapes, triangle[some], at, number, origin is None).only(slice(None))
+            pixels = crossings(at[triangle[some]], t[some], origin is None, rays.scratch, **{TRIANGLES: own})
+            is_hit[some] = cutouts.hit(pixels, point)
+        return is_hit
 
 
 def _inside(volumes: tuple[Any, Any, Any], is_turned: bool) -> np.ndarray:

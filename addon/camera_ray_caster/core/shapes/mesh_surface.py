@@ -150,6 +150,20 @@ class HitTriangles:
         u, v = self.interpolated(self._gather((3, 2), float, _uv), point)
         return u, v
 
+    def layer(self, point: Any, name: str, channels: int) -> np.ndarray:
+        """Return a layer of the meshes, (channels, m); 0 where a mesh has none of this name."""
+
+        def at_corners(mesh: Mesh, which: np.ndarray) -> Any:
+            values = dict(mesh.layers).get(name)
+            return 0.0 if values is None else values.take(which, axis=1).swapaxes(1, 2)
+
+        return self.interpolated(self._gather((3, channels), float, at_corners), point)
+
+    def in_object(self, point: Any) -> np.ndarray:
+        """Return the points in the spaces of their objects, (3, m)."""
+        middle = self._gather((3,), float, lambda mesh, which: mesh.middle[:, None])
+        return self.interpolated(self.local + middle, point)
+
     def from_edge(self, point: Any) -> np.ndarray:
         """Return the distances from edges, (m,), as ``Kind.from_edge`` does."""
         outer = self._gather((3,), bool, lambda mesh, k: False if mesh.uv is not None else mesh.is_outer[:, k])

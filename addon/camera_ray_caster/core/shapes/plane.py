@@ -11,6 +11,7 @@ Reference: A. Glassner (ed.), An Introduction to Ray Tracing, 1989, chapter 2 (r
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -67,7 +68,7 @@ class Plane(AffineKind):
         (x, y, z), (to_x, to_y, to_z) = offset, matrix
         return Constants(matrix, center, z, np.stack((y * to_z - z * to_y, z * to_x - x * to_z)))
 
-    def intersect(self, constants: Constants, origin, direction, start: float | None, scratch):
+    def intersect(self, constants: Constants, origin, direction, start: Any, scratch):
         """See ``AffineKind``. Both sides are visible. A ray within the plane does not hit it."""
         matrix = constants.matrix
         shape = np.broadcast_shapes(np.shape(constants.offset), *map(np.shape, direction), *map(np.shape, origin or ()))

@@ -44,7 +44,7 @@ class Sphere(AffineKind):
         """See ``AffineKind``."""
         return sphere_rays.constants(shapes, at, parallel)
 
-    def intersect(self, constants: sphere_rays.Constants, origin, direction, start: float | None, scratch: Scratch):
+    def intersect(self, constants: sphere_rays.Constants, origin, direction, start: Any, scratch: Scratch):
         """See ``AffineKind``. Rays from inside hit the far side."""
         return sphere_rays.intersect(constants, origin, direction, start, scratch)
 

@@ -103,7 +103,7 @@ def _levelled(matrix):
     return cosine * first + sine * second, level, third
 
 
-def intersect(sphere: Constants, origin, direction, start: float | None, scratch):
+def intersect(sphere: Constants, origin, direction, start, scratch):
     """Return t, NaN for no hit, and None: see ``AffineKind.intersect``."""
     if origin is None and start is None:
         if is_lattice(direction):

@@ -1,0 +1,147 @@
+"""The links of a node tree: which expression a socket has, through groups, reroutes and muted nodes."""
+
+from collections.abc import Callable, Hashable
+from typing import Any
+
+import numpy as np
+
+from ...core.materials.values import Value, constant, function_of, gray, mean
+
+DEEPEST = 200
+"""Nodes in a row that are followed."""
+
+NUMBERS = {"VALUE", "INT", "BOOLEAN"}
+
+
+class Unread(Exception):
+    """A node, or a setting of it, that is not read; the message names it."""
+
+
+Source = tuple[Any, Any, tuple]
+"""A node, its output socket and the group nodes around it, the innermost last; or None and a socket that has a value of
+its own.
+"""
+
+
+class Nodes:
+    """A node tree and the expressions of its sockets."""
+
+    def __init__(self, read: dict[str, Callable]):
+        """Take the functions that read nodes by type: each returns the expression of an output, given this object,
+        the node as a ``Node`` and the output socket.
+        """
+        self.read = read
+        self.needs: set[str] = set()
+        """The layers of the mesh that expressions use, and OBJECT for places in the object's space."""
+        self._known: dict[Hashable, Value] = {}
+        self._open: set[Hashable] = set()
+
+    def source(self, socket, groups: tuple) -> Source:
+        """Return where the value of an input socket comes from."""
+        for _ in range(DEEPEST):
+            links = socket.links if socket.is_linked else ()
+            if not links or links[0].is_muted:
+                return None, socket, groups
+            node, output = links[0].from_node, links[0].from_socket
+            if node.type == "REROUTE":
+                following = node.inputs[0]
+            elif node.mute:
+                inner = [link.from_socket for link in node.internal_links if link.to_socket == output]
+                following = inner[0] if inner else None
+            elif node.type == "GROUP_INPUT" and groups:
+                groups, outer = groups[:-1], groups[-1]
+                following = _by_identifier(outer.inputs, output.identifier)
+            elif node.type == "GROUP" and node.node_tree is not None:
+                inside = node.node_tree.nodes
+                ends = [one for one in inside if one.type == "GROUP_OUTPUT" and one.is_active_output]
+                following = _by_identifier(ends[0].inputs, output.identifier) if ends else None
+                groups = (*groups, node)
+            else:
+                return node, output, groups
+            if following is None:
+                return None, output, groups
+            socket = following
+        raise Unread("its nodes form a loop")
+
+    def value(self, socket, groups: tuple, kind: str = "") -> Value:
+        """Return the expression of an input socket as a value of a type: VALUE, RGBA or VECTOR, by default its own."""
+        kind = kind or socket.type
+        node, output, inner = self.source(socket, groups)
+        value = own_value(output) if node is None else self.output(node, output, inner)
+        return converted(converted(value, output.type, socket.type), socket.type, kind)
+
+    def output(self, node, output, groups: tuple) -> Value:
+        """Return the expression of an output of a node."""
+        key = node.as_pointer(), output.identifier, tuple(one.as_pointer() for one in groups)
+        if key not in self._known:
+            read = self.read.get(node.bl_idname)
+            if read is None:
+                raise Unread(f"node {node.name!r} ({node.bl_rna.name})")
+            with Passed(self, key):
+                self._known[key] = read(self, Node(self, node, groups), output)
+        return self._known[key]
+
+
+class Passed:
+    """The passage through a node: raises Unread in a loop, and beyond DEEPEST."""
+
+    def __init__(self, nodes: Nodes, key: Hashable):
+        self._open, self._key = nodes._open, key
+
+    def __enter__(self):
+        if self._key in self._open:
+            raise Unread("its nodes form a loop")
+        if len(self._open) >= DEEPEST:
+            raise Unread(f"more than {DEEPEST} nodes in a row")
+        self._open.add(self._key)
+
+    def __exit__(self, *_):
+        self._open.discard(self._key)
+
+
+class Node:
+    """A node inside some groups, and the expressions of its inputs."""
+
+    def __init__(self, nodes: Nodes, node, groups: tuple):
+        self.nodes, self.node, self.groups = nodes, node, groups
+
+    def __getattr__(self, name: str):
+        return getattr(self.node, name)
+
+    def socket(self, key: str | int):
+        """Return an input socket by its place, its identifier or its name."""
+        if isinstance(key, int):
+            return self.node.inputs[key]
+        return _by_identifier(self.node.inputs, key) or self.node.inputs[key]
+
+    def input(self, key: str | int, kind: str = "") -> Value:
+        """Return the expression of an input."""
+        return self.nodes.value(self.socket(key), self.groups, kind)
+
+    def is_linked(self, key: str | int) -> bool:
+        """Whether an input gets its value from another node."""
+        return self.nodes.source(self.socket(key), self.groups)[0] is not None
+
+    def unread(self, what: str) -> Unread:
+        """Return the error that names a setting of the node."""
+        return Unread(f"node {self.node.name!r} ({self.node.bl_rna.name}): {what}")
+
+
+def own_value(socket) -> Value:
+    """Return the value that is set at a socket."""
+    value = getattr(socket, "default_value", 0.0)
+    numbers = tuple(value)[:3] if hasattr(value, "__len__") else (float(value),)
+    return constant(*numbers)
+
+
+def converted(value: Value, of: str, to: str) -> Value:
+    """Return a value of one type of socket as another type, as Blender converts it."""
+    if (of in NUMBERS) == (to in NUMBERS):
+        return value
+    if to in NUMBERS:
+        return gray(value) if of == "RGBA" else mean(value)
+    return function_of(lambda one: np.repeat(one, 3, axis=0), value)
+
+
+def _by_identifier(sockets, identifier: str):
+    return next((one for one in sockets if one.identifier == identifier), None)

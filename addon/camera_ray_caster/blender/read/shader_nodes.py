@@ -1,0 +1,125 @@
+"""The nodes of materials that give shaders: what they let through, and the colors of what they do not.
+
+A shader is a sum of parts with weights: Mix Shader weights two by its factor, Add Shader adds. Transparency is the sum
+of the weighted colors of Transparent BSDFs and of what the alpha of Principled BSDFs leaves; alpha is 1 less its mean,
+as in Cycles. The colors of the other parts are weighted sums over alpha: the surface that is hit is shown unblended.
+"""
+
+from typing import NamedTuple
+
+from ...core.materials.operations import saturated
+from ...core.materials.values import Constant, Value, constant, function_of, mean
+from .nodes import Node, Nodes, Passed, Unread
+from .value_nodes import READ
+
+COLORS = {
+    "ShaderNodeBsdfDiffuse": "Color",
+    "ShaderNodeBsdfAnisotropic": "Color",
+    "ShaderNodeBsdfGlossy": "Color",
+    "ShaderNodeBsdfGlass": "Color",
+    "ShaderNodeBsdfRefraction": "Color",
+    "ShaderNodeBsdfTranslucent": "Color",
+    "ShaderNodeBsdfToon": "Color",
+    "ShaderNodeBsdfSheen": "Color",
+    "ShaderNodeBsdfMetallic": "Base Color",
+    "ShaderNodeSubsurfaceScattering": "Color",
+}
+"""Shaders that show one color in light, by type, and the name of its socket."""
+
+EMISSIONS = {"ShaderNodeEmission", "ShaderNodeBackground"}
+PRINCIPLED, TRANSPARENT, HOLDOUT = "ShaderNodeBsdfPrincipled", "ShaderNodeBsdfTransparent", "ShaderNodeHoldout"
+MIX, ADD = "ShaderNodeMixShader", "ShaderNodeAddShader"
+SHADERS = {*COLORS, *EMISSIONS, PRINCIPLED, TRANSPARENT, HOLDOUT, MIX, ADD}
+"""The nodes that give shaders and are read, by type."""
+
+
+class Parts(NamedTuple):
+    """Weighted sums of the parts of a shader; None for 0."""
+
+    lit: Value | None = None
+    """Color in light."""
+    own: Value | None = None
+    """Color of emission, before its strength."""
+    glow: Value | None = None
+    """Emission."""
+
+
+def transparency(nodes: Nodes, socket, groups: tuple) -> Value | None:
+    """Return what the shader at a socket lets through, three channels or one; None for nothing. Raises Unread."""
+    found, _, groups = nodes.source(socket, groups)
+    if found is None:
+        return None
+    node = Node(nodes, found, groups)
+    with Passed(nodes, ("through", node.as_pointer(), tuple(one.as_pointer() for one in node.groups))):
+        kind = node.bl_idname
+        if kind == TRANSPARENT:
+            return node.input("Color")
+        if kind == PRINCIPLED:
+            alpha = node.input("Alpha")
+            rest = function_of(lambda one: 1 - saturated(one), alpha)
+            return None if isinstance(rest, Constant) and not rest.values.any() else rest
+        if kind in {MIX, ADD}:
+            parts = [transparency(nodes, node.inputs[k], node.groups) for k in shaders(kind)]
+            return None if parts == [None, None] else _combined(node, *parts)
+        if kind in {"ShaderNodeGroup", "ShaderNodeCustomGroup", "ShaderNodeBsdfRayPortal", "ShaderNodeShaderToRGB"}:
+            raise Unread(f"node {node.name!r} ({node.bl_rna.name})")
+        return None
+
+
+def colors(nodes: Nodes, socket, groups: tuple) -> Parts:
+    """Return the colors of the shader at a socket. Raises Unread."""
+    found, _, groups = nodes.source(socket, groups)
+    if found is None:
+        return Parts()
+    node = Node(nodes, found, groups)
+    with Passed(nodes, ("colors", node.as_pointer(), tuple(one.as_pointer() for one in node.groups))):
+        kind = node.bl_idname
+        if kind in {TRANSPARENT, HOLDOUT}:
+            return Parts()
+        if kind == PRINCIPLED:
+            return _principled(node)
+        if kind in COLORS:
+            if getattr(node.node, "fresnel_type", "F82") != "F82":
+                raise node.unread("physical conductor")
+            return Parts(node.input(COLORS[kind]))
+        if kind in EMISSIONS:
+            color = node.input("Color")
+            return Parts(None, color, function_of(lambda a, b: a * b, color, node.input("Strength")))
+        if kind in {MIX, ADD}:
+            first, second = (colors(nodes, node.inputs[k], node.groups) for k in shaders(kind))
+            return Parts(*(None if one is other is None else _combined(node, one, other)
+                           for one, other in zip(first, second, strict=True)))  # fmt: skip
+        raise Unread(f"node {node.name!r} ({node.bl_rna.name})")
+
+
+def _principled(node: Node) -> Parts:
+    alpha, strength = node.input("Alpha"), node.input("Emission Strength")
+    parts = [node.input("Base Color"), None]
+    if not (isinstance(strength, Constant) and not strength.values.any()):
+        parts[1] = function_of(lambda a, b: a * b, node.input("Emission Color"), strength)
+    if not (isinstance(alpha, Constant) and (alpha.values >= 1).all()):
+        parts = [part and function_of(lambda a, b: a * saturated(b), part, alpha) for part in parts]
+    return Parts(parts[0], None, parts[1])
+
+
+def shaders(kind: str) -> tuple[int, int]:
+    """Return the places of the shaders among the inputs of a Mix or an Add Shader."""
+    return (1, 2) if kind == MIX else (0, 1)
+
+
+def _combined(node: Node, first: Value | None, second: Value | None) -> Value:
+    """Return the sum of two parts, weighted by the factor of a Mix Shader; None stands for 0."""
+    first, second = first or constant(0), second or constant(0)
+    if node.bl_idname == ADD:
+        return function_of(lambda a, b: a + b, first, second)
+    return function_of(lambda f, a, b: (1 - saturated(f)) * a + saturated(f) * b, node.input("Fac"), first, second)
+
+
+def alpha_of(through: Value) -> Value:
+    """Return the alpha of what lets through this much."""
+    return mean(function_of(lambda one: saturated(1 - one), through))
+
+
+def material_nodes() -> Nodes:
+    """Return the reader of a material's nodes."""
+    return Nodes(READ)

@@ -1,0 +1,258 @@
+"""The nodes of materials and worlds that give numbers, and the expressions that are made of them."""
+
+from functools import partial
+
+import numpy as np
+
+from ...core.materials import operations as do
+from ...core.materials.images import MISSING, Texture
+from ...core.materials.values import DIRECTION, OBJECT, UV, Coordinates, Layer, Value, channel, constant, function_of
+from .images import Unreadable, image_of
+from .nodes import Node, Nodes, Unread, own_value
+
+TABLE = 256
+"""Entries of color ramps and curves, as in Cycles."""
+
+GENERATED = "generated"
+"""Name of the layer of texture space coordinates; those of UV maps and attributes begin with "uv:" and "color:"."""
+
+
+def _own(nodes: Nodes, node: Node, output) -> Value:
+    return own_value(output)
+
+
+def _image(nodes: Nodes, node: Node, output) -> Value:
+    if node.projection != "FLAT":
+        raise node.unread(f"projection {node.projection.lower()}")
+    vector = node.input("Vector") if node.is_linked("Vector") else Coordinates(UV)
+    return _texture(node, output, vector, node.extension)
+
+
+def _texture(node: Node, output, vector: Value, extension: str) -> Value:
+    if node.image is None:
+        return constant(0, 0, 0) if output.name == "Color" else constant(0)
+    try:
+        image = image_of(node.image)
+    except Unreadable as error:
+        raise Unread(f"node {node.name!r}: {error}") from error
+    if image is None:
+        return constant(*MISSING[:3]) if output.name == "Color" else constant(MISSING[3])
+    rgba = Texture(image, vector, extension, node.interpolation != "Closest", node.outputs["Alpha"].is_linked
+                   if "Alpha" in node.outputs else False)  # fmt: skip
+    return channel(rgba, 3) if output.name == "Alpha" else function_of(lambda values: values[:3], rgba)
+
+
+def _environment(nodes: Nodes, node: Node, output) -> Value:
+    if node.projection != "EQUIRECTANGULAR":
+        raise node.unread("mirror ball projection")
+    vector = node.input("Vector") if node.is_linked("Vector") else Coordinates(DIRECTION)
+    return _texture(node, output, function_of(_equirectangular, vector), "REPEAT")
+
+
+def _equirectangular(direction: np.ndarray) -> np.ndarray:
+    """Return the place of directions in an equirectangular image, as in Cycles: -Y in the middle of the left half."""
+    x, y, z = direction
+    u = 0.5 - np.arctan2(y, x) / (2 * np.pi)
+    return np.array(np.broadcast_arrays(u, np.arctan2(z, np.hypot(x, y)) / np.pi + 0.5, 0.0))
+
+
+def _coordinates(nodes: Nodes, node: Node, output) -> Value:
+    if node.from_instancer and output.name in {"Generated", "UV"}:
+        raise node.unread("From Instancer")
+    if output.name == "UV":
+        return Coordinates(UV)
+    if output.name == "Generated":
+        nodes.needs.add(GENERATED)
+        return Layer(GENERATED, 3)
+    if output.name == "Object" and node.object is None:
+        nodes.needs.add(OBJECT)
+        return Coordinates(OBJECT)
+    raise node.unread(f"output {output.name}")
+
+
+def _world_coordinates(nodes: Nodes, node: Node, output) -> Value:
+    if output.name != "Generated":
+        raise node.unread(f"output {output.name}")
+    return Coordinates(DIRECTION)
+
+
+def _map(nodes: Nodes, node: Node, output) -> Value:
+    if node.from_instancer:
+        raise node.unread("From Instancer")
+    return _layer(nodes, f"uv:{node.uv_map}", 3) if node.uv_map else Coordinates(UV)
+
+
+def _vertex_color(nodes: Nodes, node: Node, output) -> Value:
+    return _color_layer(nodes, node.layer_name, output.name)
+
+
+def _attribute(nodes: Nodes, node: Node, output) -> Value:
+    if node.attribute_type != "GEOMETRY":
+        raise node.unread(f"attribute type {node.attribute_type.lower()}")
+    if output.name in {"Color", "Alpha"}:
+        return _color_layer(nodes, node.attribute_name, output.name)
+    vector = _color_layer(nodes, node.attribute_name, "Color")
+    if output.name == "Vector":
+        return vector
+    return function_of(lambda values: values.mean(axis=0, keepdims=True), vector)
+
+
+def _color_layer(nodes: Nodes, name: str, part: str) -> Value:
+    rgba = _layer(nodes, f"color:{name}", 4)
+    return channel(rgba, 3) if part == "Alpha" else function_of(lambda values: values[:3], rgba)
+
+
+def _layer(nodes: Nodes, name: str, channels: int) -> Value:
+    nodes.needs.add(name)
+    return Layer(name, channels)
+
+
+def _light_path(nodes: Nodes, node: Node, output) -> Value:
+    """What a camera ray has: it is a camera ray and nothing else, without any bounce."""
+    if output.name == "Ray Length":
+        raise node.unread("output Ray Length")
+    return constant(1.0 if output.name == "Is Camera Ray" else 0.0)
+
+
+def _mix(nodes: Nodes, node: Node, output) -> Value:
+    if node.data_type == "RGBA":
+        return _blended(node, *(node.input(key) for key in ("Factor_Float", "A_Color", "B_Color")), node.clamp_result)
+    if node.data_type not in {"FLOAT", "VECTOR"}:
+        raise node.unread(f"data type {node.data_type.lower()}")
+    kind = node.data_type.title()
+    uniform = kind == "Float" or node.factor_mode == "UNIFORM"
+    factor = node.input("Factor_Float" if uniform else "Factor_Vector")
+    if node.clamp_factor:
+        factor = function_of(do.saturated, factor)
+    return function_of(do.mix, factor, node.input(f"A_{kind}"), node.input(f"B_{kind}"))
+
+
+def _mix_rgb(nodes: Nodes, node: Node, output) -> Value:
+    return _blended(node, *map(node.input, ("Fac", "Color1", "Color2")), node.use_clamp)
+
+
+def _blended(node: Node, factor: Value, first: Value, second: Value, clamps: bool) -> Value:
+    blend = do.BLENDS.get(node.blend_type)
+    if blend is None:
+        raise node.unread(f"blend type {node.blend_type.lower()}")
+    if getattr(node.node, "clamp_factor", True):
+        factor = function_of(do.saturated, factor)
+    found = function_of(lambda f, a, b: do.mix(f, a, blend(a, b)), factor, first, second)
+    return function_of(do.saturated, found) if clamps else found
+
+
+def _ramp(nodes: Nodes, node: Node, output) -> Value:
+    ramp = node.color_ramp
+    table = np.array([ramp.evaluate(k / (TABLE - 1)) for k in range(TABLE)]).T
+    rows = table[3:] if output.name == "Alpha" else table[:3]
+    return function_of(partial(do.looked_up, rows, ramp.interpolation != "CONSTANT"), node.input("Fac"))
+
+
+def _math(nodes: Nodes, node: Node, output) -> Value:
+    how = do.MATHS.get(node.operation)
+    if how is None:
+        raise node.unread(f"operation {node.operation.lower()}")
+    found = function_of(how, *(node.input(k) for k in range(3)))
+    return function_of(do.saturated, found) if node.use_clamp else found
+
+
+def _vector_math(nodes: Nodes, node: Node, output) -> Value:
+    if node.operation == "SCALE":
+        return function_of(lambda a, b: a * b, node.input(0), node.input("Scale"))
+    how = do.VECTOR_MATHS.get(node.operation)
+    if how is None:
+        raise node.unread(f"operation {node.operation.lower()}")
+    return function_of(how, *(node.input(k) for k in range(3)))
+
+
+def _mapping(nodes: Nodes, node: Node, output) -> Value:
+    none = constant(0, 0, 0)
+    place = node.input("Location") if node.vector_type in {"POINT", "TEXTURE"} else none
+    return function_of(partial(do.mapped, node.vector_type), node.input("Vector"), place, node.input("Rotation"),
+                       node.input("Scale"))  # fmt: skip
+
+
+def _map_range(nodes: Nodes, node: Node, output) -> Value:
+    if node.interpolation_type != "LINEAR" or node.data_type != "FLOAT":
+        raise node.unread("other than linear, of a value")
+    names = "Value", "From Min", "From Max", "To Min", "To Max"
+    inputs = [node.input(name) for name in names]
+    found = function_of(do.map_range, *inputs)
+    if not node.clamp:
+        return found
+    return function_of(lambda x, a, b: np.clip(x, np.minimum(a, b), np.maximum(a, b)), found, *inputs[3:])
+
+
+def _clamp(nodes: Nodes, node: Node, output) -> Value:
+    inputs = [node.input(name) for name in ("Value", "Min", "Max")]
+    if node.clamp_type == "RANGE":
+        return function_of(lambda x, a, b: np.clip(x, np.minimum(a, b), np.maximum(a, b)), *inputs)
+    return function_of(lambda x, a, b: np.minimum(np.maximum(x, a), b), *inputs)
+
+
+def _separate(nodes: Nodes, node: Node, output) -> Value:
+    if getattr(node.node, "mode", "RGB") != "RGB":
+        raise node.unread(f"mode {node.mode}")
+    place = [one.identifier for one in node.outputs].index(output.identifier)
+    return channel(node.input(0), place)
+
+
+def _combine(nodes: Nodes, node: Node, output) -> Value:
+    if getattr(node.node, "mode", "RGB") != "RGB":
+        raise node.unread(f"mode {node.mode}")
+    return function_of(lambda *parts: np.concatenate(np.broadcast_arrays(*parts)), *(node.input(k) for k in range(3)))
+
+
+def _curve(nodes: Nodes, node: Node, output) -> Value:
+    """RGB Curves: the combined curve, then that of each channel, within 0 .. 1."""
+    mapping = node.mapping
+    mapping.initialize()
+    tables = [np.array([mapping.evaluate(curve, k / (TABLE - 1)) for k in range(TABLE)]) for curve in mapping.curves]
+
+    def curved(color: np.ndarray) -> np.ndarray:
+        return np.concatenate([
+            do.looked_up(tables[k][None], True, do.looked_up(tables[3][None], True, color[k : k + 1])) for k in range(3)
+        ])  # fmt: skip
+
+    color = node.input("Color")
+    return function_of(do.mix, node.input(0), color, function_of(curved, color))
+
+
+READ = {
+    "ShaderNodeRGB": _own,
+    "ShaderNodeValue": _own,
+    "ShaderNodeTexImage": _image,
+    "ShaderNodeTexCoord": _coordinates,
+    "ShaderNodeUVMap": _map,
+    "ShaderNodeVertexColor": _vertex_color,
+    "ShaderNodeAttribute": _attribute,
+    "ShaderNodeLightPath": _light_path,
+    "ShaderNodeMix": _mix,
+    "ShaderNodeMixRGB": _mix_rgb,
+    "ShaderNodeValToRGB": _ramp,
+    "ShaderNodeMath": _math,
+    "ShaderNodeVectorMath": _vector_math,
+    "ShaderNodeMapping": _mapping,
+    "ShaderNodeMapRange": _map_range,
+    "ShaderNodeClamp": _clamp,
+    "ShaderNodeSeparateColor": _separate,
+    "ShaderNodeSeparateXYZ": _separate,
+    "ShaderNodeCombineColor": _combine,
+    "ShaderNodeCombineXYZ": _combine,
+    "ShaderNodeRGBCurve": _curve,
+    "ShaderNodeRGBToBW": lambda nodes, node, output: node.input("Color", "VALUE"),
+    "ShaderNodeGamma": lambda nodes, node, output: function_of(do.gamma, node.input("Color"), node.input("Gamma")),
+    "ShaderNodeInvert": lambda nodes, node, output: function_of(
+        lambda factor, color: do.mix(factor, color, 1 - color), node.input("Fac"), node.input("Color")
+    ),
+    "ShaderNodeBrightContrast": lambda nodes, node, output: function_of(
+        do.bright_contrast, *map(node.input, ("Color", "Bright", "Contrast"))
+    ),
+    "ShaderNodeHueSaturation": lambda nodes, node, output: function_of(
+        do.hue_saturation, *map(node.input, ("Color", "Hue", "Saturation", "Value", "Fac"))
+    ),
+}
+"""The nodes of materials that give numbers and are read, by type."""
+
+READ_OF_WORLDS = READ | {"ShaderNodeTexCoord": _world_coordinates, "ShaderNodeTexEnvironment": _environment}
+"""Those of worlds."""

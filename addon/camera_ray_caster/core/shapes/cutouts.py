@@ -1,0 +1,92 @@
+"""Surfaces with transparent points: a ray passes through these, so that they are no crossings in the search for hits.
+
+The nearest crossing that counts is thus found directly, with the arithmetic and the error bounds of any other hit.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ..maths.speed import Scratch
+from ..maths.vector import matvec
+from .frames import InCamera
+from .kind import HitPixels, Kind
+from .surface_places import KindPlaces, SurfacePlaces, surface_table
+
+
+@dataclass(frozen=True, eq=False)
+class Cutouts:
+    """The transparent surfaces among shapes of one kind."""
+
+    kind: Kind
+    shapes: InCamera
+    may: np.ndarray
+    """(n,) bool: which rows of ``Shapes`` may have transparent points."""
+
+    @classmethod
+    def of(cls, kind: Kind, shapes: InCamera, at: np.ndarray) -> Cutouts | None:
+        """Return the transparent surfaces of the shapes at some indices; None if all their points are hit."""
+        record = shapes.shapes
+        alpha = np.array([surface.alpha is not None for surface in record.surfaces] + [False])
+        if not alpha.any():
+            return None
+        has_alpha = alpha[surface_table(record)]
+        may, count = has_alpha[: len(record)], len(record)
+        if record.slots is not None:
+            first = record.slots.first.astype(np.intp)
+            some = has_alpha[count:-1]
+            starts = np.unique(first[first >= 0])
+            any_of = np.zeros(len(some) + 1, bool)
+            any_of[starts] = np.logical_or.reduceat(some, starts)
+            may = np.where(first >= 0, any_of[first], may)
+        return cls(kind, shapes, may) if may[at].any() else None
+
+    def hit(self, pixels: HitPixels, camera_point: Any) -> np.ndarray:
+        """Return which crossings, (m,), are hits; their points are three components in the camera's frame."""
+        places = KindPlaces(self.kind, self.shapes, pixels, matvec(self.shapes.pose.basis, camera_point))
+        found = np.ones(len(pixels.at), bool)
+        for number, some in places.each_surface():
+            surface = self.shapes.shapes.surfaces[number]
+            found[some] = surface.is_hit(SurfacePlaces(places, some), len(some))
+        return found
+
+    def first_hit(
+        self, at: Any, origin: Any, direction: Any, scratch: Scratch, cross: Callable[[Any], tuple[Any, Any]]
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """Return t of the first crossing that is a hit, and where there is one, as ``AffineKind.intersect`` does.
+
+        ``at`` are the indices of the shapes, which broadcast with the rays. ``cross(start)`` returns the first
+        crossing at or beyond ``start``, None for the clip start, as ``AffineKind.intersect`` does.
+        """
+        t, open_ = _crossed(cross(None))
+        found = open_.copy()
+        while open_.any():
+            where = np.nonzero(open_)
+            span = t[where]
+            pixels = crossings(np.broadcast_to(at, t.shape)[where], span, origin is None, scratch)
+            point = [span * np.broadcast_to(part, t.shape)[where] for part in direction]
+            if origin is not None:
+                point = [p + np.broadcast_to(part, t.shape)[where] for p, part in zip(point, origin, strict=True)]
+            open_[where] = ~self.hit(pixels, point)
+            beyond, crossed = _crossed(cross(np.nextafter(t, t.dtype.type(np.inf))))
+            t = np.where(open_, beyond, t)
+            found = np.where(open_, crossed, found)
+            open_ &= crossed
+        return t, found
+
+
+def crossings(at: np.ndarray, t: np.ndarray, from_eye: bool, scratch: Scratch, **noted: Any) -> HitPixels:
+    """Return crossings, (m,), in the form of hit pixels, with the notes of their kind."""
+    return HitPixels(np.ones((1, len(at)), bool), (at[None], t[None]), 0, from_eye, scratch, noted)
+
+
+def _crossed(found: tuple[Any, Any]) -> tuple[np.ndarray, np.ndarray]:
+    """Return copies of t, and of where it is a crossing as a bool array."""
+    t, where = found
+    t = np.array(t)
+    crossed = t < np.inf
+    return t, crossed if where is None else crossed & where
