@@ -131,7 +131,7 @@ def _look(material, threshold: float) -> Look:
     lit: Value = constant(*viewport)
     own = glow = None
     try:
-        parts = _divided(colors(nodes, socket, ()), through, alpha)
+        parts = _divided(colors(nodes, socket, (), through is not None), through, alpha)
         needs |= nodes.needs
         base, own, glow = (part and _as_color(part) for part in parts)
         if base is None or not _as_made(material):

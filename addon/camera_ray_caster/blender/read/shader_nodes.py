@@ -66,8 +66,10 @@ def transparency(nodes: Nodes, socket, groups: tuple) -> Value | None:
         return None
 
 
-def colors(nodes: Nodes, socket, groups: tuple) -> Parts:
-    """Return the colors of the shader at a socket. Raises Unread."""
+def colors(nodes: Nodes, socket, groups: tuple, weighs: bool) -> Parts:
+    """Return the colors of the shader at a socket. ``weighs``: whether the alpha of Principled BSDFs weights theirs.
+    Raises Unread.
+    """
     found, _, groups = nodes.source(socket, groups)
     if found is None:
         return Parts()
@@ -77,7 +79,7 @@ def colors(nodes: Nodes, socket, groups: tuple) -> Parts:
         if kind in {TRANSPARENT, HOLDOUT}:
             return Parts()
         if kind == PRINCIPLED:
-            return _principled(node)
+            return _principled(node, weighs)
         if kind in COLORS:
             if getattr(node.node, "fresnel_type", "F82") != "F82":
                 raise node.unread("physical conductor")
@@ -86,14 +88,14 @@ def colors(nodes: Nodes, socket, groups: tuple) -> Parts:
             color = node.input("Color")
             return Parts(None, color, function_of(lambda a, b: a * b, color, node.input("Strength")))
         if kind in {MIX, ADD}:
-            first, second = (colors(nodes, node.inputs[k], node.groups) for k in shaders(kind))
+            first, second = (colors(nodes, node.inputs[k], node.groups, weighs) for k in shaders(kind))
             return Parts(*(None if one is other is None else _combined(node, one, other)
                            for one, other in zip(first, second, strict=True)))  # fmt: skip
         raise Unread(f"node {node.name!r} ({node.bl_rna.name})")
 
 
-def _principled(node: Node) -> Parts:
-    alpha, strength = node.input("Alpha"), node.input("Emission Strength")
+def _principled(node: Node, weighs: bool) -> Parts:
+    alpha, strength = node.input("Alpha") if weighs else constant(1), node.input("Emission Strength")
     parts = [node.input("Base Color"), None]
     if not (isinstance(strength, Constant) and not strength.values.any()):
         parts[1] = function_of(lambda a, b: a * b, node.input("Emission Color"), strength)
