@@ -134,7 +134,7 @@ def test_sun_and_point_lights_are_used_and_others_named(scene):
     rows = sorted(zip(shapes.lights.is_sun, shapes.lights.position.tolist(), shapes.lights.color.tolist(), strict=True))
     assert [(is_sun, color) for is_sun, _, color in rows] == [(False, [8, 4, 2]), (True, [4, 2, 1])]
     np.testing.assert_allclose([place for _, place, _ in rows], [(1, 2, 3), (0, -1, 0)], atol=4 * ULP)
-    assert {name for name, _ in shapes.left_out} == {"Area", "Spot"}
+    assert {name for name, _ in shapes.lights.left_out} == {"Area", "Spot"}
 
 
 @pytest.mark.parametrize("strength", [np.nan, np.inf])
@@ -142,7 +142,7 @@ def test_a_light_of_no_finite_strength_is_left_out(scene, strength):
     new_object("Lamp", bpy.data.lights.new("Lamp", "POINT")).data.energy = strength
     shapes = read_shapes(scene)
     assert len(shapes.lights.is_sun) == 0
-    assert [(name, reason[:36]) for name, reason in shapes.left_out] == [
+    assert [(name, reason[:36]) for name, reason in shapes.lights.left_out] == [
         ("Lamp", "its strength or color is not finite:")
     ]
 
