@@ -28,7 +28,7 @@ def scene(blender):
 
 
 def cycles(scene, *names):
-    """Passes of Cycles at pixel centers, (h, w, channels) each; Depth is inf where nothing is hit."""
+    """Yield passes of Cycles at pixel centers, (h, w, channels) each; Depth is inf where nothing is hit."""
     _prepare(scene)
     layer, settings = scene.view_layers[0], scene.render.image_settings
     for name in ("z", "position", "normal", "uv", "object_index", "diffuse_color", "glossy_color", "emit",
@@ -44,8 +44,10 @@ def cycles(scene, *names):
     kinds = {"IndexOB": "Object Index", "DiffCol": "Diffuse Color", "GlossCol": "Glossy Color", "Emit": "Emission",
              "TransCol": "Transmission Color"}  # fmt: skip
     found = {kinds.get(key, key): values for key, values in found.items()}
-    stacked = [np.stack([found[name][c] for c in sorted(found[name], key="RGBAXYZUV".index)], axis=-1) for name in names]
-    return [np.where(values > 1e9, np.inf, values) for values in stacked]
+    for name in names:
+        channels = found[name]
+        values = np.stack([channels[letter] for letter in sorted(channels, key="RGBAXYZUV".index)], axis=-1)
+        yield np.where(values > 1e9, np.inf, values)
 
 
 def plane(name, z, size, index=0):
