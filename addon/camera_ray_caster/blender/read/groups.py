@@ -13,7 +13,7 @@ from .kept import Found
 from .materials import Look
 
 SINGULAR = "its size is zero in some direction, or not finite: clear its scale (Alt S) or apply it"
-
+VANISHED = "its size is zero in some direction, and others share its mesh: it is not shown, as in Cycles"
 
 LISTEN = 256
 """Number of instances or groups between two checks for a request to stop: some hundredths of a second."""
@@ -57,7 +57,12 @@ def heeding(items: Iterable) -> Iterator:
 def gathered(groups: list[Group], left_out: Counter, world: tuple[float, float, float, float]) -> Shapes:
     """Return the record of all groups: their instances placed in the world, one row per shape."""
     lights = [group for group in groups if group.is_sun is not None]
-    parts = list(_castable([group for group in heeding(groups) if group.primitive is not None], left_out))
+    users: Counter[Hashable] = Counter()
+    for group in groups:
+        users[group.geometry] += len(group.matrices)
+    notes: dict[tuple[str, str], None] = {}
+    there = [(group, group.placings()) for group in heeding(groups) if group.primitive is not None]
+    parts = list(_castable(list(_with_volume(there, users, notes)), left_out))
     cast, placings = zip(*parts, strict=True) if parts else ((), ())
     counts = [len(matrices) * len(group.primitive) for group, matrices in parts]
     ends = np.cumsum(counts, dtype=int)
@@ -79,9 +84,6 @@ def gathered(groups: list[Group], left_out: Counter, world: tuple[float, float, 
     def numbers_of(some: Iterable[Look]) -> list[int]:
         return [-1 if look.surface is None else places[look.surface] for look in some]
 
-    users: Counter[Hashable] = Counter()
-    for group in groups:
-        users[group.geometry] += len(group.matrices)
     return Shapes(
         kind=column([group.primitive.kind for group in cast], np.uint8),
         center=center,
@@ -100,19 +102,33 @@ def gathered(groups: list[Group], left_out: Counter, world: tuple[float, float, 
         shared=column([users[group.geometry] > 1 for group in cast], bool) if meshes else np.zeros(0, bool),
         slots=_slots(cast, column, numbers_of),
         uv=np.array([group.primitive.uv for group in cast], np.float64).reshape(-1, 2, 3),
-        notes=tuple(_notes(cast)),
+        notes=tuple(notes | _notes(cast)),
         surfaces=tuple(surfaces),
         surface=column(numbers_of(looks), np.int32) if surfaces else np.zeros(0, np.int32),
         exact=tuple((group.name, group.primitive.apart) for group in cast if group.primitive.apart is not None),
     )
 
 
-def _castable(groups: list[Group], left_out: Counter) -> Iterator[tuple[Group, np.ndarray]]:
+def _with_volume(placed, users: Counter, notes: dict) -> Iterator[tuple[Group, np.ndarray]]:
+    """Yield groups with their matrices, without those under which Cycles shows nothing of a mesh with several users, as
+    it needs the inverse. Such groups are noted. Of a mesh with one user Cycles shows the flat faces.
+    """
+    for group, matrices in placed:
+        if group.geometry is not None and users[group.geometry] > 1:
+            x, y, z = np.moveaxis(matrices[:, :, :3], 2, 0)
+            with np.errstate(all="ignore"):
+                has_volume = np.einsum("ij,ij->i", np.cross(x, y), z) != 0
+            if not has_volume.all():
+                notes[group.name, VANISHED] = None
+                matrices = matrices[has_volume]
+        yield group, matrices
+
+
+def _castable(placed: list[tuple[Group, np.ndarray]], left_out: Counter) -> Iterator[tuple[Group, np.ndarray]]:
     """Yield groups with the matrices with which they can be cast, if necessary as triangles.
 
     Instances that cannot be cast either way are added to ``left_out``.
     """
-    placed = [(group, group.placings()) for group in groups]
     usable = castable([(group.primitive, matrices) for group, matrices in placed])
     for (group, matrices), well in zip(placed, usable, strict=True):
         if well.any():
@@ -143,10 +159,10 @@ def _slots(groups, column, surfaces_of) -> Slots | None:
     )
 
 
-def _notes(groups: Iterable[Group]) -> Iterator[tuple[str, str]]:
-    """Yield the notes on the groups, each with the name of its object, once."""
+def _notes(groups: Iterable[Group]) -> dict[tuple[str, str], None]:
+    """Return the notes on the groups, each with the name of its object, once."""
     found = ((group.name, note) for group in groups for note in (group.primitive.note, *group.notes) if note)
-    yield from dict.fromkeys(found)
+    return dict.fromkeys(found)
 
 
 def listed(left_out: Counter) -> tuple[tuple[str, str], ...]:
