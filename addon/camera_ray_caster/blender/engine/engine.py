@@ -10,8 +10,6 @@ import bpy
 import numpy as np
 
 from ...core.camera.stereo import eye_record
-from ...core.cameras.orthographic import Orthographic
-from ...core.cameras.perspective import Perspective
 from ...core.cast import Images
 from ...core.motion.evaluations import UNRESOLVED
 from ...core.records import BlenderCamera, Cancelled, InputError
@@ -22,6 +20,7 @@ from ..properties.declared import ENGINE
 from ..read import physics
 from ..read.frames import frame_of
 from ..terminal import signals
+from .after import warnings
 from .job import run
 from .passes import stored, ticked
 from .viewport import Viewport
@@ -76,9 +75,9 @@ class CameraRayCaster(Viewport, bpy.types.RenderEngine):
                 self.add_pass(entry.label, len(entry.channels), entry.channels, layer=layer.name)
         eyes = [self.render_eye(depsgraph, wanted, view.name) for view in self.get_result().views]
         report = reduce(add, eyes)
-        drawn = drawn_over(depsgraph, report.camera["model"])
+        after = warnings(depsgraph, report.camera["model"], wanted)
         jumped = physics.warning(depsgraph, frame_of(depsgraph.scene)) if bpy.app.background else ()
-        return replace(report, warnings=(*drawn, *jumped))
+        return replace(report, warnings=(*after, *jumped))
 
     def render_eye(self, depsgraph, wanted, view: str) -> Report:
         """Cast and store one eye; the view's name is empty if the scene is not multi-view."""
@@ -155,16 +154,6 @@ class CameraRayCaster(Viewport, bpy.types.RenderEngine):
         self.update_stats(layer, f"{words} {fraction:.0%}")
         self.update_progress(fraction)
         return not signals.is_stopping()
-
-
-def drawn_over(depsgraph, model: str) -> tuple[str, ...]:
-    """Return a warning of the lines that Blender itself draws over a picture, in perspective; ``model``: its label."""
-    freestyle = depsgraph.scene_eval.render.use_freestyle and depsgraph.view_layer_eval.use_freestyle
-    pencil = any(item.type == "GREASEPENCIL" for item in depsgraph.objects)
-    lines = " and ".join(["Freestyle"] * freestyle + ["Grease Pencil"] * pencil)
-    if not lines or model in (Perspective.label, Orthographic.label):
-        return ()
-    return (f"Blender draws {lines} over the picture in perspective, not through {model}: disable it",)
 
 
 CLASSES = (CameraRayCaster,)

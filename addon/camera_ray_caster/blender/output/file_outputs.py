@@ -8,19 +8,12 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
+from ..engine.after import compositor_nodes
+
 
 def writing(scene) -> list:
     """Return the File Output nodes that a render of the scene runs, including nodes in groups."""
-    if not scene.render.use_compositing:
-        return []
-    from_5_0 = hasattr(scene, "compositing_node_group")
-    trees = [scene.compositing_node_group if from_5_0 else scene.node_tree if scene.use_nodes else None]
-    found = []
-    for tree in trees:  # the list grows during the loop
-        nodes = [node for node in tree.nodes if not node.mute] if tree is not None else []
-        found += [node for node in nodes if node.type == "OUTPUT_FILE"]
-        trees += [node.node_tree for node in nodes if node.type == "GROUP" and node.node_tree not in trees]
-    return found
+    return [node for node in compositor_nodes(scene) if node.type == "OUTPUT_FILE"]
 
 
 @contextmanager

@@ -100,7 +100,7 @@ class SidebarReport(Sidebar, bpy.types.Panel):
 
 
 class SidebarNotes(Sidebar, bpy.types.Panel):
-    """What the passes of the latest cast show otherwise than expected."""
+    """Warnings of the latest render, and what its passes show otherwise than expected."""
 
     bl_idname = "CAMERA_RAY_CASTER_PT_notes"
     bl_label = "Noted"
@@ -120,7 +120,7 @@ class SidebarNotes(Sidebar, bpy.types.Panel):
 
 def _notes(context) -> list[str]:
     report = reports.latest(context.scene)
-    return [] if report is None else sentences(report.notes, report.exact)
+    return [] if report is None else [*report.warnings, *sentences(report.notes, report.exact)]
 
 
 class SidebarNotDone(Sidebar, bpy.types.Panel):

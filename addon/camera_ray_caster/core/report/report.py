@@ -177,6 +177,7 @@ def as_lines(report: Report) -> list[str]:
         *_accuracy_lines(report),
         *_second_lines(report),
         *_exact_lines(report),
+        *_listed("Warnings", report.warnings),
         *_listed("Noted", sentences(report.notes, report.exact)),
         *_listed("Motion", report.motion),
         *_listed("Written by File Output nodes", report.file_outputs),

@@ -1,0 +1,61 @@
+"""What Blender does to a picture after the cast: the compositor, Freestyle and Grease Pencil; and warnings of it."""
+
+from collections.abc import Collection, Iterator
+
+from ...core.cameras.orthographic import Orthographic
+from ...core.cameras.perspective import Perspective
+from .passes import PASSES, RenderPass
+
+ALWAYS = {"Image", "Alpha", "Noisy Image"}
+"""Sockets of a Render Layers node that show the combined pass, which Blender always stores."""
+
+FREESTYLE = (
+    "Freestyle draws its lines after the cast, which may take a hundred times as long (7 to 42 s were measured beside "
+    "a cast of 0.06 s): disable it where lines are not needed (Render properties)"
+)
+
+
+def warnings(depsgraph, model: str, passes: Collection[RenderPass]) -> tuple[str, ...]:
+    """Return warnings of what Blender will do to the picture of a view layer; ``model`` is the label of the camera's
+    model, ``passes`` are those that are cast.
+    """
+    scene, layer = depsgraph.scene, depsgraph.view_layer
+    freestyle = scene.render.use_freestyle and layer.use_freestyle
+    return (*_drawn_over(depsgraph, model, freestyle), *_missing(scene, layer, passes), *[FREESTYLE] * freestyle)
+
+
+def compositor_nodes(scene) -> Iterator:
+    """Yield the compositor's nodes that a render of the scene runs, those in groups, too, without muted nodes."""
+    if not scene.render.use_compositing:
+        return
+    from_5_0 = hasattr(scene, "compositing_node_group")
+    trees = [scene.compositing_node_group if from_5_0 else scene.node_tree if scene.use_nodes else None]
+    for tree in trees:  # the list grows during the loop
+        nodes = [node for node in tree.nodes if not node.mute] if tree is not None else []
+        yield from nodes
+        trees += [node.node_tree for node in nodes if node.type == "GROUP" and node.node_tree not in trees]
+
+
+def _missing(scene, layer, passes: Collection[RenderPass]) -> Iterator[str]:
+    """Yield warnings of the compositor's nodes that read passes of a view layer which are not cast."""
+    known = {entry.label for entry in PASSES}
+    there = ALWAYS | {entry.label for entry in passes}
+    for node in compositor_nodes(scene):
+        if node.type != "R_LAYERS" or node.scene != scene or node.layer != layer.name:
+            continue
+        names = [one.name for one in node.outputs if any(not link.is_muted for link in one.links)]
+        for name in names:
+            if name not in there:
+                why = "is not cast: enable it" if name in known else "this engine does not have: render with Cycles"
+                yield (
+                    f"the compositor's node {node.name!r} reads the pass {name!r} of {layer.name!r}, which {why}, or "
+                    "disable Compositing; it is black or missing in the picture"
+                )
+
+
+def _drawn_over(depsgraph, model: str, freestyle: bool) -> Iterator[str]:
+    """Yield a warning of the lines that Blender itself draws over a picture, in perspective."""
+    pencil = any(item.type == "GREASEPENCIL" for item in depsgraph.objects)
+    lines = " and ".join(["Freestyle"] * freestyle + ["Grease Pencil"] * pencil)
+    if lines and model not in (Perspective.label, Orthographic.label):
+        yield f"Blender draws {lines} over the picture in perspective, not through {model}: disable it"
