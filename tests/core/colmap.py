@@ -25,6 +25,17 @@ def read(folder):
     return cameras, images
 
 
+def write(folder, kinds):
+    """Write cameras of these models, as binary and as text."""
+    import pycolmap
+
+    found = pycolmap.Reconstruction()
+    for number, kind in enumerate(kinds, 1):
+        found.add_camera(pycolmap.Camera.create_from_model_name(number, kind, 300.125, 640, 480))
+    found.write_binary(folder)
+    found.write_text(folder)
+
+
 def seen(folder, image, points):
     """The pixels at which an image of a model sees points of the world."""
     import pycolmap

@@ -84,6 +84,33 @@ NERFSTUDIO = {
 ARIA = {"CameraCalibrations": [
     {"Label": "rgb", "Projection": {"Name": "KannalaBrandtK3", "Params": [500.0, 501, 320.5, 240.5, 0.1, 0, 0, 0]}}
 ]}  # fmt: skip
+XML = """<?xml version="1.0"?>
+<opencv_storage>
+<image_width>640</image_width> <image_height>480</image_height>
+<K type_id="opencv-matrix"><rows>3</rows> <cols>3</cols> <data> 500. 0. 320. 0. 500. 240. 0. 0. 1.</data></K>
+<D type_id="opencv-matrix"><rows>1</rows> <cols>5</cols> <data> -0.2 0.1 0.001 0. 0.</data></D>
+</opencv_storage>
+"""
+VINS = """%YAML:1.0
+---
+model_type: PINHOLE
+image_width: 640
+image_height: 480
+distortion_parameters:
+   k1: -0.2
+   k2: 0.1
+   p1: 0.001
+   p2: 0.002
+projection_parameters:
+   fx: 500.0
+   fy: 501.0
+   cx: 320.5
+   cy: 240.5
+"""
+ORB_SLAM = "%YAML:1.0\nCamera.fx: 500.0\nCamera.fy: 501.0\nCamera.cx: 32.5\nCamera.cy: 24.5\nCamera.k1: -0.2\n"
+BASALT = {"value0": {"intrinsics": [{"camera_type": "kb4", "intrinsics": {
+    "fx": 500.0, "fy": 501.0, "cx": 320.5, "cy": 240.5, "k1": 0.1, "k2": 0.0, "k3": 0.0, "k4": 0.0,
+}}], "resolution": [[640, 480]]}}  # fmt: skip
 OPENCV = "OPENCV_PINHOLE", "OPENCV_FISHEYE"
 FILES = (
     ("lens.yml", YAML, OPENCV),
@@ -96,6 +123,10 @@ FILES = (
     ("cameras.txt", COLMAP, OPENCV),
     ("transforms.json", json.dumps(NERFSTUDIO), OPENCV),
     ("aria.json", json.dumps(ARIA), OPENCV),
+    ("lens.xml", XML, OPENCV),
+    ("vins.yaml", VINS, OPENCV),
+    ("orb.yaml", ORB_SLAM, OPENCV),
+    ("basalt.json", json.dumps(BASALT), OPENCV),
 )
 
 

@@ -33,9 +33,10 @@ def written(path, names=("camera_matrix", "distortion_coefficients"), matrix=K, 
     return {"calibration_file": str(path)}
 
 
-@pytest.mark.parametrize("kind", ["yml", "yaml", "json"])
+@pytest.mark.parametrize("kind", ["xml", "yml.gz", "json", "xml.gz", "json.gz", "yml", "yaml"])
 @pytest.mark.parametrize(
-    "names", [("camera_matrix", "distortion_coefficients"), ("cameraMatrix", "dist_coeffs"), ("K", "D"), ("M1", "D1")]
+    "names", [("camera_matrix", "distortion_coefficients"), ("cameraMatrix", "dist_coeffs"), ("K", "D"), ("M1", "D1"),
+     ("mtx", "dist"), ("intrinsic", "dist_coeff"), ("K1", "D1")],
 )
 def test_a_file_of_opencv_gives_the_camera_of_its_numbers(tmp_path, kind, names):
     found = camera("OPENCV_PINHOLE", FRAME | written(tmp_path / f"lens.{kind}", names)).model
@@ -48,7 +49,7 @@ def test_a_file_with_a_pinhole_s_number_of_coefficients_is_no_fisheye_s(tmp_path
         camera("OPENCV_FISHEYE", FRAME | written(tmp_path / "lens.yml"))
 
 
-@pytest.mark.parametrize("kind", ["yml", "json"])
+@pytest.mark.parametrize("kind", ["yml", "json", "xml"])
 @pytest.mark.parametrize("flag", [{"fisheye_model": 1}, {"distortion_model": "equidistant"}, {}])
 def test_a_fisheye_s_file(tmp_path, kind, flag):
     setting = written(tmp_path / f"lens.{kind}", ("K", "D"), distortion=np.array([0.1, -0.02, 3e-3, 0]), **flag)

@@ -18,6 +18,7 @@ from . import (
     colmap,
     colmap_binary,
     ftheta,
+    isaac,
     kalibr,
     mrcal,
     nerfstudio,
@@ -31,7 +32,7 @@ from .nearest import unknown
 
 FORMATS = (
     colmap_binary.read, colmap.read, mrcal.read, ocam.read, recorded.read, aria.read, nerfstudio.read, ftheta.read,
-    basalt.read, camodocal.read, okvis.read, kalibr.read, opencv.read,
+    isaac.read, basalt.read, camodocal.read, okvis.read, kalibr.read, opencv.read,
 )  # fmt: skip
 """Readers in the order in which they are tried."""
 

@@ -8,10 +8,12 @@ Reference: mrcal documentation, Lens models; The .cameramodel file format.
 from __future__ import annotations
 
 import ast
+from math import pi
 from typing import Any
 from warnings import catch_warnings
 
 from ...records import InputError
+from ..parts.settings import ROUNDING
 from .document import Document, Lens, matrix
 
 TERMS = ("k1", "k2", "p1", "p2", "k3", "k4", "k5", "k6", "s1", "s2", "s3", "s4")
@@ -22,11 +24,16 @@ MODELS = {
     STEREOGRAPHIC: ("UCM", ()),
 }
 
+LONGEST = 1 << 20
+"""Characters of a file: Python's reader takes a second for them."""
+
 
 def read(document: Document, key: str) -> list[Lens] | None:
     """Return the lenses of a document; see the package."""
     if "LENSMODEL_" not in document.text:
         return None
+    if len(document.text) > LONGEST:
+        raise document.refusal(f"it names a lens model of mrcal, but is longer than {LONGEST:,} characters")
     try:
         with catch_warnings(action="ignore", category=SyntaxWarning):  # of a text that is not such a file
             entries = _once(ast.parse(document.text.strip(), mode="eval").body, document)
@@ -64,7 +71,10 @@ def _panorama(document: Document, entries: dict) -> Lens:
     size = document.size(width, height)
     if min(fx, fy) <= 0:
         raise document.refusal("its pixels per radian must be above 0")
+    low, high = (cy - height + 0.5) / fy, (cy + 0.5) / fy
+    if max(-low, high) > pi / 2 + ROUNDING:
+        raise document.refusal("its picture reaches beyond a pole, which no panorama of Blender does")
     return Lens("", "EQUIRECTANGULAR", size | {
         "longitude_min": (-0.5 - cx) / fx, "longitude_max": (width - 0.5 - cx) / fx,
-        "latitude_min": (cy - height + 0.5) / fy, "latitude_max": (cy + 0.5) / fy,
+        "latitude_min": max(low, -pi / 2), "latitude_max": min(high, pi / 2),
     })  # fmt: skip

@@ -52,7 +52,8 @@ class Spelled:
     """Entries by plain name, with the name and the value in the file. Raises InputError for two of the same name."""
 
     def __init__(self, document: Document, entries: Mapping[str, Any]):
-        self.document, self.found = document, self._merged(entries)
+        self.document = document
+        self.found = self._merged(entries)
 
     def _merged(self, entries: Mapping[str, Any]) -> dict[str, tuple[str, Any]]:
         found: dict[str, tuple[str, Any]] = {}
