@@ -1,0 +1,42 @@
+"""Files of other programs that cannot be read: the one line that says why."""
+
+import json
+
+import pytest
+
+from camera_ray_caster.core.records import InputError
+
+from .test_other_programs import EGO, ISAAC, MATRIX, OKVIS, K, basalt, flat, lens_of, sensor, vins
+
+
+@pytest.mark.parametrize(
+    ("text", "says"),
+    [
+        ('{"weights": [1, 2], "epoch": 3}', "of no format that is read: these are OpenCV, ROS.*or this add-on$"),
+        ('{"rig_of": {"sensors": 1, "properties": "ftheta"}}', "the nearest is NVIDIA .f-theta., but it has no"),
+        (vins("SCARAMUZZA", {}, {}), "model_type is 'SCARAMUZZA': it must be one of PINHOLE"),
+        (basalt("spline"), "camera_type of cam0 is 'spline': it must be one of ds"),
+        (basalt("ds", xi=0.1), "it has no alpha"),
+        (OKVIS.replace("KIND", "spline"), "distortion_type of cam0, pinhole, is 'spline'"),
+        (sensor("radtan", [0.1, 0.2]), "distortion_coefficients is .*4 finite numbers"),
+        (flat(K=MATRIX, D=[0.1, 0.1], distortion_model="plumb_bob"), "2 distortion coefficients: give 4 or 5"),
+        (flat(fx=1.0, fy=1.0, ppx=2, ppy=2, model="inverse_brown_conrady", coeffs=[0.1] * 5), "model in .* must be"),
+        (flat(**K, height_=3, image_height=480), "it has height and height_: leave one out"),
+        (flat(**K, cols=600), "width and cols differ: leave one out"),
+        (json.dumps(K | {"width": 640}), "has no imageheight"),
+        (flat(**K, intrinsics={"fx": 3.0}), "it has fx twice, once in intrinsics: leave one out"),
+        (json.dumps(ISAAC | {"cameraModel": "mirror"}), "cameraModel is 'mirror': it must be one of pinhole"),
+        (json.dumps({key: value for key, value in EGO.items() if key != "image_center"}), "it has no image_center"),
+        ("{'lensmodel': 'LENSMODEL_PINHOLE', 'lensmodel': 'LENSMODEL_LONLAT'}", "it has 'lensmodel' twice"),
+        ("<opencv_storage><K>1</K><K>2</K></opencv_storage>", "line 1 repeats 'K'"),
+        ("<opencv_storage><K>1</opencv_storage>", "is not XML as OpenCV writes it: mismatched tag"),
+        ("<!DOCTYPE a [<!ENTITY b 'c'>]><opencv_storage><K>&b;</K></opencv_storage>", "has a document type"),
+        ("<opencv_storage>" + 40 * "<a>" + 40 * "</a>" + "</opencv_storage>", "nested deeper than 32"),
+        ("<html><body>Not found</body></html>", "of no format that is read"),
+    ],
+)
+def test_what_is_wrong_is_said_in_one_line(tmp_path, text, says):
+    with pytest.raises(InputError, match=says) as refusal:
+        lens_of(tmp_path, text)
+    assert "\n" not in str(refusal.value)
+    assert str(tmp_path / "lens") in str(refusal.value)
