@@ -11,6 +11,7 @@ import numpy as np
 from ...core.materials.surface import Surface
 from ...core.materials.values import Constant, Value, constant, function_of
 from .nodes import Unread
+from .outputs import has_bump, is_volume_alone
 from .shader_nodes import Parts, alpha_of, colors, material_nodes, transparency
 from .unique import unique_name
 
@@ -19,6 +20,10 @@ ALWAYS_NODES = bpy.app.version >= (5, 0, 0)
 
 UNCHANGED = (float(np.float32(0.8)),) * 3
 """Default Base Color of a new Principled BSDF."""
+
+
+VOLUME = "it has a volume and no surface: rays pass through it"
+BUMP = "its normal or bump map is not in the normal pass, which is that of the mesh"
 
 
 class Look(NamedTuple):
@@ -34,6 +39,8 @@ class Look(NamedTuple):
     """What the surface needs of the mesh: see ``Nodes.needs``."""
     unread: tuple[str, ...] = ()
     """What is not read of the material, in words."""
+    notes: tuple[str, ...] = ()
+    """What passes show otherwise than Cycles' passes, in words."""
 
     def held_out(self) -> "Look":
         """Return the look of a holdout: a hole, with the same transparent points."""
@@ -65,6 +72,12 @@ class Looks:
         """Yield what is not read of materials, with their names."""
         for material, look in self._known.items():
             yield from ((_name(material), reason) for reason in look.unread)
+
+    @property
+    def notes(self) -> Iterator[tuple[str, str]]:
+        """Yield the notes on materials, with their names."""
+        for material, look in self._known.items():
+            yield from ((_name(material), note) for note in look.notes)
 
     def needs(self, item) -> frozenset[str]:
         """Return what the materials of an evaluated object need of its mesh."""
@@ -118,7 +131,13 @@ def _look(material, threshold: float) -> Look:
     plain = Look(material.pass_index, shown((*viewport, opacity)))
     uses_nodes = material.node_tree is not None and (ALWAYS_NODES or material.use_nodes)
     output = material.node_tree.get_output_node("CYCLES") if uses_nodes else None
-    if output is None or not output.inputs["Surface"].is_linked:
+    if output is None:
+        return plain
+    if is_volume_alone(output):
+        hollow = Surface(constant(*viewport), alpha=constant(0))
+        return plain._replace(surface=hollow, unread=(VOLUME,))
+    plain = plain._replace(notes=(BUMP,) * has_bump(material, output))
+    if not output.inputs["Surface"].is_linked:
         return plain
     nodes, socket, unread = material_nodes(), output.inputs["Surface"], []
     alpha = through = None

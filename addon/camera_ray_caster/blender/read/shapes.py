@@ -27,6 +27,7 @@ NO_SURFACE = frozenset(
 HIDDEN = "it is hidden in the viewport, so Blender evaluates it only in a render: show it, or render (F12)"
 DAZZLING = "its strength or color is not finite: set both again"
 HAIR = "its hair {!r} is not a surface"
+HOLDOUT = "it is a holdout: a hole in the combined pass, a surface like others in all other passes"
 
 
 def shapes_record(depsgraph) -> Shapes:
@@ -115,6 +116,7 @@ class _Scene:
         group.looks = self.looks.of_slots(item, _slots(item, group.primitive.mesh))
         if self.visibility.is_holdout(instance):
             group.looks = tuple(look.held_out() for look in group.looks)
+            group.notes += (HOLDOUT,)
 
     def geometry(self, instance) -> Hashable:
         """Return a key of Cycles' geometry of an instance: its data, or its object if that has its own material slots.
@@ -135,7 +137,8 @@ class _Scene:
         self.left_out.update(self.looks.unread)
         shapes = gathered(list(self.groups.values()), self.left_out, self.world)
         lights = replace(shapes.lights, left_out=listed(dark))
-        return replace(shapes, lights=lights, materials=self.looks.materials)
+        notes = (*shapes.notes, *self.looks.notes)
+        return replace(shapes, lights=lights, materials=self.looks.materials, notes=notes)
 
 
 def _may_have_surface(item) -> bool:
