@@ -78,6 +78,14 @@ def simulate(depsgraph, frame: float) -> None:
         _simulated[scene.session_uid] = max(last, math.ceil(frame)), kept
 
 
+def release() -> None:
+    """Let the caches of simulations count as not baked again: the file that is open may stay open in Blender."""
+    for scene in bpy.data.scenes:
+        _, kept = _simulated.get(scene.session_uid, (0, []))
+        _keep(kept, False)
+    _simulated.clear()
+
+
 def prepare(depsgraph, frames: Iterable[float]) -> None:
     """Prepare the scene of a depsgraph for the reading of other frames than its own.
 

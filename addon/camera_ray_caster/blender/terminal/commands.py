@@ -10,6 +10,7 @@ from collections.abc import Sequence
 import bpy
 
 from ...core.records import Cancelled, InputError
+from ..read import physics
 from . import cast, dataset, explain, export, opening, signals, to_cycles, verify
 from .standard_output import keep_output
 
@@ -33,6 +34,7 @@ def main(command: str, arguments: Sequence[str], prog: str) -> int:
         return 130
     finally:
         opening.give_back()
+        physics.release()
         signals.reset()
 
 
