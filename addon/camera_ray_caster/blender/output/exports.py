@@ -15,6 +15,7 @@ from ...core.records import InputError
 from ..read.camera import eye_object, views_of
 from ..read.frames import go_to
 from ..read.scene import evaluated, read_camera
+from ..read.unique import unique_name
 from ..terminal import signals
 from ..terminal.opening import reported
 
@@ -46,7 +47,8 @@ def shots(scene, cameras: Sequence, frames: Iterable[float], target=None) -> lis
     """Return the cameras, or their eyes, at each frame, in the order of the frames; see ``write``."""
     views = [(view.file_suffix, view.name) for view in views_of(scene)] or [("", "")]
     eyes = [(camera, suffix, view) for camera in cameras for suffix, view in views]
-    file_names(f"{camera.name}{suffix}" for camera, suffix, _ in eyes)  # raises if two names are equal
+    names = {camera: unique_name(camera, bpy.data.objects) for camera in cameras}
+    file_names(f"{names[camera]}{suffix}" for camera, suffix, _ in eyes)  # raises if two names are equal
     found = []
     with evaluated(scene):
         for frame in frames:
@@ -55,7 +57,7 @@ def shots(scene, cameras: Sequence, frames: Iterable[float], target=None) -> lis
             to = read_camera(scene, target) if target is not None else None
             for camera, suffix, view in eyes:
                 read = read_camera(scene, eye_object(scene, view, camera), view=view)
-                name, end = file_name(camera.name), file_name(suffix) if suffix else ""
+                name, end = file_name(names[camera]), file_name(suffix) if suffix else ""
                 found.append(Shot(name, frame, read, scene.unit_settings.scale_length, to, end))
     return found
 

@@ -20,6 +20,7 @@ from ..properties.owners import owner_of
 from .frames import frame_of
 from .lines import line_record
 from .stored import own_value
+from .unique import by_name, named, unique_name
 
 CAMERA = (
     "type", "lens", "sensor_fit", "sensor_width", "sensor_height", "shift_x", "shift_y", "ortho_scale",
@@ -52,7 +53,7 @@ def camera_record(camera_object, depsgraph) -> BlenderCamera:
     evaluated = camera_object.evaluated_get(depsgraph)
     data = evaluated.data
     raw = BlenderCamera(
-        name=camera_object.name,
+        name=unique_name(camera_object.original, bpy.data.objects),
         model=own_value(data, MODEL),
         matrix_world=np.array(evaluated.matrix_world, dtype=np.float64),
         settings={
@@ -125,11 +126,12 @@ def copied(source, names) -> dict[str, object]:
 
 def find_camera(scene, name):
     """Return the scene's camera object of that name. Raises InputError that lists the cameras for an unknown name."""
-    cameras = {item.name: item for item in scene.objects if item.type == "CAMERA"}
-    if name not in cameras:
-        known = ", ".join(repr(known) for known in sorted(cameras)) or "none at all"
+    cameras = [item for item in scene.objects if item.type == "CAMERA"]
+    found = named(name, cameras)
+    if found is None:
+        known = ", ".join(map(repr, by_name(cameras))) or "none at all"
         raise InputError(f"scene {scene.name!r} has no camera {name!r}; its cameras are: {known}")
-    return cameras[name]
+    return found
 
 
 ALL = "ALL"
@@ -146,15 +148,15 @@ def find_cameras(scene, names: Sequence[str]) -> list:
         if name != ALL:
             find_camera(scene, name)
     if ALL in names:
-        names = sorted(item.name for item in scene.objects if item.type == "CAMERA") or [ALL]
-    return [find_camera(scene, name) for name in names]
+        names = by_name(item for item in scene.objects if item.type == "CAMERA") or [ALL]
+    return list(dict.fromkeys(find_camera(scene, name) for name in names))
 
 
 def check_markers(scene) -> None:
     """Raise InputError if markers of the timeline change the scene's camera from frame to frame."""
-    bound = {marker.camera.name for marker in scene.timeline_markers if marker.camera} | {scene.camera.name}
+    bound = {marker.camera for marker in scene.timeline_markers if marker.camera} | {scene.camera}
     if len(bound) > 1:
-        known = ", ".join(map(repr, sorted(bound)))
+        known = ", ".join(map(repr, by_name(bound)))
         raise InputError(f"markers change the camera of scene {scene.name!r} ({known}): name cameras with --cameras")
 
 

@@ -9,16 +9,16 @@ from ...core.annotations.keypoints import KeyPoint
 from ...core.records import InputError
 from .camera import ALL
 from .meshes import vertices
-from .unique import unique_name
+from .unique import by_name, named, unique_name
 
 
 def check_key_points(scene, names: Sequence[str]) -> None:
     """Raise InputError for a name that is not ALL, an empty or a mesh with vertex groups, and for ALL with others."""
     if ALL in names and len(names) > 1:
         raise InputError(f"--keypoints {ALL} already includes all names: leave out the other names")
-    known = {ALL, *(item.name for item in scene.objects if _has_points(item))}
+    items = [item for item in scene.objects if _has_points(item)]
     for name in names:
-        if name not in known:
+        if name != ALL and named(name, items) is None:
             raise InputError(
                 f"the scene has no key point {name!r}: give the names of empties or of meshes with vertex groups, or "
                 f"{ALL}"
@@ -32,9 +32,8 @@ def key_points(scene, depsgraph, names: Sequence[str]) -> list[KeyPoint]:
     a key point at the weighted mean of its vertices after the modifiers, and belongs to its object. A group without
     weights, and one that only a modifier makes, have none.
     """
-    if ALL in names:
-        names = sorted(item.name for item in scene.objects if _has_points(item))
-    items = [scene.objects[name] for name in names]
+    known = [item for item in scene.objects if _has_points(item)]
+    items = by_name(known).values() if ALL in names else [named(name, known) for name in names]
     return [point for item in items for point in _points_of(item, item.evaluated_get(depsgraph))]
 
 
@@ -48,7 +47,7 @@ def _points_of(item, evaluated) -> list[KeyPoint]:
         owner = item.parent
         while owner is not None and owner.type != "MESH":
             owner = owner.parent
-        return [KeyPoint(item.name, _owner_name(owner), tuple(matrix[:3, 3].tolist()))]
+        return [KeyPoint(_name(item), _name(owner), tuple(matrix[:3, 3].tolist()))]
     mesh = evaluated.data
     places = vertices(mesh) @ matrix[:3, :3].T + matrix[:3, 3]
     index = {group.name: group.index for group in evaluated.vertex_groups}  # modifiers may add groups, also before
@@ -58,10 +57,10 @@ def _points_of(item, evaluated) -> list[KeyPoint]:
             total[entry.group] += entry.weight * place
             weight[entry.group] += entry.weight
     named = [(group.name, index[group.name]) for group in item.vertex_groups if group.name in index]
-    owner = _owner_name(item)
+    owner = _name(item)
     return [KeyPoint(name, owner, tuple((total[k] / weight[k]).tolist())) for name, k in named if weight[k] > 0]
 
 
-def _owner_name(owner) -> str:
+def _name(item) -> str:
     """Return the name that ``Shapes`` have of an object; "" for None."""
-    return "" if owner is None else unique_name(owner, bpy.data.objects)
+    return "" if item is None else unique_name(item, bpy.data.objects)

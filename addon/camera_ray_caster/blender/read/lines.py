@@ -16,10 +16,18 @@ def line_record(setting: Line, item, depsgraph):
     still refer to an object deleted from the scene, and the matrix of an object that is disabled, for renders or in
     viewports, is not up to date.
     """
-    evaluated = depsgraph.view_layer_eval.objects.get(item.name) if item else None
-    if evaluated is None or evaluated.original != item.original:
+    evaluated = _evaluated(item, depsgraph.view_layer_eval.objects) if item else None
+    if evaluated is None:
         return None
     return _sampled(evaluated) if setting.sampled else _ends(evaluated)
+
+
+def _evaluated(item, objects):
+    """Return an object as a view layer has evaluated it; None if it has not. Linked objects may have the same name."""
+    namesake = objects.get(item.name)
+    if namesake is None or namesake.original == item.original:
+        return namesake
+    return next((one for one in objects if one.original == item.original), None)
 
 
 def _ends(item):

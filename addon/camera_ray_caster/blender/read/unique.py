@@ -1,5 +1,7 @@
 """Unique names of datablocks: linked datablocks may have the name of a local one, or of one of another library."""
 
+from collections.abc import Iterable
+
 import bpy
 
 
@@ -23,3 +25,16 @@ def find_unique(name: str, among):
         return local
     linked = (item for item in among if name in (item.name, item.name_full))
     return next((item for item in linked if unique_name(item, among) == name), None)
+
+
+def by_name(items: Iterable) -> dict[str, object]:
+    """Return objects by their unique names, sorted by name."""
+    return dict(sorted((unique_name(item, bpy.data.objects), item) for item in items))
+
+
+def named(name: str, items: Iterable):
+    """Return the object of this unique name, or the only one that is called so in its own file; None if there is none.
+    """
+    found = by_name(items)
+    own = [item for item in found.values() if item.name == name]
+    return found.get(name) or (own[0] if len(own) == 1 else None)

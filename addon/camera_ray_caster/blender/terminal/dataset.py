@@ -25,6 +25,7 @@ from ..output import files
 from ..output.annotations import collect
 from ..output.stamps import differing
 from ..read.camera import check_camera, check_markers
+from ..read.unique import unique_name
 from . import farm
 from .options import command_parser, warn
 from .pictures import Pictures, add_words, follow, parsed, summary
@@ -99,7 +100,7 @@ def _complete(options: Namespace, pictures: Pictures) -> None:
     if options.cameras is None:
         check_camera(scene, scene.camera)
         check_markers(scene)
-        options.cameras = [scene.camera.name]
+        options.cameras = [unique_name(scene.camera, bpy.data.objects)]
     options.frames = options.frames or range(scene.frame_start, scene.frame_end + 1, scene.frame_step)
     options.pictures = any("combined" in keys for keys in pictures.passes.values())
     options.file, options.output = Path(bpy.data.filepath).absolute(), options.output.absolute()

@@ -8,6 +8,8 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
+import bpy
+
 from ...core.camera.camera import Camera
 from ...core.casting.passes import PASSES
 from ...core.casting.request import PRECISIONS, SHADINGS
@@ -26,6 +28,7 @@ from ..read.camera import ALL, find_camera, find_cameras
 from ..read.frames import frame_of
 from ..read.keypoints import check_key_points
 from ..read.scene import read_camera
+from ..read.unique import unique_name
 from . import ray_maps, signals
 from .jobs import Job, Outcome, RayMap
 from .options import go_to, open_scene, stem, use_camera, warn
@@ -131,7 +134,8 @@ class Pictures:
         if asked.cameras is None:
             numbers = {asked.frame: ""} if frames is None else {frame: f"_{frame_digits(frame)}" for frame in frames}
             return [Job(asked.camera, frame, stem() + end, f"report{end}") for frame, end in numbers.items()]
-        names = file_names(camera.name for camera in find_cameras(scene, asked.cameras))
+        cameras = find_cameras(scene, asked.cameras)
+        names = file_names(unique_name(camera, bpy.data.objects) for camera in cameras)
         own = frame_of(scene) if asked.frame is None else asked.frame
         return [
             Job(camera, frame, *2 * (f"{name}_{frame_digits(frame)}",))
