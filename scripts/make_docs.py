@@ -1,4 +1,4 @@
-"""Write the page of camera models, addon/camera_ray_caster/core/cameras/README.md, from the models' declarations.
+"""Write the pages of camera models and of files, from their declarations.
 
     python scripts/make_docs.py
     python scripts/make_docs.py --check    # writes nothing; exit status 1 if the page is not up to date
@@ -25,9 +25,11 @@ sys.path.insert(0, str(ROOT / "addon"))
 from camera_ray_caster.core.camera import pixel_time  # noqa: E402  (found by the line above)
 from camera_ray_caster.core.cameras import MODELS  # noqa: E402
 from camera_ray_caster.core.cameras.model import GROUPS, Model  # noqa: E402
+from camera_ray_caster.core.cameras.parts.programs import PROGRAMS, Program  # noqa: E402
 from camera_ray_caster.core.cameras.parts.settings import OWN, Setting  # noqa: E402
+from camera_ray_caster.core.exports import FORMATS  # noqa: E402
 
-PAGE = ROOT / "addon" / "camera_ray_caster" / "core" / "cameras" / "README.md"
+CAMERAS = ROOT / "addon" / "camera_ray_caster" / "core" / "cameras"
 
 HEAD = """\
 # Camera models
@@ -43,6 +45,22 @@ TIMES = """
 With any model each pixel may have its own time: `time_mode` is one of these.
 """
 
+FILES = """\
+# Files of cameras
+
+Made by `python scripts/make_docs.py` from [programs.py](../parts/programs.py). Calibrations are read by the button next
+to the model and by `--calibration FILE`, by their content, whatever their names are; exports are written by
+`scripts/export.py --format` and File > Export. "Lost" is what the files do not tell, and what is refused in one line.
+
+A file that does not tell the size of its pictures is of the frame's size, and a line says so. If OpenCV's four
+coefficients stand without the name of their model, the chosen model decides (`--model`). Files may be compressed by
+gzip, and hold several cameras, by name, in a list or in lines of JSON; Camera in File (`--calibration-camera`) chooses
+one.
+
+| program | files | reads | writes | lost |
+|---|---|---|---|---|
+"""
+
 COLUMNS = "| setting | unit | range | default | |\n|---|---|---|---|---|\n"
 
 
@@ -56,6 +74,18 @@ def page() -> str:
         for key, settings in pixel_time.SETTINGS.items()
     ]
     return "".join((HEAD, *sections, TIMES, *modes))
+
+
+def files() -> str:
+    """Return the page of files: a row for each program."""
+    return FILES + "".join(map(program_row, PROGRAMS))
+
+
+def program_row(program: Program) -> str:
+    """Return a program as a row of the table; it writes what its export's table of models says."""
+    export = next((one for one in FORMATS if one.key == program.export), None)
+    writes = "" if export is None else f"`{export.key}`: {export.description}".replace("<", "\\<")
+    return f"| {program.name} | {program.files} | {program.reads} | {writes} | {program.lost} |\n"
 
 
 def section(model: type[Model]) -> str:
@@ -118,16 +148,18 @@ KINDS = {
 
 
 def main() -> int | str:
-    """Write the page, or with --check return an error message if it is not up to date."""
+    """Write the pages, or with --check return an error message if one is not up to date."""
     from arguments import Parser  # in this folder
 
     parser = Parser(prog="make_docs.py", description=__doc__.splitlines()[0])
     parser.add_argument("--check", action="store_true", help="write nothing; exit status 1 if it is not up to date")
+    pages = {CAMERAS / "README.md": page(), CAMERAS / "files" / "README.md": files()}
     if not parser.parse_args().check:
-        PAGE.write_text(page(), encoding="utf-8")
-    elif PAGE.read_text(encoding="utf-8") != page():
-        return f"{PAGE.relative_to(ROOT)} is not up to date: run scripts/make_docs.py"
-    return 0
+        for path, text in pages.items():
+            path.write_text(text, encoding="utf-8")
+        return 0
+    old = [path for path, text in pages.items() if not path.exists() or path.read_text(encoding="utf-8") != text]
+    return f"{old[0].relative_to(ROOT)} is not up to date: run scripts/make_docs.py" if old else 0
 
 
 if __name__ == "__main__":

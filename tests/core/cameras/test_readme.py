@@ -5,6 +5,8 @@ from pathlib import Path
 
 from camera_ray_caster.core.camera import pixel_time
 from camera_ray_caster.core.cameras import MODELS
+from camera_ray_caster.core.cameras.parts.programs import FILE_WRITERS, PROGRAMS
+from camera_ray_caster.core.exports import FORMATS
 
 MAKE_DOCS = runpy.run_path(str(Path(__file__).parents[3] / "scripts" / "make_docs.py"))
 
@@ -20,3 +22,11 @@ def test_every_model_and_every_setting_is_on_the_page():
         for step in model.FORMULA:
             assert f"{step.words}: `{step.symbols}`" in section
     assert all(f"`{mode}`" in page for mode in pixel_time.SETTINGS)
+
+
+def test_every_export_and_every_program_is_on_the_page_of_files():
+    page = MAKE_DOCS["files"]()
+    assert {program.export for program in PROGRAMS} - {""} == {one.key for one in FORMATS}
+    for program in PROGRAMS:
+        assert f"| {program.name} | {program.files} | {program.reads} |" in page
+        assert not program.reads or program.name in FILE_WRITERS

@@ -39,6 +39,11 @@ FORMATS = (
 DEEPEST = 3
 """Levels of mappings in which calibrations are looked for."""
 
+KEPT = 8
+"""Number of files whose lenses are kept: an animated camera reads its file for every frame."""
+
+_latest: dict[tuple, list[Lens]] = {}
+
 
 def lenses_of(path: str, key: str = "", frame: tuple[int, int] | None = None) -> list[Lens]:
     """Return the lenses in a calibration file, in the file's order.
@@ -49,13 +54,18 @@ def lenses_of(path: str, key: str = "", frame: tuple[int, int] | None = None) ->
     Raises InputError, in one line, for a file that cannot be read, and for missing or invalid entries.
     """
     document = Document(path, frame)
-    lenses = _known(document, key)
-    if lenses is None:
-        inside = list(_inside(document, key, DEEPEST, ""))
-        if not inside:
-            raise unknown(document)
-        lenses = _named(inside)
-    return lenses
+    asked = (path, key, frame, document.digest)
+    if asked not in _latest:
+        lenses = _known(document, key)
+        if lenses is None:
+            inside = list(_inside(document, key, DEEPEST, ""))
+            if not inside:
+                raise unknown(document)
+            lenses = _named(inside)
+        if len(_latest) >= KEPT:
+            _latest.clear()
+        _latest[asked] = lenses
+    return list(_latest[asked])
 
 
 def _known(document: Document, key: str) -> list[Lens] | None:

@@ -6,6 +6,7 @@ import re
 from collections.abc import Callable, Collection
 from copy import copy
 from functools import cached_property
+from hashlib import sha256
 from reprlib import repr as shortened
 from typing import Any, NamedTuple
 
@@ -40,6 +41,11 @@ class Document:
 
     def __init__(self, path: str, frame: tuple[int, int] | None = None):
         self.path, self.frame, self.data, self.check = path, frame, content_of(path), deadline(path)
+
+    @property
+    def digest(self) -> bytes:
+        """Return a hash of the content."""
+        return sha256(self.data).digest()
 
     @cached_property
     def text(self) -> str:
@@ -107,7 +113,7 @@ def one_of_several(name: str, read: Callable[..., Lens], *given) -> Lens:
     try:
         return read(*given)
     except InputError as refusal:
-        return Lens(name, "", {}, refusal)
+        return Lens(name, "", {}, refusal.with_traceback(None))
 
 
 def numbers_of(value) -> list[float]:

@@ -16,6 +16,7 @@ from math import radians
 from ...records import BlenderCamera, InputError, Raster
 from .affine import AffineWindow
 from .film import FARTHEST_PIXELS, FILM, LENS, OFF_AXIS, Film, Window
+from .programs import FILE_WRITERS
 from .settings import Choice, FilePath, Item, Number, Text, Whole
 
 MILLIMETERS = "MILLIMETERS"
@@ -57,10 +58,6 @@ SIZE = (
     Whole(
         "calibration_height", "Height", "Of the calibrated picture, pixels; 0 is the frame's", 1080, 0, unit="pixels"
     ),
-)
-FILE_WRITERS = (
-    "OpenCV, ROS, COLMAP, nerfstudio, Kalibr, EuRoC, OKVIS, VINS, ORB-SLAM, Basalt, BOP, RealSense, mrcal, Project "
-    "Aria, NVIDIA (f-theta), OCamCalib or this add-on"
 )
 FILE = FilePath(
     "calibration_file", "Calibration", f"Calibration file of {FILE_WRITERS}. If empty, the numbers below are used", ""

@@ -1,0 +1,112 @@
+"""The programs whose files are read and written: one table for the menus, the refusals and the documentation."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+
+class Program(NamedTuple):
+    """A program's files."""
+
+    name: str
+    files: str
+    """Names of its files; how they are recognized is said in its module."""
+    marks: str = ""
+    """Words that its files have: a file of no known format is nearest to the program with most of them."""
+    reads: str = ""
+    """Lenses that are read, in the program's words; "" if none is."""
+    export: str = ""
+    """Key of the export that writes its files; "" without one."""
+    lost: str = ""
+    """What its files do not tell, or what is refused."""
+
+
+PROGRAMS = (
+    Program(
+        "OpenCV", ".yml, .xml, .json of FileStorage, also .gz",
+        "camera_matrix distortion_coefficients image_width image_height opencv_storage",
+        "pinhole with 4, 5, 8, 12 or 14 coefficients, fisheye, omnidir; stereo pairs", "opencv",
+        "of four coefficients without a model's name: which model they are of",
+    ),
+    Program(
+        "ROS", "CameraInfo as .yaml, also as echoed",
+        "camera_matrix distortion_model rectification_matrix projection_matrix",
+        "plumb_bob, rational_polynomial, equidistant; a region of interest", "ros", "poses; binning is not read",
+    ),
+    Program(
+        "COLMAP", "cameras.txt, cameras.bin; images.txt, images.bin",
+        "CAMERA_ID MODEL WIDTH HEIGHT PARAMS PINHOLE SIMPLE_RADIAL", "all models", "colmap",
+        "skew, tilt, the terms s2 and s4 of a thin prism",
+    ),
+    Program(
+        "nerfstudio", "transforms.json, of NeRF and instant-ngp, too",
+        "frames transform_matrix camera_angle_x fl_x file_path camera_model",
+        "OPENCV, PINHOLE, OPENCV_FISHEYE, FISHEYE624, EQUIRECTANGULAR, ORTHOPHOTO", "nerfstudio",
+        "several camera models in one file; k4 to k6 of a pinhole",
+    ),
+    Program(
+        "Kalibr", "camchain.yaml", "camera_model distortion_model distortion_coeffs intrinsics resolution T_cn_cnm1",
+        "pinhole with radtan, equidistant or fov, omni, eucm, ds", "", "",
+    ),
+    Program(
+        "EuRoC", "sensor.yaml, of Kimera, too",
+        "sensor_type T_BS rate_hz camera_model intrinsics distortion_coefficients",
+        "pinhole with radial-tangential (4 or 5) or equidistant", "", "",
+    ),
+    Program(
+        "OKVIS", "its settings as .yaml", "cameras T_SC image_dimension focal_length principal_point distortion_type",
+        "pinhole with radialtangential, radialtangential8 or equidistant", "", "",
+    ),
+    Program(
+        "VINS", "camodocal's .yaml, of VINS-Mono, VINS-Fusion and KITTI-360",
+        "model_type projection_parameters distortion_parameters mirror_parameters",
+        "PINHOLE, PINHOLE_FULL, MEI, KANNALA_BRANDT", "", "SCARAMUZZA is refused",
+    ),
+    Program(
+        "ORB-SLAM", "settings of ORB-SLAM2, ORB-SLAM3 and stella_vslam as .yaml",
+        "Camera.fx Camera.fy Camera.cx Camera.type Camera.fps",
+        "PinHole, Rectified, KannalaBrandt8, perspective, fisheye", "", "stella_vslam's other models are refused",
+    ),
+    Program(
+        "Basalt", "calibration .json", "value0 intrinsics camera_type resolution T_imu_cam",
+        "ds, eucm, ucm, kb4, fov, pinhole, pinhole-radtan8", "", "",
+    ),
+    Program(
+        "BOP", "camera.json, scene_camera.json", "cam_K depth_scale cam_R_w2c cam_t_w2c", "pinhole", "bop",
+        "the size of the pictures, distortion, skew",
+    ),
+    Program(
+        "RealSense", "intrinsics as .json; Open3D's, Polycam's and NICE-SLAM's: fx, fy, cx, cy by names",
+        "width height ppx ppy coeffs intrinsic_matrix", "pinhole, Brown-Conrady", "",
+        "the inverse Brown-Conrady with coefficients is refused",
+    ),
+    Program(
+        "mrcal", ".cameramodel", "lensmodel intrinsics extrinsics imagersize",
+        "PINHOLE, OPENCV4 to OPENCV12, STEREOGRAPHIC, LONLAT", "mrcal", "CAHVOR and splined models are refused",
+    ),
+    Program(
+        "Project Aria", "calibration .json, online_calibration.jsonl", "CameraCalibrations Label Projection Params",
+        "FisheyeRadTanThinPrism, KannalaBrandtK3, Linear", "", "the size of the pictures",
+    ),
+    Program(
+        "NVIDIA (f-theta, Isaac Sim)", "DriveWorks rigs, NCore, NuRec, camera_params.json",
+        "rig sensors properties ftheta polynomial reference_poly cameraModel",
+        "f-theta, fisheyePolynomial, pinhole", "", "windshields are refused",
+    ),
+    Program(
+        "OCamCalib", "calib_results.txt; the same as .json",
+        "polynomial direct mapping affine polynomialC2W image_center",
+        "OCam", "", "",
+    ),
+    Program(
+        "this add-on", "camera.json, report.json", "format cameras all_frames frames record settings", "every model",
+        "json", "nothing",
+    ),
+    Program("STMaps", "pairs of .exr", export="stmap", lost="what is seen from two places; poses"),
+    Program("NumPy", ".npz with each pixel's ray", export="npz", lost="the formula: rays between pixels"),
+)  # fmt: skip
+"""All programs, in the order in which messages name them."""
+
+_names = [program.name for program in PROGRAMS if program.reads]
+FILE_WRITERS = f"{', '.join(_names[:-1])} or {_names[-1]}"
+"""The programs whose calibration files are read, in words."""
