@@ -30,6 +30,19 @@ pytestmark = pytest.mark.skipif(
 )
 
 
+def inside(*words):
+    """What full_disk.py prints."""
+    done = subprocess.run(
+        [*ALONE, sys.executable, Path(__file__).with_name("full_disk.py"), *map(str, words)],
+        env=os.environ | {"PYTHONPATH": str(ROOT / "addon")},
+        capture_output=True,
+        text=True,
+        timeout=200,
+    )
+    assert done.returncode == 0, done.stderr
+    return json.loads(done.stdout)
+
+
 @pytest.fixture(scope="module")
 def try_sizes(registered, tmp_path_factory):
     """A function that casts into file systems of so many sizes, from next to nothing free to more than enough."""
@@ -45,19 +58,10 @@ def try_sizes(registered, tmp_path_factory):
         return sum(-(-path.stat().st_size // 4096) * 4 for path in (folder / name).iterdir())
 
     def try_sizes(count):
+        (folder / "disk").mkdir(exist_ok=True)
         least, most = kilobytes(f"out{OLD}"), kilobytes(f"out{OLD}") + kilobytes(f"out{NEW}") + 64
         sizes = [str(4 * round((least + (most - least) * k / (count - 1)) / 4)) for k in range(count)]
-        (folder / "disk").mkdir(exist_ok=True)
-        inside = [Path(__file__).with_name("full_disk.py"), folder / "disk", folder / f"out{OLD}", files[NEW], *sizes]
-        done = subprocess.run(
-            [*ALONE, sys.executable, *map(str, inside)],
-            env=os.environ | {"PYTHONPATH": str(ROOT / "addon")},
-            capture_output=True,
-            text=True,
-            timeout=200,
-        )
-        assert done.returncode == 0, done.stderr
-        return json.loads(done.stdout)
+        return inside(folder / "disk", folder / f"out{OLD}", files[NEW], *sizes)
 
     return try_sizes
 
@@ -74,6 +78,7 @@ def check(found):
             assert one["same"] == one["names"], one
             (line,) = one["said"].splitlines()
             assert "cannot write into" in line, one
+            assert "No space left on device" in line, one
     assert {one["status"] for one in found} == {0, 2}
 
 
@@ -84,3 +89,15 @@ def test_a_few_sizes(try_sizes):
 @pytest.mark.hostile
 def test_forty_sizes(try_sizes):
     check(try_sizes(40))
+
+
+def test_every_command_says_in_one_line_that_the_disk_is_full(registered, tmp_path):
+    plain, compressed = small(registered, tmp_path / "small.blend"), tmp_path / "compressed.blend"
+    registered.ops.wm.save_as_mainfile(filepath=str(compressed), copy=True, compress=True)
+    (tmp_path / "disk").mkdir()
+    for one in inside(tmp_path / "disk", plain, compressed, "COMMANDS"):
+        assert one["status"] == 2, one
+        (line,) = one["said"].splitlines()
+        assert line.startswith(f"{one['command']}.py: cannot write"), one
+        assert ": No space left on device; choose another " in line, one
+        assert one["left"] in ([], ["dataset.json"]), one

@@ -17,7 +17,7 @@ from ..read.frames import go_to
 from ..read.scene import evaluated, read_camera
 from ..read.unique import unique_name
 from ..terminal import signals
-from ..terminal.opening import reported
+from .saving import blender_writes
 
 
 def write(scene, key: str, cameras: Sequence, frames: Iterable[float], folder: Path, target=None):
@@ -79,8 +79,7 @@ def _write_image(path: Path, pixels: np.ndarray) -> None:
         image.colorspace_settings.name = "Non-Color"
         image.pixels.foreach_set(np.dstack((pixels, np.ones((height, width), np.float32))).ravel())
         image.file_format = "OPEN_EXR"
-        image.save(filepath=str(path))
-    except RuntimeError as error:
-        raise OSError(0, reported(error)) from error
+        with blender_writes(path.parent):
+            image.save(filepath=str(path))
     finally:
         bpy.data.images.remove(image)

@@ -26,6 +26,7 @@ from ..terminal import signals
 from ..terminal.opening import not_run, reported
 from . import arrays, file_outputs, reports
 from .annotations import ENDING, annotated
+from .saving import blender_writes, check_whole
 from .stamps import made
 
 PICTURE = {
@@ -170,10 +171,14 @@ def _save(scene, path: Path, settings) -> None:
         if hasattr(scene.render.image_settings, name):  # media_type: since 5.0; use_exr_interleave: in some versions
             setattr(scene.render.image_settings, name, value)
     try:
-        bpy.data.images["Render Result"].save_render(str(path), scene=scene)
-    except RuntimeError as error:
+        with blender_writes(path.parent):
+            bpy.data.images["Render Result"].save_render(str(path), scene=scene)
+    except OSError:
         if not _views_written(scene, path):
-            raise OSError(0, str(error).strip()) from error
+            raise
+    if path.suffix == ".png":
+        for written in _views(scene, path) or [path]:
+            check_whole(written)
 
 
 def check_layers(scene) -> None:
@@ -206,5 +211,10 @@ def _check_suffixes(render) -> None:
 
 def _views_written(scene, path: Path) -> bool:
     """Return whether all views' files exist. With several views, Blender raises an error although it wrote them."""
-    files = [path.with_stem(path.stem + view.file_suffix) for view in views_of(scene)]
+    files = _views(scene, path)
     return bool(files) and all(file.is_file() for file in files)
+
+
+def _views(scene, path: Path) -> list[Path]:
+    """Return the files of the views of a multi-view scene."""
+    return [path.with_stem(path.stem + view.file_suffix) for view in views_of(scene)]

@@ -1,4 +1,4 @@
-"""Opening a .blend without running its Python, unless the user allows it; and saving a copy."""
+"""Opening a .blend without running its Python, unless the user allows it."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager, redirect_stdout
@@ -60,22 +60,6 @@ def open_file(path: Path, enable_autoexec: bool = False) -> None:
         withhold_style_modules()
 
 
-def save_copy(path: Path) -> None:
-    """Save a copy of the open file; Blender renames a temporary file when it is complete.
-
-    Raises InputError if the name does not end in .blend or is the open file's own, or if it cannot be written.
-    """
-    if path.suffix != ".blend":
-        raise InputError(f"{str(path)!r} is not the name of a Blender file: give a name that ends in .blend")
-    if bpy.data.filepath and path.resolve() == Path(bpy.data.filepath).resolve():
-        raise InputError(f"{str(path)!r} is the open file: give the copy another name")
-    try:
-        with redirect_stdout(None), _given_back():
-            bpy.ops.wm.save_as_mainfile(filepath=str(path.resolve()), copy=True, check_existing=False)
-    except (RuntimeError, OSError) as error:
-        raise InputError(f"cannot write {str(path)!r}: {reported(error)}; choose another place") from error
-
-
 def reported(error: Exception) -> str:
     """Return the first line of an operator's error, without the label "Error: "."""
     return str(error).strip().splitlines()[0].removeprefix("Error: ")
@@ -106,7 +90,7 @@ def withhold_style_modules() -> None:
 
 
 @contextmanager
-def _given_back() -> Iterator[None]:
+def scripts_given_back() -> Iterator[None]:
     """Give the style modules their scripts inside the context, for a file that has them as before."""
     for module in _withheld:
         module.has(module.script)
@@ -119,5 +103,5 @@ def _given_back() -> Iterator[None]:
 
 def give_back() -> None:
     """Give the style modules their scripts: the file that is open may stay open in Blender."""
-    with _given_back():
+    with scripts_given_back():
         _withheld.clear()

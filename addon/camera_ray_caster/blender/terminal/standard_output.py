@@ -1,10 +1,12 @@
-"""Keeps Blender's own messages (frames, saved files, settings found) out of a command's output.
+"""Keeps messages of Blender and its libraries (frames, saved files, settings found) out of a command's output.
 
 No bpy here: it prints as soon as it is imported.
 """
 
 import os
 import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
 
 
 def keep_output() -> None:
@@ -13,3 +15,21 @@ def keep_output() -> None:
     nowhere = os.open(os.devnull, os.O_WRONLY)
     os.dup2(nowhere, 1)
     os.close(nowhere)
+
+
+@contextmanager
+def quiet_errors() -> Iterator[None]:
+    """Discard what is written to standard error inside the context, by C code, too."""
+    try:
+        kept = os.dup(2)
+    except OSError:  # it is closed
+        yield
+        return
+    nowhere = os.open(os.devnull, os.O_WRONLY)
+    os.dup2(nowhere, 2)
+    os.close(nowhere)
+    try:
+        yield
+    finally:
+        os.dup2(kept, 2)
+        os.close(kept)

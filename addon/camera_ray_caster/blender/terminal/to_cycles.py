@@ -4,8 +4,9 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from ..cycles import to_cycles
+from ..output.saving import save_copy
 from . import signals
-from .opening import not_run, save_copy
+from .opening import not_run
 from .options import command_parser, open_scene, warn
 
 
