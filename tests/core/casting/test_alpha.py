@@ -1,5 +1,7 @@
 """Transparent points are no hits: against every crossing of plain equations, for every camera model."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -9,6 +11,7 @@ from camera_ray_caster.core.casting.visibility import Visibility, visible
 from camera_ray_caster.core.materials.surface import Surface
 from camera_ray_caster.core.materials.values import OBJECT, UV, Coordinates, constant, function_of
 from camera_ray_caster.core.records import INFINITE_PLANE, PLANE, SPHERE
+from camera_ray_caster.core.report.lesson import lesson
 
 from ..shapes import meshes
 from ..shapes.test_mesh import examples
@@ -156,3 +159,26 @@ def test_a_threshold_is_met_by_the_same_alpha_and_constants_are_all_or_nothing()
         surfaces = (Surface(constant(0, 1, 0), alpha=constant(alpha)),)
         own = shapes_of((PLANE, (0, 0, -2), 9.0), (PLANE, (0, 0, -4), 99.0), surfaces=surfaces, surface=shapes.surface)
         assert (cast(camera_at(), own, "shape_index")["shape_index"] == seen).all()
+
+
+@pytest.mark.parametrize("kind", ["plane", "mesh"])
+def test_step_by_step_a_transparent_point_does_not_count(kind):
+    """With the true color of what is seen through it: half its own, of a surface that glows."""
+    camera, shapes = camera_at(), card_before_wall()
+    glowing = Surface(constant(1, 0, 0), glow=constant(0, 0.25, 0))
+    shapes = replace(shapes, surfaces=(*shapes.surfaces, glowing), surface=np.array([0, 1], np.int32))
+    if kind == "mesh":
+        sheet = meshes.grid(1, 1, lambda u, v: (2 * u - 1, 2 * v - 1, 0 * u))
+        left = function_of(lambda place: (place[:1] >= 0) * 1.0, Coordinates(OBJECT))
+        shapes = meshes.shapes_of(
+            (sheet, (0, 0, -2), 1.0), (sheet, (0, 0, -4), 9.0),
+            surfaces=(Surface(constant(0, 1, 0), alpha=left), glowing), surface=shapes.surface,
+        )  # fmt: skip
+    for column, seen in ((12, 1), (20, 0)):
+        told = lesson(camera, shapes, column, 16)
+        text = "\n".join(told.lines())
+        assert ("transparent there" in text) == (seen == 1)
+        assert ("emission (0, 0.25, 0)" in text) == (seen == 1)
+        image = cast(camera, shapes, ("combined", "shape_index"), float)
+        assert image["shape_index"][16, column] == seen
+        np.testing.assert_array_equal(told.color, image["combined"][16, column])

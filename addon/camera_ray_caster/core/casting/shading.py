@@ -31,17 +31,16 @@ def shade(values: HitValues, out: np.ndarray) -> None:
     Without sun and point lights a headlight shines along each ray. GRID darkens lines of constant longitude, latitude
     or other coordinate of exact shapes, lines of constant uv of meshes, or the edges of faces without a UV map.
     """
-    color, world_color = values.plan.colors, values.plan.shapes.world_color
+    world_color = values.plan.shapes.world_color
     lit, grid = irradiance(values), grid_factor(values)
     for channel, world in enumerate(world_color):
-        surface = np.take(color[channel], values.material, mode="wrap", out=values.array("color"))
+        surface = material_color(values, channel)
         if channel < len(lit):
             light = np.add(lit[channel], world, out=values.array("spare"))
             if grid is not None:
                 np.multiply(light, grid, out=light)
-            _paint(values, surface, lambda one: one.lit, channel)
             np.multiply(surface, light, out=surface)
-            _paint(values, surface, lambda one: one.glow, channel, np.add)
+            paint(values, surface, lambda one: one.glow, channel, np.add)
         out[..., channel] = surface
     write_where(out, world_color, values.hits.missed)
 
@@ -51,13 +50,20 @@ def albedo(values: HitValues, out: np.ndarray) -> None:
     without its strength; 0 where nothing is hit.
     """
     for channel in range(3):
-        surface = np.take(values.plan.colors[channel], values.material, mode="wrap", out=values.array("color"))
-        _paint(values, surface, lambda one: one.lit, channel)
-        _paint(values, surface, lambda one: one.own, channel, np.add)
+        surface = material_color(values, channel)
+        paint(values, surface, lambda one: one.own, channel, np.add)
         out[..., channel] = surface
 
 
-def _paint(values: HitValues, image: np.ndarray, of: Callable, channel: int, how: Callable | None = None) -> None:
+def material_color(values: HitValues, channel: int) -> np.ndarray:
+    """Return a channel, of RGBA, of the color that the hit materials show in light, (rows, columns)."""
+    color = np.take(values.plan.colors[channel], values.material, mode="wrap", out=values.array("color"))
+    if channel < 3:
+        paint(values, color, lambda one: one.lit, channel)
+    return color
+
+
+def paint(values: HitValues, image: np.ndarray, of: Callable, channel: int, how: Callable | None = None) -> None:
     """Write a channel of a part of the hit surfaces, such as ``lit``, into an image, (rows, columns), or combine both.
     """
     flat = image.reshape(-1)

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from ..casting.hit_values import HitValues
-from ..casting.shading import HEADLIGHT, POINT, Light, grid_factor, irradiance, lights
+from ..casting.shading import HEADLIGHT, POINT, Light, grid_factor, irradiance, lights, material_color, paint
 from .meetings import words
 
 MOST = 12
@@ -25,7 +25,10 @@ def color_lines(values: HitValues, color: np.ndarray) -> Iterator[str]:
         return
     world = values.plan.shapes.world_color[:3]
     with np.errstate(all="ignore"):  # a lamp may be at the point itself
-        material = values.plan.colors[:, values.material[0, 0]]
+        material = np.array([_one(material_color(values, channel)) for channel in range(4)])
+        glow = np.zeros((3, 1, 1))
+        for channel, part in enumerate(glow):
+            paint(values, part, lambda surface: surface.glow, channel)
         given = [(_one(light.gain) * light.strength, *_told(light, number)) for number, light in
                  enumerate(lights(values), 1)]  # fmt: skip
         total = [_one(part) + own for part, own in zip(irradiance(values), world, strict=True)]
@@ -41,7 +44,10 @@ def color_lines(values: HitValues, color: np.ndarray) -> Iterator[str]:
     yield f"light, of lamps and world {words(total)}"
     if grid is not None:
         yield f"grid {_one(grid):g}, {'on a line' if _one(grid) < 1 else 'between its lines'}"
-    yield f"linear, material · light{'' if grid is None else ' · grid'}: {words(color)}"
+    if glow.any():
+        yield f"emission {words(glow[:, 0, 0])}"
+    factors = f"material · light{'' if grid is None else ' · grid'}{' + emission' if glow.any() else ''}"
+    yield f"linear, {factors}: {words(color)}"
 
 
 def _told(light: Light, number: int) -> tuple[str, str]:

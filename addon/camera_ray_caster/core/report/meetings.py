@@ -10,7 +10,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..camera.camera import Camera
+from ..maths.speed import Scratch
+from ..maths.vector import inverse
 from ..records import INFINITE_PLANE, MESH, PLANE, SPHERE, Shapes
+from ..shapes.cutouts import Cutouts, crossings
+from ..shapes.in_camera import in_camera
+from ..shapes.kinds import by_kind
+from ..shapes.mesh_surface import TRIANGLES, HitTriangles
 
 MOST = 12
 """Maximum number of intersections listed per mesh."""
@@ -49,12 +55,20 @@ def meetings(camera: Camera, shapes: Shapes, origin: np.ndarray, direction: np.n
     """
     depth = float(-(np.linalg.inv(camera.pose.basis) @ direction)[2]) if camera.model.planar else 1.0
     found = []
+    transparent = _Transparent(camera, shapes)
+
+    def along_ray(t: float) -> np.ndarray:
+        return origin + t * direction - camera.pose.eye
+
     for k in range(len(shapes)):
         axes = shapes.axes[k]
         if shapes.kind[k] != MESH or abs(np.linalg.det(axes)) > 0:
             at, along = np.linalg.solve(axes, np.stack((origin - shapes.center[k], direction), axis=1)).T
             equation, roots = EQUATIONS[int(shapes.kind[k])](shapes, k, at, along)
-            places = tuple(Place(t, what, _clipped(camera, t, t * depth)) for t, what in sorted(roots))
+            places = tuple(
+                Place(t, what, _clipped(camera, t, t * depth) or transparent(k, triangle, t, along_ray(t)))
+                for t, what, triangle in sorted(roots)
+            )
             if places:
                 name = shapes.names[shapes.name_index[k]]
                 found.append(Meeting(k, name, equation, places))
@@ -77,7 +91,7 @@ def _sphere(shapes, k, at, along):
     if under < 0:
         return lines, []
     q = -0.5 * (b + np.copysign(np.sqrt(under), b))  # adding two numbers of the same sign causes no cancellation
-    return lines, [(float(t), "") for t in ({q / a, c / q} if q else {0.0})]
+    return lines, [(float(t), "", -1) for t in ({q / a, c / q} if q else {0.0})]
 
 
 def _plane(shapes, k, at, along):
@@ -87,7 +101,7 @@ def _plane(shapes, k, at, along):
     t = float(-at[2] / along[2])
     x, y = (at + t * along)[:2]
     line = f"own frame, where it is z = 0: {at[2]:.6g} {along[2]:+.6g} t = 0 at x = {x:.6g}, y = {y:.6g}"
-    return (line,), [(t, "")] if endless or max(abs(x), abs(y)) <= 1 else []
+    return (line,), [(t, "", -1)] if endless or max(abs(x), abs(y)) <= 1 else []
 
 
 def _mesh(shapes, k, at, along):
@@ -104,12 +118,36 @@ def _mesh(shapes, k, at, along):
         hit = np.flatnonzero((v >= 0) & (w >= 0) & (v + w <= 1))
     hit = hit[np.argsort(np.abs(t[hit]))][:MOST]
     lines = (f"own frame: p + t d = (1 - v - w) A + v B + w C, p = {words(at)}, d = {words(along)}",)
-    roots = [(float(t[i]), f"face {mesh.polygon[i]}, v = {v[i]:.4f}, w = {w[i]:.4f}") for i in hit]
+    roots = [(float(t[i]), f"face {mesh.polygon[i]}, v = {v[i]:.4f}, w = {w[i]:.4f}", int(i)) for i in hit]
     return lines, roots
 
 
 EQUATIONS = {SPHERE: _sphere, PLANE: _plane, INFINITE_PLANE: _plane, MESH: _mesh}
 """How a ray meets each kind of shape."""
+
+
+class _Transparent:
+    """Tells which intersections are on transparent points of a surface."""
+
+    def __init__(self, camera: Camera, shapes: Shapes):
+        self._placed = in_camera(shapes, camera.pose) if shapes.surfaces else None
+
+    def __call__(self, k: int, triangle: int, t: float, point: np.ndarray) -> str:
+        """Return the reason why an intersection with shape k, at a point relative to the eye, does not count; empty if
+        it counts.
+        """
+        if self._placed is None:
+            return ""
+        (kind, _), at = next(by_kind(self._placed.shapes.kind[[k]])), np.array([k])
+        cutouts = Cutouts.of(kind, self._placed, at)
+        if cutouts is None:
+            return ""
+        own = HitTriangles(self._placed, np.zeros(1, int), at, np.array([triangle]), False)
+        pixels = crossings(at, np.array([t]), False, Scratch(), **{TRIANGLES: own})
+        return "" if cutouts.hit(pixels, inverse(self._placed.pose.basis) @ point[:, None])[0] else TRANSPARENT
+
+
+TRANSPARENT = "transparent there: its alpha is below the Alpha Threshold"
 
 
 def _clipped(camera: Camera, t: float, depth: float) -> str:
