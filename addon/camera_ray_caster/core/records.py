@@ -9,6 +9,7 @@ from typing import Any, Protocol
 import numpy as np
 
 from .materials.surface import Surface
+from .materials.values import Value
 from .mesh import Mesh
 
 
@@ -142,17 +143,27 @@ class Slots:
     """(s,) int32: indices into ``Shapes.surfaces``, as ``Shapes.surface``."""
 
 
+AREA, EVERYWHERE = (0.0, 0.0), (-2.0, 1.0)
+"""Values of ``Lights.cone``: of lights that shine by the cosine, as a small area does, and in all directions alike."""
+
+
 @dataclass(frozen=True)
 class Lights:
-    """Sun and point lights: ``position[k]`` is a point, or with ``is_sun`` the unit direction towards the sun.
+    """Lights: ``position[k]`` is a point, or with ``is_sun`` the unit direction towards the sun.
 
     The arrays are (n, 3), (n,) and (n, 3). ``color`` is the light's color times its strength in Blender's units: watts
-    for a point light, watts per square meter for a sun.
+    for a lamp, watts per square meter for a sun.
     """
 
     position: np.ndarray = field(default_factory=lambda: np.zeros((0, 3)))
     is_sun: np.ndarray = field(default_factory=lambda: np.zeros(0, bool))
     color: np.ndarray = field(default_factory=lambda: np.zeros((0, 3)))
+    axis: np.ndarray = field(default_factory=lambda: np.zeros((0, 3)))
+    """(n, 3): the unit directions in which spot and area lights shine, 0 for others; empty if there are only others."""
+    cone: np.ndarray = field(default_factory=lambda: np.zeros((0, 2)))
+    """(n, 2): of spot lights the cosine at the edge of the cone and the width, in cosines, over which the light fades
+    within it; AREA of area lights, EVERYWHERE of others. Empty where ``axis`` is.
+    """
     left_out: tuple[tuple[str, str], ...] = ()
     """Lights that are not used, each with the reason in one line."""
 
@@ -196,6 +207,9 @@ class Shapes:
     """Pass index and name of each material of the shapes."""
     lights: Lights = field(default_factory=Lights)
     world_color: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 1.0)
+    """RGBA of the background, and of the light from all directions: the mean of a background that changes."""
+    background: Value | None = None
+    """The color of the background by ``DIRECTION``, three channels; None if it is the world's color."""
     motion: MovingShapes | None = None
     """The shapes at other frames, for cameras whose pixels have times of their own; else None."""
     left_out: tuple[tuple[str, str], ...] = ()

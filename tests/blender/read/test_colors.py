@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from camera_ray_caster.blender.read.scene import read_shapes
-from camera_ray_caster.core.records import MESH, PLANE, SPHERE
+from camera_ray_caster.core.records import AREA, EVERYWHERE, MESH, PLANE, SPHERE
 
 from .scene_parts import ball, new_object
 
@@ -123,7 +123,7 @@ def test_a_base_color_that_is_animated_is_that_of_the_frame(scene):
     np.testing.assert_allclose(reds, [0.25, 0.5], atol=ULP)
 
 
-def test_sun_and_point_lights_are_used_and_others_named(scene):
+def test_lights_are_those_of_the_scene(scene):
     for kind in ("SUN", "POINT", "SPOT", "AREA"):
         light = new_object(kind.title(), bpy.data.lights.new(kind, kind))
         light.data.energy, light.data.color, light.location = 4, (1, 0.5, 0.25), (1, 2, 3)
@@ -131,10 +131,19 @@ def test_sun_and_point_lights_are_used_and_others_named(scene):
     bpy.data.lights["POINT"].exposure = 1
     new_object("Off", bpy.data.lights.new("Off", "SUN")).hide_render = True
     shapes = read_shapes(scene)
-    rows = sorted(zip(shapes.lights.is_sun, shapes.lights.position.tolist(), shapes.lights.color.tolist(), strict=True))
-    assert [(is_sun, color) for is_sun, _, color in rows] == [(False, [8, 4, 2]), (True, [4, 2, 1])]
-    np.testing.assert_allclose([place for _, place, _ in rows], [(1, 2, 3), (0, -1, 0)], atol=4 * ULP)
-    assert {name for name, _ in shapes.lights.left_out} == {"Area", "Spot"}
+    lights = shapes.lights
+    rows = sorted(zip(lights.is_sun, lights.position.tolist(), lights.color.tolist(), lights.cone.tolist(), strict=True))
+    edge = np.cos(bpy.data.lights["SPOT"].spot_size / 2)
+    assert [(is_sun, color) for is_sun, _, color, _ in rows] == [(False, [4, 2, 1])] * 2 + [
+        (False, [8, 4, 2]), (True, [4, 2, 1])
+    ]  # fmt: skip
+    assert sorted(cone for *_, cone in rows) == sorted([
+        [*AREA], [*EVERYWHERE], [*EVERYWHERE], [edge, (1 - edge) * bpy.data.lights["SPOT"].spot_blend]
+    ])  # fmt: skip
+    np.testing.assert_allclose([place for _, place, _, _ in rows], [(1, 2, 3)] * 3 + [(0, -1, 0)], atol=4 * ULP)
+    shines = np.where((lights.cone == EVERYWHERE).all(axis=1)[:, None], 0, (0, 1, 0))
+    np.testing.assert_allclose(lights.axis, shines, atol=4 * ULP)
+    assert not lights.left_out
 
 
 @pytest.mark.parametrize("strength", [np.nan, np.inf])

@@ -68,8 +68,7 @@ SHADING = Choice(
     (
         Item(
             "MATERIAL", "Material",
-            "Base Color of the material if it was changed, otherwise the material's viewport color, lit by sun and "
-            "point lights",
+            "Color of the material's nodes and textures, or its viewport color, lit by the lamps without shadows",
             0,
         ),
         Item("GRID", "Grid", "As Material, with lines of constant u and v, or with the edges of faces if there "

@@ -6,10 +6,11 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from ...core.records import Shapes, Slots
+from ...core.records import EVERYWHERE, Shapes, Slots
 from ...core.shapes.instances import Primitive, castable, lights_in_world, put_in_world
 from ..terminal.signals import raise_if_stopping
 from .kept import Found
+from .lights import World
 from .materials import Look
 
 SINGULAR = "its size is zero in some direction, or not finite: clear its scale (Alt S) or apply it"
@@ -35,6 +36,8 @@ class Group:
     """What the passes show otherwise than the object's settings say."""
     is_light: bool = False
     is_sun: bool | None = None
+    cone: tuple[float, float] = EVERYWHERE
+    """How a light shines: see ``Lights.cone``."""
     flattened: Callable[[], Found] | None = None
     """Function that returns the triangles that replace an exact shape if its matrix is singular."""
     geometry: Hashable | None = None
@@ -54,7 +57,7 @@ def heeding(items: Iterable) -> Iterator:
         yield item
 
 
-def gathered(groups: list[Group], left_out: Counter, world: tuple[float, float, float, float]) -> Shapes:
+def gathered(groups: list[Group], left_out: Counter, world: World) -> Shapes:
     """Return the record of all groups: their instances placed in the world, one row per shape."""
     lights = [group for group in groups if group.is_sun is not None]
     users: Counter[Hashable] = Counter()
@@ -94,8 +97,9 @@ def gathered(groups: list[Group], left_out: Counter, world: tuple[float, float, 
         name_index=column(range(len(cast)), np.int32),
         names=tuple(group.name for group in cast),
         instanced=tuple(group.is_instanced for group in cast),
-        lights=lights_in_world([(group.is_sun, group.looks[0].color, group.placings()) for group in lights]),
-        world_color=world,
+        lights=lights_in_world([(one.is_sun, one.looks[0].color, one.cone, one.placings()) for one in lights]),
+        world_color=world.color,
+        background=world.background,
         left_out=listed(left_out),
         meshes=tuple(meshes.values()),
         mesh=column(rows, np.int32) if meshes else np.zeros(0, np.int32),

@@ -1,11 +1,41 @@
 """Lights and the world, as evaluated by a depsgraph."""
 
+import math
+from typing import NamedTuple
+
 import numpy as np
 
-from .materials import shown, surface_node
+from ...core.materials.directions import over_all_directions
+from ...core.materials.values import Constant, Value, constant
+from ...core.records import AREA, EVERYWHERE
+from .materials import ALWAYS_NODES, as_color, shown
+from .nodes import Nodes, Unread
+from .shader_nodes import colors
+from .value_nodes import ENVIRONMENT, READ_OF_WORLDS
 
-USED = {"SUN": True, "POINT": False}
-"""Types of lights that the combined pass uses, and whether each is a sun."""
+DIRECTIONS = 1 << 12
+"""Number of directions, evenly spread, whose mean is the light of a background that changes."""
+
+
+class World(NamedTuple):
+    """What is behind everything."""
+
+    color: tuple[float, float, float, float]
+    """RGBA: (0, 0, 0, 0) under a transparent film, black without a world."""
+    background: Value | None = None
+    """See ``Shapes.background``; ``color`` is its mean then."""
+    unread: tuple[tuple[str, str], ...] = ()
+    """The world's name and what is not read of it, in words."""
+
+
+def cone_of(light) -> tuple[float, float]:
+    """Return how a light shines: see ``Lights.cone``. Spot lights fade as in Cycles."""
+    if light.type == "AREA":
+        return AREA
+    if light.type != "SPOT":
+        return EVERYWHERE
+    edge = math.cos(light.spot_size / 2)
+    return edge, max((1 - edge) * light.spot_blend, 1e-6)
 
 
 def light_color(light) -> tuple[float, float, float]:
@@ -16,28 +46,39 @@ def light_color(light) -> tuple[float, float, float]:
     return tuple(strength * a * b for a, b in zip(light.color, tint, strict=True))
 
 
-def world_color(depsgraph) -> tuple[float, float, float, float]:
-    """Return the color behind everything: (0, 0, 0, 0) under a transparent film, black without a world.
+def world_of(depsgraph) -> World:
+    """Return the world that a depsgraph shows: the view layer's world override, or the scene's world.
 
-    The color of a world with a single Background node of plain color and strength is that color times the strength; any
-    other world shows its viewport color. The view layer's world override takes precedence over the scene's world.
+    It is what the nodes of the world emit. A world without nodes, or with others than are read, shows its viewport
+    color.
     """
     scene = depsgraph.scene_eval
     world = depsgraph.view_layer_eval.world_override or scene.world
     if scene.render.film_transparent:
-        return 0.0, 0.0, 0.0, 0.0
+        return World((0.0, 0.0, 0.0, 0.0))
     if world is None:
-        return 0.0, 0.0, 0.0, 1.0
-    red, green, blue = shown(_background(world) or world.color)
-    return red, green, blue, 1.0
+        return World((0.0, 0.0, 0.0, 1.0))
+    unread: tuple[tuple[str, str], ...] = ()
+    try:
+        emitted = _emitted(world)
+    except Unread as error:
+        emitted, unread = None, ((world.name, f"the world's color is not read: {error}. Its viewport color is shown"),)
+    if emitted is None or isinstance(emitted, Constant):
+        red, green, blue = shown(world.color if emitted is None else emitted.values[:, 0].tolist())
+        return World((red, green, blue, 1.0), None, unread)
+    red, green, blue = over_all_directions(emitted, DIRECTIONS).tolist()
+    return World((red, green, blue, 1.0), emitted)
 
 
-def _background(world) -> tuple[float, ...] | None:
-    """Return the plain color that the world's nodes emit; None if there is none or if it depends on other nodes."""
-    node = surface_node(world, "ShaderNodeBackground")
-    if node is None:
+def _emitted(world) -> Value | None:
+    """Return what the world's nodes emit, three channels; None without nodes that are shown. Raises Unread."""
+    uses_nodes = world.node_tree is not None and (ALWAYS_NODES or world.use_nodes)
+    output = world.node_tree.get_output_node("CYCLES") if uses_nodes else None
+    if output is None or not output.inputs["Surface"].is_linked:
         return None
-    color, strength = node.inputs["Color"], node.inputs["Strength"]
-    if color.is_linked or strength.is_linked:
-        return None
-    return tuple(strength.default_value * value for value in color.default_value[:3])
+    nodes = Nodes(READ_OF_WORLDS)
+    glow = colors(nodes, output.inputs["Surface"], (), weighs=False).glow
+    glow = constant(0, 0, 0) if glow is None else as_color(glow)
+    if ENVIRONMENT not in nodes.needs and not isinstance(glow, Constant):
+        raise Unread("it changes without an environment image")
+    return glow

@@ -152,7 +152,7 @@ def _look(material, threshold: float) -> Look:
     try:
         parts = _divided(colors(nodes, socket, (), through is not None), through, alpha)
         needs |= nodes.needs
-        base, own, glow = (part and _as_color(part) for part in parts)
+        base, own, glow = (part and as_color(part) for part in parts)
         if base is None or not _as_made(material):
             lit = base or constant(0, 0, 0)
     except Unread as error:
@@ -179,6 +179,6 @@ def _divided(parts: Parts, through: Value | None, alpha: Value | None) -> tuple[
     return tuple(part and function_of(lambda a, b: a / np.where(b > 0, b, 1.0), part, alpha) for part in parts)
 
 
-def _as_color(part: Value) -> Value:
+def as_color(part: Value) -> Value:
     """Return a part with three channels that are finite."""
     return function_of(lambda one: np.nan_to_num(np.broadcast_to(one, (3, one.shape[1]))), part)

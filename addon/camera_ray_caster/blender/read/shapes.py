@@ -13,7 +13,7 @@ from ..properties.declared import EXACT_SHAPES, PRIMITIVE
 from .geometry import mesh_shapes, shapes_of
 from .groups import Group, gathered, heeding, listed
 from .kept import Reading
-from .lights import USED, light_color, world_color
+from .lights import cone_of, light_color, world_of
 from .materials import Look, Looks, first_slot, is_finite
 from .stored import own_value
 from .unique import unique_name
@@ -48,7 +48,7 @@ class _Scene:
     """Collector of the groups in a depsgraph's list of instances."""
 
     def __init__(self, depsgraph):
-        self.world = world_color(depsgraph)
+        self.world = world_of(depsgraph)
         self.visibility = Visibility(depsgraph)
         self.reading = Reading(depsgraph)
         self.looks = Looks(depsgraph.view_layer_eval)
@@ -87,12 +87,10 @@ class _Scene:
     def light(self, group: Group, data) -> None:
         """Set the kind and color of a light, or the reason why it is not used."""
         color = light_color(data)
-        if data.type not in USED:
-            group.reason = f"it is a light of type {data.type.lower()}: only sun and point lights are used"
-        elif not is_finite(color):
+        if not is_finite(color):
             group.reason = DAZZLING
         else:
-            group.is_sun, group.looks = USED[data.type], (Look(0, color),)
+            group.is_sun, group.looks, group.cone = data.type == "SUN", (Look(0, color),), cone_of(data)
 
     def fill(self, group: Group, instance) -> None:
         """Set the primitive of an instance's geometry, or the reason why it cannot be cast."""
@@ -127,7 +125,7 @@ class _Scene:
 
     def record(self) -> Shapes:
         """Return the record of all groups."""
-        dark: Counter[tuple[str, str]] = Counter()
+        dark: Counter[tuple[str, str]] = Counter(self.world.unread)
         for group in self.groups.values():
             if group.reason:
                 (dark if group.is_light else self.left_out)[group.name, group.reason] += len(group.matrices)

@@ -17,6 +17,10 @@ GENERATED = "generated"
 """Name of the layer of texture space coordinates; those of UV maps and attributes begin with "uv:" and "color:"."""
 
 
+ENVIRONMENT = "environment"
+"""What is noted in ``Nodes.needs`` of an environment image."""
+
+
 def _own(nodes: Nodes, node: Node, output) -> Value:
     return own_value(output)
 
@@ -45,6 +49,7 @@ def _texture(node: Node, output, vector: Value, extension: str) -> Value:
 def _environment(nodes: Nodes, node: Node, output) -> Value:
     if node.projection != "EQUIRECTANGULAR":
         raise node.unread("mirror ball projection")
+    nodes.needs.add(ENVIRONMENT)
     vector = node.input("Vector") if node.is_linked("Vector") else Coordinates(DIRECTION)
     return _texture(node, output, function_of(_equirectangular, vector), "REPEAT")
 

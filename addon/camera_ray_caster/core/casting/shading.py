@@ -4,12 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from itertools import repeat
 from typing import Any
 
 import numpy as np
 
+from ..materials.directions import Directions
 from ..maths.speed import write_where
 from ..maths.vector import difference, dot, inner
+from ..records import AREA, EVERYWHERE
 from .hit_values import HitValues
 from .request import GRID
 
@@ -19,7 +22,7 @@ GRID_CELLS = {"u": 24, "v": 12}
 LINE_WIDTH = 0.12
 """Width of a grid line in cells."""
 
-SUN, POINT, HEADLIGHT = "sun", "point light", "headlight"
+SUN, POINT, SPOT, AREA_LIGHT, HEADLIGHT = "sun", "point light", "spot light", "area light", "headlight"
 """Kinds of lights."""
 
 
@@ -27,9 +30,10 @@ def shade(values: HitValues, out: np.ndarray) -> None:
     """Write linear RGBA into ``out``, (rows, columns, 4): the color of the shape, or of the world where nothing is hit.
 
     Lambert's law without shadows: a sun of E W/m^2 gives color E cos / pi; a point light of P W at distance r gives
-    color P cos / (4 pi^2 r^2), in Blender's units; the world's color is added as uniform light from all directions.
-    Without sun and point lights a headlight shines along each ray. GRID darkens lines of constant longitude, latitude
-    or other coordinate of exact shapes, lines of constant uv of meshes, or the edges of faces without a UV map.
+    color P cos / (4 pi^2 r^2), in Blender's units; a spot light the same times how it fades towards its edge, an area
+    light, as from its middle, 4 times the cosine at the lamp; the world's color is added as uniform light from all
+    directions, and what surfaces emit. Without lights a headlight shines along each ray. GRID darkens lines of constant
+    longitude, latitude or other coordinate of exact shapes, lines of constant uv of meshes, or the edges of faces without a UV map.
     """
     world_color = values.plan.shapes.world_color
     lit, grid = irradiance(values), grid_factor(values)
@@ -43,6 +47,11 @@ def shade(values: HitValues, out: np.ndarray) -> None:
             paint(values, surface, lambda one: one.glow, channel, np.add)
         out[..., channel] = surface
     write_where(out, world_color, values.hits.missed)
+    if values.plan.shapes.background is not None and values.hits.missed is not None:
+        places = np.nonzero(values.hits.missed)
+        direction = [np.broadcast_to(part, values.hits.missed.shape)[places] for part in values.direction]
+        color = Directions(direction).value(values.plan.shapes.background)
+        out[..., :3][places] = np.broadcast_to(color, (3, len(places[0]))).T
 
 
 def albedo(values: HitValues, out: np.ndarray) -> None:
@@ -103,9 +112,11 @@ class Light:
     square: Any
     """Square of the lamp's distance; 1 for a sun and the headlight."""
     gain: np.ndarray
-    """Cosine over ``square``, (rows, columns)."""
+    """Cosine over ``square``, times ``beam``, (rows, columns)."""
     strength: np.ndarray
     """(3,): the factor of ``gain``, red, green and blue."""
+    beam: Any = 1.0
+    """What part of the power goes towards the surface, of spot and area lights."""
 
 
 def lights(values: HitValues) -> Iterator[Light]:
@@ -116,7 +127,8 @@ def lights(values: HitValues) -> Iterator[Light]:
         inner(values.normal, values.direction, light, spare)
         np.divide(np.abs(light, out=light), values.length, out=light)
         yield Light(HEADLIGHT, np.ones(3), None, 1.0, light, np.ones(3))
-    for position, is_sun, color in zip(lamps.position, lamps.is_sun, lamps.color, strict=True):
+    beams = zip(lamps.axis, lamps.cone, strict=True) if len(lamps.axis) else repeat((None, EVERYWHERE))
+    for position, is_sun, color, beam in zip(lamps.position, lamps.is_sun, lamps.color, beams, strict=False):
         if is_sun:
             gain = np.maximum(dot(values.normal, position), 0.0)
             yield Light(SUN, color, position, 1.0, gain, color / np.pi)
@@ -124,7 +136,19 @@ def lights(values: HitValues) -> Iterator[Light]:
             towards = difference(position - values.plan.camera.pose.eye, values.point)
             square = np.maximum(dot(towards, towards), np.finfo(float).tiny)
             gain = np.maximum(dot(values.normal, towards), 0.0) / (square * np.sqrt(square))
-            yield Light(POINT, color, towards, square, gain, color / (4 * np.pi**2))
+            kind, part = _beam(*beam, towards, square)
+            yield Light(kind, color, towards, square, gain * part, color / (4 * np.pi**2), part)
+
+
+def _beam(axis: np.ndarray | None, cone: Any, towards: Any, square: Any) -> tuple[str, Any]:
+    """Return the kind of a lamp and what part of its power goes from it to the surfaces, over that of a point light."""
+    if axis is None or tuple(cone) == EVERYWHERE:
+        return POINT, 1.0
+    cosine = -dot(axis, towards) / np.sqrt(square)
+    if tuple(cone) == AREA:
+        return AREA_LIGHT, 4 * np.maximum(cosine, 0.0)
+    part = np.clip((cosine - cone[0]) / cone[1], 0.0, 1.0)
+    return SPOT, part * part * (3 - 2 * part)
 
 
 def irradiance(values: HitValues) -> list[Any]:

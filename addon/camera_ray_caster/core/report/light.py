@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from ..casting.hit_values import HitValues
-from ..casting.shading import HEADLIGHT, POINT, Light, grid_factor, irradiance, lights, material_color, paint
+from ..casting.shading import HEADLIGHT, POINT, SUN, Light, grid_factor, irradiance, lights, material_color, paint
 from .meetings import words
 
 MOST = 12
@@ -52,13 +52,16 @@ def color_lines(values: HitValues, color: np.ndarray) -> Iterator[str]:
 
 def _told(light: Light, number: int) -> tuple[str, str]:
     """Return the place of a light, and the formula of what it gives."""
-    cosine = f"cosine {_one(light.gain * light.square):.6g}"
+    beam = _one(light.beam)
+    cosine = f"cosine {_one(light.gain * light.square) / beam if beam else 0.0:.6g}"
     if light.kind == HEADLIGHT:
         return f"headlight along the ray, as there are no lamps: {cosine}", "cosine"
     place = np.array([_one(part) for part in light.towards])
     told = f"{light.kind} {number} towards {words(place / np.linalg.norm(place))}, {cosine}"
-    if light.kind == POINT:
-        return f"{told}, r = {np.sqrt(_one(light.square)):.6g}, P = {words(light.power)}", "P cosine / (4 pi² r²)"
+    if light.kind != SUN:
+        part = "" if light.kind == POINT else f"beam {beam:.6g}, "
+        told = f"{told}, {part}r = {np.sqrt(_one(light.square)):.6g}, P = {words(light.power)}"
+        return told, f"P {'beam ' if part else ''}cosine / (4 pi² r²)"
     return f"{told}, E = {words(light.power)}", "E cosine / pi"
 
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from ..conventions import EPS32
 from ..mesh import Mesh
-from ..records import INFINITE_PLANE, MESH, SPHERE, Lights
+from ..records import EVERYWHERE, INFINITE_PLANE, MESH, SPHERE, Lights
 
 COORDINATES, NO_MAP = np.eye(2, 3), np.zeros((2, 3))
 """The maps of a shape whose u and v are its coordinates, and of one without a UV map, whose u and v are 0."""
@@ -104,16 +104,23 @@ def put_in_world(primitive: Primitive, matrices: np.ndarray, centers: np.ndarray
 
 
 def lights_in_world(lights) -> Lights:
-    """Return the record of lights, each given as (is_sun, color (3,), matrices (k, 3, 4)).
+    """Return the record of lights, each given as (is_sun, color (3,), cone (2,), matrices (k, 3, 4)).
 
     A light stands at its matrix's offset. A sun shines along its -Z; its ``position`` is the unit vector along +Z.
     """
-    rows = [(is_sun, color, matrix) for is_sun, color, matrices in lights for matrix in matrices]
-    rows = [row for row in rows if np.isfinite(row[2]).all() and row[2][:, 2].any()]
+    rows = [(is_sun, color, cone, matrix) for is_sun, color, cone, matrices in lights for matrix in matrices]
+    rows = [row for row in rows if np.isfinite(row[3]).all() and row[3][:, 2].any()]
+    cones = np.array([cone for _, _, cone, _ in rows]).reshape(-1, 2)
+    is_turned = (cones != EVERYWHERE).any(axis=1)
     return Lights(
-        position=np.array([_unit(m[:, 2]) if is_sun else m[:, 3] for is_sun, _, m in rows]).reshape(-1, 3),
-        is_sun=np.array([is_sun for is_sun, _, _ in rows], bool),
-        color=np.array([color for _, color, _ in rows]).reshape(-1, 3),
+        position=np.array([_unit(m[:, 2]) if is_sun else m[:, 3] for is_sun, _, _, m in rows]).reshape(-1, 3),
+        is_sun=np.array([is_sun for is_sun, _, _, _ in rows], bool),
+        color=np.array([color for _, color, _, _ in rows]).reshape(-1, 3),
+        **(
+            {"axis": np.array([-_unit(m[:, 2]) for _, _, _, m in rows]) * is_turned[:, None], "cone": cones}
+            if is_turned.any()
+            else {}
+        ),
     )
 
 
