@@ -132,7 +132,8 @@ def test_lights_are_those_of_the_scene(scene):
     new_object("Off", bpy.data.lights.new("Off", "SUN")).hide_render = True
     shapes = read_shapes(scene)
     lights = shapes.lights
-    rows = sorted(zip(lights.is_sun, lights.position.tolist(), lights.color.tolist(), lights.cone.tolist(), strict=True))
+    columns = (part.tolist() for part in (lights.is_sun, lights.position, lights.color, lights.cone))
+    rows = sorted(zip(*columns, strict=True))
     edge = np.cos(bpy.data.lights["SPOT"].spot_size / 2)
     assert [(is_sun, color) for is_sun, _, color, _ in rows] == [(False, [4, 2, 1])] * 2 + [
         (False, [8, 4, 2]), (True, [4, 2, 1])

@@ -33,7 +33,8 @@ def shade(values: HitValues, out: np.ndarray) -> None:
     color P cos / (4 pi^2 r^2), in Blender's units; a spot light the same times how it fades towards its edge, an area
     light, as from its middle, 4 times the cosine at the lamp; the world's color is added as uniform light from all
     directions, and what surfaces emit. Without lights a headlight shines along each ray. GRID darkens lines of constant
-    longitude, latitude or other coordinate of exact shapes, lines of constant uv of meshes, or the edges of faces without a UV map.
+    longitude, latitude or other coordinate of exact shapes, lines of constant uv of meshes, or the edges of faces
+    without a UV map.
     """
     world_color = values.plan.shapes.world_color
     lit, grid = irradiance(values), grid_factor(values)
