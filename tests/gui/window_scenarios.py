@@ -1,7 +1,7 @@
 """What once trapped a user in the window, one scenario a function: see scenarios.py."""
 
 import bpy
-from parts import BUTTON, load
+from parts import BUTTON, addon, load
 
 
 def shown_camera(user, scenes):
@@ -48,12 +48,44 @@ def set_frame(user, scenes):
     browser.spaces.active.params.filename = path.name
     yield from user.wait(1)
     user.picture("load_dialog")
-    yield from user.point(browser.x + browser.width // 2, browser.y + browser.height // 2)
+    yield from user.point(*middle(browser))
     yield from user.key("Return")
     yield from user.until(lambda: camera.camera_ray_caster.model == "OPENCV_PINHOLE", "the calibration is loaded")
     assert (render.resolution_x, render.resolution_y) == (1241, 376)
     yield from user.wait(0.5)
     user.picture("loaded")
+
+
+def other_engine(user, scenes):
+    """F12 by an engine that does not know the model says so in the status bar, and the panel has what would work."""
+    yield from load(user, scenes, "toys")
+    scene, said, other = bpy.context.scene, [], addon("ui.other_engine")
+    scene.camera.data.camera_ray_caster.model, scene.render.engine = "OMNIMAX", "BLENDER_WORKBENCH"
+    scene.render.resolution_percentage = 10
+    show = other.show
+    other.show = lambda text: (said.append(text), show(text))
+    yield from user.wait(0.5)
+    yield from user.point(*middle(user.region("WINDOW")))
+    yield from user.key("F12")
+    yield from user.until(lambda: said, "the status bar says it", 60)
+    assert said[0].startswith("Workbench does not know Omnimax: it renders a perspective"), said
+    yield from user.until(lambda: any(area.type == "IMAGE_EDITOR" for area in user.window.screen.areas), "it is shown")
+    yield from user.wait(0.7)
+    user.picture("other_engine_f12")
+    yield from user.point(*middle(user.area("IMAGE_EDITOR")))
+    yield from user.key("Escape")
+    yield from user.until(lambda: any(area.type == "VIEW_3D" for area in user.window.screen.areas), "the view is back")
+    yield from user.wait(0.5)
+    user.picture("other_engine")
+    yield from user.press(f"{BUTTON}use_this_engine(")
+    yield from user.until(lambda: scene.render.engine == "CAMERA_RAY_CASTER", "the engine is set")
+    yield from user.until(lambda: None in said, "the status bar is Blender's again", 60)
+    other.show = show
+
+
+def middle(part):
+    """The middle of an area or a region, in the window."""
+    return part.x + part.width // 2, part.y + part.height // 2
 
 
 def dialog(user):
@@ -66,4 +98,4 @@ def dialog(user):
     return areas()[0]
 
 
-WINDOW_SCENARIOS = (shown_camera, set_frame)
+WINDOW_SCENARIOS = (shown_camera, set_frame, other_engine)

@@ -30,6 +30,7 @@ from .ui import (
     model_panels,
     object_panels,
     operators,
+    other_engine,
     overlay_panels,
     point_operators,
     presets,
@@ -42,7 +43,7 @@ from .view3d import lesson, mouse_gizmo, notice, overlay, scene_cache
 
 CLASSES = (
     *groups.CLASSES, *overlay.CLASSES, *engine.CLASSES, *operators.CLASSES, *cast_operator.CLASSES,
-    *cycles_operators.CLASSES, *frame.CLASSES, *add_line.CLASSES, *export_operators.CLASSES,
+    *cycles_operators.CLASSES, *frame.CLASSES, *other_engine.CLASSES, *add_line.CLASSES, *export_operators.CLASSES,
     *mouse_gizmo.CLASSES, *render_panels.CLASSES, *gallery_panels.CLASSES,
     *menus.CLASSES, *presets.CLASSES, *model_panels.CLASSES,
     *see_through.CLASSES, *camera_panels.CLASSES, *show_result.CLASSES, *cast_panels.CLASSES, *verify_panels.CLASSES,
@@ -54,6 +55,7 @@ CLASSES = (
 MODULES = (
     groups, kept, follow, reports, images, gallery, scene_cache, viewport, cast_operator, overlay, lesson, notice,
     render_panels, menus, gallery_operators, lesson_operators, presets, export_operators, commands,
+    other_engine,
 )  # fmt: skip
 """Modules that register more than classes. Their ``register(undo)`` gives ``undo`` the callbacks that undo it."""
 

@@ -246,6 +246,7 @@ def test_a_camera_of_cycles_shows_the_settings_of_its_own_type_and_the_way_back(
     assert drawn(blender, ModelPanel, data)[0] == ("model",)
     assert drawn.operators == ["load_calibration", "use_in_cycles"]
     to_cycles(camera_scene)
+    camera_scene.render.engine = "CYCLES"
     assert drawn(blender, ModelPanel, data)[0] == ("model", "lens")
     assert drawn.operators == ["load_calibration", "back_to_blender", "use_in_cycles"]
     data.camera_ray_caster.model = "PUSHBROOM"

@@ -13,6 +13,7 @@ from .gallery_panels import draw_model
 from .model_drawing import PRESETS, draw_lens, draw_model_settings, draw_setting, draw_times
 from .model_settings import read_settings
 from .operators import LoadCalibration
+from .other_engine import draw_ignored
 from .see_through import SeeThrough, is_seen_through
 
 
@@ -43,6 +44,7 @@ class SidebarCamera(Sidebar, bpy.types.Panel):
         if reason and not lacking:
             draw_message(layout, context, reason, "ERROR")
         draw_frame(layout, context, camera, is_refused=bool(reason))
+        draw_ignored(layout, context, camera)
         if context.space_data is not None:
             seen = is_seen_through(context)
             layout.operator(SeeThrough.bl_idname, icon="CAMERA_DATA", depress=seen)

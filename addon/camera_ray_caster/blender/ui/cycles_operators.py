@@ -1,6 +1,7 @@
 """Operators that turn a camera into a custom camera of Cycles, and back."""
 
 import bpy
+from bpy.props import BoolProperty
 
 from ..cycles import from_cycles, to_cycles
 from ..read.camera import shader_mark
@@ -15,10 +16,16 @@ class UseInCycles(OfCamera, bpy.types.Operator):
     bl_label = "Use in Cycles"
     bl_options = {"REGISTER", "UNDO"}
 
+    set_engine: BoolProperty(
+        name="Set Engine", description="Also set the scene's render engine to Cycles", options={"SKIP_SAVE"}
+    )
+
     @reporting
     def execute(self, context):
         """Convert the camera, and report what will not update by itself."""
         said = to_cycles(context.scene, camera_object_of(context))
+        if self.set_engine:
+            context.scene.render.engine = "CYCLES"
         for line in said:
             self.report({"INFO"}, line)
         return {"FINISHED"}

@@ -13,6 +13,7 @@ from .model_drawing import PRESETS, draw_lens, draw_model_settings, draw_times
 from .model_settings import read_settings
 from .needs import camera_object_of
 from .operators import LoadCalibration
+from .other_engine import draw_ignored
 
 
 class CameraPanel:
@@ -48,6 +49,7 @@ class ModelPanel(CameraPanel, bpy.types.Panel):
         put_labels(layout, context)
         draw_model_settings(layout, context, camera)
         draw_frame(layout, context, camera_object_of(context))
+        draw_ignored(layout, context, camera_object_of(context))
         draw_cycles(layout, camera)
 
 

@@ -12,6 +12,8 @@ from ..read.camera import shader_mark
 
 SETTINGS = {model.key: model.SETTINGS for model in MODELS}
 
+LABELS_OF_MODELS = {model.key: model.label for model in MODELS}
+
 LABELS = {setting.name: setting.label for own in SETTINGS.values() for setting in own if "_" in setting.name}
 """Labels of settings by their names in files, without names that are words of the language, too."""
 

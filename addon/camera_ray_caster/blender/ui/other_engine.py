@@ -1,0 +1,106 @@
+"""Render engines that do not know a camera's model: what the panels and the status bar say, and what would work."""
+
+from __future__ import annotations
+
+from functools import partial
+
+import bpy
+from bpy.app.handlers import persistent
+
+from ..properties.declared import BLENDERS_OWN, ENGINE, GROUP
+from ..read.camera import shader_mark
+from .cycles_operators import UseInCycles
+from .drawing import draw_message
+from .model_settings import LABELS_OF_MODELS, blender_type
+from .needs import OfScene
+
+CYCLES = "CYCLES"
+SHOWN = 10.0
+"""Seconds that the status bar shows the line after a render has ended."""
+
+
+class UseThisEngine(OfScene, bpy.types.Operator):
+    """Set the scene's render engine to Camera Ray Caster, which knows every camera model"""
+
+    bl_idname = "camera_ray_caster.use_this_engine"
+    bl_label = "Use Camera Ray Caster"
+    bl_options = {"REGISTER", "UNDO"}
+
+    def execute(self, context):
+        """Set the engine."""
+        context.scene.render.engine = ENGINE
+        return {"FINISHED"}
+
+
+def ignored(scene, camera) -> str:
+    """Return a sentence on what the scene's engine does not know of a camera object; "" if it renders all of it."""
+    engine = scene.render.engine
+    if engine.startswith(ENGINE) or camera is None or camera.type != "CAMERA":
+        return ""
+    own, kind = getattr(camera.data, GROUP), camera.data.type
+    is_ours = own.model != BLENDERS_OWN
+    has_times = own.time_mode not in ("NONE", "ROLLING_SHUTTER") or (own.time_mode != "NONE" and engine != CYCLES)
+    if engine == CYCLES and shader_mark(camera.data) is not None:
+        return ""
+    if not (is_ours or has_times or (kind not in ("PERSP", "ORTHO") and engine != CYCLES)):
+        return ""
+    model = own.model if is_ours else blender_type(camera.data)
+    what = LABELS_OF_MODELS.get(model, "this camera") if is_ours or not has_times else "the time of each pixel"
+    others = {"PERSP": "a perspective", "ORTHO": "an orthographic view"}
+    instead = others.get(kind, "a perspective" if engine != CYCLES else "Blender's own model")
+    instead = "all pixels at one time" if what == "the time of each pixel" else instead
+    return f"{engine_label(engine)} does not know {what}: it renders {instead}"
+
+
+def engine_label(engine: str) -> str:
+    """Return the name of a render engine in Blender's menu, from its identifier."""
+    known = getattr(bpy.types, engine, None)
+    plain = engine.removeprefix("BLENDER_").removesuffix("_NEXT")
+    return getattr(known, "bl_label", None) or (plain if plain == "EEVEE" else plain.replace("_", " ").title())
+
+
+def draw_ignored(layout, context, camera) -> None:
+    """Draw what the scene's engine does not know of a camera object, with buttons for what would work."""
+    said = ignored(context.scene, camera)
+    if not said:
+        return
+    draw_message(layout, context, said, "ERROR")
+    row = layout.row(align=True)
+    row.operator(UseThisEngine.bl_idname, text="Ray Caster")
+    row.operator(UseInCycles.bl_idname).set_engine = True
+
+
+@persistent
+def begin(scene, _=None):
+    """Show the sentence in the status bar when a render begins; in a terminal, print it."""
+    said = ignored(scene, scene.camera)
+    if said and bpy.app.background:
+        print(f"Warning: {said}. Set the render engine to Camera Ray Caster, or use the camera in Cycles", flush=True)
+    elif said:
+        _later(f"{said}. What would work is in the sidebar, tab Ray Caster", 0.0)
+
+
+@persistent
+def end(scene, _=None):
+    """Clear the status bar some time after a render has ended."""
+    if not bpy.app.background and ignored(scene, scene.camera):
+        _later(None, SHOWN)
+
+
+def _later(text: str | None, seconds: float) -> None:
+    """Show a text in the status bar from a timer: Blender calls the handlers of a render in the render's thread."""
+    bpy.app.timers.register(partial(show, text), first_interval=seconds)
+
+
+def show(text: str | None) -> None:
+    """Show a text in the status bar of every window, or Blender's own."""
+    for window in bpy.context.window_manager.windows:
+        window.workspace.status_text_set(text)
+
+
+CLASSES = (UseThisEngine,)
+
+
+def register(undo) -> None:
+    """Register this module; see ``registration``."""
+    undo.add_handlers([("render_init", begin), ("render_complete", end), ("render_cancel", end)])
