@@ -1,6 +1,8 @@
 """What once trapped a user in the window, one scenario a function: see scenarios.py."""
 
 import bpy
+import numpy as np
+from lesson_scenarios import place_of
 from parts import BUTTON, addon, load
 
 
@@ -83,6 +85,45 @@ def other_engine(user, scenes):
     other.show = show
 
 
+def marks(user, scenes):
+    """In a view through a dome's camera the marks of a clicked pixel and of the overlay lie in the picture."""
+    yield from load(user, scenes, "living_room_omnimax")
+    scene, lesson = bpy.context.scene, addon("view3d.lesson")
+    yield from user.press(f"{BUTTON}see_through(")
+    yield from user.wait(1)
+    raster = addon("view3d.scene_cache").cached_scene(bpy.context).camera.raster
+    pixel = raster.width // 3, raster.height // 3
+    yield from user.press(f"{BUTTON}step_through(")
+    yield from user.click(*place_of(user, *pixel))
+    yield from user.key("Escape")
+    yield from user.until(lambda: lesson.pixels, "a pixel is clicked")
+    yield from user.wait(2)
+    shown = user.picture("marks_clicked")
+    x, y = map(round, place_of(user, *lesson.pixels[0]))
+    assert near(shown, x, y, lesson.SEEN) <= 3
+    assert 3 <= near(shown, x, y, lesson.RAY) <= 8, "the frame around the pixel"
+    bpy.ops.camera_ray_caster.clear_steps()
+    overlay = scene.camera_ray_caster_overlay
+    overlay.show, overlay.rays, overlay.show_normals, overlay.show_ray = True, 6, False, False
+    yield from user.wait(2)
+    shown = user.picture("marks_of_the_overlay")
+    color, found = addon("view3d.overlay").STYLES["hits"][0], 0
+    rows = round(6 * raster.height / raster.width)  # as square a grid as that of the columns
+    for column in (np.arange(6) + 0.5) / 6 * raster.width:
+        for row in (np.arange(rows) + 0.5) / rows * raster.height:
+            x, y = map(round, place_of(user, column - 0.5, row - 0.5))
+            found += near(shown, x, y, color) <= 3
+    assert found > 12, found
+    overlay.show = False
+
+
+def near(picture, x, y, color, most=12):
+    """The distance in pixels from a place in a picture to the nearest pixel of a color; inf if there is none."""
+    part = picture[y - most : y + most + 1, x - most : x + most + 1, :3]
+    rows, columns = np.nonzero(np.abs(part - color[:3]).max(axis=2) < 0.12)
+    return np.hypot(rows - most, columns - most).min(initial=np.inf)
+
+
 def middle(part):
     """The middle of an area or a region, in the window."""
     return part.x + part.width // 2, part.y + part.height // 2
@@ -98,4 +139,4 @@ def dialog(user):
     return areas()[0]
 
 
-WINDOW_SCENARIOS = (shown_camera, set_frame, other_engine)
+WINDOW_SCENARIOS = (shown_camera, set_frame, other_engine, marks)

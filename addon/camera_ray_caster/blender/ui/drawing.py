@@ -5,7 +5,7 @@ from textwrap import wrap
 import bpy
 import numpy as np
 
-LETTER = 6.0
+LETTER = 6.3
 """Approximate width of a letter in a panel, in pixels at interface scale 1."""
 MARGIN = 20.0
 """Approximate margin on each side of a panel's fields, in pixels at interface scale 1."""

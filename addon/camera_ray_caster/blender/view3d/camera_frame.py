@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+import gpu
 import numpy as np
 from bpy_extras.view3d_utils import location_3d_to_region_2d
 
@@ -14,6 +18,16 @@ FAR = 1000.0
 def frame_in(context, raster) -> tuple[float, float, float, float] | None:
     """Return left, bottom, right, top of the camera's frame in the context's region, or None if it is not shown."""
     return image_frame(context, raster) if context.area.type == "IMAGE_EDITOR" else camera_frame(context)
+
+
+@contextmanager
+def in_pixels(frame, raster) -> Iterator[None]:
+    """Draw in pixel coordinates of the camera's full frame, which fills ``frame`` in the region's pixels."""
+    left, bottom, right, top = frame
+    with gpu.matrix.push_pop():
+        gpu.matrix.translate((left, bottom))
+        gpu.matrix.scale(((right - left) / raster.width, (top - bottom) / raster.height))
+        yield
 
 
 def camera_frame(context) -> tuple[float, float, float, float] | None:

@@ -1,6 +1,7 @@
 """The pixels chosen by Step Through, their step-by-step explanations, and their rays drawn in every 3D View.
 
-An Image Editor with a picture of the camera shows a frame and the coordinates at each of these pixels.
+A picture of the camera, in an Image Editor or in a view through the camera, has a frame and the coordinates at each of
+these pixels; the view has the points on their rays and the normals, too, through the camera's model.
 """
 
 from __future__ import annotations
@@ -12,12 +13,12 @@ import bpy
 import gpu
 import numpy as np
 from bpy.app.handlers import persistent
-from gpu_extras.batch import batch_for_shader
 
 from ...core.report.diagram import pixel_outline
+from ...core.report.in_picture import lines_in_picture, points_in_picture
 from ...core.report.lesson import Lesson, lesson
-from .camera_frame import image_frame
-from .overlay import draw_batch, shader
+from .camera_frame import camera_frame, frame_in, in_pixels
+from .overlay import batch_of, draw_batch
 from .scene_cache import CachedScene, cached_scene
 
 FAR = 100.0
@@ -53,57 +54,69 @@ def lessons(context) -> dict[tuple[int, int], Lesson]:
 
 
 def draw() -> None:
-    """Draw the rays, the outlines of the pixels and the points on the rays; called by Blender for each 3D View."""
+    """Draw the rays, the outlines of the pixels and the points on the rays in space; called for each 3D View."""
     context = bpy.context
-    if not (pixels and context.space_data.overlay.show_overlays):
+    if not (pixels and context.space_data.overlay.show_overlays) or camera_frame(context) is not None:
         return
     found, scale = lessons(context), context.preferences.system.ui_scale
     size = context.scene.camera.data.display_size if found else 0.0
     gpu.state.blend_set("ALPHA")
     gpu.state.depth_test_set("NONE")
     for one in found.values():
-        for kind, form, points, color, width in _parts(cached_scene(context).camera, one, size):
-            points = np.asarray(points, np.float32).reshape(-1, 3)
-            if len(points) and np.isfinite(points).all():
-                draw_batch(batch_for_shader(shader(kind), form, {"pos": points}), kind, color, width * scale)
+        for kind, points, color, width in _parts(cached_scene(context).camera, one, size):
+            if np.isfinite(points).all():
+                draw_batch(batch_of(kind, points), kind, color, width * scale)
     gpu.state.blend_set("NONE")
 
 
 def _parts(camera, one: Lesson, size: float):
-    """Yield (kind of shader, primitive type, points, color, width) of each part drawn for a pixel."""
-    yield "POLYLINE", "LINES", pixel_outline(camera, size, *one.seen.pixel), RAY, WIDTH
+    """Yield (kind of shader, points, color, width) of each part drawn for a pixel."""
+    yield "POLYLINE", pixel_outline(camera, size, *one.seen.pixel), RAY, WIDTH
     origin, direction = one.seen.origin, one.seen.direction
     end = one.seen.distance if np.isfinite(one.seen.distance) else FAR * size
-    yield "POLYLINE", "LINES", [origin, origin + end * direction], RAY, WIDTH
+    yield "POLYLINE", [origin, origin + end * direction], RAY, WIDTH
     others = [place.t for meeting in one.met for place in meeting.places if 0 <= place.t != end]
     if others:
-        yield "POLYLINE", "LINES", [origin + end * direction, origin + max(others) * direction], OTHERS, WIDTH / 2
-        yield "POINT", "POINTS", [origin + t * direction for t in others], OTHERS, POINT * 0.75
-    if one.point is None:
-        yield "POINT", "POINTS", [origin + end * direction], RAY, POINT  # a ray is a point in the camera's view
-    else:
-        yield "POLYLINE", "LINES", [one.point, one.point + size * one.normal], NORMAL, WIDTH
-        yield "POINT", "POINTS", [one.point], SEEN, POINT
+        yield "POLYLINE", [origin + end * direction, origin + max(others) * direction], OTHERS, WIDTH / 2
+        yield "POINT", [origin + t * direction for t in others], OTHERS, POINT * 0.75
+    if one.point is not None:
+        yield "POLYLINE", [one.point, one.point + size * one.normal], NORMAL, WIDTH
+        yield "POINT", [one.point], SEEN, POINT
+
+
+def draw_in_picture(context, frame, found) -> None:
+    """Draw the points and the normals of the pixels in a view through the camera, and nothing outside of its frame."""
+    camera, scale = cached_scene(context).camera, context.preferences.system.ui_scale
+    gpu.state.blend_set("ALPHA")
+    with in_pixels(frame, camera.raster):
+        for one in found.values():
+            for kind, points, color, width in _parts(camera, one, context.scene.camera.data.display_size):
+                if color not in (SEEN, NORMAL) or not np.isfinite(points).all():
+                    continue  # a ray is a point in its camera's picture
+                shown = lines_in_picture(camera, points) if kind == "POLYLINE" else points_in_picture(camera, points)
+                draw_batch(batch_of(kind, shown), kind, color, width * scale)
+    gpu.state.blend_set("NONE")
 
 
 def draw_marks() -> None:
-    """Draw a frame around each pixel in the picture; called by Blender for each Image Editor."""
+    """Draw a frame around each pixel in the picture; called by Blender for each Image Editor and each 3D View."""
     context = bpy.context
     found = lessons(context) if pixels and context.space_data.overlay.show_overlays else {}
-    frame = image_frame(context, cached_scene(context).camera.raster) if found else None
+    frame = frame_in(context, cached_scene(context).camera.raster) if found else None
     if frame is None:
         return
     raster, scale = cached_scene(context).camera.raster, context.preferences.system.ui_scale
+    if context.area.type == "VIEW_3D":
+        draw_in_picture(context, frame, found)
     corner, far = np.array(frame[:2]), np.array(frame[2:])
     side = (far - corner) / (raster.width, raster.height)
     blf.size(0, TEXT * scale)
     for pixel in found:
         middle, half = corner + (np.array(pixel) + 0.5) * side, np.maximum(side / 2, MARK * scale)
         x, y = np.transpose([middle - half, middle + half])
-        points = np.zeros((8, 3), np.float32)
-        points[:, 0], points[:, 1] = x[[0, 1, 1, 1, 1, 0, 0, 0]], y[[0, 0, 0, 1, 1, 1, 1, 0]]
+        square = batch_of("POLYLINE", np.stack((x[[0, 1, 1, 1, 1, 0, 0, 0]], y[[0, 0, 0, 1, 1, 1, 1, 0]]), axis=-1))
         for color, width in ((GROUND, 2 * WIDTH), (RAY, WIDTH)):
-            draw_batch(batch_for_shader(shader("POLYLINE"), "LINES", {"pos": points}), "POLYLINE", color, width * scale)
+            draw_batch(square, "POLYLINE", color, width * scale)
         blf.enable(0, blf.SHADOW)
         blf.shadow(0, 5, *GROUND)
         blf.color(0, 1, 1, 1, 1)
@@ -125,6 +138,7 @@ def register(undo) -> None:
     undo.add_handlers([("load_pre", forget)])
     for space, function, when in (
         (bpy.types.SpaceView3D, draw, "POST_VIEW"),
+        (bpy.types.SpaceView3D, draw_marks, "POST_PIXEL"),
         (bpy.types.SpaceImageEditor, draw_marks, "POST_PIXEL"),
     ):
         handle = space.draw_handler_add(function, (), "WINDOW", when)

@@ -1,13 +1,20 @@
-"""The overlay in the 3D View: the camera's image plane in space, its orthobasis, some of its rays, and their hits."""
+"""The overlay in the 3D View: the camera's image plane in space, its orthobasis, some of its rays, and their hits.
+
+In camera view hit points and normals are drawn over the picture, through the camera's model: Blender would draw them in
+perspective, beside the picture of any other model.
+"""
 
 from __future__ import annotations
 
 import bpy
 import gpu
+import numpy as np
 from bpy.props import BoolProperty, IntProperty, PointerProperty
 from gpu_extras.batch import batch_for_shader
 
 from ...core.report.diagram import Diagram, diagram
+from ...core.report.in_picture import lines_in_picture, points_in_picture
+from .camera_frame import camera_frame, in_pixels
 from .scene_cache import CachedScene, cached_scene
 
 
@@ -49,66 +56,104 @@ STYLES = {
 }
 """Color and width in pixels of lines or points, in drawing order."""
 
+SHOWN_BY = {
+    "grid": "show_frustum", "border": "show_frustum", "missed_rays": "show_rays", "hit_rays": "show_rays",
+    "normals": "show_normals", "hits": "show_hits",
+}  # fmt: skip
+"""Settings that show the parts."""
+
 _drawn: list[tuple] = []
-"""The latest batches, as (inputs, batches)."""
+"""The latest diagram, as (inputs, diagram, batches in space and in the picture)."""
 
 
 def draw() -> None:
-    """Draw the overlay of the window's scene; called by Blender for each 3D View."""
+    """Draw the overlay in space; called by Blender for each 3D View. A view through the camera has its own."""
     context = bpy.context
-    settings = context.scene.camera_ray_caster_overlay
-    if not settings.show or not context.space_data.overlay.show_overlays:
+    settings, scene = context.scene.camera_ray_caster_overlay, _shown(context)
+    if scene is None or camera_frame(context) is not None:
         return
-    scene = cached_scene(context)
-    if scene.camera is None:
-        return
-    in_camera = context.region_data.view_perspective == "CAMERA"
     batches = _batches(scene, context.scene.camera.data.display_size, settings.rays)
-    scale = context.preferences.system.ui_scale
     gpu.state.blend_set("ALPHA")
     gpu.state.depth_test_set("LESS_EQUAL")
-    for name in _wanted(settings, in_camera):
-        color, width = STYLES[name]
-        draw_batch(batches[name], "POINT" if name == "hits" else "POLYLINE", color, width * scale)
-    if settings.show_frustum and not in_camera:
+    _draw(context, batches, STYLES)
+    if settings.show_frustum:
         gpu.state.depth_test_set("NONE")
+        scale = context.preferences.system.ui_scale
         for batch, color in zip(batches["basis"], AXES, strict=True):
             draw_batch(batch, "POLYLINE", color, 1.5 * WIDE * scale)
     gpu.state.depth_test_set("NONE")
     gpu.state.blend_set("NONE")
 
 
-def _wanted(settings, in_camera: bool) -> list[str]:
-    """Return the parts to draw. In camera view, rays would be points and the frustum the frame: leave both out."""
-    shown = {
-        "grid": settings.show_frustum and not in_camera,
-        "border": settings.show_frustum and not in_camera,
-        "missed_rays": settings.show_rays and not in_camera,
-        "hit_rays": settings.show_rays and not in_camera,
-        "normals": settings.show_normals,
-        "hits": settings.show_hits,
-    }
-    return [name for name in STYLES if shown[name]]
+def draw_in_picture() -> None:
+    """Draw the overlay in the picture of a view through the camera; called by Blender for each 3D View."""
+    context = bpy.context
+    scene = _shown(context)
+    frame = None if scene is None else camera_frame(context)
+    if frame is None:
+        return
+    batches = _batches(
+        scene, context.scene.camera.data.display_size, context.scene.camera_ray_caster_overlay.rays, in_picture=True
+    )
+    gpu.state.blend_set("ALPHA")
+    with in_pixels(frame, scene.camera.raster):
+        _draw(context, batches, batches)
+    gpu.state.blend_set("NONE")
 
 
-def _batches(scene: CachedScene, size: float, rays: int) -> dict:
-    """Return the batches of the diagram; make them again after a change."""
+def _shown(context) -> CachedScene | None:
+    """Return the scene whose overlay a 3D View shows; None if it shows none."""
+    if not context.scene.camera_ray_caster_overlay.show or not context.space_data.overlay.show_overlays:
+        return None
+    scene = cached_scene(context)
+    return None if scene.camera is None else scene
+
+
+def _draw(context, batches: dict, names) -> None:
+    """Draw the batches of these names that the settings show."""
+    settings, scale = context.scene.camera_ray_caster_overlay, context.preferences.system.ui_scale
+    for name in names:
+        color, width = STYLES[name]
+        if getattr(settings, SHOWN_BY[name]):
+            draw_batch(batches[name], "POINT" if name == "hits" else "POLYLINE", color, width * scale)
+
+
+def _batches(scene: CachedScene, size: float, rays: int, in_picture: bool = False) -> dict:
+    """Return the batches of the diagram, in space or in the picture; make them again after a change."""
     made_of = scene, size, rays
     if not _drawn or _drawn[0][0] != made_of:
-        _drawn[:] = [(made_of, _made(diagram(scene.camera, scene.shapes, size, rays)))]
-    return _drawn[0][1]
+        _drawn[:] = [(made_of, diagram(scene.camera, scene.shapes, size, rays), {})]
+    _, parts, known = _drawn[0]
+    if in_picture not in known:
+        known[in_picture] = _in_picture(scene.camera, parts) if in_picture else _made(parts)
+    return known[in_picture]
 
 
 def _made(parts: Diagram) -> dict:
     """Return the batches by the names of STYLES, None for empty parts, and a list of the axes' batches as "basis"."""
-
-    def batch(kind: str, form: str, points):
-        return batch_for_shader(shader(kind), form, {"pos": points.reshape(-1, 3)}) if len(points) else None
-
-    batches = {name: batch("POLYLINE", "LINES", getattr(parts, name)) for name in STYLES if name != "hits"}
-    batches["hits"] = batch("POINT", "POINTS", parts.hits)
-    batches["basis"] = [batch("POLYLINE", "LINES", axis) for axis in parts.basis]
+    batches = {name: batch_of("POLYLINE", getattr(parts, name)) for name in STYLES if name != "hits"}
+    batches["hits"] = batch_of("POINT", parts.hits)
+    batches["basis"] = [batch_of("POLYLINE", axis) for axis in parts.basis]
     return batches
+
+
+def _in_picture(camera, parts: Diagram) -> dict:
+    """Return the batches in the picture: there, rays would be points and the frustum the frame."""
+    return {
+        "normals": batch_of("POLYLINE", lines_in_picture(camera, parts.normals)),
+        "hits": batch_of("POINT", points_in_picture(camera, parts.hit_rays[:, 1])),
+    }
+
+
+def batch_of(kind: str, points):
+    """Return the batch of points, or of the ends of line segments (POLYLINE), in two or three dimensions; or None."""
+    points = np.asarray(points, np.float32)
+    if not points.size:
+        return None
+    points = points.reshape(-1, points.shape[-1])
+    if points.shape[1] == 2:
+        points = np.pad(points, ((0, 0), (0, 1)))
+    return batch_for_shader(shader(kind), "POINTS" if kind == "POINT" else "LINES", {"pos": points})
 
 
 def shader(kind: str):
@@ -139,5 +184,6 @@ def register(undo) -> None:
     undo.callback(_drawn.clear)
     bpy.types.Scene.camera_ray_caster_overlay = PointerProperty(type=OverlayProperties)
     undo.callback(delattr, bpy.types.Scene, "camera_ray_caster_overlay")
-    handle = bpy.types.SpaceView3D.draw_handler_add(draw, (), "WINDOW", "POST_VIEW")
-    undo.callback(bpy.types.SpaceView3D.draw_handler_remove, handle, "WINDOW")
+    for function, when in ((draw, "POST_VIEW"), (draw_in_picture, "POST_PIXEL")):
+        handle = bpy.types.SpaceView3D.draw_handler_add(function, (), "WINDOW", when)
+        undo.callback(bpy.types.SpaceView3D.draw_handler_remove, handle, "WINDOW")

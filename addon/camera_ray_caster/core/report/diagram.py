@@ -54,6 +54,7 @@ class Diagram:
     hit_rays: np.ndarray
     missed_rays: np.ndarray
     hits: np.ndarray
+    """Hit points, lifted off their surface."""
     normals: np.ndarray
 
 
