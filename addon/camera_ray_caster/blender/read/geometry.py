@@ -1,6 +1,6 @@
 """Shapes of evaluated data: exact shapes, triangles, or nothing that can be cast."""
 
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from dataclasses import replace
 from hashlib import blake2b
 
@@ -8,12 +8,13 @@ import bpy
 import numpy as np
 
 from ...core.records import INFINITE_PLANE, PLANE, SPHERE
+from ...core.shapes.displaced import Displacement, displaced
 from ...core.shapes.instances import NO_MAP, Primitive, enclosing_primitive, mesh_primitive, points_primitive
 from ...core.shapes.recognize import NOT_FINITE, MeshArrays, defect, exclude, recognize
 from ...core.shapes.uv_maps import with_map
 from .kept import Found
 from .layers import with_layers
-from .meshes import fetched, is_smooth, mesh_arrays, mesh_record, uv_map, vertices
+from .meshes import fetched, is_smooth, mesh_arrays, mesh_record, normals_before, uv_map, vertices
 
 FORCED = {"SPHERE": SPHERE, "PLANE": PLANE, "INFINITE_PLANE": INFINITE_PLANE}
 """Kinds of shapes that an object's own setting can force, whatever its geometry is."""
@@ -33,10 +34,13 @@ NOTHING = None, ""
 """Result for data of which a render shows nothing."""
 
 
-def shapes_of(item, setting: str, layers: Collection[str] = ()) -> Found:
+def shapes_of(
+    item, setting: str, layers: Collection[str] = (), moves: Sequence[Displacement | None] = ()
+) -> Found:
     """Return the shapes of an evaluated object's data, in object space, or the reason why it cannot be cast.
 
-    ``setting`` is AUTOMATIC, MESH or a key of FORCED; ``layers`` are those of the mesh that its materials need.
+    ``setting`` is AUTOMATIC, MESH or a key of FORCED; ``layers`` are those of the mesh that its materials need,
+    ``moves`` are the displacements of its material slots.
     """
     data = item.data
     if isinstance(data, bpy.types.PointCloud):
@@ -46,7 +50,11 @@ def shapes_of(item, setting: str, layers: Collection[str] = ()) -> Found:
     try:  # a mesh in Edit Mode has its faces only there
         mesh = item.to_mesh()
         found, reason = mesh_shapes(mesh, setting)
-        return (with_layers(found, mesh, layers) if found is not None and layers else found), reason
+        if found is not None and layers:
+            found = with_layers(found, mesh, layers)
+        if found is not None and found.mesh is not None and any(moves):
+            found = mesh_primitive(displaced(found.mesh, normals_before(mesh, found.mesh.polygon), moves))
+        return found, reason
     finally:
         item.to_mesh_clear()
 

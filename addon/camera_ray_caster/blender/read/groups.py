@@ -34,6 +34,8 @@ class Group:
     """Look of the shape; for a mesh of several materials the look of each slot; for a light its color."""
     notes: tuple[str, ...] = ()
     """What the passes show otherwise than the object's settings say."""
+    is_displaced: bool = False
+    """Whether a material moves its mesh. Cycles then has the mesh in its object's space, whoever shares it."""
     is_light: bool = False
     is_sun: bool | None = None
     cone: tuple[float, float] = EVERYWHERE
@@ -65,7 +67,11 @@ def gathered(groups: list[Group], left_out: Counter, world: World) -> Shapes:
         users[group.geometry] += len(group.matrices)
     notes: dict[tuple[str, str], None] = {}
     there = [(group, group.placings()) for group in heeding(groups) if group.primitive is not None]
-    parts = list(_castable(list(_with_volume(there, users, notes)), left_out))
+
+    def is_shared(group: Group) -> bool:
+        return group.geometry is not None and (users[group.geometry] > 1 or group.is_displaced)
+
+    parts = list(_castable(list(_with_volume(there, is_shared, notes)), left_out))
     cast, placings = zip(*parts, strict=True) if parts else ((), ())
     counts = [len(matrices) * len(group.primitive) for group, matrices in parts]
     ends = np.cumsum(counts, dtype=int)
@@ -103,7 +109,7 @@ def gathered(groups: list[Group], left_out: Counter, world: World) -> Shapes:
         left_out=listed(left_out),
         meshes=tuple(meshes.values()),
         mesh=column(rows, np.int32) if meshes else np.zeros(0, np.int32),
-        shared=column([users[group.geometry] > 1 for group in cast], bool) if meshes else np.zeros(0, bool),
+        shared=column([is_shared(group) for group in cast], bool) if meshes else np.zeros(0, bool),
         slots=_slots(cast, column, numbers_of),
         uv=np.array([group.primitive.uv for group in cast], np.float64).reshape(-1, 2, 3),
         notes=tuple(notes | _notes(cast)),
@@ -113,12 +119,12 @@ def gathered(groups: list[Group], left_out: Counter, world: World) -> Shapes:
     )
 
 
-def _with_volume(placed, users: Counter, notes: dict) -> Iterator[tuple[Group, np.ndarray]]:
+def _with_volume(placed, is_shared: Callable[[Group], bool], notes: dict) -> Iterator[tuple[Group, np.ndarray]]:
     """Yield groups with their matrices, without those under which Cycles shows nothing of a mesh with several users, as
     it needs the inverse. Such groups are noted. Of a mesh with one user Cycles shows the flat faces.
     """
     for group, matrices in placed:
-        if group.geometry is not None and users[group.geometry] > 1:
+        if is_shared(group):
             x, y, z = np.moveaxis(matrices[:, :, :3], 2, 0)
             with np.errstate(all="ignore"):
                 has_volume = np.einsum("ij,ij->i", np.cross(x, y), z) != 0

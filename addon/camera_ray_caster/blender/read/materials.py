@@ -10,8 +10,9 @@ import numpy as np
 
 from ...core.materials.surface import Surface
 from ...core.materials.values import Constant, Value, constant, function_of
+from ...core.shapes.displaced import Displacement
 from .nodes import Unread
-from .outputs import has_bump, is_volume_alone
+from .outputs import displacement_of, has_bump, is_volume_alone
 from .shader_nodes import Parts, alpha_of, colors, material_nodes, transparency
 from .unique import unique_name
 
@@ -23,6 +24,7 @@ UNCHANGED = (float(np.float32(0.8)),) * 3
 
 
 VOLUME = "it has a volume and no surface: rays pass through it"
+UNMOVED = "the displacement of its material {!r} is not read: {}. It is cast where the mesh is"
 BUMP = "its normal or bump map is not in the normal pass, which is that of the mesh"
 
 
@@ -39,6 +41,10 @@ class Look(NamedTuple):
     """What the surface needs of the mesh: see ``Nodes.needs``."""
     unread: tuple[str, ...] = ()
     """What is not read of the material, in words."""
+    displacement: Displacement | None = None
+    """How the material moves the mesh."""
+    unmoved: str = ""
+    """Why a displacement is not read."""
     notes: tuple[str, ...] = ()
     """What passes show otherwise than Cycles' passes, in words."""
 
@@ -79,9 +85,9 @@ class Looks:
         for material, look in self._known.items():
             yield from ((_name(material), note) for note in look.notes)
 
-    def needs(self, item) -> frozenset[str]:
-        """Return what the materials of an evaluated object need of its mesh."""
-        return frozenset().union(*(look.needs for look in self.of_slots(item, range(max(1, len(item.material_slots))))))
+    def of_item(self, item) -> tuple[Look, ...]:
+        """Return the looks of all slots of an evaluated object."""
+        return self.of_slots(item, range(max(1, len(item.material_slots))))
 
     def _of_slot(self, item, slot: int) -> Look:
         """Return the look of a slot, or of the last one for slots after it; the object's color without a material."""
@@ -137,8 +143,17 @@ def _look(material, threshold: float) -> Look:
         hollow = Surface(constant(*viewport), alpha=constant(0))
         return plain._replace(surface=hollow, unread=(VOLUME,))
     plain = plain._replace(notes=(BUMP,) * has_bump(material, output))
-    if not output.inputs["Surface"].is_linked:
-        return plain
+    try:
+        displacement, needs = displacement_of(material, output)
+        plain = plain._replace(displacement=displacement, needs=needs)
+    except Unread as error:
+        plain = plain._replace(unmoved=UNMOVED.format(_name(material), error))
+    return _colored(material, output, plain, threshold) if output.inputs["Surface"].is_linked else plain
+
+
+def _colored(material, output, plain: Look, threshold: float) -> Look:
+    """Return a look with the color and the transparent points that the nodes of a surface say."""
+    *viewport, opacity = material.diffuse_color
     nodes, socket, unread = material_nodes(), output.inputs["Surface"], []
     alpha = through = None
     try:
@@ -146,7 +161,7 @@ def _look(material, threshold: float) -> Look:
         alpha = None if through is None else alpha_of(through)
     except Unread as error:
         unread.append(f"its alpha is not read: {error}. It is cast opaque")
-    needs = set(nodes.needs) if alpha is not None else set()
+    needs = set(plain.needs | nodes.needs if alpha is not None else plain.needs)
     lit: Value = constant(*viewport)
     own = glow = None
     try:

@@ -5,6 +5,7 @@ from ctypes import c_char
 import numpy as np
 
 from ...core.mesh import Mesh
+from ...core.shapes.displaced import MeshNormals
 from ...core.shapes.recognize import MeshArrays
 
 
@@ -54,6 +55,13 @@ def uv_map(mesh) -> np.ndarray | None:
     """Return the render UV map at the loops, (l, 2) float32; None without a UV map."""
     layer = next((layer for layer in mesh.uv_layers if layer.active_render), None)
     return None if layer is None else fetched(layer.uv, "vector", np.float32, 2).reshape(-1, 2)
+
+
+def normals_before(mesh, polygon: np.ndarray) -> MeshNormals:
+    """Return the normals that displacement starts from, given the face of each triangle."""
+    smooth = np.ones(len(mesh.polygons), bool) if mesh.attributes.get("sharp_face") is None else ~_flat(mesh)
+    normals = copied(mesh.vertex_normals, "vector", np.float32, 3).reshape(-1, 3)
+    return MeshNormals(smooth[polygon], _rows(normals))
 
 
 def is_smooth(mesh) -> bool:

@@ -1,8 +1,11 @@
-"""What the output of a material has beside its surface: a volume, and bumps."""
+"""What the output of a material has beside its surface: a volume, a displacement, and bumps."""
 
 from collections.abc import Iterator
 
-from .nodes import Nodes
+from ...core.materials.values import function_of
+from ...core.shapes.displaced import Displacement
+from .nodes import Node, Nodes, Unread
+from .value_nodes import READ
 
 BUMPS = {"ShaderNodeBump", "ShaderNodeNormalMap", "ShaderNodeBevel"}
 """The nodes that change normals, by type."""
@@ -13,6 +16,27 @@ def is_volume_alone(output) -> bool:
     nodes = Nodes({})
     volume, surface = (nodes.source(output.inputs[name], ())[0] for name in ("Volume", "Surface"))
     return volume is not None and surface is None
+
+
+def displacement_of(material, output) -> tuple[Displacement | None, frozenset[str]]:
+    """Return the true displacement of a material, None without one, and what it needs of the mesh: see ``Nodes.needs``.
+
+    Raises Unread. Camera rays, which a Light Path node could ask for, have no part in a displacement.
+    """
+    nodes = Nodes({kind: how for kind, how in READ.items() if kind != "ShaderNodeLightPath"})
+    found, _, groups = nodes.source(output.inputs["Displacement"], ())
+    if found is None or material.displacement_method == "BUMP":
+        return None, frozenset()
+    node = Node(nodes, found, groups)
+    if node.bl_idname != "ShaderNodeDisplacement":
+        raise Unread(f"node {node.name!r} ({node.bl_rna.name})")
+    if node.space != "OBJECT":
+        raise node.unread("world space")
+    if node.is_linked("Normal"):
+        raise node.unread("a normal of its own")
+    inputs = (node.input(name) for name in ("Height", "Midlevel", "Scale"))
+    height = function_of(lambda height, middle, scale: (height - middle) * scale, *inputs)
+    return Displacement(height, material.displacement_method == "DISPLACEMENT"), frozenset(nodes.needs)
 
 
 def has_bump(material, output) -> bool:

@@ -101,15 +101,18 @@ class _Scene:
         group.reason = _refusal(setting) or self.visibility.objection(instance)
         if group.reason:
             return
-        needs = self.looks.needs(item)
-        if setting == "AUTOMATIC" and (needs or not self.exact):
+        looks = self.looks.of_item(item)
+        needs, moves = frozenset().union(*(look.needs for look in looks)), tuple(look.displacement for look in looks)
+        self.left_out.update((group.name, look.unmoved) for look in looks if look.unmoved)
+        group.is_displaced = any(moves)
+        if setting == "AUTOMATIC" and (needs or group.is_displaced or not self.exact):
             setting = "MESH"
         find = partial(self.reading.find, item.data, source)
-        group.primitive, group.reason = find((setting, needs), partial(shapes_of, item, setting, needs))
+        group.primitive, group.reason = find((setting, needs, moves), partial(shapes_of, item, setting, needs, moves))
         if group.primitive is None:
             return
         if setting == "AUTOMATIC" and group.primitive.apart is not None:
-            group.flattened = partial(find, ("MESH", frozenset()), partial(mesh_shapes, item.data, "MESH"))
+            group.flattened = partial(find, ("MESH", frozenset(), ()), partial(mesh_shapes, item.data, "MESH"))
         group.object_index = item.pass_index
         group.looks = self.looks.of_slots(item, _slots(item, group.primitive.mesh))
         if self.visibility.is_holdout(instance):
