@@ -139,8 +139,8 @@ def test_a_pixel_that_shows_nothing_has_a_mark_on_its_ray(blender, scene):
     assert hit.point is not None
     assert missed.point is None
     for one in hit, missed:
-        (mark,) = (points for _, form, points, _, width in lesson._parts(camera, one, 1.0) if form == "POINTS" and
-                   width == lesson.POINT)  # fmt: skip
+        parts = lesson._parts(camera, one, 1.0)
+        (mark,) = (points for kind, points, _, width in parts if kind == "POINT" and width == lesson.POINT)
         assert camera.project(np.array(mark))[0] == pytest.approx(np.array(one.seen.pixel) + 0.5, abs=1e-3)
 
 

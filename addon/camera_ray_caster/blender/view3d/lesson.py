@@ -79,7 +79,9 @@ def _parts(camera, one: Lesson, size: float):
     if others:
         yield "POLYLINE", [origin + end * direction, origin + max(others) * direction], OTHERS, WIDTH / 2
         yield "POINT", [origin + t * direction for t in others], OTHERS, POINT * 0.75
-    if one.point is not None:
+    if one.point is None:
+        yield "POINT", [origin + end * direction], RAY, POINT
+    else:
         yield "POLYLINE", [one.point, one.point + size * one.normal], NORMAL, WIDTH
         yield "POINT", [one.point], SEEN, POINT
 
