@@ -1,48 +1,169 @@
-"""Camera Ray Caster: the rays of Blender's cameras, cast at meshes, spheres and planes.
+"""Camera Ray Caster: exact camera models, from pinhole to rolling-shutter fisheye, each with its inverse, in numpy.
 
+Without Blender::
+
+    import numpy as np
     import camera_ray_caster as crc
 
-    camera = crc.read_camera(bpy.context.scene)
-    images = crc.cast(camera, crc.read_shapes(bpy.context.scene), passes=("depth", "normal"))
+    camera = crc.camera("OPENCV_FISHEYE", (640, 480), fx=210.0, fy=210.0, cx=319.5, cy=239.5)
+    shapes = crc.join(crc.spheres([[0.0, 0.0, -4.0]], 1.0), crc.planes([0.0, -1.0, 0.0], [[1, 0], [0, 0], [0, 1]]))
+    images = crc.cast(camera, shapes, passes=("depth", "normal"))   # by name: arrays, row 0 at the bottom
+    rays = camera.rays()                                            # origins, directions, valid
+    pixels = camera.project([[0.2, 0.1, -3.0]])                     # world points to pixels; NaN where not seen
 
-``register`` adds the interface and the engine to Blender; reading and casting do not need it. Each name is imported on
-first access, so that ``core`` runs without Blender.
+In Blender, or with pip's ``bpy``::
+
+    camera, shapes = crc.read_camera(bpy.context.scene), crc.read_shapes(bpy.context.scene)
+
+Cameras
+    camera, load_calibration, models, register_model, camera_from_json, camera_to_json, look_at, pose_from_opencv
+Shapes
+    spheres, planes, mesh, join
+What is seen
+    cast, visible, explain
+Files
+    export
+In Blender only
+    read_camera, read_shapes, read_scene, verify, register, unregister
+
+Every one has its own ``help``. Bad input raises ``InputError``, in one line that says what is wrong and what to do; a
+stopped cast raises ``Cancelled``. Frames, pixels and units: ``help("camera_ray_caster.core.conventions")``.
+Each name is imported at its first use: the package itself imports neither numpy nor Blender.
 """
 
+from __future__ import annotations
+
+import sys
 from importlib import import_module
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from .blender.read import read_camera, read_scene, read_shapes
+    from .blender.verification.check import verify_camera as verify
+    from .core.camera.camera import Camera
+    from .core.cameras.model import Model, Step
+    from .core.cameras.parts.settings import Choice, Flag, Item, Number
+    from .core.cast import cast
+    from .core.casting.visibility import Visibility, visible
+    from .core.exports.camera_json import camera_from_json, camera_to_json
+    from .core.library.cameras import camera, load_calibration
+    from .core.library.explaining import explain
+    from .core.library.files import export
+    from .core.library.join import join
+    from .core.library.models import models
+    from .core.library.poses import look_at, pose_from_opencv
+    from .core.library.shapes import mesh, planes, spheres
+    from .core.records import Cancelled, InputError, Shapes
+    from .core.version import VERSION
+
+    __version__ = VERSION
+
+_MODULES = {
+    "Camera": ".core.camera.camera",
+    "Cancelled": ".core.records",
+    "Choice": ".core.cameras.parts.settings",
+    "Flag": ".core.cameras.parts.settings",
+    "InputError": ".core.records",
+    "Item": ".core.cameras.parts.settings",
+    "Model": ".core.cameras.model",
+    "Number": ".core.cameras.parts.settings",
+    "Shapes": ".core.records",
+    "Step": ".core.cameras.model",
+    "Visibility": ".core.casting.visibility",
+    "__version__": ".core.version:VERSION",
+    "camera": ".core.library.cameras",
+    "camera_from_json": ".core.exports.camera_json",
+    "camera_to_json": ".core.exports.camera_json",
+    "cast": ".core.cast",
+    "explain": ".core.library.explaining",
+    "export": ".core.library.files",
+    "join": ".core.library.join",
+    "load_calibration": ".core.library.cameras",
+    "look_at": ".core.library.poses",
+    "mesh": ".core.library.shapes",
+    "models": ".core.library.models",
+    "planes": ".core.library.shapes",
+    "pose_from_opencv": ".core.library.poses",
+    "read_camera": ".blender.read",
+    "read_scene": ".blender.read",
+    "read_shapes": ".blender.read",
+    "spheres": ".core.library.shapes",
+    "verify": ".blender.verification.check:verify_camera",
+    "visible": ".core.casting.visibility",
+}
+"""Module of each public name, and the name there if it is another."""
 
 __all__ = [
+    "Camera",
     "Cancelled",
+    "Choice",
+    "Flag",
     "InputError",
+    "Item",
+    "Model",
+    "Number",
+    "Shapes",
+    "Step",
+    "Visibility",
+    "camera",
     "camera_from_json",
     "camera_to_json",
     "cast",
+    "explain",
+    "export",
+    "join",
+    "load_calibration",
+    "look_at",
+    "mesh",
+    "models",
+    "planes",
+    "pose_from_opencv",
     "read_camera",
     "read_scene",
     "read_shapes",
     "register",
+    "register_model",
+    "spheres",
     "unregister",
+    "verify",
     "visible",
 ]
-
-_MODULES = {
-    "Cancelled": ".core.records",
-    "InputError": ".core.records",
-    "camera_from_json": ".core.exports.camera_json",
-    "camera_to_json": ".core.exports.camera_json",
-    "cast": ".core.cast",
-    "read_camera": ".blender.read",
-    "read_scene": ".blender.read",
-    "read_shapes": ".blender.read",
-    "visible": ".core.casting.visibility",
-}
-"""Module of each public name."""
 
 
 def __getattr__(name: str):
     if name not in _MODULES:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    return getattr(import_module(_MODULES[name], __name__), name)
+    module, _, other = _MODULES[name].partition(":")
+    try:
+        found = getattr(import_module(module, __name__), other or name)
+    except ModuleNotFoundError as error:
+        if error.name != "bpy":
+            raise
+        raise AttributeError(f"{name} of module {__name__!r} needs Blender, or pip's bpy") from error
+    globals()[name] = found
+    return found
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})
+
+
+def register_model(model: type[Model]) -> None:
+    """Add a camera model of your own: it is made by ``camera``, cast, projected and exported like the others, and is in
+    Blender's menu.
+
+    model: a frozen dataclass that inherits ``Model``, with ``key``, ``label``, ``description``, ``group``, ``FORMULA``
+        and ``rays``; ``number`` is what a .blend stores for it: take one from 1000 on. It replaces a model of the same
+        key that was added before.
+
+    Raises InputError, in one line, if something is missing, or belongs to a model of the package.
+    """
+    from .core.library.models import add_model
+
+    add_model(model)
+    registration = sys.modules.get(f"{__name__}.blender.registration")
+    if registration is not None:
+        registration.renew()
 
 
 def register() -> None:

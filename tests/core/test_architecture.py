@@ -49,11 +49,11 @@ MAY_IMPORT = {
     "core.report.witness": LOW | {"core.report.sample"},
     "core.report.verification": LOW | {"core.report.sample", "core.report.witness"},
     "core.report": HITS | {"core.cast", "core.exports", "core.report", "core.version"},
-    "core.exports": RAYS | {"core.exports", "core.motion", "core.names", "core.version"},
+    "core.exports": RAYS | {"core.exports", "core.file_set", "core.motion", "core.names", "core.version"},
     "core": {"core"},
     "blender.verification.witness": LOW,
     "blender": {"blender", "core"},
-    "": {"blender"},
+    "": {"blender", "core"},
 }
 BLENDER = {
     "bpy", "bpy_extras", "mathutils", "bl_math", "gpu", "gpu_extras", "blf", "bmesh", "imbuf", "addon_utils",

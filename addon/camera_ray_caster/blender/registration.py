@@ -9,7 +9,7 @@ from . import gallery
 from .cycles import follow
 from .engine import engine, viewport
 from .output import images, reports
-from .properties import groups
+from .properties import calibration, groups
 from .read import kept
 from .terminal import commands
 from .ui import (
@@ -104,3 +104,13 @@ def unregister() -> None:
     atexit.unregister(unregister)
     if _registered:
         _registered.pop().close()
+
+
+def renew() -> None:
+    """Register again, if it is registered, with the camera models that were added since."""
+    was_registered = bool(_registered)
+    unregister()
+    groups.renew()
+    calibration.renew()
+    if was_registered:
+        register()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable
+from difflib import get_close_matches
 from itertools import islice
 from math import inf
 from operator import index
@@ -65,7 +66,10 @@ def words(value: str | Iterable[str], name: str, known: Collection[str]) -> tupl
     given = list(islice(given_one_by_one, most + 1))
     if len(given) > most:
         raise _refusal(name, value, f"at most {most} names")
-    return tuple(dict.fromkeys(word(one, f"one of {name}", known) for one in given))
+    for one in given:
+        if not isinstance(one, str) or one not in known:
+            raise unknown(name.removesuffix("es"), one, known)
+    return tuple(dict.fromkeys(given))
 
 
 def real_type(value, name: str) -> np.dtype:
@@ -95,6 +99,14 @@ def numbers(value, name: str) -> np.ndarray:
         return np.asarray(given, dtype=np.float64)
     except Exception as error:  # numpy may raise anything, with several lines of text
         raise _refusal(name, value, "real numbers, without a mask") from error
+
+
+def unknown(what: str, value, known: Collection[str]) -> InputError:
+    """Return the error for a word that is none of ``known``: it names the nearest one, and all."""
+    spellings = {one.lower(): one for one in known}
+    near = get_close_matches(value.lower(), spellings, 1) if isinstance(value, str) else []
+    guess = f"did you mean {spellings[near[0]]}? " if near else ""
+    return InputError(f"unknown {what} {shown(value)}: {guess}choose from {', '.join(known)}")
 
 
 def _refusal(name: str, value, allowed: str) -> InputError:

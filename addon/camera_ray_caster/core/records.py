@@ -1,4 +1,7 @@
-"""The plain records that the steps of a cast exchange. They hold values; the steps hold the arithmetic."""
+"""The plain records that the steps of a cast exchange. They hold values; the steps hold the arithmetic.
+
+Records with arrays compare by identity: one is equal to itself only.
+"""
 
 from __future__ import annotations
 
@@ -24,7 +27,7 @@ class Cancelled(Exception):
     """The user stopped the work."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class BlenderCamera:
     """A camera and its render settings, copied from Blender; nothing is derived.
 
@@ -91,7 +94,7 @@ class Raster:
         return np.arange(self.y0, self.y1, dtype=np.float64)[:, None] + 0.5
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Pose:
     """Position and orientation of the camera: world = eye + basis @ camera."""
 
@@ -101,7 +104,7 @@ class Pose:
     """(3, 3) float64: the columns are the camera's X, Y and Z axes in the world, each of unit length."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Rays:
     """The chief rays of a picture, in the world; see the conventions."""
 
@@ -115,7 +118,7 @@ class Rays:
     """(rows, columns) float64: the frame at which each ray is cast; None if the picture has one time."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class RaysJacobian:
     """The derivatives of a picture's chief rays, in the world, with respect to the pixel's x and y: the last axis."""
 
@@ -147,7 +150,7 @@ AREA, EVERYWHERE = (0.0, 0.0), (-2.0, 1.0)
 """Values of ``Lights.cone``: of lights that shine by the cosine, as a small area does, and in all directions alike."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Lights:
     """Lights: ``position[k]`` is a point, or with ``is_sun`` the unit direction towards the sun.
 
@@ -175,7 +178,7 @@ class MovingShapes(Protocol):
         """Return the shapes at a frame."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Shapes:
     """The spheres, planes and meshes of a scene, one row per shape; ``shape_index`` of a pixel is the row.
 

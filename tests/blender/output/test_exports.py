@@ -91,7 +91,7 @@ def test_what_cannot_be_said_or_written_leaves_nothing(scene, tmp_path):
     out = tmp_path / "new" / "out"
     with pytest.raises(InputError, match="COLMAP cannot represent the Orthographic of camera 'Moving': choose one of"):
         exports.write(scene, "colmap", find_cameras(scene, ["ALL"]), [1, 2], out)
-    with pytest.raises(InputError, match="format is 'fbx'"):
+    with pytest.raises(InputError, match="unknown format 'fbx'"):
         exports.write(scene, "fbx", [scene.camera], [1], out)
     with pytest.raises(InputError, match="only maps have a target"):
         exports.write(scene, "json", [scene.camera], [1], out, scene.camera)

@@ -1,15 +1,13 @@
 """Export of cameras, by frame, to files of other programs; see ``core.exports``. All files appear, or none."""
 
-import os
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
 import bpy
 import numpy as np
 
-from ...core.exports import export, find_format
-from ...core.exports.format import Content, Shot
-from ...core.file_set import atomic_folder
+from ...core.exports import export, find_format, writing
+from ...core.exports.format import Shot
 from ...core.names import file_name, file_names
 from ...core.records import InputError
 from ..read.camera import eye_object, views_of
@@ -31,16 +29,14 @@ def write(scene, key: str, cameras: Sequence, frames: Iterable[float], folder: P
     if target is not None and not find_format(key).takes_target:
         raise InputError(f"format {key} has no target camera: only maps have a target")
     files, said = export(key, shots(scene, cameras, frames, target))
-    written: set[str] = set()
-    with atomic_folder(folder) as temporary:
-        for name, content in files:
-            signals.raise_if_stopping()
-            if name.casefold() in written:
-                raise InputError(f"two cameras would have the file {name!r}: rename one of the cameras")
-            written.add(name.casefold())
-            _write(temporary / name, content)
-        names = sorted(os.listdir(temporary))
-    return said, [folder / name for name in names]
+    return said, writing.write(_until_stopped(files), folder, _write_image)
+
+
+def _until_stopped(files: Iterable) -> Iterator:
+    """Yield files; raise Cancelled if a request to stop has arrived."""
+    for file in files:
+        signals.raise_if_stopping()
+        yield file
 
 
 def shots(scene, cameras: Sequence, frames: Iterable[float], target=None) -> list[Shot]:
@@ -60,15 +56,6 @@ def shots(scene, cameras: Sequence, frames: Iterable[float], target=None) -> lis
                 name, end = file_name(names[camera]), file_name(suffix) if suffix else ""
                 found.append(Shot(name, frame, read, scene.unit_settings.scale_length, to, end))
     return found
-
-
-def _write(path: Path, content: Content) -> None:
-    if isinstance(content, np.ndarray):
-        _write_image(path, content)
-    elif isinstance(content, bytes):
-        path.write_bytes(content)
-    else:
-        path.write_text(content, encoding="utf-8", newline="\n")
 
 
 def _write_image(path: Path, pixels: np.ndarray) -> None:

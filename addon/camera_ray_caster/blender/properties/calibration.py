@@ -17,6 +17,11 @@ KEPT = "FLOAT", "INT", "BOOLEAN", "ENUM", "VECTOR", "TEXT"
 """Kinds of settings that a file can give; not objects and images of a .blend."""
 
 
+def renew() -> None:
+    """Take up the models that were added since."""
+    READING.update({model.key: model.label for model in MODELS if FILE in model.SETTINGS})
+
+
 def set_calibration(camera, path: str, name: str = "", frame: tuple[int, int] | None = None, model: str = "") -> str:
     """Set the calibration file and the matching model of a camera's data; return a line about the values read.
 

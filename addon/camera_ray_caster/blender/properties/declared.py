@@ -6,7 +6,7 @@ Files store the number of a choice's item, so numbers are never changed and neve
 from ...core.camera import pixel_time
 from ...core.cameras import MODELS
 from ...core.cameras.model import GROUPS
-from ...core.cameras.parts.settings import OWN, Choice, Flag, Item, Whole
+from ...core.cameras.parts.settings import OWN, Choice, Flag, Item, Setting, Whole
 
 GROUP = "camera_ray_caster"
 """Name of the property groups ``camera.camera_ray_caster``, ``object.camera_ray_caster`` and
@@ -19,23 +19,27 @@ ENGINE = "CAMERA_RAY_CASTER"
 BLENDERS_OWN = "BLENDER"
 """Item of MODEL for the model of Blender's own camera type."""
 
-MODEL = Choice(
-    "model", "Model", "How the camera maps rays to pixels",
-    BLENDERS_OWN,
-    (
+def _models() -> list[Item]:
+    models = sorted(MODELS, key=lambda it: GROUPS.index(it.group))
+    return [
         Item(BLENDERS_OWN, "Blender's Own", "Model of the camera's Type in Blender, as in Cycles", 0, GROUPS[0]),
-        *(
-            Item(it.key, it.label, it.description, it.number, it.group)
-            for it in sorted(MODELS, key=lambda it: GROUPS.index(it.group))
-            if it.number is not None
-        ),
-    ),
-)  # fmt: skip
+        *(Item(it.key, it.label, it.description, it.number, it.group) for it in models if it.number is not None),
+    ]
 
-_read = (*(it.SETTINGS for it in MODELS), *pixel_time.SETTINGS.values())
-_own = {setting.name: setting for settings in _read for setting in settings if setting.owner == OWN}
 
-CAMERA = (MODEL, pixel_time.MODE, *_own.values())
+def _of_cameras() -> list[Setting]:
+    read = (*(it.SETTINGS for it in MODELS), *pixel_time.SETTINGS.values())
+    own = {setting.name: setting for settings in read for setting in settings if setting.owner == OWN}
+    return [MODEL, pixel_time.MODE, *own.values()]
+
+
+def renew() -> None:
+    """Take up the models that were added since."""
+    MODEL.items[:], CAMERA[:] = _models(), _of_cameras()
+
+
+MODEL = Choice("model", "Model", "How the camera maps rays to pixels", BLENDERS_OWN, _models())
+CAMERA = _of_cameras()
 """Settings in ``camera.camera_ray_caster``: the model, the pixel time mode, and the settings that these read."""
 
 PRIMITIVE = Choice(

@@ -2,6 +2,7 @@
 
 import bpy
 
+from . import declared
 from .declared import CAMERA, GROUP, OBJECT, SCENE
 from .from_settings import property_of
 
@@ -31,6 +32,12 @@ OWNERS = {
     bpy.types.Camera: CameraProperties,
     bpy.types.Scene: SceneProperties,
 }
+
+
+def renew() -> None:
+    """Take up the settings of the models that were added since; the groups must not be registered."""
+    declared.renew()
+    CameraProperties.__annotations__ = {setting.name: property_of(setting) for setting in declared.CAMERA}
 
 
 def register(undo) -> None:

@@ -11,6 +11,7 @@ from ...core.arguments import shown
 from ...core.camera import pixel_time
 from ...core.camera.stereo import camera_name
 from ...core.cameras import find_model
+from ...core.cameras.parts import aperture
 from ...core.cameras.parts.calibration import FILE
 from ...core.cameras.parts.settings import OWN, RECORD_FIELDS, Setting
 from ...core.records import BlenderCamera, InputError
@@ -30,9 +31,7 @@ RENDER = (
     "resolution_x", "resolution_y", "resolution_percentage", "pixel_aspect_x", "pixel_aspect_y",
     "use_border", "border_min_x", "border_max_x", "border_min_y", "border_max_y",
 )  # fmt: skip
-DEPTH_OF_FIELD = (
-    "use_dof", "focus_distance", "aperture_fstop", "aperture_blades", "aperture_rotation", "aperture_ratio",
-)  # fmt: skip
+DEPTH_OF_FIELD = tuple(setting.name for setting in aperture.DEPTH_OF_FIELD)
 STEREO = (
     "convergence_mode", "pivot", "interocular_distance", "convergence_distance", "use_spherical_stereo",
     "use_pole_merge", "pole_merge_angle_from", "pole_merge_angle_to",

@@ -46,7 +46,7 @@ def run(arguments: Sequence[str], prog: str) -> int:
         camera, shapes, column, row, shading=job.shading, samples=job.samples, precision=job.precision,
         progress=lambda _: not signals.is_stopping(),
     )  # fmt: skip
-    print("\n".join(steps.lines()), flush=True)
+    print(steps, flush=True)
     return 0
 
 

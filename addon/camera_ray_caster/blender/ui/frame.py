@@ -8,13 +8,13 @@ from contextlib import contextmanager
 import bpy
 
 from ...core.camera.own_frame import OwnFrame, own_frame
+from ...core.cameras import MODELS
 from ...core.cameras.parts.settings import CAMERA, Flag
 from ...core.records import InputError
 from ..properties.declared import CAMERA as OWN_SETTINGS
 from ..properties.declared import GROUP
 from ..read.camera import camera_record
 from .drawing import draw_message
-from .model_settings import SETTINGS
 from .needs import OfCamera, camera_object_of, reporting
 
 SET_FRAME = Flag(
@@ -82,7 +82,7 @@ def framed(context, item, is_set: bool) -> Iterator[list[str]]:
 def _settings(camera) -> list[tuple]:
     """Return (owner, name, value) of all that a preset or a calibration may set in a camera's data."""
     own = getattr(camera, GROUP)
-    names = {setting.name for settings in SETTINGS.values() for setting in settings if setting.owner == CAMERA}
+    names = {setting.name for model in MODELS for setting in model.SETTINGS if setting.owner == CAMERA}
     owned = [(own, setting.name) for setting in OWN_SETTINGS] + [(camera, name) for name in (*TYPES, *sorted(names))]
     return [(owner, name, _value(getattr(owner, name))) for owner, name in owned if hasattr(owner, name)]
 

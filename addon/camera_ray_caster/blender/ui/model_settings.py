@@ -10,22 +10,20 @@ from ..cycles.shader import CUSTOM
 from ..properties.declared import BLENDERS_OWN, ENGINE, GROUP
 from ..read.camera import shader_mark
 
-SETTINGS = {model.key: model.SETTINGS for model in MODELS}
-
-LABELS_OF_MODELS = {model.key: model.label for model in MODELS}
-
-LABELS = {setting.name: setting.label for own in SETTINGS.values() for setting in own if "_" in setting.name}
-"""Labels of settings by their names in files, without names that are words of the language, too."""
-
 SHOWN_FOR = {"lens": "PERSP", "ortho_scale": "ORTHO"}
 """Camera types by Blender setting, for settings that Blender's panel shows for one type only; film is always shown."""
 
 
 def in_labels(text: str) -> str:
     """Return a message with the names of settings replaced by their labels in the panels, and without the names of the
-    terminal's options in parentheses.
+    terminal's options in parentheses. Names that are words of the language, too, stay.
     """
-    return re.sub(r"\w+", lambda word: LABELS.get(word[0], word[0]), re.sub(r" \(--[a-z-]+\)", "", text))
+    labels = {setting.name: setting.label for model in MODELS for setting in model.SETTINGS if "_" in setting.name}
+    return re.sub(r"\w+", lambda word: labels.get(word[0], word[0]), re.sub(r" \(--[a-z-]+\)", "", text))
+
+
+def _of_model(key: str) -> tuple[Setting, ...]:
+    return next((model.SETTINGS for model in MODELS if model.key == key), ())
 
 
 def shown(setting: Setting, camera, engine: str) -> bool:
@@ -51,7 +49,7 @@ def blender_type(camera) -> str:
 def settings_of(camera) -> tuple[Setting, ...]:
     """Return the settings of a camera's model, or of its type for Blender's own models: see ``blender_type``."""
     model = getattr(camera, GROUP).model
-    return SETTINGS.get(blender_type(camera) if model == BLENDERS_OWN else model, ())
+    return _of_model(blender_type(camera) if model == BLENDERS_OWN else model)
 
 
 def read_settings(camera) -> list[Setting]:
@@ -63,7 +61,7 @@ def read_settings(camera) -> list[Setting]:
 
 def of_type(camera) -> tuple[Setting, ...]:
     """Return the settings of a camera's Blender type, whatever its model is."""
-    return SETTINGS.get(blender_type(camera), ())
+    return _of_model(blender_type(camera))
 
 
 def not_used(camera) -> list[str]:

@@ -7,11 +7,12 @@ from functools import partial
 import bpy
 from bpy.app.handlers import persistent
 
+from ...core.cameras import MODELS
 from ..properties.declared import BLENDERS_OWN, ENGINE, GROUP
 from ..read.camera import shader_mark
 from .cycles_operators import UseInCycles
 from .drawing import draw_message
-from .model_settings import LABELS_OF_MODELS, blender_type
+from .model_settings import blender_type
 from .needs import OfScene
 
 CYCLES = "CYCLES"
@@ -45,7 +46,8 @@ def ignored(scene, camera) -> str:
     if not (is_ours or has_times or (kind not in ("PERSP", "ORTHO") and engine != CYCLES)):
         return ""
     model = own.model if is_ours else blender_type(camera.data)
-    what = LABELS_OF_MODELS.get(model, "this camera") if is_ours or not has_times else "the time of each pixel"
+    labels = {one.key: one.label for one in MODELS}
+    what = labels.get(model, "this camera") if is_ours or not has_times else "the time of each pixel"
     others = {"PERSP": "a perspective", "ORTHO": "an orthographic view"}
     instead = others.get(kind, "a perspective" if engine != CYCLES else "Blender's own model")
     instead = "all pixels at one time" if what == "the time of each pixel" else instead

@@ -27,9 +27,14 @@ from .pixels import by_time, given
 from .sampling import in_opening, sub_pixel
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Camera:
-    """The result of ``read_camera``. Its main interface: rays, rays_at, project, K and world_to_opencv."""
+    """A camera: a model, a pose, a raster and a clip range. It is made by ``crc.camera``, ``crc.read_camera``,
+    ``crc.load_calibration`` or ``crc.camera_from_json``.
+
+    ``rays()``, ``rays_at(x, y)`` and ``project(points)`` are its main interface; ``pose``, ``K`` and
+    ``world_to_opencv`` say where it is and how it maps. Cameras compare by identity.
+    """
 
     name: str
     model: Model
@@ -48,6 +53,13 @@ class Camera:
     next: Camera | None = None
     """The camera at the next frame, and in ``previous`` at the previous one: see ``casting.flow``. None if not read."""
     previous: Camera | None = None
+
+    def __post_init__(self) -> None:
+        if self.model.frame != self.raster.size:
+            raise InputError(
+                f"camera {self.name!r} has a raster of {self.raster.size} and a model of {self.model.frame} pixels: "
+                "make a camera of another size anew, by crc.camera"
+            )
 
     @property
     def settings(self) -> dict[str, Any]:

@@ -39,7 +39,7 @@ from .thin_prism_fisheye import ThinPrismFisheye
 from .twisted_orthographic import TwistedOrthographic
 from .ucm import UnifiedCamera
 
-MODELS: tuple[type[Model], ...] = (
+MODELS: list[type[Model]] = [
     Perspective, Orthographic,
     Equirectangular, CubemapFace, Mirrorball, FisheyeEquidistant, FisheyeEquisolid, FisheyePolynomial,
     CentralCylindrical, CameraObscura,
@@ -48,7 +48,7 @@ MODELS: tuple[type[Model], ...] = (
     FTheta, OCam, Omnimax, DomeMaster, Cylindrical,
     StereographicPanorama,
     GeneralLinear, CrossSlit, Pushbroom, Pencil, TwistedOrthographic, Strip, OmnidirectionalStereo,
-)  # fmt: skip
+]  # fmt: skip
 """All models. ``key`` is Blender's camera or panorama type, or the name of a model that Blender does not have."""
 
 REFUSED = {"CUSTOM": "it is an OSL shader, which only Cycles can run and which cannot be inverted"}

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
-from ..arguments import word
+from ..arguments import unknown
 from ..records import InputError
 from . import rigid
 from .bop import Bop
@@ -31,7 +31,9 @@ FORMATS: tuple[Format, ...] = (
 def find_format(key: str) -> Format:
     """Return the format of a key. Raises InputError that lists the formats for an unknown key."""
     formats = {one.key: one for one in FORMATS}
-    return formats[word(key, "format", formats)]
+    if not isinstance(key, str) or key not in formats:
+        raise unknown("format", key, formats)
+    return formats[key]
 
 
 def export(key: str, shots: Sequence[Shot]) -> tuple[Iterator[tuple[str, Content]], list[str]]:

@@ -47,6 +47,9 @@ class Lesson:
         """Return all steps as lines of text."""
         return [line for title, texts in self.steps for line in (title, *(f"  {text}" for text in texts), "")][:-1]
 
+    def __str__(self) -> str:
+        return "\n".join(self.lines())
+
 
 def lesson(
     camera: Camera,

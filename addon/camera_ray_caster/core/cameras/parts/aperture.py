@@ -17,6 +17,7 @@ import numpy as np
 
 from ...maths.vector import along, cross, difference, dot, unit
 from ...records import BlenderCamera, InputError, Pose
+from .settings import CAMERA, Flag, Number, Setting, Whole
 
 FORWARD = 0.0, 0.0, -1.0
 SIDEWAYS = 1.0, 0.0, 0.0
@@ -109,6 +110,17 @@ class Aperture:
 
 SMALLEST = 1e-5
 """Blender's lower limit of f-stop and focus distance."""
+
+DEPTH_OF_FIELD: tuple[Setting, ...] = (
+    Flag("use_dof", "Depth of Field", "Send rays through the whole opening of a thin lens", False, owner=CAMERA),
+    Number("focus_distance", "Focus Distance", "Distance to the surface of focus", 10.0, 0.0, unit="length",
+           owner=CAMERA),
+    Number("aperture_fstop", "F-Stop", "Focal length over the diameter of the opening", 2.8, 0.0, owner=CAMERA),
+    Whole("aperture_blades", "Blades", "Corners of the opening; a disc below 3", 0, 0, 16, owner=CAMERA),
+    Number("aperture_rotation", "Rotation", "Of the polygon of the blades", 0.0, unit="angle", owner=CAMERA),
+    Number("aperture_ratio", "Ratio", "Divisor of the width of the opening", 1.0, 0.01, owner=CAMERA),
+)  # fmt: skip
+"""Blender's own settings of depth of field, which ``thin_lens`` reads besides ``focus_position``."""
 
 
 def thin_lens(raw: BlenderCamera, pose: Pose, parallel: bool) -> Aperture | None:

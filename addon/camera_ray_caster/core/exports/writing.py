@@ -1,0 +1,43 @@
+"""Writing the files of an export: all of them, or none."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterable
+from pathlib import Path
+
+import numpy as np
+
+from ..file_set import atomic_folder
+from ..records import InputError
+from .exr import exr
+from .format import Content
+
+
+def exr_file(path: Path, pixels: np.ndarray) -> None:
+    """Write an image of an export, (rows, columns, 3) float32 from the bottom up, to an EXR file."""
+    path.write_bytes(exr(pixels))
+
+
+def write(
+    files: Iterable[tuple[str, Content]], folder: Path, image: Callable[[Path, np.ndarray], None] = exr_file
+) -> list[Path]:
+    """Write the names and contents of an export into a folder, images by ``image``; return the paths, sorted.
+
+    Raises InputError if two files have one name, or the folder cannot be written; then no file is left behind.
+    """
+    written: set[str] = set()
+    with atomic_folder(folder) as temporary:
+        for name, content in files:
+            if name.casefold() in written:
+                raise InputError(f"two cameras would have the file {name!r}: rename one of the cameras")
+            written.add(name.casefold())
+            path = temporary / name
+            if isinstance(content, np.ndarray):
+                image(path, content)
+            elif isinstance(content, bytes):
+                path.write_bytes(content)
+            else:
+                path.write_text(content, encoding="utf-8", newline="\n")
+        names = sorted(os.listdir(temporary))
+    return [folder / name for name in names]

@@ -1,0 +1,156 @@
+"""Cameras made from a model's key and settings, or from a calibration file."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterable, Mapping
+from typing import Any
+
+import numpy as np
+
+from ..arguments import count, flag, number, shown, unknown, word
+from ..camera import pixel_time
+from ..camera.build import camera_from
+from ..camera.calibration_file import chosen_lens
+from ..camera.camera import Camera
+from ..cameras.parts.aperture import DEPTH_OF_FIELD
+from ..cameras.parts.calibration import CENTER, FILE, FOCAL, SIZE
+from ..cameras.parts.settings import RECORD_FIELDS, Coefficients, Line, Number, Setting
+from ..records import BlenderCamera, InputError
+from .models import models
+from .poses import pose_matrix
+from .values import a_number, line_in_words, plain
+
+ANY_MODEL: dict[str, Callable[[Any, str], Any]] = {
+    "clip_start": lambda value, name: number(value, name, np.inf),
+    "clip_end": lambda value, name: number(value, name, np.inf),
+    "lens": lambda value, name: a_number(value, name),
+    "pixel_aspect_x": lambda value, name: a_number(value, name),
+    "pixel_aspect_y": lambda value, name: a_number(value, name),
+    "use_border": flag,
+    **dict.fromkeys(
+        ("border_min_x", "border_max_x", "border_min_y", "border_max_y"),
+        lambda value, name: max(0.0, number(value, name, 1)),
+    ),
+}
+"""Settings that every model has besides its own and those of depth of field and of pixel times, and their checks."""
+
+LARGEST_SIDE = 65536
+"""Blender's largest resolution."""
+
+
+def camera(model: str, size, pose=None, **settings: Any) -> Camera:
+    """Return a camera, made without Blender.
+
+    model: the key of a camera model: see ``models``.
+    size: (width, height) of the picture, in pixels.
+    pose: (4, 4) matrix from the camera's frame to the world: x right, y up, the camera looks along -z. Each of its axes
+        is normalized, as in Blender. Default: the identity. See ``look_at`` and ``pose_from_opencv``.
+    settings: the model's settings, such as ``lens=35.0`` (mm) or ``fx=510.0`` (pixels), in the units of Blender's
+        properties, angles in radians. What is not given has its declared default, with one exception: once any of the
+        numbers in pixels is given (fx, cx, ...), the calibrated picture has the given size, and what is left out of
+        focal lengths and center belongs to it. A slit is a point and a direction, (2, 3); a path is (n, 3) points; a
+        time image is (rows, columns). Every model also takes ``clip_start``, ``clip_end``, ``pixel_aspect_x``,
+        ``use_border``, ``border_min_x``, ...; depth of field ``use_dof``, ``focus_distance``, ``aperture_fstop``, ...;
+        and pixel times ``time_mode`` with its settings, and ``frame``.
+        ``name`` is the camera's name, by default "Camera".
+
+    Raises InputError, in one line, for a model or a setting that does not exist (it names the nearest one that does),
+    and for values without meaning.
+    """
+    known = models()
+    if not isinstance(model, str) or model not in known:
+        raise unknown("model", model, known)
+    width, height = _size(size)
+    name = word(settings.pop("name", "Camera"), "name")
+    frame = a_number(settings.pop("frame", 0.0), "frame")
+    mode = settings.pop(pixel_time.MODE.name, pixel_time.NONE)
+    if mode not in pixel_time.SETTINGS:
+        raise unknown(pixel_time.MODE.name, mode, pixel_time.SETTINGS)
+    declared = {one.name: one for one in (*known[model].SETTINGS, *DEPTH_OF_FIELD, *pixel_time.SETTINGS[mode])}
+    for given in settings:
+        if given not in declared and given not in ANY_MODEL:
+            raise unknown(f"setting of {model}", given, dict.fromkeys([*declared, *ANY_MODEL]))
+    for one in declared.values():
+        if isinstance(one, Line) and one.name not in settings:
+            raise InputError(f"{model} needs {one.name}: {line_in_words(one)}")
+    values: dict[str, Any] = {key: one.default for key, one in declared.items() if key not in RECORD_FIELDS}
+    values |= _in_pixels(declared, settings, width, height)
+    fields: dict[str, Any] = {}
+    for key, value in settings.items():
+        kept = plain(declared[key], value) if key in declared else ANY_MODEL[key](value, key)
+        (fields if key in RECORD_FIELDS else values)[key] = kept
+    raw = BlenderCamera(
+        name=name,
+        type="PERSP",
+        model=model,
+        matrix_world=pose_matrix(pose),
+        resolution_x=width,
+        resolution_y=height,
+        settings={pixel_time.MODE.name: mode, "frame": frame, "focus_position": None, **values},
+        **fields,
+    )
+    for one in DEPTH_OF_FIELD:
+        one.read(raw)
+    return camera_from(raw)
+
+
+def load_calibration(
+    path: str | os.PathLike[str], camera: str | None = None, size=None, pose=None, *, model: str = ""
+) -> Camera:
+    """Return a camera with the lens of a calibration file: of OpenCV, ROS, COLMAP, nerfstudio, Kalibr, mrcal, Project
+    Aria, NVIDIA (f-theta), OCamCalib and others, which the table of models lists.
+
+    camera: name of the camera in the file; default the only one.
+    size: (width, height) of the picture; default that of the calibrated picture, which is scaled to another size.
+    pose: as in ``camera``.
+    model: key of the model of a file that does not name its own, such as "OPENCV_FISHEYE" for one of OpenCV.
+
+    Raises InputError, in one line, for a file that cannot be read, has no such camera, or does not tell its size.
+    """
+    try:
+        file = str(os.fspath(path))
+    except TypeError as error:
+        raise InputError(f"path is {shown(path)}: it must be the path of a calibration file") from error
+    if model and model not in models():
+        raise unknown("model", model, models())
+    chosen = "" if camera is None else word(camera, "camera")
+    lens = chosen_lens(file, model, chosen, None if size is None else _size(size))
+    if size is None:
+        size = tuple(int(lens.settings.get(side.name, 0)) for side in SIZE)
+        if not all(size):
+            raise InputError(f"calibration file {file!r} does not tell the size of its pictures: give size=")
+    linked = {"calibration_file": file, "calibration_camera": chosen}
+    settings = linked if FILE in models()[lens.model].SETTINGS else lens.settings
+    return _of_model(lens.model, size, pose, name=lens.name or "Camera", **settings)
+
+
+_of_model = camera  # where an argument has the name of the function
+
+
+def _size(size) -> tuple[int, int]:
+    try:
+        width, height = size
+    except (TypeError, ValueError) as error:
+        raise InputError(f"size is {shown(size)}: it must be (width, height) in pixels") from error
+    return count(width, "width", LARGEST_SIDE), count(height, "height", LARGEST_SIDE)
+
+
+def _in_pixels(declared: Mapping[str, Setting], given: Iterable[str], width: int, height: int) -> dict[str, float]:
+    """Return the defaults of the settings of a calibrated picture: once one of its numbers is given and not its size,
+    the picture is that of the frame, and what is declared of it is scaled to the frame.
+    """
+    sides = {one.name for one in SIZE}
+    own = {
+        one.name
+        for one in declared.values()
+        if isinstance(one, Coefficients) or (isinstance(one, Number) and one.unit == "pixels")
+    }
+    if not sides <= set(declared) or not sides.isdisjoint(given) or own.isdisjoint(given):
+        return {}
+    values: dict[str, float] = {SIZE[0].name: width, SIZE[1].name: height}
+    for frame, side, focal, center in zip((width, height), SIZE, FOCAL, CENTER, strict=True):
+        values[center.name] = (frame - 1) / 2
+        if focal.name in declared:
+            values[focal.name] = focal.default * frame / side.default
+    return values

@@ -1,0 +1,72 @@
+"""Cameras written to files of other programs, without Blender."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from ..arguments import number, shown
+from ..camera.camera import Camera
+from ..exports import FORMATS
+from ..exports import export as files_of
+from ..exports.format import Shot
+from ..exports.writing import write
+from ..names import file_names
+from ..records import InputError
+
+
+class Exported(NamedTuple):
+    """What ``export`` has written."""
+
+    paths: list[Path]
+    """The files, sorted by name."""
+    remarks: list[str]
+    """What the files do not say of the cameras, one line each."""
+
+
+def export(
+    format: str,
+    cameras: Camera | Sequence[Camera],
+    folder: str | os.PathLike[str],
+    *,
+    meters: float = 1.0,
+    target: Camera | None = None,
+) -> Exported:
+    """Write cameras into a folder, for another program; return the paths and remarks.
+
+    format: "colmap", "nerfstudio", "opencv", "ros", "mrcal", "bop", "stmap", "npz" or "json".
+    cameras: a camera, or several. Those of one name are one camera at several frames: see ``name`` and ``frame`` of
+        ``crc.camera``.
+    meters: length of a unit, for formats with meters.
+    target: for "stmap", the camera to whose picture the maps lead; default the perspective of the same lens.
+
+    All files are written or none. Raises InputError, in one line, for an unknown format, a camera that the format
+    cannot represent (it names the formats that can), two cameras of one name and frame, and a folder that cannot be
+    written.
+    """
+    given = [cameras] if isinstance(cameras, Camera) else list(cameras)
+    for one in (*given, *([] if target is None else [target])):
+        if not isinstance(one, Camera):
+            raise TypeError(f"export takes cameras, not {type(one)}")
+    if not given:
+        raise InputError("there is no camera to export: give one or more")
+    chosen = next((one for one in FORMATS if one.key == format), None)
+    if target is not None and chosen is not None and not chosen.takes_target:
+        raise InputError(f"format {format} has no target camera: only maps have a target")
+    names = file_names(one.name for one in given)
+    shots = [Shot(names[one.name], _frame(one), one, number(meters, "meters", 1e12), target) for one in given]
+    if len({shot.stem for shot in shots}) < len(shots):
+        raise InputError("two cameras have one name and one frame: give them names (name=) or frames (frame=)")
+    files, remarks = files_of(format, sorted(shots, key=lambda shot: shot.frame))
+    try:
+        path = Path(folder)
+    except TypeError as error:
+        raise InputError(f"folder is {shown(folder)}: it must be a path") from error
+    return Exported(write(files, path), remarks)
+
+
+def _frame(camera: Camera) -> float:
+    frame: Any = camera.record.settings.get("frame", 0.0)
+    return float(frame)

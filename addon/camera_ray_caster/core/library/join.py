@@ -1,0 +1,98 @@
+"""The shapes of several records as one record."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import chain
+from typing import Any
+
+import numpy as np
+
+from ..records import EVERYWHERE, InputError, Lights, Shapes, Slots, no_shapes
+
+ROWS = "kind", "center", "axes", "object_index", "material_index", "color"
+"""Arrays of ``Shapes`` with one entry per shape."""
+TABLES = "names", "meshes", "surfaces", "left_out", "exact", "notes"
+"""Tuples of ``Shapes`` that are put one after the other."""
+INDICES = {"name_index": "names", "mesh": "meshes", "surface": "surfaces"}
+"""Arrays with an index into a table for each shape; empty where the table is."""
+LIGHTS = "position", "is_sun", "color"
+SAME = np.eye(2, 3)
+"""The UV map of ``Shapes.uv`` that changes nothing."""
+
+
+def join(*shapes: Shapes) -> Shapes:
+    """Return the shapes of several records as one, in their order. The first record's world counts.
+
+    Raises InputError for shapes that move, and TypeError for anything but shapes.
+    """
+    for one in shapes:
+        if not isinstance(one, Shapes):
+            raise TypeError(f"join takes shapes, not {type(one)}")
+        if one.motion is not None or one.next is not None or one.previous is not None:
+            raise InputError("shapes that move cannot be joined: join those of one frame")
+    if len(shapes) < 2:
+        return shapes[0] if shapes else no_shapes()
+    tables: dict[str, Any] = {name: _chained(getattr(one, name) for one in shapes) for name in TABLES}
+    rows: dict[str, Any] = {name: np.concatenate([getattr(one, name) for one in shapes]) for name in ROWS}
+    for name, table in INDICES.items():
+        columns = [_column(getattr(one, name), len(one)) for one in shapes]
+        moved = _moved(columns, [getattr(one, table) for one in shapes])
+        rows[name] = moved if tables[table] else np.zeros(0, np.int32)
+    shared = [one.shared if len(one.shared) else np.zeros(len(one), bool) for one in shapes]
+    maps = [np.tile(SAME, (len(one.names), 1, 1)) if one.uv is None else one.uv for one in shapes]
+    return Shapes(
+        **rows,
+        **tables,
+        instanced=_chained(one.instanced or (False,) * len(one.names) for one in shapes),
+        materials=tuple(dict.fromkeys(_chained(one.materials for one in shapes))),
+        lights=_lights([one.lights for one in shapes]),
+        world_color=shapes[0].world_color,
+        background=shapes[0].background,
+        shared=np.concatenate(shared) if tables["meshes"] else np.zeros(0, bool),
+        slots=_slots(shapes, bool(tables["surfaces"])),
+        uv=None if all(one.uv is None for one in shapes) else np.concatenate(maps),
+    )
+
+
+def _chained(parts) -> tuple:
+    return tuple(chain.from_iterable(parts))
+
+
+def _column(indices: np.ndarray, n: int) -> np.ndarray:
+    """Return indices for n rows, -1 where there are none."""
+    return indices if len(indices) == n else np.full(n, -1, np.int32)
+
+
+def _moved(columns: Sequence[np.ndarray], tables: Sequence[Any]) -> np.ndarray:
+    """Return indices into several tables as indices into all of them, one after the other; -1 stays."""
+    firsts = np.cumsum([0, *map(len, tables)])[: len(columns)]
+    moved = [np.where(column < 0, column, column + first) for column, first in zip(columns, firsts, strict=True)]
+    return np.concatenate(moved).astype(columns[0].dtype)
+
+
+def _lights(lights: Sequence[Lights]) -> Lights:
+    parts: dict[str, Any] = {name: np.concatenate([getattr(one, name) for one in lights]) for name in LIGHTS}
+    if any(len(one.axis) for one in lights):
+        for name, other in (("axis", (0.0, 0.0, 0.0)), ("cone", EVERYWHERE)):
+            own = [getattr(one, name) for one in lights]
+            filled = [
+                part if len(part) else np.tile(other, (len(one.is_sun), 1))
+                for part, one in zip(own, lights, strict=True)
+            ]
+            parts[name] = np.concatenate(filled)
+    return Lights(**parts, left_out=_chained(one.left_out for one in lights))
+
+
+def _slots(shapes: Sequence[Shapes], has_surfaces: bool) -> Slots | None:
+    none = np.zeros(0, np.int32)
+    if all(one.slots is None for one in shapes):
+        return None
+    slots = [one.slots or Slots(np.full(len(one), -1), none, np.zeros((0, 4), np.float32)) for one in shapes]
+    surfaces = [_column(one.surface, len(one.material_index)) for one in slots]
+    return Slots(
+        first=_moved([one.first for one in slots], [one.material_index for one in slots]),
+        material_index=np.concatenate([one.material_index for one in slots]),
+        color=np.concatenate([one.color for one in slots]),
+        surface=_moved(surfaces, [one.surfaces for one in shapes]) if has_surfaces else none,
+    )

@@ -1,0 +1,44 @@
+"""The list of camera models, and adding to it."""
+
+from __future__ import annotations
+
+from ..arguments import shown, word
+from ..cameras import MODELS
+from ..cameras.model import GROUPS, Model
+from ..records import InputError
+
+
+class Models(dict[str, type[Model]]):
+    """Models by key. As text it is a table: key, label and settings."""
+
+    def __repr__(self) -> str:
+        width = max(map(len, self), default=0)
+        return "\n".join(
+            f"{key:{width}}  {model.label}: {', '.join(one.name for one in model.SETTINGS) or 'no settings'}"
+            for key, model in self.items()
+        )
+
+
+def models() -> Models:
+    """Return all camera models by key; printed, a table of their settings.
+
+    ``models()["PUSHBROOM"].SETTINGS`` has the names, ranges, units, defaults and descriptions of a model's settings.
+    """
+    return Models({model.key: model for model in MODELS})
+
+
+def add_model(model: type[Model]) -> None:
+    """Add a model to the list, in place of one of the same key that was added before: see ``crc.register_model``."""
+    if not (isinstance(model, type) and issubclass(model, Model)):
+        raise InputError(f"{shown(model)} is not a camera model: give a class that inherits Model")
+    missing = [name for name in ("key", "label", "description", "group", "FORMULA") if not hasattr(model, name)]
+    if missing or model.__abstractmethods__:
+        lacking = ", ".join((*missing, *sorted(model.__abstractmethods__)))
+        raise InputError(f"model {model.__name__} has no {lacking}: define it in the class")
+    word(model.group, f"group of model {model.key}", GROUPS)
+    others = [one for one in MODELS if one.key != model.key]
+    if model.number is not None and model.number in [one.number for one in others]:
+        raise InputError(f"number {model.number} of model {model.key} is another model's: take one from 1000 on")
+    if any(one.key == model.key and one.__module__.startswith(Model.__module__.rpartition(".")[0]) for one in MODELS):
+        raise InputError(f"key {model.key} is that of a model of the package: take another one")
+    MODELS[:] = [*others, model]

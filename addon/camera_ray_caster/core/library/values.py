@@ -1,0 +1,93 @@
+"""Values of settings from Python and numpy, turned into those of a record."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from ..arguments import flag, numbers, shown, word
+from ..cameras.parts.settings import Coefficients, Line, Setting, Whole
+from ..records import InputError
+
+
+def plain(setting: Setting, value: Any) -> Any:
+    """Return a value as records hold it. Raises InputError, which names the setting, for one of another type."""
+    return KINDS[setting.kind](setting, value)
+
+
+def a_number(value, name: str) -> float:
+    """Return a number of Python or numpy as one of Python. Raises InputError for anything else, also for True."""
+    value = value.item() if isinstance(value, np.generic | np.ndarray) and value.ndim == 0 else value
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        raise InputError(f"{name} is {shown(value)}: it must be a number")
+    return value
+
+
+def _whole(setting: Whole, value) -> float:
+    found = a_number(value, setting.name)
+    if not float(found).is_integer():  # nor are NaN and infinity
+        raise InputError(f"{setting.name} is {shown(value)}: it must be a whole number")
+    return found
+
+
+def _numbers(setting: Setting, value) -> tuple[float, ...]:
+    found = numbers(value, setting.name)
+    if found.ndim != 1:
+        raise InputError(f"{setting.name} is of shape {found.shape}: it must be a list of numbers")
+    return tuple(found.tolist())
+
+
+def _text(setting: Setting, value) -> str:
+    if isinstance(setting, Coefficients) and not isinstance(value, str):
+        return " ".join(map(repr, _numbers(setting, value)))
+    return word(value, setting.name)
+
+
+def _file(setting: Setting, value) -> str:
+    return word(os.fspath(value) if isinstance(value, os.PathLike) else value, setting.name)
+
+
+def line_in_words(setting: Line) -> str:
+    """Return what the value of a line has to be."""
+    return "points, shape (n, 3)" if setting.sampled else "a point and a direction, shape (2, 3)"
+
+
+def _line(setting: Line, value) -> tuple[np.ndarray, np.ndarray, list[tuple[int, int]]]:
+    """Return a slit's point and direction, or a path's points, as records hold an object's: a path that ends where it
+    begins is closed.
+    """
+    points = numbers(value, setting.name)
+    if points.ndim != 2 or points.shape[1] != 3 or (not setting.sampled and len(points) != 2):
+        raise InputError(f"{setting.name} is of shape {points.shape}: it must be {line_in_words(setting)}")
+    if not setting.sampled:
+        return np.stack((points[0], points[0] + points[1])), np.eye(4), [(0, 1)]
+    edges = [(k, k + 1) for k in range(len(points) - 1)]
+    if len(points) > 2 and np.array_equal(points[0], points[-1]):
+        points, edges[-1] = points[:-1], (0, len(points) - 2)
+    return points, np.eye(4), edges
+
+
+def _image(setting: Setting, value) -> np.ndarray:
+    gray = numbers(value, setting.name)
+    if gray.ndim != 2 or not gray.size:
+        raise InputError(
+            f"{setting.name} is of shape {gray.shape}: it must be an image, (rows, columns) from the bottom"
+        )
+    return gray
+
+
+KINDS: dict[str, Callable[[Any, Any], Any]] = {
+    "FLOAT": lambda setting, value: a_number(value, setting.name),
+    "INT": _whole,
+    "BOOLEAN": lambda setting, value: flag(value, setting.name),
+    "ENUM": lambda setting, value: word(value, setting.name, [item.key for item in setting.items]),
+    "VECTOR": _numbers,
+    "TEXT": _text,
+    "FILE": _file,
+    "OBJECT": _line,
+    "IMAGE": _image,
+}
+"""Functions that turn a value into that of a record, by kind of setting."""
