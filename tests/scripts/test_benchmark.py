@@ -18,6 +18,7 @@ def figures(tmp_path, *words):
     return done.stdout, json.loads((tmp_path / "figures.json").read_text())
 
 
+@pytest.mark.full
 def test_the_contest_times_all_that_is_installed(tmp_path):
     text, rows = figures(tmp_path, "--quick", "--rounds", "1", "--size", "64x36")
     ours = {"ours, 4 passes", "ours, depth + index"}
@@ -46,6 +47,7 @@ def test_every_model_is_timed_and_eyes_of_spherical_stereo(tmp_path):
     assert all(row["model"] in text for row in rows)
 
 
+@pytest.mark.full
 def test_scaling_is_measured_and_drawn(tmp_path):
     _, rows = figures(tmp_path, "--scaling", "--quick", "--picture", tmp_path / "scaling.png")
     assert [row["spheres"] for row in rows if row["against"] == "spheres"] == [10, 100, 1000]

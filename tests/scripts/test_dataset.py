@@ -196,6 +196,7 @@ def test_a_worker_whose_thread_has_used_blender_ends_well():
     assert (done.returncode, complaints(done.stderr)) == (0, [])
 
 
+@pytest.mark.full
 def test_two_workers_make_what_one_process_makes(scene, out, tmp_path):
     done = script("dataset", scene, *WORDS, "--workers", "2", "--output", out)
     assert (done.returncode, complaints(done.stderr)) == (0, [])
@@ -225,6 +226,7 @@ def scheduler(tmp_path):
         process.wait(30)
 
 
+@pytest.mark.full
 def test_any_cluster_of_dask_makes_them_and_what_its_workers_refuse_is_one_line(blender, scene, out, scheduler):
     side = blender.data.objects["Side"]
     for frame, scale in (2, 1), (3, 0):

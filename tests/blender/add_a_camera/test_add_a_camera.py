@@ -96,6 +96,7 @@ def test_its_file_is_refused_in_one_line_once_it_is_taken_away(seen):
     assert seen["chosen again"] == "OMNIMAX"
 
 
+@pytest.mark.full
 @pytest.mark.skipif(bool(bpy.app.binary_path), reason="needs what the tests of core need, which Blender does not have")
 def test_it_keeps_the_contract_of_camera_models(copy):
     """All that is asked of a model, and that its error bounds hold against its own formula with 60 digits."""

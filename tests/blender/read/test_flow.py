@@ -52,7 +52,7 @@ def test_neighbors_are_read_only_for_flow_and_the_scene_is_as_it_was(scene, monk
     found = read_scene(scene, passes=("flow_hidden",))
     assert sorted(frames) == [4, 5, 6]
     assert scene.frame_current == 5
-    with pytest.raises(InputError, match="passes"):
+    with pytest.raises(InputError, match="unknown pass"):
         read_scene(scene, passes=("flow",))
 
 
