@@ -230,6 +230,10 @@ class Shapes:
     """The materials that change over a surface or glow."""
     surface: np.ndarray = field(default_factory=lambda: np.zeros(0, np.int32))
     """(n,) int32: indices into ``surfaces``, -1 where ``color`` is the material's; empty if there are no surfaces."""
+    identity: np.ndarray = field(default_factory=lambda: np.zeros(0, np.int64))
+    """(n,) int64: equal in two readings of a scene for the same instance of the same object and the same point of a
+    cloud; empty if shapes are known by their names only.
+    """
     exact: tuple[tuple[str, float], ...] = ()
     """Objects whose mesh is cast as an exact sphere or plane, each with the largest distance between the two, over the
     radius or the plane's longer half side.

@@ -135,7 +135,9 @@ def _of_points(cloud, kind) -> Found:
         return _enclosing(kind, positions)
     radius = cloud.attributes.get("radius")
     radii = fetched(radius.data, "value", np.float32) if radius else np.full(len(positions), DEFAULT_RADIUS, np.float32)
-    primitive = replace(points_primitive(positions, radii), uv=NO_MAP)
+    given = cloud.attributes.get("id")
+    ids = fetched(given.data, "value", np.int32) if given else np.arange(len(positions))
+    primitive = replace(points_primitive(positions, radii, ids), uv=NO_MAP)
     missing = len(radii) - len(primitive)
     return primitive, (
         f"{missing} of its points have a radius that is not above zero, or a position that is not finite"

@@ -1,5 +1,6 @@
 """Groups of instances that differ only in their placement, and the record made from them."""
 
+from array import array
 from collections import Counter
 from collections.abc import Callable, Hashable, Iterable, Iterator
 from dataclasses import dataclass, field, replace
@@ -16,6 +17,9 @@ from .materials import Look
 SINGULAR = "its size is zero in some direction, or not finite: clear its scale (Alt S) or apply it"
 VANISHED = "its size is zero in some direction, and others share its mesh: it is not shown, as in Cycles"
 
+MIX = 0x5851F42D4C957F2D
+"""Factor with which several numbers make one, modulo 2^64, that is another for other numbers (Knuth, MMIX)."""
+
 LISTEN = 256
 """Number of instances or groups between two checks for a request to stop: some hundredths of a second."""
 
@@ -25,6 +29,8 @@ class Group:
     """The instances of one mesh, point cloud or light of one object."""
 
     name: str
+    objects: tuple[int, int]
+    """The session_uid of the object and of the one that instances it, else 0."""
     is_instanced: bool = False
     """Whether something else shows the object here: a collection, vertices, a modifier."""
     primitive: Primitive | None = None
@@ -45,10 +51,38 @@ class Group:
     geometry: Hashable | None = None
     """Key that is equal for groups whose geometry Cycles shares; None if Cycles has no geometry of the group."""
     matrices: list[tuple[float, ...]] = field(default_factory=list)
+    ids: array = field(default_factory=lambda: array("i"))
+    """Blender's ``persistent_id`` of each instance, one after the other."""
 
-    def placings(self) -> np.ndarray:
-        """Return the world matrices of the instances, (k, 3, 4) float64."""
-        return np.array(self.matrices, np.float64).reshape(-1, 3, 4)
+    def placings(self) -> "Placings":
+        """Return the instances."""
+        matrices = np.array(self.matrices, np.float64).reshape(-1, 3, 4)
+        identities = np.zeros(len(matrices), np.int64)
+        for numbers in (*self.objects, *np.array(self.ids, np.int64).reshape(len(matrices), -1).T):
+            identities = identities * MIX + numbers
+        return Placings(matrices, identities)
+
+
+@dataclass(frozen=True)
+class Placings:
+    """Some instances of a group."""
+
+    matrices: np.ndarray
+    """World matrices, (k, 3, 4) float64."""
+    identities: np.ndarray
+    """(k,) int64: numbers that the same instances have in other readings, too."""
+
+    def __len__(self) -> int:
+        return len(self.matrices)
+
+    def __getitem__(self, some: np.ndarray) -> "Placings":
+        return Placings(self.matrices[some], self.identities[some])
+
+    def all_of(self, primitive: Primitive) -> np.ndarray:
+        """Return the identities (k n,) of n shapes under each of the instances, as ``put_in_world`` orders them."""
+        if primitive.ids is None:
+            return self.identities
+        return (self.identities[:, None] * MIX + primitive.ids).ravel()
 
 
 def heeding(items: Iterable) -> Iterator:
@@ -73,12 +107,12 @@ def gathered(groups: list[Group], left_out: Counter, world: World) -> Shapes:
 
     parts = list(_castable(list(_with_volume(there, is_shared, notes)), left_out))
     cast, placings = zip(*parts, strict=True) if parts else ((), ())
-    counts = [len(matrices) * len(group.primitive) for group, matrices in parts]
+    counts = [len(placed) * len(group.primitive) for group, placed in parts]
     ends = np.cumsum(counts, dtype=int)
     center, axes = np.empty((sum(counts), 3)), np.empty((sum(counts), 3, 3))
-    for group, matrices, count, end in zip(cast, placings, counts, ends, strict=True):
+    for group, placed, count, end in zip(cast, placings, counts, ends, strict=True):
         own = slice(end - count, end)
-        put_in_world(group.primitive, matrices, center[own], axes[own])
+        put_in_world(group.primitive, placed.matrices, center[own], axes[own])
 
     def column(values, dtype, width=()):
         return np.repeat(np.array(values, dtype).reshape(len(cast), *width), counts, axis=0)
@@ -103,7 +137,7 @@ def gathered(groups: list[Group], left_out: Counter, world: World) -> Shapes:
         name_index=column(range(len(cast)), np.int32),
         names=tuple(group.name for group in cast),
         instanced=tuple(group.is_instanced for group in cast),
-        lights=lights_in_world([(one.is_sun, one.looks[0].color, one.cone, one.placings()) for one in lights]),
+        lights=lights_in_world([(one.is_sun, one.looks[0].color, one.cone, one.placings().matrices) for one in lights]),
         world_color=world.color,
         background=world.background,
         left_out=listed(left_out),
@@ -115,38 +149,39 @@ def gathered(groups: list[Group], left_out: Counter, world: World) -> Shapes:
         notes=tuple(notes | _notes(cast)),
         surfaces=tuple(surfaces),
         surface=column(numbers_of(looks), np.int32) if surfaces else np.zeros(0, np.int32),
+        identity=np.concatenate([np.zeros(0, np.int64), *(placed.all_of(group.primitive) for group, placed in parts)]),
         exact=tuple((group.name, group.primitive.apart) for group in cast if group.primitive.apart is not None),
     )
 
 
-def _with_volume(placed, is_shared: Callable[[Group], bool], notes: dict) -> Iterator[tuple[Group, np.ndarray]]:
-    """Yield groups with their matrices, without those under which Cycles shows nothing of a mesh with several users, as
-    it needs the inverse. Such groups are noted. Of a mesh with one user Cycles shows the flat faces.
+def _with_volume(there, is_shared: Callable[[Group], bool], notes: dict) -> Iterator[tuple[Group, Placings]]:
+    """Yield groups with their instances, without those under which Cycles shows nothing of a mesh with several users,
+    as it needs the inverse. Such groups are noted. Of a mesh with one user Cycles shows the flat faces.
     """
-    for group, matrices in placed:
+    for group, placed in there:
         if is_shared(group):
-            x, y, z = np.moveaxis(matrices[:, :, :3], 2, 0)
+            x, y, z = np.moveaxis(placed.matrices[:, :, :3], 2, 0)
             with np.errstate(all="ignore"):
                 has_volume = np.einsum("ij,ij->i", np.cross(x, y), z) != 0
             if not has_volume.all():
                 notes[group.name, VANISHED] = None
-                matrices = matrices[has_volume]
-        yield group, matrices
+                placed = placed[has_volume]
+        yield group, placed
 
 
-def _castable(placed: list[tuple[Group, np.ndarray]], left_out: Counter) -> Iterator[tuple[Group, np.ndarray]]:
-    """Yield groups with the matrices with which they can be cast, if necessary as triangles.
+def _castable(there: list[tuple[Group, Placings]], left_out: Counter) -> Iterator[tuple[Group, Placings]]:
+    """Yield groups with the instances with which they can be cast, if necessary as triangles.
 
     Instances that cannot be cast either way are added to ``left_out``.
     """
-    usable = castable([(group.primitive, matrices) for group, matrices in placed])
-    for (group, matrices), well in zip(placed, usable, strict=True):
+    usable = castable([(group.primitive, placed.matrices) for group, placed in there])
+    for (group, placed), well in zip(there, usable, strict=True):
         if well.any():
-            yield group, matrices[well]
-        rest = matrices[~well]
+            yield group, placed[well]
+        rest = placed[~well]
         triangles = group.flattened()[0] if len(rest) and group.flattened is not None else None
         if triangles is not None:
-            (flat,) = castable([(triangles, rest)])
+            (flat,) = castable([(triangles, rest.matrices)])
             if flat.any():
                 yield replace(group, primitive=triangles), rest[flat]
             rest = rest[~flat]

@@ -70,11 +70,15 @@ class _Scene:
                 self.left_out.update((group.name, HAIR.format(name)) for name in self.visibility.strands(item))
         matrix = instance.matrix_world
         group.matrices.append((*matrix[0], *matrix[1], *matrix[2]))
+        if owner is not None:
+            group.ids.extend(instance.persistent_id)
 
     def opened(self, instance) -> Group:
         """Return the group of an instance, without any matrices."""
         item = instance.object
-        group = Group(unique_name(original_source(instance), bpy.data.objects), instance.is_instance)
+        source, owner = original_source(instance), instance.parent
+        objects = source.session_uid, owner.original.session_uid if owner else 0
+        group = Group(unique_name(source, bpy.data.objects), objects, instance.is_instance)
         if not self.visibility.is_rendered(instance):
             return group
         if item.type == "LIGHT":

@@ -116,6 +116,7 @@ def matched(before: Shapes, after: Shapes) -> bool:
         before.names == after.names
         and np.array_equal(before.kind, after.kind)
         and np.array_equal(before.name_index, after.name_index)
+        and np.array_equal(before.identity, after.identity)
         and np.array_equal(before.mesh, after.mesh)
         and alike(before.meshes, after.meshes)
     )

@@ -12,14 +12,15 @@ from .interpolation import matched
 def rows_in(before: Shapes, after: Shapes) -> np.ndarray:
     """Return the rows (n,) of the shapes of ``before`` in ``after``; -1 for shapes that are not in ``after``.
 
-    Two shapes correspond if they have the same place among the shapes with the name of their object, both readings have
-    the same number of these, the kinds are equal, and meshes have the same faces.
+    Two shapes correspond if they have the same identity, the kinds are equal, and meshes have the same faces. Shapes
+    without identities have the name of their object in place of it. Of several shapes with the same identity those with
+    the same place among them correspond, if both readings have the same number of them.
     """
     if matched(before, after):
         return np.arange(len(before))
-    numbers = {name: number for number, name in enumerate(dict.fromkeys((*before.names, *after.names)))}
-    own, other = (np.array([numbers[name] for name in one.names], int)[one.name_index] for one in (before, after))
-    counts, other_counts = (np.bincount(one, minlength=len(numbers)) for one in (own, other))
+    own, other = _numbers(before, after)
+    most = max(own.max(initial=-1), other.max(initial=-1)) + 1
+    counts, other_counts = (np.bincount(one, minlength=most) for one in (own, other))
     there = np.flatnonzero((counts == other_counts)[own])
     rows = np.full(len(before), -1)
     here = there[np.argsort(own[there], kind="stable")]
@@ -35,3 +36,12 @@ def rows_in(before: Shapes, after: Shapes) -> np.ndarray:
             is_other[meshes[(pairs == [[one], [another]]).all(axis=0)]] = True
     rows[is_other] = -1
     return rows
+
+
+def _numbers(before: Shapes, after: Shapes) -> list[np.ndarray]:
+    """Return two arrays of numbers that are equal for shapes with the same identity, or the same name without one."""
+    if all(len(one.identity) == len(one) for one in (before, after)):
+        _, numbers = np.unique(np.concatenate((before.identity, after.identity)), return_inverse=True)
+        return np.split(numbers, [len(before)])
+    known = {name: number for number, name in enumerate(dict.fromkeys((*before.names, *after.names)))}
+    return [np.array([known[name] for name in one.names], int)[one.name_index] for one in (before, after)]

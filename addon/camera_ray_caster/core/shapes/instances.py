@@ -30,6 +30,8 @@ class Primitive:
     """The triangles; None except for kind MESH."""
     uv: np.ndarray = field(default_factory=lambda: COORDINATES)
     """(2, 3) float64: the UV map of a sphere or plane: see ``Shapes``."""
+    ids: np.ndarray | None = None
+    """(n,) int64: numbers that are equal for the same point of a cloud at other times; None for one shape."""
     note: str = ""
     """What the shape's passes show otherwise than the mesh."""
     apart: float | None = None
@@ -39,10 +41,12 @@ class Primitive:
         return len(self.sizes)
 
 
-def points_primitive(positions: np.ndarray, radii: np.ndarray) -> Primitive:
-    """Return the spheres of a point cloud, (n, 3) positions and (n,) radii: those that are finite, with radius > 0."""
+def points_primitive(positions: np.ndarray, radii: np.ndarray, ids: np.ndarray) -> Primitive:
+    """Return the spheres of a point cloud: those of (n, 3) positions and (n,) radii that are finite, with radius > 0.
+    """
     real = (radii > 0) & np.isfinite(radii) & np.isfinite(positions).all(axis=1)
-    return Primitive(SPHERE, positions[real].astype(np.float64), np.eye(3), radii[real].astype(np.float64))
+    places, sizes = positions[real].astype(np.float64), radii[real].astype(np.float64)
+    return Primitive(SPHERE, places, np.eye(3), sizes, ids=ids[real].astype(np.int64))
 
 
 def enclosing_primitive(kind: int, vertices: np.ndarray) -> Primitive:
