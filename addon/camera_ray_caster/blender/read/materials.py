@@ -169,15 +169,20 @@ def _colored(material, output, plain: Look, threshold: float) -> Look:
         needs |= nodes.needs
         base, own, glow = (part and as_color(part) for part in parts)
         if base is None or not _as_made(material):
-            lit = base or constant(0, 0, 0)
+            lit = constant(0, 0, 0) if base is None else function_of(lambda one: np.maximum(one, 0), base)
     except Unread as error:
         unread.append(f"its color is not read: {error}. Its viewport color is shown")
+    unread += [f"{_image(name)} is missing: it is shown in magenta" for name in sorted(nodes.missing)]
     if isinstance(alpha, Constant) and (alpha.values >= threshold).all():
         alpha = None
     look = plain._replace(unread=tuple(unread))
     if alpha is None and own is None and glow is None and isinstance(lit, Constant):
         return look._replace(color=shown((*lit.values[:, 0].tolist(), opacity)))
     return look._replace(surface=Surface(lit, own, glow, alpha, threshold), needs=frozenset(needs))
+
+
+def _image(name: str) -> str:
+    return f"its image {name!r}" if name else "the image of an Image Texture"
 
 
 def _as_made(material) -> bool:

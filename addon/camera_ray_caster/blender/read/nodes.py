@@ -33,6 +33,8 @@ class Nodes:
         self.read = read
         self.needs: set[str] = set()
         """The layers of the mesh that expressions use, and OBJECT for places in the object's space."""
+        self.missing: set[str] = set()
+        """The names of images that cannot be loaded."""
         self._known: dict[Hashable, Value] = {}
         self._open: set[Hashable] = set()
 

@@ -33,13 +33,12 @@ def _image(nodes: Nodes, node: Node, output) -> Value:
 
 
 def _texture(node: Node, output, vector: Value, extension: str) -> Value:
-    if node.image is None:
-        return constant(0, 0, 0) if output.name == "Color" else constant(0)
     try:
-        image = image_of(node.image)
+        image = None if node.image is None else image_of(node.image)
     except Unreadable as error:
         raise Unread(f"node {node.name!r}: {error}") from error
     if image is None:
+        node.nodes.missing.add("" if node.image is None else node.image.name)
         return constant(*MISSING[:3]) if output.name == "Color" else constant(MISSING[3])
     rgba = Texture(image, vector, extension, node.interpolation != "Closest", node.outputs["Alpha"].is_linked
                    if "Alpha" in node.outputs else False)  # fmt: skip
@@ -67,12 +66,15 @@ def _coordinates(nodes: Nodes, node: Node, output) -> Value:
     if output.name == "UV":
         return Coordinates(UV)
     if output.name == "Generated":
-        nodes.needs.add(GENERATED)
-        return Layer(GENERATED, 3)
+        return _generated(nodes)
     if output.name == "Object" and node.object is None:
         nodes.needs.add(OBJECT)
         return Coordinates(OBJECT)
     raise node.unread(f"output {output.name}")
+
+
+def _generated(nodes: Nodes) -> Value:
+    return _layer(nodes, GENERATED, 3)
 
 
 def _world_coordinates(nodes: Nodes, node: Node, output) -> Value:
@@ -153,6 +155,14 @@ def _ramp(nodes: Nodes, node: Node, output) -> Value:
     return function_of(partial(do.looked_up, rows, ramp.interpolation != "CONSTANT"), node.input("Fac"))
 
 
+def _checker(nodes: Nodes, node: Node, output) -> Value:
+    place = node.input("Vector") if node.is_linked("Vector") else _generated(nodes)
+    first = function_of(do.checker, place, node.input("Scale"))
+    if output.name != "Color":
+        return first
+    return function_of(do.mix, first, node.input("Color2"), node.input("Color1"))
+
+
 def _math(nodes: Nodes, node: Node, output) -> Value:
     how = do.MATHS.get(node.operation)
     if how is None:
@@ -227,6 +237,7 @@ READ = {
     "ShaderNodeRGB": _own,
     "ShaderNodeValue": _own,
     "ShaderNodeTexImage": _image,
+    "ShaderNodeTexChecker": _checker,
     "ShaderNodeTexCoord": _coordinates,
     "ShaderNodeUVMap": _map,
     "ShaderNodeVertexColor": _vertex_color,

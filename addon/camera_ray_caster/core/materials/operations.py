@@ -155,6 +155,12 @@ def mapped(kind: str, vector, location, rotation, scale) -> np.ndarray:
     return turned + location if kind == "POINT" else turned
 
 
+def checker(place: np.ndarray, scale: np.ndarray) -> np.ndarray:
+    """Return where a Checker Texture has its first color, 1, and its second, 0."""
+    cell = np.floor((place * scale + 1e-6) * 0.999999) % 2
+    return (((cell[0] == cell[1]) == (cell[2] == 1)) * 1.0)[None]
+
+
 def looked_up(table: np.ndarray, is_smooth: bool, position: np.ndarray) -> np.ndarray:
     """Return the entries of a table (channels, n) at positions 0 .. 1, (1, m), interpolated or the one before."""
     place = np.clip(np.nan_to_num(position[0]), 0, 1) * (table.shape[1] - 1)
