@@ -15,7 +15,6 @@ from .value_nodes import READ
 COLORS = {
     "ShaderNodeBsdfDiffuse": "Color",
     "ShaderNodeBsdfAnisotropic": "Color",
-    "ShaderNodeBsdfGlossy": "Color",
     "ShaderNodeBsdfGlass": "Color",
     "ShaderNodeBsdfRefraction": "Color",
     "ShaderNodeBsdfTranslucent": "Color",
