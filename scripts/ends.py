@@ -1,11 +1,13 @@
-"""How a script's process ends when stopped or on a write error: with a status and one line on standard error at most.
+"""How a script's process ends: with the script's own status; stopped or on a write error with one line at most.
 
 Exit status 130: stopped by a signal. 2: standard output or a file cannot be used. 141: the reader of standard output is
 gone; shells use this number for it, and no message is printed. Standard library only, and no syntax newer than
 Python 3.6.
 """
 
+import atexit
 import os
+import shutil
 import signal
 import sys
 from contextlib import suppress
@@ -46,8 +48,30 @@ def listen(handler):
 
 
 def run(script, main):
-    """Run ``main()``, flush standard output and return the exit status for ``sys.exit``."""
-    prog = os.path.basename(script)
+    """Run ``main()``, flush standard output and return the exit status for ``sys.exit``.
+
+    A process of ours that has imported bpy ends here: its libraries may abort at Python's own exit, as after fluids.
+    """
+    status = _ran(os.path.basename(script), main)
+    bpy = sys.modules.get("bpy")
+    if bpy is not None and not bpy.app.binary_path and (status is None or isinstance(status, int)):
+        _leave(bpy.app.tempdir, status or 0)
+    return status
+
+
+def _leave(temporary, status):
+    """End the process after the exit functions of Python, without those of libraries; remove Blender's own folder."""
+    atexit._run_exitfuncs()
+    for stream in sys.stdout, sys.stderr:
+        with suppress(OSError, ValueError):
+            stream.flush()
+    if os.path.basename(os.path.normpath(temporary)).startswith("blender_"):  # not where Blender has none of its own
+        shutil.rmtree(temporary, ignore_errors=True)
+    os._exit(status & 0xFF)
+
+
+def _ran(prog, main):
+    """Run ``main()``, flush standard output and return the status."""
     try:
         try:
             status = main()

@@ -123,3 +123,36 @@ def test_what_is_told_to_ignore_a_hangup_goes_on(tmp_path):
         run.send_signal(signal.SIGHUP)
         assert "Wrote" in run.stdout.read()
     assert run.returncode == 0
+
+
+FLUID = """
+import sys, bpy
+bpy.ops.wm.read_factory_settings(use_empty=True)
+bpy.ops.mesh.primitive_cube_add()
+domain = bpy.context.object.modifiers.new("Fluid", "FLUID")
+domain.fluid_type = "DOMAIN"
+domain.domain_settings.resolution_max = 8
+domain.domain_settings.cache_directory = sys.argv[2]
+bpy.ops.mesh.primitive_ico_sphere_add(radius=0.3)
+bpy.context.object.modifiers.new("Fluid", "FLUID").fluid_type = "FLOW"
+bpy.ops.object.camera_add(location=(0, 0, 8))
+bpy.context.scene.camera = bpy.context.object
+bpy.context.scene.render.resolution_x = bpy.context.scene.render.resolution_y = 8
+bpy.ops.wm.save_as_mainfile(filepath=sys.argv[1])
+"""
+"""Blender's fluids abort a process at its exit."""
+
+
+def test_the_status_is_the_script_s_own_after_fluids(tmp_path):
+    path, temporary = tmp_path / "fluid.blend", tmp_path / "temporary"
+    temporary.mkdir()
+    words = [sys.executable, "-c", FLUID, path, tmp_path / "cache"]
+    made = subprocess.run(words, capture_output=True, timeout=120)
+    assert made.returncode != 0, "Blender ends well by itself: this test is no longer needed"
+    words = [sys.executable, ROOT / "scripts" / "cast.py", path, "--frames", "1:2", "--output", tmp_path / "out"]
+    own = {**os.environ, "TMPDIR": str(temporary)}
+    done = subprocess.run(words, capture_output=True, text=True, timeout=120, env=own)
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.endswith(f"Wrote 2 pictures into {tmp_path / 'out'}\n")
+    assert len(list((tmp_path / "out").iterdir())) == 6
+    assert list(temporary.iterdir()) == []

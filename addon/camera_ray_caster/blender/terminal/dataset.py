@@ -83,9 +83,8 @@ def run(arguments: Sequence[str], prog: str) -> int:
             for outcome in follow(chain(filter(None, taken.values()), making), len(jobs), prog):
                 passed &= outcome.passed
                 made += outcome.made
-                if outcome.report is not None:
-                    notes |= dict.fromkeys(outcome.report.notes)
-                    exact |= dict.fromkeys(outcome.report.exact)
+                notes |= dict.fromkeys(outcome.notes)
+                exact |= dict.fromkeys(outcome.exact)
         if pictures.keypoints is not None:
             collect(options.output, [job.name for job in jobs])
     finally:

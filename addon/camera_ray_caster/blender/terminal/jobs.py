@@ -22,12 +22,14 @@ class Job:
 @dataclass(frozen=True)
 class Outcome:
     """Result of a job. ``passed``: no independent reference disagrees. ``made``: the picture was made now, not in an
-    earlier run; then the report and the paths of the files are set.
+    earlier run; then the report and the paths of the files are set, but by a worker, and the report's notes.
     """
 
     passed: bool
     made: bool = False
     warnings: tuple[str, ...] = ()
+    notes: tuple[tuple[str, str], ...] = ()
+    exact: tuple[tuple[str, float], ...] = ()
     report: Report | None = None
     paths: Sequence[Path] = ()
 

@@ -160,7 +160,7 @@ class Pictures:
         report, paths = self.render(
             job, of, shown=self.options.pictures, picture=picture, beside=beside, keypoints=self.keypoints
         )
-        return Outcome(report.passed, True, report.warnings, report, paths)
+        return Outcome(report.passed, True, report.warnings, report.notes, report.exact, report, paths)
 
     def render(self, job: Job, of: dict[str, Any], **more) -> tuple[Report, list[Path]]:
         """Write the files of a job from the current state of the scene; ``of`` is their stamp; see ``files.render``."""
