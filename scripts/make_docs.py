@@ -57,6 +57,16 @@ coefficients stand without the name of their model, the chosen model decides (`-
 gzip, and hold several cameras, by name, in a list or in lines of JSON; Camera in File (`--calibration-camera`) chooses
 one.
 
+File > Import > Cameras, and `--rig FILE ...` of `cast.py`, `dataset.py` and `export.py`, which does not change the
+.blend, add the cameras of files with their lenses, names and poses, below one empty that stands for the frame of the
+file: the world of COLMAP (a folder, images.txt or images.bin), nerfstudio, BOP (millimeters become meters) and this
+add-on, with a keyframe for each image; the body of Kalibr (the IMU, or the first camera), EuRoC, OKVIS, Basalt and
+Project Aria. A trajectory of TUM or EuRoC moves the empty. The frame is in the picture's name, CAMERA_FRAME, or the
+number of the image; of times, the first is frame 1. `--rig-parent NAME` puts the empty below an object; below a camera,
+the file's frame is that of its picture, y down and z ahead. Lenses stay linked to the file, with all digits; a lens
+that changes is keyed. Blender rounds places to 6e-8 of themselves and turns to 1e-7 rad. A camera has pictures of its own
+size by its object's custom property `resolution`, two whole numbers, in all commands but with `--resolution`.
+
 | program | files | reads | writes | lost |
 |---|---|---|---|---|
 """

@@ -36,6 +36,13 @@ def write(folder, kinds):
     found.write_text(folder)
 
 
+def to_binary(text, folder):
+    """Write a model of text as binary."""
+    import pycolmap
+
+    pycolmap.Reconstruction(text).write_binary(folder)
+
+
 def seen(folder, image, points):
     """The pixels at which an image of a model sees points of the world."""
     import pycolmap

@@ -35,6 +35,7 @@ from .ui import (
     point_operators,
     presets,
     render_panels,
+    rig_operators,
     see_through,
     show_result,
     verify_panels,
@@ -44,7 +45,7 @@ from .view3d import lesson, mouse_gizmo, notice, overlay, scene_cache
 CLASSES = (
     *groups.CLASSES, *overlay.CLASSES, *engine.CLASSES, *operators.CLASSES, *cast_operator.CLASSES,
     *cycles_operators.CLASSES, *frame.CLASSES, *other_engine.CLASSES, *add_line.CLASSES, *export_operators.CLASSES,
-    *mouse_gizmo.CLASSES, *render_panels.CLASSES, *gallery_panels.CLASSES,
+    *rig_operators.CLASSES, *mouse_gizmo.CLASSES, *render_panels.CLASSES, *gallery_panels.CLASSES,
     *menus.CLASSES, *presets.CLASSES, *model_panels.CLASSES,
     *see_through.CLASSES, *camera_panels.CLASSES, *show_result.CLASSES, *cast_panels.CLASSES, *verify_panels.CLASSES,
     *left_out_panels.CLASSES, *lesson_operators.CLASSES, *point_operators.CLASSES, *gallery_operators.CLASSES,
@@ -54,7 +55,7 @@ CLASSES = (
 
 MODULES = (
     groups, kept, follow, reports, images, gallery, scene_cache, viewport, cast_operator, overlay, lesson, notice,
-    render_panels, menus, gallery_operators, lesson_operators, presets, export_operators, commands,
+    render_panels, menus, gallery_operators, lesson_operators, presets, export_operators, rig_operators, commands,
     other_engine,
 )  # fmt: skip
 """Modules that register more than classes. Their ``register(undo)`` gives ``undo`` the callbacks that undo it."""

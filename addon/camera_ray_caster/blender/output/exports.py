@@ -13,12 +13,15 @@ from ...core.records import InputError
 from ..read.camera import eye_object, views_of
 from ..read.frames import go_to
 from ..read.scene import evaluated, read_camera
+from ..read.size import own_size, sized
 from ..read.unique import unique_name
 from ..terminal import signals
 from .saving import blender_writes
 
 
-def write(scene, key: str, cameras: Sequence, frames: Iterable[float], folder: Path, target=None):
+def write(
+    scene, key: str, cameras: Sequence, frames: Iterable[float], folder: Path, target=None, own_sizes: bool = True
+):
     """Export camera objects of a scene at some frames, in the format ``key``, into ``folder``; return lines of messages
     and the paths of the files.
 
@@ -28,7 +31,7 @@ def write(scene, key: str, cameras: Sequence, frames: Iterable[float], folder: P
     """
     if target is not None and not find_format(key).takes_target:
         raise InputError(f"format {key} has no target camera: only maps have a target")
-    files, said = export(key, shots(scene, cameras, frames, target))
+    files, said = export(key, shots(scene, cameras, frames, target, own_sizes))
     return said, writing.write(_until_stopped(files), folder, _write_image)
 
 
@@ -39,22 +42,32 @@ def _until_stopped(files: Iterable) -> Iterator:
         yield file
 
 
-def shots(scene, cameras: Sequence, frames: Iterable[float], target=None) -> list[Shot]:
-    """Return the cameras, or their eyes, at each frame, in the order of the frames; see ``write``."""
+def shots(scene, cameras: Sequence, frames: Iterable[float], target=None, own_sizes: bool = True) -> list[Shot]:
+    """Return the cameras, or their eyes, at each frame, in the order of the frames; see ``write``.
+
+    own_sizes: whether a camera with a size of its own has it, in place of the scene's; see ``read.size``.
+    """
     views = [(view.file_suffix, view.name) for view in views_of(scene)] or [("", "")]
     eyes = [(camera, suffix, view) for camera in cameras for suffix, view in views]
     names = {camera: unique_name(camera, bpy.data.objects) for camera in cameras}
     file_names(f"{names[camera]}{suffix}" for camera, suffix, _ in eyes)  # raises if two names are equal
     found = []
-    with evaluated(scene):
-        for frame in frames:
-            signals.raise_if_stopping()
-            go_to(scene, frame)
-            to = read_camera(scene, target) if target is not None else None
-            for camera, suffix, view in eyes:
-                read = read_camera(scene, eye_object(scene, view, camera), view=view)
-                name, end = file_name(names[camera]), file_name(suffix) if suffix else ""
-                found.append(Shot(name, frame, read, scene.unit_settings.scale_length, to, end))
+    sizes = {camera: own_size(camera) if own_sizes else None for camera in cameras}
+    frames = list(frames)
+    for size in dict.fromkeys(sizes.values()):
+        with sized(scene, size), evaluated(scene):
+            for frame in frames:
+                signals.raise_if_stopping()
+                go_to(scene, frame)
+                to = read_camera(scene, target) if target is not None else None
+                for camera, suffix, view in eyes:
+                    if sizes[camera] == size:
+                        read = read_camera(scene, eye_object(scene, view, camera), view=view)
+                        name, end = file_name(names[camera]), file_name(suffix) if suffix else ""
+                        found.append(Shot(name, frame, read, scene.unit_settings.scale_length, to, end))
+    if len(set(sizes.values())) > 1:
+        order = {file_name(name): number for number, name in enumerate(names.values())}
+        found.sort(key=lambda shot: (frames.index(shot.frame), order[shot.camera_name]))
     return found
 
 

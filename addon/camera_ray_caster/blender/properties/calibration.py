@@ -1,10 +1,12 @@
 """Choosing a calibration file for a camera, which also sets the camera's model."""
 
+from typing import Any
+
 from ...core.camera.calibration_file import FRAMES_SIZE, chosen_lens, has_size, model_of
 from ...core.cameras import MODELS
 from ...core.cameras.files import lenses_of
 from ...core.cameras.files.document import Lens
-from ...core.cameras.parts.calibration import FILE, FILE_CAMERA
+from ...core.cameras.parts.calibration import FILE, FILE_CAMERA, FROM_FILE
 from ...core.cameras.parts.settings import CAMERA, OWN
 from ...core.records import InputError
 from .declared import BLENDERS_OWN, GROUP, MODEL
@@ -52,7 +54,7 @@ def set_lens(camera, lens: Lens) -> None:
     Raises InputError for a model whose settings are objects or images, before anything is changed.
     """
     model, own = model_of(lens), getattr(camera, GROUP)
-    settings = [setting for setting in model.SETTINGS if setting.owner in (OWN, CAMERA)]
+    settings = [one for one in model.SETTINGS if one.owner in (OWN, CAMERA) and one not in FROM_FILE]
     if others := [setting.label for setting in settings if setting.kind not in KEPT]:
         raise InputError(f"{model.label} has objects or images of a .blend ({', '.join(others)}), which no file gives")
     if model.number is None:
@@ -60,9 +62,18 @@ def set_lens(camera, lens: Lens) -> None:
         camera.type = model.key if is_type else "PANO"
         if not is_type:
             camera.panorama_type = model.key
+    for setting in FROM_FILE:
+        setattr(own, setting.name, "")
     setattr(own, MODEL.name, BLENDERS_OWN if model.number is None else model.key)
     for setting in settings:
-        setattr(owner_of(setting, camera, None), setting.name, lens.settings.get(setting.name, setting.default))
+        value = lens.settings.get(setting.name, setting.default)
+        setattr(owner_of(setting, camera, None), setting.name, int(value) if setting.kind == "INT" else value)
+
+
+def settings_in(camera, lens: Lens) -> list[tuple[Any, str]]:
+    """Return the owner and the name of each number of a camera's data that ``set_lens`` sets."""
+    settings = [setting for setting in model_of(lens).SETTINGS if setting.owner in (OWN, CAMERA)]
+    return [(owner_of(one, camera, None), one.name) for one in settings if one.kind in ("FLOAT", "INT", "VECTOR")]
 
 
 def cameras_in(camera, path: str) -> list[str]:

@@ -104,6 +104,7 @@ def _complete(options: Namespace, pictures: Pictures) -> None:
     options.pictures = any("combined" in keys for keys in pictures.passes.values())
     options.file, options.output = Path(bpy.data.filepath).absolute(), options.output.absolute()
     options.calibration = options.calibration and options.calibration.absolute()
+    options.rig = options.rig and [str(Path(path).absolute()) for path in options.rig]
 
 
 def _claim(folder: Path, stamp: dict[str, Any]) -> None:

@@ -40,7 +40,7 @@ def run(arguments: Sequence[str], prog: str) -> int:
     target = find_camera(scene, options.to) if options.to is not None else None
     frames = options.frames or [frame_of(scene)]
     go_to(scene, None, max(frames))
-    said, paths = exports.write(scene, options.format, cameras, frames, options.output, target)
+    said, paths = exports.write(scene, options.format, cameras, frames, options.output, target, not options.resolution)
     for line in not_run():
         warn(prog, line)
     print("\n".join((*said, f"Wrote {', '.join(map(str, paths))}")), flush=True)

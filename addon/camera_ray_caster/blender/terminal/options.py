@@ -3,7 +3,7 @@
 import argparse
 import math
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
 from textwrap import fill
@@ -21,6 +21,8 @@ from ..read.camera import check_camera, eye_object, find_camera, has_pixel_times
 from ..read.evaluated import camera_at
 from ..read.frames import frame_of, layer_of
 from ..read.physics import simulate
+from ..read.size import size_of
+from ..rig import add_rig, frames_of
 from . import signals
 from .opening import open_file, withhold_style_modules
 from .words import Parser, frame_number, picture_size
@@ -95,16 +97,29 @@ def open_scene(options, say: Callable[[str], object] | None = None):
         use_camera(scene, find_camera(scene, options.camera))
     if options.calibration is not None:
         _calibrate(scene, options, say or partial(warn, options.prog))
+    rig = getattr(options, "rig", None)
     for option in ("calibration_camera", "model"):
-        if options.calibration is None and getattr(options, option):
+        if options.calibration is None and not (rig and option == "model") and getattr(options, option):
             raise InputError(f"--{option.replace('_', '-')} needs a calibration file: add --calibration FILE")
+    if rig:
+        _mount(scene, options, rig)
     return scene
+
+
+def _mount(scene, options, paths: Sequence[str]) -> None:
+    """Add the cameras of files, and let the options name them and the frames of their poses if they name none."""
+    parent = options.rig_parent
+    if parent is not None and parent not in scene.objects:
+        raise InputError(f"scene {scene.name!r} has no object {parent!r}, below which --rig-parent puts the cameras")
+    found = add_rig(scene, paths, parent and scene.objects[parent], options.model or "")
+    options.cameras = options.cameras or [item.name for item in found]
+    if options.frames is None and getattr(options, "frame", None) is None:
+        options.frames = frames_of(found) or None
 
 
 def _calibrate(scene, options, say: Callable[[str], object]) -> None:
     """Set the calibration of the scene's camera, or of the cameras of its views."""
-    path, render = str(options.calibration.absolute()), scene.render
-    frame = tuple(side * render.resolution_percentage // 100 for side in (render.resolution_x, render.resolution_y))
+    path, frame = str(options.calibration.absolute()), size_of(scene)
     for camera in [eye_object(scene, view) for view in view_names(scene)]:
         check_camera(scene, camera)
         said = set_calibration(camera.data, path, options.calibration_camera, frame, options.model or "")

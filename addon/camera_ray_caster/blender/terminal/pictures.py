@@ -28,7 +28,9 @@ from ..read.camera import ALL, find_camera, find_cameras
 from ..read.frames import frame_of
 from ..read.keypoints import check_key_points
 from ..read.scene import read_camera
+from ..read.size import own_size, set_size, size_of
 from ..read.unique import unique_name
+from ..rig import files_of
 from . import ray_maps, signals
 from .jobs import Job, Outcome, RayMap
 from .options import go_to, open_scene, stem, use_camera, warn
@@ -43,7 +45,7 @@ DEFAULT_PASSES = ("combined", "depth", "normal", "position", "object_index")
 
 SETTINGS = (
     "passes", "shading", "precision", "engine", "samples", "resolution", "format", "half", "calibration_camera",
-    "model", "enable_autoexec", "annotations", "keypoints",
+    "model", "rig_parent", "enable_autoexec", "annotations", "keypoints",
 )  # fmt: skip
 """Options that pictures depend on, in addition to the file, camera and frame."""
 
@@ -106,6 +108,7 @@ class Pictures:
         if by_cycles:
             scene.cycles.samples = options.samples or scene.cycles.samples
             self.warnings += said_of_device(scene)
+        self.size = size_of(scene)
         # Blender keeps evaluated data for the next picture: 0.3 s less of 1.2 s for six subdivided monkeys
         scene.render.use_persistent_data = True
         self.passes = {layer.name: [entry.key for entry in ticked(scene, layer)] for layer in scene.view_layers}
@@ -125,7 +128,8 @@ class Pictures:
         """Return the stamp that all pictures share; see ``stamps``."""
         settings = {name: getattr(self.options, name) for name in SETTINGS}
         calibration = self.options.calibration
-        return stamp_of(settings | {"calibration": calibration and file_hash(calibration)})
+        rig = [file_hash(path) for name in self.options.rig or () for path in files_of(name)]
+        return stamp_of(settings | {"calibration": calibration and file_hash(calibration), "rig": rig or None})
 
     def jobs(self) -> list[Job]:
         """Return a job for each requested camera and frame; with --cameras, files are named after the cameras."""
@@ -178,7 +182,9 @@ class Pictures:
     def camera_at(self, job: Job) -> Camera:
         """Set the scene to a job's camera and frame, and return the camera. Raises InputError if it cannot be cast."""
         if job.camera is not None:
-            use_camera(self.scene, find_camera(self.scene, job.camera))
+            camera = find_camera(self.scene, job.camera)
+            use_camera(self.scene, camera)
+            set_size(self.scene, self.options.resolution or own_size(camera) or self.size)
         go_to(self.scene, job.frame, max(self.options.frames or [-math.inf]))
         return read_camera(self.scene)
 

@@ -94,10 +94,20 @@ def add_cameras(parser) -> None:
     parser.add_argument(
         "--cameras", nargs="+", metavar="NAME", help=f"names of several of the scene's cameras, or {ALL}"
     )
+    parser.add_argument("--rig", nargs="+", metavar="FILE", help=
+        "files with cameras and their poses, or a trajectory: adds these cameras to the scene, below an empty, and "
+        "uses them unless --cameras names others")  # fmt: skip
+    parser.add_argument(
+        "--rig-parent", metavar="NAME", help="object below which the cameras of --rig are put; default: none"
+    )
 
 
 def check_cameras(options: argparse.Namespace) -> None:
     """Raise InputError for options of cameras that exclude each other."""
+    if options.rig and (options.camera or options.calibration):
+        raise InputError("--rig brings its own cameras and lenses: leave out --camera and --calibration")
+    if options.rig_parent and not options.rig:
+        raise InputError("--rig-parent says where the cameras of --rig are: add --rig FILE")
     if options.cameras and options.camera:
         raise InputError("--camera and --cameras exclude each other: leave out --camera")
     if options.cameras and options.calibration:

@@ -9,8 +9,9 @@ from .gallery_operators import ExamplesMenu
 from .lesson_operators import StepThrough
 from .operators import CopyFacts, LoadCalibration, Verify, WriteReport
 from .point_operators import PixelOfPoint
+from .rig_operators import AddCameras
 
-LISTED = (Cast, Verify, StepThrough, PixelOfPoint, LoadCalibration, UseInCycles, CopyFacts, WriteReport)
+LISTED = (Cast, Verify, StepThrough, PixelOfPoint, LoadCalibration, AddCameras, UseInCycles, CopyFacts, WriteReport)
 
 
 class RayCasterMenu(bpy.types.Menu):

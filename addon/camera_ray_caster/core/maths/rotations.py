@@ -64,3 +64,13 @@ def rotation(vector) -> np.ndarray:
     cross = np.stack((zero, -z, y, z, zero, -x, -y, x, zero), axis=-1).reshape(-1, 3, 3)
     half = angle / 2
     return np.eye(3) + np.sinc(angle / np.pi) * cross + np.sinc(half / np.pi) ** 2 / 2 * (cross @ cross)
+
+
+def from_quaternion(components) -> np.ndarray:
+    """Return the rotation (3, 3) of a quaternion w, x, y, z of any length but 0, right to some EPS."""
+    w, x, y, z = np.asarray(components) / np.linalg.norm(components)
+    return np.array((
+        (1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)),
+        (2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)),
+        (2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)),
+    ))  # fmt: skip

@@ -45,19 +45,27 @@ def read(document: Document, key: str) -> list[Lens] | None:
         if entries.get(name):
             raise document.refusal(f"its entry {name} of instant-ngp is not read: choose that model for the camera")
     shared = not {"fl_x", "camera_angle_x"}.isdisjoint(entries) or entries.get("camera_model") == SPHERE
-    firsts: dict[str, tuple[str, dict]] = {}
-    for number, frame in enumerate(frames):  # a file may have 100,000 frames
-        firsts.setdefault(repr([frame.get(one) for one in OF_LENS]), (str(frame.get("file_path", number)), frame))
-    lenses: dict[str, Lens] = {}
-    for name, frame in firsts.values():
-        lens = _lens(document, frame, name)
-        document.check()
-        lenses.setdefault(str(lens[1:]), lens)
+    lenses = {lens.name: lens for lens in of_frames(document, frames)}
     if not frames and not shared:
         raise document.refusal("it has no fl_x, and no frames")
     if len(lenses) < 2 and shared:
         return [_lens(document, (frames or [{}])[0], "camera")]
     return list(lenses.values())
+
+
+def of_frames(document: Document, frames: list[dict]) -> list[Lens]:
+    """Return the lens of each frame; equal lenses are one, by the name of its first frame. Raises InputError."""
+    by_entries: dict[str, Lens] = {}
+    by_lens: dict[str, Lens] = {}
+    found = []
+    for number, frame in enumerate(frames):  # a file may have 100,000 frames
+        entries = repr([frame.get(one) for one in OF_LENS])
+        if entries not in by_entries:
+            document.check()
+            lens = _lens(document, frame, str(frame.get("file_path", number)))
+            by_entries[entries] = by_lens.setdefault(str(lens[1:]), lens)
+        found.append(by_entries[entries])
+    return found
 
 
 def _focal(document: Document, entries: dict, axis: str, side: float) -> float:

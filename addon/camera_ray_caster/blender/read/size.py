@@ -1,0 +1,50 @@
+"""The size of a camera's own pictures: a custom property of the camera object, in place of the scene's resolution."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+from ...core.records import InputError
+
+SIZE = "resolution"
+"""Name of the custom property: width and height in pixels."""
+
+
+def own_size(camera_object) -> tuple[int, int] | None:
+    """Return width and height of a camera's own pictures; None if it has those of the scene.
+
+    Raises InputError for a property that is no size.
+    """
+    given = camera_object.get(SIZE)
+    if given is None:
+        return None
+    sides = given.to_list() if hasattr(given, "to_list") else []
+    if len(sides) != 2 or not all(isinstance(side, int) and side >= 4 for side in sides):
+        raise InputError(f"{SIZE} of {camera_object.name!r} must be two whole numbers, width and height, 4 or more")
+    return sides[0], sides[1]
+
+
+def size_of(scene) -> tuple[int, int]:
+    """Return width and height of a scene's pictures."""
+    render = scene.render
+    return tuple(side * render.resolution_percentage // 100 for side in (render.resolution_x, render.resolution_y))
+
+
+@contextmanager
+def sized(scene, size: tuple[int, int] | None) -> Iterator[None]:
+    """Let a scene's pictures have a size, or the scene's own if there is none, and afterwards the one before."""
+    render = scene.render
+    names = "resolution_x", "resolution_y", "resolution_percentage"
+    before = [getattr(render, name) for name in names]
+    try:
+        set_size(scene, size)
+        yield
+    finally:
+        for name, value in zip(names, before, strict=True):
+            setattr(render, name, value)
+
+
+def set_size(scene, size: tuple[int, int] | None) -> None:
+    """Let a scene's pictures have a size, if one is given."""
+    if size is not None:
+        scene.render.resolution_x, scene.render.resolution_y = size
+        scene.render.resolution_percentage = 100

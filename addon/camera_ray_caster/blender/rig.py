@@ -1,0 +1,137 @@
+"""Cameras from files: objects with lens, pose, name and keyframes below one empty, which stands for the file's frame.
+
+Blender stores places and quaternions as float32: a camera stands where the file says to 6e-8 of its coordinates and
+1e-7 rad. Lenses of models that read calibration files stay linked to the file, with all their digits; a lens that
+changes from frame to frame is keyed, in float32.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from contextlib import contextmanager
+from pathlib import Path
+
+import bpy
+import numpy as np
+from mathutils import Quaternion
+
+from ..core.cameras.files.document import Lens
+from ..core.cameras.files.mounted import Mounted, mounted
+from ..core.cameras.files.placed import FROM_BLENDER
+from ..core.cameras.files.rigs import beside
+from ..core.cameras.parts.calibration import FILE, FILE_CAMERA
+from ..core.maths.rotations import polar, quaternion
+from ..core.records import InputError
+from .properties.calibration import READING, set_lens, settings_in
+from .properties.declared import GROUP, MODEL
+from .read.size import SIZE, size_of
+
+
+def add_rig(scene, paths: Iterable[str], parent=None, model: str = "") -> list:
+    """Add the cameras of files to a scene, below an empty; return their objects, in the order of the files.
+
+    A trajectory moves the empty, and so all cameras of the other files; without any, it moves a camera like a new one.
+    ``parent``: an object below which the empty is put; below a camera, the file's frame is the camera's with y down and
+    z ahead, as in OpenCV. ``model`` is the key of the model for files that do not name theirs. Nothing is added if a
+    file cannot be read: InputError.
+    """
+    paths, rate = list(paths), scene.render.fps / scene.render.fps_base
+    found = [one for path in paths for one in mounted(path, model, size_of(scene), rate)]
+    trajectories = [one for one in found if not one.lenses]
+    cameras = [one for one in found if one.lenses]
+    if len(trajectories) > 1 or (trajectories and any(len(one.poses) > 1 for one in cameras)):
+        raise InputError("the files have two movements: give one trajectory, or one file of images, and rigs")
+    empty = bpy.data.objects.new(Path(paths[0]).stem, None)
+    scene.collection.objects.link(empty)
+    empty.parent = parent
+    if parent is not None and parent.type == "CAMERA":
+        empty.matrix_parent_inverse = FROM_BLENDER
+    with _linear():
+        if trajectories and cameras:
+            _place(empty, trajectories[0])
+        objects = [_camera(scene, one, empty) for one in cameras or trajectories]
+    if scene.camera is None and objects:
+        scene.camera = objects[0]
+    return objects
+
+
+def files_of(path: str) -> list[Path]:
+    """Return the files that the path of a rig stands for."""
+    return list(map(Path, dict.fromkeys(beside(path))))
+
+
+def frames_of(objects: Iterable) -> list[float]:
+    """Return the frames that have keyframes of a place, of objects or their parents, in order."""
+    moved = {one for item in objects for one in (item, item.parent) if one is not None}
+    found: set[float] = set()
+    for item in moved:
+        found.update(item.get(KEYED, ()))
+    return sorted(found)
+
+
+KEYED = "frames_of_poses"
+"""Name of a custom property with the frames of an object's poses in its file."""
+
+
+def _camera(scene, one: Mounted, parent):
+    data = bpy.data.cameras.new(one.name)
+    item = bpy.data.objects.new(one.name, data)
+    scene.collection.objects.link(item)
+    item.parent = parent
+    if one.lens is not None:
+        _link(data, one.lens, one)
+    elif one.lenses:
+        _key_lens(data, one)
+    if one.size is not None:
+        item[SIZE] = one.size
+    _place(item, one)
+    return item
+
+
+def _link(data, lens: Lens, one: Mounted) -> None:
+    """Link a camera's data to the file of its lens, if its model reads files; else set the settings."""
+    if lens.model not in READING:
+        set_lens(data, lens)
+        return
+    own = getattr(data, GROUP)
+    for setting, value in ((MODEL, lens.model), (FILE, one.file), (FILE_CAMERA, "" if one.alone else lens.name)):
+        setattr(own, setting.name, value)
+
+
+def _key_lens(data, one: Mounted) -> None:
+    """Key the settings of a lens that changes from frame to frame."""
+    kinds = {lens.model for lens in one.lenses}
+    if len(kinds) > 1:
+        raise InputError(f"camera {one.name!r} has several models ({', '.join(sorted(kinds))}): rename its pictures")
+    for lens, frame in zip(one.lenses, one.frames, strict=True):
+        set_lens(data, lens)
+        for owner, name in settings_in(data, lens):
+            owner.keyframe_insert(name, frame=frame)
+
+
+def _place(item, one: Mounted) -> None:
+    """Set or key the place of an object; turns between keyframes take the shorter way."""
+    item.rotation_mode = "QUATERNION"
+    before = None
+    for frame, pose in zip(one.frames, one.poses, strict=True):
+        turn = quaternion(polar(pose[None, :3, :3])[0][0])
+        turn = -turn if before is not None and np.dot(turn, before) < 0 else turn
+        before = turn
+        item.location, item.rotation_quaternion = pose[:3, 3], Quaternion(turn)
+        if frame is not None:
+            item.keyframe_insert("location", frame=frame)
+            item.keyframe_insert("rotation_quaternion", frame=frame)
+    if None not in one.frames:
+        item[KEYED] = one.frames
+
+
+@contextmanager
+def _linear():
+    """Let new keyframes be linear: between two poses the camera moves straight."""
+    edit = bpy.context.preferences.edit
+    before = edit.keyframe_new_interpolation_type
+    edit.keyframe_new_interpolation_type = "LINEAR"
+    try:
+        yield
+    finally:
+        edit.keyframe_new_interpolation_type = before

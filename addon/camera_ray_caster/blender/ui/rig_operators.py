@@ -1,0 +1,56 @@
+"""The operator that adds cameras, with lenses and poses, from files of other programs; it stands in File > Import."""
+
+from pathlib import Path
+
+import bpy
+from bpy.props import BoolProperty, CollectionProperty, StringProperty
+from bpy_extras.io_utils import ImportHelper
+
+from ...core.records import InputError
+from ..rig import add_rig, frames_of
+from .needs import reporting, select_alone
+
+
+class AddCameras(ImportHelper, bpy.types.Operator):
+    """Add the cameras of a file with lenses, places and keyframes, below one empty. A trajectory moves the empty"""
+
+    bl_idname = "camera_ray_caster.add_cameras"
+    bl_label = "Add Cameras from File"
+    bl_options = {"REGISTER", "UNDO"}
+
+    directory: StringProperty(subtype="DIR_PATH", options={"HIDDEN", "SKIP_SAVE"})
+    files: CollectionProperty(type=bpy.types.OperatorFileListElement, options={"HIDDEN", "SKIP_SAVE"})
+    filter_glob: StringProperty(
+        default="*.yml;*.yaml;*.json;*.jsonl;*.txt;*.csv;*.bin", options={"HIDDEN", "SKIP_SAVE"}
+    )
+    below_active: BoolProperty(
+        name="Below Active Object",
+        description="Put the cameras below the active object. Below a camera, its view is the frame of the file",
+    )
+
+    @reporting
+    def execute(self, context):
+        """Add the cameras, select them and report their number."""
+        folder = Path(bpy.path.abspath(self.directory))
+        paths = [str(folder / one.name) for one in self.files if one.name] or [bpy.path.abspath(self.filepath)]
+        parent = context.active_object if self.below_active else None
+        if self.below_active and parent is None:
+            raise InputError("no object is active: select one, or switch off Below Active Object")
+        found = add_rig(context.scene, paths, parent)
+        select_alone(context, *found)
+        keyed = len(frames_of(found))
+        self.report({"INFO"}, f"{len(found)} cameras" + (f" with keyframes at {keyed} frames" if keyed else ""))
+        return {"FINISHED"}
+
+
+def _draw_in_file_menu(menu, context) -> None:
+    menu.layout.operator(AddCameras.bl_idname, text="Cameras (Camera Ray Caster)")
+
+
+def register(undo) -> None:
+    """Register this module; see ``registration``."""
+    bpy.types.TOPBAR_MT_file_import.append(_draw_in_file_menu)
+    undo.callback(bpy.types.TOPBAR_MT_file_import.remove, _draw_in_file_menu)
+
+
+CLASSES = (AddCameras,)

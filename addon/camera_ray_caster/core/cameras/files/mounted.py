@@ -1,0 +1,107 @@
+"""The cameras of a file, with their lenses and poses: what "Add Cameras from File" makes of it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from . import lenses_of
+from .document import Document, Lens
+from .placed import FROM_BLENDER, Placed
+from .rigs import beside, object_and_frame, placed_in
+
+MOST = 100_000
+"""Poses that are read from a file."""
+
+
+@dataclass
+class Mounted:
+    """A camera of a file. It stands still if it has one pose and no frame."""
+
+    name: str
+    file: str
+    """The file of its lenses."""
+    alone: bool
+    """Whether its lens is the only one in the file, which needs no name there."""
+    lenses: list[Lens] = field(default_factory=list)
+    """The lens for each pose; none of a trajectory."""
+    frames: list[float | None] = field(default_factory=list)
+    poses: list[np.ndarray] = field(default_factory=list)
+    """(4, 4) float64: from Blender's camera frame to the file's, for a trajectory from the moving frame."""
+
+    @property
+    def lens(self) -> Lens | None:
+        """Return the lens if all poses have the same; else None."""
+        return self.lenses[0] if self.lenses and all(lens is self.lenses[0] for lens in self.lenses) else None
+
+    @property
+    def size(self) -> tuple[int, int] | None:
+        """Return width and height of the pictures, if the file tells one size."""
+        sizes = {tuple(int(lens.settings.get(f"calibration_{side}", 0)) for side in ("width", "height"))
+                 for lens in self.lenses}  # fmt: skip
+        width, height = sizes.pop() if len(sizes) == 1 else (0, 0)
+        return (width, height) if width and height else None
+
+
+def mounted(path: str, key: str, frame: tuple[int, int], rate: float) -> list[Mounted]:
+    """Return the cameras of a file, or of COLMAP's files in a folder, in the file's order; or one trajectory.
+
+    ``key`` and ``frame`` are those of ``lenses_of``; ``rate`` is the number of frames in a second, for files with
+    times, the first of which is frame 1. Images without a frame in their names have the frames 1, 2, 3, ...
+    Raises InputError, in one line.
+    """
+    lens_file, pose_file = beside(path)
+    document = Document(pose_file, frame)
+    placed = placed_in(document)
+    if len(placed) > MOST:
+        raise document.refusal(f"it has {len(placed):,} poses: {MOST:,} are read")
+    if placed and placed[0].time is not None:
+        times = [one.time or 0.0 for one in placed]
+        frames: list[float | None] = [1 + (time - times[0]) * rate for time in times]
+        return [Mounted(path, lens_file, True, [], frames, [one.pose for one in placed])]
+    lenses = {lens.name: lens for lens in lenses_of(lens_file, key, frame)}
+    cameras: dict[str, Mounted] = {}
+    for one, name, number in _named(placed):
+        lens = next(iter(lenses.values())) if len(lenses) == 1 else _lens(document, lenses, one, number)
+        if lens.refusal is not None:
+            raise lens.refusal
+        camera = cameras.setdefault(name, Mounted(name, lens_file, len(lenses) == 1))
+        camera.lenses.append(lens)
+        camera.frames.append(number)
+        camera.poses.append(one.pose @ FROM_BLENDER)
+    for camera in cameras.values():
+        if len(set(camera.frames)) < len(camera.frames):
+            raise document.refusal(f"camera {camera.name!r} has two poses of one frame: rename its pictures")
+    return list(cameras.values())
+
+
+def _lens(document: Document, lenses: dict[str, Lens], one: Placed, number: float | None) -> Lens:
+    """Return the lens of a pose: that of its camera, or of its camera in this frame."""
+    for name in (one.camera, f"{one.camera} {number:g}" if number is not None else one.camera):
+        if name in lenses:
+            return lenses[name]
+    raise document.refusal(f"it has a pose of camera {one.camera!r}, and no lens of it: give a file with both")
+
+
+def _named(placed: list[Placed]) -> list[tuple[Placed, str, float | None]]:
+    """Return each pose with its camera's name and its frame: by the names of pictures if all tell a frame, else one
+    camera for each lens, with the frames in the order of the file.
+    """
+    told = [(one, *object_and_frame(one.image)) for one in placed]
+    if any(one.frame is not None for one in placed):
+        return [(one, one.image or "Camera", one.frame) for one in placed]
+    if all(number is not None for _, _, number in told):
+        return told
+    if not any(one.image for one in placed):
+        return [(one, one.camera or "Camera", None) for one in placed]
+    counts: dict[str, int] = {}
+    found: list[tuple[Placed, str, float | None]] = []
+    for one in placed:
+        counts[one.camera] = counts.get(one.camera, 0) + 1
+        name = f"Camera {one.camera}" if one.camera.isdecimal() else "Camera"
+        found.append((one, name, float(counts[one.camera])))
+    if len(counts) > 1 and len({name for _, name, _ in found}) < len(counts):  # lenses named by their first pictures
+        numbers = {camera: i for i, camera in enumerate(counts, 1)}
+        return [(one, f"Camera {numbers[one.camera]}", number) for one, _, number in found]
+    return found

@@ -1,0 +1,172 @@
+"""The poses of the cameras of a file, or of one beside it, by format; see ``placed``.
+
+COLMAP's and nerfstudio's are of images, BOP's of frames; this add-on's camera.json has frames; those of Kalibr, EuRoC,
+OKVIS, Basalt and Project Aria are of cameras in a body. Kalibr's cameras are placed in the IMU's frame if each has a
+T_cam_imu, else in that of the first camera. BOP's lengths are read as meters.
+References: those of the formats' modules.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from pathlib import Path, PurePath
+
+import numpy as np
+
+from . import basalt, colmap_images, nerfstudio, okvis, trajectory
+from .document import Document, mapping
+from .kalibr import read as of_kalibr
+from .placed import FROM_BLENDER, Placed, checked, inverted, of_quaternion, pose_of
+from .recorded import FORMAT, RECORD
+
+ENDING = re.compile(r"(.*?)_(-?\d{4,}(?:\.\d+)?)")
+"""The name of a picture of this add-on: CAMERA_FRAME."""
+
+
+def beside(path: str) -> tuple[str, str]:
+    """Return the file of lenses and the file of poses that belong to a path: COLMAP has one of each, others have both
+    in one. A folder stands for the COLMAP model in it, or its sparse/0.
+    """
+    file = Path(path)
+    for folder in (file, file / "sparse" / "0", file / "sparse") if file.is_dir() else ():
+        for kind in ("bin", "txt"):
+            if (folder / f"images.{kind}").is_file():
+                file = folder / f"images.{kind}"
+                break
+        else:
+            continue
+        break
+    stem, kind = file.stem, file.suffix
+    if stem not in ("images", "cameras") or kind not in (".bin", ".txt"):
+        return str(file), str(file)
+    lenses, poses = file.with_stem("cameras"), file.with_stem("images")
+    return str(lenses), str(poses)
+
+
+def placed_in(document: Document) -> list[Placed]:
+    """Return the poses of a document in its order. Raises InputError, in one line, for a document without poses."""
+    binary = b"\0" in document.data[:64]
+    for read in (colmap_images.poses, *(() if binary else READERS)):
+        found = read(document)
+        if found is not None:
+            return found
+    raise document.refusal("it has no poses that are read: give a file of COLMAP, nerfstudio, Kalibr, EuRoC, OKVIS, "
+                           "Basalt, BOP, Project Aria, this add-on, or a trajectory")  # fmt: skip
+
+
+def _of_transforms(document: Document) -> list[Placed] | None:
+    frames = document.entries.get("frames")
+    if not isinstance(frames, list) or not all(isinstance(one, dict) and "transform_matrix" in one for one in frames):
+        return None
+    placed = []
+    for number, (frame, lens) in enumerate(zip(frames, nerfstudio.of_frames(document, frames), strict=True)):
+        document.check()
+        name = str(frame.get("file_path", number))
+        pose = pose_of(document, frame["transform_matrix"], f"transform_matrix of {name}")
+        placed.append(Placed(lens.name, name, None, pose @ FROM_BLENDER))
+    return placed
+
+
+def _of_camchain(document: Document) -> list[Placed] | None:
+    entries = document.entries
+    if "T_BS" in entries:
+        return [Placed("", "", None, pose_of(document, entries["T_BS"], "T_BS"))]
+    chain = {name: one for name, one in entries.items() if isinstance(one, dict) and "camera_model" in one}
+    if not chain or of_kalibr(document, "") is None:
+        return None
+    by_imu = all("T_cam_imu" in camera for camera in chain.values())
+    placed, before = [], np.eye(4)
+    for i, (name, camera) in enumerate(chain.items()):
+        if by_imu:
+            pose = inverted(pose_of(document, camera["T_cam_imu"], f"T_cam_imu of {name}"))
+        elif i:
+            if "T_cn_cnm1" not in camera:
+                raise document.refusal(f"it has no T_cn_cnm1 of {name}, which stands beside the camera before it")
+            pose = before @ inverted(pose_of(document, camera["T_cn_cnm1"], f"T_cn_cnm1 of {name}"))
+        else:
+            pose = before
+        placed.append(Placed(name, "", None, pose))
+        before = pose
+    return placed
+
+
+def _of_okvis(document: Document) -> list[Placed] | None:
+    if okvis.read(document, "") is None:
+        return None
+    cameras = list(map(mapping, document.entries["cameras"]))
+    return [Placed(f"cam{i}", "", None, pose_of(document, one.get("T_SC"), f"T_SC of cam{i}"))
+            for i, one in enumerate(cameras)]  # fmt: skip
+
+
+def _of_basalt(document: Document) -> list[Placed] | None:
+    poses = mapping(document.entries.get("value0")).get("T_imu_cam")
+    if not isinstance(poses, list) or basalt.read(document, "") is None:
+        return None
+    placed = []
+    for i, pose in enumerate(map(mapping, poses)):
+        turn, place = ([document.number(pose, name) for name in names] for names in
+                       (("qw", "qx", "qy", "qz"), ("px", "py", "pz")))  # fmt: skip
+        placed.append(Placed(f"cam{i}", "", None, of_quaternion(document, turn, place, f"cam{i}")))
+    return placed
+
+
+def _of_bop(document: Document) -> list[Placed] | None:
+    images = {key: mapping(one) for key, one in document.entries.items()}
+    if not all(key.isdecimal() and "cam_R_w2c" in one for key, one in images.items()):
+        return None
+    placed = []
+    for key, image in images.items():
+        document.check()
+        pose = np.eye(4)
+        pose[:3, :3] = np.reshape(document.numbers(image["cam_R_w2c"], f"cam_R_w2c of {key}", 9), (3, 3))
+        pose[:3, 3] = np.array(document.numbers(image.get("cam_t_w2c"), f"cam_t_w2c of {key}", 3)) / 1000
+        placed.append(Placed(key, "", float(key), inverted(checked(document, pose, f"the pose of {key}"))))
+    return placed
+
+
+def _of_aria(document: Document) -> list[Placed] | None:
+    first = next(iter(document.entries.values()))  # the first of several lines
+    entries = document.entries if "CameraCalibrations" in document.entries else mapping(first)
+    cameras = entries.get("CameraCalibrations")
+    if not isinstance(cameras, list):
+        return None
+    placed = []
+    for camera in map(mapping, cameras):
+        name, pose = str(camera.get("Label", "")), mapping(camera.get("T_Device_Camera"))
+        turn = pose.get("UnitQuaternion")
+        turn = [turn[0], *turn[1]] if isinstance(turn, list) and len(turn) == 2 and isinstance(turn[1], list) else turn
+        placed.append(Placed(name, "", None, of_quaternion(document, turn, pose.get("Translation"), name)))
+    return placed
+
+
+def _of_record(document: Document) -> list[Placed] | None:
+    if document.entries.get("format") != FORMAT:
+        return None
+    placed = []
+    for camera in map(mapping, document.entries.get("cameras") or ()):
+        name, common = str(camera.get("name", "")), mapping(mapping(camera.get("all_frames")).get(RECORD))
+        for frame in map(mapping, camera.get("frames") or ()):
+            record = common | mapping(frame.get(RECORD))
+            matrix = np.reshape(document.numbers(_flat(record.get("matrix_world")), "matrix_world", 16), (4, 4))
+            matrix[:3, :3] /= np.linalg.norm(matrix[:3, :3], axis=0)
+            pose = checked(document, matrix, f"matrix_world of {name}") @ FROM_BLENDER
+            placed.append(Placed(name, name, document.number(frame, "frame"), pose))
+    return placed
+
+
+def _flat(rows) -> list:
+    return [one for row in rows for one in (row if isinstance(row, list) else [row])] if isinstance(rows, list) else []
+
+
+READERS: tuple[Callable[[Document], list[Placed] | None], ...] = (
+    trajectory.poses, _of_record, _of_aria, _of_transforms, _of_basalt, _of_okvis, _of_camchain, _of_bop,
+)  # fmt: skip
+
+
+def object_and_frame(image: str) -> tuple[str, float | None]:
+    """Return the camera's name and the frame in the name of a picture, which may have folders and an ending."""
+    stem = PurePath(image.replace("\\", "/")).name
+    stem = stem.rsplit(".", 1)[0] if re.search(r"\.[A-Za-z]+\d?$", stem) else stem
+    found = ENDING.fullmatch(stem)
+    return (found[1], float(found[2])) if found else (stem, None)

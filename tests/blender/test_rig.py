@@ -1,0 +1,124 @@
+"""Cameras from files in Blender: lenses, places, keyframes and sizes, and casts that leave the .blend as it is."""
+
+import json
+
+import numpy as np
+import pytest
+
+from camera_ray_caster.blender.output import exports
+from camera_ray_caster.blender.read.frames import go_to
+from camera_ray_caster.blender.read.scene import read_camera
+from camera_ray_caster.blender.rig import add_rig, frames_of
+from camera_ray_caster.blender.terminal import commands
+from camera_ray_caster.core.records import InputError
+
+CHAIN = """cam0:
+  camera_model: pinhole
+  distortion_model: equidistant
+  distortion_coeffs: [0.01, 0.002, 0.0, 0.0]
+  intrinsics: [30.1, 30.2, 39.5, 29.5]
+  resolution: [80, 60]
+cam1:
+  camera_model: ds
+  distortion_model: none
+  intrinsics: [-0.2, 0.6, 20.0, 20.0, 24.5, 24.5]
+  resolution: [50, 50]
+  T_cn_cnm1:
+    [[1.0, 0.0, 0.0, -0.1],
+     [0.0, 1.0, 0.0, 0.0],
+     [0.0, 0.0, 1.0, 0.0]]
+"""
+TUM = "0.0 0 0 0 0 0 0 1\n0.5 1 2 3 0 0 0.7071067811865476 0.7071067811865476\n"
+
+
+@pytest.fixture
+def chain(tmp_path):
+    (tmp_path / "chain.yaml").write_text(CHAIN)
+    return str(tmp_path / "chain.yaml")
+
+
+def transforms(folder, **more):
+    frames = []
+    for i in (1, 3):
+        pose = np.eye(4)
+        pose[:3, :3], pose[:3, 3] = ((0, -1, 0), (1, 0, 0), (0, 0, 1)), (i, 2, 3.3)
+        frames.append({"file_path": f"pano_{i:04}.png", "w": 32, "h": 16, "transform_matrix": pose.tolist(), **more})
+        more = {name: value + 1 for name, value in more.items()}
+    kind = {} if more else {"camera_model": "EQUIRECTANGULAR"}
+    (folder / "transforms.json").write_text(json.dumps(kind | {"frames": frames}))
+    return str(folder / "transforms.json")
+
+
+def test_a_rig_stands_below_an_empty_and_a_trajectory_moves_it(blender, camera_scene, chain, tmp_path):
+    (tmp_path / "path.txt").write_text(TUM)
+    left, right = add_rig(camera_scene, [chain, str(tmp_path / "path.txt")])
+    assert left.parent == right.parent
+    assert left.parent.name == "chain"
+    assert left.data.camera_ray_caster.calibration_file == chain
+    assert frames_of([left]) == [1, 13]
+    go_to(camera_scene, 13)
+    place = np.array(right.matrix_world)
+    assert np.allclose(place[:3, 3], (1, 2.1, 3), atol=1e-6)
+    camera_scene.render.resolution_x, camera_scene.render.resolution_y = right["resolution"]
+    found = read_camera(camera_scene, right)
+    assert found.model.key == "DOUBLE_SPHERE"
+    assert found.settings["unified_xi"] == -0.2  # all digits: from the file, not Blender's float32
+    with pytest.raises(InputError, match="the files have two movements"):
+        add_rig(camera_scene, [transforms(tmp_path), str(tmp_path / "path.txt")])
+
+
+def test_what_was_exported_is_read_into_blender_again(blender, camera_scene, tmp_path):
+    camera_scene.camera.location, camera_scene.camera.rotation_euler = (1, 2, 3), (0.3, -0.4, 0.5)
+    before = read_camera(camera_scene)
+    exports.write(camera_scene, "colmap", [camera_scene.camera], [4], tmp_path)
+    (item,) = add_rig(camera_scene, [str(tmp_path)])
+    go_to(camera_scene, 4)
+    after = read_camera(camera_scene, item)
+    assert np.abs(after.pose.eye - before.pose.eye).max() < 1e-6
+    assert np.abs(after.pose.basis - before.pose.basis).max() < 3e-7
+    assert np.allclose(after.K, before.K, rtol=1e-14)
+
+
+def test_a_zoom_is_keyed(blender, camera_scene, tmp_path):
+    (item,) = add_rig(camera_scene, [transforms(tmp_path, fl_x=30.0)])
+    camera_scene.render.resolution_x, camera_scene.render.resolution_y = 32, 16
+    for frame, fx in ((1, 30), (2, 30.5), (3, 31)):
+        go_to(camera_scene, frame)
+        assert read_camera(camera_scene, item).K[0, 0] == pytest.approx(fx, rel=1e-6)
+        assert item.matrix_world.translation.x == pytest.approx(frame, abs=1e-6)
+
+
+def test_a_rig_below_a_camera_sees_what_it_sees(blender, camera_scene, chain):
+    camera_scene.camera.location = (1, 2, 3)
+    left, _ = add_rig(camera_scene, [chain], camera_scene.camera)
+    go_to(camera_scene, 1)
+    assert np.allclose(left.matrix_world, camera_scene.camera.matrix_world, atol=1e-6)
+
+
+def test_cameras_of_different_sizes_are_cast_into_one_folder(blender, camera_scene, chain, tmp_path, capfd):
+    file, out = tmp_path / "file.blend", tmp_path / "out"
+    blender.ops.wm.save_as_mainfile(filepath=str(file))
+    content = file.read_bytes()
+    words = [str(file), "--rig", chain, transforms(tmp_path), "--passes", "depth", "--format", "NPZ"]
+    assert commands.main("cast", [*words, "--annotations", "--output", str(out)], "it") == 0
+    assert file.read_bytes() == content
+    sizes = {path.stem: np.load(path)["depth"].shape for path in out.glob("*.npz")}
+    own = {"cam0": (60, 80), "cam1": (50, 50), "pano": (16, 32)}
+    assert sizes == {f"{name}_{frame:04}": size for name, size in own.items() for frame in (1, 3)}
+    images = json.loads((out / "annotations.json").read_text())["images"]
+    assert {(one["width"], one["height"]) for one in images} == {(80, 60), (50, 50), (32, 16)}
+    assert commands.main("export", [*words[:4], "--format", "json", "--output", str(tmp_path / "j")], "it") == 0
+    cameras = json.loads((tmp_path / "j" / "camera.json").read_text())["cameras"]
+    assert [one["all_frames"]["record"]["resolution_x"] for one in cameras] == [80, 50, 32]
+    assert commands.main("cast", [str(file), "--rig", chain, "--camera", "Camera"], "it") == 2
+    assert "--rig brings its own cameras" in capfd.readouterr().err
+
+
+def test_the_operator_adds_the_cameras_and_refuses_what_is_none(blender, camera_scene, chain, tmp_path):
+    assert blender.ops.camera_ray_caster.add_cameras(filepath=chain) == {"FINISHED"}
+    assert {"cam0", "cam1"} <= set(camera_scene.objects.keys())
+    before = len(camera_scene.objects)
+    (tmp_path / "lens.json").write_text('{"K": [[1, 0, 1], [0, 1, 1], [0, 0, 1]]}')
+    with pytest.raises(RuntimeError, match="it has no poses that are read"):
+        blender.ops.camera_ray_caster.add_cameras(filepath=str(tmp_path / "lens.json"))
+    assert len(camera_scene.objects) == before
