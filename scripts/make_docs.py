@@ -65,7 +65,7 @@ Project Aria. A trajectory of TUM or EuRoC moves the empty. The frame is in the 
 number of the image; of times, the first is frame 1. `--rig-parent NAME` puts the empty below an object; below a camera,
 the file's frame is that of its picture, y down and z ahead. Lenses stay linked to the file, with all digits; a lens
 that changes is keyed. Blender rounds places to 6e-8 of themselves and turns to 1e-7 rad. A camera has pictures
-of its own size by its object's custom property `resolution`, two whole numbers, in all commands but with `--resolution`.
+of its own size by its object's custom property `resolution`, in all commands but with `--resolution`.
 
 | program | files | reads | writes | lost |
 |---|---|---|---|---|
