@@ -51,7 +51,7 @@ def shots(scene, cameras: Sequence, frames: Iterable[float], target=None, own_si
     eyes = [(camera, suffix, view) for camera in cameras for suffix, view in views]
     names = {camera: unique_name(camera, bpy.data.objects) for camera in cameras}
     file_names(f"{names[camera]}{suffix}" for camera, suffix, _ in eyes)  # raises if two names are equal
-    found = []
+    found, rate = [], scene.render.fps / scene.render.fps_base
     sizes = {camera: own_size(camera) if own_sizes else None for camera in cameras}
     frames = list(frames)
     for size in dict.fromkeys(sizes.values()):
@@ -64,7 +64,7 @@ def shots(scene, cameras: Sequence, frames: Iterable[float], target=None, own_si
                     if sizes[camera] == size:
                         read = read_camera(scene, eye_object(scene, view, camera), view=view)
                         name, end = file_name(names[camera]), file_name(suffix) if suffix else ""
-                        found.append(Shot(name, frame, read, scene.unit_settings.scale_length, to, end))
+                        found.append(Shot(name, frame, read, scene.unit_settings.scale_length, to, end, rate))
     if len(set(sizes.values())) > 1:
         order = {file_name(name): number for number, name in enumerate(names.values())}
         found.sort(key=lambda shot: (frames.index(shot.frame), order[shot.camera_name]))

@@ -15,15 +15,19 @@ from .bop import Bop
 from .camera_json import CameraJson
 from .colmap import Colmap
 from .format import Content, Format, Shot
+from .kalibr import Kalibr
 from .mrcal import Mrcal
+from .nerf import Nerf
 from .nerfstudio import Nerfstudio
 from .npz import Npz
 from .opencv import Opencv
 from .ros import Ros
 from .stmap import Stmap
+from .trajectory import EUROC, KITTI, TUM
 
 FORMATS: tuple[Format, ...] = (
-    Colmap(), Nerfstudio(), Opencv(), Ros(), Mrcal(), Bop(), Stmap(), Npz(), CameraJson(),
+    Colmap(), Nerfstudio(), Nerf(), Opencv(), Ros(), Kalibr(), Mrcal(), Bop(), TUM, KITTI, EUROC, Stmap(), Npz(),
+    CameraJson(),
 )  # fmt: skip
 """All formats, in the order of menus."""
 

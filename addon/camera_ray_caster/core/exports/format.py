@@ -40,6 +40,14 @@ class Shot:
     suffix: str = ""
     """Suffix of the view for one eye of a multi-view camera; "" for any other camera."""
 
+    rate: float = 24.0
+    """Frames in a second."""
+
+    @property
+    def seconds(self) -> float:
+        """Time of the frame; frame 0 is at 0 seconds."""
+        return self.frame / self.rate
+
     @property
     def name(self) -> str:
         """Name of the files of this camera or eye for all frames together, without an ending."""

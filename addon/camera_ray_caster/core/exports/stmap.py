@@ -20,13 +20,16 @@ from ..cameras.perspective import Perspective
 from ..maths.vector import inverse
 from .format import OWN_TIMES, Format
 
+TURNED = 7
+"""Decimals of a turn beside the target: what float32 matrices move is less than a map's own rounding."""
+
 
 class Stmap(Format):
-    """Two maps per camera and frame."""
+    """Two maps per camera and frame; for a camera whose maps do not change two maps."""
 
     key = "stmap"
     label = "STMaps"
-    description = "<camera>_<frame>_undistort.exr and _distort.exr: maps between two lenses of one eye"
+    description = "<camera>_<frame>_undistort.exr and _distort.exr: maps between two lenses; once if all are equal"
     takes_target = True
 
     def refusal(self, shot):
@@ -50,10 +53,20 @@ class Stmap(Format):
 
     def files(self, shots):
         """See Format. Raises InputError if the perspective of the same lens is undefined."""
-        for shot in shots:
-            target = shot.target or perspective_of(shot.camera)
-            yield f"{shot.stem}_undistort.exr", places(target, shot.camera)
-            yield f"{shot.stem}_distort.exr", places(shot.camera, target)
+        for name in dict.fromkeys(shot.name for shot in shots):
+            own = [shot for shot in shots if shot.name == name]
+            pairs = [(shot, shot.target or perspective_of(shot.camera)) for shot in own]
+            still = len(own) > 1 and len({_maps(shot.camera, target) for shot, target in pairs}) == 1
+            for shot, target in pairs[:1] if still else pairs:
+                stem = shot.name if still else shot.stem
+                yield f"{stem}_undistort.exr", places(target, shot.camera)
+                yield f"{stem}_distort.exr", places(shot.camera, target)
+
+
+def _maps(camera: Camera, target: Camera) -> str:
+    """Return what the maps between two cameras depend on."""
+    turn = inverse(target.pose.basis) @ camera.pose.basis
+    return repr((camera.model, camera.raster.size, target.model, target.raster.size, turn.round(TURNED).tolist()))
 
 
 def perspective_of(camera: Camera) -> Camera:

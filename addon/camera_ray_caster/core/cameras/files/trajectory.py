@@ -29,7 +29,7 @@ def poses(document: Document) -> list[Placed] | None:
         is_euroc = "," in line
         numbers = document.numbers(re.split(r"[\s,]+", line)[:8], f"pose {number}", 8)
         time, place, turn = numbers[0], numbers[1:4], numbers[4:]
-        time = time / 1e9 if time > NANOSECONDS else time
+        time = time / 1e9 if is_euroc or time > NANOSECONDS else time
         turn = turn if is_euroc else [turn[3], *turn[:3]]
         placed.append(Placed("", "", None, of_quaternion(document, turn, place, f"pose {number}"), time))
     return placed

@@ -46,7 +46,8 @@ PROGRAMS = (
     ),
     Program(
         "Kalibr", "camchain.yaml", "camera_model distortion_model distortion_coeffs intrinsics resolution T_cn_cnm1",
-        "pinhole with radtan, equidistant or fov, omni, eucm, ds", "", "",
+        "pinhole with radtan, equidistant or fov, omni, eucm, ds", "kalibr",
+        "skew; cameras that move against each other",
     ),
     Program(
         "EuRoC", "sensor.yaml, of Kimera, too",
@@ -102,6 +103,10 @@ PROGRAMS = (
         "this add-on", "camera.json, report.json", "format cameras all_frames frames record settings", "every model",
         "json", "nothing",
     ),
+    Program("NeRF", "transforms_train.json, _val and _test", export="nerf", lost="all lenses but centered pinholes"),
+    Program("TUM", "trajectories .txt", export="tum", lost="lenses"),
+    Program("KITTI", "poses .txt", export="kitti", lost="lenses, times"),
+    Program("EuRoC trajectories", ".csv", export="euroc", lost="lenses"),
     Program("STMaps", "pairs of .exr", export="stmap", lost="what is seen from two places; poses"),
     Program("NumPy", ".npz with each pixel's ray", export="npz", lost="the formula: rays between pixels"),
 )  # fmt: skip

@@ -1,0 +1,92 @@
+"""Camchains, trajectories and NeRF's files: read back by our own readers, and by hand."""
+
+import json
+from math import atan
+
+import numpy as np
+import pytest
+
+from camera_ray_caster.core.cameras.files.mounted import mounted
+from camera_ray_caster.core.exports import export
+from camera_ray_caster.core.exports.format import Shot
+from camera_ray_caster.core.exports.rigid import with_rotation
+from camera_ray_caster.core.records import InputError
+
+from ..cameras.model_examples import camera
+from .shots import CAMERAS, FRAMES, pose, shots
+
+
+def written(key, given, folder):
+    files, _ = export(key, given)
+    for name, content in files:
+        (folder / name).write_text(content)
+
+
+def rig(frames=FRAMES, lens=("radtan", "fisheye", "unified")):
+    """Cameras that do not move beside each other, while the rig moves."""
+    found = []
+    for frame in frames:
+        for number, name in enumerate(lens):
+            key, settings = CAMERAS[name]
+            matrix = pose(frame) @ pose(number + 0.25)
+            found.append(Shot(name, frame, camera(key, settings | {"matrix_world": matrix}), 0.5))
+    return found
+
+
+def test_a_camchain_is_the_rig(tmp_path):
+    given = rig()
+    written("kalibr", given, tmp_path)
+    found = mounted(str(tmp_path / "camchain.yaml"), "", (640, 480), 24)
+    assert [one.lens.model for one in found] == ["OPENCV_PINHOLE", "OPENCV_FISHEYE", "UCM"]
+    first = np.linalg.inv(with_rotation(given[0].camera)[0].world_to_opencv)
+    for one, shot in zip(found, given, strict=False):
+        beside = np.linalg.inv(first) @ np.linalg.inv(with_rotation(shot.camera)[0].world_to_opencv)
+        beside[:3, 3] *= 0.5  # meters
+        assert np.abs(one.poses[0] @ np.diag((1, -1, -1, 1)) - beside).max() < 1e-6
+        for name, value in shot.camera.settings.items():
+            if name in one.lens.settings and not name.startswith("cal"):
+                assert one.lens.settings[name] == pytest.approx(value, rel=1e-12)
+
+
+def test_a_rig_whose_cameras_move_is_no_camchain():
+    with pytest.raises(InputError, match=r"camera 'five' changes .it moves beside 'unified'.: export one frame"):
+        list(export("kalibr", [*rig(), *shots("five")])[0])
+
+
+@pytest.mark.parametrize("key", ["tum", "euroc", "kitti"])
+def test_a_trajectory_has_the_poses(tmp_path, key):
+    given = shots("panorama")
+    written(key, given, tmp_path)
+    near = [with_rotation(shot.camera)[0].pose for shot in given]
+    if key == "kitti":
+        rows = np.loadtxt(tmp_path / "panorama_kitti.txt").reshape(-1, 3, 4)
+        found = [row @ np.diag((1, -1, -1, 1)) for row in rows]
+    else:
+        (path,) = mounted(str(next(tmp_path.iterdir())), "", (640, 480), 24)
+        found = path.poses
+        assert path.frames == pytest.approx([1, 12, 10000], abs=1e-6)
+    for one, own in zip(found, near, strict=True):
+        assert np.abs(one[:3, :3] - own.basis).max() < 1e-14 if key == "kitti" else True
+        assert np.abs(one[:3, 3] - own.eye).max() < 1e-14
+
+
+def test_nerfs_files_have_every_picture_once(tmp_path):
+    given = [Shot("a", frame, camera("PERSP", {"resolution_x": 640, "resolution_y": 480, "matrix_world": pose(frame)}))
+             for frame in range(1, 24)]  # fmt: skip
+    written("nerf", given, tmp_path)
+    parts = {part: json.loads((tmp_path / f"transforms_{part}.json").read_text()) for part in ("train", "val", "test")}
+    assert {part: len(one["frames"]) for part, one in parts.items()} == {"train": 19, "val": 2, "test": 2}
+    assert len({frame["file_path"] for one in parts.values() for frame in one["frames"]}) == 23
+    (camera_,) = mounted(str(tmp_path / "transforms_val.json"), "", (640, 480), 24)
+    assert camera_.frames == [8, 18]
+    assert camera_.lens.settings["fx"] == pytest.approx(given[0].camera.K[0, 0], rel=1e-14)
+    assert parts["train"]["camera_angle_x"] == pytest.approx(2 * atan(18 / 50), rel=1e-7)
+    with pytest.raises(InputError, match=r"NeRF cannot represent .* which camera_angle_x alone does not say"):
+        export("nerf", shots("shifted"))
+
+
+def test_maps_of_a_camera_that_stands_still_are_written_once():
+    still = [Shot("a", frame, camera("OPENCV_FISHEYE", {"resolution_x": 16, "resolution_y": 12, "fx": 5.0, "fy": 5.0}))
+             for frame in (1, 2, 3)]  # fmt: skip
+    assert [name for name, _ in export("stmap", still)[0]] == ["a_undistort.exr", "a_distort.exr"]
+    assert [name for name, _ in export("stmap", still[:1])[0]] == ["a_0001_undistort.exr", "a_0001_distort.exr"]
