@@ -228,7 +228,7 @@ def test_two_materials_share_the_texels_of_an_image(surface):
     other.data.materials[0] = surface[3].copy()
     shapes = read_shapes(bpy.context.scene)
     assert node.image is not None
-    first, second = (surface.lit.inputs[0].inputs[0].inputs[0].image for surface in shapes.surfaces)
+    first, second = (surface.lit.inputs[0].inputs[0].image for surface in shapes.surfaces)
     assert first is second
 
 

@@ -40,9 +40,8 @@ def _texture(node: Node, output, vector: Value, extension: str) -> Value:
     if image is None:
         node.nodes.missing.add("" if node.image is None else node.image.name)
         return constant(*MISSING[:3]) if output.name == "Color" else constant(MISSING[3])
-    rgba = Texture(image, vector, extension, node.interpolation != "Closest", node.outputs["Alpha"].is_linked
-                   if "Alpha" in node.outputs else False)  # fmt: skip
-    return channel(rgba, 3) if output.name == "Alpha" else function_of(lambda values: values[:3], rgba)
+    divides = "Alpha" in node.outputs and node.outputs["Alpha"].is_linked
+    return Texture(image, vector, extension, node.interpolation != "Closest", divides, output.name == "Alpha")
 
 
 def _environment(nodes: Nodes, node: Node, output) -> Value:

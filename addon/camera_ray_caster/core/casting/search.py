@@ -30,14 +30,16 @@ def nearest_hits(
     ``listen()`` is called between the tests, and may raise; the default does nothing.
     """
     shape, scratch, real = rays.shape, rays.scratch, plan.request.real
+    t, has_cutouts = scratch("t", shape), any(one.has_cutouts for one in plan.sets)
     own = SearchRays(
         None if rays.from_eye else _rounded(rays.origin, real),
         _rounded(rays.direction, real),
-        rays.corner, shape, scratch,
+        rays.corner, shape, scratch, t if has_cutouts else None,
     )  # fmt: skip
-    nearest = Nearest(own, scratch("t", shape), scratch("index", shape, plan.index_type))
-    if before is not None:
+    nearest = Nearest(own, t, scratch("index", shape, plan.index_type))
+    if before is not None or has_cutouts:
         nearest.clear()
+    if before is not None:
         np.copyto(nearest.t, before)
     for large in merge(*(one.large(own) for one in plan.sets), key=attrgetter("at"), reverse=True):
         nearest.cast(large)

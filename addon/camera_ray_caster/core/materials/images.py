@@ -33,7 +33,7 @@ class Image:
 
 @dataclass(frozen=True, eq=False)
 class Texture(Value):
-    """An image at coordinates: RGBA, (4, m)."""
+    """An image at coordinates: its color, (3, m), or its alpha, (1, m)."""
 
     image: Image
     vector: Value
@@ -42,20 +42,22 @@ class Texture(Value):
     """Whether texels are interpolated, linearly; otherwise the nearest one counts."""
     divides: bool = False
     """Whether colors are divided by alpha: where the material uses the image's alpha, too."""
+    is_alpha: bool = False
+    """Whether the value is alpha."""
 
     def at(self, places: Places) -> np.ndarray:
         """See ``Value``; the coordinates run from 0 to 1 over the image."""
         x, y = places.value(self.vector)[:2]
         found = self._texels(np.atleast_1d(x), np.atleast_1d(y))
+        if self.is_alpha:
+            return found
         if self.divides and not self.image.is_data:
             alpha = found[3]
-            found[:3] /= np.where((alpha == 0) | (alpha == 1), 1.0, alpha)
-        if self.image.is_srgb:
-            found[:3] = linear(found[:3])
-        return found
+            found /= np.where((alpha == 0) | (alpha == 1), 1.0, alpha)
+        return linear(found[:3]) if self.image.is_srgb else found[:3]
 
     def _texels(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
-        """Return the stored values, 0 .. 1 for bytes, (4, m)."""
+        """Return the stored values, 0 .. 1 for bytes, (4, m), or of alpha alone, (1, m)."""
         high, wide = self.image.texels.shape[:2]
         x, y = (np.where(np.isfinite(one), one, 0.0) for one in np.broadcast_arrays(x, y))
         if not self.is_smooth:
@@ -68,11 +70,14 @@ class Texture(Value):
         return below * (1 - up) + above * up
 
     def _read(self, column: np.ndarray, row: np.ndarray) -> np.ndarray:
-        """Return texels by column and row, whole numbers also beyond the edges, (4, m)."""
+        """Return texels by column and row, whole numbers also beyond the edges, as ``_texels`` does."""
         texels = self.image.texels
         high, wide = texels.shape[:2]
         place = _wrapped(row, high, self.extension) * wide + _wrapped(column, wide, self.extension)
-        found = texels.reshape(-1, 4).take(place, axis=0).T.astype(float)
+        if self.is_alpha:
+            found = texels.reshape(-1).take(4 * place + 3)[None].astype(float)
+        else:
+            found = texels.reshape(-1, 4).take(place, axis=0).T.astype(float)
         if texels.dtype == np.uint8:
             found /= 255
         if self.extension == CLIP:

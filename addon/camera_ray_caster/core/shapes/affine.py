@@ -78,7 +78,8 @@ class AffineKind(Kind):
             constants = _rounded(self.constants(shapes, part.at, part.parallel), part.real)
             own = cutouts if is_cut else None
             groups.append(Group(self.intersect, self.lattice, part, is_simple, is_small, constants, own))
-        return AffineSet(tuple(groups), self.faces_eye or all(group.is_simple for group in groups))
+        faces_eye = self.faces_eye or all(group.is_simple for group in groups)
+        return AffineSet(tuple(groups), faces_eye, cutouts is not None)
 
     def uv(self, shapes: InCamera, pixels: HitPixels, point: Any) -> tuple[np.ndarray, np.ndarray]:
         """See ``Kind``: the coordinates, under the shape's map."""

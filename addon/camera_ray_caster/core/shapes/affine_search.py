@@ -105,7 +105,8 @@ class Group:
 
         if self.cutouts is None:
             return cross(None)
-        return self.cutouts.first_hit(at, origin, direction, rays.scratch, cross)
+        nearest = None if rays.nearest is None else part(rays.nearest)
+        return self.cutouts.first_hit(at, origin, direction, nearest, rays.scratch, cross)
 
 
 @dataclass(frozen=True, eq=False)
@@ -114,6 +115,7 @@ class AffineSet(ShapeSet):
 
     groups: tuple[Group, ...]
     faces_eye: bool
+    has_cutouts: bool = False
 
     def large(self, rays: SearchRays) -> Iterator[Large]:
         """See ``ShapeSet``."""

@@ -17,6 +17,9 @@ from .frames import InCamera
 from .kind import HitPixels, Kind
 from .surface_places import KindPlaces, SurfacePlaces, surface_table
 
+Cross = Callable[[Any], tuple[Any, Any]]
+"""A function that returns the first crossing at or beyond a start: see ``Cutouts.first_hit``."""
+
 
 @dataclass(frozen=True, eq=False)
 class Cutouts:
@@ -55,14 +58,15 @@ class Cutouts:
         return found
 
     def first_hit(
-        self, at: Any, origin: Any, direction: Any, scratch: Scratch, cross: Callable[[Any], tuple[Any, Any]]
+        self, at: Any, origin: Any, direction: Any, nearest: Any, scratch: Scratch, cross: Cross
     ) -> tuple[np.ndarray, np.ndarray]:
         """Return t of the first crossing that is a hit, and where there is one, as ``AffineKind.intersect`` does.
 
-        ``at`` are the indices of the shapes, which broadcast with the rays. ``cross(start)`` returns the first
+        ``at`` are the indices of the shapes, which broadcast with the rays. Beyond ``nearest``, the t of hits on other
+        shapes, there is no need of a hit; None if there are none. ``cross(start)`` returns the first
         crossing at or beyond ``start``, None for the clip start, as ``AffineKind.intersect`` does.
         """
-        t, open_ = _crossed(cross(None))
+        t, open_ = _crossed(cross(None), nearest)
         found = open_.copy()
         while open_.any():
             where = np.nonzero(open_)
@@ -72,7 +76,9 @@ class Cutouts:
             if origin is not None:
                 point = [p + np.broadcast_to(part, t.shape)[where] for p, part in zip(point, origin, strict=True)]
             open_[where] = ~self.hit(pixels, point)
-            beyond, crossed = _crossed(cross(np.nextafter(t, t.dtype.type(np.inf))))
+            if self.kind.meets_once:
+                return t, found & ~open_
+            beyond, crossed = _crossed(cross(np.nextafter(t, t.dtype.type(np.inf))), nearest)
             t = np.where(open_, beyond, t)
             found = np.where(open_, crossed, found)
             open_ &= crossed
@@ -84,9 +90,9 @@ def crossings(at: np.ndarray, t: np.ndarray, from_eye: bool, scratch: Scratch, *
     return HitPixels(np.ones((1, len(at)), bool), (at[None], t[None]), 0, from_eye, scratch, noted)
 
 
-def _crossed(found: tuple[Any, Any]) -> tuple[np.ndarray, np.ndarray]:
-    """Return copies of t, and of where it is a crossing as a bool array."""
+def _crossed(found: tuple[Any, Any], nearest: Any) -> tuple[np.ndarray, np.ndarray]:
+    """Return copies of t, and of where it is a crossing up to ``nearest`` as a bool array."""
     t, where = found
     t = np.array(t)
-    crossed = t < np.inf
+    crossed = t < np.inf if nearest is None else (t < np.inf) & (t <= nearest)
     return t, crossed if where is None else crossed & where

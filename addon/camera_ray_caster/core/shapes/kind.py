@@ -167,6 +167,8 @@ class ShapeSet(ABC):
 
     faces_eye: bool
     """Whether the normals face rays from the eye without being turned."""
+    has_cutouts: bool = False
+    """Whether the set needs the nearest hits so far, for shapes with transparent points: see ``SearchRays``."""
 
     def large(self, rays: SearchRays) -> Iterator[Large]:
         """Yield shapes that are tested one by one, the highest index first; by default there are none."""
@@ -193,6 +195,8 @@ class Kind(ABC):
     """The value of ``Shapes.kind``; it never changes."""
     name: str
     """Name of the kind in the report."""
+    meets_once: bool = False
+    """Whether a ray crosses a shape once at most."""
     may_be_flat: bool = False
     """Whether the axes of a shape may lie in one plane; ``InCamera.shape_from_world`` is undefined then."""
 

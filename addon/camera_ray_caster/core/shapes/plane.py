@@ -46,6 +46,7 @@ class Plane(AffineKind):
 
     number = PLANE
     name = "plane"
+    meets_once = True
     faces_eye = True
     has_edges = True
 

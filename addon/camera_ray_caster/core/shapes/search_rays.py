@@ -25,6 +25,8 @@ class SearchRays:
     shape: tuple[int, int]
     """Rows and columns."""
     scratch: Scratch
+    nearest: np.ndarray | None = None
+    """t of the nearest hits so far, (rows, columns), if shapes with transparent points need it."""
 
     def within(self, window: tuple[slice, slice]) -> SearchRays:
         """Return the rays of some rows and columns of the tile."""
