@@ -15,7 +15,7 @@ endif
 
 SCENE := blend_scenes/spheres_and_planes.blend
 
-.PHONY: cast test test-full test-hostile test-all test-blender lint zip clean help
+.PHONY: cast test test-full test-hostile test-all test-blender lint check-model zip dist clean help
 
 cast: $(VENV)/ready  ## render the example scene into out/ and print the report
 	$(VENV)/bin/python scripts/cast.py $(SCENE) --output out
@@ -50,11 +50,18 @@ lint: $(VENV)/ready  ## check style, types and the table of models
 	$(VENV)/bin/mypy
 	$(VENV)/bin/python scripts/make_docs.py --check
 
+check-model: $(VENV)/ready  ## hold a camera model of your own to the contract of all models: MODEL=/path/to/its.py
+	$(VENV)/bin/python -m pytest -q -m "" --model "$(MODEL)" tests/core/cameras tests/core/truth tests/core/errors
+
 zip: $(VENV)/ready  ## build the extension for Blender in dist/
 	$(VENV)/bin/python scripts/make_zip.py dist
 
+dist: zip  ## build the extension for Blender and the wheel for pip in dist/
+	$(PYTHON) -m pip wheel --quiet --no-deps --wheel-dir dist .
+	rm -rf build
+
 clean:  ## remove everything that these commands made
-	rm -rf out dist .venv addon/*.egg-info .hypothesis .mypy_cache .pytest_cache .ruff_cache
+	rm -rf build out dist .venv addon/*.egg-info .hypothesis .mypy_cache .pytest_cache .ruff_cache
 	find addon scripts tests -name __pycache__ -prune -exec rm -rf {} +
 
 help:  ## show this list

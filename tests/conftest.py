@@ -48,17 +48,26 @@ def unregister(blender):
 
 
 _BEGAN = pytest.StashKey[float]()
+_MODELS = pytest.StashKey[tuple]()
 _STATUS = pytest.StashKey[int]()
 
 
+def pytest_addoption(parser):
+    """Add the option of a camera model of somebody's own."""
+    parser.addoption("--model", help="a file with a camera model: only the tests of that model are run")
+
+
 def pytest_configure(config):
-    """Begin to count seconds."""
+    """Begin to count seconds; add the camera model that is asked for, before tests ask for all models."""
     config.stash[_BEGAN] = monotonic()
+    config.stash[_MODELS] = tiers.added_models(config.getoption("--model"))
 
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(config, items):
     """Mark what the default tier leaves out, before pytest leaves it out."""
+    if config.stash[_MODELS]:
+        items[:] = tiers.of_models(items, config.stash[_MODELS])
     config.stash[tiers.KEPT] = tiers.mark_the_rest(items)
 
 

@@ -6,6 +6,8 @@ parameter, and of the k-th value the k-th of its cases. A test that is slow and 
 ``full`` by hand.
 """
 
+import importlib.util
+import sys
 from zlib import crc32
 
 import pytest
@@ -61,3 +63,32 @@ def spread(cases, name):
         return set(cases)
     first = crc32(name.encode()) % len(cases)
     return {cases[(first + k * len(cases) // CASES) % len(cases)] for k in range(CASES)}
+
+
+def added_models(path):
+    """Add the camera models of a file to the list of models, and return them; none without a file."""
+    if path is None:
+        return ()
+    from camera_ray_caster import Model, register_model
+
+    spec = importlib.util.spec_from_file_location("model_of_ones_own", path)
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[spec.name] = module  # dataclasses look their module up
+    spec.loader.exec_module(module)
+    classes = [one for one in vars(module).values() if isinstance(one, type) and one.__module__ == spec.name]
+    models = tuple(one for one in classes if issubclass(one, Model))
+    for model in models:
+        register_model(model)
+    return models
+
+
+def of_models(items, models):
+    """The tests that have one of these models, or its key, as a parameter."""
+    wanted = [*models, *(model.key for model in models)]
+    return [item for item in items if any(one is value or one == value for value in _words(item) for one in wanted)]
+
+
+def _words(item):
+    """The parameters of a test that are words or classes."""
+    parameters = item.callspec.params.values() if hasattr(item, "callspec") else ()
+    return [value for value in parameters if isinstance(value, str | type)]

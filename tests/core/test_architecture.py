@@ -212,3 +212,5 @@ def test_one_version():
     project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
     manifest = tomllib.loads((PACKAGE / "blender_manifest.toml").read_text())
     assert project["version"] == manifest["version"]
+    assert f"\nversion: {project['version']}\n" in (ROOT / "CITATION.cff").read_text()
+    assert f"## [{project['version']}] - 20" in (ROOT / "CHANGELOG.md").read_text()

@@ -45,6 +45,13 @@ def test_the_program_of_forty_lines(tmp_path):
     assert {f"{crc.camera_from_json(tmp_path / 'camera.json', camera=name).name}" for name in ("fisheye", "scanner")}
 
 
+def test_the_first_program_of_the_readme():
+    readme = (ADDON.parent / "README.md").read_text(encoding="utf-8")
+    first = re.search(r"^```python\n(.*?)^```$", readme, re.MULTILINE | re.DOTALL)[1]
+    assert len(first.splitlines()) <= 8
+    assert run(first).startswith("(480, 640) (480, 640, 3) [[")
+
+
 def test_the_import_is_quick_and_brings_neither_numpy_nor_blender():
     """0.2 s are what a user may notice; here by processor time, at least of five."""
     code = (
