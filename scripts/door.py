@@ -35,7 +35,11 @@ def through(command: str) -> int:
     from camera_ray_caster.blender.terminal import commands, signals
 
     listen(signals.stop)
-    camera_ray_caster.register()
+    try:
+        camera_ray_caster.register()
+    except camera_ray_caster.InputError as error:
+        print(f"{command}.py: {error}", file=sys.stderr)
+        return 2
     try:
         return commands.main(command, _arguments(bool(bpy.app.binary_path)), f"{command}.py")
     finally:

@@ -1,5 +1,6 @@
 """The package itself: what it gives without registration, and that registering is all or nothing, however often."""
 
+import importlib
 import os
 import subprocess
 import sys
@@ -85,6 +86,47 @@ def test_where_blender_refuses_a_class_nothing_stays(plain, monkeypatch, count):
     monkeypatch.undo()
     crc.register()
     assert traces() != plain
+
+
+@pytest.fixture
+def copy(tmp_path, monkeypatch):
+    """The package under another name, as a second copy of the add-on that Blender enables."""
+    (tmp_path / "second_copy").symlink_to(Path(crc.__file__).parent)
+    monkeypatch.syspath_prepend(tmp_path)
+    yield importlib.import_module("second_copy")
+    for name in [name for name in sys.modules if name.partition(".")[0] == "second_copy"]:
+        del sys.modules[name]
+
+
+def test_a_second_copy_is_refused_and_the_first_stays(plain, copy):
+    crc.register()
+    first = traces()
+    with pytest.raises(copy.InputError, match="is registered already, as camera_ray_caster: "):
+        copy.register()
+    copy.unregister()
+    assert traces() == first
+    crc.unregister()
+    copy.register()
+    with pytest.raises(crc.InputError, match="is registered already, as second_copy: "):
+        crc.register()
+    copy.unregister()
+    assert traces() == plain
+
+
+def test_a_property_of_another_add_on_is_left_alone(plain):
+    for theirs in (bpy.props.IntProperty(), bpy.props.PointerProperty(type=bpy.types.Object)):
+        bpy.types.Scene.camera_ray_caster = theirs
+        with pytest.raises(crc.InputError, match=r"another add-on has the property Scene\.camera_ray_caster: disable"):
+            crc.register()
+        assert "camera_ray_caster" in bpy.types.Scene.bl_rna.properties
+        del bpy.types.Scene.camera_ray_caster
+        assert traces() == plain
+    crc.register()
+    bpy.types.Scene.camera_ray_caster = bpy.props.IntProperty()  # enabled later than ours
+    crc.unregister()
+    assert bpy.types.Scene.bl_rna.properties["camera_ray_caster"].type == "INT"
+    del bpy.types.Scene.camera_ray_caster
+    assert traces() == plain
 
 
 @pytest.mark.parametrize("module", registration.MODULES, ids=lambda module: module.__name__.rpartition(".")[2])

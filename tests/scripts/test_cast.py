@@ -2,6 +2,7 @@
 
 import json
 import re
+import sys
 
 import numpy as np
 import pytest
@@ -149,3 +150,14 @@ def test_cast_takes_the_precision_and_the_report_has_the_bounds_of_the_hits(comm
         assert f"precision {report['precision']}" in done.stdout
         assert f"{distance['worst_bound']:.1e}  world units" in done.stdout
     assert worst["AUTOMATIC"] < 1e-11 < 1e-8 < worst["FAST"]
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="elsewhere names of files are text")
+def test_a_file_whose_name_is_no_text_is_cast(scene, tmp_path):
+    path = scene.rename(scene.with_name("\udcff.blend"))
+    for made in ("Wrote", "Wrote 0 of 1 pictures"):
+        done = script("cast", path, "--skip-existing", "--annotations", "--output", tmp_path / "out")
+        assert (done.returncode, done.stderr) == (0, "")
+        assert done.stdout.splitlines()[-1].startswith(made)
+    assert left(tmp_path / "out") == ["report.json", *(f"\udcff{end}" for end in (".exr", ".png", "_coco.json"))]
+    assert json.loads((tmp_path / "out" / "report.json").read_text())["made"]["of"]["file"] == path.name

@@ -5,11 +5,13 @@ from contextlib import ExitStack, suppress
 
 import bpy
 
+from ..core.records import InputError
 from . import gallery
 from .cycles import follow
 from .engine import engine, viewport
 from .output import images, reports
 from .properties import calibration, groups
+from .properties.declared import ENGINE
 from .read import kept
 from .terminal import commands
 from .ui import (
@@ -86,9 +88,14 @@ _registered: list[Undo] = []
 
 
 def register() -> None:
-    """Register everything, unless it is registered already. On an error, undo the registration and raise the error."""
+    """Register everything, unless it is registered already. On an error, undo the registration and raise the error.
+
+    Raises InputError if another copy of the add-on is registered, or another add-on has a property of its name: each
+    would remove the other's.
+    """
     if _registered:
         return
+    _check_others(__name__.partition("blender.")[0])
     with Undo() as undo:
         for cls in CLASSES:
             bpy.utils.register_class(cls)
@@ -98,6 +105,15 @@ def register() -> None:
         _registered.append(undo.pop_all())
     if not bpy.app.binary_path:  # unlike Blender, pip's bpy does not disable add-ons, and crashes at exit
         atexit.register(unregister)
+
+
+def _check_others(package: str) -> None:
+    other = bpy.types.RenderEngine.bl_rna_get_subclass_py(ENGINE)
+    if other is not None and not other.__module__.startswith(package):
+        name = other.__module__.partition(".blender.")[0]
+        raise InputError(f"{other.bl_label} is registered already, as {name}: import that, or disable it first")
+    if taken := groups.others_property(package):
+        raise InputError(f"another add-on has the property {taken}: disable that add-on first")
 
 
 def unregister() -> None:

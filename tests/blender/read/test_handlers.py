@@ -3,7 +3,8 @@
 import bpy
 import pytest
 
-from camera_ray_caster.blender.read import read_camera, read_shapes
+from camera_ray_caster.blender.read import read_camera, read_scene, read_shapes
+from camera_ray_caster.blender.read.camera import is_removed
 from camera_ray_caster.core.records import InputError
 
 from .scene_parts import ball, new_object
@@ -67,3 +68,25 @@ def test_a_handler_cannot_set_frames_while_another_reading_does(scene, handled, 
 def test_a_frame_that_blender_does_not_have_is_refused(scene, frame):
     with pytest.raises(InputError, match=r"frame is .*: it must be a number from -1048574 to 1048574"):
         read_camera(scene, frame=frame)
+
+
+@pytest.mark.parametrize("name", ["frame_change_post", "depsgraph_update_post"])
+@pytest.mark.parametrize("given", [False, True])
+def test_a_camera_that_a_handler_deletes_in_a_reading_is_refused_in_one_line(scene, handled, name, given):
+    own, other = scene.camera, scene.camera.copy()
+    scene.collection.objects.link(other)
+
+    def delete(scene, *_):
+        if scene.camera is not None:
+            bpy.data.objects.remove(scene.camera)
+
+    handled(name, delete)
+
+    def read():
+        for frame in (2, 3):
+            read_scene(scene, frame, other if given else None, passes=("flow_forward",))
+
+    with pytest.raises(InputError, match=r"has no active camera|removed what is read|has been removed") as refusal:
+        read()
+    assert "\n" not in str(refusal.value)
+    assert given or is_removed(own)

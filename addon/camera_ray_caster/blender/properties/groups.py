@@ -40,8 +40,25 @@ def renew() -> None:
     CameraProperties.__annotations__ = {setting.name: property_of(setting) for setting in declared.CAMERA}
 
 
+def others_property(package: str) -> str:
+    """Return "Scene.camera_ray_caster" or the like if another add-on than the package has such a property; else ""."""
+    ours = [cls.bl_rna for cls in bpy.types.PropertyGroup.__subclasses__() if f"{cls.__module__}.".startswith(package)]
+    for owner in OWNERS:
+        found = owner.bl_rna.properties.get(GROUP)
+        if found is not None and getattr(found, "fixed_type", None) not in ours:
+            return f"{owner.__name__}.{GROUP}"
+    return ""
+
+
 def register(undo) -> None:
     """Add the property groups to objects, cameras and scenes. Values stored in a file survive unregistering."""
     for owner, group in OWNERS.items():
         setattr(owner, GROUP, bpy.props.PointerProperty(type=group, override={"LIBRARY_OVERRIDABLE"}))
-        undo.callback(delattr, owner, GROUP)
+        undo.callback(_remove, owner, group)
+
+
+def _remove(owner, group) -> None:
+    """Remove a property, unless another add-on has put its own in its place."""
+    found = owner.bl_rna.properties.get(GROUP)
+    if found is not None and (not group.is_registered or getattr(found, "fixed_type", None) == group.bl_rna):
+        delattr(owner, GROUP)

@@ -113,7 +113,8 @@ def evaluated_camera(scene, camera_object=None, frame=None, view="", goes_on=Fal
 def evaluated(scene, frame=None, camera_object=None, moves=False):
     """Yield the scene's depsgraph at a frame with a camera active; restore frame and camera afterwards.
 
-    ``moves``: refuse another frame of physics that are not baked; see ``physics.prepare``.
+    ``moves``: refuse another frame of physics that are not baked; see ``physics.prepare``. Raises InputError if a
+    handler, which Blender calls at each frame, removes the camera or what else is read.
     """
     layer = layer_of(scene)
     before = scene.frame_current, scene.frame_subframe, scene.camera
@@ -128,10 +129,14 @@ def evaluated(scene, frame=None, camera_object=None, moves=False):
             scene.frame_current = scene.frame_current  # and animated only when the frame is set
         layer.update()
         yield layer.depsgraph
+    except ReferenceError as error:
+        raise InputError(
+            "a handler or another script removed what is read from the file: let it do so before or after a reading"
+        ) from error
     finally:
         if (scene.frame_current, scene.frame_subframe) != before[:2]:
             scene.frame_set(before[0], subframe=before[1])
-        if scene.camera != before[2]:
+        if scene.camera != before[2] and (before[2] is None or not is_removed(before[2])):
             scene.camera = before[2]  # also if a timeline marker has bound another camera
             layer.update()
 

@@ -165,8 +165,9 @@ def as_data(report: Report) -> dict:
 
 
 def as_json(report: Report) -> str:
-    """Return the report as strict JSON: it has no NaN and no Infinity."""
-    return json.dumps(as_data(report), indent=2, allow_nan=False, ensure_ascii=False) + "\n"
+    """Return the report as strict JSON, without NaN and Infinity; bytes of names that are not UTF-8 are escaped."""
+    text = json.dumps(as_data(report), indent=2, allow_nan=False, ensure_ascii=False) + "\n"
+    return text.encode(errors="backslashreplace").decode()
 
 
 def as_lines(report: Report) -> list[str]:
