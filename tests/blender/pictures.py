@@ -3,6 +3,7 @@
 import numpy as np
 
 from camera_ray_caster.core.cast import cast
+from camera_ray_caster.core.casting.passes import PASSES
 
 FAR = 1e10
 """Blender's depth of the background, from its own engines."""
@@ -48,7 +49,8 @@ def picture(channels, name, layer="ViewLayer"):
     """A pass out of an EXR's channels, (height, width[, channels])."""
     import bpy
 
-    label, letters = LABELS[name] if bpy.app.version >= (5, 0, 0) else {**LABELS, **BEFORE_5_0}[name]
+    known = LABELS if bpy.app.version >= (5, 0, 0) else {**LABELS, **BEFORE_5_0}
+    label, letters = known.get(name) or (name.replace("_", " ").title(), PASSES[name].letters)
     return np.stack([channels[f"{layer}.{label}.{letter}"] for letter in letters], axis=-1)
 
 

@@ -5,6 +5,9 @@ from dataclasses import dataclass
 import bpy
 import numpy as np
 
+from ...core.casting.passes import PASSES as CASTS
+from ...core.casting.passes import Pass
+
 FROM_5_0 = bpy.app.version >= (5, 0, 0)
 
 FAR = 1e10
@@ -28,30 +31,17 @@ class RenderPass:
         return scene.camera_ray_caster if self.own else view_layer
 
 
-PASSES = (
-    RenderPass("combined", "Combined", "RGBA", "COLOR", "use_pass_combined"),
-    RenderPass("albedo", "Albedo", "RGB", "COLOR", "use_pass_albedo", own=True),
-    RenderPass("depth", "Depth", "Z", "VALUE", "use_pass_z"),
-    RenderPass("position", "Position", "XYZ", "VECTOR", "use_pass_position"),
-    RenderPass("normal", "Normal", "XYZ", "VECTOR", "use_pass_normal"),
-    RenderPass("uv", "UV", "UVA", "VECTOR", "use_pass_uv"),
-    RenderPass("object_index", "Object Index" if FROM_5_0 else "IndexOB", "X", "VALUE", "use_pass_object_index"),
-    RenderPass("material_index", "Material Index" if FROM_5_0 else "IndexMA", "X", "VALUE", "use_pass_material_index"),
-    RenderPass("distance", "Distance", "X", "VALUE", "use_pass_distance", own=True),
-    RenderPass("shape_index", "Shape Index", "X", "VALUE", "use_pass_shape_index", own=True),
-    RenderPass("face_index", "Face Index", "X", "VALUE", "use_pass_face_index", own=True),
-    RenderPass("valid", "Valid", "X", "VALUE", "use_pass_valid", own=True),
-    RenderPass("ray_origin", "Ray Origin", "XYZ", "VECTOR", "use_pass_ray_origin", own=True),
-    RenderPass("ray_direction", "Ray Direction", "XYZ", "VECTOR", "use_pass_ray_direction", own=True),
-    RenderPass("solid_angle", "Solid Angle", "X", "VALUE", "use_pass_solid_angle", own=True),
-    RenderPass("footprint", "Footprint", "X", "VALUE", "use_pass_footprint", own=True),
-    RenderPass("flow_forward", "Flow Forward", "XY", "VECTOR", "use_pass_flow_forward", own=True),
-    RenderPass("flow_backward", "Flow Backward", "XY", "VECTOR", "use_pass_flow_backward", own=True),
-    RenderPass("flow_hidden", "Flow Hidden", "XY", "VECTOR", "use_pass_flow_hidden", own=True),
-    RenderPass("distance_bound", "Distance Bound", "X", "VALUE", "use_pass_distance_bound", own=True),
-    RenderPass("position_bound", "Position Bound", "X", "VALUE", "use_pass_position_bound", own=True),
-    RenderPass("normal_bound", "Normal Bound", "X", "VALUE", "use_pass_normal_bound", own=True),
-)
+def _of(key: str, declared: Pass) -> RenderPass:
+    """Return a declared pass in Blender's terms."""
+    plain = declared.label or key.replace("_", " ").title()
+    label = plain if FROM_5_0 else declared.label_before_5_0 or plain
+    is_color = declared.letters.startswith("RGB")
+    kind = "COLOR" if is_color else "VECTOR" if declared.channels else "VALUE"
+    return RenderPass(key, label, declared.letters, kind, declared.blender or f"use_pass_{key}", not declared.blender)
+
+
+PASSES = tuple(sorted((_of(key, declared) for key, declared in CASTS.items()), key=lambda one: one.own))
+"""Blender's own passes, and then the add-on's."""
 
 
 def ticked(scene, view_layer) -> list[RenderPass]:

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
+from ...core.casting.passes import PASSES
 from ...core.records import InputError
 from ..terminal.signals import raise_if_stopping
 
@@ -19,8 +20,6 @@ numpy's level, 6, they take 1.1 s and 11.2 MB. A cast takes 0.25 s.
 """
 
 HALF = np.finfo(np.float16)
-BOUNDED = {"distance_bound": ("distance", "depth"), "position_bound": ("position",), "normal_bound": ("normal",)}
-"""The passes whose stored numbers a bound holds for."""
 
 
 def save(
@@ -48,14 +47,14 @@ def save(
 def _halved(key: str, images: Mapping[str, np.ndarray]) -> np.ndarray:
     """Return a pass as float16; a bound includes the rounding of the passes that are stored with it, and is rounded up.
     """
-    image = images[key]
-    if key in BOUNDED:
+    image, bounded = images[key], PASSES[key].bounds
+    if bounded:
         image = image.astype(np.float64)
-        for other in (images[name] for name in BOUNDED[key] if name in images):
+        for other in (images[name] for name in bounded if name in images):
             image = np.maximum(image, images[key] + _rounding(other))
     with np.errstate(over="ignore"):  # refused, or an infinite bound
         stored = image.astype(np.float16)
-    if key in BOUNDED:
+    if bounded:
         return np.where(stored < image, np.nextafter(stored, np.float16(np.inf)), stored)
     if np.isinf(stored[np.isfinite(image)]).any():
         raise InputError(f"{key} has numbers above {HALF.max:g}, the largest of 16 bits: write it without --half")

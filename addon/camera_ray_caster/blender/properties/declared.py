@@ -7,6 +7,7 @@ from ...core.camera import pixel_time
 from ...core.cameras import MODELS
 from ...core.cameras.model import GROUPS
 from ...core.cameras.parts.settings import OWN, Choice, Flag, Item, Setting, Whole
+from ...core.casting import passes as casting_passes
 
 GROUP = "camera_ray_caster"
 """Name of the property groups ``camera.camera_ray_caster``, ``object.camera_ray_caster`` and
@@ -106,36 +107,11 @@ EXACT_SHAPES = Flag(
     True,
 )  # fmt: skip
 PASSES = tuple(
-    Flag(f"use_pass_{name}", name.replace("_", " ").title(), text, False)
-    for name, text in (
-        ("albedo", "Color of the material without light; of emission, without its strength"),
-        ("distance", "Distance along the ray. The Z pass has the planar depth"),
-        ("shape_index", "Number of the shape. Each instance has its own number"),
-        ("face_index", "Number of the face of the mesh after its modifiers, -1 where no face is hit"),
-        ("valid", "Whether the pixel has a ray"),
-        ("ray_origin", "Origin of the pixel's ray in world space"),
-        ("ray_direction", "Unit direction of the pixel's ray in world space"),
-        ("solid_angle", "Solid angle of the pixel, in steradians, to first order"),
-        ("footprint", "Area of the surface that the pixel covers, in square Blender units, to first order"),
-        (
-            "flow_forward",
-            "Motion of the surface point to the next frame, in pixels, x and y; NaN where the point is not in the "
-            "next picture",
-        ),
-        (
-            "flow_backward",
-            "Motion of the surface point to the previous frame, in pixels, x and y; NaN where the point is not in "
-            "the previous picture",
-        ),
-        (
-            "flow_hidden",
-            "Whether the surface point is hidden by another surface in the next frame (X) or in the previous frame (Y)",
-        ),
-        ("distance_bound", "Upper bound of the rounding error of distance and depth, in Blender units"),
-        ("position_bound", "Upper bound of the rounding error of the position, in Blender units"),
-        ("normal_bound", "Upper bound of the rounding error of the unit normal"),
-    )
+    Flag(f"use_pass_{name}", one.label or name.replace("_", " ").title(), one.text, False)
+    for name, one in casting_passes.PASSES.items()
+    if not one.blender
 )
+"""Check boxes of the passes that Blender does not have."""
 
 SCENE = (SHADING, SAMPLES, PRECISION, EXACT_SHAPES, *PASSES)
 """Settings in ``scene.camera_ray_caster``."""

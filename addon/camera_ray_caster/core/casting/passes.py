@@ -1,4 +1,4 @@
-"""The passes of a picture, each computed for a tile of hits. A new pass is one function and one row in PASSES.
+"""The passes of a picture, each computed for a tile of hits. A new pass is one function and one entry in PASSES.
 
 Where a ray hits nothing, depth, distance and footprint are inf, shape_index and face_index are -1, combined is the
 world's color, flow_forward and flow_backward are NaN, and all other passes are 0 except those of the ray itself
@@ -27,14 +27,36 @@ ROUNDED_UP = 1 + 2.0**-9
 """Factor that makes up for the rounding of the bounds themselves, to the type in which they are stored."""
 
 
+AS_IS, SIGNED, COUNTED, RANGE = "as is", "signed", "counted", "range"
+"""How a pass is shown as a picture: its numbers themselves, from -1 to 1, one color per number, or scaled."""
+
+
 @dataclass(frozen=True)
 class Pass:
-    """The format of a pass, and its function: ``write(values, out)`` fills ``out``, (rows, columns[, channels])."""
+    """All that is declared of a pass. The engine's passes, the check boxes, their order, pictures and files follow."""
 
     write: Callable[[HitValues, np.ndarray], None]
-    channels: int = 0
+    """Function that fills ``out``, (rows, columns[, channels]): ``write(values, out)``."""
+    text: str
+    """Explanation for tooltips, without a period at the end."""
+    letters: str = "X"
+    """Names of the channels in files: one letter each."""
     dtype: type | None = None
     """Type of the stored numbers; None for the cast's dtype."""
+    shown: str = RANGE
+    label: str = ""
+    """Name in menus and EXR files; "" for the pass's name with capitals."""
+    label_before_5_0: str = ""
+    """That of Blender before 5.0, for Blender's own passes that have another there."""
+    blender: str = ""
+    """Name of Blender's own check box in the view layer; "" if the check box is the add-on's."""
+    bounds: tuple[str, ...] = ()
+    """Passes whose stored numbers this one bounds the errors of."""
+
+    @property
+    def channels(self) -> int:
+        """The length of the last axis; 0 if there is none."""
+        return len(self.letters) if len(self.letters) > 1 else 0
 
     def empty(self, shape: tuple[int, int], dtype) -> np.ndarray:
         """Return an uninitialized array for the pass of a picture, (rows, columns[, channels])."""
@@ -189,29 +211,42 @@ def _write(out, vector, offset, blank):
 
 
 PASSES = {
-    "combined": Pass(combined, 4),
-    "albedo": Pass(albedo, 3),
-    "depth": Pass(depth),
-    "distance": Pass(distance),
-    "position": Pass(position, 3),
-    "normal": Pass(normal, 3),
-    "uv": Pass(uv, 3),
-    "object_index": Pass(object_index, 0, np.int32),
-    "material_index": Pass(material_index, 0, np.int32),
-    "shape_index": Pass(shape_index, 0, np.int32),
-    "face_index": Pass(face_index, 0, np.int32),
-    "valid": Pass(valid, 0, np.bool_),
-    "ray_origin": Pass(ray_origin, 3),
-    "ray_direction": Pass(ray_direction, 3),
-    "solid_angle": Pass(solid_angle),
-    "footprint": Pass(footprint),
-    "flow_forward": Pass(flow_forward, 2),
-    "flow_backward": Pass(flow_backward, 2),
-    "flow_hidden": Pass(flow_hidden, 2, np.bool_),
-    "distance_bound": Pass(distance_bound),
-    "position_bound": Pass(position_bound),
-    "normal_bound": Pass(normal_bound),
-}
+    "combined": Pass(combined, "Color of the surface in the light of the scene's lamps", "RGBA", shown=AS_IS,
+                     blender="use_pass_combined"),
+    "albedo": Pass(albedo, "Color of the material without light; of emission, without its strength", "RGB",
+                   shown=AS_IS),
+    "depth": Pass(depth, "Blender's Z: along the viewing direction, or along the ray for panoramas", "Z",
+                  blender="use_pass_z"),
+    "distance": Pass(distance, "Distance along the ray. The Z pass has the planar depth"),
+    "position": Pass(position, "Hit point in world space", "XYZ", blender="use_pass_position"),
+    "normal": Pass(normal, "Unit normal in world space, turned towards the ray's origin", "XYZ", shown=SIGNED,
+                   blender="use_pass_normal"),
+    "uv": Pass(uv, "Coordinates of the render UV map", "UVA", shown=AS_IS, label="UV", blender="use_pass_uv"),
+    "object_index": Pass(object_index, "Pass index of the object", dtype=np.int32, shown=COUNTED,
+                         label_before_5_0="IndexOB", blender="use_pass_object_index"),
+    "material_index": Pass(material_index, "Pass index of the material", dtype=np.int32, shown=COUNTED,
+                           label_before_5_0="IndexMA", blender="use_pass_material_index"),
+    "shape_index": Pass(shape_index, "Number of the shape. Each instance has its own number", dtype=np.int32,
+                        shown=COUNTED),
+    "face_index": Pass(face_index, "Number of the face of the mesh after its modifiers, -1 where no face is hit",
+                       dtype=np.int32, shown=COUNTED),
+    "valid": Pass(valid, "Whether the pixel has a ray", dtype=np.bool_, shown=AS_IS),
+    "ray_origin": Pass(ray_origin, "Origin of the pixel's ray in world space", "XYZ"),
+    "ray_direction": Pass(ray_direction, "Unit direction of the pixel's ray in world space", "XYZ", shown=SIGNED),
+    "solid_angle": Pass(solid_angle, "Solid angle of the pixel, in steradians, to first order"),
+    "footprint": Pass(footprint, "Area of the surface that the pixel covers, in square Blender units, to first order"),
+    "flow_forward": Pass(flow_forward, "Motion of the surface point to the next frame, in pixels, x and y; NaN where "
+                                       "the point is not in the next picture", "XY"),
+    "flow_backward": Pass(flow_backward, "Motion of the surface point to the previous frame, in pixels, x and y; NaN "
+                                         "where the point is not in the previous picture", "XY"),
+    "flow_hidden": Pass(flow_hidden, "Whether the surface point is hidden by another surface in the next frame (X) or "
+                                     "in the previous frame (Y)", "XY", np.bool_),
+    "distance_bound": Pass(distance_bound, "Upper bound of the rounding error of distance and depth, in Blender units",
+                           bounds=("distance", "depth")),
+    "position_bound": Pass(position_bound, "Upper bound of the rounding error of the position, in Blender units",
+                           bounds=("position",)),
+    "normal_bound": Pass(normal_bound, "Upper bound of the rounding error of the unit normal", bounds=("normal",)),
+}  # fmt: skip
 """Every pass by its name, in the order of the report."""
 
 

@@ -4,11 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-SIGNED = ("normal", "ray_direction")
-"""Passes with values from -1 to 1."""
-COUNTED = ("object_index", "material_index", "shape_index", "face_index")
-SHARES = ("combined", "albedo", "uv", "valid")
-"""Passes that are shown as they are."""
+from ..casting.passes import AS_IS, COUNTED, PASSES, RANGE, SIGNED
+
 NOTHING = 1e9
 """Distances from this one on mean that nothing is hit: Blender stores 1e10, the caster infinity."""
 WIDE = 100.0
@@ -27,11 +24,12 @@ def displayed(key: str, image: np.ndarray) -> tuple[np.ndarray, str]:
     values = np.asarray(image, np.float64).reshape(*image.shape[:2], -1)[..., :3]
     if values.shape[-1] == 2:
         values = np.pad(values, ((0, 0), (0, 0), (0, 1)))
-    if key in SHARES:
+    how = PASSES[key].shown if key in PASSES else RANGE
+    if how == AS_IS:
         colors, said = values, "as it is"
-    elif key in SIGNED:
+    elif how == SIGNED:
         colors, said = (values + 1) / 2 * (values != 0).any(axis=-1, keepdims=True), "-1 is black, 0 gray, 1 white"
-    elif key in COUNTED:
+    elif how == COUNTED:
         colors, said = _colors(values[..., :1], key), "one color per number"
     else:
         colors, said = _range(values)
