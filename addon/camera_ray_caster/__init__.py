@@ -20,7 +20,7 @@ Cameras
 Shapes
     spheres, planes, mesh, join
 What is seen
-    cast, visible, explain
+    cast, visible, explain; of rays given as arrays: cast_rays, occluded
 Files
     export
 In Blender only
@@ -40,6 +40,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from .blender.read import read_camera, read_scene, read_shapes
     from .blender.verification.check import verify_camera as verify
+    from .core.any_rays.door import cast_rays, occluded
     from .core.camera.camera import Camera
     from .core.cameras.model import Model, Step
     from .core.cameras.parts.settings import Choice, Flag, Item, Number
@@ -75,6 +76,7 @@ _MODULES = {
     "camera_from_json": ".core.exports.camera_json",
     "camera_to_json": ".core.exports.camera_json",
     "cast": ".core.cast",
+    "cast_rays": ".core.any_rays.door",
     "explain": ".core.library.explaining",
     "export": ".core.library.files",
     "join": ".core.library.join",
@@ -82,6 +84,7 @@ _MODULES = {
     "look_at": ".core.library.poses",
     "mesh": ".core.library.shapes",
     "models": ".core.library.models",
+    "occluded": ".core.any_rays.door",
     "planes": ".core.library.shapes",
     "pose_from_opencv": ".core.library.poses",
     "read_camera": ".blender.read",
@@ -109,6 +112,7 @@ __all__ = [
     "camera_from_json",
     "camera_to_json",
     "cast",
+    "cast_rays",
     "explain",
     "export",
     "join",
@@ -116,6 +120,7 @@ __all__ = [
     "look_at",
     "mesh",
     "models",
+    "occluded",
     "planes",
     "pose_from_opencv",
     "read_camera",

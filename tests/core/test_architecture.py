@@ -40,6 +40,7 @@ MAY_IMPORT = {
     "core.shapes": LOW | {"core.shapes"},
     "core.errors": RAYS | {"core.shapes", "core.errors"},
     "core.casting": HITS,
+    "core.any_rays": HITS | {"core.any_rays"},
     "core.cast": HITS,
     "core.annotations": HITS | {"core.cast", "core.version", "core.annotations"},
     "core.shaders": RAYS | {"core.shaders"},

@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from camera_ray_caster.core.any_rays.door import cast_rays
 from camera_ray_caster.core.cameras import MODELS
 from camera_ray_caster.core.cast import cast
 from camera_ray_caster.core.casting.visibility import Visibility, visible
@@ -51,12 +52,15 @@ def assert_nearest(cam, shapes, crossings):
             sure &= own_sure | ~np.isfinite(t)
             nearer = opaque & (t < nearest)
             nearest[nearer], row[nearer] = t[nearer], k
-    assert sure.mean() > 0.9
+    assert sure.mean() > 0.5  # whole columns of strips and domes lie on the edges between stripes
     distance, bound, found = (images[name][rays.valid][sure] for name in BOUNDS)
     np.testing.assert_array_equal(found, row[sure])
     met = np.isfinite(distance)
     assert (np.abs(distance[met] - nearest[sure][met]) <= bound[met]).all()
     assert met.any()
+    given = cast_rays(origins[sure], rays.directions[rays.valid][sure], shapes, BOUNDS)
+    beyond = cam.clip_start + 1e-9 < given["distance"]  # the clip start may be a plane
+    np.testing.assert_array_equal(given["shape_index"][beyond], found[beyond])
 
 
 @each_model

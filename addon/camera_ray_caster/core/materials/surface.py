@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .values import Places, Value
+from .values import Constant, Places, Value
 
 
 @dataclass(frozen=True, eq=False)
@@ -29,3 +29,8 @@ class Surface:
         if self.alpha is None:
             return np.ones(count, bool)
         return np.broadcast_to(places.value(self.alpha)[0] >= self.threshold, (count,))
+
+    @property
+    def is_open(self) -> bool:
+        """Whether no point is hit."""
+        return isinstance(self.alpha, Constant) and not (self.alpha.values >= self.threshold).all()

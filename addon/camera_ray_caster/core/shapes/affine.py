@@ -12,9 +12,10 @@ from typing import Any, Protocol
 import numpy as np
 
 from ..maths.speed import Scratch, lazy, merged
-from ..maths.vector import components, difference, dot, matrix_rows, matvec
+from ..maths.vector import along, components, difference, dot, matrix_rows, matvec
 from .affine_search import AffineSet, Group, divide
-from .cutouts import Cutouts
+from .bodies import Bodies, places_of
+from .cutouts import Cutouts, crossings
 from .frames import InCamera, WorldRays
 from .kind import HitPixels, Kind, ShapeErrors, Visible
 from .local_rays import LocalRays
@@ -81,6 +82,16 @@ class AffineKind(Kind):
         faces_eye = self.faces_eye or all(group.is_simple for group in groups)
         return AffineSet(tuple(groups), faces_eye, cutouts is not None)
 
+    def half_sides(self, axes: np.ndarray) -> Any:
+        """Return half the sides, (k, 3), of boxes around shapes with these axes, (k, 3, 3), world; inf, the default,
+        for boxes around the spheres that hold the shapes.
+        """
+        return np.inf
+
+    def bodies(self, shapes: InCamera, at: np.ndarray) -> AffineBodies:
+        """See ``Kind``: each shape is one body."""
+        return AffineBodies(self, shapes, at)
+
     def uv(self, shapes: InCamera, pixels: HitPixels, point: Any) -> tuple[np.ndarray, np.ndarray]:
         """See ``Kind``: the coordinates, under the shape's map."""
         first, second = self.coordinates(shapes, pixels, point)
@@ -102,6 +113,35 @@ class AffineKind(Kind):
     def decision(self, shapes: InCamera, at: np.ndarray, rays: WorldRays, from_eye: bool) -> tuple[Any, Any]:
         """See ``Kind``."""
         return self.decide(shapes, LocalRays(shapes, at, rays, from_eye))
+
+
+class AffineBodies(Bodies):
+    """Shapes of one affine kind as bodies."""
+
+    def __init__(self, kind: AffineKind, shapes: InCamera, at: np.ndarray):
+        self.at, self.number = at, np.zeros(len(at), np.int32)
+        half = np.minimum(kind.half_sides(shapes.shapes.axes[at]), shapes.radius[at, None])
+        self.low, self.high = ((shapes.center[at] + sign * half).T for sign in (-1, 1))
+        self._kind, self._constants = kind, kind.constants(shapes, at, None)
+        self._cutouts = Cutouts.of(kind, shapes, at)
+
+    def meet(self, body: Any, origin: Any, direction: Any, start: Any, scratch: Scratch) -> np.ndarray:
+        """See ``Bodies``."""
+        constants = type(self._constants)(*(
+            places_of(getattr(self._constants, name), body) for name in self._constants.__dataclass_fields__
+        ))  # fmt: skip
+        t, where = self._kind.intersect(constants, tuple(origin), tuple(direction), start, scratch)
+        return np.array(t) if where is None else np.where(where, t, np.nan)
+
+    def is_hit(self, body: np.ndarray, origin: Any, direction: Any, t: np.ndarray, scratch: Scratch) -> Any:
+        """See ``Bodies``."""
+        if self._cutouts is None:
+            return True
+        found, at = np.ones(len(t), bool), self.at[body]
+        some = np.flatnonzero(self._cutouts.may[at])
+        point = along(tuple(part[some] for part in origin), tuple(part[some] for part in direction), t[some])
+        found[some] = self._cutouts.hit(crossings(at[some], t[some], False, scratch), point)
+        return found
 
 
 @dataclass(frozen=True, eq=False)

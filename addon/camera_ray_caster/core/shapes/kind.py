@@ -20,7 +20,8 @@ from typing import Any, NamedTuple, Protocol
 import numpy as np
 
 from ..maths.speed import Scratch, lazy, taken
-from ..records import Shapes
+from ..records import InputError, Shapes
+from .bodies import Bodies
 from .follow import Follow, follow_frames
 from .frames import InCamera, WorldRays
 from .search_rays import SearchRays
@@ -215,6 +216,13 @@ class Kind(ABC):
     @abstractmethod
     def shape_set(self, shapes: InCamera, visible: Visible) -> ShapeSet:
         """Return the shapes that some pixel may see, ready to be searched."""
+
+    def bodies(self, shapes: InCamera, at: np.ndarray) -> Bodies:
+        """Return the bodies of some shapes, by index, (k,): what rays that no camera makes are tested against.
+
+        The default raises InputError: ``cast_rays`` needs this method.
+        """
+        raise InputError(f"rays given as arrays do not meet shapes of the kind {self.name}: leave these out")
 
     @abstractmethod
     def normals(self, shapes: InCamera, at: np.ndarray) -> tuple[np.ndarray, PixelNormals | None]:

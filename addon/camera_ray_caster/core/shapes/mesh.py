@@ -15,6 +15,7 @@ from .mesh_in_camera import MeshesInView
 from .mesh_normals import TriangleNormals
 from .mesh_search import MeshSet
 from .mesh_surface import HitTriangles
+from .triangle_bodies import TriangleBodies
 
 
 class Meshes(Kind):
@@ -39,6 +40,10 @@ class Meshes(Kind):
             return visible.whole.at(visible.pixels)
         cutouts = Cutouts.of(self, shapes, visible.at)
         return MeshSet(MeshesInView(shapes, visible), visible.clip_start, cutouts)
+
+    def bodies(self, shapes: InCamera, at: np.ndarray) -> TriangleBodies:
+        """See ``Kind``: each triangle is a body."""
+        return TriangleBodies(shapes, at, Cutouts.of(self, shapes, at))
 
     def normals(self, shapes: InCamera, at: np.ndarray) -> tuple[np.ndarray, PixelNormals | None]:
         """See ``Kind``; each pixel's normal comes from its triangle."""

@@ -56,6 +56,10 @@ class Plane(AffineKind):
         ahead = np.abs(axes[..., 2])
         return np.sqrt(gram[:, 0, 0] + gram[:, 1, 1] + 2 * gram[:, 0, 1]), ahead[:, 0] + ahead[:, 1]
 
+    def half_sides(self, axes: np.ndarray) -> Any:
+        """See ``AffineKind``."""
+        return np.abs(axes[..., :2]).sum(axis=2)
+
     def is_close(self, offset: np.ndarray, shape_from_world: np.ndarray, away: np.ndarray) -> np.ndarray:
         """See ``Kind``: N_z cancels if the eye is near the plane."""
         return np.abs(offset[:, 2]) < GRAZING * np.abs(shape_from_world[:, 2] * away).sum(axis=-1)
@@ -137,6 +141,10 @@ class InfinitePlane(Plane):
     number = INFINITE_PLANE
     name = "infinite plane"
     has_edges = False
+
+    def half_sides(self, axes: np.ndarray) -> Any:
+        """See ``AffineKind``: there is no box."""
+        return np.inf
 
     def extent(self, shapes: Shapes, at: np.ndarray, axes: np.ndarray):
         """See ``Kind``."""

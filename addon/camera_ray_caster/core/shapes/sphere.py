@@ -36,6 +36,10 @@ class Sphere(AffineKind):
         ahead = axes[..., 2]
         return np.sqrt(gram.sum(axis=2).max(axis=1)), np.sqrt(np.einsum("ni,ni->n", ahead, ahead))
 
+    def half_sides(self, axes: np.ndarray) -> np.ndarray:
+        """See ``AffineKind``."""
+        return np.sqrt((axes * axes).sum(axis=2))
+
     def is_close(self, offset: np.ndarray, shape_from_world: np.ndarray, away: np.ndarray) -> np.ndarray:
         """See ``Kind``: |N|^2 - 1 cancels near the surface."""
         return np.sqrt((offset * offset).sum(axis=-1)) < sphere_rays.CLOSE

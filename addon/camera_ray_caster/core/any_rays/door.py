@@ -1,0 +1,223 @@
+"""``cast_rays`` and ``occluded``: rays that are given as arrays, cast at shapes."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator
+from typing import Any
+from weakref import WeakKeyDictionary
+
+import numpy as np
+
+from .. import arguments, memory
+from ..casting.passes import PASSES, image_bytes
+from ..conventions import gamma
+from ..maths.vector import norm
+from ..records import InputError, Shapes
+from .search import Search
+from .written import t_errors, write
+
+WITHOUT_PIXEL = "solid_angle", "footprint", "flow_forward", "flow_backward", "flow_hidden"
+"""Passes that a ray alone does not have."""
+
+KNOWN = tuple(name for name in PASSES if name not in WITHOUT_PIXEL)
+"""The passes of rays, in the order of PASSES."""
+
+PARTS = "cast the rays in parts"
+
+
+class RayImages(dict[str, np.ndarray]):
+    """The passes by name, each an array of the rays' shape[, channels]."""
+
+    shapes: Shapes
+
+
+def cast_rays(
+    origins,
+    directions,
+    shapes: Shapes,
+    passes: str | Iterable[str] = ("distance", "normal"),
+    times=None,
+    near: float = 0.0,
+    far: float = math.inf,
+    *,
+    all_hits: bool = False,
+    dtype=np.float64,
+) -> RayImages:
+    """Return the passes of the nearest hits of rays as a mapping of name to array.
+
+    origins, directions: (..., 3) in the world, of shapes that broadcast. Directions may have any length: ``depth`` is
+    t, counted in lengths of the direction, and ``distance`` is the distance in world units. A ray with NaN in its
+    origin or direction is none: ``valid`` is False there. Hits count from ``near`` to ``far``, which are values of t.
+
+    passes: the names of those passes of ``cast`` that a ray has: all but the solid angle, the footprint and flow. Each
+    array has the shape of the rays, and then its channels. Values where nothing is hit are those of ``cast``.
+    Real numbers are stored as ``dtype``.
+
+    times: the frame of each ray, which broadcasts with the rays; None for the frame at which the shapes were read. The
+    shapes have to be read with their motion, or stand still.
+
+    With ``all_hits`` the arrays are flat, a row for each hit, by ray and distance, and there are two more: ``ray``, the
+    index of the ray of each row, counted row by row, and ``count``, the number of hits of each ray, of the rays' shape.
+    A ray hits an ellipsoid twice. A ray through an edge hits both of its triangles.
+
+    Values of a ray do not depend on the others: the same rays give the same bits in any order and any partition.
+    Float64 values differ from those of a cast through a camera that has these rays by at most the sum of both error
+    bounds (the passes ``distance_bound``, ``position_bound`` and ``normal_bound``). Indices are equal wherever a hit is
+    farther than its bound from an edge and from other surfaces.
+
+    Raises InputError for arrays that are not (..., 3) or do not broadcast, directions of length 0 and numbers that are
+    infinite, for unknown passes, for a range that is not one, and for passes that need more memory than is available.
+    """
+    origin, direction, shape = _rays(origins, directions)
+    passes = _passes(passes)
+    near, far = _range(near, far)
+    dtype = arguments.real_type(dtype, "dtype")
+    all_hits = arguments.flag(all_hits, "all_hits")
+    _require(shapes, shape, passes, dtype)
+    count = origin.shape[1]
+    parts = _by_time(shapes, times, shape)
+    if all_hits:
+        return _all(shapes, parts, origin, direction, shape, passes, near, far, dtype)
+    images = RayImages({name: PASSES[name].empty((1, count), dtype) for name in passes})
+    images.shapes = shapes
+    for then, some in parts:
+        search = search_of(then)
+        own = origin[:, some], direction[:, some]
+        t, body = search.nearest(*own, near, far)
+        write(search, *own, t, body, images, np.arange(count)[some], (near, far))
+    for name, image in images.items():
+        images[name] = image.reshape((*shape, *image.shape[2:]))
+    return images
+
+
+def occluded(origins, targets, shapes: Shapes, times=None) -> np.ndarray:
+    """Return whether something lies between origins and targets, (..., 3) each, in the world: bool of the shape to
+    which they broadcast.
+
+    The segment is open at both ends, to the error bounds of the hits: a surface on which an end lies, to the rounding
+    of its coordinates, does not hide it. A point that is NaN is not hidden, and two equal points hide nothing.
+    ``times`` and the errors raised are those of ``cast_rays``.
+    """
+    start, end, shape = _points(origins, "origins", targets, "targets")
+    _require(shapes, shape, ("valid",), np.dtype(np.float64))
+    hidden = np.zeros(start.shape[1], bool)
+    for then, some in _by_time(shapes, times, shape):
+        search = search_of(then)
+        own = start[:, some]
+        towards = end[:, some] - own
+        towards[:, ~(np.abs(towards).max(axis=0) > 0)] = np.nan
+        hits = search.all(own, towards, 0.0, 1.0)
+        with np.errstate(all="ignore"):
+            error = t_errors(search, own[:, hits.ray], towards[:, hits.ray], hits)
+            error += (gamma(4) * np.maximum(norm(own), norm(end[:, some])) / norm(towards))[hits.ray]
+        between = (hits.t > error) & (hits.t < 1 - error)
+        rays = np.arange(len(hidden))[some]
+        hidden[rays[hits.ray[between]]] = True
+    return hidden.reshape(shape)
+
+
+_searches: WeakKeyDictionary[Shapes, Search] = WeakKeyDictionary()
+
+
+def search_of(shapes: Shapes) -> Search:
+    """Return the bodies of shapes with their tree, which is kept as long as the shapes are."""
+    if shapes not in _searches:
+        _searches[shapes] = Search(shapes)
+    return _searches[shapes]
+
+
+def _rays(origins, directions) -> tuple[np.ndarray, np.ndarray, tuple[int, ...]]:
+    """Return origins and directions, (3, n) each with NaN where there is no ray, and the shape of the rays."""
+    origin, direction, shape = _points(origins, "origins", directions, "directions")
+    length = np.abs(direction).max(axis=0, initial=0.0)
+    if (length == 0).any():
+        first = int(np.argmax(length == 0))
+        raise InputError(f"directions are 0 for ray {first}: give each a length, or NaN for no ray")
+    lost = np.isnan(origin).any(axis=0) | np.isnan(direction).any(axis=0)
+    direction[:, lost] = np.nan
+    origin[:, lost] = 0.0
+    return origin, direction, shape
+
+
+def _points(first, first_name: str, second, second_name: str) -> tuple[np.ndarray, np.ndarray, tuple[int, ...]]:
+    """Return two arrays of points as (3, n) each, and the shape to which they broadcast."""
+    both = []
+    for given, name in ((first, first_name), (second, second_name)):
+        values = arguments.numbers(given, name)
+        if values.shape[-1:] != (3,):
+            raise InputError(f"{name} of shape {values.shape} are no vectors: give x, y, z, shape (..., 3)")
+        both.append(values)
+    try:
+        shape = np.broadcast_shapes(*(values.shape for values in both))
+    except ValueError as error:
+        raise InputError(
+            f"{first_name} of shape {both[0].shape} and {second_name} of shape {both[1].shape} do not broadcast"
+        ) from error
+    memory.require(112 * math.prod(shape[:-1]), f"{math.prod(shape[:-1]):,} rays", PARTS)
+    for values, name in zip(both, (first_name, second_name), strict=True):
+        if np.isinf(values).any():
+            raise InputError(f"{name} hold infinite numbers: give finite ones, or NaN for no ray")
+    left, right = (np.array(np.broadcast_to(values, shape).reshape(-1, 3).T, order="C") for values in both)
+    return left, right, shape[:-1]
+
+
+def _passes(passes) -> tuple[str, ...]:
+    given = arguments.words(passes, "passes", PASSES)
+    if absent := [name for name in given if name in WITHOUT_PIXEL]:
+        words = "needs a pixel" if len(absent) == 1 else "need a pixel"
+        raise InputError(f"{', '.join(absent)} {words}, which a ray has not: the passes of rays are {', '.join(KNOWN)}")
+    return given
+
+
+def _range(near, far) -> tuple[float, float]:
+    near, far = arguments.number(near, "near", math.inf), arguments.number(far, "far", math.inf)
+    if not 0 <= near <= far:
+        raise InputError(f"hits cannot count from near = {near:g} to far = {far:g}: give 0 <= near <= far")
+    return near, far
+
+
+def _require(shapes: Shapes, shape: tuple[int, ...], passes: tuple[str, ...], dtype) -> None:
+    if not isinstance(shapes, Shapes):
+        raise TypeError(f"rays are cast at shapes as they are read or made, not at {type(shapes)}")
+    count = math.prod(shape)
+    memory.require(128 * count + image_bytes((1, count), passes, dtype), f"the passes of {count:,} rays", PARTS)
+
+
+def _by_time(shapes: Shapes, times, shape: tuple[int, ...]) -> Iterator[tuple[Shapes, Any]]:
+    """Yield the shapes at each time, and the indices of the rays of that time."""
+    if times is None:
+        yield shapes, slice(None)
+        return
+    given = arguments.numbers(times, "times")
+    try:
+        each = np.broadcast_to(given, shape).reshape(-1)
+    except ValueError as error:
+        raise InputError(f"times of shape {given.shape} do not broadcast to rays of shape {shape}") from error
+    if not np.isfinite(each).all():
+        raise InputError("times hold NaN or infinite numbers: give each ray the frame at which it is cast")
+    if shapes.motion is None:
+        yield shapes, slice(None)
+        return
+    for time in np.unique(each).tolist():
+        yield shapes.motion.shapes_at(time), np.flatnonzero(each == time)
+
+
+def _all(shapes, parts, origin, direction, shape, passes, near: float, far: float, dtype) -> RayImages:
+    """Return the passes of all hits, with their rays and the counts of these."""
+    found = []
+    for then, some in parts:
+        search = search_of(then)
+        hits = search.all(origin[:, some], direction[:, some], near, far)
+        images = RayImages({name: PASSES[name].empty((1, len(hits.t)), dtype) for name in passes})
+        own = origin[:, some][:, hits.ray], direction[:, some][:, hits.ray]
+        write(search, *own, hits.t, hits.body, images, np.arange(len(hits.t)), (near, far))
+        found.append((np.arange(origin.shape[1])[some][hits.ray], images))
+    ray = np.concatenate([ray for ray, _ in found])
+    order = np.argsort(ray, kind="stable")
+    result = RayImages({
+        name: np.concatenate([images[name][0] for _, images in found])[order] for name in passes
+    })  # fmt: skip
+    result["ray"], result["count"] = ray[order], np.bincount(ray, minlength=origin.shape[1]).reshape(shape)
+    result.shapes = shapes
+    return result

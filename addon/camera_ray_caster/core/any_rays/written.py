@@ -1,0 +1,74 @@
+"""The passes and the error bounds of the hits of given rays, written by the code that writes those of pictures."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..casting.hit_values import HitValues
+from ..casting.hits import NOTHING
+from ..casting.hits import Hits as PictureHits
+from ..casting.passes import PASSES
+from ..casting.pixel_bounds import PixelBounds
+from ..casting.plan import Plan
+from ..casting.rays import TileRays
+from ..casting.request import Request
+from ..maths.speed import Scratch
+from ..shapes.mesh_found import SEEN, SeenTriangles
+from .given import camera_of
+from .search import Hits, Search
+
+Span = tuple[float, float]
+"""The least and the largest t of hits."""
+
+CHUNK = 1 << 15
+"""Number of rays whose passes are written at once."""
+
+
+def write(search: Search, origin, direction, t, body, images: dict[str, np.ndarray], rays, span: Span) -> None:
+    """Write the passes of hits, one for each ray (3, n), at the places ``rays``, (n,), of images with one row."""
+    plan, scratch = _plan(search, origin, direction, span, tuple(images)), Scratch()
+    with np.errstate(all="ignore"):  # NaN and inf mean no ray and no hit
+        for first in range(0, len(t), CHUNK):
+            part = slice(first, first + CHUNK)
+            values = _values(plan, search, part, t, body, scratch)
+            for name, image in images.items():
+                out = np.empty((1, values.hits.t.shape[1], *image.shape[2:]), image.dtype)
+                PASSES[name].write(values, out)
+                image[:, rays[part]] = out
+
+
+def t_errors(search: Search, origin, direction, hits: Hits) -> np.ndarray:
+    """Return the error bounds of the t of hits, one for each ray (3, n)."""
+    plan, scratch = _plan(search, origin, direction, (0.0, 1.0), ()), Scratch()
+    error = np.full(hits.t.shape, np.inf)
+    for first in range(0, len(error), CHUNK):
+        part = slice(first, first + CHUNK)
+        for where, own in _values(plan, search, part, hits.t, hits.body, scratch).errors:
+            error[part][where[0]] = own.t_error
+    return error
+
+
+def _plan(search: Search, origin, direction, span: Span, passes: tuple[str, ...]) -> Plan:
+    """Return the plan for the passes of rays (3, n): that of a picture in which every shape may be seen."""
+    camera, shapes = camera_of(origin, direction, *span), search.shapes
+    request = Request(passes, tuple(PASSES), cull=False)
+    pixels = PixelBounds(camera, sampled=False, cull=False)
+    bounds, _ = pixels.of_balls(search.placed.center, search.placed.radius)
+    near = np.full(len(shapes), -np.inf)
+    return Plan(camera, shapes, request, search.placed, pixels, np.arange(len(shapes)), bounds, near, clips=False)
+
+
+def _values(plan: Plan, search: Search, part: slice, t, body, scratch: Scratch) -> HitValues:
+    """Return the values of the hits of some rays, given t and bodies of all, -1 for none."""
+    x = np.arange(len(t))[None, part] + 0.5
+    origin, direction = plan.camera.model.rays(x, 0.5)
+    t, body = t[None, part], body[None, part]
+    rays = TileRays(x, np.array([[0.5]]), (0, 0), False, origin, direction, scratch)
+    index = np.full(body.shape, NOTHING)
+    some = body >= 0
+    index[some] = search.at[body[some]]
+    some &= search.is_triangle[body]
+    met, place = np.unique(body[some], return_inverse=True)
+    scratch(SEEN, body.shape, np.int32)[some] = place
+    scratch.noted = {SEEN: SeenTriangles(search.at[met], search.number[met])}
+    return HitValues(PictureHits(plan, rays, t, index))
