@@ -81,3 +81,20 @@ def test_freestyle_is_warned_of_with_its_cost(blender, scene):
     assert warning.startswith("Freestyle draws its lines after the cast")
     scene.view_layers[0].use_freestyle = False
     assert rendered(blender) == ()
+
+
+def test_a_cryptomatte_node_reads_passes_that_the_engine_lacks(blender, scene, layers):
+    node, read = layers
+    read("Image")
+    scene.view_layers[0].use_pass_cryptomatte_object = True
+    scene.render.engine = "CYCLES"
+    tree = node.id_data
+    matte = tree.nodes.new("CompositorNodeCryptomatteV2")
+    matte.scene = scene
+    matte.layer_name = "ViewLayer.CryptoObject"
+    end = next(link for link in tree.links if link.from_node == node).to_socket
+    tree.links.new(matte.outputs[0], end)
+    tree.links.new(node.outputs["Image"], matte.inputs[0])
+    scene.render.engine = "CAMERA_RAY_CASTER"
+    (warning,) = rendered(blender)
+    assert "reads the pass 'CryptoObject' of 'ViewLayer', which this engine does not have" in warning

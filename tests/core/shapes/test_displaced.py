@@ -60,3 +60,11 @@ def test_normals_are_the_mean_of_the_faces_around_or_kept():
     np.testing.assert_array_equal(kept.normals[kept.loops], np.broadcast_to([0, 0, 1], (3, 2, 3)))
     mixed = displaced(mesh, MeshNormals(np.array([True, False]), UP), [Displacement(channel(height, 0), True)])
     np.testing.assert_allclose(mixed.normals[mixed.loops][:, 1], [leaning] * 3, atol=1e-7)
+
+
+def test_heights_that_are_no_numbers_move_nothing():
+    for height in (np.nan, np.inf, 1e300):
+        values = np.full((3, 2, 4), height)
+        mesh = replace(SQUARE, layers=(("color:Height", values),))
+        found = displaced(mesh, SMOOTH, [Displacement(channel(Layer("color:Height", 4), 0), True)])
+        np.testing.assert_array_equal(found.vertices, SQUARE.vertices)

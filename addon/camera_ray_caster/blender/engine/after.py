@@ -41,16 +41,24 @@ def _missing(scene, layer, passes: Collection[RenderPass]) -> Iterator[str]:
     known = {entry.label for entry in PASSES}
     there = ALWAYS | {entry.label for entry in passes}
     for node in compositor_nodes(scene):
-        if node.type != "R_LAYERS" or node.scene != scene or node.layer != layer.name:
-            continue
-        names = [one.name for one in node.outputs if any(not link.is_muted for link in one.links)]
-        for name in names:
+        for name in _read(node, scene, layer.name):
             if name not in there:
                 why = "is not cast: enable it" if name in known else "this engine does not have: render with Cycles"
                 yield (
                     f"the compositor's node {node.name!r} reads the pass {name!r} of {layer.name!r}, which {why}, or "
                     "disable Compositing; it is black or missing in the picture"
                 )
+
+
+def _read(node, scene, layer: str) -> list[str]:
+    """Return the names of the passes of a view layer that a node reads."""
+    used = [one.name for one in node.outputs if any(not link.is_muted for link in one.links)]
+    if node.type == "R_LAYERS" and node.scene == scene and node.layer == layer:
+        return used
+    if node.type == "CRYPTOMATTE_V2" and node.source == "RENDER" and node.scene == scene:
+        of, _, name = node.layer_name.rpartition(".")
+        return [name] if used and of == layer else []
+    return []
 
 
 def _drawn_over(depsgraph, model: str, freestyle: bool) -> Iterator[str]:

@@ -6,21 +6,15 @@ from typing import Any
 
 import numpy as np
 
-from .values import DIRECTION, Value
+from .values import DIRECTION, Places, Value
 
 
-class Directions:
+class Directions(Places):
     """Directions, three components (m,) of any length, in the world: see ``values.Places``."""
 
     def __init__(self, direction: Any):
+        super().__init__()
         self._direction = np.array(direction, float)
-        self._known: dict[Value, np.ndarray] = {}
-
-    def value(self, of: Value) -> np.ndarray:
-        """See ``Places``."""
-        if of not in self._known:
-            self._known[of] = of.at(self)
-        return self._known[of]
 
     def coordinates(self, name: str) -> np.ndarray:
         """See ``Places``; of DIRECTION, unit vectors."""

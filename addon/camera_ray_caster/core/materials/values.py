@@ -9,7 +9,6 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Protocol
 
 import numpy as np
 
@@ -17,15 +16,23 @@ GRAY = np.array([[0.2126], [0.7152], [0.0722]])
 """Weights of linear red, green and blue in the gray of a color (Rec. 709), as in Blender."""
 
 
-class Places(Protocol):
+class Places(ABC):
     """Points at which expressions are evaluated: of surfaces, or directions into the background."""
+
+    def __init__(self) -> None:
+        self._known: dict[Value, np.ndarray] = {}
 
     def value(self, of: Value) -> np.ndarray:
         """Return the values of an expression, which is evaluated once for these points."""
+        if of not in self._known:
+            self._known[of] = of.at(self)
+        return self._known[of]
 
+    @abstractmethod
     def coordinates(self, name: str) -> np.ndarray:
         """Return coordinates by name, (3, m), see ``Coordinates``; 0 where there are none."""
 
+    @abstractmethod
     def layer(self, name: str, channels: int) -> np.ndarray:
         """Return an attribute of the mesh by the name of its layer, (channels, m); 0 where there is none."""
 

@@ -13,8 +13,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..materials.values import OBJECT, UV, Value
+from ..materials.values import OBJECT, UV, Places, Value
 from ..mesh import Mesh
+
+FARTHEST = 1e30
+"""Heights from which on, and those that are NaN, a vertex is not moved: float32 could not store its place."""
 
 
 @dataclass(frozen=True)
@@ -49,7 +52,7 @@ def displaced(mesh: Mesh, before: MeshNormals, materials: Sequence[Displacement 
     for slot in np.unique(slots[triangle]).tolist():
         some = np.flatnonzero(slots[triangle] == slot)
         height = materials[slot].height.at(_Corners(mesh, corner[some], triangle[some]))
-        vertices[:, at[some]] += np.nan_to_num(height) * normals[:, some]
+        vertices[:, at[some]] += np.where(np.abs(height) < FARTHEST, height, 0.0) * normals[:, some]
     turns = any(one is not None and one.turns for one in materials)
     return _with_normals(replace(mesh, vertices=vertices.astype(np.float32)), mesh, before, turns)
 
@@ -84,18 +87,12 @@ def _with_normals(moved: Mesh, mesh: Mesh, before: MeshNormals, turns: bool) -> 
     return replace(moved, loops=loops, normals=normals.transpose(0, 2, 1).reshape(-1, 3).astype(np.float32), uv=uv)
 
 
-class _Corners:
+class _Corners(Places):
     """Corners of triangles as places of expressions: see ``Places``."""
 
     def __init__(self, mesh: Mesh, corner: np.ndarray, triangle: np.ndarray):
+        super().__init__()
         self._mesh, self._corner, self._triangle = mesh, corner, triangle
-        self._known: dict[Value, np.ndarray] = {}
-
-    def value(self, of: Value) -> np.ndarray:
-        """See ``Places``."""
-        if of not in self._known:
-            self._known[of] = of.at(self)
-        return self._known[of]
 
     def coordinates(self, name: str) -> np.ndarray:
         """See ``Places``."""

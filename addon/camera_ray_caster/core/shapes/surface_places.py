@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from ..materials.values import OBJECT, UV, Value
+from ..materials.values import OBJECT, UV, Places
 from ..maths.speed import lazy, taken
 from ..records import Shapes
 from .frames import InCamera
@@ -49,18 +49,12 @@ class KindPlaces:
         return [(number, np.flatnonzero(self.surface == number)) for number in there[there >= 0].tolist()]
 
 
-class SurfacePlaces:
+class SurfacePlaces(Places):
     """Some of the points of a kind, (k,) indices: see ``materials.values.Places``."""
 
     def __init__(self, places: KindPlaces, some: np.ndarray):
+        super().__init__()
         self._places, self._some = places, some
-        self._known: dict[Value, np.ndarray] = {}
-
-    def value(self, of: Value) -> np.ndarray:
-        """See ``Places``."""
-        if of not in self._known:
-            self._known[of] = of.at(self)
-        return self._known[of]
 
     def coordinates(self, name: str) -> np.ndarray:
         """See ``Places``."""
