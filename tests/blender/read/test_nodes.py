@@ -261,3 +261,27 @@ def test_what_a_material_needs_decides_whether_a_shape_stays_exact(surface):
     assert set(read_shapes(bpy.context.scene).kind) == {PLANE, SPHERE}
     link(new("ShaderNodeVertexColor").outputs[0], node.outputs[0].links[0].to_socket)
     assert set(read_shapes(bpy.context.scene).kind) == {MESH}
+
+
+def test_many_nodes_in_a_row_and_shaders_that_share_their_parts_are_read_in_no_time(surface):
+    """Forty Mix Shaders, each of the one before twice; and more nodes in a row than are followed are named."""
+    new, link, out, _ = surface
+    last = new("ShaderNodeBsdfDiffuse")
+    last.inputs["Color"].default_value = 0.5, 0.25, 0.125, 1
+    for _ in range(40):
+        mix = new("ShaderNodeMixShader")
+        for place in (1, 2):
+            link(last.outputs[0], mix.inputs[place])
+        last = mix
+    link(last.outputs[0], out.inputs["Surface"])
+    color, left_out = shown()
+    np.testing.assert_allclose(color, (0.5, 0.25, 0.125), atol=1e-6)
+    assert not left_out
+    shader = last = new("ShaderNodeBsdfDiffuse")
+    for _ in range(300):
+        node = new("ShaderNodeGamma")
+        link(node.outputs[0], last.inputs["Color"])
+        last = node
+    link(shader.outputs[0], out.inputs["Surface"])
+    ((_, reason),) = shown()[1]
+    assert "more than 100 nodes in a row" in reason

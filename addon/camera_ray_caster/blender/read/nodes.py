@@ -1,14 +1,16 @@
 """The links of a node tree: which expression a socket has, through groups, reroutes and muted nodes."""
 
 from collections.abc import Callable, Hashable
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 
 from ...core.materials.values import Value, constant, function_of, gray, mean
 
-DEEPEST = 200
-"""Nodes in a row that are followed."""
+DEEPEST = 100
+"""Nodes in a row that are followed: each takes some five of the thousand calls that Python nests."""
+
+T = TypeVar("T")
 
 NUMBERS = {"VALUE", "INT", "BOOLEAN"}
 
@@ -35,7 +37,7 @@ class Nodes:
         """The layers of the mesh that expressions use, and OBJECT for places in the object's space."""
         self.missing: set[str] = set()
         """The names of images that cannot be loaded."""
-        self._known: dict[Hashable, Value] = {}
+        self._known: dict[Hashable, Any] = {}
         self._open: set[Hashable] = set()
 
     def source(self, socket, groups: tuple) -> Source:
@@ -74,31 +76,28 @@ class Nodes:
 
     def output(self, node, output, groups: tuple) -> Value:
         """Return the expression of an output of a node."""
-        key = node.as_pointer(), output.identifier, tuple(one.as_pointer() for one in groups)
-        if key not in self._known:
-            read = self.read.get(node.bl_idname)
-            if read is None:
-                raise Unread(f"node {node.name!r} ({node.bl_rna.name})")
-            with Passed(self, key):
-                self._known[key] = read(self, Node(self, node, groups), output)
-        return self._known[key]
+        read = self.read.get(node.bl_idname)
+        if read is None:
+            raise Unread(f"node {node.name!r} ({node.bl_rna.name})")
+        own = Node(self, node, groups)
+        return self.once(own, output.identifier, lambda: read(self, own, output))
 
-
-class Passed:
-    """The passage through a node: raises Unread in a loop, and beyond DEEPEST."""
-
-    def __init__(self, nodes: Nodes, key: Hashable):
-        self._open, self._key = nodes._open, key
-
-    def __enter__(self):
-        if self._key in self._open:
+    def once(self, node: "Node", what: str, read: Callable[[], T]) -> T:
+        """Return what is read of a node, by name: it is read at its first use. Raises Unread in a loop, and if more
+        than DEEPEST nodes are in a row.
+        """
+        key = node.as_pointer(), what, tuple(one.as_pointer() for one in node.groups)
+        if key in self._open:
             raise Unread("its nodes form a loop")
         if len(self._open) >= DEEPEST:
             raise Unread(f"more than {DEEPEST} nodes in a row")
-        self._open.add(self._key)
-
-    def __exit__(self, *_):
-        self._open.discard(self._key)
+        if key not in self._known:
+            self._open.add(key)
+            try:
+                self._known[key] = read()
+            finally:
+                self._open.discard(key)
+        return self._known[key]
 
 
 class Node:

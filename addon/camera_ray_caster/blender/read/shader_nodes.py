@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 from ...core.materials.operations import saturated
 from ...core.materials.values import Constant, Value, constant, function_of, mean
-from .nodes import Node, Nodes, Passed, Unread
+from .nodes import Node, Nodes, Unread
 from .value_nodes import READ
 
 COLORS = {
@@ -49,20 +49,23 @@ def transparency(nodes: Nodes, socket, groups: tuple) -> Value | None:
     if found is None:
         return None
     node = Node(nodes, found, groups)
-    with Passed(nodes, ("through", node.as_pointer(), tuple(one.as_pointer() for one in node.groups))):
-        kind = node.bl_idname
-        if kind == TRANSPARENT:
-            return node.input("Color")
-        if kind == PRINCIPLED:
-            alpha = node.input("Alpha")
-            rest = function_of(lambda one: 1 - saturated(one), alpha)
-            return None if isinstance(rest, Constant) and not rest.values.any() else rest
-        if kind in {MIX, ADD}:
-            parts = [transparency(nodes, node.inputs[k], node.groups) for k in shaders(kind)]
-            return None if parts == [None, None] else _combined(node, *parts)
-        if kind in {"ShaderNodeGroup", "ShaderNodeCustomGroup", "ShaderNodeBsdfRayPortal", "ShaderNodeShaderToRGB"}:
-            raise Unread(f"node {node.name!r} ({node.bl_rna.name})")
-        return None
+    return nodes.once(node, "transparency", lambda: _transparency(nodes, node))
+
+
+def _transparency(nodes: Nodes, node: Node) -> Value | None:
+    kind = node.bl_idname
+    if kind == TRANSPARENT:
+        return node.input("Color")
+    if kind == PRINCIPLED:
+        alpha = node.input("Alpha")
+        rest = function_of(lambda one: 1 - saturated(one), alpha)
+        return None if isinstance(rest, Constant) and not rest.values.any() else rest
+    if kind in {MIX, ADD}:
+        parts = [transparency(nodes, node.inputs[k], node.groups) for k in shaders(kind)]
+        return None if parts == [None, None] else _combined(node, *parts)
+    if kind in {"ShaderNodeGroup", "ShaderNodeCustomGroup", "ShaderNodeBsdfRayPortal", "ShaderNodeShaderToRGB"}:
+        raise Unread(f"node {node.name!r} ({node.bl_rna.name})")
+    return None
 
 
 def colors(nodes: Nodes, socket, groups: tuple, weighs: bool) -> Parts:
@@ -73,24 +76,27 @@ def colors(nodes: Nodes, socket, groups: tuple, weighs: bool) -> Parts:
     if found is None:
         return Parts()
     node = Node(nodes, found, groups)
-    with Passed(nodes, ("colors", node.as_pointer(), tuple(one.as_pointer() for one in node.groups))):
-        kind = node.bl_idname
-        if kind in {TRANSPARENT, HOLDOUT}:
-            return Parts()
-        if kind == PRINCIPLED:
-            return _principled(node, weighs)
-        if kind in COLORS:
-            if getattr(node.node, "fresnel_type", "F82") != "F82":
-                raise node.unread("physical conductor")
-            return Parts(node.input(COLORS[kind]))
-        if kind in EMISSIONS:
-            color = node.input("Color")
-            return Parts(None, color, function_of(lambda a, b: a * b, color, node.input("Strength")))
-        if kind in {MIX, ADD}:
-            first, second = (colors(nodes, node.inputs[k], node.groups, weighs) for k in shaders(kind))
-            return Parts(*(None if one is other is None else _combined(node, one, other)
-                           for one, other in zip(first, second, strict=True)))  # fmt: skip
-        raise Unread(f"node {node.name!r} ({node.bl_rna.name})")
+    return nodes.once(node, f"colors {weighs}", lambda: _colors(nodes, node, weighs))
+
+
+def _colors(nodes: Nodes, node: Node, weighs: bool) -> Parts:
+    kind = node.bl_idname
+    if kind in {TRANSPARENT, HOLDOUT}:
+        return Parts()
+    if kind == PRINCIPLED:
+        return _principled(node, weighs)
+    if kind in COLORS:
+        if getattr(node.node, "fresnel_type", "F82") != "F82":
+            raise node.unread("physical conductor")
+        return Parts(node.input(COLORS[kind]))
+    if kind in EMISSIONS:
+        color = node.input("Color")
+        return Parts(None, color, function_of(lambda a, b: a * b, color, node.input("Strength")))
+    if kind in {MIX, ADD}:
+        first, second = (colors(nodes, node.inputs[k], node.groups, weighs) for k in shaders(kind))
+        return Parts(*(None if one is other is None else _combined(node, one, other)
+                       for one, other in zip(first, second, strict=True)))  # fmt: skip
+    raise Unread(f"node {node.name!r} ({node.bl_rna.name})")
 
 
 def _principled(node: Node, weighs: bool) -> Parts:
