@@ -28,6 +28,7 @@ from camera_ray_caster.core.cameras.model import GROUPS, Model  # noqa: E402
 from camera_ray_caster.core.cameras.parts.programs import PROGRAMS, Program  # noqa: E402
 from camera_ray_caster.core.cameras.parts.settings import OWN, Setting  # noqa: E402
 from camera_ray_caster.core.exports import FORMATS  # noqa: E402
+from camera_ray_caster.core.sets import SET_FORMATS  # noqa: E402
 
 CAMERAS = ROOT / "addon" / "camera_ray_caster" / "core" / "cameras"
 
@@ -71,6 +72,18 @@ of its own size by its object's custom property `resolution`, in all commands bu
 |---|---|---|---|---|
 """
 
+SETS = """
+## Finished data sets
+
+`export.py FOLDER --format KEY --output OUT` exports the set that `cast.py` or `dataset.py` made in a folder, with its
+sizes and frames: its cameras in each of the formats above, and these. They read the passes of NPZ files (depth or
+distance; combined, shape_index or normal where the format has them) and the annotations of `--annotations`, in which
+each object has its visible and its whole (amodal) mask, its category, and the pose and size of a box in its own axes.
+
+| key | |
+|---|---|
+"""
+
 COLUMNS = "| setting | unit | range | default | |\n|---|---|---|---|---|\n"
 
 
@@ -88,7 +101,8 @@ def page() -> str:
 
 def files() -> str:
     """Return the page of files: a row for each program."""
-    return FILES + "".join(map(program_row, PROGRAMS))
+    sets = "".join(f"| `{key}` | {one.description} |\n" for key, one in SET_FORMATS.items())
+    return FILES + "".join(map(program_row, PROGRAMS)) + SETS + sets
 
 
 def program_row(program: Program) -> str:

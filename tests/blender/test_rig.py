@@ -110,6 +110,17 @@ def test_cameras_of_different_sizes_are_cast_into_one_folder(blender, camera_sce
     assert commands.main("export", [*words[:4], "--format", "json", "--output", str(tmp_path / "j")], "it") == 0
     cameras = json.loads((tmp_path / "j" / "camera.json").read_text())["cameras"]
     assert [one["all_frames"]["record"]["resolution_x"] for one in cameras] == [80, 50, 32]
+    for key in ("json", "masks", "preview", "nerf"):
+        assert commands.main("export", [str(out), "--format", key, "--output", str(tmp_path / key)], "it") == 2 * (
+            key == "nerf"
+        )
+    exported = json.loads((tmp_path / "json" / "camera.json").read_text())["cameras"]
+    assert {one["all_frames"]["record"]["resolution_x"] for one in exported} == {80, 50, 32}
+    assert "NeRF cannot represent" in capfd.readouterr().err
+    assert commands.main("export", [str(out), "--format", "json", "--camera", "cam0"], "it") == 2
+    assert "--camera is for a .blend, not for a finished set" in capfd.readouterr().err
+    assert commands.main("export", [str(file), "--format", "yolo"], "it") == 2
+    assert "--format yolo is of a finished set" in capfd.readouterr().err
     assert commands.main("cast", [str(file), "--rig", chain, "--camera", "Camera"], "it") == 2
     assert "--rig brings its own cameras" in capfd.readouterr().err
 

@@ -36,6 +36,20 @@ def write(folder, kinds):
     found.write_text(folder)
 
 
+def errors(folder):
+    """For each point of a model: the largest distance in pixels of its track to its projections, and the length."""
+    import numpy
+    import pycolmap
+
+    found = pycolmap.Reconstruction(folder)
+    results = []
+    for point in found.points3D.values():
+        own = [(found.images[one.image_id], one.point2D_idx) for one in point.track.elements]
+        apart = [numpy.abs(image.project_point(point.xyz) - image.points2D[k].xy).max() for image, k in own]
+        results.append((max(apart), len(own)))
+    return results
+
+
 def to_binary(text, folder):
     """Write a model of text as binary."""
     import pycolmap

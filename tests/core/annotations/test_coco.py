@@ -53,6 +53,22 @@ def test_boxes_masks_and_areas_by_hand():
     index = cast(CAMERA, WALLS, ("shape_index",))["shape_index"][::-1]
     for one in found["annotations"]:
         assert (unpacked(one["segmentation"]) == (index == one["shape_index"])).all()
+    amodal = unpacked(found["annotations"][0]["segmentation_whole"])
+    assert amodal[16:32, 24:40].all()
+    assert amodal.sum() == 256
+
+
+def test_objects_have_boxes_in_their_own_axes():
+    turned = np.array([(0, -3.0, 0), (2.0, 0, 0), (0, 0, 1.0)])  # along y, 2 long, and along -x, 3 long
+    shapes = shapes_of((SPHERE, (1, 2, 3), 0.5), (PLANE, (0, 0, -1), 0.5))
+    shapes = replace(shapes, axes=np.stack((turned, shapes.axes[1])))
+    ball, square = annotated(shapes=shapes)["objects"]
+    assert ball["size"] == [4, 6, 2]
+    assert np.allclose(ball["matrix"], [(0, -1, 0, 1), (1, 0, 0, 2), (0, 0, 1, 3), (0, 0, 0, 1)])
+    assert (ball["image_id"], ball["category"], ball["instance"]) == (1, "wall", 0)
+    assert square["size"] == [1, 1, 0]
+    whole = merged([annotated(shapes=shapes), annotated(shapes=shapes)])
+    assert [one["image_id"] for one in whole["objects"]] == [1, 1, 2, 2]
 
 
 def test_a_visible_part_has_a_box_of_its_own():

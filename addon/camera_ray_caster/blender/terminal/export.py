@@ -3,27 +3,36 @@
 from collections.abc import Sequence
 from pathlib import Path
 
-from ...core.exports import FORMATS
+from ...core.exports import FORMATS, export
+from ...core.exports.writing import write
+from ...core.records import InputError
+from ...core.sets import SET_FORMATS, read_set, sparse
 from ..output import exports
 from ..read.camera import check_camera, check_markers, find_camera, find_cameras
 from ..read.frames import frame_of
 from .opening import not_run
 from .options import command_parser, go_to, open_scene, warn
-from .words import add_cameras, add_frames, check_cameras
+from .words import add_cameras, add_frames, check_cameras, count
+
+OF_SCENES = "camera", "cameras", "frames", "calibration", "rig", "resolution", "to"
+"""Options that choose or change what a .blend has."""
 
 
 def run(arguments: Sequence[str], prog: str) -> int:
     """Export cameras of a file; return the exit status."""
     parser = command_parser(
         prog,
-        "Write the cameras of a Blender file, at one or more frames, for other programs.",
+        "Write the cameras of a Blender file, at one or more frames, or a finished data set, for other programs.",
         f"{prog} blend_scenes/toys.blend --format colmap --cameras ALL --frames 1:100:10 --output out",
         "writes cameras.txt, images.txt and points3D.txt; cameras that COLMAP cannot represent are refused.",
         ends="exit status: 0 done; 2 bad input.",
     )
-    formats = {one.key: one for one in FORMATS}
-    parser.add_argument("--format", type=str.lower, choices=formats, required=True,
-                        help="; ".join(f"{key}: {one.description}" for key, one in formats.items()))  # fmt: skip
+    formats = {one.key: one for one in FORMATS} | SET_FORMATS
+    parser.add_argument("--format", type=str.lower, choices=formats, required=True, help=
+        "; ".join(f"{key}: {one.description}" for key, one in formats.items())
+        + f". Of a folder with a finished set only: {', '.join(SET_FORMATS)}")  # fmt: skip
+    parser.add_argument("--points", type=count, metavar="N", help=
+        f"number of seed points, for colmap-scene only; default: {sparse.COUNT}")  # fmt: skip
     add_cameras(parser)
     add_frames(parser)
     parser.add_argument("--to", metavar="NAME", help="target camera of the maps, for stmap only; "
@@ -31,6 +40,12 @@ def run(arguments: Sequence[str], prog: str) -> int:
     parser.add_argument("--output", type=Path, default=Path("out"), metavar="FOLDER", help="default: %(default)s")
     options = parser.parse_args(arguments)
     check_cameras(options)
+    if options.points and options.format != "colmap-scene":
+        raise InputError("--points applies to --format colmap-scene only")
+    if options.file is not None and options.file.is_dir():
+        return _of_set(options)
+    if options.format in SET_FORMATS:
+        raise InputError(f"--format {options.format} is of a finished set: give its folder in place of a .blend")
     scene = open_scene(options)
     if not options.cameras:
         check_camera(scene, scene.camera)
@@ -43,5 +58,21 @@ def run(arguments: Sequence[str], prog: str) -> int:
     said, paths = exports.write(scene, options.format, cameras, frames, options.output, target, not options.resolution)
     for line in not_run():
         warn(prog, line)
+    print("\n".join((*said, f"Wrote {', '.join(map(str, paths))}")), flush=True)
+    return 0
+
+
+def _of_set(options) -> int:
+    """Export a finished set, whose pictures have the names of their files; return the exit status."""
+    unused = [name for name in OF_SCENES if getattr(options, name)]
+    if unused:
+        raise InputError(f"--{unused[0].replace('_', '-')} is for a .blend, not for a finished set: leave it out")
+    views = read_set(options.file)
+    if options.format in SET_FORMATS:
+        given = {"count": options.points} if options.points else {}
+        files, said = SET_FORMATS[options.format].files(views, **given), []
+    else:
+        files, said = export(options.format, [view.shot for view in views])
+    paths = write(files, options.output)
     print("\n".join((*said, f"Wrote {', '.join(map(str, paths))}")), flush=True)
     return 0

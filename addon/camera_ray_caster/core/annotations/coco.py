@@ -2,9 +2,10 @@
 
 Boxes are x, y, width and height in pixels from the top left corner of the picture, y down. Key points are x, y and
 visibility: 0 outside, 1 hidden, 2 seen; a pixel's center is at + 0.5. Instances of an object have no key points. Masks
-are run lengths, column by column. Besides COCO's own keys there are ``bbox_whole`` and ``area_whole``, of the object if
-it were alone in the picture, ``visible_fraction``, ``object`` and ``shape_index``; and the lists ``hidden``, of objects
-without visible pixels, and ``keypoints``, of all key points with their world coordinates and depth.
+are run lengths, column by column. Besides COCO's own keys there are ``bbox_whole``, ``area_whole`` and
+``segmentation_whole``, the amodal mask, of the object if it were alone in the picture, ``visible_fraction``, ``object``
+and ``shape_index``; and the lists ``hidden``, of objects without visible pixels, ``keypoints``, of all key points with
+their world coordinates and depth, and ``objects``, of the poses of all objects (see ``poses``).
 Reference: https://cocodataset.org/#format-data.
 """
 
@@ -22,6 +23,7 @@ from ..records import Shapes
 from ..version import VERSION
 from .keypoints import SeenKeyPoint
 from .moments import check_rows, check_still
+from .poses import object_poses
 from .silhouettes import Box, Silhouette, silhouettes
 
 Document = dict[str, Any]
@@ -77,23 +79,24 @@ def document(
         x0, x1, y0, y1 = ends
         return sheet.box(x0 + raster.x0, x1 + raster.x0, y0 + raster.y0, y1 + raster.y0)
 
-    def mask(row: int) -> dict[str, Any]:
+    def mask(pixels: np.ndarray, column: int = 0, row: int = 0) -> dict[str, Any]:
         picture = np.zeros((sheet.height, sheet.width), bool)
-        x, y = raster.x0 - sheet.corner[0], raster.y0 - sheet.corner[1]
-        picture[y : y + index.shape[0], x : x + index.shape[1]] = index == row
+        x, y = raster.x0 - sheet.corner[0] + column, raster.y0 - sheet.corner[1] + row
+        picture[y : y + pixels.shape[0], x : x + pixels.shape[1]] = pixels
         return run_lengths(picture[::-1])
 
     def whole(name: str, one: Silhouette) -> Document:
         return {
             "image_id": 1, "category_id": numbers[category[name]], "object": name, "shape_index": one.row,
             "bbox_whole": box(one.whole), "area_whole": one.whole_pixels,
+            "segmentation_whole": mask(one.alone, one.whole[0], one.whole[2]),
         }  # fmt: skip
 
     def visible(name: str, one: Silhouette, ends: Box) -> Document:
         is_own = not (shapes.instanced and shapes.instanced[shapes.name_index[one.row]])
         own = {seen.point.name: _triple(sheet, seen) for seen in points if is_own and seen.point.owner == name}
         return whole(name, one) | {
-            "iscrowd": 0, "bbox": box(ends), "area": one.visible_pixels, "segmentation": mask(one.row),
+            "iscrowd": 0, "bbox": box(ends), "area": one.visible_pixels, "segmentation": mask(index == one.row),
             "visible_fraction": one.visible_pixels / one.whole_pixels, **_key_points(own, key_names[category[name]]),
         }  # fmt: skip
 
@@ -113,12 +116,14 @@ def document(
             }
             for seen in points
         ],
+        "objects": [{"image_id": 1, **one} for one in object_poses(shapes, category_of)],
     }  # fmt: skip
 
 
 def merged(documents: Iterable[Document]) -> Document:
     """Return several documents as one, numbered anew; categories of the same name are merged."""
-    result: Document = {"info": {}, "images": [], "categories": [], "annotations": [], "hidden": [], "keypoints": []}
+    parts = "images", "categories", "annotations", "hidden", "keypoints", "objects"
+    result: Document = {"info": {}, **{part: [] for part in parts}}
     key_names: dict[str, list[str]] = {}
     for one in documents:
         number = len(result["images"]) + 1
@@ -130,7 +135,8 @@ def merged(documents: Iterable[Document]) -> Document:
             known += [name for name in category.get("keypoints", ()) if name not in known]
         for part in ("annotations", "hidden"):
             result[part] += [entry | image | {"category": own[entry["category_id"]]} for entry in one[part]]
-        result["keypoints"] += [point | image for point in one["keypoints"]]
+        for part in ("keypoints", "objects"):
+            result[part] += [entry | image for entry in one[part]]
     numbers = {name: number for number, name in enumerate(key_names, 1)}
     result["categories"] = [_category(number, name, key_names[name]) for name, number in numbers.items()]
     for entry in (*result["annotations"], *result["hidden"]):
@@ -151,6 +157,12 @@ def run_lengths(mask: np.ndarray) -> dict[str, Any]:
     flat = mask.ravel(order="F")
     changes = np.flatnonzero(np.diff(flat, prepend=False))
     return {"size": list(mask.shape), "counts": np.diff(changes, prepend=0, append=len(flat)).tolist()}
+
+
+def unpacked(lengths: dict[str, Any]) -> np.ndarray:
+    """Return the mask (rows, columns) bool of run lengths, row 0 at the top: undoes ``run_lengths``."""
+    values = np.arange(len(lengths["counts"])) % 2 == 1
+    return np.repeat(values, lengths["counts"]).reshape(lengths["size"], order="F")
 
 
 def _category(number: int, name: str, key_names: list[str]) -> Document:

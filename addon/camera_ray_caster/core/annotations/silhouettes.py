@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -26,6 +26,8 @@ class Silhouette:
     visible: Box | None = None
     """Box of the shape's visible pixels; None if there are none."""
     visible_pixels: int = 0
+    alone: np.ndarray = field(default_factory=lambda: np.zeros((0, 0), bool))
+    """(rows, columns) bool: the pixels in ``whole`` that the shape would have alone."""
 
 
 def silhouettes(camera: Camera, shapes: Shapes) -> tuple[list[Silhouette], np.ndarray]:
@@ -50,7 +52,9 @@ def silhouettes(camera: Camera, shapes: Shapes) -> tuple[list[Silhouette], np.nd
         alone = cast(replace(camera, raster=window), _only(shapes, row), ("shape_index",), threads=1)["shape_index"]
         own_rows, own_columns = np.nonzero(alone >= 0)
         for whole, count in _boxes(alone[own_rows, own_columns], own_columns + x0, own_rows + y0)[1]:
-            result.append(Silhouette(row, whole, count, *found.get(row, ())))
+            own = alone[whole[2] - y0 : whole[3] - y0, whole[0] - x0 : whole[1] - x0] >= 0
+            visible, pixels = found.get(row, (None, 0))
+            result.append(Silhouette(row, whole, count, visible, pixels, own))
     return result, index
 
 

@@ -22,7 +22,8 @@ def exr_file(path: Path, pixels: np.ndarray) -> None:
 def write(
     files: Iterable[tuple[str, Content]], folder: Path, image: Callable[[Path, np.ndarray], None] = exr_file
 ) -> list[Path]:
-    """Write the names and contents of an export into a folder, images by ``image``; return the paths, sorted.
+    """Write the names and contents of an export into a folder, images by ``image``; return the paths, sorted: of files
+    in folders the outermost folder's.
 
     Raises InputError if two files have one name, or the folder cannot be written; then no file is left behind.
     """
@@ -33,6 +34,7 @@ def write(
                 raise InputError(f"two cameras would have the file {name!r}: rename one of the cameras")
             written.add(name.casefold())
             path = temporary / name
+            path.parent.mkdir(parents=True, exist_ok=True)
             if isinstance(content, np.ndarray):
                 image(path, content)
             elif isinstance(content, bytes):

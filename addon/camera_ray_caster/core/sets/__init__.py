@@ -1,0 +1,37 @@
+"""Finished data sets, read back and written for other programs: one module per format.
+
+A set is a folder that ``cast.py --cameras`` or ``dataset.py`` made, with passes as NPZ. A format is a function that
+takes the views of a set and yields names and contents of files, which may lie in folders; it needs numpy only.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import NamedTuple
+
+from . import bop, labels, maps, sparse
+from .reading import View, read_set
+
+Files = Iterator[tuple[str, str | bytes]]
+
+
+class SetFormat(NamedTuple):
+    """A format of data sets."""
+
+    description: str
+    files: Callable[[list[View]], Files]
+
+
+SET_FORMATS = {
+    "bop-scenes": SetFormat("BOP: a scene per camera with rgb, depth, masks, poses of objects and boxes", bop.files),
+    "colmap-scene": SetFormat("COLMAP: images, sparse/0 and seed points with tracks, from the hits", sparse.files),
+    "panoptic": SetFormat("COCO panoptic: ids of segments as PNG, and panoptic.json", labels.panoptic),
+    "yolo": SetFormat("YOLO: images, and boxes in labels, by category", labels.yolo),
+    "masks": SetFormat("a PNG of each object's visible and whole mask", labels.masks),
+    "depth16": SetFormat("16-bit PNG of depths in millimeters, as the scale in depth16.json tells", maps.depth16),
+    "normals": SetFormat("16-bit PNG of normals in the camera's frame, x right, y down, z ahead", maps.normals),
+    "preview": SetFormat("preview.png: picture, depth, indices and normals side by side", maps.preview),
+}
+"""Formats of finished sets, by their keys."""
+
+__all__ = ["SET_FORMATS", "SetFormat", "View", "read_set"]

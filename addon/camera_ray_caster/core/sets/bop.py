@@ -1,0 +1,93 @@
+"""BOP scenes: one per camera, with pictures, depth, masks and the poses of objects.
+
+Objects are the categories, numbered by name in models_info.json; the frame of an object is the middle of its box, in
+its axes. Lengths are in millimeters; depth in 16 bits is along the viewing direction, in steps of depth_scale.
+Reference: BOP toolkit documentation, BOP dataset format.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from ..annotations.coco import unpacked
+from ..exports.bop import Bop
+from ..records import InputError
+from .png import png
+from .reading import View
+
+MOST = 65535
+STEP = 0.1
+"""Millimeters of a step of depth, if the farthest hit is then within 16 bits; else as coarse as needed."""
+
+
+def files(views: list[View]) -> Iterator[tuple[str, str | bytes]]:
+    """Yield the files of a set; see the package. Raises InputError for cameras that are no pinholes."""
+    for view in views:
+        reason = Bop().refusal(view.shot)
+        if reason is not None:
+            raise InputError(f"BOP has pinholes only, and camera {view.camera.name!r} is none {reason}".strip())
+    named = {one["category"]: one for view in views for one in view.annotations["objects"]}
+    numbers = {name: number for number, name in enumerate(sorted(named), 1)}
+    cameras = list(dict.fromkeys(view.camera.name for view in views))
+    for scene, name in enumerate(cameras):
+        own = [view for view in views if view.camera.name == name]
+        yield from _scene(f"test/{scene:06}", own, numbers)
+    models = {}
+    for name, number in numbers.items():
+        size = np.array(named[name]["size"]) * 1000 * views[0].meters
+        models[str(number)] = {
+            "name": name, "diameter": float(np.linalg.norm(size)),
+            **{f"min_{axis}": -side / 2 for axis, side in zip("xyz", size.tolist(), strict=True)},
+            **{f"size_{axis}": side for axis, side in zip("xyz", size.tolist(), strict=True)},
+        }  # fmt: skip
+    yield "models/models_info.json", json.dumps(models, indent=1)
+
+
+def _scene(folder: str, views: list[View], numbers: dict[str, int]) -> Iterator[tuple[str, str | bytes]]:
+    cameras, truth, facts = {}, {}, {}
+    for view in views:
+        number = f"{int(view.frame):06}"
+        depth = view.planar_depth() * 1000 * view.meters
+        step = STEP if depth.max(initial=0) <= MOST * STEP else float(depth.max()) / MOST
+        yield f"{folder}/depth/{number}.png", png(np.round(depth / step).astype(np.uint16)[::-1])
+        if view.picture is not None:
+            yield f"{folder}/rgb/{number}.png", view.picture
+        pose = view.camera.world_to_opencv
+        K = view.camera.K
+        assert K is not None
+        cameras[str(int(view.frame))] = {
+            "cam_K": K.ravel().tolist(), "depth_scale": step, "cam_R_w2c": pose[:3, :3].ravel().tolist(),
+            "cam_t_w2c": (pose[:3, 3] * 1000 * view.meters).tolist(),
+        }  # fmt: skip
+        seen = {one["shape_index"]: one for part in ("annotations", "hidden") for one in view.annotations[part]}
+        poses = {one["shape_index"]: one for one in view.annotations["objects"]}
+        truth[str(int(view.frame))] = [_truth(pose, poses[row], numbers, view.meters) for row in seen if row in poses]
+        facts[str(int(view.frame))] = [_facts(one) for row, one in seen.items() if row in poses]
+        for k, one in enumerate(one for row, one in seen.items() if row in poses):
+            visible = unpacked(one["segmentation"]) if "segmentation" in one else None
+            whole = unpacked(one["segmentation_whole"])
+            visible = np.zeros_like(whole) if visible is None else visible
+            yield f"{folder}/mask/{number}_{k:06}.png", png(whole.astype(np.uint8) * 255)
+            yield f"{folder}/mask_visib/{number}_{k:06}.png", png(visible.astype(np.uint8) * 255)
+    for name, content in (("scene_camera", cameras), ("scene_gt", truth), ("scene_gt_info", facts)):
+        yield f"{folder}/{name}.json", json.dumps(content)
+
+
+def _truth(pose: np.ndarray, one: dict[str, Any], numbers: dict[str, int], meters: float) -> dict[str, Any]:
+    matrix = pose @ np.array(one["matrix"])
+    return {
+        "cam_R_m2c": matrix[:3, :3].ravel().tolist(), "cam_t_m2c": (matrix[:3, 3] * 1000 * meters).tolist(),
+        "obj_id": numbers[one["category"]],
+    }  # fmt: skip
+
+
+def _facts(one: dict[str, Any]) -> dict[str, Any]:
+    return {
+        "bbox_obj": one["bbox_whole"], "bbox_visib": one.get("bbox", [-1, -1, -1, -1]),
+        "px_count_all": one["area_whole"], "px_count_valid": one["area_whole"], "px_count_visib": one.get("area", 0),
+        "visib_fract": one.get("visible_fraction", 0.0),
+    }  # fmt: skip

@@ -1,0 +1,69 @@
+"""Maps of pictures as PNG: depth in 16 bits, normals in the camera's frame, and a preview of all."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+
+import numpy as np
+
+from ..records import InputError
+from .png import png, srgb
+from .reading import View
+
+MOST = 65535
+OPENCV = np.array((1.0, -1.0, -1.0))
+
+
+def depth16(views: list[View]) -> Iterator[tuple[str, str | bytes]]:
+    """Yield NAME_depth.png for each view, 0 where nothing is hit, and depth16.json: millimeters of a step, and whether
+    depths are along the viewing direction ("planar") or from the eye ("distance"), as Blender's Depth is.
+    """
+    depths = {view: np.where(np.isfinite(view.pixels("depth")), view.pixels("depth"), 0).astype(np.float64)
+              for view in views}  # fmt: skip
+    farthest = max(float(depth.max(initial=0)) * 1000 * view.meters for view, depth in depths.items())
+    step = 1.0 if farthest <= MOST else farthest / MOST
+    kinds = {}
+    for view, depth in depths.items():
+        yield f"{view.name}_depth.png", png(np.round(depth * 1000 * view.meters / step).astype(np.uint16)[::-1])
+        kinds[view.name] = "planar" if view.camera.model.planar else "distance"
+    yield "depth16.json", json.dumps({"millimeters": step, "depth": kinds}, indent=1)
+
+
+def normals(views: list[View]) -> Iterator[tuple[str, str | bytes]]:
+    """Yield NAME_normal.png for each view: 0 to 65535 stands for -1 to 1; the middle where nothing is hit."""
+    for view in views:
+        turned = view.pixels("normal").astype(np.float64) @ view.camera.pose.basis * OPENCV
+        yield f"{view.name}_normal.png", png(np.round((turned + 1) / 2 * MOST).astype(np.uint16)[::-1])
+
+
+def preview(views: list[View]) -> Iterator[tuple[str, str | bytes]]:
+    """Yield preview.png: of the first view of each camera a row of picture, depth, indices and normals, as cast."""
+    firsts = {view.camera.name: view for view in reversed(views)}
+    rows = [row for view in firsts.values() if (row := _row(view)) is not None]
+    if not rows:
+        raise InputError("the set has none of the passes combined, depth, shape_index and normal, which previews show")
+    width = max(row.shape[1] for row in rows)
+    padded = [np.pad(row, ((0, 0), (0, width - row.shape[1]), (0, 0))) for row in rows]
+    yield "preview.png", png(np.vstack(padded)[::-1])
+
+
+def _row(view: View) -> np.ndarray | None:
+    parts = []
+    if view.has("combined"):
+        parts.append(srgb(view.pixels("combined")[..., :3]))
+    if view.has("depth"):
+        depth = view.pixels("depth").astype(np.float64)
+        hit = np.isfinite(depth)
+        near, far = (depth[hit].min(), depth[hit].max()) if hit.any() else (0.0, 1.0)
+        gray = np.where(hit, 255 - 205 * (np.where(hit, depth, near) - near) / max(far - near, 1e-30), 0)
+        parts.append(np.repeat(gray.astype(np.uint8)[..., None], 3, axis=2))
+    for key in ("shape_index", "object_index"):
+        if view.has(key):
+            index = view.pixels(key).astype(np.int64)[..., None] + (key == "shape_index")
+            parts.append(np.where(index > 0, index * (97, 57, 151) % 206 + 50, 0).astype(np.uint8))
+            break
+    if view.has("normal"):
+        turned = view.pixels("normal").astype(np.float64) @ view.camera.pose.basis
+        parts.append(np.round((turned + 1) / 2 * 255).astype(np.uint8))
+    return np.hstack(parts) if parts else None

@@ -1,0 +1,129 @@
+"""A finished data set: its views, each with camera, frame, passes, annotations and picture.
+
+The report NAME.json of each picture names its files; from it the camera is made, with the same rays. Arrays of passes
+have row 0 at the bottom, as in NPZ files; files of pictures begin at the top.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+from zipfile import BadZipFile
+
+import numpy as np
+
+from ..camera.camera import Camera
+from ..exports.camera_json import camera_from_json
+from ..exports.format import Shot
+from ..names import file_name
+from ..records import InputError
+
+COCO = "_coco.json"
+
+
+@dataclass(frozen=True, eq=False)
+class View:
+    """A picture of a set."""
+
+    folder: Path
+    name: str
+    """Name of its files without an ending."""
+    report: Mapping[str, Any]
+
+    @cached_property
+    def camera(self) -> Camera:
+        """Return its camera, with the rays that were cast."""
+        return camera_from_json(json.dumps(self.report))
+
+    @property
+    def frame(self) -> float:
+        """Return its frame."""
+        return float(self.report["frame"])
+
+    @property
+    def meters(self) -> float:
+        """Return the length of a Blender unit in meters."""
+        return float(self.report.get("host", {}).get("meters", 1.0))
+
+    @property
+    def shot(self) -> Shot:
+        """Return the camera at its frame, as it is exported; its picture has the name of the view."""
+        return Shot(file_name(str(self.report["camera"]["name"])), self.frame, self.camera, self.meters)
+
+    @cached_property
+    def picture(self) -> bytes | None:
+        """Return the PNG of the picture; None if the combined pass was not cast."""
+        path = self.folder / f"{self.name}.png"
+        return path.read_bytes() if path.is_file() else None
+
+    @cached_property
+    def annotations(self) -> dict[str, Any]:
+        """Return the annotations of the picture. Raises InputError if it has none."""
+        path = self.folder / f"{self.name}{COCO}"
+        try:
+            return json.loads(path.read_text(encoding="utf-8"))
+        except (OSError, ValueError) as error:
+            raise InputError(f"{str(path)!r} cannot be read: make the set with --annotations") from error
+
+    def has(self, key: str) -> bool:
+        """Whether a pass is in the file of passes."""
+        return key in self._passes
+
+    def pixels(self, key: str) -> np.ndarray:
+        """Return a pass, row 0 at the bottom: (rows, columns[, channels]). Raises InputError if it was not cast."""
+        if key not in self._passes:
+            raise InputError(f"{self.name}.npz has no pass {key}: cast the set with --passes {key},...")
+        return self._passes[key]
+
+    @cached_property
+    def _passes(self) -> Mapping[str, np.ndarray]:
+        path = self.folder / f"{self.name}.npz"
+        try:
+            return np.load(path)
+        except (OSError, ValueError, BadZipFile) as error:
+            raise InputError(f"{str(path)!r} cannot be read: make the set with --format NPZ") from error
+
+    def points(self) -> tuple[np.ndarray, np.ndarray]:
+        """Return where each pixel's ray ends in the world, (rows, columns, 3) float64, and whether it hits something.
+
+        By the pass position, or else by distance or depth along the camera's rays.
+        """
+        if self.has("position"):
+            measure = self.pixels("distance" if self.has("distance") else "depth")
+            return self.pixels("position").astype(np.float64), np.isfinite(measure) & (measure > 0)
+        rays, key = self.camera.rays(), "distance" if self.has("distance") else "depth"
+        along = self.pixels(key).astype(np.float64)
+        hit = np.isfinite(along) & rays.valid
+        if key == "depth" and self.camera.model.planar:
+            along = along / -(rays.directions @ self.camera.pose.basis[:, 2])
+        with np.errstate(invalid="ignore"):
+            return rays.origins + np.where(hit, along, np.nan)[..., None] * rays.directions, hit
+
+    def planar_depth(self) -> np.ndarray:
+        """Return the depth along the viewing direction, (rows, columns) float64; 0 where nothing is hit."""
+        points, hit = self.points()
+        depth = -(points - self.camera.pose.eye) @ self.camera.pose.basis[:, 2]
+        return np.where(hit, depth, 0.0)
+
+
+def read_set(folder: Path) -> list[View]:
+    """Return the views of a set, by camera and frame. Raises InputError, in one line, for a folder without any."""
+    views = []
+    for path in sorted(folder.glob("*.json")):
+        try:
+            report = json.loads(path.read_text(encoding="utf-8"))
+            names = list(report["made"]["files"]) if "record" in report else []
+        except (OSError, ValueError, KeyError, TypeError, AttributeError):
+            continue
+        name = path.stem if any(one.startswith(path.stem) for one in names) else next(
+            (one.rsplit(".", 1)[0] for one in names if one.endswith((".npz", ".exr"))), None
+        )
+        if name is not None and report["record"] is not None:
+            views.append(View(folder, name, report))
+    if not views:
+        raise InputError(f"{str(folder)!r} has no pictures with reports: make a set with cast.py or dataset.py")
+    return sorted(views, key=lambda view: (view.report["camera"]["name"], view.frame))

@@ -1,0 +1,106 @@
+"""A COLMAP model of a set, with seed points: images, sparse/0, and points of the surfaces with their tracks.
+
+Points are hits of random pixels, of a fixed seed, the same number in each view; a track has every view that sees the
+point: there its projection lies in the picture, and the distance to it is that of the pixel's hit, up to the difference
+that the surface makes within a pixel. Gaussian splatting starts from such points.
+Reference: COLMAP documentation, Output Format.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from ..exports import export
+from ..exports.colmap import POINTS
+from ..records import InputError
+from .png import srgb
+from .reading import View
+
+COUNT = 10_000
+"""Number of points of a set."""
+
+BESIDE = 1.5
+"""Pixels by which the neighbors of a hit tell how far its distance may differ from the one that a view has there."""
+
+
+def files(views: list[View], count: int = COUNT) -> Iterator[tuple[str, str | bytes]]:
+    """Yield the files of a model; see the package. Raises InputError for cameras that COLMAP cannot represent."""
+    made, _ = export("colmap", [view.shot for view in views])
+    told = {name: str(content) for name, content in made}
+    places, colors = _seeds(views, count)
+    seen = [_seen(view, places) for view in views]
+    tracks: list[list[tuple[int, int]]] = [[] for _ in places]
+    heads = [line for line in told["images.txt"].splitlines() if line and not line.startswith("#")]
+    lines = []
+    for number, (head, (rows, pixels)) in enumerate(zip(heads, seen, strict=True), 1):
+        *words, _ = head.split()
+        lines += [f"{' '.join(words)} {views[number - 1].name}.png"]
+        both = zip(rows.tolist(), pixels.tolist(), strict=True)
+        lines += [" ".join(f"{x!r} {y!r} {row + 1}" for row, (x, y) in both)]
+        for k, row in enumerate(rows.tolist()):
+            tracks[row].append((number, k))
+    comments = "".join(f"{line}\n" for line in told["images.txt"].splitlines() if line.startswith("#"))
+    yield "sparse/0/cameras.txt", told["cameras.txt"]
+    yield "sparse/0/images.txt", comments + "\n".join(lines) + "\n"
+    said = [
+        f"{row + 1} {' '.join(map(repr, place))} {' '.join(map(str, color))} 0 "
+        + " ".join(f"{image} {point}" for image, point in track)
+        for row, (place, color, track) in enumerate(zip(places.tolist(), colors.tolist(), tracks, strict=True))
+    ]
+    yield "sparse/0/points3D.txt", POINTS + "\n".join(said) + "\n"
+    for view in views:
+        if view.picture is not None:
+            yield f"images/{view.name}.png", view.picture
+
+
+def _seeds(views: list[View], count: int) -> tuple[np.ndarray, np.ndarray]:
+    """Return points on surfaces, (n, 3) float64, and their colors, (n, 3) uint8."""
+    random = np.random.default_rng(0)
+    places, colors = [], []
+    for view in views:
+        points, hit = view.points()
+        row, column = np.nonzero(hit)
+        chosen = random.permutation(len(row))[: -(-count // len(views))]
+        row, column = row[chosen], column[chosen]
+        places.append(points[row, column])
+        gray = np.full((len(row), 3), 128, np.uint8)
+        colors.append(srgb(view.pixels("combined")[row, column, :3]) if view.has("combined") else gray)
+    found, of = np.concatenate(places)[:count], np.concatenate(colors)[:count]
+    if not len(found):
+        raise InputError("no ray of the set hits anything: there are no seed points")
+    return found, of
+
+
+def _seen(view: View, places: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return the rows of points that a view sees, and where: x and y from the top left corner, y down."""
+    camera, raster = view.camera, view.camera.raster
+    points, hit = view.points()
+    pixels = camera.project(places)
+    with np.errstate(invalid="ignore"):
+        column, row = np.floor(pixels[:, 0]) - raster.x0, np.floor(pixels[:, 1]) - raster.y0
+        inside = (column >= 0) & (column < hit.shape[1]) & (row >= 0) & (row < hit.shape[0])
+    which = np.flatnonzero(inside)
+    row, column = row[which].astype(int), column[which].astype(int)
+    eye = camera.pose.eye
+    with np.errstate(invalid="ignore"):
+        distances = np.where(hit, np.linalg.norm(points - eye, axis=-1), np.nan)
+    low, high = _around(distances)
+    own = np.linalg.norm(places[which] - eye, axis=1)
+    same = (own >= low[row, column]) & (own <= high[row, column])
+    which = which[same]
+    return which, pixels[which] * (1, -1) + (0, raster.height)
+
+
+def _around(distances: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return the least and the largest distance that a surface through a pixel's hit may have within the pixel: by the
+    smaller of the differences to both neighbors along each axis.
+    """
+    slack = np.zeros_like(distances)
+    for axis in (0, 1):
+        before = np.abs(np.diff(distances, axis=axis, prepend=np.nan))
+        after = np.abs(np.diff(distances, axis=axis, append=np.nan))
+        slack += np.nan_to_num(np.fmin(before, after))
+    slack = BESIDE * slack + 1e-6 * np.nan_to_num(distances)
+    return distances - slack, distances + slack

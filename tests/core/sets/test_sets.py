@@ -1,0 +1,160 @@
+"""Finished sets for other programs: against OpenCV, pycolmap, and the casts that they were made from."""
+
+import json
+
+import cv2
+import numpy as np
+import pytest
+
+from camera_ray_caster.core.annotations.coco import Sheet, document
+from camera_ray_caster.core.camera.facts import camera_facts
+from camera_ray_caster.core.cast import cast
+from camera_ray_caster.core.exports.camera_json import recorded
+from camera_ray_caster.core.exports.writing import write
+from camera_ray_caster.core.records import PLANE, SPHERE, InputError
+from camera_ray_caster.core.sets import SET_FORMATS, read_set
+from camera_ray_caster.core.sets.png import png
+
+from ..cameras.model_examples import camera
+from ..casting.test_cast import shapes_of
+from ..colmap import colmap, errors
+
+SHAPES = shapes_of((SPHERE, (0, 0, -5), 1.0), (SPHERE, (0.8, 0.3, -4), 0.4), (PLANE, (0, 0, -7), 4.0))
+PASSES = "combined", "depth", "distance", "shape_index", "normal"
+SIZE = 96, 72
+
+
+def view(folder, frame, key="PERSP", **settings):
+    """A picture of the shapes, a little to the side in each frame, as the commands write it."""
+    matrix = np.eye(4)
+    matrix[0, 3] = 0.3 * frame
+    given = {"resolution_x": SIZE[0], "resolution_y": SIZE[1], "lens": 30.0, "matrix_world": matrix}
+    cam = camera(key, given | settings)
+    images = cast(cam, SHAPES, PASSES)
+    name = f"{key}_{frame:04}"
+    np.savez(folder / f"{name}.npz", **{one: images[one] for one in PASSES})
+    (folder / f"{name}.png").write_bytes(png(np.zeros((SIZE[1], SIZE[0], 3), np.uint8)))
+    own = document({"file_name": f"{name}.png"}, Sheet(*SIZE), cam, SHAPES, lambda name: name.replace(" ", "_"))
+    (folder / f"{name}_coco.json").write_text(json.dumps(own))
+    report = {"frame": frame, "camera": camera_facts(cam) | {"name": key}, "record": None, **recorded(cam), "views": {},
+              "host": {"meters": 0.5}, "made": {"files": {f"{name}.npz": 1}}}  # fmt: skip
+    report["record"] = recorded(cam)
+    (folder / f"{name}.json").write_text(json.dumps(report))
+    return cam, images
+
+
+@pytest.fixture
+def made(tmp_path):
+    """The folder of a set, and the cameras and casts of its two pictures."""
+    folder = tmp_path / "set"
+    folder.mkdir()
+    return folder, [view(folder, frame) for frame in (1, 2)]
+
+
+def exported(folder, key, **more):
+    write(SET_FORMATS[key].files(read_set(folder), **more), folder / "out")
+    return folder / "out"
+
+
+def test_a_set_has_the_cameras_and_passes_that_were_cast(made):
+    folder, casts = made
+    for one, (cam, images) in zip(read_set(folder), casts, strict=True):
+        assert (one.camera.rays().directions == cam.rays().directions).all()
+        points, hit = one.points()
+        assert (hit == np.isfinite(images["depth"])).all()
+        ends = cam.rays().origins + images["distance"].astype(float)[..., None] * cam.rays().directions
+        assert np.allclose(points[hit], ends[hit], atol=1e-6)
+    with pytest.raises(InputError, match="has no pass uv: cast the set with --passes uv"):
+        one.pixels("uv")
+    with pytest.raises(InputError, match="has no pictures with reports"):
+        read_set(folder / "none")
+
+
+def test_pngs_are_what_opencv_reads(tmp_path):
+    random = np.random.default_rng(1)
+    for kind, shape in ((np.uint8, (5, 7)), (np.uint16, (5, 7)), (np.uint16, (4, 3, 3)), (np.uint8, (4, 3, 4))):
+        pixels = random.integers(0, np.iinfo(kind).max, shape).astype(kind)
+        (tmp_path / "a.png").write_bytes(png(pixels))
+        found = cv2.imread(str(tmp_path / "a.png"), cv2.IMREAD_UNCHANGED)
+        order = {3: (2, 1, 0), 4: (2, 1, 0, 3)}.get(pixels.shape[-1] if pixels.ndim == 3 else 0)
+        assert (found == (pixels if order is None else pixels[..., order])).all()
+
+
+def test_a_bop_scene_has_objects_where_their_pixels_are(made):
+    """Of a sphere's visible pixels, depth and K give points on the sphere about the pose of the object."""
+    folder, _ = made
+    scene = exported(folder, "bop-scenes") / "test" / "000000"
+    gt, info, cameras = (json.loads((scene / f"scene_{name}.json").read_text()) for name in ("gt", "gt_info", "camera"))
+    assert list(gt) == ["1", "2"]
+    depth = cv2.imread(str(scene / "depth" / "000001.png"), cv2.IMREAD_UNCHANGED) * cameras["1"]["depth_scale"]
+    K = np.reshape(cameras["1"]["cam_K"], (3, 3))
+    for k, (radius, one, facts) in enumerate(zip((1.0, 0.4), gt["1"], info["1"], strict=False)):
+        visible = cv2.imread(str(scene / "mask_visib" / f"000001_{k:06}.png"), cv2.IMREAD_UNCHANGED) > 0
+        whole = cv2.imread(str(scene / "mask" / f"000001_{k:06}.png"), cv2.IMREAD_UNCHANGED) > 0
+        assert (visible <= whole).all()
+        assert (visible.sum(), whole.sum()) == (facts["px_count_visib"], facts["px_count_all"])
+        row, column = np.nonzero(visible)
+        points = np.linalg.inv(K) @ (column, row, np.ones(len(row))) * depth[visible]
+        away = np.linalg.norm(points.T - one["cam_t_m2c"], axis=1)
+        assert np.abs(away - 500 * radius).max() < 0.2  # millimeters: two steps of depth, in meters of half a unit
+    models = json.loads((folder / "out" / "models" / "models_info.json").read_text())
+    assert models["1"]["size_x"] == pytest.approx(1000)
+    view(folder, 3, "FISHEYE_EQUIDISTANT", fisheye_fov=3.0)
+    with pytest.raises(InputError, match="BOP has pinholes only, and camera"):
+        exported(folder, "bop-scenes")
+
+
+def test_seed_points_are_seen_where_colmap_projects_them(made):
+    folder, _ = made
+    out = exported(folder, "colmap-scene", count=500)
+    found = colmap(errors, str(out / "sparse" / "0"))
+    assert len(found) == 500
+    assert max(worst for worst, _ in found) < 1e-9
+    seen = [length for _, length in found]
+    assert 1.5 < np.mean(seen) <= 2
+    assert min(seen) >= 1
+    assert (out / "images" / "PERSP_0001.png").is_file()
+
+
+def test_panoptic_and_yolo_are_the_index_pass(made):
+    folder, casts = made
+    out = exported(folder, "panoptic")
+    index = casts[0][1]["shape_index"][::-1]
+    blue, green, red = np.moveaxis(cv2.imread(str(out / "panoptic" / "PERSP_0001.png")).astype(int), 2, 0)
+    assert (red + 256 * green + 65536 * blue == index + 1).all()
+    segments = json.loads((out / "panoptic.json").read_text())["annotations"][0]["segments_info"]
+    assert {one["id"]: one["area"] for one in segments} == {k + 1: (index == k).sum() for k in range(3)}
+    out = exported(folder, "yolo")
+    lines = [list(map(float, line.split())) for line in (out / "labels" / "PERSP_0001.txt").read_text().splitlines()]
+    row, column = np.nonzero(index == 0)
+    ends = column.min(), column.max() + 1, row.min(), row.max() + 1
+    box = [(ends[0] + ends[1]) / 192, (ends[2] + ends[3]) / 144, (ends[1] - ends[0]) / 96, (ends[3] - ends[2]) / 72]
+    assert np.allclose(lines[0][1:], box, atol=1e-7)
+    assert len(lines) == 3
+
+
+def test_depth_and_normals_are_the_passes(made):
+    folder, casts = made
+    exported(folder, "depth16")
+    out = exported(folder, "normals")
+    _, images = casts[0]
+    depth = cv2.imread(str(out / "PERSP_0001_depth.png"), cv2.IMREAD_UNCHANGED)[::-1]
+    hit = np.isfinite(images["depth"])
+    assert np.abs(depth[hit] - 500 * images["depth"][hit]).max() <= 0.5
+    assert (depth[~hit] == 0).all()
+    normal = cv2.imread(str(out / "PERSP_0001_normal.png"), cv2.IMREAD_UNCHANGED)[::-1, :, ::-1] / 65535 * 2 - 1
+    assert np.abs(normal * (1, -1, -1) - images["normal"]).max() < 1e-4
+
+
+def test_a_preview_shows_the_passes_side_by_side(made):
+    folder, _ = made
+    picture = cv2.imread(str(exported(folder, "preview") / "preview.png"))
+    assert picture.shape == (72, 4 * 96, 3)
+    assert len(np.unique(picture[:, 192:288].reshape(-1, 3), axis=0)) == 3 + (picture[:, 192:288] == 0).any()
+
+
+def test_masks_are_of_each_object(made):
+    folder, casts = made
+    out = exported(folder, "masks")
+    visible = cv2.imread(str(out / "mask_visible" / "PERSP_0002_0000.png"), cv2.IMREAD_UNCHANGED) > 0
+    assert (visible[::-1] == (casts[1][1]["shape_index"] == 0)).all()
