@@ -13,12 +13,12 @@ Without Blender::
 
 In Blender, or with pip's ``bpy``::
 
-    camera, shapes = crc.read_camera(bpy.context.scene), crc.read_shapes(bpy.context.scene)
+    images = crc.cast(crc.read_scene(bpy.context.scene), passes=("depth", "normal"))
 
 Cameras
     camera, load_calibration, models, register_model, camera_from_json, camera_to_json, look_at, pose_from_opencv
 Shapes
-    spheres, planes, mesh, join
+    spheres, planes, mesh, join; Scene(camera, shapes) has both
 What is seen
     cast, visible, explain; of rays given as arrays: cast_rays, occluded
 Files
@@ -55,6 +55,7 @@ if TYPE_CHECKING:
     from .core.library.poses import look_at, pose_from_opencv
     from .core.library.shapes import mesh, planes, spheres
     from .core.records import Cancelled, InputError, Shapes
+    from .core.scene import Scene
     from .core.version import VERSION
 
     __version__ = VERSION
@@ -68,6 +69,7 @@ _MODULES = {
     "Item": ".core.cameras.parts.settings",
     "Model": ".core.cameras.model",
     "Number": ".core.cameras.parts.settings",
+    "Scene": ".core.scene",
     "Shapes": ".core.records",
     "Step": ".core.cameras.model",
     "Visibility": ".core.casting.visibility",
@@ -105,6 +107,7 @@ __all__ = [
     "Item",
     "Model",
     "Number",
+    "Scene",
     "Shapes",
     "Step",
     "Visibility",

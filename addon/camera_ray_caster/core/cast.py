@@ -17,6 +17,7 @@ from .casting.request import AUTOMATIC, MATERIAL, Request
 from .casting.tiles import STEPS, Effort, Tile, cast_tile, in_threads, moments, shares
 from .maths.speed import Scratch, processors
 from .records import Shapes
+from .scene import Scene
 
 MOST_SAMPLES = 1 << 24
 """Maximum number of rays per pixel, as in Cycles. More rays do not make a mean that is stored as float32 more exact."""
@@ -32,8 +33,8 @@ class Images(dict[str, np.ndarray]):
 
 
 def cast(
-    camera: Camera,
-    shapes: Shapes,
+    camera: Camera | Scene,
+    shapes: Shapes | None = None,
     passes: str | Iterable[str] = ("depth", "normal"),
     dtype=np.float32,
     *,
@@ -46,6 +47,8 @@ def cast(
     finished: Callable[[Images, slice], None] | None = None,
 ) -> Images:
     """Return the passes of the camera's render window as a mapping of name to array.
+
+    camera: a camera, and ``shapes`` what it sees; or a scene, which has both: ``cast(scene, passes=...)``.
 
     Passes of real numbers are stored as ``dtype``. The arithmetic is float64, except that ``precision="FAST"`` searches
     for hits in float32. The index passes are int32, valid and flow_hidden are bool. With ``samples`` above 1 the
@@ -60,8 +63,11 @@ def cast(
     number of samples or threads that is not whole or below 1, for more than MOST_SAMPLES samples, for flow to frames
     that were not read, and for passes that need more memory than is available.
     """
+    if isinstance(camera, Scene) and shapes is None:
+        shapes, camera = camera.shapes, camera.camera
     if not (isinstance(camera, Camera) and isinstance(shapes, Shapes)):
-        raise TypeError(f"cast takes a camera and shapes as they are read, not {type(camera)} and {type(shapes)}")
+        said = f"{type(camera)} and {type(shapes)}"
+        raise TypeError(f"cast takes a camera and shapes, or a scene and passes=, as they are read, not {said}")
     started = perf_counter()
     threads = processors() if threads is None else arguments.count(threads, "threads")
     samples = arguments.count(samples, "samples", MOST_SAMPLES)

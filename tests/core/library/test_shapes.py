@@ -113,7 +113,7 @@ def test_joining_forgets_no_field():
             lights=Lights(np.ones((k, 3)), np.ones(k, bool), np.ones((k, 3)), np.ones((lamps, 3)), np.ones((lamps, 2)),
                           left_out=((f"lamp {k}", "reason"),)),
             slots=Slots(np.zeros(1, int), np.arange(k), np.ones((k, 4)), np.zeros(k, int)), world_color=(k, 0, 0, 1),
-            background=f"world {k}",
+            background=f"world {k}", identity=np.array([k]),
             shared=np.ones(1, bool), exact=((f"ball {k}", 1e-3),), notes=((f"object {k}", "note"),),
             surfaces=(f"surface {k}",), surface=np.zeros(1, np.int32), uv=np.ones((1, 2, 3)),
         )  # fmt: skip
@@ -173,3 +173,11 @@ def test_what_no_shape_can_be_is_one_line(make, said):
 
 def test_a_mesh_without_faces_is_no_shape():
     assert len(crc.mesh(np.zeros((0, 3)), np.zeros((0, 3), int))) == 0
+
+
+def test_a_scene_is_camera_and_shapes(camera):
+    shapes = crc.spheres((0, 0, 1))
+    found = crc.cast(crc.Scene(camera, shapes), passes=("depth",))["depth"]
+    np.testing.assert_array_equal(found, crc.cast(camera, shapes, ("depth",))["depth"])
+    with pytest.raises(TypeError, match="a scene and passes="):
+        crc.cast(camera, passes=("depth",))

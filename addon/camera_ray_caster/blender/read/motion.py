@@ -10,8 +10,9 @@ from ...core.camera.camera import Camera
 from ...core.casting.flow import NEXT, PREVIOUS, frames_of
 from ...core.motion.evaluations import Motion, measured, resolve
 from ...core.records import Shapes
+from ...core.scene import Scene
 from ..terminal.signals import raise_if_stopping
-from .evaluated import Eye, SceneRecord, scene_at
+from .evaluated import Eye, scene_at
 from .frames import action_time
 from .physics import prepare
 
@@ -23,14 +24,14 @@ STEPS = {NEXT: 1.0, PREVIOUS: -1.0}
 
 
 def with_other_frames(
-    found: SceneRecord,
+    found: Scene,
     depsgraph,
     camera_object,
     frame: float,
     passes: Collection[str],
     visit: Callable,
     eye: Eye | None = None,
-) -> SceneRecord:
+) -> Scene:
     """Return the record of a scene with its motion, and with its next and previous frame if passes need them.
 
     The motion is None unless pixels have their own times. All frames are of the same camera object. See ``motion_of``

@@ -13,16 +13,17 @@ from ...core.camera.stereo import eye_record
 from ...core.casting.flow import frames_of
 from ...core.casting.passes import PASSES
 from ...core.records import InputError, Shapes
+from ...core.scene import Scene
 from .camera import check_camera, eye_object, has_pixel_times, is_removed
-from .evaluated import SceneRecord, camera_at, scene_at
+from .evaluated import camera_at, scene_at
 from .frames import frame_of, go_to, layer_of
 from .motion import motion_of, with_other_frames
 from .physics import prepare
 from .shapes import shapes_record
 
 
-def read_scene(scene, frame=None, camera_object=None, view="", passes=()) -> SceneRecord:
-    """Return camera and shapes, and the record that the camera was made from, in one reading.
+def read_scene(scene, frame=None, camera_object=None, view="", passes=()) -> Scene:
+    """Return camera and shapes in one reading, as one record that ``cast`` takes: ``cast(scene, passes=...)``.
 
     Camera and shapes are those of ``read_camera`` and ``read_shapes`` for the same arguments. If ``passes`` include
     flow, ``next`` and ``previous`` of camera and shapes are set to those of the neighboring frames that these passes
@@ -64,7 +65,7 @@ def read_shapes(scene, frame=None, camera_object=None, view="") -> Shapes:
         return shapes_record(depsgraph)
 
 
-def _with_motion(scene, camera_object, depsgraph, view: str, passes=()) -> SceneRecord:
+def _with_motion(scene, camera_object, depsgraph, view: str, passes=()) -> Scene:
     eye, frame = partial(eye_record, view=view), frame_of(depsgraph.scene_eval)
     found = scene_at(camera_object, depsgraph, eye)
     return with_other_frames(found, depsgraph, camera_object, frame, passes, partial(go_to, scene), eye)

@@ -49,10 +49,18 @@ def join(*shapes: Shapes) -> Shapes:
         lights=_lights([one.lights for one in shapes]),
         world_color=shapes[0].world_color,
         background=shapes[0].background,
+        identity=_identity(shapes),
         shared=np.concatenate(shared) if tables["meshes"] else np.zeros(0, bool),
         slots=_slots(shapes, bool(tables["surfaces"])),
         uv=None if all(one.uv is None for one in shapes) else np.concatenate(maps),
     )
+
+
+def _identity(shapes: Sequence[Shapes]) -> np.ndarray:
+    """Return the identities of the shapes if all of them have one, each its own."""
+    found = np.concatenate([one.identity for one in shapes])
+    is_whole = len(found) == sum(map(len, shapes)) == len(np.unique(found))
+    return found if is_whole else np.zeros(0, np.int64)
 
 
 def _chained(parts) -> tuple:
