@@ -17,7 +17,7 @@ DRAWN = 0.002
 
 
 def panel(user, scenes):
-    """Verify and cast from the sidebar: the report and the images are there, shown, and undone."""
+    """Verify and cast from the sidebar: the report and the images are there, shown, and stay after an undo."""
     yield from load(user, scenes, "spheres_and_planes")
     area = user.area("DOPESHEET_EDITOR")
     area.ui_type = "IMAGE_EDITOR"
@@ -53,9 +53,11 @@ def panel(user, scenes):
     assert all(timings[name] for name in ("SidebarCamera", "SidebarVerify", "SidebarCast", "SidebarFacts"))
     slow = {name: np.median(seconds) for name, seconds in timings.items() if np.median(seconds or [0]) > DRAWN}
     assert not slow, slow
+    depth = pixels_of(bpy.data.images["Ray Caster depth"])
     bpy.ops.ed.undo()
     yield from user.wait(0.5)
-    assert "Ray Caster depth" not in bpy.data.images
+    assert np.array_equal(pixels_of(bpy.data.images["Ray Caster depth"]), depth)
+    assert area.spaces.active.image == bpy.data.images["Ray Caster combined"]
     area.ui_type = "TIMELINE"
 
 

@@ -58,7 +58,7 @@ CLASSES = (
 MODULES = (
     groups, kept, follow, reports, images, gallery, scene_cache, viewport, cast_operator, overlay, lesson, notice,
     render_panels, menus, gallery_operators, lesson_operators, presets, export_operators, rig_operators, commands,
-    other_engine,
+    other_engine, see_through,
 )  # fmt: skip
 """Modules that register more than classes. Their ``register(undo)`` gives ``undo`` the callbacks that undo it."""
 

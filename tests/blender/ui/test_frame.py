@@ -47,7 +47,7 @@ def test_a_preset_sets_its_frame_or_is_refused_in_one_line(blender, camera_scene
         assert use(blender, path.stem, set_frame=False) == {"FINISHED"}
         assert size(render) == (1920, 1080)
         return
-    with pytest.raises(RuntimeError, match="the picture is stretched: the frame has 1920 × 1080 pixels") as refusal:
+    with pytest.raises(RuntimeError, match="The picture is stretched: the frame has 1920 × 1080 pixels") as refusal:
         use(blender, path.stem, set_frame=False)
     assert "{} × {}".format(*SIZES[path.stem]) in str(refusal.value)
     assert size(render) == (1920, 1080)

@@ -113,6 +113,7 @@ def drawn(bpy, panel, data, engine="CYCLES", width=300):
     layout = Layout()
     region = type("Region", (), {"width": width})
     context = {"camera": data, "object": None, "scene": bpy.context.scene, "engine": engine, "region": region}
+    context["view_layer"] = bpy.context.view_layer
     context["evaluated_depsgraph_get"] = staticmethod(bpy.context.evaluated_depsgraph_get)
     context = type("Context", (), {**context, "preferences": bpy.context.preferences})
     panel.draw(type("Panel", (), {"layout": layout}), context)

@@ -149,15 +149,6 @@ def test_left_out_is_one_line_that_counts():
     assert len(said) < 100
 
 
-def test_the_cast_is_undone_with_its_images(blender, scene):
-    blender.ops.ed.undo_push(message="before")
-    blender.ops.camera_ray_caster.cast()
-    blender.ops.ed.undo_push(message="after")
-    assert len(blender.data.images) > 0
-    blender.ops.ed.undo()
-    assert "Ray Caster combined" not in blender.data.images
-
-
 def test_without_a_camera_the_buttons_are_gray(blender):
     assert not blender.ops.camera_ray_caster.cast.poll()
     assert not blender.ops.camera_ray_caster.verify.poll()
@@ -264,17 +255,54 @@ def test_nothing_runs_after_a_cast(blender, scene):
     assert cast_operator.fraction() is None
 
 
-def test_see_through_shows_the_camera_s_own_picture_and_ends_with_the_same_button(blender, scene):
+@pytest.mark.parametrize("engine", ["CYCLES", "CAMERA_RAY_CASTER"])
+def test_see_through_shows_the_camera_s_own_picture_and_restores_everything(blender, scene, engine):
     operator = blender.ops.camera_ray_caster.see_through
     assert not operator.poll()
     area = next(area for area in blender.context.window.screen.areas if area.type == "VIEW_3D")
-    space = area.spaces.active
+    space, scene.render.engine = area.spaces.active, engine
+    space.region_3d.view_perspective, space.shading.type = "ORTHO", "MATERIAL"
     with blender.context.temp_override(area=area):
-        operator()
-        assert scene.render.engine == "CAMERA_RAY_CASTER"
-        assert (space.region_3d.view_perspective, space.shading.type) == ("CAMERA", "RENDERED")
-        operator()
-        assert space.shading.type == "SOLID"
+        for _ in range(2):
+            operator()
+            assert scene.render.engine == "CAMERA_RAY_CASTER"
+            assert (space.region_3d.view_perspective, space.shading.type) == ("CAMERA", "RENDERED")
+            operator()
+            assert (space.region_3d.view_perspective, space.shading.type) == ("ORTHO", "MATERIAL")
+            assert scene.render.engine == engine
+
+
+def test_a_slit_that_is_deleted_is_offered_again(blender, scene):
+    from camera_ray_caster.blender.ui.camera_panels import missing
+
+    camera, ops = scene.camera, blender.ops
+    camera.data.camera_ray_caster.model = "PUSHBROOM"
+    assert [one.name for one in missing(blender.context, camera)] == ["slit_1"]
+    ops.camera_ray_caster.add_line(setting="slit_1")
+    assert missing(blender.context, camera) == []
+    first = camera.data.camera_ray_caster.slit_1
+    with blender.context.temp_override(selected_objects=[first]):
+        ops.object.delete()
+    blender.context.view_layer.update()
+    assert [one.name for one in missing(blender.context, camera)] == ["slit_1"]
+    ops.camera_ray_caster.add_line(setting="slit_1")
+    assert missing(blender.context, camera) == []
+    assert camera.data.camera_ray_caster.slit_1 != first
+
+
+def test_a_view_that_cannot_be_cast_says_why_with_the_labels_of_the_panels(blender, scene):
+    from types import SimpleNamespace
+
+    from camera_ray_caster.blender.view3d import notice
+
+    scene.camera.data.camera_ray_caster.model, scene.render.engine = "PUSHBROOM", "CAMERA_RAY_CASTER"
+    blender.context.view_layer.update()
+    space = SimpleNamespace(shading=SimpleNamespace(type="RENDERED"), overlay=SimpleNamespace(show_overlays=True))
+    own = {name: getattr(blender.context, name) for name in ("scene", "view_layer", "evaluated_depsgraph_get")}
+    space.local_view, seen = None, SimpleNamespace(view_perspective="CAMERA")
+    (said,) = notice._sentences(SimpleNamespace(space_data=space, region_data=seen, **own))
+    assert "Slit" in said
+    assert "slit_1" not in said
 
 
 def test_a_slit_that_the_sidebar_adds_is_selected_to_be_moved(blender, scene):

@@ -17,6 +17,7 @@ from ...core.report.report import Report
 from ..cycles.picture import Picture
 from ..output import reports
 from ..properties.declared import ENGINE
+from ..properties.labels import in_labels
 from ..read import physics
 from ..read.frames import frame_of
 from ..terminal import signals
@@ -60,7 +61,7 @@ class CameraRayCaster(Viewport, bpy.types.RenderEngine):
             with signals.heard(self.test_break):
                 report = self.render_layer(depsgraph)
         except InputError as error:
-            self.report({"ERROR"}, str(error))
+            self.report({"ERROR"}, str(error) if bpy.app.background else in_labels(str(error)))
         except (Cancelled, KeyboardInterrupt):
             type(self).stopped = True
         else:

@@ -17,6 +17,10 @@ VIEW = "Ray Caster: Shown"
 OF = "of"
 """Name of its property with the name of the pass's image."""
 
+_held: dict[str, tuple[str, tuple[int, int], np.ndarray]] = {}
+"""Pass, size and pixels of each image during an undo or a redo."""
+_editors: list[tuple] = []
+"""The spaces of Image Editors that show them, and the names of the images."""
 latest: list[str] = []
 """Names of the images of the latest cast since the file was loaded."""
 
@@ -111,7 +115,42 @@ def pack(*_) -> None:
 
 
 @persistent
-def drop_lost(*_) -> None:
+def hold(*_) -> None:
+    """Hold the images before an undo or a redo, which may remove them or lose their pixels: they are no part of it."""
+    _held.clear()
+    for name, key in results().items():
+        image = bpy.data.images[name]
+        if image.has_data:
+            pixels = np.empty(len(image.pixels), np.float32)
+            image.pixels.foreach_get(pixels)
+            _held[name] = key, tuple(image.size), pixels
+    _editors[:] = [(space, space.image.name) for space in editors() if space.image and space.image.name in _held]
+
+
+@persistent
+def give_back(*_) -> None:
+    """Store the images again that an undo or a redo has removed, and show them where they were shown."""
+    for name, (key, size, pixels) in _held.items():
+        image = bpy.data.images.get(name)
+        if image is None or not image.has_data:
+            image = _datablock(name, *size, is_data=key != "combined")
+            image.pixels.foreach_set(pixels)
+            image.update()
+    for space, name in _editors:
+        if space.image is None:
+            space.image = bpy.data.images.get(name)
+    _held.clear()
+    _editors.clear()
+    drop_lost()
+
+
+def editors() -> list:
+    """Return the active spaces of all open Image Editors."""
+    areas = [area for window in bpy.context.window_manager.windows for area in window.screen.areas]
+    return [area.spaces.active for area in areas if area.type == "IMAGE_EDITOR"]
+
+
+def drop_lost() -> None:
     """Remove images whose pixels a redo has not brought back: Blender would show and save them as black."""
     for name in (*results(), VIEW):
         image = bpy.data.images.get(name)
@@ -127,7 +166,10 @@ def forget(*_) -> None:
 
 def register(undo) -> None:
     """Register this module; see ``registration``."""
-    undo.add_handlers([("save_pre", pack), ("load_pre", forget), ("undo_post", drop_lost), ("redo_post", drop_lost)])
+    undo.add_handlers([
+        ("save_pre", pack), ("load_pre", forget), ("undo_pre", hold), ("redo_pre", hold),
+        ("undo_post", give_back), ("redo_post", give_back),
+    ])  # fmt: skip
 
 
 def _rgba(pixels: np.ndarray, lent: np.ndarray | None = None) -> np.ndarray:
@@ -142,7 +184,7 @@ def _rgba(pixels: np.ndarray, lent: np.ndarray | None = None) -> np.ndarray:
     return rgba
 
 
-def show(window_manager, names: list[str]) -> None:
+def show(names: list[str]) -> None:
     """Show the first of these images in every open Image Editor, unless the editor already shows one of them. A pass
     that is shown in colors is shown anew.
     """
@@ -151,8 +193,6 @@ def show(window_manager, names: list[str]) -> None:
     if colored is not None and colored.get(OF) in names:
         show_in_colors(colored[OF])
         names = [*names, VIEW]
-    for window in window_manager.windows:
-        for area in window.screen.areas:
-            space = area.spaces.active
-            if area.type == "IMAGE_EDITOR" and (space.image is None or space.image.name not in names):
-                space.image = bpy.data.images.get(names[0])
+    for space in editors():
+        if space.image is None or space.image.name not in names:
+            space.image = bpy.data.images.get(names[0])

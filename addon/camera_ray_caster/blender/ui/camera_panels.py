@@ -10,7 +10,7 @@ from .facts_panels import camera_of
 from .frame import draw_frame
 from .gallery_operators import ExamplesMenu
 from .gallery_panels import draw_model
-from .model_drawing import PRESETS, draw_lens, draw_model_settings, draw_setting, draw_times
+from .model_drawing import PRESETS, draw_lens, draw_model_settings, draw_setting, draw_times, is_missing
 from .model_settings import read_settings
 from .operators import LoadCalibration
 from .other_engine import draw_ignored
@@ -38,22 +38,22 @@ class SidebarCamera(Sidebar, bpy.types.Panel):
         if camera is not None and camera.type == "CAMERA":
             draw_model(layout, camera.data)
         _, reason = camera_of(context, camera)
-        lacking = missing(camera) if reason else ()
-        for setting in lacking:
+        seen = context.space_data is not None and is_seen_through(context)
+        if context.space_data is not None:
+            layout.operator(SeeThrough.bl_idname, icon="CAMERA_DATA", depress=seen)
+        row = layout.row(align=True)
+        row.menu(ExportMenu.bl_idname, text="Export", icon="EXPORT")
+        row.menu(ExamplesMenu.bl_idname, text="Examples", icon="FILE_BLEND")
+        layout.operator(LoadCalibration.bl_idname, icon="FILE_FOLDER")
+        lacking = missing(context, camera) if reason else ()
+        for setting in lacking:  # from here on what comes and goes: it moves no button above
             draw_setting(layout, context, camera.data, setting)
         if reason and not lacking:
             draw_message(layout, context, reason, "ERROR")
         draw_frame(layout, context, camera, is_refused=bool(reason))
         draw_ignored(layout, context, camera)
-        if context.space_data is not None:
-            seen = is_seen_through(context)
-            layout.operator(SeeThrough.bl_idname, icon="CAMERA_DATA", depress=seen)
-            if seen and not drawn_alike(camera):
-                draw_message(layout, context, "Blender draws grid, outlines and gizmos in perspective")
-        row = layout.row(align=True)
-        row.menu(ExportMenu.bl_idname, text="Export", icon="EXPORT")
-        row.menu(ExamplesMenu.bl_idname, text="Examples", icon="FILE_BLEND")
-        layout.operator(LoadCalibration.bl_idname, icon="FILE_FOLDER")
+        if seen and not drawn_alike(camera):
+            draw_message(layout, context, "Blender draws grid, outlines and gizmos in perspective")
 
 
 def drawn_alike(camera) -> bool:
@@ -63,12 +63,12 @@ def drawn_alike(camera) -> bool:
     return getattr(camera.data, GROUP).model == BLENDERS_OWN and camera.data.type in {"PERSP", "ORTHO"}
 
 
-def missing(camera) -> list[Setting]:
-    """Return the object settings of a camera object's model that are not set."""
+def missing(context, camera) -> list[Setting]:
+    """Return the object settings of a camera object's model whose objects are not there."""
     if camera is None or camera.type != "CAMERA":
         return []
     own = getattr(camera.data, GROUP)
-    return [it for it in read_settings(camera.data) if it.kind == "OBJECT" and getattr(own, it.name) is None]
+    return [it for it in read_settings(camera.data) if it.kind == "OBJECT" and is_missing(context, own, it)]
 
 
 class SidebarSettings(Sidebar, bpy.types.Panel):
@@ -92,7 +92,8 @@ class SidebarSettings(Sidebar, bpy.types.Panel):
         if getattr(camera, GROUP).model == BLENDERS_OWN:
             draw_lens(layout, context, camera)
         else:
-            draw_model_settings(layout, context, camera, beside_lens=False, drawn=missing(context.scene.camera))
+            drawn = missing(context, context.scene.camera)
+            draw_model_settings(layout, context, camera, beside_lens=False, drawn=drawn)
         draw_times(layout, context, camera)
 
 

@@ -18,6 +18,7 @@ from ...core.report.report import Report
 from ..engine.job import Job
 from ..engine.passes import ticked
 from ..output import images, reports
+from ..properties.labels import in_labels
 from ..read.camera import view_names
 from ..read.scene import evaluated_camera
 from .needs import OfScene, reporting
@@ -68,7 +69,7 @@ class Cast(OfScene, bpy.types.Operator):
 
     bl_idname = "camera_ray_caster.cast"
     bl_label = "Cast"
-    bl_options = {"REGISTER", "UNDO"}
+    bl_options = {"REGISTER"}  # no undo: images stay
 
     @classmethod
     def poll(cls, context):
@@ -88,7 +89,7 @@ class Cast(OfScene, bpy.types.Operator):
         try:
             source, jobs = self.read(context)
         except InputError as error:
-            self.report({"ERROR"}, str(error))
+            self.report({"ERROR"}, in_labels(str(error)))
             return {"CANCELLED"}
         timer = context.window_manager.event_timer_add(INTERVAL, window=context.window)
         _running.append(Running(Worker(partial(cast_views, jobs)), timer, source))
@@ -115,7 +116,7 @@ class Cast(OfScene, bpy.types.Operator):
                 _, report = running.worker.result()
                 return self.finish(context, running.stored, report, running.source)
             except InputError as error:
-                self.report({"ERROR"}, str(error))
+                self.report({"ERROR"}, in_labels(str(error)))
             except MemoryError:
                 self.report(
                     {"ERROR"}, "There is not enough memory for these passes: choose fewer passes, or fewer pixels"
@@ -137,7 +138,7 @@ class Cast(OfScene, bpy.types.Operator):
 
     def finish(self, context, made: list[str], report: Report, source: reports.Source):
         """Show the named images and keep the report."""
-        images.show(context.window_manager, made)
+        images.show(made)
         reports.keep(report, source)
         if report.shapes == 0:
             self.report({"WARNING"}, "The scene has no surface to cast: the images show the background")

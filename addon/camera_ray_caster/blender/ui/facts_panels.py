@@ -8,9 +8,9 @@ from ...core.camera.camera import Camera
 from ...core.camera.facts import camera_facts
 from ...core.records import InputError
 from ..properties.declared import GROUP
+from ..properties.labels import in_labels
 from ..read.evaluated import camera_at
 from .drawing import Sidebar, draw_message, draw_row, length
-from .model_settings import in_labels
 
 
 def camera_of(context, camera_object) -> tuple[Camera | None, str]:

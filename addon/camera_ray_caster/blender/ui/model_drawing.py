@@ -84,13 +84,20 @@ def _draw_vector(layout, context, owner, setting) -> None:
 
 
 def _draw_object(layout, context, owner, setting) -> None:
-    """Draw the object with a button that selects it. If no object is set, draw a message and a button that adds one."""
+    """Draw the object with a button that selects it. If there is none, draw a message and a button that adds one.
+    """
     row = draw_field(layout, context, owner, setting.name)
-    if getattr(owner, setting.name) is not None:
+    if not is_missing(context, owner, setting):
         row.operator(SelectLine.bl_idname, text="", icon="RESTRICT_SELECT_OFF").setting = setting.name
     else:
         draw_message(layout, context, f"Missing: {setting.text[:1].lower()}{setting.text[1:]}", "ERROR")
         layout.operator(AddLine.bl_idname, text=f"Add {setting.label}", icon="ADD").setting = setting.name
+
+
+def is_missing(context, owner, setting: Setting) -> bool:
+    """Return whether the object of a setting is not set, or not in the view layer, as one that was deleted."""
+    item = getattr(owner, setting.name)
+    return item is None or context.view_layer.objects.get(item.name) != item
 
 
 KINDS = {"IMAGE": _draw_image, "VECTOR": _draw_vector, "OBJECT": _draw_object}

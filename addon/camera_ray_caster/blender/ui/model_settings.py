@@ -1,7 +1,5 @@
 """Which settings a camera uses: those of its model, or of its type for Blender's own models."""
 
-import re
-
 from ...core.cameras import MODELS
 from ...core.cameras.parts.calibration import FILE_CAMERA, FROM_FILE, IN_PIXELS, MILLIMETERS, SIZE, UNIT
 from ...core.cameras.parts.film import FILM, LENS
@@ -12,14 +10,6 @@ from ..read.camera import shader_mark
 
 SHOWN_FOR = {"lens": "PERSP", "ortho_scale": "ORTHO"}
 """Camera types by Blender setting, for settings that Blender's panel shows for one type only; film is always shown."""
-
-
-def in_labels(text: str) -> str:
-    """Return a message with the names of settings replaced by their labels in the panels, and without the names of the
-    terminal's options in parentheses. Names that are words of the language, too, stay.
-    """
-    labels = {setting.name: setting.label for model in MODELS for setting in model.SETTINGS if "_" in setting.name}
-    return re.sub(r"\w+", lambda word: labels.get(word[0], word[0]), re.sub(r" \(--[a-z-]+\)", "", text))
 
 
 def _of_model(key: str) -> tuple[Setting, ...]:

@@ -3,6 +3,7 @@
 from functools import wraps
 
 from ...core.records import InputError
+from ..properties.labels import in_labels
 from ..read.camera import check_camera
 
 LINKED = "The camera is linked from another file: make it local, or an override, first"
@@ -26,7 +27,7 @@ def objection(context, item, is_changed: bool = False) -> str:
     try:
         check_camera(context.scene, item)
     except InputError as error:
-        return str(error)[:1].upper() + str(error)[1:]
+        return in_labels(str(error))
     return LINKED if is_changed and not item.data.is_editable else ""
 
 
@@ -72,7 +73,7 @@ def reporting(execute):
         try:
             return execute(self, context)
         except InputError as error:
-            self.report({"ERROR"}, str(error))
+            self.report({"ERROR"}, in_labels(str(error)))
             return {"CANCELLED"}
 
     return reported

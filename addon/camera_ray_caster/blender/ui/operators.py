@@ -14,12 +14,12 @@ from ...core.records import InputError
 from ...core.report.report import Report, as_json
 from ..output import reports
 from ..properties.calibration import cameras_in, lenses_in, set_calibration
+from ..properties.labels import in_labels
 from ..read.frames import frame_of
 from ..read.scene import read_camera
 from ..verification.check import verified
 from .drawing import draw_message
 from .frame import SET_FRAME, framed
-from .model_settings import in_labels
 from .needs import OfCamera, OfScene, camera_object_of, reporting, select_alone
 
 NO_REPORT = "Render with the Camera Ray Caster first (F12), or cast from the sidebar"

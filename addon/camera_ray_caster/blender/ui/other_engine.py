@@ -9,6 +9,7 @@ from bpy.app.handlers import persistent
 
 from ...core.cameras import MODELS
 from ..properties.declared import BLENDERS_OWN, ENGINE, GROUP
+from ..properties.labels import LABELS_OF_MODELS
 from ..read.camera import shader_mark
 from .cycles_operators import UseInCycles
 from .drawing import draw_message

@@ -22,23 +22,18 @@ class ShowResult(bpy.types.Operator):
             self.report({"ERROR"}, f"no cast has made an image {self.name!r}: cast first")
             return {"CANCELLED"}
         image, said = images.show_in_colors(self.name)
-        editor = open_editor(context)
+        editor = open_editor()
         if editor is not None:
             editor.image = image
         self.report({"INFO"}, f"{self.name}: {said}")
         return {"FINISHED"}
 
 
-def open_editor(context):
+def open_editor():
     """Return an Image Editor; if there is none, open one as for a render. Return None without a window."""
-    if not bpy.app.background and not _editors(context):
+    if not bpy.app.background and not images.editors():
         bpy.ops.render.view_show("INVOKE_DEFAULT")
-    return next(iter(_editors(context)), None)
-
-
-def _editors(context) -> list:
-    areas = [area for window in context.window_manager.windows for area in window.screen.areas]
-    return [area.spaces.active for area in areas if area.type == "IMAGE_EDITOR"]
+    return next(iter(images.editors()), None)
 
 
 class ResultsMenu(bpy.types.Menu):

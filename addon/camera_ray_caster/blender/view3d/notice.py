@@ -1,4 +1,4 @@
-"""A notice at the bottom of a 3D View about differences between the view and a render.
+"""A notice at the bottom of a 3D View: why its camera cannot be cast, and differences between the view and a render.
 
 The scene cannot be evaluated at other frames while a view is drawn. Doing it at other times would reset objects that
 the user has moved without a keyframe. So the view shows all pixels at one frame, and the notice tells this.
@@ -35,7 +35,10 @@ def _sentences(context) -> Iterator[str]:
     scene, space = context.scene, context.space_data
     is_rendered = space.shading.type == "RENDERED" and scene.render.engine == ENGINE
     is_overlaid = scene.camera_ray_caster_overlay.show and space.overlay.show_overlays
-    if is_overlaid or (is_rendered and context.region_data.view_perspective == "CAMERA"):
+    looks_through = context.region_data.view_perspective == "CAMERA"
+    if is_rendered and looks_through and (reason := cached_scene(context).reason):
+        yield reason
+    if is_overlaid or (is_rendered and looks_through):
         yield from cached_scene(context).differences
     if space.local_view is not None and (is_overlaid or is_rendered):
         yield LOCAL_VIEW

@@ -10,6 +10,7 @@ from bpy.app.handlers import persistent
 
 from ...core.camera.camera import Camera
 from ...core.records import BlenderCamera, InputError, Shapes
+from ..properties.labels import in_labels
 from ..read.differences import evaluated_otherwise
 from ..read.evaluated import camera_at
 from ..read.frames import frame_of
@@ -27,6 +28,8 @@ class CachedScene:
     camera: Camera | None
     """The camera at the current frame, without pixel times; None if there is no camera that can be cast."""
     shapes: Shapes
+    reason: str = ""
+    """Why the camera cannot be cast."""
     differences: tuple[str, ...] = ()
     """Differences between a render and the window, in sentences."""
     otherwise: tuple[str, ...] = ()
@@ -48,19 +51,19 @@ def cached_scene(context) -> CachedScene:
         shapes, otherwise = _read[0].shapes, _read[0].otherwise
     else:
         shapes, otherwise = shapes_record(depsgraph), evaluated_otherwise(depsgraph)
-    raw, camera = _camera(scene.camera, depsgraph)
+    raw, camera, reason = _camera(scene.camera, depsgraph)
     differences = tuple(_differences(camera, scene))
     camera = camera and replace(camera, pixel_time=None)
-    _read[:] = [CachedScene(key, raw, camera, shapes, differences, otherwise)]
+    _read[:] = [CachedScene(key, raw, camera, shapes, reason, differences, otherwise)]
     _stale.clear()
     return _read[0]
 
 
-def _camera(camera_object, depsgraph) -> tuple[BlenderCamera | None, Camera | None]:
+def _camera(camera_object, depsgraph) -> tuple[BlenderCamera | None, Camera | None, str]:
     try:
-        return camera_at(camera_object, depsgraph)
-    except InputError:
-        return None, None  # the sidebar shows the reason
+        return *camera_at(camera_object, depsgraph), ""
+    except InputError as error:
+        return None, None, in_labels(str(error))
 
 
 def _differences(camera: Camera | None, scene) -> Iterator[str]:

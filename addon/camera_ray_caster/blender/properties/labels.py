@@ -1,0 +1,19 @@
+"""The names of models and settings in the window's language, in place of those of files and of the terminal."""
+
+import re
+
+from ...core.cameras import MODELS
+
+
+def label_of(key: str) -> str:
+    """Return the label of a model; the key itself for one that is not known."""
+    return next((model.label for model in MODELS if model.key == key), key)
+
+
+def in_labels(text: str) -> str:
+    """Return a message with a capital, with the names of settings replaced by their labels in the panels, and without
+    the names of the terminal's options in parentheses. Names that are words of the language, too, stay.
+    """
+    labels = {setting.name: setting.label for model in MODELS for setting in model.SETTINGS if "_" in setting.name}
+    text = re.sub(r"\w+", lambda word: labels.get(word[0], word[0]), re.sub(r" \(--[a-z-]+\)", "", text))
+    return text[:1].upper() + text[1:]
