@@ -54,7 +54,9 @@ def panel(user, scenes):
     slow = {name: np.median(seconds) for name, seconds in timings.items() if np.median(seconds or [0]) > DRAWN}
     assert not slow, slow
     depth = pixels_of(bpy.data.images["Ray Caster depth"])
-    bpy.ops.ed.undo()
+    bpy.ops.ed.undo_push(message="something")
+    yield from user.point(area.x + area.width // 3, area.y + area.height // 2)
+    yield from user.key("ctrl+z")
     yield from user.wait(0.5)
     assert np.array_equal(pixels_of(bpy.data.images["Ray Caster depth"]), depth)
     assert area.spaces.active.image == bpy.data.images["Ray Caster combined"]

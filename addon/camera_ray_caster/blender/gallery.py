@@ -56,6 +56,11 @@ def groups() -> dict[str, dict[str, str]]:
     }
 
 
+def label(name: str) -> str:
+    """Return the label of a scene in the menus: that of its camera model, if there is one."""
+    return {scene_name(it.key): it.label for it in MODELS}.get(name, _label(name))
+
+
 def _label(name: str) -> str:
     return name.replace("_", " ").title().replace(" And ", " and ")
 

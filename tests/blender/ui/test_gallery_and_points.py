@@ -36,15 +36,12 @@ def test_the_menus_offer_all_that_has_a_picture():
 
 @pytest.mark.parametrize("model", MODELS, ids=lambda model: model.key)
 def test_the_gallery_has_a_button_for_each_model(blender, scene, model):
-    """Blender's own by their types; the others by the setting that a button sets."""
+    """Blender's own set their types."""
     assert [model in models for row in rows() for models in row.values()].count(True) == 1
     own = scene.camera.data.camera_ray_caster
     own.model = "CAMERA_OBSCURA"
-    if model.number is None:
-        assert blender.ops.camera_ray_caster.choose_type(key=model.key) == {"FINISHED"}
-        assert own.model == "BLENDER"
-    else:
-        own.model = model.key
+    assert blender.ops.camera_ray_caster.choose_type(key=model.key) == {"FINISHED"}
+    assert own.model == ("BLENDER" if model.number is None else model.key)
     blender.context.view_layer.update()
     if not any(setting.kind == "OBJECT" for setting in model.SETTINGS):  # without slits there is no camera
         assert read_camera(scene).model.key == model.key
@@ -71,10 +68,57 @@ def test_what_the_gallery_does_not_have_is_refused(blender):
             operator(name="cat")
 
 
+def test_a_camera_of_the_gallery_has_its_model_s_name_and_stands_at_the_view_or_the_cursor(blender):
+    scene, ops = blender.context.scene, blender.ops.camera_ray_caster
+    scene.cursor.location = (3, -2, 1)
+    ops.append_camera(name="cross_slit")
+    camera = scene.camera
+    blender.context.view_layer.update()
+    assert camera.name == "Cross-Slit"
+    assert np.allclose(camera.matrix_world.translation, (3, -2, 1))
+    own = camera.data.camera_ray_caster
+    slits = [camera.matrix_world.inverted() @ slit.matrix_world for slit in (own.slit_1, own.slit_2)]
+    area = next(area for area in blender.context.window.screen.areas if area.type == "VIEW_3D")
+    view = area.spaces.active.region_3d
+    view.view_perspective, view.view_location, view.view_distance = "PERSP", (1, 2, 3), 7
+    with blender.context.temp_override(area=area):
+        ops.append_camera(name="cross_slit")
+    blender.context.view_layer.update()
+    second, own = scene.camera, scene.camera.data.camera_ray_caster
+    assert np.allclose(second.matrix_world, view.view_matrix.inverted(), atol=1e-5)
+    for slit, before in zip((own.slit_1, own.slit_2), slits, strict=True):
+        assert np.allclose(second.matrix_world.inverted() @ slit.matrix_world, before, atol=1e-5)
+
+
+def test_slit_scan_and_time_displacement_are_called_so_and_a_button_makes_a_gradient(blender, scene):
+    from camera_ray_caster.core.camera import pixel_time
+
+    labels = {item.key: item.label for item in pixel_time.MODE.items}
+    assert [labels[key] for key in ("ROWS", "COLUMNS", "IMAGE")] == [
+        "Slit Scan, Rows", "Slit Scan, Columns", "Time Displacement",
+    ]  # fmt: skip
+    ops, own = blender.ops.camera_ray_caster, scene.camera.data.camera_ray_caster
+    ops.choose_time(key="IMAGE")
+    own.time_start, own.time_end = 1, 5
+    assert ops.add_gradient() == {"FINISHED"}
+    blender.context.view_layer.update()
+    times = read_camera(scene).rays().time
+    assert times[:, 0] == pytest.approx(1, abs=0.2)
+    assert times[:, -1] == pytest.approx(5, abs=0.2)
+    assert (np.diff(times[3]) > 0).all()
+
+
 def test_an_example_is_opened_as_a_new_file(blender):
     blender.ops.camera_ray_caster.open_example(name="omnimax")
     assert blender.data.filepath == "", "the extension's own file would be saved over"
     assert blender.context.scene.camera.data.camera_ray_caster.model == "OMNIMAX"
+    space = next(area for area in blender.context.window.screen.areas if area.type == "VIEW_3D").spaces.active
+    assert (space.region_3d.view_perspective, space.shading.type) == ("CAMERA", "RENDERED"), "its picture is seen"
+    assert blender.context.scene.render.engine == "CAMERA_RAY_CASTER"
+    space.shading.type = "SOLID"
+    blender.ops.wm.read_homefile(use_factory_startup=True)
+    space = next(area for area in blender.context.window.screen.areas if area.type == "VIEW_3D").spaces.active
+    assert space.shading.type == "SOLID", "only an example is"
 
 
 def test_the_3d_cursor_has_a_pixel_and_its_ray_hits_what_hides_it(blender, scene, capfd):

@@ -96,8 +96,8 @@ class Layout:
     def context_pointer_set(self, name, data):
         """For the popover."""
 
-    def popover(self, panel, text, icon):
-        """The gallery is drawn in a window."""
+    def menu(self, name, text, icon):
+        """Menus are drawn in a window."""
 
     def operator(self, name, text=None, icon="NONE"):
         self.operators.append(name.partition(".")[2])
@@ -125,7 +125,7 @@ def test_the_settings_of_the_chosen_model_are_shown_in_order(blender, data):
     own = data.camera_ray_caster
     assert set(SHOWN) <= {item.identifier for item in own.bl_rna.properties["model"].enum_items}
     for own.model, names in SHOWN.items():
-        assert drawn(blender, ModelPanel, data) == (("model", *names), ())
+        assert drawn(blender, ModelPanel, data) == (names, ())
 
 
 def test_in_a_narrow_editor_the_same_is_shown_with_labels_that_are_not_cut_off(blender, data):
@@ -140,9 +140,9 @@ def test_in_a_narrow_editor_the_same_is_shown_with_labels_that_are_not_cut_off(b
 def test_what_blender_shows_for_another_type_of_camera_is_shown(blender, data):
     own = data.camera_ray_caster
     data.type, own.model = "ORTHO", "PUSHBROOM"
-    assert drawn(blender, ModelPanel, data)[0] == ("model", "slit_1", "lens")
+    assert drawn(blender, ModelPanel, data)[0] == ("slit_1", "lens")
     data.type = "PANO"
-    assert drawn(blender, ModelPanel, data)[0] == ("model", "slit_1", "ortho_scale", "lens")
+    assert drawn(blender, ModelPanel, data)[0] == ("slit_1", "ortho_scale", "lens")
 
 
 def test_with_our_engine_the_lens_panel_has_what_blenders_shows_for_cycles_only(blender, data):
@@ -173,7 +173,7 @@ def test_what_the_model_does_not_read_of_the_lens_is_gray(blender, data):
     assert drawn(blender, LensPanel, data, ours)[1][-2:] == ("shift_x", "shift_y")
     own.model = "PUSHBROOM"
     assert drawn(blender, LensPanel, data, ours)[1] == ("type",)
-    assert drawn(blender, ModelPanel, data, ours)[0] == ("model", "slit_1")
+    assert drawn(blender, ModelPanel, data, ours)[0] == ("slit_1",)
 
 
 def test_a_sensor_that_the_model_does_not_read_is_gray(blender, data):
@@ -224,7 +224,7 @@ def test_a_missing_slit_or_path_is_added_where_the_camera_sees_something(blender
 def test_a_calibration_file_hides_the_numbers_that_it_replaces(blender, data):
     own = data.camera_ray_caster
     own.model, own.calibration_file = "OPENCV_FISHEYE", "//lens.yml"
-    assert drawn(blender, ModelPanel, data) == (("model", "calibration_file", "calibration_camera"), ())
+    assert drawn(blender, ModelPanel, data) == (("calibration_file", "calibration_camera"), ())
 
 
 def test_lengths_in_millimeters_are_blender_s_own_and_the_panel_says_so(blender, data):
@@ -236,22 +236,22 @@ def test_lengths_in_millimeters_are_blender_s_own_and_the_panel_says_so(blender,
     assert said() == "In pixels of a picture of 1920 × 1080, scaled to the frame"
     own.calibration_unit = "MILLIMETERS"
     assert said() == "In millimeters on Blender's sensor; Shift sets the center"
-    assert drawn(blender, ModelPanel, data)[0] == ("model", *FILE, "lens", "division_lambda")
+    assert drawn(blender, ModelPanel, data)[0] == (*FILE, "lens", "division_lambda")
     own.calibration_file = "//lens.yml"
     assert said() == "In pixels of the file's picture, scaled to the frame"
-    assert drawn(blender, ModelPanel, data) == (("model", "calibration_file", "calibration_camera"), ())
+    assert drawn(blender, ModelPanel, data) == (("calibration_file", "calibration_camera"), ())
 
 
 def test_a_camera_of_cycles_shows_the_settings_of_its_own_type_and_the_way_back(osl, blender, camera_scene):
     data = camera_scene.camera.data
-    assert drawn(blender, ModelPanel, data)[0] == ("model",)
+    assert drawn(blender, ModelPanel, data)[0] == ()
     assert drawn.operators == ["load_calibration", "use_in_cycles"]
     to_cycles(camera_scene)
     camera_scene.render.engine = "CYCLES"
-    assert drawn(blender, ModelPanel, data)[0] == ("model", "lens")
+    assert drawn(blender, ModelPanel, data)[0] == ("lens",)
     assert drawn.operators == ["load_calibration", "back_to_blender", "use_in_cycles"]
     data.camera_ray_caster.model = "PUSHBROOM"
-    assert drawn(blender, ModelPanel, data)[0] == ("model", "slit_1", "ortho_scale", "lens")
+    assert drawn(blender, ModelPanel, data)[0] == ("slit_1", "ortho_scale", "lens")
 
 
 def test_the_buttons_go_there_and_back(osl, blender, camera_scene):

@@ -1,15 +1,19 @@
-"""Operators that add a missing slit or path to a camera, placed so that the picture is filled, and that select it."""
+"""Operators that add what a camera lacks: a slit or path, placed so that the picture is filled, an image of times."""
 
 import bpy
+import numpy as np
 from bpy.props import EnumProperty
 from mathutils import Euler, Matrix, Vector
 
+from ...core.camera.pixel_time import GRAY
 from ...core.cameras.parts.lines import SECOND_SLIT, SLIT
 from ...core.cameras.strip import PATH
 from ..properties.declared import GROUP
 from .needs import OfCamera, camera_object_of, select_alone
 
 QUARTER = 1.5707963267948966
+GRADIENT = 256, 16
+"""Width and height of an added gradient in pixels; a picture has 256 times (see ``core.camera.pixel_time``)."""
 PATH_HALF = 5.0
 """Half the length of an added path, in Blender units."""
 
@@ -72,6 +76,26 @@ class SelectLine(OfLine, bpy.types.Operator):
         return {"FINISHED"}
 
 
+class AddGradient(OfCamera, bpy.types.Operator):
+    """Add an image whose gray grows evenly from the left, black, to the right, white, as the time of each pixel. Paint
+    or replace it for other times"""
+
+    bl_idname = "camera_ray_caster.add_gradient"
+    bl_label = "Add Gradient"
+    bl_options = {"REGISTER", "UNDO"}
+
+    def execute(self, context):
+        """Add the image to the file, and assign it to the camera."""
+        image = bpy.data.images.new("Time Gradient", *GRADIENT, float_buffer=True, is_data=True)
+        columns, rows = GRADIENT
+        gray = np.repeat(np.linspace(0, 1, columns, dtype=np.float32), 4).reshape(-1, 4)
+        gray[:, 3] = 1
+        image.pixels.foreach_set(np.tile(gray, (rows, 1)).ravel())
+        image.pack()
+        setattr(getattr(camera_object_of(context).data, GROUP), GRAY.name, image)
+        return {"FINISHED"}
+
+
 def _path(name: str):
     """Return a straight curve along X."""
     curve = bpy.data.curves.new(name, "CURVE")
@@ -83,4 +107,4 @@ def _path(name: str):
     return curve
 
 
-CLASSES = (AddLine, SelectLine)
+CLASSES = (AddLine, SelectLine, AddGradient)

@@ -10,7 +10,7 @@ from .facts_panels import camera_of
 from .frame import draw_frame
 from .gallery_operators import ExamplesMenu
 from .gallery_panels import draw_model
-from .model_drawing import PRESETS, draw_lens, draw_model_settings, draw_setting, draw_times, is_missing
+from .model_drawing import PRESETS, draw_cycles, draw_lens, draw_model_settings, draw_setting, draw_times, is_missing
 from .model_settings import read_settings
 from .operators import LoadCalibration
 from .other_engine import draw_ignored
@@ -45,6 +45,8 @@ class SidebarCamera(Sidebar, bpy.types.Panel):
         row.menu(ExportMenu.bl_idname, text="Export", icon="EXPORT")
         row.menu(ExamplesMenu.bl_idname, text="Examples", icon="FILE_BLEND")
         layout.operator(LoadCalibration.bl_idname, icon="FILE_FOLDER")
+        if camera is not None and camera.type == "CAMERA":
+            draw_cycles(layout, camera.data)
         lacking = missing(context, camera) if reason else ()
         for setting in lacking:  # from here on what comes and goes: it moves no button above
             draw_setting(layout, context, camera.data, setting)

@@ -1,11 +1,16 @@
 """Operators and menus that open a scene of the gallery, or append its camera to the current scene."""
 
 import bpy
+from bpy.app.handlers import persistent
 from bpy.props import StringProperty
+from mathutils import Matrix
 
 from .. import gallery
+from . import see_through
 from .needs import select_alone
 
+_opening: list[str] = []
+"""The name of the example that is being opened."""
 CAMERA = "Camera"
 """Name of the camera object in every scene of the gallery."""
 LINES = 15
@@ -37,7 +42,25 @@ class OpenExample(OfGallery, bpy.types.Operator):
         path = self.path()
         if path is None:
             return {"CANCELLED"}
+        _opening[:] = [self.name]
         return bpy.ops.wm.read_homefile("INVOKE_DEFAULT", filepath=path, load_ui=False)
+
+
+@persistent
+def look_through(*_) -> None:
+    """Look through the camera of an example in the first 3D View, if that is what has been loaded: Blender may have
+    asked first whether to save changes. An example's scene has its name.
+    """
+    is_example = bpy.context.scene.name in _opening and not bpy.data.filepath
+    _opening.clear()
+    if not is_example:
+        return
+    for window in bpy.context.window_manager.windows:
+        view = next((area for area in window.screen.areas if area.type == "VIEW_3D"), None)
+        if view is not None and not see_through.shows_picture(view.spaces.active, window.scene):
+            with bpy.context.temp_override(window=window, area=view):
+                bpy.ops.camera_ray_caster.see_through()
+            return
 
 
 class AppendCamera(OfGallery, bpy.types.Operator):
@@ -59,10 +82,27 @@ class AppendCamera(OfGallery, bpy.types.Operator):
         for item in added:
             context.collection.objects.link(item)
         (camera,) = wanted.objects
+        camera.name = camera.data.name = gallery.label(self.name)
+        place(context, camera, [item for item in added if item.parent is None])
         select_alone(context, camera)
         context.scene.camera = camera
         self.report({"INFO"}, f"{camera.name!r} is now the scene's camera")
         return {"FINISHED"}
+
+
+def place(context, camera, items) -> None:
+    """Move objects as a whole so that the camera stands at the 3D View's viewpoint, or at the 3D cursor if there is no
+    view, or it is a camera's.
+    """
+    view = getattr(context.space_data, "region_3d", None)
+    if view is not None and view.view_perspective != "CAMERA":
+        wanted = view.view_matrix.inverted()
+    else:
+        wanted = Matrix.LocRotScale(context.scene.cursor.location, camera.matrix_basis.to_quaternion(), None)
+    context.view_layer.update()
+    move = wanted @ camera.matrix_world.normalized().inverted()
+    for item in items:
+        item.matrix_world = move @ item.matrix_world
 
 
 class GalleryMenu:
@@ -109,3 +149,4 @@ def register(undo) -> None:
     """Register this module; see ``registration``."""
     bpy.types.VIEW3D_MT_camera_add.append(draw_menu)
     undo.callback(bpy.types.VIEW3D_MT_camera_add.remove, draw_menu)
+    undo.add_handlers([("load_post", look_through)])

@@ -1,46 +1,53 @@
-"""The gallery panel: camera models to choose by their pictures."""
+"""The choice of a camera's model: a menu of names, the gallery, a menu of pictures, and the times of the pixels."""
 
 from collections.abc import Iterator
 from itertools import groupby
 
 import bpy
-from bpy.props import EnumProperty
+from bpy.props import EnumProperty, StringProperty
 
+from ...core.camera import pixel_time
 from ...core.cameras import MODELS
 from ...core.cameras.model import GROUPS
 from .. import gallery
-from ..properties.declared import BLENDERS_OWN, GROUP, MODEL
+from ..properties.declared import BLENDERS_OWN, GROUP
+from ..properties.labels import label_of
 from .drawing import draw_message
 from .model_settings import blender_type
 from .needs import OfCamera, camera_object_of, objection
 
+LINES = 15
+"""Number of lines in a column of the menus."""
 COLUMNS = 7
 WIDTH, HEIGHT = 7.8, 3.2
 """Width of a button, at least, and height of a picture, in interface units."""
 
 
-class ChooseType(OfCamera, bpy.types.Operator):
-    """Use this camera type of Blender, with Blender's own model"""
+class ChooseModel(OfCamera, bpy.types.Operator):
+    """Use this camera model"""
 
     bl_idname = "camera_ray_caster.choose_type"
-    bl_label = "Choose Camera Type"
+    bl_label = "Choose Camera Model"
     bl_options = {"UNDO", "INTERNAL"}
 
-    key: EnumProperty(
-        name="Type",
-        items=[(it.key, it.label, it.description) for it in MODELS if it.group == GROUPS[0]],
-        options={"SKIP_SAVE"},
-    )
+    key: StringProperty(name="Model", description="Key of the model", options={"SKIP_SAVE"})
 
     @classmethod
     def description(cls, context, properties):
         """Return the tooltip, which is the model's."""
-        return cls.bl_rna.properties["key"].enum_items[properties.key].description
+        return next((it.description for it in MODELS if it.key == properties.key), cls.__doc__)
 
     def execute(self, context):
-        """Set the model, the type, and the type of panorama."""
+        """Set the model; for one of Blender's own the type, and the type of panorama."""
         camera = camera_object_of(context).data
-        getattr(camera, GROUP).model = BLENDERS_OWN
+        own, chosen = getattr(camera, GROUP), next((it for it in MODELS if it.key == self.key), None)
+        if chosen is None:
+            self.report({"ERROR"}, f"There is no camera model {self.key!r}")
+            return {"CANCELLED"}
+        if chosen.number is not None:
+            own.model = self.key
+            return {"FINISHED"}
+        own.model = BLENDERS_OWN
         if self.key in camera.bl_rna.properties["type"].enum_items:
             camera.type = self.key
         else:
@@ -48,14 +55,67 @@ class ChooseType(OfCamera, bpy.types.Operator):
         return {"FINISHED"}
 
 
-class ModelGallery(bpy.types.Panel):
+class ChooseTime(OfCamera, bpy.types.Operator):
+    """Use this time of the pixels"""
+
+    bl_idname = "camera_ray_caster.choose_time"
+    bl_label = "Choose Time of Pixels"
+    bl_options = {"UNDO", "INTERNAL"}
+
+    key: EnumProperty(
+        name="Time", items=[(it.key, it.label, it.text) for it in pixel_time.MODE.items], options={"SKIP_SAVE"}
+    )
+
+    @classmethod
+    def description(cls, context, properties):
+        """Return the tooltip, which is the item's."""
+        return next(it.text for it in pixel_time.MODE.items if it.key == properties.key)
+
+    def execute(self, context):
+        """Set the time of the pixels."""
+        setattr(getattr(camera_object_of(context).data, GROUP), pixel_time.MODE.name, self.key)
+        return {"FINISHED"}
+
+
+class ModelMenu(bpy.types.Menu):
+    """Choose the camera model by its name"""
+
+    bl_idname = "CAMERA_RAY_CASTER_MT_models"
+    bl_label = "Camera Model"
+    bl_options = {"SEARCH_ON_KEY_PRESS"}
+
+    def draw(self, context):
+        """Draw an entry for each model, in groups; small groups share a column."""
+        item = camera_object_of(context)
+        chosen = "" if objection(context, item) else key_of(item.data)
+        row, free = self.layout.row(), 0
+        for group, models in by_group():
+            if len(models) >= free:
+                column, free = row.column(), LINES
+            free -= len(models) + 1
+            column.label(text=group)
+            for it in models:
+                icon = "CHECKMARK" if it.key == chosen else "BLANK1"
+                column.operator(ChooseModel.bl_idname, text=it.label, icon=icon).key = it.key
+
+
+class TimeMenu(bpy.types.Menu):
+    """Choose the time of the pixels: slit scan, time displacement, rolling shutter"""
+
+    bl_idname = "CAMERA_RAY_CASTER_MT_times"
+    bl_label = "Time of Pixels"
+
+    def draw(self, context):
+        """Draw an entry for each."""
+        for it in pixel_time.MODE.items:
+            self.layout.operator(ChooseTime.bl_idname, text=it.label).key = it.key
+
+
+class ModelGallery(bpy.types.Menu):
     """Choose the camera model by an example picture"""
 
-    bl_idname = "CAMERA_RAY_CASTER_PT_gallery"
+    bl_idname = "CAMERA_RAY_CASTER_MT_gallery"
     bl_label = "Camera Models"
-    bl_space_type = "PROPERTIES"
-    bl_region_type = "HEADER"  # opened from a button only
-    bl_ui_units_x = int(COLUMNS * WIDTH) + 1
 
     def draw(self, context):
         """Draw each group: a heading, and a picture with a button for each model. Small groups share a row."""
@@ -74,11 +134,22 @@ class ModelGallery(bpy.types.Panel):
                 draw_pictures(column, camera, models)
 
 
+def key_of(camera) -> str:
+    """Return the key of the model of a camera's data."""
+    own = getattr(camera, GROUP)
+    return blender_type(camera) if own.model == BLENDERS_OWN else own.model
+
+
+def by_group() -> Iterator[tuple[str, list]]:
+    """Yield each group with its models."""
+    for group, models in groupby(sorted(MODELS, key=lambda it: GROUPS.index(it.group)), lambda it: it.group):
+        yield group, list(models)
+
+
 def rows() -> Iterator[dict[str, list]]:
     """Yield the rows of the gallery: the models of one or more groups, by group."""
     row: dict[str, list] = {}
-    for group, models in groupby(sorted(MODELS, key=lambda it: GROUPS.index(it.group)), lambda it: it.group):
-        members = list(models)
+    for group, members in by_group():
         if row and sum(map(len, row.values())) + len(members) > COLUMNS:
             yield row
             row = {}
@@ -88,27 +159,23 @@ def rows() -> Iterator[dict[str, list]]:
 
 def draw_pictures(layout, camera, models) -> None:
     """Draw the models of a group, each with its picture, in lines of about the same length."""
-    own, lines = getattr(camera, GROUP), -(-len(models) // COLUMNS)
+    chosen, lines = key_of(camera), -(-len(models) // COLUMNS)
     grid = layout.grid_flow(row_major=True, columns=-(-len(models) // lines), even_columns=True)
     for it in models:
         cell = grid.column(align=True)
         cell.template_icon(gallery.icon(gallery.scene_name(it.key)), scale=HEIGHT)
-        if it.number is None:
-            is_chosen = own.model == BLENDERS_OWN and blender_type(camera) == it.key
-            cell.operator(ChooseType.bl_idname, text=it.label, depress=is_chosen).key = it.key
-        else:
-            cell.prop_enum(own, MODEL.name, it.key)
+        icon = "CHECKMARK" if it.key == chosen else "BLANK1"
+        cell.operator(ChooseModel.bl_idname, text=it.label, icon=icon).key = it.key
 
 
-def draw_model(layout, camera, **options):
-    """Draw the menu of a camera's models with the gallery button next to it, and return their row. ``options`` are
-    passed to Blender's ``prop`` for the menu.
-    """
+def draw_model(layout, camera):
+    """Draw the menu of a camera's models with the gallery button next to it, and return their row."""
     row = layout.row(align=True)
     row.context_pointer_set("camera", camera)
-    row.prop(getattr(camera, GROUP), MODEL.name, **options)
-    row.popover(ModelGallery.bl_idname, text="", icon="IMGDISPLAY")
+    key = key_of(camera)
+    row.menu(ModelMenu.bl_idname, text=label_of(key), icon="CAMERA_DATA")
+    row.menu(ModelGallery.bl_idname, text="", icon="IMGDISPLAY")
     return row
 
 
-CLASSES = (ChooseType, ModelGallery)
+CLASSES = (ChooseModel, ChooseTime, ModelMenu, TimeMenu, ModelGallery)

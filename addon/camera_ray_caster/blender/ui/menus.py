@@ -2,16 +2,26 @@
 
 import bpy
 
+from .add_line import SETTINGS, AddGradient, AddLine
 from .cast_operator import Cast
-from .cycles_operators import UseInCycles
-from .export_operators import ExportMenu
-from .gallery_operators import ExamplesMenu
-from .lesson_operators import StepThrough
+from .cycles_operators import BackToBlender, UseInCycles
+from .export_operators import CopyK, CopyWorldToCamera, ExportMenu
+from .frame import SetFrame
+from .gallery_operators import CamerasMenu, ExamplesMenu
+from .gallery_panels import ModelMenu, TimeMenu
+from .lesson_operators import ClearSteps, CopySteps, StepThrough
 from .operators import CopyFacts, LoadCalibration, Verify, WriteReport
-from .point_operators import PixelOfPoint
+from .other_engine import UseThisEngine
+from .point_operators import EmptyAtHit, PixelOfPoint
 from .rig_operators import AddCameras
+from .see_through import SeeThrough
+from .show_result import ResultsMenu
 
-LISTED = (Cast, Verify, StepThrough, PixelOfPoint, LoadCalibration, AddCameras, UseInCycles, CopyFacts, WriteReport)
+LISTED = (
+    SeeThrough, Cast, Verify, StepThrough, PixelOfPoint, EmptyAtHit, CopySteps, ClearSteps, SetFrame, LoadCalibration,
+    AddCameras, AddGradient, UseThisEngine, UseInCycles, BackToBlender, CopyFacts, CopyK, CopyWorldToCamera, WriteReport,
+)  # fmt: skip
+MENUS = (ModelMenu, TimeMenu, ResultsMenu, ExportMenu, ExamplesMenu, CamerasMenu)
 
 
 class RayCasterMenu(bpy.types.Menu):
@@ -22,10 +32,15 @@ class RayCasterMenu(bpy.types.Menu):
 
     def draw(self, context):
         """Draw an entry for each operator and submenu."""
+        layout = self.layout
+        layout.operator_context = "INVOKE_DEFAULT"
         for operator in LISTED:
-            self.layout.operator(operator.bl_idname)
-        for menu in (ExportMenu, ExamplesMenu):
-            self.layout.menu(menu.bl_idname)
+            layout.operator(operator.bl_idname)
+        for setting in SETTINGS.values():
+            layout.operator(AddLine.bl_idname, text=f"Add {setting.label}").setting = setting.name
+        layout.separator()
+        for menu in MENUS:
+            layout.menu(menu.bl_idname)
 
 
 def draw_menu(self, context) -> None:

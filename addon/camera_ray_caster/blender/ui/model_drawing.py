@@ -9,7 +9,9 @@ from ...core.cameras.parts.settings import CAMERA, Setting
 from ..cycles.shader import CUSTOM
 from ..properties.declared import BLENDERS_OWN, ENGINE, GROUP
 from ..properties.owners import owner_of
-from .add_line import AddLine, SelectLine
+from ..read.camera import shader_mark
+from .add_line import AddGradient, AddLine, SelectLine
+from .cycles_operators import BackToBlender, UseInCycles
 from .drawing import draw_field, draw_message
 from .model_settings import lengths_in_words, not_used, of_type, read_settings, settings_of, shown
 
@@ -54,6 +56,16 @@ def draw_lens(layout, context, camera) -> None:
         draw_field(row, context, camera, "lens_unit")
 
 
+def draw_cycles(layout, camera) -> None:
+    """Draw the button that makes a custom camera of Cycles, or the buttons that revert and update such a camera."""
+    if shader_mark(camera) is None:
+        layout.operator(UseInCycles.bl_idname, icon="SHADING_RENDERED")
+        return
+    row = layout.row(align=True)
+    row.operator(BackToBlender.bl_idname, icon="LOOP_BACK")
+    row.operator(UseInCycles.bl_idname, text="", icon="FILE_REFRESH")
+
+
 def draw_times(layout, context, camera) -> None:
     """Draw the list of pixel time modes; below it the settings of the chosen mode."""
     own = getattr(camera, GROUP)
@@ -75,6 +87,8 @@ def _draw_property(layout, context, owner, setting) -> None:
 
 def _draw_image(layout, context, owner, setting) -> None:
     layout.template_ID(owner, setting.name, open="image.open")
+    if getattr(owner, setting.name) is None:
+        layout.operator(AddGradient.bl_idname, icon="IPO_LINEAR")
 
 
 def _draw_vector(layout, context, owner, setting) -> None:

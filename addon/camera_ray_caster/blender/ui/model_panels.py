@@ -4,12 +4,10 @@ import bpy
 
 from ...core.cameras.parts.film import SENSOR_FIT, SHIFT
 from ..properties.declared import ENGINE
-from ..read.camera import shader_mark
-from .cycles_operators import BackToBlender, UseInCycles
 from .drawing import draw_field, put_labels
 from .frame import draw_frame
 from .gallery_panels import draw_model
-from .model_drawing import PRESETS, draw_lens, draw_model_settings, draw_times
+from .model_drawing import PRESETS, draw_cycles, draw_lens, draw_model_settings, draw_times
 from .model_settings import read_settings
 from .needs import camera_object_of
 from .operators import LoadCalibration
@@ -44,7 +42,7 @@ class ModelPanel(CameraPanel, bpy.types.Panel):
     def draw(self, context):
         """Draw the list of models; below it the settings of the chosen model and the Cycles buttons."""
         layout, camera = self.layout, context.camera
-        row = draw_model(layout, camera, text="")
+        row = draw_model(layout, camera)
         row.operator(LoadCalibration.bl_idname, text="", icon="FILEBROWSER")
         put_labels(layout, context)
         draw_model_settings(layout, context, camera)
@@ -104,16 +102,6 @@ class SensorPanel(CameraPanel, bpy.types.Panel):
         layout.active = SENSOR_FIT in read_settings(camera)
         draw_field(layout, context, camera, "sensor_fit")
         layout.prop(camera, "sensor_height" if camera.sensor_fit == "VERTICAL" else "sensor_width", text="Size")
-
-
-def draw_cycles(layout, camera) -> None:
-    """Draw the button that makes a custom camera of Cycles, or the buttons that revert and update such a camera."""
-    if shader_mark(camera) is None:
-        layout.operator(UseInCycles.bl_idname, icon="SHADING_RENDERED")
-        return
-    row = layout.row(align=True)
-    row.operator(BackToBlender.bl_idname, icon="LOOP_BACK")
-    row.operator(UseInCycles.bl_idname, text="", icon="FILE_REFRESH")
 
 
 class TimePanel(CameraPanel, bpy.types.Panel):

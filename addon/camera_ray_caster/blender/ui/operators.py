@@ -24,6 +24,11 @@ from .needs import OfCamera, OfScene, camera_object_of, reporting, select_alone
 
 NO_REPORT = "Render with the Camera Ray Caster first (F12), or cast from the sidebar"
 
+WITH_CYCLES = (
+    "Also render a small picture of a box in Cycles with the camera's shader, and compare the rays of Cycles with the "
+    "rays of the add-on"
+)
+
 
 class Verify(OfScene, bpy.types.Operator):
     """Compare the rays of the active camera with Blender's own view frame, camera matrix and projection"""
@@ -34,15 +39,14 @@ class Verify(OfScene, bpy.types.Operator):
 
     with_cycles: BoolProperty(
         name="With Cycles",
-        description="Also render a small picture of a box in Cycles with the camera's shader, and compare the rays "
-        "of Cycles with the rays of the add-on",
+        description=WITH_CYCLES,
         options={"SKIP_SAVE"},
     )
 
     @classmethod
     def description(cls, context, properties):
         """Return the tooltip, which differs for the button with Cycles."""
-        return cls.bl_rna.properties["with_cycles"].description if properties.with_cycles else cls.__doc__
+        return WITH_CYCLES if properties.with_cycles else cls.__doc__
 
     @reporting
     def execute(self, context):

@@ -7,9 +7,8 @@ from functools import partial
 import bpy
 from bpy.app.handlers import persistent
 
-from ...core.cameras import MODELS
 from ..properties.declared import BLENDERS_OWN, ENGINE, GROUP
-from ..properties.labels import LABELS_OF_MODELS
+from ..properties.labels import label_of
 from ..read.camera import shader_mark
 from .cycles_operators import UseInCycles
 from .drawing import draw_message
@@ -47,8 +46,7 @@ def ignored(scene, camera) -> str:
     if not (is_ours or has_times or (kind not in ("PERSP", "ORTHO") and engine != CYCLES)):
         return ""
     model = own.model if is_ours else blender_type(camera.data)
-    labels = {one.key: one.label for one in MODELS}
-    what = labels.get(model, "this camera") if is_ours or not has_times else "the time of each pixel"
+    what = label_of(model) if is_ours or not has_times else "the time of each pixel"
     others = {"PERSP": "a perspective", "ORTHO": "an orthographic view"}
     instead = others.get(kind, "a perspective" if engine != CYCLES else "Blender's own model")
     instead = "all pixels at one time" if what == "the time of each pixel" else instead

@@ -27,9 +27,9 @@ MODE = Choice(
     NONE,
     (
         Item(NONE, "One Time", "All pixels show the current frame", 0),
-        Item(ROWS, "Rows", "Slit scan: from the first row, at the bottom, to the last row", 1),
-        Item(COLUMNS, "Columns", "Slit scan: from the left column to the right column", 2),
-        Item(IMAGE, "Image", "Time displacement: black pixels of an image show the start, white pixels the end", 3),
+        Item(ROWS, "Slit Scan, Rows", "From the first row, at the bottom, to the last row", 1),
+        Item(COLUMNS, "Slit Scan, Columns", "From the left column to the right column", 2),
+        Item(IMAGE, "Time Displacement", "Black pixels of an image show the start, white pixels the end", 3),
         Item(
             ROLLING_SHUTTER, "Rolling Shutter",
             "Rows or columns in the order in which a sensor reads them, within the shutter interval of motion blur", 4,
