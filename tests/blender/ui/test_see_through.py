@@ -1,0 +1,69 @@
+"""See Through Camera, slits that are added and deleted, and what a view says that cannot be cast."""
+
+from types import SimpleNamespace
+
+import pytest
+
+from camera_ray_caster.blender.ui.camera_panels import missing
+from camera_ray_caster.blender.view3d import notice
+
+
+@pytest.mark.parametrize("engine", ["CYCLES", "CAMERA_RAY_CASTER"])
+def test_see_through_shows_the_camera_s_own_picture_and_restores_everything(blender, scene, engine):
+    operator = blender.ops.camera_ray_caster.see_through
+    assert not operator.poll()
+    area = next(area for area in blender.context.window.screen.areas if area.type == "VIEW_3D")
+    space, scene.render.engine = area.spaces.active, engine
+    space.region_3d.view_perspective, space.shading.type = "ORTHO", "MATERIAL"
+    with blender.context.temp_override(area=area):
+        for _ in range(2):
+            operator()
+            assert scene.render.engine == "CAMERA_RAY_CASTER"
+            assert (space.region_3d.view_perspective, space.shading.type) == ("CAMERA", "RENDERED")
+            operator()
+            assert (space.region_3d.view_perspective, space.shading.type) == ("ORTHO", "MATERIAL")
+            assert scene.render.engine == engine
+
+
+def test_a_slit_that_is_deleted_is_offered_again(blender, scene):
+    camera, ops = scene.camera, blender.ops
+    camera.data.camera_ray_caster.model = "PUSHBROOM"
+    assert [one.name for one in missing(blender.context, camera)] == ["slit_1"]
+    ops.camera_ray_caster.add_line(setting="slit_1")
+    assert missing(blender.context, camera) == []
+    first = camera.data.camera_ray_caster.slit_1
+    with blender.context.temp_override(selected_objects=[first]):
+        ops.object.delete()
+    blender.context.view_layer.update()
+    assert [one.name for one in missing(blender.context, camera)] == ["slit_1"]
+    ops.camera_ray_caster.add_line(setting="slit_1")
+    assert missing(blender.context, camera) == []
+    assert camera.data.camera_ray_caster.slit_1 != first
+
+
+def test_a_view_that_cannot_be_cast_says_why_with_the_labels_of_the_panels(blender, scene):
+    scene.camera.data.camera_ray_caster.model, scene.render.engine = "PUSHBROOM", "CAMERA_RAY_CASTER"
+    blender.context.view_layer.update()
+    space = SimpleNamespace(shading=SimpleNamespace(type="RENDERED"), overlay=SimpleNamespace(show_overlays=True))
+    own = {name: getattr(blender.context, name) for name in ("scene", "view_layer", "evaluated_depsgraph_get")}
+    space.local_view, seen = None, SimpleNamespace(view_perspective="CAMERA")
+    (said,) = notice._sentences(SimpleNamespace(space_data=space, region_data=seen, **own))
+    assert "Slit" in said
+    assert "slit_1" not in said
+
+
+def test_a_slit_that_the_sidebar_adds_is_selected_to_be_moved(blender, scene):
+    data = scene.camera.data
+    data.camera_ray_caster.model = "CROSS_SLIT"
+    area = next(area for area in blender.context.window.screen.areas if area.type == "VIEW_3D")
+    blender.ops.camera_ray_caster.add_line(setting="slit_1")  # as in the camera's properties, which it would leave
+    assert blender.context.object == scene.camera
+    with blender.context.temp_override(area=area):
+        blender.ops.camera_ray_caster.add_line(setting="slit_2")
+    own = data.camera_ray_caster
+    assert blender.context.selected_objects == [blender.context.object] == [own.slit_2]
+    blender.ops.camera_ray_caster.select_line(setting="slit_1")
+    assert blender.context.selected_objects == [blender.context.object] == [own.slit_1]
+    own.slit_1 = None
+    with pytest.raises(RuntimeError, match="not in this view layer"):
+        blender.ops.camera_ray_caster.select_line(setting="slit_1")
