@@ -89,7 +89,7 @@ def test_it_leaves_nothing_behind(seen):
 def test_its_file_is_refused_in_one_line_once_it_is_taken_away(seen):
     """By script, by F12, in the panel, and without registration. What else is in the file is read, and works."""
     for said in seen["said"]:
-        assert "model of camera 'Camera' is '1000': it must be one of BLENDER, OPENCV_PINHOLE" in said
+        assert "odel of camera 'Camera' is '1000': it must be one of BLENDER, OPENCV_PINHOLE" in said
         assert "\n" not in said
     assert len(seen["said"]) == 4
     assert seen["shapes"] == 2

@@ -19,7 +19,8 @@ from .show_result import ResultsMenu
 
 LISTED = (
     SeeThrough, Cast, Verify, StepThrough, PixelOfPoint, EmptyAtHit, CopySteps, ClearSteps, SetFrame, LoadCalibration,
-    AddCameras, AddGradient, UseThisEngine, UseInCycles, BackToBlender, CopyFacts, CopyK, CopyWorldToCamera, WriteReport,
+    AddCameras, AddGradient, UseThisEngine, UseInCycles, BackToBlender, CopyFacts, CopyK, CopyWorldToCamera,
+    WriteReport,
 )  # fmt: skip
 MENUS = (ModelMenu, TimeMenu, ResultsMenu, ExportMenu, ExamplesMenu, CamerasMenu)
 
