@@ -107,6 +107,18 @@ def test_the_panels_say_how_right_the_hits_are(blender, scene):
     assert "Worst nothing hit" in drawn(blender, cast_panels.SidebarReport)
 
 
+def test_the_render_panel_leads_to_cycles_and_the_passes_have_the_alpha_threshold(blender, scene):
+    from camera_ray_caster.blender.ui import render_panels
+
+    said = drawn(blender, render_panels.RenderPanel)
+    assert "For materials and light" in said
+    assert "camera_ray_caster.use_in_cycles" in said
+    assert "use_pass_albedo pass_alpha_threshold" in " ".join(
+        word for word in drawn(blender, render_panels.PassesPanel).split()
+        if word in {"use_pass_albedo", "pass_alpha_threshold"}
+    )  # fmt: skip
+
+
 def test_sentences_of_a_lesson_begin_with_a_capital_and_formulas_as_they_are(blender, scene):
     from camera_ray_caster.blender.ui.lesson_panels import SidebarLesson
     from camera_ray_caster.blender.view3d import lesson

@@ -7,6 +7,7 @@ import bpy
 from ..engine.engine import CameraRayCaster
 from ..engine.passes import PASSES
 from ..output import reports
+from .drawing import draw_message
 
 ENGINE = CameraRayCaster.bl_idname
 
@@ -43,6 +44,8 @@ class RenderPanel(EnginePanel, bpy.types.Panel):
             layout.label(text=f"{report.pixels:,} rays in {sum(report.seconds.values()):.3f} s")
             layout.label(text=f"Worst distance error: {reports.relative_error(report, 'worst')}")
         layout.operator("camera_ray_caster.write_report")
+        draw_message(layout, context, "for materials and light render with Cycles through this camera")
+        layout.operator("camera_ray_caster.use_in_cycles").set_engine = True
 
 
 class PassesPanel(EnginePanel, bpy.types.Panel):
@@ -53,7 +56,9 @@ class PassesPanel(EnginePanel, bpy.types.Panel):
     bl_context = "view_layer"
 
     def draw(self, context):
-        """Draw the check boxes: Blender's passes of this view layer, then the add-on's passes of the scene."""
+        """Draw the check boxes: Blender's passes of this view layer, then the add-on's passes of the scene; below them
+        the alpha from which on a point is hit.
+        """
         layout = self.layout
         layout.use_property_split = True
         layout.use_property_decorate = False
@@ -62,6 +67,7 @@ class PassesPanel(EnginePanel, bpy.types.Panel):
             for entry in PASSES:
                 if entry.own == own:
                     column.prop(entry.settings(context.scene, context.view_layer), entry.tick)
+        layout.prop(context.view_layer, "pass_alpha_threshold")
 
 
 CLASSES = (RenderPanel, PassesPanel)
