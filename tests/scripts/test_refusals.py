@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from .running import ROOT, left, refused, script
+from .running import ROOT, left, refused, script, small
 
 WRONG_WORDS = {
     "no file": ([], "give the path of a .blend"),
@@ -117,3 +117,14 @@ def test_a_failed_run_leaves_good_files_as_they_were(command, scene, tmp_path):
     assert "'small.png' is a folder" in refused(command("cast", scene, "--output", out))
     assert left(out) == ["report.json", "small.exr", "small.png"]
     assert [(out / name).read_text() for name in ("report.json", "small.exr")] == ["good", "good"]
+
+
+def test_views_with_one_suffix_are_refused(command, blender, tmp_path):
+    """One would overwrite the other's files; Windows and macOS do not tell upper from lower case."""
+    path = small(blender, tmp_path / "stereo.blend", use_multiview=True)
+    views = blender.context.scene.render.views
+    views["left"].file_suffix, views["right"].file_suffix = "_Eye", "_eye"
+    blender.ops.wm.save_as_mainfile(filepath=str(path))
+    line = refused(command("cast", path, "--passes", "depth", "--output", tmp_path / "out"))
+    assert "views 'left' and 'right' have the same file suffix, '_eye'" in line
+    assert not (tmp_path / "out").exists()

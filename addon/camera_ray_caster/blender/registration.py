@@ -10,7 +10,7 @@ from . import gallery
 from .cycles import follow
 from .engine import engine, viewport
 from .output import images, reports
-from .properties import calibration, groups
+from .properties import calibration, groups, paths
 from .properties.declared import ENGINE
 from .read import kept
 from .terminal import commands
@@ -56,9 +56,9 @@ CLASSES = (
 """Blender types in registration order: a panel comes after its parent panel."""
 
 MODULES = (
-    groups, kept, follow, reports, images, gallery, scene_cache, viewport, cast_operator, overlay, lesson, notice,
-    render_panels, menus, gallery_operators, lesson_operators, presets, export_operators, rig_operators, commands,
-    other_engine, see_through,
+    groups, paths, kept, follow, reports, images, gallery, scene_cache, viewport, cast_operator, overlay, lesson,
+    notice, render_panels, menus, gallery_operators, lesson_operators, presets, export_operators, rig_operators,
+    commands, other_engine, see_through,
 )  # fmt: skip
 """Modules that register more than classes. Their ``register(undo)`` gives ``undo`` the callbacks that undo it."""
 

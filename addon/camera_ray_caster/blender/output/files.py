@@ -109,7 +109,7 @@ def render(
 def check(scene) -> None:
     """Raise InputError for input that ``render`` refuses before it starts."""
     check_layers(scene)
-    _check_suffixes(scene.render)
+    _check_suffixes(scene)
     _check_memory(scene)
 
 
@@ -199,10 +199,17 @@ def _check_memory(scene) -> None:
     require(image_bytes(tuple(shape), asked, np.float32), of_pixels("the passes", tuple(shape)))
 
 
-def _check_suffixes(render) -> None:
-    """Raise InputError if a view's file suffix would lead to another folder."""
-    for view in render.views if render.use_multiview else ():
-        if view.use and any(sign in view.file_suffix for sign in "/\\\0"):
+def _check_suffixes(scene) -> None:
+    """Raise InputError if a view's file suffix would lead to another folder, or to another view's files."""
+    owners: dict[str, str] = {}
+    for view in views_of(scene):
+        other = owners.setdefault(view.file_suffix.casefold(), view.name)
+        if other != view.name:
+            raise InputError(
+                f"views {other!r} and {view.name!r} have the same file suffix, {view.file_suffix!r}: change one of "
+                "them (Output properties, Stereoscopy)"
+            )
+        if any(sign in view.file_suffix for sign in "/\\\0"):
             raise InputError(
                 f"the file suffix {view.file_suffix!r} of view {view.name!r} leads to another folder: remove its "
                 "slashes (Output properties, Stereoscopy)"

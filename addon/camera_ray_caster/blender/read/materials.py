@@ -19,6 +19,9 @@ from .unique import unique_name
 ALWAYS_NODES = bpy.app.version >= (5, 0, 0)
 """Whether materials and worlds always use nodes."""
 
+OWN_IS_EMPTY = bpy.app.version >= (5, 2, 0)
+"""Whether an empty slot that is linked to its object has no material in Cycles; the mesh's in earlier versions."""
+
 UNCHANGED = (float(np.float32(0.8)),) * 3
 """Default Base Color of a new Principled BSDF."""
 
@@ -91,8 +94,11 @@ class Looks:
 
     def _of_slot(self, item, slot: int) -> Look:
         """Return the look of a slot, or of the last one for slots after it; the object's color without a material."""
-        slots = item.material_slots
-        material = slots[min(slot, len(slots) - 1)].material if len(slots) else None
+        slots, own = item.material_slots, item.original.material_slots
+        place = min(slot, len(slots) - 1)
+        material = slots[place].material if len(slots) else None
+        if OWN_IS_EMPTY and 0 <= place < len(own) and own[place].link == "OBJECT" and own[place].material is None:
+            material = None
         return Look(0, shown(item.color)) if material is None else self._of(material)
 
     def _of(self, material) -> Look:
