@@ -34,7 +34,10 @@ def test_rays_of_a_camera_that_stands_still_are_written_once(command, scene, out
     assert wrote == f"Wrote 4 pictures into {out}"
     assert note.startswith("'Sphere': the exact shape is up to 0.96% of its radius away from the mesh")
     stems = [f"{camera}_{of}" for camera in ("Side", "Top") for of in ("0001", "0002", "rays")]
-    assert left(out) == [*(f"{stem}.{kind}" for stem in stems for kind in ("json", "npz")), "dataset.json"]
+    assert left(out) == [*(f"{stem}.{kind}" for stem in stems for kind in ("json", "npz")), "dataset.json",
+                         "preview.png", "reader.py"]  # fmt: skip
+    said = subprocess.run([sys.executable, out / "reader.py"], capture_output=True, text=True, check=True).stdout
+    assert [line.split()[0] for line in said.splitlines()] == stems
     has_rays = {stem: "ray_origin" in np.load(out / f"{stem}.npz") for stem in stems}
     assert [stem for stem in stems if has_rays[stem]] == ["Side_rays", "Top_0002", "Top_rays"]
     rays = crc.camera_from_json(out / "Side_0002.json").rays()

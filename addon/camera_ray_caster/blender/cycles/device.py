@@ -6,6 +6,8 @@ Reference: Blender manual, Cycles, Open Shading Language.
 
 import bpy
 
+from ...core.records import InputError
+
 CPU = "CPU"
 WITH_OSL = CPU, "OPTIX"
 
@@ -14,6 +16,29 @@ def device_of(scene) -> str:
     """Return the kind of device that Cycles renders a scene on: CPU, or a kind from the Preferences, such as OPTIX."""
     chosen = bpy.context.preferences.addons["cycles"].preferences.compute_device_type
     return CPU if scene.cycles.device == CPU or chosen == "NONE" else chosen
+
+
+def devices() -> dict[str, list]:
+    """Return Cycles' devices on this machine by kind, the processor first; kinds without devices are left out."""
+    preferences = bpy.context.preferences.addons["cycles"].preferences
+    found: dict[str, list] = {CPU: []}
+    for kind, *_ in preferences.get_device_types(bpy.context):
+        own = [device for device in preferences.get_devices_for_type(kind) or () if device.type == kind]
+        if kind != "NONE" and own:
+            found[kind] = own
+    return found
+
+
+def use_device(scene, kind: str) -> None:
+    """Let Cycles render a scene on all devices of a kind in this process. Raises InputError if there is none."""
+    there = devices()
+    if kind not in there:
+        raise InputError(f"Cycles has no device {kind} on this machine: choose one of {', '.join(there)}")
+    scene.cycles.device = CPU if kind == CPU else "GPU"
+    if kind != CPU:
+        bpy.context.preferences.addons["cycles"].preferences.compute_device_type = kind
+        for device in there[kind]:
+            device.use = True
 
 
 def said_of_device(scene) -> list[str]:

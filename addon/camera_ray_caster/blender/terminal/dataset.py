@@ -3,7 +3,8 @@
 Each camera and frame has the passes CAMERA_FRAME.npz (or .exr), the report CAMERA_FRAME.json, from which
 ``camera_from_json`` makes the camera, and CAMERA_FRAME.png if the combined pass is requested. The ray passes of a
 camera that stands still are written once, to CAMERA_rays.npz; reports list it among a frame's files. dataset.json
-records the inputs and settings. A second run makes only the missing pictures.
+records the inputs and settings; reader.py reads the set, and preview.png shows the first picture of each camera. A
+second run makes only the missing pictures.
 """
 
 from __future__ import annotations
@@ -18,9 +19,11 @@ from typing import Any
 
 import bpy
 
+from ...core.exports.writing import write
 from ...core.file_set import Taken, atomic_folder, clear_up
 from ...core.records import InputError
 from ...core.report.notes import sentences
+from ...core.sets import companions
 from ..output import files
 from ..output.annotations import collect
 from ..output.stamps import differing
@@ -87,6 +90,8 @@ def run(arguments: Sequence[str], prog: str) -> int:
                 exact |= dict.fromkeys(outcome.exact)
         if pictures.keypoints is not None:
             collect(options.output, [job.name for job in jobs])
+        if options.format == files.NPZ:
+            write(companions(options.output, [job.name for job in first.values()]), options.output)
     finally:
         clear_up(options.output)  # files left behind by killed workers
     print(summary(made, len(jobs), options.output), *sentences([*notes], [*exact]), sep="\n", flush=True)

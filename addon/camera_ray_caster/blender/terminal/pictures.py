@@ -16,7 +16,7 @@ from ...core.casting.request import PRECISIONS, SHADINGS
 from ...core.names import file_names, frame_digits
 from ...core.records import InputError
 from ...core.report.report import Report
-from ..cycles.device import said_of_device
+from ..cycles.device import said_of_device, use_device
 from ..cycles.picture import Picture, picture_of
 from ..cycles.shader import check_cycles
 from ..engine.engine import CameraRayCaster
@@ -44,8 +44,8 @@ DEFAULT_PASSES = ("combined", "depth", "normal", "position", "object_index")
 """Passes that are cast if a view layer has only the combined pass enabled."""
 
 SETTINGS = (
-    "passes", "shading", "precision", "engine", "samples", "resolution", "format", "half", "calibration_camera",
-    "model", "rig_parent", "enable_autoexec", "annotations", "keypoints",
+    "passes", "shading", "precision", "engine", "samples", "device", "resolution", "format", "half",
+    "calibration_camera", "model", "rig_parent", "enable_autoexec", "annotations", "keypoints",
 )  # fmt: skip
 """Options that pictures depend on, in addition to the file, camera and frame."""
 
@@ -67,6 +67,8 @@ def add_words(parser) -> None:
     parser.add_argument(
         "--samples", type=sample_count, metavar="N", help="samples per pixel of Cycles; default: the file's"
     )
+    parser.add_argument("--device", type=str.upper, metavar="KIND", help=
+        "kind of device that Cycles renders on, such as CPU or OPTIX; default: the file's and the Preferences'")
     parser.add_argument("--format", type=str.upper, choices=files.FORMATS, default=files.EXR,
                         help="file format of the passes: a multilayer EXR file, or NumPy arrays; "
                              "default: %(default)s")  # fmt: skip
@@ -86,6 +88,8 @@ def parsed(parser: Parser, arguments: Sequence[str]) -> Namespace:
     check_cameras(options)
     if options.samples and options.engine != CYCLES:
         raise InputError(f"--samples applies to --engine {CYCLES} only: the samples of the add-on are set in the file")
+    if options.device and options.engine != CYCLES:
+        raise InputError(f"--device applies to --engine {CYCLES} only: the add-on casts on the processor")
     if options.shard and options.frames is None:
         raise InputError("--shard selects a share of the frames of --frames: add --frames")
     return options
@@ -107,6 +111,8 @@ class Pictures:
             check_key_points(scene, self.keypoints)
         if by_cycles:
             scene.cycles.samples = options.samples or scene.cycles.samples
+            if options.device:
+                use_device(scene, options.device)
             self.warnings += said_of_device(scene)
         self.size = size_of(scene)
         # Blender keeps evaluated data for the next picture: 0.3 s less of 1.2 s for six subdivided monkeys

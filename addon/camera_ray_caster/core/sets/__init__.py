@@ -6,11 +6,12 @@ takes the views of a set and yields names and contents of files, which may lie i
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
+from pathlib import Path
 from typing import NamedTuple
 
 from . import bop, labels, maps, sparse
-from .reading import View, read_set
+from .reading import View, read_set, view_of
 
 Files = Iterator[tuple[str, str | bytes]]
 
@@ -34,4 +35,16 @@ SET_FORMATS = {
 }
 """Formats of finished sets, by their keys."""
 
-__all__ = ["SET_FORMATS", "SetFormat", "View", "read_set"]
+
+def companions(folder: Path, names: Iterable[str]) -> Files:
+    """Yield what lies in every set: reader.py, which reads it in 20 lines, and preview.png of the named pictures, if
+    they have a pass that previews show.
+    """
+    yield "reader.py", Path(__file__).with_name("set_reader.py").read_text(encoding="utf-8")
+    views = [view_of(folder / f"{name}.json") for name in names if (folder / f"{name}.npz").is_file()]
+    shown = [view for view in views if any(view.has(key) for key in maps.SHOWN)]
+    if shown:
+        yield from maps.preview(shown)
+
+
+__all__ = ["SET_FORMATS", "SetFormat", "View", "companions", "read_set"]

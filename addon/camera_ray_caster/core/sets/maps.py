@@ -12,6 +12,9 @@ from .png import png, srgb
 from .reading import View
 
 MOST = 65535
+SHOWN = "combined", "depth", "shape_index", "object_index", "normal"
+"""Passes of which a preview shows those that there are."""
+
 OPENCV = np.array((1.0, -1.0, -1.0))
 
 

@@ -110,6 +110,11 @@ class View:
         return np.where(hit, depth, 0.0)
 
 
+def view_of(path: Path) -> View:
+    """Return the view of a report that has the name of its files."""
+    return View(path.parent, path.stem, json.loads(path.read_text(encoding="utf-8")))
+
+
 def read_set(folder: Path) -> list[View]:
     """Return the views of a set, by camera and frame. Raises InputError, in one line, for a folder without any."""
     views = []
