@@ -15,7 +15,7 @@ from ..maths.speed import Scratch
 from ..maths.vector import matvec
 from .frames import InCamera
 from .kind import HitPixels, Kind
-from .surface_places import KindPlaces, SurfacePlaces, surface_table
+from .surface_places import KindPlaces, SurfacePlaces
 
 Cross = Callable[[Any], tuple[Any, Any]]
 """A function that returns the first crossing at or beyond a start: see ``Cutouts.first_hit``."""
@@ -37,7 +37,7 @@ class Cutouts:
         alpha = np.array([surface.alpha is not None for surface in record.surfaces] + [False])
         if not alpha.any():
             return None
-        has_alpha = alpha[surface_table(record)]
+        has_alpha = alpha[shapes.surfaces]
         may, count = has_alpha[: len(record)], len(record)
         if record.slots is not None:
             first = record.slots.first.astype(np.intp)

@@ -60,6 +60,18 @@ class InCamera:
         return Offsets(self.frames, center, gamma(2) * norm(center), np.ascontiguousarray(self.offset.T))
 
     @lazy
+    def surfaces(self) -> np.ndarray:
+        """(n + s + 1,) int32: indices into ``Shapes.surfaces`` of shapes, of ``Slots`` and of no shape, -1 for plain
+        materials.
+        """
+        own, slots = self.shapes.surface, self.shapes.slots
+        of_slots = np.zeros(0) if slots is None else slots.surface
+        count = 0 if slots is None else len(slots.color)
+        parts = [part if len(part) == size else np.full(size, -1)
+                 for part, size in ((own, len(self.shapes)), (of_slots, count))]  # fmt: skip
+        return np.concatenate((*parts, [-1])).astype(np.int32)
+
+    @lazy
     def is_scalar(self) -> np.ndarray:
         """(n,) bool: whether the axes are a scalar times the identity matrix."""
         axes = self.shapes.axes

@@ -41,7 +41,7 @@ class KindPlaces:
     def surface(self) -> np.ndarray:
         """(m,): the surfaces that are hit, as indices into ``Shapes.surfaces``; -1 for plain materials."""
         rows = material_rows(self.shapes.shapes, self.pixels.at, self.kind.slot(self.shapes, self.pixels))
-        return surface_table(self.shapes.shapes)[rows]
+        return self.shapes.surfaces[rows]
 
     def each_surface(self) -> list[tuple[int, np.ndarray]]:
         """Return each surface that is hit, by its index, with the indices (k,) of its points."""
@@ -78,11 +78,3 @@ def material_rows(shapes: Shapes, at: np.ndarray, slot: np.ndarray) -> np.ndarra
         return at
     first = shapes.slots.first[at]
     return np.where(first < 0, at, len(shapes) + first + slot).astype(np.intp)
-
-
-def surface_table(shapes: Shapes) -> np.ndarray:
-    """Return the surfaces of the shapes, of ``Slots`` and of no shape, (n + s + 1,), -1 for plain materials."""
-    own = shapes.surface if len(shapes.surface) else np.full(len(shapes), -1)
-    count = 0 if shapes.slots is None else len(shapes.slots.color)
-    slots = np.full(count, -1) if shapes.slots is None or not len(shapes.slots.surface) else shapes.slots.surface
-    return np.concatenate((own, slots, [-1])).astype(np.int32)
