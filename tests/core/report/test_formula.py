@@ -7,7 +7,7 @@ import pytest
 
 from camera_ray_caster.core.cameras import MODELS
 from camera_ray_caster.core.records import no_shapes
-from camera_ray_caster.core.report.formula import assignments, value, with_numbers, worked_out
+from camera_ray_caster.core.report.formula import assignments, shown, value, with_numbers, worked_out
 from camera_ray_caster.core.report.lesson import lesson
 
 from ..cameras.model_examples import EXAMPLES, camera
@@ -51,28 +51,48 @@ def test_assignments_stand_between_commas_outside_of_parentheses():
 def test_a_name_is_known_wherever_it_is_assigned():
     formulas = [("X = (x - W/2) q", {}), ("q = 36 / (W r), n = theta", {}), ("Y = x", {"x": 7.0})]
     assert worked_out(formulas, KNOWN) == [
-        ["X = (2.5 - 40/2) 0.45 = -7.875"], ["q = 36 / (40 2) = 0.45"], ["Y = 7"],
+        ["X = (2.5 - 40/2) · 0.45 = -7.875"], ["q = 36 / (40 · 2) = 0.45"], ["Y = 7"],
     ]  # fmt: skip
 
 
 def test_the_last_component_of_a_vector_is_known():
     formulas = [("m = u × (0, r, x)", {}), ("d = -m / m_z", {})]
     assert worked_out(formulas, KNOWN) == [
-        ["m = u × (0, 2, 2.5) = (0, -2.5, 2)"], ["d = -m / 2 = (-0, 1.25, -1)"],
+        ["m = u × (0, 2, 2.5) = (0, -2.5, 2)"], ["d = -m / 2 = (0, 1.25, -1)"],
     ]  # fmt: skip
 
 
 def test_numbers_stand_for_names_and_not_for_parts_of_names():
-    assert with_numbers("(x - W/2) fov, max(x) X k1 u", KNOWN) == "(2.5 - 40/2) 3, max(2.5) X (-0.5) u"
+    assert with_numbers("(x - W/2) fov, max(x) X k1 u", KNOWN) == "(2.5 - 40/2) · 3, max(2.5) · X · (-0.5) · u"
+    assert with_numbers("2 x/W - 1 + 2 k1", KNOWN) == "2 · 2.5/40 - 1 + 2 · (-0.5)"
+    assert with_numbers("sin(k1) cos(r)", KNOWN) == "sin(-0.5) · cos(2)"
+
+
+def test_what_is_zero_to_the_digits_of_a_vector_is_shown_as_zero():
+    assert shown(np.array([1.0, -4e-8, -0.0])) == "(1, 0, 0)"
+    assert shown(np.array([1e-8, 2e-8, 0.0])) == "(1e-08, 2e-08, 0)"
+    assert shown(np.array([1e6, 0.2, np.inf])) == "(1e+06, 0.2, inf)"
+    assert shown(-4e-8) == "-4e-08", "a number of its own keeps its digits"
+
+
+@pytest.mark.parametrize("size", [(480, 300), (300, 480), (200, 200)])
+def test_the_normalized_form_of_a_parallel_view_is_the_ray_s_origin_in_every_frame(size):
+    cam = camera("ORTHO", dict(zip(("resolution_x", "resolution_y"), size, strict=True)) | {"shift_x": 0.1})
+    lines = dict(lesson(cam, no_shapes(), 30, 170).steps)["Model"]
+    told = [line.rpartition(" = (")[2].rstrip(")") for line in lines if line.startswith("  o = ")]
+    assert len(told) == 2
+    for one in told:
+        wanted = [float(part) for part in cam.camera_rays(30.5, 170.5)[0]]
+        assert [float(part) for part in one.split(",")] == pytest.approx(wanted, abs=1e-5)
 
 
 ITERATED = {"OPENCV_PINHOLE", "UCM", "FISHEYE624", "THIN_PRISM_FISHEYE", "FTHETA", "OCAM"}
 """Models whose formulas have to be solved for the ray, or whose polynomials are as long as their settings."""
 
-GEOMETRIC = {"PUSHBROOM", "PENCIL", "GENERAL_LINEAR", "TWISTED_ORTHOGRAPHIC", "STRIP", "OMNIMAX"}
-"""Models whose formulas name points and lines, or a film of their own."""
+GEOMETRIC = {"PUSHBROOM", "PENCIL", "GENERAL_LINEAR", "TWISTED_ORTHOGRAPHIC", "STRIP"}
+"""Models whose formulas name points and lines."""
 
-TURNED = {"DOME_MASTER", "STEREOGRAPHIC_PANORAMA"}
+TURNED = {"DOME_MASTER", "OMNIMAX", "STEREOGRAPHIC_PANORAMA"}
 """Models whose formula turns the direction up at its end, in a step without a name."""
 
 VECTOR = re.compile(r"  [dr] = .*\(([^()]*, [^()]*, [^()]*)\)")

@@ -37,7 +37,7 @@ class SidebarCamera(Sidebar, bpy.types.Panel):
         layout.prop(context.scene, "camera", text="")
         if camera is not None and camera.type == "CAMERA":
             draw_model(layout, camera.data)
-        _, reason = camera_of(context, camera)
+        found, reason = camera_of(context, camera)
         seen = context.space_data is not None and is_seen_through(context)
         if context.space_data is not None:
             layout.operator(SeeThrough.bl_idname, icon="CAMERA_DATA", depress=seen)
@@ -54,8 +54,17 @@ class SidebarCamera(Sidebar, bpy.types.Panel):
             draw_message(layout, context, reason, "ERROR")
         draw_frame(layout, context, camera, is_refused=bool(reason))
         draw_ignored(layout, context, camera)
+        draw_samples(layout, context, found)
         if seen and not drawn_alike(camera):
             draw_message(layout, context, "Blender draws grid, outlines and gizmos in perspective")
+
+
+def draw_samples(layout, context, camera) -> None:
+    """Draw the number of samples beside a note if a camera with an opening is rendered with one ray per pixel."""
+    settings = context.scene.camera_ray_caster
+    if camera is not None and camera.aperture is not None and settings.samples == 1:
+        draw_message(layout, context, "With 1 sample nothing is blurred: rays pass the middle of the opening only")
+        layout.prop(settings, "samples")
 
 
 def drawn_alike(camera) -> bool:

@@ -7,7 +7,9 @@ import bpy
 from ..engine.engine import CameraRayCaster
 from ..engine.passes import PASSES
 from ..output import reports
+from .camera_panels import draw_samples
 from .drawing import draw_message
+from .facts_panels import camera_of
 
 ENGINE = CameraRayCaster.bl_idname
 
@@ -38,6 +40,7 @@ class RenderPanel(EnginePanel, bpy.types.Panel):
         layout.use_property_decorate = False
         for setting in ("shading", "samples", "precision", "exact_shapes"):
             layout.prop(context.scene.camera_ray_caster, setting)
+        draw_samples(layout, context, camera_of(context, context.scene.camera)[0])
         layout.prop(context.scene.render, "film_transparent")
         report = reports.latest(context.scene)
         if report is not None:

@@ -6,10 +6,12 @@ perspective, beside the picture of any other model.
 
 from __future__ import annotations
 
+import blf
 import bpy
 import gpu
 import numpy as np
 from bpy.props import BoolProperty, IntProperty, PointerProperty
+from bpy_extras.view3d_utils import location_3d_to_region_2d
 from gpu_extras.batch import batch_for_shader
 
 from ...core.report.diagram import Diagram, diagram
@@ -43,7 +45,8 @@ class OverlayProperties(bpy.types.PropertyGroup):
     )
 
 
-WIDE, THIN = 2.0, 1.0
+WIDE, THIN, TEXT = 2.0, 1.0, 13.0
+"""Line widths and font size in pixels at interface scale 1."""
 AXES = ((1.0, 0.2, 0.32, 1.0), (0.545, 0.863, 0.0, 1.0), (0.157, 0.565, 1.0, 1.0))
 """Colors of u, v and w: those of Blender's X, Y and Z axes."""
 STYLES = {
@@ -86,11 +89,15 @@ def draw() -> None:
 
 
 def draw_in_picture() -> None:
-    """Draw the overlay in the picture of a view through the camera; called by Blender for each 3D View."""
+    """Draw the overlay in the picture of a view through the camera, and the names of the axes in any other view; called
+    by Blender for each 3D View.
+    """
     context = bpy.context
     scene = _shown(context)
     frame = None if scene is None else camera_frame(context)
     if frame is None:
+        if scene is not None and context.scene.camera_ray_caster_overlay.show_frustum:
+            _name_axes(context, scene.camera)
         return
     batches = _batches(
         scene, context.scene.camera.data.display_size, context.scene.camera_ray_caster_overlay.rays, in_picture=True
@@ -99,6 +106,22 @@ def draw_in_picture() -> None:
     with in_pixels(frame, scene.camera.raster):
         _draw(context, batches, batches)
     gpu.state.blend_set("NONE")
+
+
+def _name_axes(context, camera) -> None:
+    """Write e, u, v and w beside the eye and the ends of the axes."""
+    size, eye = context.scene.camera.data.display_size, camera.pose.eye
+    u, v, z = camera.pose.basis.T
+    blf.size(0, TEXT * context.preferences.system.ui_scale)
+    blf.enable(0, blf.SHADOW)
+    blf.shadow(0, 5, 0.0, 0.0, 0.0, 1.0)
+    for name, way, color in zip("euvw", (0 * u, u, v, -z), ((1.0, 1.0, 1.0, 1.0), *AXES), strict=True):
+        place = location_3d_to_region_2d(context.region, context.region_data, eye + size * way)
+        if place is not None:
+            blf.color(0, *color)
+            blf.position(0, place.x + TEXT / 3, place.y + TEXT / 3, 0)
+            blf.draw(0, name)
+    blf.disable(0, blf.SHADOW)
 
 
 def _shown(context) -> CachedScene | None:

@@ -13,6 +13,7 @@ References: N. Max, Computer Graphics Distortion for IMAX and OMNIMAX Projection
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -95,6 +96,10 @@ class Omnimax(Pitched, Lens):
         PITCH,
         Step("Elevation of the axis", "e = tilt"),
     )
+
+    def formula_values(self, x: float, y: float) -> dict[str, Any]:
+        """See Model: the pixel on the film."""
+        return dict(zip("ab", map(float, self._plane(x, y)), strict=True))
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> Omnimax:

@@ -41,7 +41,10 @@ class Orthographic(WindowModel):
         ),
         Step("Origin", "o = eye + X u + Y v"),
         Step("Direction, the same for all", "r = w"),
-        Step("Normalized form over [-1, 1]²", "o = e + x size u + y size v"),
+        Step(
+            "Normalized form over [-1, 1]², moved by the shift; size is half the frame's width",
+            "o = e + x size u + aspect y size v, size = W q / 2, aspect = p H / W",
+        ),
     )
 
     @classmethod

@@ -38,6 +38,8 @@ class Cross:
 
 SIGNS = {"degree": np.pi / 180, "cross": Cross()}
 NAME = re.compile(r"[A-Za-z_][A-Za-z_0-9]*'?")
+PRODUCT = re.compile(r"(?<=[\w)⁰¹²³⁴⁵⁶⁷⁸⁹°'])\s+(?=[\w(])")
+"""The space between two factors."""
 ASSIGNMENT = re.compile(r"([A-Za-z_][A-Za-z_0-9]*'?) = (.*)")
 
 
@@ -112,12 +114,20 @@ def worked_out(formulas: Sequence[tuple[str, Mapping[str, Any]]], known: Mapping
 
 
 def shown(number: Any) -> str:
-    """Return a number, or a vector, with six digits."""
-    return f"{number:.6g}" if np.ndim(number) == 0 else f"({', '.join(map(shown, number))})"
+    """Return a number, or a vector, with six digits; a component is 0 that is less than half a millionth, or than that
+    of the longest component if this is below 1.
+    """
+    if np.ndim(number) == 0:
+        return f"{number:.6g}"
+    parts = np.asarray(number, np.float64)
+    with np.errstate(invalid="ignore"):
+        least = 5e-7 * np.minimum(np.abs(parts).max(initial=0.0), 1.0)
+        parts = np.where(np.abs(parts) < least, 0.0, parts) + 0.0  # no -0
+    return f"({', '.join(f'{part:.6g}' for part in parts)})"
 
 
 def with_numbers(expression: str, known: Mapping[str, Any]) -> str:
-    """Return an expression with numbers in place of known names; vectors and unknown names stay."""
+    """Return an expression with numbers in place of known names; vectors and unknown names stay. Products are dots."""
 
     def number(found: re.Match) -> str:
         name = found.group()
@@ -126,4 +136,5 @@ def with_numbers(expression: str, known: Mapping[str, Any]) -> str:
         text = shown(known[name])
         return f"({text})" if text.startswith("-") else text
 
-    return NAME.sub(number, expression)
+    text = re.sub(r"\(\((-[^()]*)\)\)", r"(\1)", NAME.sub(number, expression))
+    return PRODUCT.sub(" · ", text)

@@ -168,14 +168,14 @@ def _known(camera: Camera, x: float, y: float) -> dict[str, Any]:
     """Return the values of the names in a model's formula. Settings are also known without their prefixes."""
     model, raster = camera.model, camera.raster
     facts: dict[str, Any] = dict(model.facts())
-    numbers = {name: number for name, number in (camera.settings | facts).items() if isinstance(number, int | float)}
+    numbers = {name: number for name, number in (camera.settings | facts).items() if type(number) in (int, float)}
     known: dict[str, Any] = {}
     for name, number in reversed(numbers.items()):
         parts = name.split("_")
         known |= {"_".join(parts[start:]): number for start in range(1, len(parts))}
     known |= numbers
     known |= {"pi": np.pi, "W": raster.width, "H": raster.height, "x": x, "y": y, "p": raster.pixel_aspect}
-    known |= dict(zip("uvw", np.diag([1.0, 1.0, -1.0]), strict=True))
+    known |= dict(zip("uvw", np.diag([1.0, 1.0, -1.0]), strict=True)) | {"e": np.zeros(3), "eye": np.zeros(3)}
     if "field_of_view" in facts:
         known["fov"] = np.radians(facts["field_of_view"][0])
     if camera.K is not None:

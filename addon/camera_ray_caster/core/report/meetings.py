@@ -17,6 +17,7 @@ from ..shapes.cutouts import Cutouts, crossings
 from ..shapes.in_camera import in_camera
 from ..shapes.kinds import by_kind
 from ..shapes.mesh_surface import TRIANGLES, HitTriangles
+from .formula import shown
 
 MOST = 12
 """Maximum number of intersections listed per mesh."""
@@ -118,7 +119,10 @@ def _mesh(shapes, k, at, along):
         hit = np.flatnonzero((v >= 0) & (w >= 0) & (v + w <= 1))
     hit = hit[np.argsort(np.abs(t[hit]))][:MOST]
     lines = (f"own frame: p + t d = (1 - v - w) A + v B + w C, p = {words(at)}, d = {words(along)}",)
-    roots = [(float(t[i]), f"face {mesh.polygon[i]}, v = {v[i]:.4f}, w = {w[i]:.4f}", int(i)) for i in hit]
+    roots = []
+    for i in hit:
+        named = ", ".join(f"{name} = {words(corner)}" for name, corner in zip("ABC", corners[:, :, i].T, strict=True))
+        roots.append((float(t[i]), f"face {mesh.polygon[i]}, {named}, v = {v[i]:.4f}, w = {w[i]:.4f}", int(i)))
     return lines, roots
 
 
@@ -160,5 +164,5 @@ def _clipped(camera: Camera, t: float, depth: float) -> str:
 
 
 def words(vector) -> str:
-    """Return a vector as text."""
-    return "(" + ", ".join(f"{component + 0.0:.6g}" for component in vector) + ")"
+    """Return a vector as text: see ``shown``."""
+    return shown(np.asarray(vector))
