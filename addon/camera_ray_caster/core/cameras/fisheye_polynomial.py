@@ -82,7 +82,7 @@ class FisheyePolynomial(Radial):
 
     def settled(self) -> FisheyePolynomial:
         """See Model."""
-        ends = self.half_fov <= self.widest < np.inf
+        ends = self.widest < np.inf and self.half_fov <= self.angle(min(self.limit, self._corner))
         rim = float(np.fmax(self._inverse(self.half_fov), 0.0)) * BEYOND if ends else np.inf  # 0 if theta begins beyond
         return self if rim == self.rim else replace(self, rim=rim)
 
@@ -93,8 +93,22 @@ class FisheyePolynomial(Radial):
 
     @lazy
     def limit(self) -> float:
-        """The radius in mm up to which theta is monotone: its first turning point, or the corner of the frame."""
-        return float(min([self._corner, *_turns(self.coefficients, self._corner)]))
+        """The radius in mm up to which there is an inverse: where theta turns back, or else where it leaves the field
+        of view, but not less than the corner of the frame.
+        """
+        start, *rest = self.coefficients
+        ends = [np.polynomial.Polynomial((start - end, *rest)) for end in (-self.half_fov, self.half_fov)]
+        beyond = [BEYOND * r for end in ends for r in positive_roots(end).tolist() if r > self._corner]
+        reach = min(beyond, default=self._corner)
+        return float(min([reach, *_turns(self.coefficients, reach)]))
+
+    def _knots(self, low: float, high: float, count: int) -> np.ndarray:
+        """Return the points of the inverse's table: even up to the corner of the frame, then ever wider."""
+        within = 3 * count // 4
+        if high <= self._corner:
+            return np.linspace(low, high, count)
+        out = np.geomspace(self._corner, high, count - within + 1)
+        return np.concatenate((np.linspace(low, self._corner, within), out[1:-1], [high]))
 
     def angle(self, r):
         """Return theta (rad) of radii in mm."""
@@ -122,7 +136,7 @@ class FisheyePolynomial(Radial):
         sign = self._sign
         k1, k2, k3, k4 = (sign * i * k for i, k in enumerate(self.coefficients[1:], 1))
         slope = lambda r: k1 + r * (k2 + r * (k3 + r * k4))  # noqa: E731
-        return Inverse(lambda r: sign * self.angle(r), slope, 0.0, self.limit)
+        return Inverse(lambda r: sign * self.angle(r), slope, 0.0, self.limit, self._knots)
 
     def radius(self, theta):
         """See Radial; r is negative if theta is seen on the other side of the axis."""
