@@ -44,12 +44,15 @@ EXAMPLES = {
         {"matrix_world": TURNED, "fx": 15.0, "fy": 16.0, "unified_alpha": 0.75, "unified_beta": 2.0, "skew": 1.0},
         SCALED | {"unified_alpha": 0.0},
         {"fx": 30.0, "unified_alpha": 0.9, "unified_beta": 0.3},
+        {"fx": 30.0, "unified_alpha": 1.05},
     ],
     "DOUBLE_SPHERE": [
         {"fx": 20.0, "fy": 21.0, "unified_alpha": 0.57, "unified_xi": -0.2},
         BORDER | {"cx": 30.0, "unified_alpha": 0.4, "unified_xi": 0.5},
         {"matrix_world": TURNED, "fx": 20.0, "fy": 19.0, "unified_alpha": 0.8, "unified_xi": 0.3, "skew": 1.0},
         SCALED | {"unified_xi": 0.9, "unified_alpha": 0.6},
+        {"unified_xi": 1.4, "unified_alpha": 0.3},
+        {"unified_xi": -0.1, "unified_alpha": -0.3},
     ],
     "FISHEYE624": [
         {"fx": 20.0, "fy": 20.0},
@@ -191,7 +194,7 @@ REFUSED = {
         (BACKWARD | {"ftheta_radius_to_angle": "0 -1"}, "ftheta_radius_to_angle"),
         ({"ftheta_reference": "SIDEWAYS"}, "ftheta_reference"),
         ({"ftheta_c": 0.5, "ftheta_d": 1.0, "ftheta_e": 1.0}, "ftheta_c .* above ftheta_d"),
-        ({"ftheta_max_angle": 4.0}, "ftheta_max_angle"),
+        ({"ftheta_max_angle": 0.0}, "ftheta_max_angle"),
         ({"cy": NAN}, "cy"),
     ],
     "OCAM": [
@@ -200,8 +203,8 @@ REFUSED = {
         ({"ocam_c": 0.0}, "ocam_c"),
         ({"ocam_d": NAN}, "ocam_d"),
     ],
-    "FOV": [({"fov_omega": 0.0}, "fov_omega"), ({"fov_omega": pi}, "fov_omega"), ({"fov_omega": NAN}, "fov_omega")],
+    "FOV": [({"fov_omega": -0.1}, "fov_omega"), ({"fov_omega": pi}, "fov_omega"), ({"fov_omega": NAN}, "fov_omega")],
     "DIVISION": [({"division_lambda": NAN}, "division_lambda"), ({"fy": NAN}, "fy")],
-    "EUCM": [({"unified_alpha": 1.0}, "unified_alpha"), ({"unified_beta": 0.0}, "unified_beta")],
-    "DOUBLE_SPHERE": [({"unified_xi": 1.0}, "unified_xi"), ({"unified_alpha": -0.1}, "unified_alpha")],
+    "EUCM": [({"unified_alpha": 2.1}, "unified_alpha"), ({"unified_beta": 0.0}, "unified_beta")],
+    "DOUBLE_SPHERE": [({"unified_xi": -1.0}, "unified_xi"), ({"unified_alpha": -1.1}, "unified_alpha")],
 }

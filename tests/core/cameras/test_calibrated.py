@@ -55,7 +55,7 @@ OMNIDIR = [
     {"unified_xi": 1.0, "skew": 1.7},
     {"unified_xi": 1.9, "fx": 700.0, "fy": 690.0, "k1": -0.2, "k2": 0.3, "p1": -1e-3, "skew": -2.5},
 ]
-SPHERES = [(0.0, 0.0), (-0.2, 0.55), (0.4, 0.3), (0.9, 0.7), (-0.9, 0.2)]
+SPHERES = [(0.0, 0.0), (-0.2, 0.55), (0.4, 0.3), (0.9, 0.7), (-0.9, 0.2), (0.0, 1.05), (0.2, -0.3), (1.5, 0.4)]
 """xi and alpha of the double sphere."""
 
 
@@ -197,3 +197,46 @@ def test_ocam_is_the_toolbox_s_cam2world():
 def test_a_skewed_matrix_is_given_back():
     cam = camera("UCM", FRAME | {"skew": 1.7})
     np.testing.assert_allclose(cam.K, [[250.0, 1.7, 331.7], [0, 245.5, 236.2], [0, 0, 1]], rtol=1e-15)
+
+
+def test_an_angle_beyond_180_degrees_is_180_degrees_in_f_theta():
+    wide, half = (camera("FTHETA", FRAME | {"ftheta_max_angle": angle}).model for angle in (4.0, np.pi))
+    assert wide.max_angle == half.max_angle == np.pi
+
+
+def test_field_of_view_0_is_the_pinhole():
+    points = np.random.default_rng(1).normal(size=(100, 3)) * (1, 1, 0) - (0, 0, 1)
+    none, tiny, pinhole = (
+        camera(key, FRAME | settings).project(points)
+        for key, settings in (("FOV", {"fov_omega": 0.0}), ("FOV", {"fov_omega": 1e-30}), ("OPENCV_PINHOLE", {}))
+    )
+    np.testing.assert_allclose(none, pinhole, rtol=1e-13)
+    np.testing.assert_array_equal(none, tiny)
+
+
+@pytest.mark.parametrize(
+    ("key", "settings"),
+    [
+        ("EUCM", {"unified_alpha": 1.05}),
+        ("EUCM", {"unified_alpha": 1.05, "unified_beta": 0.7}),
+        ("DOUBLE_SPHERE", {"unified_xi": 1.3, "unified_alpha": 0.6}),
+        ("DOUBLE_SPHERE", {"unified_xi": 0.4, "unified_alpha": -0.3}),
+    ],
+)
+def test_beyond_the_usual_range_unified_lenses_have_the_rays_of_their_formula(key, settings):
+    """r by the definition, at angles up to the one at which r stops growing, beyond which nothing is seen."""
+    cam = camera(key, FRAME | settings)
+    xi, alpha, beta = (settings.get(f"unified_{name}", one) for name, one in (("xi", 0.0), ("alpha", 0), ("beta", 1.0)))
+    theta = np.linspace(1e-3, np.pi, 4000)
+    s, z = np.sin(theta), np.cos(theta) + xi
+    below = alpha * np.sqrt(beta * s * s + z * z) + (1 - alpha) * z
+    r = np.where(below > 0, s / np.where(below > 0, below, 1), np.nan)
+    last = int(np.flatnonzero(~(np.diff(r) > 0))[0])
+    assert last > 1000
+    points = np.stack((0 * theta, s, -np.cos(theta)), axis=-1)
+    pixels = cam.project(points)
+    middle = cam.project((0.0, 0.0, -1.0))
+    np.testing.assert_allclose((pixels - middle)[: last - 2, 1], K["fy"] * r[: last - 2], rtol=1e-9)
+    assert np.isnan(pixels[last + 3 :]).all()
+    rays = cam.rays_at(*pixels[: last - 2].T)
+    assert np.abs(np.cross(rays.directions, points[: last - 2])).max() <= 1e-9

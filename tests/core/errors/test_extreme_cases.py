@@ -129,6 +129,13 @@ def test_what_cannot_be_cast_is_refused_by_name(kind, axes):
         cast(Case("", "", []).camera, shapes)
 
 
+def test_a_needle_is_not_called_flat():
+    """Sheared, its three axes are nearly one line, although they do not lie in a plane."""
+    needle = TURN @ np.diag([1, 1e-8, 1e-8]) @ TURN
+    with pytest.raises(InputError, match=r"'shape 0' is 1e\+08 times as long as it is thick"):
+        cast(Case("", "", []).camera, shapes_of([(SPHERE, (0, 0, -5), needle)]))
+
+
 @pytest.mark.full
 @pytest.mark.parametrize(("turns", "why"), STIFF.values(), ids=STIFF)
 def test_stiff_motion_is_resolved_or_said_not_to_be(turns, why):

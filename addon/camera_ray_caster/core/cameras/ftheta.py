@@ -5,7 +5,8 @@ Formula: (u, v), v down, is the pixel's offset from the center; (u, v) = ((c, d)
 of (u', v'). Either r is a polynomial of the angle theta (angle to pixel distance, "forward"), or theta is a polynomial
 of r (pixel distance to angle, "backward"), of any degree, without a constant. Files have both polynomials and declare
 one as the model. Here the other is replaced by the exact inverse, by Newton's method to full precision.
-The picture ends where the polynomial stops growing, at ``ftheta_max_angle``, or at 180 degrees.
+The picture ends where the polynomial stops growing, at ``ftheta_max_angle``, or at 180 degrees: files may have larger
+angles, which NVIDIA's own library limits to 180 degrees as well.
 Singular: the radius where it stops growing, and the point straight behind the eye.
 References: NVIDIA DriveWorks SDK documentation, Camera Models (FTheta); NVIDIA Omniverse documentation, F-Theta camera.
 """
@@ -54,12 +55,12 @@ POLYNOMIALS = {
 MAX_ANGLE = Number(
     "ftheta_max_angle",
     "Maximum Angle",
-    "Largest angle from the axis; the picture ends there",
+    "Largest angle from the axis; the picture ends there, or at 180 degrees",
     pi,
     ABOVE_ZERO,
-    pi,
-    "angle",
+    unit="angle",
     digits=4,
+    soft_high=pi,
 )
 C, D, E = (
     Number(
@@ -118,7 +119,7 @@ class FTheta(Calibrated):
             raise setting.refusal(raw, repr(setting.given(raw)), "0, a number above 0, and more")
         window = Calibration.from_blender(raw, raster, settings=PRINCIPAL_POINT).window(((c, d), (e, 1.0)))
         forward = reference == ANGLE_TO_RADIUS
-        return cls(raster.size, window, inf, tuple(coefficients), forward, MAX_ANGLE.read(raw)).settled()
+        return cls(raster.size, window, inf, tuple(coefficients), forward, min(MAX_ANGLE.read(raw), pi)).settled()
 
     @lazy
     def limit(self) -> float:

@@ -76,11 +76,16 @@ def _refuse(shapes: Shapes, may_be_flat, skewness, away, offset) -> None:
     if flat.any() or beyond.any():
         first = int(np.argmax(flat | beyond))
         name = shapes.names[shapes.name_index[first]] if shapes.names else f"number {first}"
-        reason = (
-            f"has a size, a distance or their ratio beyond {SIZES[0]:g} .. {SIZES[1]:g}: scale the scene"
-            if beyond[first] and not (size[first] == 0).any()
-            else "is flat, because its axes lie in one plane: clear its scale, or its parents' (Alt S)"
-        )
+        reason = "is flat, because its axes lie in one plane: clear its scale, or its parents' (Alt S)"
+        if beyond[first] and not (size[first] == 0).any():
+            reason = f"has a size, a distance or their ratio beyond {SIZES[0]:g} .. {SIZES[1]:g}: scale the scene"
+        elif np.isfinite(shapes.axes[first]).all():
+            longest, _, shortest = np.linalg.svd(shapes.axes[first], compute_uv=False)
+            if shortest > gamma(8) * longest:
+                reason = (
+                    f"is {longest / shortest:.3g} times as long as it is thick, and turned or sheared: float64 cannot "
+                    "tell its axes from flat ones. Scale it less unevenly"
+                )
         raise InputError(f"shape {name!r} {reason}")
 
 

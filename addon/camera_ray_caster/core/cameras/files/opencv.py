@@ -83,6 +83,8 @@ def _lens(document: Document, name: str, found: Spelled, key: str) -> Lens:
     named = {} if listed else _named(document, found)
     model = _model(document, found, listed or list(named.values()), "p1" in named or "p2" in named, key)
     terms = TERMS[model]
+    if model == "UCM" and len(listed) == 5 and listed[-1] == 0:  # the fifth is of OpenCV's pinhole alone
+        listed = listed[:-1]
     if any(listed) and len(listed) not in COUNTS[model]:
         counts, order = " or ".join(map(str, COUNTS[model])), ", ".join(terms)
         raise InputError(
