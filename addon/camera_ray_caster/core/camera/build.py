@@ -10,9 +10,11 @@ from ..cameras.parts.calibration import FILE
 from ..cameras.parts.film import raster_from
 from ..cameras.parts.pose import pose_from
 from ..cameras.parts.settings import Number, farthest_from_one
+from ..maths.vector import inverse
 from ..records import BlenderCamera, InputError, Pose
 from .calibration_file import with_file
 from .camera import Camera
+from .guard import checked
 from .pixel_time import pixel_time_from
 from .spherical_stereo import with_eye
 
@@ -20,6 +22,15 @@ APART = 2.0**-40
 """Fraction of a coordinate: closer points differ in only the last few digits of float64, and not at all in float32, the
 type that Blender uses.
 """
+
+PLACES = np.linspace(0, 1, 5)
+"""Places along each side of the frame, as fractions, of the pixels whose rays a new camera must find again."""
+
+NEAR = 2.0**-13
+"""Distance of the points that it must find, over the distance of the rays' origins from the world's origin."""
+
+FARTHEST_PLANE = 1e50
+"""Largest coordinate on the image plane: powers of larger ones overflow."""
 
 
 def camera_from(raw: BlenderCamera) -> Camera:
@@ -41,6 +52,7 @@ def camera_from(raw: BlenderCamera) -> Camera:
             raise
         raise InputError(f"{error}; calibration file {FILE.read(raw)!r}") from error
     _check_apart(raw, lens, pose)
+    _check_inverse(raw, lens, pose)
     model = with_eye(lens, raw, pose)
     return Camera(
         name=raw.name,
@@ -59,19 +71,54 @@ def _check_apart(raw: BlenderCamera, model: Model, pose: Pose) -> None:
     """Raise InputError if the pixels around the middle of the frame have the same direction in the world and the same
     point at the clip start. The message names the number that is farthest from 1. A middle without rays is accepted.
     """
-    half = np.array((-0.5, 0.5))
+    half = np.array((-0.25, 0.25))
     x, y = model.frame[0] / 2 + half[None, :], model.frame[1] / 2 + half[:, None]
     with np.errstate(all="ignore"):
         origin, direction = (
             pose.basis @ np.stack(np.broadcast_arrays(*part, x + y)[:3]).reshape(3, -1) for part in model.rays(x, y)
         )
         places = pose.eye[:, None] + origin + raw.clip_start * direction
-        same = [np.ptp(part, axis=1) <= APART * np.abs(part).max(axis=1) for part in (direction, places)]
+        same = [2 * np.ptp(part, axis=1) <= APART * np.abs(part).max(axis=1) for part in (direction, places)]
     if not np.all(same):
         return
-    numbers = {one.name: one.read(raw) for one in model.SETTINGS if isinstance(one, Number)}
-    numbers["its distance from the world's origin"] = float(np.abs(pose.eye).max())
     raise InputError(
-        f"rays of neighboring pixels of camera {raw.name!r} cannot be distinguished: {farthest_from_one(numbers)}, too "
-        "large or too small for the rest"
+        f"rays of neighboring pixels of camera {raw.name!r} cannot be distinguished: {_farthest(raw, model, pose)}, "
+        "too large or too small for the rest"
     )
+
+
+def _check_inverse(raw: BlenderCamera, model: Model, pose: Pose) -> None:
+    """Raise InputError if a point on the ray of one of a few pixels projects to no pixel, or the frame is beyond all
+    arithmetic. The message names the number that is farthest from 1. Models that are not smooth may miss a pixel.
+    """
+    window = getattr(model, "window", None)
+    if window is not None and not np.abs(window.extent(model.frame)).max() <= FARTHEST_PLANE:
+        raise InputError(
+            f"the frame of camera {raw.name!r} reaches too far on its image plane: {_farthest(raw, model, pose)}, too "
+            "large or too small for the rest"
+        )
+    if not model.smooth:
+        return
+    x, y = (part.ravel() for part in np.meshgrid(*(0.5 + PLACES * (side - 1) for side in model.frame)))
+    with np.errstate(all="ignore"):
+        origin, direction = (
+            np.stack(np.broadcast_arrays(*part, x)[:3], axis=-1) @ pose.basis.T for part in model.rays(x, y)
+        )
+        origin = origin + pose.eye
+        far = (1 + NEAR * np.linalg.norm(origin, axis=1)) * np.linspace(1, 2, len(x))  # each has a rounding of its own
+        points = origin + far[:, None] * direction
+        local = (points - pose.eye) @ inverse(pose.basis).T
+        found = checked(model, local, model.project(local), always=True)
+    lost = np.flatnonzero(np.isfinite(local).all(axis=1) & np.isnan(found).any(axis=1))
+    if lost.size:
+        raise InputError(
+            f"a point on the ray of pixel ({x[lost[0]]:g}, {y[lost[0]]:g}) of camera {raw.name!r} does not project "
+            f"back to it: {_farthest(raw, model, pose)}, too large or too small for the rest"
+        )
+
+
+def _farthest(raw: BlenderCamera, model: Model, pose: Pose) -> str:
+    """Return the words for the number of a camera that is farthest from 1."""
+    numbers = {one.name: one.given(raw) for one in model.SETTINGS if isinstance(one, Number)}
+    numbers["its distance from the world's origin"] = float(np.abs(pose.eye).max())
+    return farthest_from_one({name: number for name, number in numbers.items() if np.isfinite(number)})

@@ -16,6 +16,7 @@ from ..maths.panels import ROWS, is_raster, on_raster
 from ..maths.speed import whole_rows
 from ..maths.vector import ALL, components, cut, dot, inverse, is_grid, matvec, norm
 from ..records import Rays
+from .guard import checked
 from .pixels import in_blocks
 
 FARTHEST = 1e15
@@ -72,9 +73,10 @@ def pixels_of(camera: Any, points: np.ndarray) -> np.ndarray:
 
     def put(part: slice) -> None:
         with _quiet(near):
+            beside = [axis - eye for axis, eye in zip(components(points[part]), camera.pose.eye.tolist(), strict=True)]
             # not by BLAS, which rounds a single point otherwise
-            seen = matvec(camera_from_world, components(points[part] - camera.pose.eye))
-            pixels[part] = camera.model.project(np.stack(seen, axis=-1))
+            seen = np.stack(matvec(camera_from_world, beside)).T
+            pixels[part] = checked(camera.model, seen, camera.model.project(seen))
 
     in_blocks(put, (len(points), 1), BLOCK_POINTS)
     if not near:

@@ -27,6 +27,7 @@ from ..cameras.central_cylindrical import CentralCylindrical
 from ..cameras.mirrorball import Mirrorball
 from ..cameras.model import Model, Step
 from ..cameras.parts.aperture import Aperture
+from ..cameras.parts.settings import Number
 from ..cameras.perspective import Perspective
 from ..conventions import gamma
 from ..maths.panels import Disc
@@ -36,6 +37,14 @@ from ..records import BlenderCamera, Pose
 
 EYE = "spherical_eye"
 """Key in a record's settings: -1.0 for the left eye, 1.0 for the right eye; without it the camera has one eye."""
+
+INTEROCULAR = Number(
+    "interocular_distance", "Interocular Distance", "Distance between the eyes", 0.065, -1e50, 1e50, "length"
+)
+CONVERGENCE = Number(
+    "convergence_distance", "Convergence Distance", "Distance at which the eyes converge", 1.95, 1e-5, unit="length"
+)
+"""Blender's own settings, which its cameras have whatever their model."""
 
 TO_Y_UP = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]])
 """Matrix from the world's frame to a frame whose y is the world's up."""
@@ -235,10 +244,11 @@ class SphericalStereo(Model):
 def with_eye(lens: Model, raw: BlenderCamera, pose: Pose) -> Model:
     """Return the model of an eye of spherical stereo if the record describes such an eye; else the lens."""
     settings = raw.settings
-    side, distance = settings.get(EYE, 0.0), float(settings.get("interocular_distance", 0.0))
-    if not side * distance:
+    side = settings.get(EYE, 0.0)
+    if not side or not settings.get(INTEROCULAR.name, 0.0):
         return lens
-    convergence = inf if settings["convergence_mode"] == "PARALLEL" else float(settings["convergence_distance"])
+    distance = INTEROCULAR.read(raw)
+    convergence = inf if settings["convergence_mode"] == "PARALLEL" else CONVERGENCE.read(raw)
     begin, end = (float(settings[f"pole_merge_angle_{word}"]) for word in ("from", "to"))
     eye = SphericalStereo(
         frame=lens.frame,
@@ -256,7 +266,10 @@ def with_eye(lens: Model, raw: BlenderCamera, pose: Pose) -> Model:
 
 def _altitude(slope, on_tube: bool):
     """Return the altitude of a direction as Cycles computes it, from its vertical part over its horizontal part."""
-    return np.arcsin(np.minimum(slope, 1.0)) if on_tube else np.arctan(slope)
+    if not on_tube:
+        return np.arctan(slope)
+    within = slope < 1
+    return np.where(within, np.arcsin(np.where(within, slope, 0.0)), pi / 2)  # with the derivative 0 beyond
 
 
 def _turned(matrix: Matrix | None, vector):

@@ -25,7 +25,7 @@ import numpy as np
 from ..arguments import shown
 from ..cameras import find_model
 from ..records import BlenderCamera, InputError
-from .spherical_stereo import EYE
+from .spherical_stereo import CONVERGENCE, EYE, INTEROCULAR
 
 SIDES = {"left": 1.0, "right": -1.0}
 """The views of Blender's Stereo 3D, each with the sign of its convergence."""
@@ -52,7 +52,7 @@ def eye_record(raw: BlenderCamera, view: str) -> BlenderCamera:
             raise InputError(f"{spherical}: disable it, or use the model Blender's Own or Omnidirectional Stereo")
         return replace(raw, settings={**settings, EYE: -SIDES[view]})
     side, mode, pivot = SIDES[view], settings["convergence_mode"], settings["pivot"]
-    distance, convergence = float(settings["interocular_distance"]), float(settings["convergence_distance"])
+    distance, convergence = INTEROCULAR.read(raw), CONVERGENCE.read(raw)
     share = {"CENTER": 0.5, view.upper(): 0.0}.get(pivot, 1.0)
     if mode == "TOE":
         angle = atan(distance / (2 * convergence))
@@ -83,8 +83,8 @@ def _moved(raw: BlenderCamera, x: float, z: float, turn: float) -> BlenderCamera
     """Return the camera moved along its own normalized axes, and turned about its Y."""
     world_from_camera = np.array(raw.matrix_world, np.float64)
     axes = world_from_camera[:3, :3]
-    with np.errstate(invalid="ignore"):  # ``camera_from`` refuses an axis of length 0
+    with np.errstate(all="ignore"):  # ``camera_from`` refuses what is not finite
         axes /= np.linalg.norm(axes, axis=0)
-    world_from_camera[:3, 3] += axes @ (x, 0.0, z)
-    world_from_camera[:3, :3] = axes @ [[cos(turn), 0.0, sin(turn)], [0.0, 1.0, 0.0], [-sin(turn), 0.0, cos(turn)]]
+        world_from_camera[:3, 3] += axes @ (x, 0.0, z)
+        world_from_camera[:3, :3] = axes @ [[cos(turn), 0.0, sin(turn)], [0.0, 1.0, 0.0], [-sin(turn), 0.0, cos(turn)]]
     return replace(raw, matrix_world=world_from_camera)

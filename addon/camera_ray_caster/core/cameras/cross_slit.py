@@ -15,6 +15,7 @@ Reference: A. Zomet, D. Feldman, S. Peleg and D. Weinshall, Mosaicing New Views:
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -119,9 +120,12 @@ class CrossSlit(WindowModel):
 
     def project(self, points):
         """Return the pixel coordinates (..., 2) of camera-frame points (..., 3); NaN on slits and behind z = 0."""
-        x, y, z = components(np.asarray(points, np.float64))
-        across, up, scale = self._crossing(*self._normals((x, y, z)))
-        scale = np.where((z <= 0) & (scale != 0), scale, np.nan)
+        point, planes = components(np.asarray(points, np.float64)), []
+        for (start, (x, y, z)), turned in zip(self.slits, self._turned, strict=True):
+            right, up, ahead = beside = difference(point, start)
+            planes.append((y * ahead - z * up, z * right - x * ahead, dot(turned, beside)))
+        across, up, scale = _crossing(*planes)
+        scale = np.where((point[2] <= 0) & (scale != 0), scale, np.nan)
         return np.stack(self.window.pixels_from_plane(across / scale, up / scale), axis=-1)
 
     def bounds(self, centers, radii):
@@ -137,7 +141,9 @@ class CrossSlit(WindowModel):
             side = np.where(depth < 0, -1.0, 1.0)  # a plane continues behind its slit
             tangent = Interval(*pinhole_interval(side * rise, side * depth, radii))
             normals.append(tuple(a - tangent * b for a, b in zip(across.tolist(), ahead.tolist(), strict=True)))
-        across, up, scale = self._crossing(*normals)
+        across, up, scale = _crossing(
+            *((n[0], n[1], dot(n, start - MIDDLE)) for n, (start, _) in zip(normals, self.slits, strict=True))
+        )
         x, y = across / scale, up / scale
         bounds = pixel_bounds(self.window, (x.low, x.high), (y.low, y.high))
         bounds[centers[:, 2] > radii] = np.nan
@@ -147,13 +153,16 @@ class CrossSlit(WindowModel):
         """Return the normals of the planes through a point and each slit."""
         return (cross(direction, difference(point, start)) for start, direction in self.slits)
 
-    def _crossing(self, first, second):
-        """Return s X, s Y and s of the point (X, Y) where planes with these normals, numbers or intervals, intersect on
-        the window.
-        """
-        (a, b, _), (c, d, _) = first, second
-        e, f = (dot(n, start - MIDDLE) for n, (start, _) in zip((first, second), self.slits, strict=True))
-        return e * d - f * b, f * a - e * c, a * d - b * c
+    @cached_property
+    def _turned(self) -> list[np.ndarray]:
+        """Return vectors whose product with b is that of the plane's normal, l x b, and the slit's place."""
+        return [np.cross(start - MIDDLE, direction) for start, direction in self.slits]
+
+
+def _crossing(first, second):
+    """Return s X, s Y and s of the point (X, Y) where planes a X + b Y = e, of numbers or intervals, intersect."""
+    (a, b, e), (c, d, f) = first, second
+    return e * d - f * b, f * a - e * c, a * d - b * c
 
 
 def _axes_about(direction):

@@ -4,7 +4,7 @@ Assumption: columns are evenly spaced in the angle to the left and right of the 
 above and below it. Both angles span 90 degrees over the frame.
 Formula: direction ~ (tan alpha, tan beta, -1), alpha = (u - 1/2) pi/2, beta = (v - 1/2) pi/2. Shift moves the angles;
 beyond 90 degrees the tangent begins again and the picture repeats, as in Cycles.
-Singular: angles of 90 degrees, which are reached only by shift.
+Singular: angles of 90 degrees, which are reached only by shift. They have no ray: the tangent has no sign there.
 Reference: Blender manual, Cameras > Panoramic; rays read out of Cycles.
 """
 
@@ -21,6 +21,9 @@ from ..records import BlenderCamera, Raster
 from .model import Step, WindowModel
 from .parts.film import SHIFT, Window
 from .parts.silhouette import pinhole_interval, pixel_bounds, turned
+
+STEEPEST = 1e15
+"""Tangent of an angle that is 90 degrees to rounding."""
 
 
 @dataclass(frozen=True)
@@ -54,6 +57,7 @@ class CubemapFace(WindowModel):
         x and y are pixel coordinates of broadcastable shapes. Each component is right to some EPS.
         """
         tangent_x, tangent_y = (np.tan(angle) for angle in self.window.plane_from_pixels(x, y))
+        tangent_x, tangent_y = (np.where(np.abs(one) < STEEPEST, one, np.nan) for one in (tangent_x, tangent_y))
         scale = 1 / np.sqrt(tangent_x * tangent_x + (tangent_y * tangent_y + 1))
         return (0.0, 0.0, 0.0), (tangent_x * scale, tangent_y * scale, -scale)
 

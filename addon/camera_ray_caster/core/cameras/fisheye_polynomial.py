@@ -170,11 +170,13 @@ def _turns(coefficients, corner: float):
         return np.zeros(1)
     roots = positive_roots(slope)
     edges = np.concatenate(([0.0], roots[roots < corner], [corner]))
-    signs = np.sign(slope((edges[1:] + edges[:-1]) / 2))
+    with np.errstate(over="ignore", invalid="ignore"):  # NaN counts as a turn
+        signs = np.sign(slope((edges[1:] + edges[:-1]) / 2))
     return edges[1:-1][signs[1:] != signs[:-1]]
 
 
 def _is_seen_beyond(coefficients, turns, corner: float, half_fov: float) -> bool:
     """Return whether theta comes within the field of view beyond its first turning point."""
-    theta = np.polynomial.Polynomial(coefficients)(np.append(turns, corner))
+    with np.errstate(over="ignore", invalid="ignore"):
+        theta = np.polynomial.Polynomial(coefficients)(np.append(turns, corner))
     return bool((np.abs(theta) <= half_fov).any() or (np.sign(theta[1:]) != np.sign(theta[:-1])).any())

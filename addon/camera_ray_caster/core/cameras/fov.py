@@ -40,6 +40,7 @@ class FieldOfView(Calibrated):
     label = "Field of View (FOV)"
     description = "A calibrated wide-angle lens whose distortion is given by a single angle"
     number = 22
+    guarded = False
     by_polynomials = True
     SETTINGS = (*CALIBRATION, OMEGA)
     FORMULA = (

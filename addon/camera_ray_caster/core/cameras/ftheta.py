@@ -91,6 +91,7 @@ class FTheta(Calibrated):
     description = "A calibrated fisheye of NVIDIA: a polynomial of any degree between angle and radius"
     number = 24
     factors_by_polynomials = True
+    guarded = False
     by_polynomials = True
     SETTINGS = (*PRINCIPAL_POINT, REFERENCE, *POLYNOMIALS.values(), C, D, E, MAX_ANGLE)
     FORMULA = (

@@ -30,6 +30,9 @@ from .parts.silhouette import MARGIN
 ROUNDING = 16 * EPS32
 """Magnitude relative to the rays' numbers below which a value counts as zero: Blender stores the rays as float32."""
 
+STEEPEST = 1e6
+"""Largest slope of the three rays: with steeper ones the determinant keeps too few digits for a pixel."""
+
 RAYS = tuple(
     Numbers(
         f"ray_{k}", f"Ray {k}",
@@ -64,7 +67,9 @@ class GeneralLinear(Model):
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> GeneralLinear:
-        """Build the camera from ray_1, ray_2 and ray_3. Raises InputError if, as points, they lie on one line."""
+        """Build the camera from ray_1, ray_2 and ray_3. Raises InputError if, as points, they lie on one line, and
+        for slopes beyond STEEPEST.
+        """
         three = np.array([ray.read(raw) for ray in RAYS])
         if _are_dependent(three):
             names, rays = ", ".join(ray.name for ray in RAYS), ", ".join(str(tuple(ray)) for ray in three.tolist())
@@ -72,7 +77,16 @@ class GeneralLinear(Model):
                 f"{names} of camera {raw.name!r} are dependent, {rays}: as points (s, t, u, v) they must "
                 "not lie on one line"
             )
+        slopes = np.abs(three[:, 2:] - three[:, :2]).max(axis=1)
+        if slopes.max() > STEEPEST:
+            ray = RAYS[int(slopes.argmax())]
+            raise ray.refusal(raw, f"{ray.read(raw)}", f"of slopes (u - s, v - t) up to {STEEPEST:.0f}")
         return cls(raster.size, three)
+
+    @property
+    def smooth(self) -> bool:  # type: ignore[override]
+        """See Model: a camera of kind EPI has rays, but no inverse."""
+        return self.kind != "EPI"
 
     @property
     def kind(self) -> str:
@@ -139,7 +153,7 @@ def classify(three) -> str:
     size_s, size_d = np.abs(s).max(), np.abs(d).max()
     if size_d <= ROUNDING * np.abs(three).max():
         return "orthographic"
-    c, a = np.linalg.det(s), np.linalg.det(d)
+    c, a = (one[0, 0] * one[1, 1] - one[0, 1] * one[1, 0] for one in (s, d))
     b = s[0, 0] * d[1, 1] + d[0, 0] * s[1, 1] - s[0, 1] * d[1, 0] - d[0, 1] * s[1, 0]
     if abs(a) <= ROUNDING * size_d**2:
         if abs(b) > ROUNDING * size_s * size_d:

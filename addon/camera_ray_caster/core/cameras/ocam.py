@@ -28,6 +28,7 @@ from ..records import BlenderCamera, Raster
 from .model import Step
 from .parts.calibrated import Calibrated
 from .parts.calibration import PRINCIPAL_POINT, Calibration
+from .parts.radial import radii_of
 from .parts.settings import Coefficients, Number
 
 POLYNOMIAL = Coefficients(
@@ -102,7 +103,7 @@ class OCam(Calibrated):
 
     def factors(self, r_squared):
         """See Radial."""
-        r = np.sqrt(r_squared)
+        r = radii_of(r_squared)
         ahead = -horner(r, self.polynomial)
         scale = 1 / np.sqrt(r_squared + ahead * ahead)
         return scale, ahead * scale

@@ -59,6 +59,7 @@ class OmnidirectionalStereo(WindowModel):
     group = "Panorama"
     number = 16
     central = False
+    guarded = False
     smooth = False  # if both eyes have a picture, rays jump between them
     SETTINGS = (EYE, DISTANCE)
     FORMULA = (

@@ -53,6 +53,11 @@ class OpencvPinhole(WindowModel):
     )
 
     @property
+    def guarded(self) -> bool:  # type: ignore[override]
+        """See Model: rays iterate to undo the distortion."""
+        return not self._bends
+
+    @property
     def by_polynomials(self) -> bool:  # type: ignore[override]
         """See Model: true if there is distortion or tilt."""
         return self._bends

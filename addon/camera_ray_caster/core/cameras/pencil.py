@@ -5,13 +5,16 @@ from the object's point: each line of the picture has its own pinhole. With slid
 A pixel at (X, Y) of the perspective window has the direction v = (X, Y, -1) and the eye p + slide m l, with
 m = (n . v) / (w . v): l is the slit's direction, n is across it in the image plane, w is across both and points ahead.
 A slit parallel to the image plane gives a general linear camera.
-Singular: points and directions in the plane of l and n, where m is infinite.
+Singular: points and directions in the plane of l and n, where m is infinite. Near it there is no ray: the rounding of
+a point at unit distance moves its eye by about EPS slide^2 m^3, which is at most CLEAR EPS.
 Reference: J. Yu and L. McMillan, General Linear Cameras, ECCV 2004.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
+from math import cbrt, inf
 
 import numpy as np
 
@@ -28,6 +31,10 @@ SLIDE = Number(
     "pencil_slide", "Slide",
     "Distance that the eye moves along the slit for rays at 45 degrees across it; 0 is a pinhole", 1.0, unit="length",
 )  # fmt: skip
+
+
+CLEAR = 1e10
+"""Largest slide^2 |m|^3 of a ray."""
 
 
 @dataclass(frozen=True)
@@ -94,8 +101,13 @@ class Pencil(WindowModel):
         bounds[height.low >= 0] = np.nan
         return bounds
 
+    @cached_property
+    def _steepest(self) -> float:
+        """Return the largest |m| of a ray; endless for a pinhole."""
+        return cbrt(CLEAR / self.slide / self.slide) if self.slide else inf
+
     def _eye(self, direction):
         """Return the eye of rays in a direction, or in the plane of a place relative to ``point``; and if it exists."""
         rise, ahead = dot(self.axes[1], direction), dot(self.axes[2], direction)
-        known = ahead != 0
-        return along(self.point, self.axes[0], self.slide * rise / np.where(known, ahead, 1.0)), known
+        known = np.abs(rise) <= np.abs(ahead) * self._steepest
+        return along(self.point, self.axes[0], self.slide * rise / np.where(known & (ahead != 0), ahead, 1.0)), known

@@ -72,6 +72,7 @@ class Strip(Model):
     group = "Multiperspective"
     number = 15
     central = False
+    guarded = False
     smooth = False  # a path may bend between neighboring columns
     SETTINGS = (PATH, FOLLOW, *Perspective.SETTINGS)
     FORMULA = (

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..records import BlenderCamera, Raster
-from .general_linear import GeneralLinear
+from .general_linear import STEEPEST, GeneralLinear
 from .model import Step
 from .orthographic import Orthographic
 from .parts.film import ORTHO_SCALE, check_slope
@@ -55,6 +55,6 @@ class TwistedOrthographic(GeneralLinear):
         corners = np.array(((0, 0), (raster.width, 0), (0, raster.height)), np.float64)
         places = np.stack(window.plane_from_pixels(*corners.T), axis=-1)
         slopes = TWIST.read(raw) * ((places - point[:2]) @ along[:2])
-        check_slope(raw, float(np.abs(slopes).max()), (TWIST, ORTHO_SCALE))
+        check_slope(raw, float(np.abs(slopes).max()), (TWIST, ORTHO_SCALE), STEEPEST)
         ends = places + slopes[:, None] * across[:2]
         return cls(raster.size, np.concatenate((places, ends), axis=1))

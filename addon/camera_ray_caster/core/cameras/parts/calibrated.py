@@ -30,6 +30,11 @@ class Calibrated(Radial):
     group = "Calibrated"
 
     @property
+    def guarded(self) -> bool:  # type: ignore[override]
+        """See Model: rays iterate to undo the distortion."""
+        return not self.distortion.bends
+
+    @property
     @abstractmethod
     def own_rim(self) -> float:
         """Return the radius where r(theta) stops growing, the rim of the lens without distortion; inf without one."""

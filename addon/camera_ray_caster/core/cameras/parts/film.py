@@ -126,9 +126,9 @@ def _border(low: float, high: float, size: int) -> tuple[int, int]:
     return int(np.float32(low) * np.float32(size)), int(np.float32(high) * np.float32(size))
 
 
-def check_slope(raw: BlenderCamera, slope: float, numbers: Iterable[Number]) -> None:
-    """Raise InputError, which names the number that is farthest from 1, for a ray's slope beyond STEEPEST."""
-    if not slope <= STEEPEST:
+def check_slope(raw: BlenderCamera, slope: float, numbers: Iterable[Number], most: float = STEEPEST) -> None:
+    """Raise InputError, which names the number that is farthest from 1, for a ray's slope beyond ``most``."""
+    if not slope <= most:
         said = farthest_from_one({one.name: one.read(raw) for one in (*numbers, *SHIFT)})
         raise InputError(
             f"the frame of camera {raw.name!r} looks along the image plane, to {slope:.3g} times the depth: {said}, "
@@ -143,7 +143,7 @@ def _shift(shift: Number, raw: BlenderCamera, unit: float) -> float:
 
 def off_axis(raw: BlenderCamera, slope: float) -> BlenderCamera:
     """Return the record of an eye as Blender shifts it, whatever the sensor fit; see ``Model.off_axis``."""
-    return replace(raw, shift_x=raw.shift_x + slope * raw.lens / raw.sensor_width)
+    return replace(raw, shift_x=raw.shift_x + slope * raw.lens / SENSOR_WIDTH.read(raw))
 
 
 @dataclass(frozen=True)

@@ -32,6 +32,7 @@ class KannalaBrandt(Calibrated):
     coefficients: tuple[float, ...]
     """Coefficients k1, k2, ..."""
 
+    guarded = False
     factors_by_polynomials = True
     by_polynomials = True
 

@@ -33,6 +33,8 @@ def longitude(low: str, high: str) -> Step:
 class Meridians(WindowModel):
     """A model whose window has longitude (rad) across and height up."""
 
+    guarded = False
+
     @cached_property
     def extent(self) -> tuple[float, float, float, float]:
         """The part of the window that the frame shows: lowest and highest longitude, lowest and highest height."""
@@ -83,5 +85,6 @@ class Meridians(WindowModel):
         longitudes, latitudes = longitude_latitude(centers, radii)
         columns = turned(longitudes, self.extent[:2], FULL_TURN)
         low, high = (np.clip(latitude, -np.pi / 2, np.pi / 2) for latitude in latitudes)
-        heights = self.height(np.cos(low), np.sin(low)), self.height(np.cos(high), np.sin(high))
+        bottom, top = (self.height(np.cos(latitude), np.sin(latitude)) for latitude in (low, high))
+        heights = np.where(low <= -np.pi / 2, -np.inf, bottom), np.where(high >= np.pi / 2, np.inf, top)
         return pixel_bounds(self.window, columns, heights)

@@ -227,8 +227,9 @@ class RadialTangential:
             return (x, y, share, off_x, off_y, u, v), is_there | (share < roundoff(u))
 
         x, y = np.zeros_like(u), np.zeros_like(v)
-        x, y, _, *off, _, _ = loop(step, (x, y, np.ones_like(u), *self._off(x, y, u, v), u, v), STEPS)
-        found = np.hypot(*off) <= 4 * goal(x, y, u, v)
+        with np.errstate(over="ignore", invalid="ignore"):
+            x, y, _, *off, _, _ = loop(step, (x, y, np.ones_like(u), *self._off(x, y, u, v), u, v), STEPS)
+            found = np.hypot(*off) <= 4 * goal(x, y, u, v)
         return np.where(found, x, np.nan), np.where(found, y, np.nan)
 
     def _off(self, x, y, u, v):
