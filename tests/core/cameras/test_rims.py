@@ -33,3 +33,14 @@ def test_beyond_the_rim_there_is_neither_ray_nor_pixel(key, fov):
         flat = np.stack((np.sin(theta) * np.cos(angle), np.sin(theta) * np.sin(angle), np.full(40, -np.cos(theta))))
         points = flat[[0, 2, 1]] * ((1,), (-1,), (1,)) if key == "DOME_MASTER" else flat
         assert (np.isnan(cam.project(points.T)).any(axis=1) != seen).all()
+
+
+def test_a_measured_fisheye_projects_beyond_the_frame():
+    """theta = r: 41 degrees, 0.7156 mm up, lie 715.6 pixels above the middle, where the corner is at 707.1."""
+    settings = {"sensor_width": 1.0, "resolution_x": 1000, "resolution_y": 1000, "fisheye_fov": np.pi}
+    cam = camera("FISHEYE_LENS_POLYNOMIAL", {**settings, "fisheye_polynomial_k1": -1.0})
+    angles = np.radians([40.5, 41.0, 60.0, 89.999])
+    pixels = cam.project(np.stack((0 * angles, np.sin(angles), -np.cos(angles)), axis=-1))
+    np.testing.assert_allclose(pixels, np.stack((500 + 0 * angles, 500 + 1000 * angles), axis=-1), rtol=1e-12)
+    np.testing.assert_allclose(pixels[:2, 1], (1206.9, 1215.6), atol=0.05)
+    assert np.isnan(cam.project((0, 1, 0.01))).all()  # beyond 90 degrees there is no ray
