@@ -5,8 +5,10 @@ import numpy as np
 import pytest
 
 from camera_ray_caster.blender.read.scene import read_shapes
+from camera_ray_caster.core.records import MESH, SPHERE
 
-from .sure import PASSES, assert_as_cycles, seen
+from .cycles import cycles_truth
+from .sure import NEAR, PASSES, assert_as_cycles, seen
 
 
 @pytest.fixture
@@ -179,3 +181,29 @@ def test_hair_is_named(scene):
     item = added("uv_sphere", 1, location=(0, 0, 1))
     item.modifiers.new("Hair", "PARTICLE_SYSTEM").particle_system.settings.type = "HAIR"
     assert [name for name, _ in read_shapes(scene).left_out] == [item.name]
+
+
+def test_a_texture_is_seen_through_the_map_of_the_mesh(scene):
+    """An ico sphere's map is not that of an exact sphere: with a texture it is cast as its mesh."""
+    scene.camera_ray_caster.exact_shapes = True
+    texels = np.ones((8, 8, 4), np.float32)
+    texels[::2, ::2, 3] = texels[1::2, 1::2, 3] = 0
+    image = bpy.data.images.new("Holes", 8, 8, alpha=True)
+    image.pixels.foreach_set(texels.ravel())
+    image.pack()
+    item = added("ico_sphere", 1, subdivisions=4, radius=2, location=(0, 0, 1))
+    _, tree, output = material(item)
+    surface = linked(tree, "BsdfPrincipled", output.inputs["Surface"])
+    texture = linked(tree, "TexImage", surface.inputs["Alpha"], "Alpha")
+    texture.image, texture.interpolation = image, "Closest"
+    shapes = read_shapes(scene)
+    assert list(shapes.kind) == [MESH]
+    assert shapes.notes == ()
+    ours, theirs = seen(scene, ("depth",))["depth"], cycles_truth(scene)["depth"]
+    assert 0.1 < np.isfinite(ours).mean() < 0.5
+    assert (np.abs(ours - theirs) > NEAR)[np.isfinite(ours)].mean() < 0.005  # at edges of texels
+    texture.image = None
+    surface.inputs["Alpha"].default_value = 1
+    tree.links.clear()
+    tree.links.new(surface.outputs[0], output.inputs["Surface"])
+    assert list(read_shapes(scene).kind) == [SPHERE]

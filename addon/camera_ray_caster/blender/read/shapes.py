@@ -12,7 +12,7 @@ from ...core.records import Shapes
 from ..properties.declared import EXACT_SHAPES, PRIMITIVE
 from .geometry import mesh_shapes, shapes_of
 from .groups import Group, gathered, heeding, listed
-from .kept import Reading
+from .kept import Found, Reading
 from .lights import cone_of, light_color, world_of
 from .materials import Look, Looks, first_slot, is_finite
 from .stored import own_value
@@ -112,9 +112,16 @@ class _Scene:
         if setting == "AUTOMATIC" and (needs or group.is_displaced or not self.exact):
             setting = "MESH"
         find = partial(self.reading.find, item.data, source)
-        group.primitive, group.reason = find((setting, needs, moves), partial(shapes_of, item, setting, needs, moves))
+
+        def read(setting: str) -> Found:
+            return find((setting, needs, moves), partial(shapes_of, item, setting, needs, moves))
+
+        group.primitive, group.reason = read(setting)
         if group.primitive is None:
             return
+        is_textured = any(look.surface is not None and look.surface.changes for look in looks)
+        if setting == "AUTOMATIC" and group.primitive.note and is_textured:
+            group.primitive, group.reason = read("MESH")  # whose map the material may read
         if setting == "AUTOMATIC" and group.primitive.apart is not None:
             group.flattened = partial(find, ("MESH", frozenset(), ()), partial(mesh_shapes, item.data, "MESH"))
         group.object_index = item.pass_index

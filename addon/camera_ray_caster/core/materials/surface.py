@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .values import Constant, Places, Value
+from .values import Constant, Places, Value, all_constant
 
 
 @dataclass(frozen=True, eq=False)
@@ -29,6 +29,11 @@ class Surface:
         if self.alpha is None:
             return np.ones(count, bool)
         return np.broadcast_to(places.value(self.alpha)[0] >= self.threshold, (count,))
+
+    @property
+    def changes(self) -> bool:
+        """Whether anything changes over the surface."""
+        return not all(map(all_constant, (self.lit, self.own, self.glow, self.alpha)))
 
     @property
     def is_open(self) -> bool:
