@@ -1,10 +1,11 @@
-"""Material slots beside Cycles: which material a face has where slots are linked to objects, empty or missing."""
+"""Indices beside Cycles where it is not plain which material or object a face has: slots, and faces that coincide."""
 
 import bpy
 import numpy as np
 import pytest
 
-from .sure import assert_as_cycles
+from .cycles import cycles_truth
+from .sure import NEAR, assert_as_cycles, seen
 
 
 @pytest.fixture
@@ -30,3 +31,17 @@ def test_an_empty_slot_of_the_object(scene):
     ours = assert_as_cycles(scene)
     assert {0, 7} <= set(np.unique(ours["material_index"]))
     assert (12 in ours["material_index"]) == (bpy.app.version < (5, 2, 0))
+
+
+@pytest.mark.parametrize("first", [1, pytest.param(2, marks=pytest.mark.full)])
+def test_of_faces_that_coincide_the_first_is_met(scene, first):
+    """In Cycles it may be any of them: there the indices of pixels differ, and nothing else does."""
+    for index in (first, 3 - first):
+        bpy.ops.mesh.primitive_monkey_add(size=3)
+        bpy.context.object.pass_index = index
+        bpy.context.object.name = f"{'AB'[index == first]}{index}"  # the order of names is not that of rows
+    ours, theirs = seen(scene, ("object_index", "depth")), cycles_truth(scene)
+    hit = np.isfinite(ours["depth"]) & (np.abs(ours["depth"] - theirs["depth"]) < NEAR)
+    assert hit.sum() > 100
+    assert set(np.unique(ours["object_index"][hit])) == {first}
+    assert set(np.unique(theirs["object_index"][hit])) <= {1, 2}

@@ -13,7 +13,7 @@ Meshes that are read again are compared with the cached meshes, so that equal tr
 """
 
 from collections.abc import Callable, Hashable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import bpy
@@ -21,7 +21,7 @@ from bpy.app.handlers import persistent
 
 from ...core.mesh import Mesh
 from ...core.motion.means import same
-from ...core.shapes.instances import Primitive, mesh_primitive
+from ...core.shapes.instances import Primitive
 from . import images
 
 Found = tuple[Primitive | None, str]
@@ -78,7 +78,10 @@ class Reading:
         if mesh is None:
             return entry
         known = self._meshes.setdefault(_sample(mesh), mesh)
-        return entry if known is mesh or not same(known, mesh) else _Entry((mesh_primitive(known), ""))
+        if known is mesh or not same(known, mesh):
+            return entry
+        primitive, reason = entry.found
+        return _Entry((replace(primitive, mesh=known), reason))
 
     @cached_property
     def _meshes(self) -> dict[tuple, Mesh]:

@@ -5,6 +5,9 @@ world's color, flow_forward and flow_backward are NaN, and all other passes are 
 (ray_origin, ray_direction, valid, solid_angle). A pixel without a ray has the same values, with combined (0, 0, 0, 0),
 valid False, and ray_origin, ray_direction and solid_angle 0. A holdout has combined (0, 0, 0, 0) and is a surface in
 all other passes; Cycles gives a holdout no depth and no indices.
+
+Of surfaces that coincide, a ray meets the one that is nearer in float64, and of those at the same distance that of the
+first row. Cycles shows any of them, by rounding and the order of its own search, which differ from version to version.
 """
 
 from __future__ import annotations
