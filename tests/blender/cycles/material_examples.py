@@ -96,7 +96,10 @@ def two_shaders(kind, first, second, factor=0.3):
     return make
 
 
-def painted(extension="REPEAT", interpolation="Linear", space="sRGB", scale=(1.0, 1.0, 1.0), coordinates="UV"):
+def painted(
+    extension="REPEAT", interpolation="Linear", space="sRGB", scale=(1.0, 1.0, 1.0), coordinates="UV", mapped="POINT",
+    turn=(0.0, 0.0, 0.0),
+):  # fmt: skip
     """An image of four colors; the pixels that are compared are in the middles of its texels."""
 
     def build(new, link, item):
@@ -106,7 +109,8 @@ def painted(extension="REPEAT", interpolation="Linear", space="sRGB", scale=(1.0
         image.pack()
         node, mapping, place = texture(new, image), new("ShaderNodeMapping"), new("ShaderNodeTexCoord")
         node.extension, node.interpolation = extension, interpolation
-        mapping.inputs["Scale"].default_value = scale
+        mapping.vector_type = mapped
+        mapping.inputs["Rotation"].default_value, mapping.inputs["Scale"].default_value = turn, scale
         link(place.outputs[coordinates], mapping.inputs[0])
         link(mapping.outputs[0], node.inputs[0])
         return node.outputs["Color"]

@@ -58,10 +58,43 @@ def test_metal_and_glass_leave_diffuse_what_they_do_in_cycles(scene):  # noqa: F
         np.testing.assert_allclose(own, diffuse[here], atol=CLOSE)
 
 
-def test_an_image_is_interpolated_as_in_cycles(scene):  # noqa: F811
+KINDS = "POINT", "TEXTURE", "VECTOR", "NORMAL"
+"""Of a Mapping node."""
+
+
+def turned(mapped):
+    return {"scale": (0.8, 1.7, 0.6), "turn": (0.2, 0.3, 0.5), "mapped": mapped}
+
+
+def repeated(item):
+    """Generated coordinates are those before the modifiers."""
+    modifier = item.modifiers.new("Array", "ARRAY")
+    modifier.count, modifier.relative_offset_displace = 2, (0.4, 0.0, 0.1)
+
+
+def tapered(item):
+    """Also where a modifier moves the vertices."""
+    modifier = item.modifiers.new("Deform", "SIMPLE_DEFORM")
+    modifier.deform_method, modifier.deform_axis, modifier.factor = "TAPER", "X", 0.5
+
+
+@pytest.mark.parametrize(
+    ("options", "change"),
+    [
+        ({"scale": (1.7, 1.7, 1.0)}, None),
+        *(pytest.param(turned(kind), None, marks=pytest.mark.full) for kind in KINDS),
+        ({"coordinates": "Generated", "scale": (1.3, 1.0, 1.0)}, tapered),
+        pytest.param({"coordinates": "Generated"}, repeated, marks=pytest.mark.full),
+        pytest.param({"coordinates": "Object"}, repeated, marks=pytest.mark.full),
+    ],
+)
+def test_an_image_is_interpolated_as_in_cycles(scene, options, change):  # noqa: F811
     """A picture of it, at every pixel; also at its edges, where it repeats."""
-    make = colored(painted(scale=(1.7, 1.7, 1.0)))
-    make(plane("Square", 0, 2, 1))
+    make = colored(painted(**options))
+    item = plane("Square", 0, 2, 1)
+    make(item)
+    if change:
+        change(item)
     scene.camera.data.type, scene.camera.data.ortho_scale = "ORTHO", 2.0
     albedo = cast(read_camera(scene), read_shapes(scene), "albedo")["albedo"]
     (diffuse,) = cycles(scene, "Diffuse Color")

@@ -51,7 +51,7 @@ def shapes_of(
         mesh = item.to_mesh()
         found, reason = mesh_shapes(mesh, setting)
         if found is not None and layers:
-            found = with_layers(found, mesh, layers)
+            found = with_layers(found, mesh, item.original.data, layers)
         if found is not None and found.mesh is not None and any(moves):
             found = mesh_primitive(displaced(found.mesh, normals_before(mesh, found.mesh.polygon), moves))
         return found, reason

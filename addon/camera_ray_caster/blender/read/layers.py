@@ -3,6 +3,7 @@
 from collections.abc import Collection, Iterator
 from dataclasses import replace
 
+import bpy
 import numpy as np
 
 from ...core.shapes.instances import Primitive
@@ -11,19 +12,19 @@ from .meshes import mesh_arrays, triangle_loops
 from .value_nodes import GENERATED
 
 
-def with_layers(found: Primitive, mesh, names: Collection[str]) -> Primitive:
+def with_layers(found: Primitive, mesh, original, names: Collection[str]) -> Primitive:
     """Return a primitive whose triangles have the layers of these names that an evaluated mesh has; unchanged if it is
     an exact shape. "uv:NAME" is a UV map, "color:NAME" an attribute as RGBA, without a name the render color attribute,
-    GENERATED the texture space.
+    GENERATED the texture space. ``original`` is the data that the mesh was evaluated from.
     """
     if found.mesh is None:
         return found
     loops = triangle_loops(mesh)
-    layers = tuple((name, values[loops]) for name, values in _layers(mesh, mesh_arrays(mesh), names))
+    layers = tuple((name, values[loops]) for name, values in _layers(mesh, mesh_arrays(mesh), original, names))
     return replace(found, mesh=replace(found.mesh, layers=layers))
 
 
-def _layers(mesh, arrays: MeshArrays, names: Collection[str]) -> Iterator[tuple[str, np.ndarray]]:
+def _layers(mesh, arrays: MeshArrays, original, names: Collection[str]) -> Iterator[tuple[str, np.ndarray]]:
     """Yield layers at the corners, (l, channels) float32."""
     for name in sorted(names):
         kind, _, label = name.partition(":")
@@ -35,7 +36,7 @@ def _layers(mesh, arrays: MeshArrays, names: Collection[str]) -> Iterator[tuple[
             if found is not None:
                 yield name, found
         elif kind == GENERATED:
-            yield name, _generated(mesh)[arrays.loop_vertices]
+            yield name, _generated(mesh, original)[arrays.loop_vertices]
 
 
 def _color(mesh, arrays: MeshArrays, label: str) -> np.ndarray | None:
@@ -72,12 +73,18 @@ CORNERS = {
 """The values at the corners of values by domain."""
 
 
-def _generated(mesh) -> np.ndarray:
-    """Return the places of vertices in the mesh's texture space, (v, 3): 0 to 1 over the box before modifiers."""
-    places = _values(mesh.vertices, "undeformed_co", 3).astype(np.float64)
+def _generated(mesh, original) -> np.ndarray:
+    """Return the places of vertices in the mesh's texture space, (v, 3): 0 to 1 over the box before modifiers.
+
+    Only a render keeps these places. Otherwise they are those of the original mesh, if it has as many vertices.
+    """
+    places = _values(mesh.vertices, "undeformed_co", 3)
+    as_evaluated = np.array_equal(places, _values(mesh.vertices, "co", 3))
+    if as_evaluated and isinstance(original, bpy.types.Mesh) and len(original.vertices) == len(places):
+        places = _values(original.vertices, "co", 3)
     size, middle = (np.array(tuple(one), np.float64) for one in (mesh.texspace_size, mesh.texspace_location))
     scale = np.where(size != 0, 0.5 / np.where(size != 0, size, 1.0), 1.0)
-    return ((places - middle) * scale + 0.5).astype(np.float32)
+    return ((places.astype(np.float64) - middle) * scale + 0.5).astype(np.float32)
 
 
 def _values(collection, name: str, width: int) -> np.ndarray:
