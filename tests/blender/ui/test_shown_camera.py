@@ -5,7 +5,8 @@ import pytest
 from camera_ray_caster.blender.ui.gallery_panels import ModelGallery
 
 OPERATORS = ("cast", "verify", "step_through", "add_line", "select_line", "choose_type", "load_calibration",
-             "use_in_cycles", "back_to_blender", "pixel_of_point", "copy_facts", "copy_k", "export")  # fmt: skip
+             "use_in_cycles", "back_to_blender", "pixel_of_point", "copy_facts", "copy_k",
+             "export", "fit_lens")  # fmt: skip
 """Operators on a camera."""
 
 

@@ -1,10 +1,13 @@
-"""Operators that turn a camera into a custom camera of Cycles, and back."""
+"""Operators that turn a camera into a custom camera of Cycles, and back, or into the nearest one of Blender's own."""
 
 import bpy
 from bpy.props import BoolProperty
 
+from ...core.camera.blender_lens import blender_lens
 from ..cycles import from_cycles, to_cycles
+from ..properties.declared import BLENDERS_OWN, GROUP, MODEL
 from ..read.camera import shader_mark
+from ..read.scene import read_camera
 from .needs import OfCamera, camera_object_of, reporting
 
 
@@ -53,4 +56,27 @@ class BackToBlender(OfCamera, bpy.types.Operator):
         return {"FINISHED"}
 
 
-CLASSES = (UseInCycles, BackToBlender)
+class FitLens(OfCamera, bpy.types.Operator):
+    """Set Blender's own lens nearest to this camera's model, and report its error in pixels: a perspective, which EEVEE
+    and Workbench render, too, or the polynomial fisheye, which Cycles renders on any device"""
+
+    bl_idname = "camera_ray_caster.fit_lens"
+    bl_label = "Fit Blender's Lens"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @reporting
+    def execute(self, context):
+        """Fit the lens, set it in place of the model, and report its errors and what renders it."""
+        item, scene = camera_object_of(context), context.scene
+        lens = blender_lens(read_camera(scene, item))
+        item.data.type, key = lens.camera.record.type, lens.camera.model.key
+        if item.data.type == "PANO":
+            item.data.panorama_type = key
+        for name, value in lens.settings.items():
+            setattr(scene.render if name.startswith("pixel_aspect") else item.data, name, value)
+        setattr(getattr(item.data, GROUP), MODEL.name, BLENDERS_OWN)
+        self.report({"INFO"}, lens.said)
+        return {"FINISHED"}
+
+
+CLASSES = (UseInCycles, BackToBlender, FitLens)

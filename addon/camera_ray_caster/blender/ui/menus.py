@@ -4,7 +4,7 @@ import bpy
 
 from .add_line import SETTINGS, AddGradient, AddLine
 from .cast_operator import Cast
-from .cycles_operators import BackToBlender, UseInCycles
+from .cycles_operators import BackToBlender, FitLens, UseInCycles
 from .export_operators import CopyK, CopyWorldToCamera, ExportMenu
 from .frame import SetFrame
 from .gallery_operators import CamerasMenu, ExamplesMenu
@@ -19,7 +19,7 @@ from .show_result import ResultsMenu
 
 LISTED = (
     SeeThrough, Cast, Verify, StepThrough, PixelOfPoint, EmptyAtHit, CopySteps, ClearSteps, SetFrame, LoadCalibration,
-    AddCameras, AddGradient, UseThisEngine, UseInCycles, BackToBlender, CopyFacts, CopyK, CopyWorldToCamera,
+    AddCameras, AddGradient, UseThisEngine, UseInCycles, FitLens, BackToBlender, CopyFacts, CopyK, CopyWorldToCamera,
     WriteReport,
 )  # fmt: skip
 MENUS = (ModelMenu, TimeMenu, ResultsMenu, ExportMenu, ExamplesMenu, CamerasMenu)

@@ -11,7 +11,7 @@ from ..properties.declared import BLENDERS_OWN, ENGINE, GROUP
 from ..properties.owners import owner_of
 from ..read.camera import shader_mark
 from .add_line import AddGradient, AddLine, SelectLine
-from .cycles_operators import BackToBlender, UseInCycles
+from .cycles_operators import BackToBlender, FitLens, UseInCycles
 from .drawing import draw_field, draw_message
 from .model_settings import lengths_in_words, not_used, of_type, read_settings, settings_of, shown
 
@@ -60,6 +60,8 @@ def draw_cycles(layout, camera) -> None:
     """Draw the button that makes a custom camera of Cycles, or the buttons that revert and update such a camera."""
     if shader_mark(camera) is None:
         layout.operator(UseInCycles.bl_idname, icon="SHADING_RENDERED")
+        if getattr(camera, GROUP).model != BLENDERS_OWN:
+            layout.operator(FitLens.bl_idname, icon="CAMERA_DATA")
         return
     row = layout.row(align=True)
     row.operator(BackToBlender.bl_idname, icon="LOOP_BACK")

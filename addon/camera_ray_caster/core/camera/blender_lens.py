@@ -1,0 +1,147 @@
+"""Blender's own lens nearest to a camera's: a perspective, or the polynomial fisheye.
+
+Assumption: the rays leave one eye; the fisheye keeps the azimuth about the axis, through the pixel that looks ahead.
+Formula: least squares over pixels. Perspective: x = fx X + cx and y = fy Y + cy for rays (X, Y, -1), which is linear.
+Fisheye: theta = -(k1 r + ... + k4 r^4), linear in k; the ratio of the pixel's sides is that which keeps the azimuth.
+The settings are rounded to float32, as Blender stores them, before errors are measured.
+Reference: Blender manual, Cameras.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from ..cameras.fisheye_polynomial import COEFFICIENTS, FisheyePolynomial
+from ..cameras.parts.radial import FISHEYE_FOV
+from ..cameras.perspective import Perspective
+from ..records import BlenderCamera, InputError
+from .build import camera_from
+from .camera import Camera
+
+SAMPLED = 201
+"""Largest number of columns and of rows of pixels, with those at the edges, at which lenses are compared."""
+
+GOOD = 0.05
+"""Pixels: a perspective that errs by no more is taken, also if a fisheye errs less: more engines render it."""
+
+FAR = 0.05
+"""Part of the frame: a lens that errs by more is no likeness."""
+
+ENGINES = {
+    Perspective.key: "Cycles on any device, EEVEE and Workbench render it",
+    FisheyePolynomial.key: "Cycles on any device renders it, EEVEE and Workbench do not",
+}
+"""What renders each lens."""
+
+
+@dataclass(frozen=True)
+class BlenderLens:
+    """A lens of Blender's, and its distance from the camera's in pixels."""
+
+    camera: Camera
+    settings: dict[str, Any]
+    """Blender's settings of camera and render that are to be set, by name."""
+    worst: float
+    mean: float
+
+    @property
+    def said(self) -> str:
+        """Return the lens, its errors and what renders it, in one line."""
+        errors = f"at most {self.worst:.2g} and in the mean {self.mean:.2g} pixels from the model's rays"
+        return f"{self.camera.model.label}, {errors}: {ENGINES[self.camera.model.key]}"
+
+
+def blender_lens(camera: Camera) -> BlenderLens:
+    """Return Blender's lens nearest to a camera's. Raises InputError for rays without one eye, for pixels with times of
+    their own, and if neither lens has the camera's rays.
+    """
+    if camera.pixel_time is not None or not camera.model.central:
+        reason = "whose pixels have their own times" if camera.pixel_time is not None else "whose rays have no eye"
+        raise InputError(f"no lens of Blender is like that of camera {camera.name!r}, {reason}: use Use in Cycles")
+    width, height = camera.raster.size
+    x, y = (np.unique(np.linspace(0, side - 1, min(side, SAMPLED)).round()) + 0.5 for side in (width, height))
+    x, y = (part.ravel() for part in np.meshgrid(x, y))
+    _, direction = camera.model.rays(x, y)
+    rays = np.stack(np.broadcast_arrays(*direction, x)[:3], axis=-1).astype(np.float64)
+    there = np.isfinite(rays).all(axis=-1)
+    if not there.any():
+        raise InputError(f"camera {camera.name!r} has no ray in its frame: there is nothing to fit")
+    pixels, rays = np.stack((x, y), axis=-1)[there], rays[there]
+    found = [lens for raw, settings in _nearest(camera, pixels, rays) if (lens := _judged(raw, settings, pixels, rays))]
+    nearest = min(found, key=lambda lens: lens.worst, default=None)
+    if nearest is None or nearest.worst > FAR * max(width, height):
+        error = "" if nearest is None else f"; the nearest errs by {nearest.worst:.2g} pixels"
+        raise InputError(f"no lens of Blender is like that of camera {camera.name!r}{error}: use Use in Cycles")
+    straight = (lens for lens in found if lens.camera.model.key == Perspective.key and lens.worst <= GOOD)
+    return next(straight, nearest)
+
+
+def _nearest(camera: Camera, pixels, rays) -> Iterator[tuple[BlenderCamera, dict[str, Any]]]:
+    """Yield the records of the nearest perspective and polynomial fisheye, and their settings."""
+    raw = camera.record
+    sensor = raw.sensor_height if raw.sensor_fit == "VERTICAL" else raw.sensor_width
+    width, height = camera.raster.size
+    if (rays[:, 2] < 0).all():
+        (fx, cx), (fy, cy) = (
+            np.polyfit(rays[:, axis] / -rays[:, 2], pixels[:, axis], 1) for axis in (0, 1)
+        )
+        if min(fx, fy) > 0:
+            fitted = _fitted(raw, fx / fy, width, height)
+            yield _record(raw, "PERSP", fx / fy, {
+                "lens": fx * sensor / fitted, "shift_x": (width / 2 - cx) / fitted,
+                "shift_y": (height / 2 - cy) * (fx / fy) / fitted,
+            })  # fmt: skip
+    ahead = camera.model.project(np.array([(0.0, 0.0, -1.0)]))[0]
+    if not np.isfinite(ahead).all():
+        return
+    across, up = (pixels - ahead).T
+    theta, azimuth = np.arctan2(np.hypot(rays[:, 0], rays[:, 1]), -rays[:, 2]), np.arctan2(rays[:, 1], rays[:, 0])
+    weighed = up * np.cos(azimuth)
+    aspect = float((across * np.sin(azimuth) * weighed).sum() / (weighed * weighed).sum()) if weighed.any() else 1.0
+    if not 1e-3 < aspect < 1e3:
+        return
+    fitted = _fitted(raw, aspect, width, height)
+    r = np.hypot(across, up * aspect) * sensor / fitted
+    scale = r.max()
+    powers = np.stack([(r / scale) ** power for power in (1, 2, 3, 4)], axis=-1)
+    k = np.linalg.lstsq(powers, theta, rcond=None)[0] / scale ** np.arange(1, 5)
+    yield _record(raw, FisheyePolynomial.key, aspect, {
+        **{one.name: -value for one, value in zip(COEFFICIENTS, (0.0, *k), strict=True)},
+        FISHEYE_FOV.name: min(2 * float(theta.max()) * (1 + 1e-6), 2 * np.pi),
+        "shift_x": 0.5 - ahead[0] / width, "shift_y": 0.5 - ahead[1] / height,
+    })  # fmt: skip
+
+
+def _fitted(raw: BlenderCamera, aspect: float, width: int, height: int) -> float:
+    """Return the length of the fitted side of the frame, in widths of pixels."""
+    horizontal = width >= aspect * height if raw.sensor_fit == "AUTO" else raw.sensor_fit == "HORIZONTAL"
+    return width if horizontal else aspect * height
+
+
+def _record(raw: BlenderCamera, kind: str, aspect: float, given: dict[str, float]):
+    """Return the record of a camera of Blender's type with these settings, and the settings, rounded to float32."""
+    if abs(aspect / (raw.pixel_aspect_y / raw.pixel_aspect_x) - 1) > 1e-6:
+        given |= {"pixel_aspect_x": max(1.0, 1 / aspect), "pixel_aspect_y": max(1.0, aspect)}
+    settings = {name: float(np.float32(value)) for name, value in given.items()}
+    fields: dict[str, Any] = {name: value for name, value in settings.items() if hasattr(raw, name)}
+    others = {name: value for name, value in settings.items() if name not in fields}
+    panorama = {} if kind == "PERSP" else {"panorama_type": kind}
+    new = replace(raw, type=kind if kind == "PERSP" else "PANO", model="", **fields,
+                  settings={**raw.settings, **panorama, **others})  # fmt: skip
+    return new, settings
+
+
+def _judged(raw: BlenderCamera, settings: dict[str, Any], pixels, rays) -> BlenderLens | None:
+    """Return the lens of a record with its errors; None if it is none, or does not see all rays."""
+    try:
+        camera = camera_from(raw)
+    except InputError:
+        return None
+    apart = np.hypot(*(camera.model.project(rays) - pixels).T)
+    if not np.isfinite(apart).all():
+        return None
+    return BlenderLens(camera, settings, float(apart.max()), float(apart.mean()))

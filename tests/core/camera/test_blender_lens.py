@@ -1,0 +1,70 @@
+"""Blender's lens nearest to a calibrated one: exact where it is one, else with the error that is measured."""
+
+import cv2
+import numpy as np
+import pytest
+
+from camera_ray_caster.core.camera.blender_lens import blender_lens
+from camera_ray_caster.core.records import InputError
+
+from ..cameras.model_examples import camera
+
+SIZE = {"resolution_x": 640, "resolution_y": 480, "calibration_width": 640, "calibration_height": 480}
+K = {"fx": 500.25, "fy": 500.25, "cx": 330.5, "cy": 228.0}
+
+
+@pytest.mark.parametrize("fit", ["AUTO", "HORIZONTAL", "VERTICAL"])
+@pytest.mark.parametrize("change", [{}, {"fy": 450.5}, {"resolution_x": 480, "resolution_y": 640}])
+def test_a_pinhole_is_blenders_perspective(fit, change):
+    cam = camera("OPENCV_PINHOLE", SIZE | K | {"sensor_fit": fit} | change)
+    found = blender_lens(cam)
+    assert found.camera.model.key == "PERSP"
+    assert found.worst < 1e-3  # settings of float32
+    assert np.allclose(found.camera.K, cam.K, rtol=1e-6, atol=1e-4)
+    assert "EEVEE and Workbench render it" in found.said
+
+
+def test_a_bent_pinhole_has_the_error_that_the_pixels_show():
+    cam = camera("OPENCV_PINHOLE", SIZE | K | {"k1": -0.02})
+    found = blender_lens(cam)
+    assert found.camera.model.key == "PERSP" or found.worst < 1
+    rays = cam.rays()
+    seen = found.camera.project(rays.origins + rays.directions)
+    x, y = np.meshgrid(np.arange(640) + 0.5, np.arange(480) + 0.5)
+    apart = np.hypot(seen[..., 0] - x, seen[..., 1] - y)
+    assert apart.max() == pytest.approx(found.worst, rel=1e-6)
+    assert apart.mean() == pytest.approx(found.mean, rel=0.05)
+
+
+def test_a_fisheye_is_nearly_a_polynomial_of_blenders_by_opencv_s_projection():
+    cam = camera("OPENCV_FISHEYE", SIZE | {"fx": 300.0, "fy": 300.0, "cx": 322.0, "cy": 236.5, "k1": -0.02, "k2": 3e-3})
+    found = blender_lens(cam)
+    assert found.camera.model.key == "FISHEYE_LENS_POLYNOMIAL"
+    assert found.worst < 0.5
+    rays = found.camera.rays()
+    ahead = (rays.directions[rays.valid] * (1, -1, -1))[:, None]
+    K_ = np.array([[300.0, 0, 322], [0, 300.0, 236.5], [0, 0, 1]])
+    seen, _ = cv2.fisheye.projectPoints(ahead, np.zeros(3), np.zeros(3), K_, np.array((-0.02, 3e-3, 0, 0)))
+    x, y = np.meshgrid(np.arange(640.0), np.arange(480.0)[::-1])
+    apart = np.hypot(seen[:, 0, 0] - x[rays.valid], seen[:, 0, 1] - y[rays.valid])
+    assert apart.max() == pytest.approx(found.worst, rel=0.05)
+    assert apart.mean() == pytest.approx(found.mean, rel=0.05)
+    assert "EEVEE and Workbench do not" in found.said
+
+
+def test_a_lens_of_blenders_is_found_again():
+    given = {"resolution_x": 400, "resolution_y": 300, "fisheye_fov": 3.0, "shift_x": 0.02,
+             "fisheye_polynomial_k0": 0.0, "fisheye_polynomial_k1": -0.08, "fisheye_polynomial_k2": 0.0,
+             "fisheye_polynomial_k3": 2e-5, "fisheye_polynomial_k4": 0.0}  # fmt: skip
+    found = blender_lens(camera("FISHEYE_LENS_POLYNOMIAL", given))
+    assert found.worst < 1e-3
+    assert found.settings["fisheye_polynomial_k1"] == pytest.approx(-0.08, rel=1e-5)
+
+
+@pytest.mark.parametrize(
+    ("key", "says"),
+    [("PUSHBROOM", "whose rays have no eye: use Use in Cycles"), ("EQUIRECTANGULAR", "no lens of Blender is like")],
+)
+def test_a_camera_that_is_like_no_lens_of_blender_is_refused(key, says):
+    with pytest.raises(InputError, match=says):
+        blender_lens(camera(key))
