@@ -54,13 +54,13 @@ def picture(channels, name, layer="ViewLayer"):
     return np.stack([channels[f"{layer}.{label}.{letter}"] for letter in letters], axis=-1)
 
 
-def expected(scene, name, precision="AUTOMATIC", **keywords):
+def expected(scene, name, **keywords):
     """A pass as the caster returns it, in the form in which Blender stores it."""
     from camera_ray_caster.blender.read.scene import read_scene
 
     found = read_scene(scene, **keywords, passes=[name])
     camera = found.camera
-    image = cast(camera, found.shapes, [name], precision=precision)[name].astype(np.float32)
+    image = cast(camera, found.shapes, [name])[name].astype(np.float32)
     if name == "depth":
         image[np.isinf(image)] = FAR
     return image.reshape(*camera.raster.shape, -1)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable, Iterable
 from dataclasses import replace
 from time import perf_counter
@@ -13,7 +14,7 @@ from .camera.camera import Camera
 from .casting.flow import pictures
 from .casting.passes import PASSES, image_bytes
 from .casting.plan import Plan, make_plan
-from .casting.request import AUTOMATIC, MATERIAL, Request
+from .casting.request import MATERIAL, PRECISIONS, Request, meaning
 from .casting.tiles import STEPS, Effort, Tile, cast_tile, in_threads, moments, shares
 from .maths.speed import Scratch, processors
 from .records import Shapes
@@ -42,7 +43,7 @@ def cast(
     samples: int = 1,
     threads: int | None = None,
     cull: bool = True,
-    precision: str = AUTOMATIC,
+    precision: str = "AUTOMATIC",
     progress: Callable[[float], bool] | None = None,
     finished: Callable[[Images, slice], None] | None = None,
 ) -> Images:
@@ -50,8 +51,8 @@ def cast(
 
     camera: a camera, and ``shapes`` what it sees; or a scene, which has both: ``cast(scene, passes=...)``.
 
-    Passes of real numbers are stored as ``dtype``. The arithmetic is float64, except that ``precision="FAST"`` searches
-    for hits in float32. The index passes are int32, valid and flow_hidden are bool. With ``samples`` above 1 the
+    Passes of real numbers are stored as ``dtype``; the arithmetic is float64. ``precision`` is accepted and changes
+    nothing: see PRECISIONS. The index passes are int32, valid and flow_hidden are bool. With ``samples`` above 1 the
     combined pass is the mean of that number of rays per pixel, spread over the pixel and the camera's aperture; all
     other passes show the chief rays. ``threads`` is the maximum number of threads, by default one per processor; fewer
     are used if they would wait for each other. ``progress(fraction)`` is called in the calling thread after each tile,
@@ -74,7 +75,9 @@ def cast(
     dtype = arguments.real_type(dtype, "dtype")
     progress, finished = arguments.function(progress, "progress"), arguments.function(finished, "finished")
     passes = arguments.words(passes, "passes", PASSES)
-    request = Request(passes, tuple(PASSES), shading, arguments.flag(cull, "cull"), precision=precision)
+    if arguments.word(precision, "precision", PRECISIONS) == "FAST":
+        warnings.warn(f"precision is {meaning(precision)}", stacklevel=2)
+    request = Request(passes, tuple(PASSES), shading, arguments.flag(cull, "cull"))
     memory.require(image_bytes(camera.raster.shape, passes, dtype), memory.of_pixels("the passes", camera.raster.shape))
     request = replace(request, others=pictures(camera, shapes, passes))
     time = camera.pixel_time
@@ -119,7 +122,7 @@ def cast(
 
     began = perf_counter()
     others = round(whole.work.sum() / len(tiles) / tuning.SERIAL_WORK)  # may hold the interpreter in turn
-    busy = in_threads(run, tiles, min(threads, 1 + others), request.real, effort, progress, end)
+    busy = in_threads(run, tiles, min(threads, 1 + others), effort, progress, end)
     if time is not None:  # a row may have pixels of many times
         tell(slice(0, camera.raster.shape[0]))
     share = (perf_counter() - began - write) / max(busy.sum(), np.finfo(float).tiny)

@@ -5,21 +5,8 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from ..pictures import HEIGHT, WIDTH, expected, picture
+from ..pictures import HEIGHT, WIDTH, picture
 from ..read.scene_parts import curves
-
-
-def test_a_render_searches_with_the_precision_that_is_set(scene, render):
-    from camera_ray_caster.blender.output import reports
-
-    robust = picture(render(), "distance")
-    scene.camera_ray_caster.precision = "FAST"
-    fast = picture(render(), "distance")
-    np.testing.assert_array_equal(robust, expected(scene, "distance"))
-    np.testing.assert_array_equal(fast, expected(scene, "distance", precision="FAST"))
-    assert not np.array_equal(robust, fast)
-    assert reports.latest().precision == "FAST"
-
 
 BORDERS = [(0.1, 0.7, 0.2, 0.9), (0.0, 0.5, 0.5, 1.0), (0.31, 0.77, 0.13, 0.59)]
 

@@ -213,24 +213,6 @@ def test_dtype_is_only_what_is_stored():
     assert single["valid"].dtype == bool
 
 
-def test_fast_arithmetic_is_float32_and_its_errors_stay_within_the_bounds():
-    ball = shapes_of((SPHERE, (0, 0, -5), 2.0), (INFINITE_PLANE, (0, -1, 0), [[1, 0, 0], [0, 0, 1], [0, -1, 0]]))
-    passes = ("distance", "shape_index", "distance_bound")
-    automatic, robust = (cast(camera_at(), ball, passes, precision=p) for p in ("AUTOMATIC", "ROBUST"))
-    assert np.array_equal(automatic["distance"], robust["distance"])
-    for kind in ("PERSP", "ORTHO", "EQUIRECTANGULAR"):
-        settings = {"longitude_min": -3, "longitude_max": 3, "latitude_min": -1, "latitude_max": 1}
-        camera = camera_at(type="PERSP", model=kind, settings=settings)
-        fast, robust = (cast(camera, ball, passes, np.float64, precision=p) for p in ("FAST", "ROBUST"))
-        same = (fast["shape_index"] == robust["shape_index"]) & (robust["shape_index"] >= 0)
-        assert same.sum() > 100
-        error = np.abs(fast["distance"][same] - robust["distance"][same])
-        assert (error <= (fast["distance_bound"] + robust["distance_bound"])[same]).all()
-        assert error.max() > 100 * EPS
-    with pytest.raises(InputError, match=r"QUICK.*AUTOMATIC"):
-        cast(camera_at(), ball, passes, precision="QUICK")
-
-
 def test_what_is_not_needed_is_said():
     images = cast(camera_at(), shapes_of((SPHERE, (0, 0, -5), 1.0), (SPHERE, (0, 0, 5), 1.0)), ("depth",))
     said = "\n".join(images.plan.left_out())
@@ -239,6 +221,18 @@ def test_what_is_not_needed_is_said():
         assert word in said
     slanted = cast(camera_at(type="ORTHO", clip_end=5.5), shapes_of((SPHERE, (0, 0, -5), 1.0)), ("depth",))
     assert not any("eye" in line or "clip" in line for line in slanted.plan.left_out())
+
+
+@pytest.mark.parametrize("precision", ["AUTOMATIC", "ROBUST", "FAST"])
+def test_every_precision_means_float64_and_fast_says_so(precision, recwarn):
+    shapes = shapes_of((SPHERE, (0, 0, -5), 1.0))
+    images = cast(camera_at(), shapes, ("depth",), np.float64, precision=precision)
+    np.testing.assert_array_equal(images["depth"], cast(camera_at(), shapes, ("depth",), np.float64)["depth"])
+    assert [str(one.message) for one in recwarn] == (
+        ["precision is ROBUST, which FAST means: hits are searched in float64"] if precision == "FAST" else []
+    )
+    with pytest.raises(InputError, match="precision is 'DOUBLE'"):
+        cast(camera_at(), shapes, ("depth",), precision="DOUBLE")
 
 
 def test_unknown_pass_and_shading_are_refused_by_name():

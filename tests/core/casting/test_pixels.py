@@ -41,11 +41,10 @@ def test_pixels_beside_the_render_window_are_cast_too():
     assert np.array_equal(some, whole[np.ix_([10, 40], [3, 50])])
 
 
-@pytest.mark.parametrize("precision", ["ROBUST", "FAST"])
-def test_the_plan_of_a_picture_serves_pixels_of_its_window_and_tests_only_what_they_may_see(precision):
+def test_the_plan_of_a_picture_serves_pixels_of_its_window_and_tests_only_what_they_may_see():
     shapes = random_shapes(np.random.default_rng(0), 40)
     camera = camera_at(**SIZE, use_border=True, border_min_x=0.25, border_min_y=0.25)
-    images = cast(camera, shapes, ("depth", "shape_index"), np.float64, precision=precision)
+    images = cast(camera, shapes, ("depth", "shape_index"), np.float64)
     raster = camera.raster
     columns, rows = np.array([raster.x0, 40, 41]), np.array([raster.y0 + 1, raster.y1 - 1])
     hits = hits_at(images.plan, columns, rows)

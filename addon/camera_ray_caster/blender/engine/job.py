@@ -15,6 +15,7 @@ from ...core.camera.stereo import eye_record
 from ...core.cast import Images, cast
 from ...core.casting.flow import frames_of
 from ...core.casting.passes import image_bytes
+from ...core.casting.request import meaning
 from ...core.memory import of_pixels, require
 from ...core.records import Finding, Shapes
 from ...core.report.accuracy import accuracy
@@ -106,7 +107,7 @@ class Job:
         finished: Callable[[Images, slice], None] | None = None,
     ) -> tuple[Images, Report]:
         """Cast the passes; return images and report. ``progress``, ``finished`` and Cancelled are as in ``cast``."""
-        settings = {"shading": self.shading, "samples": self.samples, "precision": self.precision}
+        settings = {"shading": self.shading, "samples": self.samples}
         shapes = [self.camera.raster.shape, self.stored]
         needed = sum(image_bytes(shape, self.passes, np.float32) for shape in shapes)
         require(needed, of_pixels("the passes", self.stored))
@@ -116,7 +117,7 @@ class Job:
         seconds = {**self.seconds, **images.seconds, "accuracy": perf_counter() - began}
         report = report_cast(
             self.camera, self.shapes, images, seconds, self.findings, self.frame, self.layer, self.several,
-            precision=self.precision, accuracy=bounds, host=self.host,
+            precision=meaning(self.precision), accuracy=bounds, host=self.host,
         )  # fmt: skip
         return images, report
 

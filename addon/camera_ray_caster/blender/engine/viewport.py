@@ -91,7 +91,7 @@ class Viewport:
         scene = cached_scene(context)
         region_data = context.region_data
         settings = context.scene.camera_ray_caster
-        shown = {"shading": settings.shading, "precision": settings.precision}
+        shown = {"shading": settings.shading}
         matrices = [tuple(row) for row in (*region_data.view_matrix, *region_data.window_matrix)]
         key = scene, matrices, context.region.width, context.region.height, shown
         self.update_stats("", left_out_count((*scene.shapes.left_out, *scene.shapes.lights.left_out)))

@@ -86,18 +86,12 @@ SAMPLES = Whole(
     1, 1, soft_high=256,
 )  # fmt: skip
 PRECISION = Choice(
-    "precision", "Precision", "Floating-point precision of the search for hits. The report has the error bounds of "
-                              "the hits",
+    "precision", "Precision", "Kept for files of version 0.1: hits are searched in float64, whatever it is",
     "AUTOMATIC",
     (
-        Item("AUTOMATIC", "Automatic", "Same as Robust. The error bound of Fast is always larger than the "
-                                       "rounding of a stored float32", 0),
+        Item("AUTOMATIC", "Automatic", "Same as Robust", 0),
         Item("ROBUST", "Robust", "float64, with measured error bounds of about 1e-14 of the distance", 1),
-        Item(
-            "FAST", "Fast",
-            "float32, for previews: 1.05 to 1.45 times as fast, with errors of about 1e-6 of the distance. Shapes "
-            "smaller than 1e-7 of their distance may be missed", 2,
-        ),
+        Item("FAST", "Fast", "Same as Robust", 2),
     ),
 )  # fmt: skip
 EXACT_SHAPES = Flag(

@@ -43,7 +43,7 @@ def run(arguments: Sequence[str], prog: str) -> int:
         camera, shapes = moment(camera, shapes, frame)
         print(f"At frame {frame:g}, the time of this pixel\n")
     steps = lesson(
-        camera, shapes, column, row, shading=job.shading, samples=job.samples, precision=job.precision,
+        camera, shapes, column, row, shading=job.shading, samples=job.samples,
         progress=lambda _: not signals.is_stopping(),
     )  # fmt: skip
     print(steps, flush=True)

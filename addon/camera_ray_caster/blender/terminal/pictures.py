@@ -60,7 +60,7 @@ def add_words(parser) -> None:
         "--shading", type=str.upper, choices=SHADINGS, help="shading of the combined pass; default: the file's"
     )
     parser.add_argument("--precision", type=str.upper, choices=PRECISIONS,
-                        help="precision of the search for hits; default: the file's")  # fmt: skip
+                        help="kept for scripts of version 0.1: all words mean ROBUST, float64")  # fmt: skip
     parser.add_argument("--engine", type=str.upper, choices=ENGINES, default=ENGINES[0],
                         help="engine that renders the combined pass; the add-on casts the other passes; "
                              "default: %(default)s")  # fmt: skip

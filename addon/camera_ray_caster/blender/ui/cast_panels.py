@@ -57,7 +57,7 @@ class SidebarQuality(Sidebar, bpy.types.Panel):
     """Shading, samples and precision."""
 
     bl_idname = "CAMERA_RAY_CASTER_PT_cast_settings"
-    bl_label = "Shading and Precision"
+    bl_label = "Shading"
     bl_parent_id = SidebarCast.bl_idname
     bl_options = {"DEFAULT_CLOSED"}
 
@@ -65,7 +65,7 @@ class SidebarQuality(Sidebar, bpy.types.Panel):
         """Draw the settings."""
         layout, settings = self.layout, context.scene.camera_ray_caster
         layout.row().prop(settings, "shading", expand=True)
-        for name in ("samples", "precision", "exact_shapes"):
+        for name in ("samples", "exact_shapes"):
             layout.prop(settings, name)
 
 

@@ -38,7 +38,7 @@ class RenderPanel(EnginePanel, bpy.types.Panel):
         layout = self.layout
         layout.use_property_split = True
         layout.use_property_decorate = False
-        for setting in ("shading", "samples", "precision", "exact_shapes"):
+        for setting in ("shading", "samples", "exact_shapes"):
             layout.prop(context.scene.camera_ray_caster, setting)
         draw_samples(layout, context, camera_of(context, context.scene.camera)[0])
         layout.prop(context.scene.render, "film_transparent")

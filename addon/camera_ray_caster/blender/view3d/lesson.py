@@ -39,7 +39,7 @@ _read: list[tuple[CachedScene, dict[str, Any], dict[tuple[int, int], Lesson]]] =
 def lessons(context) -> dict[tuple[int, int], Lesson]:
     """Return the explanations of the pixels inside the frame, updated after a change of the scene or its settings."""
     scene, settings = cached_scene(context), context.scene.camera_ray_caster
-    look = {name: getattr(settings, name) for name in ("shading", "samples", "precision")}
+    look = {name: getattr(settings, name) for name in ("shading", "samples")}
     if not _read or _read[0][0] is not scene or _read[0][1] != look:
         _read[:] = [(scene, look, {})]
     known = _read[0][2]

@@ -26,7 +26,7 @@ def hits_at(plan: Plan, columns: np.ndarray, rows: np.ndarray) -> Hits:
     raster, camera = plan.camera.raster, plan.camera
     own = plan.at_pixels(columns - raster.x0, rows - raster.y0)
     with np.errstate(all="ignore"):  # NaN and inf mean no ray and no hit
-        rays = chief_rays(camera, columns[None, :] + 0.5, rows[:, None] + 0.5, (0, 0), Scratch(plan.request.real))
+        rays = chief_rays(camera, columns[None, :] + 0.5, rows[:, None] + 0.5, (0, 0), Scratch())
         return nearest_hits(own, rays)
 
 

@@ -59,7 +59,6 @@ class Plan:
                 clip_start=self.camera.clip_start,
                 from_eye=self.camera.from_eye(self.request.sampled),
                 parallel=self.camera.parallel,
-                real=self.request.real,
                 pixels=self.pixels,
                 whole=self.whole.set_of[kind.number] if self.whole else None,
             )

@@ -29,11 +29,11 @@ def nearest_hits(
     Of shapes hit at exactly the same t the shape with the lowest index counts, in whatever order they are tested.
     ``listen()`` is called between the tests, and may raise; the default does nothing.
     """
-    shape, scratch, real = rays.shape, rays.scratch, plan.request.real
+    shape, scratch = rays.shape, rays.scratch
     t, has_cutouts = scratch("t", shape), any(one.has_cutouts for one in plan.sets)
     own = SearchRays(
-        None if rays.from_eye else _rounded(rays.origin, real),
-        _rounded(rays.direction, real),
+        None if rays.from_eye else rays.origin,
+        rays.direction,
         rays.corner, shape, scratch, t if has_cutouts else None,
     )  # fmt: skip
     nearest = Nearest(own, t, scratch("index", shape, plan.index_type))
@@ -51,7 +51,7 @@ def nearest_hits(
                 nearest.keep(candidates)
             listen()
     if plan.clips:
-        beyond = np.greater(nearest.t, real(plan.camera.clip_end), out=scratch("closer", shape, bool))
+        beyond = np.greater(nearest.t, plan.camera.clip_end, out=scratch("closer", shape, bool))
         np.copyto(nearest.index, NOTHING, where=beyond)
         np.copyto(nearest.t, np.inf, where=beyond)
     return Hits(plan, rays, nearest.t, nearest.index)
@@ -132,8 +132,3 @@ class Nearest:
             now = t[pixel]
             nearer = (crossing < now) | ((crossing == now) & (shape < index[pixel]))
             pixel, crossing, shape = pixel[nearer], crossing[nearer], shape[nearer]
-
-
-def _rounded(vector, real: type):
-    """Return components as float32 if the search calculates with float32; unchanged otherwise."""
-    return vector if real is np.float64 else tuple(np.asarray(component, real) for component in vector)

@@ -141,7 +141,6 @@ def in_threads(
     run: Callable[[Tile, Scratch], np.ndarray],
     tiles: Sequence[Tile],
     workers: int,
-    real: type,
     effort: Effort,
     progress: Callable[[float], bool] | None,
     finished: Callable[[Tile], None],
@@ -152,7 +151,7 @@ def in_threads(
     own = local()
 
     def begin() -> None:
-        own.scratch = Scratch(real)
+        own.scratch = Scratch()
 
     total = np.zeros(len(STEPS))
     with ThreadPoolExecutor(workers, initializer=begin) as pool:

@@ -89,15 +89,14 @@ def widened(bounds, width: int) -> tuple[slice, slice]:
 class Scratch:
     """Reusable working arrays of one thread: allocating memory from the system costs more than the arithmetic."""
 
-    def __init__(self, real=np.float64):
-        self._real = real
+    def __init__(self) -> None:
         self._arrays: dict[tuple, np.ndarray] = {}
         self.noted: dict[str, Any] = {}
         """Notes of the search of a tile for its passes, by name; the search of the next tile overwrites them."""
 
     def __call__(self, name: str, shape, dtype=None) -> np.ndarray:
         """Return the array of this name and dtype in this shape, with the values last written, or arbitrary values."""
-        size, dtype = prod(shape), dtype or self._real
+        size, dtype = prod(shape), dtype or np.float64
         found = self._arrays.get((name, dtype))
         if found is None or found.size < size:
             found = self._arrays[name, dtype] = np.empty(size, dtype)

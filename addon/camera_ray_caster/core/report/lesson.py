@@ -17,7 +17,7 @@ from ..casting.hit_values import HitValues
 from ..casting.passes import PASSES
 from ..casting.pixels import hits_at, stored, window_of
 from ..casting.plan import make_plan
-from ..casting.request import AUTOMATIC, MATERIAL, Request
+from ..casting.request import MATERIAL, Request
 from ..records import InputError, Shapes
 from .diagram import Probe, probe
 from .formula import shown, worked_out
@@ -59,13 +59,12 @@ def lesson(
     *,
     shading: str = MATERIAL,
     samples: int = 1,
-    precision: str = AUTOMATIC,
     most: int = MOST_SAMPLES,
     progress: Callable[[float], bool] | None = None,
 ) -> Lesson:
     """Return the steps of a pixel at the camera's own frame. Pixels of the full frame are counted from the bottom left.
 
-    The steps follow the chief ray. The color is that of ``cast`` with the same shading, samples and precision; the mean
+    The steps follow the chief ray. The color is that of ``cast`` with the same shading and samples; the mean
     of more than ``most`` samples is left out. ``progress`` and Cancelled are as in ``cast``. Raises InputError for a
     pixel outside of the frame.
     """
@@ -76,7 +75,7 @@ def lesson(
             f"{raster.width - 1},{raster.height - 1}"
         )
     place = np.array([column]), np.array([row])
-    look: dict[str, Any] = {"shading": shading, "precision": precision}
+    look: dict[str, Any] = {"shading": shading}
     seen = probe(camera, shapes, column, row, **look)
     names, still = ("position", "normal", "combined", "depth"), window_of(camera, *place)
     hits = hits_at(make_plan(still, shapes, Request(names, tuple(PASSES), **look)), *place)

@@ -76,7 +76,7 @@ class AffineKind(Kind):
         """See ``Kind``."""
         groups, cutouts = [], Cutouts.of(self, shapes, visible.at)
         for part, is_simple, is_small, is_cut in divide(visible, None if cutouts is None else cutouts.may):
-            constants = _rounded(self.constants(shapes, part.at, part.parallel), part.real)
+            constants = self.constants(shapes, part.at, part.parallel)
             own = cutouts if is_cut else None
             groups.append(Group(self.intersect, self.lattice, part, is_simple, is_small, constants, own))
         faces_eye = self.faces_eye or all(group.is_simple for group in groups)
@@ -168,12 +168,3 @@ class AffineErrors(ShapeErrors):
     def normal(self, point: np.ndarray) -> np.ndarray:
         """See ``ShapeErrors``."""
         return self.kind.normal_error(self, point)
-
-
-def _rounded(constants, real: type):
-    """Return constants in the type of the search; NaN, which hits nothing, where they exceed the range of float32."""
-    if real is np.float64:
-        return constants
-    largest = float(np.finfo(real).max)
-    values = (getattr(constants, name) for name in constants.__dataclass_fields__)
-    return type(constants)(*(np.where(np.abs(value) <= largest, value, np.nan).astype(real) for value in values))

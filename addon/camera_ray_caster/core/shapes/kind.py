@@ -72,8 +72,6 @@ class Visible:
     """Whether all rays leave the eye."""
     parallel: Any
     """The direction that all rays have, three numbers in the camera frame; None where they differ."""
-    real: type
-    """The floating-point type of the search: float64 or float32."""
     pixels: PixelBounds
     """Finds the pixels in which parts of the shapes may be seen."""
     whole: ShapeSet | None = None
