@@ -1,8 +1,9 @@
-"""Checks, before anything is allocated, of whether the system has enough memory for it."""
+"""Checks, before anything is allocated, of whether the system has enough memory for it; and what it has run out of."""
 
 from __future__ import annotations
 
 import ctypes
+import errno
 import os
 import platform
 
@@ -57,3 +58,16 @@ def require(needed: int, what: str, cure: str = LESS) -> None:
 def of_pixels(what: str, shape: tuple[int, ...]) -> str:
     """Return ``what`` followed by its size in pixels, as text; ``shape`` is (rows, columns)."""
     return f"{what} of {' x '.join(str(side) for side in reversed(shape))} pixels"
+
+
+EXHAUSTED = {errno.EMFILE: "open files", errno.ENFILE: "open files", errno.ENOMEM: "memory", errno.EAGAIN: "processes"}
+
+
+def exhausted(error: BaseException) -> str:
+    """Return a line on what the process has run out of: memory, threads or open files; "" for any other error."""
+    what = EXHAUSTED.get(error.errno or 0, "") if isinstance(error, OSError) else ""
+    if isinstance(error, MemoryError):
+        what = "memory"
+    if isinstance(error, RuntimeError) and "start new thread" in str(error):
+        what = "threads"
+    return f"not enough {what}: raise the limits of this process (ulimit), or end other programs" if what else ""

@@ -11,6 +11,7 @@ import numpy as np
 
 from ...core.camera.stereo import eye_record
 from ...core.cast import Images
+from ...core.memory import exhausted
 from ...core.motion.evaluations import UNRESOLVED
 from ...core.records import BlenderCamera, Cancelled, InputError
 from ...core.report.report import Report
@@ -55,17 +56,37 @@ class CameraRayCaster(Viewport, bpy.types.RenderEngine):
             self.register_pass(scene, renderlayer, entry.label, len(entry.channels), entry.channels, entry.kind)
 
     def render(self, depsgraph):
-        """Render one view layer."""
+        """Render one view layer.
+
+        Blender may free the engine, its result or the scene meanwhile: another render begins, or another file is
+        opened. The cast then ends without a word, and nothing of Blender's is touched after that.
+        """
+        try:
+            self.render_or_report(depsgraph)
+        except (Cancelled, KeyboardInterrupt, ReferenceError):
+            type(self).stopped = True
+
+    def render_or_report(self, depsgraph):
+        """Render one view layer, or report why not."""
         try:
             source = reports.Source.read(depsgraph.scene, depsgraph)
-            with signals.heard(self.test_break):
+            with signals.heard(self.has_ended):
                 report = self.render_layer(depsgraph)
         except InputError as error:
             self.report({"ERROR"}, str(error) if bpy.app.background else in_labels(str(error)))
-        except (Cancelled, KeyboardInterrupt):
-            type(self).stopped = True
+        except (MemoryError, RuntimeError, OSError) as error:
+            if not (said := exhausted(error)):
+                raise
+            self.report({"ERROR"}, said)
         else:
             self.keep(report, depsgraph.view_layer_eval.name, source)
+
+    def has_ended(self) -> bool:
+        """Whether the user has stopped the render, or Blender has freed the engine."""
+        try:
+            return self.test_break()
+        except ReferenceError:
+            return True
 
     def render_layer(self, depsgraph) -> Report:
         """Cast the enabled passes of a view layer, for every eye, and store them in Blender's result."""
@@ -106,12 +127,18 @@ class CameraRayCaster(Viewport, bpy.types.RenderEngine):
         return replace(report, passes=tuple(keys), combined=made_by, views=views)
 
     def store(self, passes: Mapping[str, tuple[str, np.ndarray]], rows: slice, layer: str, view: str) -> None:
-        """Store some rows of passes, given as (key, image) by Blender's labels, in Blender's result, in bands."""
+        """Store some rows of passes, given as (key, image) by Blender's labels, in Blender's result, in bands. Raises
+        Cancelled if the result is of another size: the resolution was changed during the render.
+        """
         width = next(iter(passes.values()))[1].shape[1]
         step = max(1, BAND_PIXELS // width)
         for first in range(rows.start, rows.stop, step):
             band = slice(first, min(first + step, rows.stop))
-            result = self.begin_result(0, first, width, band.stop - first, layer=layer, view=view)
+            size = width, band.stop - first
+            result = self.begin_result(0, first, *size, layer=layer, view=view)
+            if (result.resolution_x, result.resolution_y) != size:
+                self.end_result(result, cancel=True)
+                raise Cancelled
             for label, (key, image) in passes.items():
                 found = result.layers[0].passes.find_by_name(label, view)
                 found.rect.foreach_set(stored(key, image[band]))
@@ -152,8 +179,11 @@ class CameraRayCaster(Viewport, bpy.types.RenderEngine):
     def advance(self, fraction: float) -> bool:
         """Show the progress of the cast and the time; return whether to continue."""
         layer, words = self.doing
-        self.update_stats(layer, f"{words} {fraction:.0%}")
-        self.update_progress(fraction)
+        try:
+            self.update_stats(layer, f"{words} {fraction:.0%}")
+            self.update_progress(fraction)
+        except ReferenceError:
+            return False
         return not signals.is_stopping()
 
 

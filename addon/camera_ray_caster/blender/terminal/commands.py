@@ -9,6 +9,7 @@ from collections.abc import Sequence
 
 import bpy
 
+from ...core.memory import exhausted
 from ...core.records import Cancelled, InputError
 from ..read import physics
 from . import cast, dataset, explain, export, opening, signals, to_cycles, verify
@@ -28,6 +29,11 @@ def main(command: str, arguments: Sequence[str], prog: str) -> int:
         return COMMANDS[command](arguments, prog)
     except InputError as error:
         print(f"{prog}: {error}", file=sys.stderr)
+        return 2
+    except (MemoryError, RuntimeError, OSError) as error:
+        if not (said := exhausted(error)):
+            raise
+        print(f"{prog}: {said}", file=sys.stderr)
         return 2
     except (Cancelled, KeyboardInterrupt):
         print(f"{prog}: {signals.STOPPED}", file=sys.stderr)

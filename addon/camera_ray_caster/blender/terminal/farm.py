@@ -23,12 +23,17 @@ from typing import Any
 
 from ...core.records import InputError
 from . import signals
-from .standard_output import keep_output
+from .standard_output import keep_output, quiet_errors
 
 CHUNK = 4
 """Number of pictures per task of a worker."""
 ANSWER = "10s"
 """Time to wait for a scheduler to answer."""
+START = "60s"
+"""Time for a worker of this machine to start."""
+CHECK = 15
+"""Seconds between two looks at whether any of them runs. None in two of them: one that was killed has started again."""
+FEWER = "give fewer --workers, or raise the limits of open files, processes and memory (ulimit)"
 POLL = 0.05
 """Seconds between two checks for finished tasks."""
 
@@ -84,9 +89,26 @@ def _local(workers: int) -> Iterator[str]:
         "memory_limit": 0,
         "dashboard_address": "127.0.0.1:0",
         "silence_logs": logging.CRITICAL,
+        "death_timeout": START,
     }
-    with dask.config.set(own), distributed.LocalCluster(n_workers=workers, **limits) as made:
-        yield made.scheduler_address
+    for name in ("distributed", "tornado", "asyncio"):  # of too few files each prints a line for every connection
+        logging.getLogger(name).setLevel(logging.CRITICAL + 1)
+    with dask.config.set(own):
+        try:
+            with quiet_errors():  # of the workers, too, whose pictures tell what went wrong
+                made = distributed.LocalCluster(n_workers=workers, **limits)
+        except (RuntimeError, OSError, MemoryError) as error:
+            raise InputError(f"{workers} workers cannot start: {_reason(error)}; {FEWER}") from error
+        with made:
+            yield made.scheduler_address
+
+
+def _reason(error: BaseException) -> str:
+    """Return the first line of what caused an error."""
+    while error.__cause__ or error.__context__:
+        error = error.__cause__ or error.__context__
+    text = getattr(error, "strerror", None) or str(error) or type(error).__name__
+    return text.strip().splitlines()[0]
 
 
 def _preparing(workers: int):
@@ -129,9 +151,14 @@ def outcomes(client, options, stamp: Mapping[str, Any], maps: Mapping[str, Any],
 
     chunks = [jobs[at : at + CHUNK] for at in range(0, len(jobs), CHUNK)]
     waiting = client.map(partial(work, options, stamp, maps), chunks, pure=False)
+    seen, gone = time.monotonic(), 0
     try:
         while waiting:
             signals.raise_if_stopping()
+            if options.workers and time.monotonic() - seen > CHECK:
+                seen, gone = time.monotonic(), 0 if client.nthreads() else gone + 1
+                if gone > 1:
+                    raise InputError(f"no worker runs any more; finished pictures are kept; {FEWER}")
             over = [future for future in waiting if future.done()]
             waiting = [future for future in waiting if future not in over]
             for future in over:

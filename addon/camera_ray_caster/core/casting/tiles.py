@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import FIRST_COMPLETED, ThreadPoolExecutor, wait
+from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from threading import Lock, local
@@ -155,8 +155,10 @@ def in_threads(
 
     total = np.zeros(len(STEPS))
     with ThreadPoolExecutor(workers, initializer=begin) as pool:
-        waiting = {pool.submit(lambda tile: run(tile, own.scratch), tile): tile for tile in tiles}
+        waiting: dict[Future, Tile] = {}
         try:
+            for tile in tiles:  # raises if no thread can be started
+                waiting[pool.submit(lambda tile: run(tile, own.scratch), tile)] = tile
             while waiting:
                 for future in wait(waiting, LISTEN, FIRST_COMPLETED).done or [None]:
                     if future is not None:
