@@ -1,5 +1,7 @@
 """What once trapped a user in the window, one scenario a function: see scenarios.py."""
 
+import time
+
 import bpy
 import numpy as np
 from lesson_scenarios import place_of
@@ -117,6 +119,47 @@ def marks(user, scenes):
     overlay.show = False
 
 
+def drag_a_ray(user, scenes):
+    """The mark follows the mouse while it is dragged, and the sliders while they are set: ray and numbers with it."""
+    yield from load(user, scenes, "living_room")
+    scene, lesson, drawn = bpy.context.scene, addon("view3d.lesson"), []
+    scene.render.resolution_x, scene.render.resolution_y = 960, 540
+    yield from user.press(f"{BUTTON}step_through(")
+    yield from user.wait(1)
+    marks = lesson.draw_in_picture
+    lesson.draw_in_picture = lambda *given: (drawn.append((time.monotonic(), *lesson.pixels)), marks(*given))
+    start = place_of(user, 300, 270)
+    yield from user.click(*start)
+    yield from user.until(lambda: lesson.pixels, "a pixel is clicked")
+    first = lesson.pixels[0]
+    yield from user.point(*start)
+    user.send("mousedown", 1)
+    yield from user.wait(0.2)
+    drawn.clear()
+    for step in range(1, 31):
+        user.send("mousemove", round(start[0] + 4 * step), user.window.height - 1 - round(start[1] + step))
+        yield
+    yield from user.until(lambda: lesson.pixels[0][0] > first[0] + 60, "the mark has followed")
+    user.send("mouseup", 1)
+    yield from user.wait(0.5)
+    user.picture("dragged")
+    assert len(lesson.pixels) == 1
+    moved = len({pixel for _, pixel in drawn})
+    print(f"dragged: {moved / (drawn[-1][0] - drawn[0][0]):.1f} updates a second")
+    assert moved > 3, drawn
+    held = lesson.pixels[0]
+    yield from user.point(*place_of(user, 600, 400))
+    yield from user.wait(0.3)
+    assert lesson.pixels == [held], "the mark stays where it was dropped"
+    yield from user.key("Escape")
+    place = bpy.context.window_manager.camera_ray_caster_place
+    place.x = 0.5
+    yield from user.until(lambda: drawn[-1][1][0] == round((0.5 + 1) / 2 * 960), "the view shows the slider's pixel")
+    user.picture("slid")
+    lesson.draw_in_picture = marks
+    bpy.ops.camera_ray_caster.clear_steps()
+
+
 def near(picture, x, y, color, most=12):
     """The distance in pixels from a place in a picture to the nearest pixel of a color; inf if there is none."""
     part = picture[y - most : y + most + 1, x - most : x + most + 1, :3]
@@ -139,4 +182,4 @@ def dialog(user):
     return areas()[0]
 
 
-WINDOW_SCENARIOS = (shown_camera, set_frame, other_engine, marks)
+WINDOW_SCENARIOS = (shown_camera, set_frame, other_engine, marks, drag_a_ray)

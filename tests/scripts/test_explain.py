@@ -101,3 +101,24 @@ def test_explain_says_that_a_stereo_scene_has_other_pictures(command, scene, ble
     done = command("explain", scene, "--pixel", "16,12")
     assert done.stderr.startswith("explain.py: warning: the scene has several views")
     assert "Seen\n  'Sphere'" in done.stdout
+
+
+def test_a_point_of_the_view_and_json_tell_the_same_as_the_pixel(command, scene):
+    said = command("explain", scene, "--pixel", "16,12").stdout
+    assert command("explain", scene, "--point", "0.01,0.01").stdout == said
+    told = json.loads(command("explain", scene, "--point=0.01,0.01", "--json").stdout)
+    assert told["pixel"] == [16, 12]
+    assert told["view"] == pytest.approx([2 * 16.5 / 32 - 1, 2 * 12.5 / 24 - 1])
+    assert told["name"] == "Sphere"
+    hit = np.array(told["origin"]) + told["distance"] * np.array(told["direction"])
+    assert hit == pytest.approx(told["point"])
+    assert [title for title, _ in told["steps"]] == [line for line in said.splitlines() if line and line[0] != " "]
+    assert json.loads(command("explain", scene, "--pixel", "0,0", "--json").stdout)["point"] is None
+
+
+@pytest.mark.parametrize(("point", "words"), [("2,0", "outside the frame"), ("a,b", "not a point")])
+def test_a_point_outside_or_none_is_refused_in_one_line(command, scene, point, words):
+    done = command("explain", scene, "--point", point)
+    assert done.returncode == 2
+    assert words in done.stderr
+    assert "Traceback" not in done.stderr

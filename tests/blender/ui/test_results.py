@@ -196,7 +196,7 @@ def test_step_through_gives_every_window_its_cursor_back(blender, scene, monkeyp
     monkeypatch.setattr(lesson_operators, "bpy", SimpleNamespace(data=blender.data, context=context))
     lesson_operators._waiting.append(blender.data.workspaces[0].name)
     move, escape = (SimpleNamespace(type=kind, value="PRESS") for kind in ("MOUSEMOVE", "ESC"))
-    step = partial(lesson_operators.StepThrough.modal, SimpleNamespace(), context)
+    step = partial(lesson_operators.StepThrough.modal, SimpleNamespace(is_dragging=False), context)
     assert step(move) == {"PASS_THROUGH"}
     assert restored == []
     if why == "disabled":
@@ -209,3 +209,21 @@ def test_step_through_gives_every_window_its_cursor_back(blender, scene, monkeyp
     assert step(escape if why == "Esc" else move) == {"FINISHED"}
     assert restored == [0, 1]
     assert not lesson_operators._waiting
+
+
+def test_the_sliders_move_the_latest_pixel_and_its_ray(blender, scene):
+    place = blender.context.window_manager.camera_ray_caster_place
+    lesson.pixels[:] = [(1, 1), (12, 8)]
+    assert (place.column, place.row) == (12, 8)
+    assert (place.x, place.y) == pytest.approx((2 * 12.5 / WIDTH - 1, 2 * 8.5 / HEIGHT - 1))
+    before = lesson.lessons(blender.context)[12, 8].seen
+    place.x = -0.99
+    assert lesson.pixels == [(1, 1), (0, 8)]
+    place.column = 900
+    place.y = 1.0
+    assert lesson.pixels == [(1, 1), (WIDTH - 1, HEIGHT - 1)]
+    after = lesson.lessons(blender.context)[WIDTH - 1, HEIGHT - 1].seen
+    assert after.view == pytest.approx((place.x, place.y))
+    assert after.direction[0] > before.direction[0]
+    lesson.forget()
+    assert (place.column, place.row) == (0, 0)

@@ -3,13 +3,14 @@
 from math import floor
 
 import bpy
+from bpy.props import FloatProperty, IntProperty, PointerProperty
 
 from ..view3d import lesson
 from ..view3d.camera_frame import frame_in
 from ..view3d.scene_cache import cached_scene
 from .needs import OfScene
 
-HINT = "Click a pixel in the camera's view or an Image Editor      Shift: One More      Esc, Enter: Done"
+HINT = "Click or drag in the camera's view or an Image Editor      Shift: One More      Esc, Enter: Done"
 
 
 _waiting: list[str] = []
@@ -22,6 +23,8 @@ class StepThrough(OfScene, bpy.types.Operator):
     bl_idname = "camera_ray_caster.step_through"
     bl_label = "Step Through"
     bl_options = {"REGISTER"}
+    is_dragging = False
+    """Whether the latest pixel follows the mouse."""
 
     @classmethod
     def poll(cls, context):
@@ -47,14 +50,20 @@ class StepThrough(OfScene, bpy.types.Operator):
         if is_over or (event.type in {"ESC", "RET", "RIGHTMOUSE"} and event.value == "PRESS"):
             end()
             return {"FINISHED"}
-        if event.type != "LEFTMOUSE" or event.value != "PRESS":
+        if event.type == "LEFTMOUSE" and event.value == "RELEASE":
+            self.is_dragging = False
+        is_pressed = event.type == "LEFTMOUSE" and event.value == "PRESS"
+        if not is_pressed and not (self.is_dragging and event.type == "MOUSEMOVE"):
             return {"PASS_THROUGH"}
         pixel = pixel_at(context, event.mouse_x, event.mouse_y)
         if pixel is None:
-            return {"PASS_THROUGH"}
-        if not event.shift:
-            lesson.pixels.clear()
-        lesson.pixels[:] = [*(known for known in lesson.pixels if known != pixel), pixel]
+            return {"RUNNING_MODAL"} if self.is_dragging else {"PASS_THROUGH"}
+        if is_pressed:
+            self.is_dragging = True
+            known = lesson.pixels if event.shift else []
+        else:
+            known = lesson.pixels[:-1]
+        lesson.pixels[:] = [*(one for one in known if one != pixel), pixel]
         redraw(context)
         return {"RUNNING_MODAL"}
 
@@ -103,6 +112,47 @@ def redraw(context) -> None:
                 area.tag_redraw()
 
 
+def _sides(context) -> tuple[int, int]:
+    camera = cached_scene(context).camera
+    return (1, 1) if camera is None else camera.raster.size
+
+
+def _get(axis: int, is_view: bool):
+    """Return the function that reads a coordinate of the latest pixel, in pixels or in [-1, 1]."""
+
+    def get(self) -> float:
+        at = lesson.pixels[-1][axis] if lesson.pixels else 0
+        return 2 * (at + 0.5) / _sides(bpy.context)[axis] - 1 if is_view else at
+
+    return get
+
+
+def _set(axis: int, is_view: bool):
+    """Return the function that moves the latest pixel, within the frame."""
+
+    def put(self, value: float) -> None:
+        side, pixel = _sides(bpy.context)[axis], list(lesson.pixels[-1]) if lesson.pixels else [0, 0]
+        at = floor((value + 1) / 2 * side) if is_view else int(value)
+        pixel[axis] = min(max(at, 0), side - 1)
+        lesson.pixels[-1:] = [tuple(pixel)]
+        redraw(bpy.context)
+
+    return put
+
+
+class Place(bpy.types.PropertyGroup):
+    """The type of ``window_manager.camera_ray_caster_place``: where the latest pixel is. To set it moves the pixel."""
+
+    column: IntProperty(name="Column", description="Column of the pixel, from the left", min=0,
+                        get=_get(0, False), set=_set(0, False))  # fmt: skip
+    row: IntProperty(name="Row", description="Row of the pixel, from the bottom", min=0,
+                     get=_get(1, False), set=_set(1, False))  # fmt: skip
+    x: FloatProperty(name="x", description="View coordinate of the pixel's center, -1 left to 1 right", min=-1, max=1,
+                     precision=4, get=_get(0, True), set=_set(0, True))  # fmt: skip
+    y: FloatProperty(name="y", description="View coordinate of the pixel's center, -1 below to 1 above", min=-1, max=1,
+                     precision=4, get=_get(1, True), set=_set(1, True))  # fmt: skip
+
+
 class OfLesson:
     """Base of the operators on the clicked pixels."""
 
@@ -141,9 +191,11 @@ class ClearSteps(OfLesson, bpy.types.Operator):
         return {"FINISHED"}
 
 
-CLASSES = (StepThrough, CopySteps, ClearSteps)
+CLASSES = (Place, StepThrough, CopySteps, ClearSteps)
 
 
 def register(undo) -> None:
     """Register this module; see ``registration``."""
+    bpy.types.WindowManager.camera_ray_caster_place = PointerProperty(type=Place)
+    undo.callback(delattr, bpy.types.WindowManager, "camera_ray_caster_place")
     undo.callback(end)

@@ -11,7 +11,7 @@ from .drawing import Sidebar, draw_message
 from .lesson_operators import ClearSteps, CopySteps, StepThrough
 from .point_operators import EmptyAtHit, PixelOfPoint
 
-OPEN = ("Ray", "Ray in the world", "Seen", "Color")
+OPEN = ("Model", "Ray", "Ray in the world", "Seen", "Color")
 """Titles of the steps that are open at first."""
 
 LISTED = 3
@@ -35,6 +35,7 @@ class Steps:
         row = layout.row(align=True)
         row.operator(CopySteps.bl_idname, icon="COPYDOWN")
         row.operator(ClearSteps.bl_idname, icon="X")
+        draw_place(layout, context)
         *others, latest = found.values()
         if others:
             pixels = ", ".join(f"({x}, {y})" for x, y in (one.seen.pixel for one in others))
@@ -47,6 +48,15 @@ class Steps:
             if body:
                 for line in lines:
                     draw_message(body, context, line, "BLANK1" if line.startswith(" ") else "DOT")
+
+
+def draw_place(layout, context) -> None:
+    """Draw the latest pixel's place as sliders, in pixels and in view coordinates."""
+    place = context.window_manager.camera_ray_caster_place
+    for names in (("column", "row"), ("x", "y")):
+        row = layout.row(align=True)
+        for name in names:
+            row.prop(place, name, slider=name in "xy")
 
 
 def _differences(context) -> Iterator[str]:

@@ -47,8 +47,44 @@ class Lesson:
         """Return all steps as lines of text."""
         return [line for title, texts in self.steps for line in (title, *(f"  {text}" for text in texts), "")][:-1]
 
+    def as_data(self) -> dict[str, Any]:
+        """Return all that is known about the pixel in the types of JSON, without NaN and infinity: None in their place.
+
+        pixel (column, row), view in [-1, 1]², origin, direction, distance, name, shape_index, point, normal, color, and
+        steps as pairs of title and lines.
+        """
+        seen = self.seen
+        known = {
+            "pixel": seen.pixel, "view": seen.view, "origin": seen.origin, "direction": seen.direction,
+            "distance": seen.distance, "name": seen.name or None, "shape_index": seen.shape_index,
+            "point": self.point, "normal": self.normal, "color": self.color, "steps": self.steps,
+        }  # fmt: skip
+        return {name: _plain(value) for name, value in known.items()}
+
     def __str__(self) -> str:
         return "\n".join(self.lines())
+
+
+def _plain(value: Any) -> Any:
+    """Return a value in the types of JSON, None for what is not finite."""
+    if isinstance(value, np.ndarray | tuple | list):
+        parts = [_plain(part) for part in value]
+        return None if parts and all(part is None for part in parts) else parts
+    if isinstance(value, np.generic):
+        value = value.item()
+    return None if isinstance(value, float) and not np.isfinite(value) else value
+
+
+def pixel_at(camera: Camera, x: float, y: float) -> tuple[int, int]:
+    """Return column and row of the pixel of the full frame that holds a point of [-1, 1]², the view coordinates.
+
+    A point between two pixels belongs to the upper or right one, the frame's upper and right edge to the last pixels.
+    Raises InputError for a point outside.
+    """
+    if not (-1 <= x <= 1 and -1 <= y <= 1):
+        raise InputError(f"point {x:g},{y:g} is outside the frame: give -1,-1 (bottom left) to 1,1 (top right)")
+    width, height = camera.raster.size
+    return min(int((x + 1) / 2 * width), width - 1), min(int((y + 1) / 2 * height), height - 1)
 
 
 def lesson(

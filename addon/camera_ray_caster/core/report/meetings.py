@@ -61,18 +61,18 @@ def meetings(camera: Camera, shapes: Shapes, origin: np.ndarray, direction: np.n
     def along_ray(t: float) -> np.ndarray:
         return origin + t * direction - camera.pose.eye
 
-    for k in range(len(shapes)):
-        axes = shapes.axes[k]
-        if shapes.kind[k] != MESH or abs(np.linalg.det(axes)) > 0:
-            at, along = np.linalg.solve(axes, np.stack((origin - shapes.center[k], direction), axis=1)).T
-            equation, roots = EQUATIONS[int(shapes.kind[k])](shapes, k, at, along)
-            places = tuple(
-                Place(t, what, _clipped(camera, t, t * depth) or transparent(k, triangle, t, along_ray(t)))
-                for t, what, triangle in sorted(roots)
-            )
-            if places:
-                name = shapes.names[shapes.name_index[k]]
-                found.append(Meeting(k, name, equation, places))
+    whole = np.flatnonzero((shapes.kind != MESH) | (np.abs(np.linalg.det(shapes.axes)) > 0))
+    ray = np.stack((origin - shapes.center[whole], np.broadcast_to(direction, (len(whole), 3))), axis=2)
+    own = np.linalg.solve(shapes.axes[whole], ray)  # all at once: a call takes as long as some hundred solutions
+    for k, (at, along) in zip(whole.tolist(), own.swapaxes(1, 2), strict=True):
+        equation, roots = EQUATIONS[int(shapes.kind[k])](shapes, k, at, along)
+        places = tuple(
+            Place(t, what, _clipped(camera, t, t * depth) or transparent(k, triangle, t, along_ray(t)))
+            for t, what, triangle in sorted(roots)
+        )
+        if places:
+            name = shapes.names[shapes.name_index[k]]
+            found.append(Meeting(k, name, equation, places))
     return sorted(found, key=lambda meeting: min((p.t for p in meeting.places if not p.objection), default=np.inf))
 
 
