@@ -193,7 +193,9 @@ def test_step_through_gives_every_window_its_cursor_back(blender, scene, monkeyp
     restored = []
     windows = [SimpleNamespace(cursor_modal_restore=partial(restored.append, i)) for i in range(2)]
     context = SimpleNamespace(window_manager=SimpleNamespace(windows=windows), scene=scene)
-    monkeypatch.setattr(lesson_operators, "bpy", SimpleNamespace(data=blender.data, context=context))
+    monkeypatch.setattr(lesson_operators, "bpy", SimpleNamespace(
+        data=blender.data, context=context, types=SimpleNamespace(WindowManager=type("WindowManager", (), {})),
+    ))  # fmt: skip
     lesson_operators._waiting.append(blender.data.workspaces[0].name)
     move, escape = (SimpleNamespace(type=kind, value="PRESS") for kind in ("MOUSEMOVE", "ESC"))
     step = partial(lesson_operators.StepThrough.modal, SimpleNamespace(is_dragging=False), context)
