@@ -58,6 +58,32 @@ def test_a_lamp_lights_a_wall_as_in_cycles(scene, name):  # noqa: F811
     np.testing.assert_allclose(image, combined, atol=TOLERANCE * combined.max())
 
 
+def with_nodes(item, strength):
+    """Give a lamp nodes that emit a color and a strength."""
+    data = item.data
+    data.use_nodes = True
+    nodes, links = data.node_tree.nodes, data.node_tree.links
+    nodes.clear()
+    output, emission = nodes.new("ShaderNodeOutputLight"), nodes.new("ShaderNodeEmission")
+    emission.inputs["Color"].default_value, emission.inputs["Strength"].default_value = (1, 0.5, 0.25, 1), strength
+    links.new(emission.outputs[0], output.inputs[0])
+    return emission, nodes, links
+
+
+def test_the_nodes_of_a_lamp_are_read_or_named(scene):  # noqa: F811
+    white(plane("Wall", 0, 20, 1))
+    item = lamp("POINT", energy=10, shadow_soft_size=0.0)
+    emission, nodes, links = with_nodes(item, 7.0)
+    image = cast(read_camera(scene), read_shapes(scene), "combined")["combined"][..., :3]
+    combined, _ = cycles_passes(scene)
+    np.testing.assert_allclose(image, combined, atol=TOLERANCE * combined.max())
+    links.new(nodes.new("ShaderNodeLightFalloff").outputs[0], emission.inputs["Strength"])
+    shapes = read_shapes(scene)
+    ((name, reason),) = shapes.lights.left_out
+    assert name == "POINT"
+    assert "Light Falloff" in reason
+
+
 def environment(scene, **settings):  # noqa: F811
     """A world with an image of different colors in all directions, turned by a Mapping node."""
     texels = np.ones((16, 32, 4), np.float32)

@@ -11,7 +11,7 @@ from ...core.records import AREA, EVERYWHERE
 from .materials import ALWAYS_NODES, as_color, shown
 from .nodes import Nodes, Unread
 from .shader_nodes import colors
-from .value_nodes import ENVIRONMENT, READ_OF_WORLDS
+from .value_nodes import ENVIRONMENT, READ, READ_OF_WORLDS
 
 DIRECTIONS = 1 << 12
 """Number of directions, evenly spread, whose mean is the light of a background that changes."""
@@ -39,11 +39,18 @@ def cone_of(light) -> tuple[float, float]:
 
 
 def light_color(light) -> tuple[float, float, float]:
-    """Return a light's color times its strength, exposure and temperature, in Blender's units."""
+    """Return a light's color times its strength, exposure, temperature and what its nodes emit, in Blender's units.
+
+    Raises Unread for nodes that are not read, or whose light differs by direction.
+    """
+    emitted = _emitted(light, READ) if getattr(light, "use_nodes", False) else None
+    if not isinstance(emitted, Constant | None):
+        raise Unread("it changes over the light")
+    nodes = np.ones(3) if emitted is None else emitted.values[:, 0]
     with np.errstate(over="ignore"):
         strength = float(light.energy * np.exp2(light.exposure))
     tint = light.temperature_color if light.use_temperature else (1.0, 1.0, 1.0)
-    return tuple(strength * a * b for a, b in zip(light.color, tint, strict=True))
+    return tuple(strength * a * b * c for a, b, c in zip(light.color, tint, nodes.tolist(), strict=True))
 
 
 def world_of(depsgraph) -> World:
@@ -60,7 +67,7 @@ def world_of(depsgraph) -> World:
         return World((0.0, 0.0, 0.0, 1.0))
     unread: tuple[tuple[str, str], ...] = ()
     try:
-        emitted = _emitted(world)
+        emitted = _emitted(world, READ_OF_WORLDS) if ALWAYS_NODES or world.use_nodes else None
     except Unread as error:
         emitted, unread = None, ((world.name, f"the world's color is not read: {error}. Its viewport color is shown"),)
     if emitted is None or isinstance(emitted, Constant):
@@ -70,13 +77,14 @@ def world_of(depsgraph) -> World:
     return World((red, green, blue, 1.0), emitted)
 
 
-def _emitted(world) -> Value | None:
-    """Return what the world's nodes emit, three channels; None without nodes that are shown. Raises Unread."""
-    uses_nodes = world.node_tree is not None and (ALWAYS_NODES or world.use_nodes)
-    output = world.node_tree.get_output_node("CYCLES") if uses_nodes else None
+def _emitted(owner, read: dict) -> Value | None:
+    """Return what the nodes of a world or a light emit, three channels, given the functions that read them; None
+    without nodes that are shown. Raises Unread.
+    """
+    output = owner.node_tree.get_output_node("CYCLES") if owner.node_tree is not None else None
     if output is None or not output.inputs["Surface"].is_linked:
         return None
-    nodes = Nodes(READ_OF_WORLDS)
+    nodes = Nodes(read)
     glow = colors(nodes, output.inputs["Surface"], (), weighs=False).glow
     glow = constant(0, 0, 0) if glow is None else as_color(glow)
     if ENVIRONMENT not in nodes.needs and not isinstance(glow, Constant):

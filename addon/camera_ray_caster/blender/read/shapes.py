@@ -15,6 +15,7 @@ from .groups import Group, gathered, heeding, listed
 from .kept import Found, Reading
 from .lights import cone_of, light_color, world_of
 from .materials import Look, Looks, first_slot, is_finite
+from .nodes import Unread
 from .stored import own_value
 from .unique import unique_name
 from .visibility import Visibility, original_source
@@ -90,7 +91,11 @@ class _Scene:
 
     def light(self, group: Group, data) -> None:
         """Set the kind and color of a light, or the reason why it is not used."""
-        color = light_color(data)
+        try:
+            color = light_color(data)
+        except Unread as error:
+            group.reason = f"its light is not read: {error}"
+            return
         if not is_finite(color):
             group.reason = DAZZLING
         else:
