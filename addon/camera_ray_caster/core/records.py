@@ -226,6 +226,8 @@ class Shapes:
     """
     slots: Slots | None = None
     """Materials of meshes that have several; None if no mesh has more than one."""
+    unread: tuple[tuple[str, str], ...] = ()
+    """Materials whose colors are not read, each with what is not, in one line: they show their viewport colors."""
     surfaces: tuple[Surface, ...] = ()
     """The materials that change over a surface or glow."""
     surface: np.ndarray = field(default_factory=lambda: np.zeros(0, np.int32))

@@ -44,7 +44,7 @@ def test_colors_are_those_of_cycles(scene):  # noqa: F811
         if np.median(off) > CLOSE or (np.mean(off > CLOSE) > 0.1):
             wrong[name] = found["albedo"][here].mean(0).round(3), total.mean(0).round(3)
     assert not wrong
-    assert {reason for _, reason in shapes.left_out} == {
+    assert {reason for _, reason in shapes.unread} == {
         "its image 'missing' is missing: it is shown in magenta",
         "the image of an Image Texture is missing: it is shown in magenta",
     }
@@ -114,7 +114,7 @@ def test_what_is_beyond_is_named_with_material_and_node(scene, kind):  # noqa: F
     item = plane("Square", 0, 2, 1)
     colored(painted(coordinates=kind))(item)
     item.data.materials[0].name = "Shiny"
-    left_out = read_shapes(scene).left_out
+    left_out = read_shapes(scene).unread
     assert bool(left_out) == (kind != "Object")
     for name, reason in left_out:
         assert name == "Shiny"

@@ -56,7 +56,7 @@ def shown():
     """The albedo in the middle of the picture, and the names and reasons of what is left out."""
     shapes = read_shapes(bpy.context.scene)
     image = cast(read_camera(bpy.context.scene), shapes, "albedo")["albedo"]
-    return image[8, 8], shapes.left_out
+    return image[8, 8], (*shapes.left_out, *shapes.unread)
 
 
 def names_of(kinds):
@@ -199,7 +199,7 @@ def test_an_image_without_memory_is_named(surface, monkeypatch):
     monkeypatch.setattr(images.memory, "ALWAYS_THERE", 0)
     textured(surface, new_image())
     shapes = read_shapes(bpy.context.scene)
-    assert "GiB of memory" in dict(shapes.left_out)["Paint"]
+    assert "GiB of memory" in dict(shapes.unread)["Paint"]
 
 
 def test_a_painted_image_is_read_again_and_others_once(surface, monkeypatch):
@@ -256,6 +256,7 @@ def test_what_a_material_needs_decides_whether_a_shape_stays_exact(surface):
     """The render UV map is there on exact shapes; color attributes only on meshes."""
     new, link, _, made = surface
     item = ball("Ball")
+    item.data.uv_layers.remove(item.data.uv_layers[0])
     node = textured(surface, new_image())
     item.data.materials.append(made)
     assert set(read_shapes(bpy.context.scene).kind) == {PLANE, SPHERE}

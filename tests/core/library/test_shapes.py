@@ -110,6 +110,7 @@ def test_joining_forgets_no_field():
         mesh, lamps = crc.mesh(CUBE, QUADS), k * (k > 1)
         return replace(
             mesh, instanced=(True,), materials=((k, f"material {k}"),), left_out=((f"object {k}", "reason"),),
+            unread=((f"material {k}", "reason"),),
             lights=Lights(np.ones((k, 3)), np.ones(k, bool), np.ones((k, 3)), np.ones((lamps, 3)), np.ones((lamps, 2)),
                           left_out=((f"lamp {k}", "reason"),)),
             slots=Slots(np.zeros(1, int), np.arange(k), np.ones((k, 4)), np.zeros(k, int)), world_color=(k, 0, 0, 1),

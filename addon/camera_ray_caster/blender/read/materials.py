@@ -42,6 +42,8 @@ class Look(NamedTuple):
     """The surface, if something changes over it, and of materials that glow or are transparent."""
     needs: frozenset[str] = frozenset()
     """What the surface needs of the mesh: see ``Nodes.needs``."""
+    left_out: tuple[str, ...] = ()
+    """Why not all of its surface is cast, in words."""
     unread: tuple[str, ...] = ()
     """What is not read of the material, in words."""
     displacement: Displacement | None = None
@@ -81,6 +83,12 @@ class Looks:
         """Yield what is not read of materials, with their names."""
         for material, look in self._known.items():
             yield from ((_name(material), reason) for reason in look.unread)
+
+    @property
+    def left_out(self) -> Iterator[tuple[str, str]]:
+        """Yield why not all surfaces of materials are cast, with their names."""
+        for material, look in self._known.items():
+            yield from ((_name(material), reason) for reason in look.left_out)
 
     @property
     def notes(self) -> Iterator[tuple[str, str]]:
@@ -147,7 +155,7 @@ def _look(material, threshold: float) -> Look:
         return plain
     if is_volume_alone(output):
         hollow = Surface(constant(*viewport), alpha=constant(0))
-        return plain._replace(surface=hollow, unread=(VOLUME,))
+        return plain._replace(surface=hollow, left_out=(VOLUME,))
     plain = plain._replace(notes=(BUMP,) * has_bump(material, output))
     try:
         displacement, needs = displacement_of(material, output)
@@ -161,12 +169,13 @@ def _colored(material, output, plain: Look, threshold: float) -> Look:
     """Return a look with the color and the transparent points that the nodes of a surface say."""
     *viewport, opacity = material.diffuse_color
     nodes, socket, unread = material_nodes(), output.inputs["Surface"], []
+    left_out = plain.left_out
     alpha = through = None
     try:
         through = transparency(nodes, socket, ()) if threshold > 0 else None
         alpha = None if through is None else alpha_of(through)
     except Unread as error:
-        unread.append(f"its alpha is not read: {error}. It is cast opaque")
+        left_out += (f"its alpha is not read: {error}. It is cast opaque",)
     needs = set(plain.needs | nodes.needs if alpha is not None else plain.needs)
     lit: Value = constant(*viewport)
     own = glow = None
@@ -181,7 +190,7 @@ def _colored(material, output, plain: Look, threshold: float) -> Look:
     unread += [f"{_image(name)} is missing: it is shown in magenta" for name in sorted(nodes.missing)]
     if isinstance(alpha, Constant) and (alpha.values >= threshold).all():
         alpha = None
-    look = plain._replace(unread=tuple(unread))
+    look = plain._replace(left_out=left_out, unread=tuple(unread))
     if alpha is None and own is None and glow is None and isinstance(lit, Constant):
         return look._replace(color=shown((*lit.values[:, 0].tolist(), opacity)))
     return look._replace(surface=Surface(lit, own, glow, alpha, threshold), needs=frozenset(needs))

@@ -151,11 +151,11 @@ class _Scene:
         for item in self.visibility.unlisted(self.listed, self.instanced):
             if _may_have_surface(item) or item.instance_type == "COLLECTION":
                 self.left_out[unique_name(item, bpy.data.objects), HIDDEN] += 1
-        self.left_out.update(self.looks.unread)
+        self.left_out.update(self.looks.left_out)
         shapes = gathered(list(self.groups.values()), self.left_out, self.world)
         lights = replace(shapes.lights, left_out=listed(dark))
-        notes = (*shapes.notes, *self.looks.notes)
-        return replace(shapes, lights=lights, materials=self.looks.materials, notes=notes)
+        looks, notes = self.looks, (*shapes.notes, *self.looks.notes)
+        return replace(shapes, lights=lights, materials=looks.materials, unread=tuple(looks.unread), notes=notes)
 
 
 def _may_have_surface(item) -> bool:

@@ -12,7 +12,7 @@ from ..records import EVERYWHERE, InputError, Lights, Shapes, Slots, no_shapes
 
 ROWS = "kind", "center", "axes", "object_index", "material_index", "color"
 """Arrays of ``Shapes`` with one entry per shape."""
-TABLES = "names", "meshes", "surfaces", "left_out", "exact", "notes"
+TABLES = "names", "meshes", "surfaces", "left_out", "unread", "exact", "notes"
 """Tuples of ``Shapes`` that are put one after the other."""
 INDICES = {"name_index": "names", "mesh": "meshes", "surface": "surfaces"}
 """Arrays with an index into a table for each shape; empty where the table is."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import asdict, dataclass, field, replace
 from textwrap import shorten, wrap
 from typing import Any
@@ -139,7 +139,7 @@ def report_cast(
         seconds=seconds,
         findings=tuple(findings),
         not_done=tuple(f"{layer}: {line}" if several else line for line in images.plan.left_out()),
-        left_out=(*shapes.left_out, *(shapes.lights.left_out if "combined" in images.plan.request.passes else ())),
+        left_out=(*shapes.left_out, *_uncolored(shapes, images.plan.request.passes)),
         notes=shapes.notes,
         exact=_union(shapes.exact, ()),
         motion=tuple(camera.motion.in_words()) if camera.motion is not None else (),
@@ -149,6 +149,14 @@ def report_cast(
         record=None if isinstance(camera.pixel_time, ImageTime) else recorded(camera),
         indices={layer: indices_of(shapes)},
     )
+
+
+def _uncolored(shapes: Shapes, passes: Collection[str]) -> Iterator[tuple[str, str]]:
+    """Yield what is left out of the colors of passes: materials and lights, each with the reason."""
+    if "combined" in passes or "albedo" in passes:
+        yield from shapes.unread
+    if "combined" in passes:
+        yield from shapes.lights.left_out
 
 
 def as_data(report: Report) -> dict:
