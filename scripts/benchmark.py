@@ -98,8 +98,7 @@ def spheres(count: int, width: int, height: int, rounds: int, threads: int) -> l
         "ours, depth + index": c.ours(("depth", "shape_index"), threads),
     }
     if c.has("mitsuba"):
-        entries["Mitsuba 3, aov, 4 passes"] = c.mitsuba("d:depth,n:sh_normal,p:position,i:shape_index")
-        entries["Mitsuba 3, intersection"] = c.mitsuba(None)
+        entries |= c.mitsubas()
     if c.has("embreex") and c.has("trimesh") and count <= EMBREE_MOST:
         entries["Embree, distance"] = c.embree
     camera, shapes = c.scene(count, width, height)

@@ -58,10 +58,25 @@ def ours(passes, threads: int) -> Callable:
     return prepare
 
 
-def mitsuba(aovs: str | None, add: Callable | None = None) -> Callable:
+AOVS = "d:depth,n:sh_normal,p:position,i:shape_index"
+"""Mitsuba's names of PASSES."""
+
+
+def mitsubas(add: Callable | None = None) -> dict[str, Callable]:
+    """Return the contenders of Mitsuba 3, by name; ``add``: see ``mitsuba``."""
+    return {
+        "Mitsuba 3, aov, 4 passes": mitsuba(AOVS, add),
+        "Mitsuba 3, 4 passes in numpy": mitsuba(AOVS, add, copied=True),
+        "Mitsuba 3, intersection": mitsuba(None, add),
+    }
+
+
+def mitsuba(aovs: str | None, add: Callable | None = None, copied: bool = False) -> Callable:
     """Return the contender of Mitsuba 3 on its LLVM backend: the aov integrator, or with None only ray intersections.
 
-    ``add(content, shapes)`` adds the shapes to the scene's dictionary; by default they are spheres and rectangles.
+    Its pictures stay its own arrays, or are ``copied`` to numpy, as this caster's are. The intersections are those of
+    coherent rays, as its own integrators ask for those of cameras. ``add(content, shapes)`` adds the shapes to the
+    scene's dictionary; by default they are spheres and rectangles.
     """
     import mitsuba as mi
 
@@ -95,14 +110,23 @@ def mitsuba(aovs: str | None, add: Callable | None = None) -> Callable:
         world = mi.load_dict(content)
         if aovs is not None:
             integrator = mi.load_dict({"type": "aov", "aovs": aovs})
-            return lambda: np.array(mi.render(world, integrator=integrator, spp=1))
+
+            def render():
+                image = mi.render(world, integrator=integrator, spp=1)
+                if copied:
+                    return np.array(image)
+                dr.eval(image)
+                dr.sync_thread()
+                return image
+
+            return render
         rays = camera.rays()
         flat = rays.directions.reshape(-1, 3).T.astype(np.float32)
         ray = mi.Ray3f(mi.Point3f(0, 0, 0), mi.Vector3f(*(mi.Float(np.ascontiguousarray(c)) for c in flat)))
         dr.eval(ray)
 
         def intersect():
-            hit = world.ray_intersect_preliminary(ray)
+            hit = world.ray_intersect_preliminary(ray, coherent=True)
             dr.eval(hit.t, hit.shape)
             dr.sync_thread()
 

@@ -75,8 +75,8 @@ def triangles(shapes: Shapes) -> Iterator[tuple[np.ndarray, np.ndarray, np.ndarr
         yield np.float32(places.T), mesh.triangles.T, np.float32((np.linalg.inv(axes).T @ normals).T)
 
 
-def mitsuba(aovs: str | None) -> Callable:
-    """Return the contender of Mitsuba 3 on its LLVM backend; see ``contenders.mitsuba``."""
+def mitsubas() -> dict[str, Callable]:
+    """Return the contenders of Mitsuba 3; see ``contenders.mitsubas``."""
     import mitsuba as mi
 
     mi.set_variant("llvm_ad_rgb")
@@ -92,7 +92,7 @@ def mitsuba(aovs: str | None) -> Callable:
             own.update()
             content[f"s{k}"] = mesh
 
-    return c.mitsuba(aovs, add)
+    return c.mitsubas(add)
 
 
 def merged(shapes: Shapes) -> tuple[np.ndarray, np.ndarray]:
@@ -146,8 +146,7 @@ def run(compare: Callable, quick: bool, width: int, height: int, rounds: int, th
             "ours, depth + index": c.ours(("depth", "shape_index"), threads),
         }
         if c.has("mitsuba"):
-            entries["Mitsuba 3, aov, 4 passes"] = mitsuba("d:depth,n:sh_normal,p:position,i:shape_index")
-            entries["Mitsuba 3, intersection"] = mitsuba(None)
+            entries |= mitsubas()
         if c.has("embreex"):
             entries["Embree, distance"] = embree
         if c.has("open3d"):

@@ -24,7 +24,7 @@ def test_the_contest_times_all_that_is_installed(tmp_path):
     ours = {"ours, 4 passes", "ours, depth + index"}
     others = {"Cycles, 1 sample, 4 passes", "scene.ray_cast loop", "the same, its 4 passes kept"}
     for modules, names in {
-        ("mitsuba",): {"Mitsuba 3, aov, 4 passes", "Mitsuba 3, intersection"},
+        ("mitsuba",): {"Mitsuba 3, aov, 4 passes", "Mitsuba 3, 4 passes in numpy", "Mitsuba 3, intersection"},
         ("embreex", "trimesh"): {"Embree, distance"},
     }.items():
         others |= names if all(map(find_spec, modules)) else set()
