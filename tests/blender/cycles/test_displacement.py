@@ -41,8 +41,8 @@ def waves(tree, socket):
     y, x = np.mgrid[:16, :16]
     texels = np.ones((16, 16, 4), np.float32)
     texels[..., :3] = (np.sin(x / 2) * np.cos(y / 3) / 2 + 0.5)[..., None]
+    image.colorspace_settings.name = "Non-Color"  # before the texels, which it clears
     image.pixels.foreach_set(texels.ravel())
-    image.colorspace_settings.name = "Non-Color"
     image.pack()
     linked(tree, "TexImage", socket).image = image
 
@@ -69,6 +69,9 @@ def test_an_image_moves_vertices_and_turns_normals(scene, smooth, scale):
     ball.data.polygons.foreach_set("use_smooth", np.full(len(ball.data.polygons), smooth))
     tree, node = moved(ball, Midlevel=0.0, Scale=0.4)
     waves(tree, node.inputs["Height"])
+    shapes = read_shapes(scene)
+    flat = shapes.meshes[shapes.mesh[shapes.names.index(item.name)]]
+    assert np.ptp(flat.vertices[2]) > 0.5
     ours = assert_as_cycles(scene)
     assert set(np.unique(ours["object_index"])) == {0, 1, 2}
 
@@ -85,6 +88,20 @@ def test_smooth_and_flat_faces_and_two_materials(scene):
     ours = assert_as_cycles(scene, but=() if bpy.app.version >= (5, 2) else ("normal",))  # see core.shapes.displaced
     assert ours["depth"][np.isfinite(ours["depth"])].min() == pytest.approx(6.5)
     assert set(np.unique(ours["material_index"])) == {0, 4}
+
+
+def test_vectors_move_vertices_any_way(scene):
+    item = grid(1, True, size=4, rotation=(0.3, 0.2, 0.4))
+    item.scale = 0.8, 1.1, 0.6
+    tree, node = moved(item)
+    vector = linked(tree, "VectorDisplacement", node.outputs[0].links[0].to_socket)
+    vector.space = "OBJECT"
+    vector.inputs["Midlevel"].default_value, vector.inputs["Scale"].default_value = 0.2, 0.5
+    waves(tree, linked(tree, "CombineXYZ", vector.inputs["Vector"]).inputs["Z"])
+    shapes = read_shapes(scene)
+    assert shapes.left_out == ()
+    assert np.ptp(shapes.meshes[0].vertices[2]) > 0.2
+    assert_as_cycles(scene)
 
 
 def test_both_keeps_the_normals_of_the_mesh(scene):
@@ -108,16 +125,16 @@ def in_the_world(tree, node):
     node.space = "WORLD"
 
 
-def vector(tree, node):
+def tangents(tree, node):
     end = node.outputs[0].links[0].to_socket
-    linked(tree, "VectorDisplacement", end)
+    linked(tree, "VectorDisplacement", end).space = "TANGENT"
 
 
 def turned(tree, node):
     linked(tree, "NewGeometry", node.inputs["Normal"], "Normal")
 
 
-@pytest.mark.parametrize("change", [noise, in_the_world, vector, turned])
+@pytest.mark.parametrize("change", [noise, in_the_world, tangents, turned])
 def test_what_is_not_read_is_named_with_the_object(scene, change):
     item = grid(1, size=4)
     change(*moved(item))

@@ -68,3 +68,14 @@ def test_heights_that_are_no_numbers_move_nothing():
         mesh = replace(SQUARE, layers=(("color:Height", values),))
         found = displaced(mesh, SMOOTH, [Displacement(channel(Layer("color:Height", 4), 0), True)])
         np.testing.assert_array_equal(found.vertices, SQUARE.vertices)
+
+
+def test_flat_faces_move_along_the_normals_of_their_vertices():
+    aslant = np.repeat([[0.6], [0.0], [0.8]], 4, axis=1).astype(np.float32)
+    found = displaced(SQUARE, MeshNormals(np.zeros(2, bool), aslant), [Displacement(constant(0.5), True)])
+    np.testing.assert_allclose(found.vertices - SQUARE.vertices, aslant / 2, atol=1e-7)
+
+
+def test_vectors_move_any_way():
+    found = displaced(SQUARE, FLAT, [Displacement(constant(1, 2, 3), True)])
+    np.testing.assert_array_equal(found.vertices - SQUARE.vertices, np.repeat([[1], [2], [3]], 4, axis=1))

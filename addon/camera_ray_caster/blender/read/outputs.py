@@ -10,6 +10,9 @@ from .value_nodes import READ
 BUMPS = {"ShaderNodeBump", "ShaderNodeNormalMap", "ShaderNodeBevel"}
 """The nodes that change normals, by type."""
 
+SHIFTS = {"ShaderNodeDisplacement": "Height", "ShaderNodeVectorDisplacement": "Vector"}
+"""The nodes that displace, by type, and their input."""
+
 
 def is_volume_alone(output) -> bool:
     """Return whether a material's output has a volume and no surface. Cycles' rays pass through such a material."""
@@ -28,15 +31,15 @@ def displacement_of(material, output) -> tuple[Displacement | None, frozenset[st
     if found is None or material.displacement_method == "BUMP":
         return None, frozenset()
     node = Node(nodes, found, groups)
-    if node.bl_idname != "ShaderNodeDisplacement":
+    if node.bl_idname not in SHIFTS:
         raise Unread(f"node {node.name!r} ({node.bl_rna.name})")
     if node.space != "OBJECT":
-        raise node.unread("world space")
-    if node.is_linked("Normal"):
+        raise node.unread(f"{node.space.lower()} space")
+    if "Normal" in node.inputs and node.is_linked("Normal"):
         raise node.unread("a normal of its own")
-    inputs = (node.input(name) for name in ("Height", "Midlevel", "Scale"))
-    height = function_of(lambda height, middle, scale: (height - middle) * scale, *inputs)
-    return Displacement(height, material.displacement_method == "DISPLACEMENT"), frozenset(nodes.needs)
+    inputs = (node.input(name) for name in (SHIFTS[node.bl_idname], "Midlevel", "Scale"))
+    offset = function_of(lambda offset, middle, scale: (offset - middle) * scale, *inputs)
+    return Displacement(offset, material.displacement_method == "DISPLACEMENT"), frozenset(nodes.needs)
 
 
 def has_bump(material, output) -> bool:

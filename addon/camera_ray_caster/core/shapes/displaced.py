@@ -1,9 +1,10 @@
-"""True displacement: vertices of a mesh are moved along their normals by the displacement of their materials.
+"""True displacement: vertices of a mesh are moved, along their normals or not, by the displacement of their materials.
 
 As in Cycles without adaptive subdivision, each vertex is moved once: by the material of the first triangle that has
-the vertex and a displacement, with the map, the attributes and the normal of that triangle's corner. Normals of smooth
-faces are computed anew, the mean of the unit normals of the triangles around a vertex, unless all materials keep them.
-In Blender before 5.2 the triangles without a displacement do not count in that mean; here they do in every version.
+the vertex and a displacement, with the map and the attributes of that triangle's corner, and along the normal of the
+vertex, also where faces are flat. Normals of smooth faces are computed anew, the mean of the unit normals of the
+triangles around a vertex, unless all materials keep them. In Blender before 5.2 the triangles without a displacement
+do not count in that mean; here they do in every version.
 """
 
 from __future__ import annotations
@@ -17,15 +18,15 @@ from ..materials.values import OBJECT, UV, Places, Value
 from ..mesh import Mesh
 
 FARTHEST = 1e30
-"""Heights from which on, and those that are NaN, a vertex is not moved: float32 could not store its place."""
+"""Offsets from which on, and those that are NaN, a vertex is not moved: float32 could not store its place."""
 
 
 @dataclass(frozen=True)
 class Displacement:
     """How a material moves vertices."""
 
-    height: Value
-    """How far, along the normals, in the object's space; one channel."""
+    offset: Value
+    """How far, in the object's space: one channel along the normals, or a vector of three."""
     turns: bool
     """Whether normals are computed anew; otherwise they stay those of the mesh."""
 
@@ -45,14 +46,13 @@ def displaced(mesh: Mesh, before: MeshNormals, materials: Sequence[Displacement 
     slots = np.zeros(len(mesh), int) if mesh.slot is None else np.minimum(mesh.slot, len(materials) - 1)
     moves = np.array([one is not None for one in materials])[slots]
     vertices = mesh.vertices.astype(np.float64)
-    areas = _normals(vertices, mesh.triangles)
     corner, triangle = _first_corners(mesh, np.flatnonzero(moves))
     at = mesh.triangles[corner, triangle]
-    normals = np.where(before.smooth[triangle], before.vertices[:, at], areas[:, triangle])
     for slot in np.unique(slots[triangle]).tolist():
         some = np.flatnonzero(slots[triangle] == slot)
-        height = materials[slot].height.at(_Corners(mesh, corner[some], triangle[some]))
-        vertices[:, at[some]] += np.where(np.abs(height) < FARTHEST, height, 0.0) * normals[:, some]
+        offset = materials[slot].offset.at(_Corners(mesh, corner[some], triangle[some]))
+        offset = np.where(np.abs(offset) < FARTHEST, offset, 0.0)
+        vertices[:, at[some]] += offset if len(offset) == 3 else offset * before.vertices[:, at[some]]
     turns = any(one is not None and one.turns for one in materials)
     return _with_normals(replace(mesh, vertices=vertices.astype(np.float32)), mesh, before, turns)
 
