@@ -17,6 +17,7 @@ from .terminal import commands
 from .ui import (
     add_line,
     camera_panels,
+    cameras_list,
     cast_operator,
     cast_panels,
     cycles_operators,
@@ -49,7 +50,8 @@ CLASSES = (
     *cycles_operators.CLASSES, *frame.CLASSES, *other_engine.CLASSES, *add_line.CLASSES, *export_operators.CLASSES,
     *rig_operators.CLASSES, *mouse_gizmo.CLASSES, *render_panels.CLASSES, *gallery_panels.CLASSES,
     *menus.CLASSES, *presets.CLASSES, *model_panels.CLASSES,
-    *see_through.CLASSES, *camera_panels.CLASSES, *show_result.CLASSES, *cast_panels.CLASSES, *verify_panels.CLASSES,
+    *see_through.CLASSES, *camera_panels.CLASSES, *cameras_list.CLASSES,
+    *show_result.CLASSES, *cast_panels.CLASSES, *verify_panels.CLASSES,
     *left_out_panels.CLASSES, *lesson_operators.CLASSES, *point_operators.CLASSES, *gallery_operators.CLASSES,
     *lesson_panels.CLASSES, *facts_panels.CLASSES, *overlay_panels.CLASSES, *object_panels.CLASSES,
 )  # fmt: skip

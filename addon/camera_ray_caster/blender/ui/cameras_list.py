@@ -1,0 +1,77 @@
+"""The list of the scene's cameras in the sidebar: each with its model, to be made active, or to be seen through."""
+
+from __future__ import annotations
+
+import bpy
+from bpy.props import BoolProperty, StringProperty
+
+from ...core.records import InputError
+from ..properties.labels import label_of
+from ..read.camera import ALL, find_camera, find_cameras
+from .drawing import Sidebar
+from .export_operators import Export
+from .gallery_panels import key_of
+from .needs import reporting
+from .see_through import is_seen_through
+
+
+class UseCamera(bpy.types.Operator):
+    """Make this camera the scene's active camera"""
+
+    bl_idname = "camera_ray_caster.use_camera"
+    bl_label = "Use Camera"
+    bl_options = {"REGISTER", "UNDO"}
+
+    name: StringProperty(name="Camera", description="Name of the camera object", options={"SKIP_SAVE"})
+    see_through: BoolProperty(
+        name="See Through", description="Also look through the camera in this 3D View", options={"SKIP_SAVE"}
+    )
+
+    @classmethod
+    def description(cls, context, properties):
+        """Return the tooltip, which differs for the button that also looks through the camera."""
+        return "Make this camera the active one, and see through it" if properties.see_through else cls.__doc__
+
+    @reporting
+    def execute(self, context):
+        """Set the camera."""
+        context.scene.camera = find_camera(context.scene, self.name)
+        if self.see_through and not is_seen_through(context):
+            return bpy.ops.camera_ray_caster.see_through()
+        return {"FINISHED"}
+
+
+class SidebarCameras(Sidebar, bpy.types.Panel):
+    """The cameras of the scene."""
+
+    bl_idname = "CAMERA_RAY_CASTER_PT_cameras"
+    bl_label = "All Cameras"
+    bl_parent_id = "CAMERA_RAY_CASTER_PT_camera"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    @classmethod
+    def poll(cls, context):
+        """Show the panel for scenes with several cameras."""
+        return sum(item.type == "CAMERA" for item in context.scene.objects) > 1
+
+    def draw(self, context):
+        """Draw a row for each camera, and the export of all."""
+        layout, active = self.layout, context.scene.camera
+        column = layout.column(align=True)
+        try:
+            cameras = find_cameras(context.scene, [ALL])
+        except InputError:  # the last one has been deleted since the poll
+            return
+        for item in cameras:
+            row = column.row(align=True)
+            icon = "RADIOBUT_ON" if item == active else "RADIOBUT_OFF"
+            text = f"{item.name}: {label_of(key_of(item.data))}"
+            row.operator(UseCamera.bl_idname, text=text, icon=icon, depress=item == active).name = item.name
+            through = row.operator(UseCamera.bl_idname, text="", icon="CAMERA_DATA")
+            through.name, through.see_through = item.name, True
+        layout.operator_context = "INVOKE_DEFAULT"
+        export = layout.operator(Export.bl_idname, text="Export All", icon="EXPORT")
+        export.format, export.cameras, export.frames = "json", "ALL", "RANGE"
+
+
+CLASSES = (UseCamera, SidebarCameras)
