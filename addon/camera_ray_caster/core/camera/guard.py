@@ -22,11 +22,11 @@ of the direction, and of the inverse, which amplifies it.
 
 MOVES = 16
 """A pixel may be off by this many times ``Model.pixel_rounding``, which states the rounding of one way, and EPS of its
-coordinate.
+coordinate; a ray by as many times ``Model.formula_rounding``.
 """
 
 MOST = 2.0**-20
-"""Angle that such a move may make up for at most: with more, rounding leaves the pixel no place."""
+"""Angle that both may make up for at most: with more, rounding leaves the pixel no place."""
 
 STEPS = 8
 """Number of Newton's steps: from a pixel that is almost right each step squares the error."""
@@ -75,7 +75,9 @@ def _is_within_rounding(model: Model, points, x, y):
     moves = (move_x, 0.0), (-move_x, 0.0), (0.0, move_y), (0.0, -move_y)
     beside = [np.sqrt(_miss(model, points, x + across, y + up)[0]) for across, up in moves]
     turned = np.fmax.reduce([np.abs(other - np.sqrt(off)) for other in beside])
-    return np.sqrt(off) <= SLACK * (distance + norm(origin)) + np.fmin(2 * turned, MOST * distance)
+    moved, bent = model.formula_rounding(x, y)
+    turned = 2 * turned + MOVES * (moved + bent * distance)
+    return np.sqrt(off) <= SLACK * (distance + norm(origin)) + np.fmin(turned, MOST * distance)
 
 
 def _nearer(model: Model, points, pixels):
