@@ -14,7 +14,13 @@ def test_what_no_file_may_be_called_is_replaced():
     }  # fmt: skip
 
 
-@pytest.mark.parametrize("names", [("a/b", "a_b"), ("Left", "left"), ("x", "x ")])
+@pytest.mark.parametrize("name", ["CON", "nul", "aux.001", "Com1", "LPT9.x.y", "prn .z"])
+def test_devices_of_windows_are_no_names_of_files(name):
+    assert file_names([name]) == {name: f"_{name}"}
+    assert file_names([f"{name[0]}{name}", "console", "nulls"])["console"] == "console"
+
+
+@pytest.mark.parametrize("names", [("a/b", "a_b"), ("Left", "left"), ("x", "x "), ("é", "e\u0301"), ("É", "e\u0301")])
 def test_two_cameras_never_have_one_file(names):
     with pytest.raises(InputError, match=r"would have the same name.*: rename one of them"):
         file_names(names)

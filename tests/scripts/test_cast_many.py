@@ -74,6 +74,20 @@ def test_arrays_of_layers_and_eyes(command, blender, tmp_path):
             assert (np.sign(file["Second.ray_origin"][..., 0]) == side).all()
 
 
+@pytest.mark.parametrize(("name", "entry"), [("../../away", "_._.._away"), ("C:\\nul", "C__nul"), ("aux", "_aux")])
+def test_entries_of_arrays_are_plain_names(command, blender, scene, tmp_path, name, entry):
+    """An NPZ is a ZIP, which other programs unpack into files."""
+    blender.context.scene.view_layers.new(name)
+    blender.ops.wm.save_as_mainfile(filepath=str(scene))
+    words = "--passes", "depth", "--format", "npz", "--output", tmp_path / "out"
+    assert command("cast", scene, *words).returncode == 0
+    assert set(np.load(tmp_path / "out" / "small.npz")) == {"ViewLayer.depth", f"{entry}.depth"}
+    blender.context.scene.view_layers.new(entry)
+    blender.ops.wm.save_as_mainfile(filepath=str(scene))
+    assert "would have the same name" in refused(command("cast", scene, *words[:-1], tmp_path / "second"))
+    assert not (tmp_path / "second").exists()
+
+
 def test_bounds_hold_for_what_16_bits_store_and_what_they_cannot_hold_is_refused(command, blender, tmp_path):
     path = small(blender, tmp_path / "small.blend")
     passes = ("distance", "depth", "position", "normal", "distance_bound", "position_bound", "normal_bound")

@@ -5,12 +5,13 @@ render border only. Images and EXR files have the whole frame, unless it is crop
 from __future__ import annotations
 
 import zipfile
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 
 import numpy as np
 
 from ...core.casting.passes import PASSES
+from ...core.names import file_names
 from ...core.records import InputError
 from ..terminal.signals import raise_if_stopping
 
@@ -27,10 +28,11 @@ def save(
 ) -> None:
     """Write the images of each layer and view: one file per view, with the view's suffix.
 
-    Arrays are named after their passes, with the layer's name in front if there are several layers: "Layer.depth".
+    Arrays are named after their passes, with the layer's name in front if there are several layers: "Layer.depth"; see
+    ``entry_names``.
     ``half`` stores real numbers as float16. Raises InputError for numbers that are too large for that.
     """
-    layers = {layer for layer, _ in images}
+    layers = entry_names({layer for layer, _ in images})
     for view in dict.fromkeys(view for _, view in images):
         with zipfile.ZipFile(
             path.with_stem(path.stem + suffixes.get(view, "")), "w", zipfile.ZIP_DEFLATED, compresslevel=LEVEL
@@ -39,9 +41,16 @@ def save(
                 for key, image in images[layer, view].items():
                     raise_if_stopping()
                     stored = _halved(key, images[layer, view]) if half and image.dtype.kind == "f" else image
-                    name = f"{layer}.{key}" if len(layers) > 1 else key
+                    name = f"{layers[layer]}.{key}" if len(layers) > 1 else key
                     with file.open(f"{name}.npy", "w", force_zip64=True) as entry:
                         np.lib.format.write_array(entry, stored, allow_pickle=False)
+
+
+def entry_names(layers: Iterable[str]) -> dict[str, str]:
+    """Return the name of each layer in a file: a plain one, since the entries may be unpacked as files. Raises
+    InputError if two would be equal.
+    """
+    return file_names(sorted(layers))
 
 
 def _halved(key: str, images: Mapping[str, np.ndarray]) -> np.ndarray:

@@ -15,6 +15,7 @@ import numpy as np
 from ...core.casting.passes import image_bytes
 from ...core.file_set import atomic_folder
 from ...core.memory import of_pixels, require
+from ...core.names import folded
 from ...core.records import Cancelled, InputError
 from ...core.report.report import Report, as_json
 from ..cycles.picture import Picture
@@ -79,6 +80,8 @@ def render(
     Cancelled if stopped; then no files are left behind.
     """
     check(scene)
+    if layers == NPZ:
+        arrays.entry_names(layer.name for layer in scene.view_layers if layer.use)
     keeps = layers == NPZ or keypoints is not None
     with _engine_has(scene, picture, {} if keeps else None) as images, atomic_folder(folder) as temporary:
         report = _composited(scene, file_output)
@@ -203,7 +206,7 @@ def _check_suffixes(scene) -> None:
     """Raise InputError if a view's file suffix would lead to another folder, or to another view's files."""
     owners: dict[str, str] = {}
     for view in views_of(scene):
-        other = owners.setdefault(view.file_suffix.casefold(), view.name)
+        other = owners.setdefault(folded(view.file_suffix), view.name)
         if other != view.name:
             raise InputError(
                 f"views {other!r} and {view.name!r} have the same file suffix, {view.file_suffix!r}: change one of "

@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from ..file_set import atomic_folder
+from ..names import folded
 from ..records import InputError
 from .exr import exr
 from .format import Content
@@ -30,9 +31,9 @@ def write(
     written: set[str] = set()
     with atomic_folder(folder) as temporary:
         for name, content in files:
-            if name.casefold() in written:
+            if folded(name) in written:
                 raise InputError(f"two cameras would have the file {name!r}: rename one of the cameras")
-            written.add(name.casefold())
+            written.add(folded(name))
             path = temporary / name
             path.parent.mkdir(parents=True, exist_ok=True)
             if isinstance(content, np.ndarray):
