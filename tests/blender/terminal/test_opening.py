@@ -81,14 +81,19 @@ def style_module_by_key(blender, scene, tmp_path):
 STYLE_MODULES = style_module, style_module_by_driver, style_module_by_mode, style_module_by_key
 
 
+def of_scripts(lines):
+    """The lines that are not of how long Freestyle takes."""
+    return [line for line in lines if "Freestyle draws" not in line]
+
+
 @pytest.mark.parametrize("kind", [driver, registered_text, *STYLE_MODULES])
 def test_scripts_run_only_where_they_are_let(blender, scene, cast, tmp_path, kind):
     kind(blender, scene, tmp_path)
-    (line,) = cast("--frames", "1:2")
+    (line,) = of_scripts(cast("--frames", "1:2"))
     assert line.startswith("it: warning: scripts in the file were not run")
     assert "--enable-autoexec" in line
     assert not list(tmp_path.glob("ran_*"))
-    assert cast("--enable-autoexec") == []
+    assert of_scripts(cast("--enable-autoexec")) == []
     assert list(tmp_path.glob("ran_*"))
 
 
