@@ -286,3 +286,16 @@ def test_many_nodes_in_a_row_and_shaders_that_share_their_parts_are_read_in_no_t
     link(shader.outputs[0], out.inputs["Surface"])
     ((_, reason),) = shown()[1]
     assert "more than 100 nodes in a row" in reason
+
+
+def test_an_image_that_is_missing_is_named_where_its_alpha_decides_what_is_hit(surface):
+    """Also without any pass of colors."""
+    new, link, out, _ = surface
+    node, shader = new("ShaderNodeTexImage"), new("ShaderNodeBsdfPrincipled")
+    node.image = new_image()
+    removed(node.image)
+    link(node.outputs["Alpha"], shader.inputs["Alpha"])
+    link(shader.outputs[0], out.inputs["Surface"])
+    shapes = read_shapes(bpy.context.scene)
+    assert shapes.left_out == (("Paint", "its image 'Image' is missing: its alpha is 1"),)
+    assert not shapes.unread

@@ -176,6 +176,8 @@ def _colored(material, output, plain: Look, threshold: float) -> Look:
         alpha = None if through is None else alpha_of(through)
     except Unread as error:
         left_out += (f"its alpha is not read: {error}. It is cast opaque",)
+    of_alpha = set(nodes.missing)
+    left_out += tuple(f"{_image(name)} is missing: its alpha is 1" for name in sorted(of_alpha))
     needs = set(plain.needs | nodes.needs if alpha is not None else plain.needs)
     lit: Value = constant(*viewport)
     own = glow = None
@@ -187,7 +189,7 @@ def _colored(material, output, plain: Look, threshold: float) -> Look:
             lit = constant(0, 0, 0) if base is None else function_of(lambda one: np.maximum(one, 0), base)
     except Unread as error:
         unread.append(f"its color is not read: {error}. Its viewport color is shown")
-    unread += [f"{_image(name)} is missing: it is shown in magenta" for name in sorted(nodes.missing)]
+    unread += [f"{_image(name)} is missing: it is shown in magenta" for name in sorted(nodes.missing - of_alpha)]
     if isinstance(alpha, Constant) and (alpha.values >= threshold).all():
         alpha = None
     look = plain._replace(left_out=left_out, unread=tuple(unread))
