@@ -36,3 +36,24 @@ def read_meshes(monkeypatch):
     read, found = [], geometry.mesh_shapes
     monkeypatch.setattr(geometry, "mesh_shapes", lambda mesh, setting: read.append(mesh.name) or found(mesh, setting))
     return read
+
+
+@pytest.fixture
+def surface(blender):
+    """The nodes, the function that links, the output and the material of a square with a UV map that is seen."""
+    mesh = blender.data.meshes.new("Square")
+    mesh.from_pydata([(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)], [], [(0, 1, 2, 3)])
+    mesh.uv_layers.new().uv.foreach_set("vector", [0, 0, 1, 0, 1, 1, 0, 1])
+    new_object("Square", mesh)
+    scene = blender.context.scene
+    scene.camera = new_object("Camera", blender.data.cameras.new("Camera"))
+    scene.camera.location.z = 3
+    scene.render.resolution_x = scene.render.resolution_y = 16
+    made = blender.data.materials.new("Paint")
+    if blender.app.version < (5, 0):
+        made.use_nodes = True
+    made.diffuse_color = 0.25, 0.5, 0.75, 1
+    made.node_tree.nodes.clear()
+    mesh.materials.append(made)
+    new, link = made.node_tree.nodes.new, made.node_tree.links.new
+    return new, link, new("ShaderNodeOutputMaterial"), made
