@@ -132,7 +132,7 @@ def test_right_in_the_file_is_right_in_the_picture_and_down_is_down(tmp_path, te
         (json.dumps(parameters(linear_cde=[1, 0])), "linear_cde is .*3 finite numbers"),
         (json.dumps(parameters(linear_cde=[1, 2, 1])), "ftheta_c of .* is 1: it must be above .*; calibration file"),
         (json.dumps(parameters(principal_point=[1])), "principal_point is .*2 finite numbers"),
-        (json.dumps(parameters(max_angle=9)), "ftheta_max_angle of .* is 515.662 degrees"),
+        (json.dumps(parameters(max_angle=-1)), "ftheta_max_angle of .* is -57.2958 degrees"),
         (nurec(kind="opencv-pinhole"), "camera_model of camera_front is of type 'opencv-pinhole'"),
         (nurec(external_distortion_parameters={"poly": [1]}), "external_distortion_parameters, of a windshield"),
         (OCAM.replace("480 640", ""), "it has 4 lines of numbers"),

@@ -7,11 +7,9 @@ import numpy as np
 import pytest
 
 from camera_ray_caster.core.camera.calibration_file import chosen_lens, has_size
-from camera_ray_caster.core.cameras.files import lenses_of
 from camera_ray_caster.core.exports.camera_json import camera_to_json
 from camera_ray_caster.core.records import InputError
 
-from ...colmap import colmap, write
 from ..model_examples import camera
 
 SIZE = {"calibration_width": 640.0, "calibration_height": 480.0}
@@ -182,6 +180,23 @@ FILES = {
                        SIZE | {"cx": 319.5, "cy": 239.5, "ftheta_reference": "RADIUS_TO_ANGLE",
                                "ftheta_radius_to_angle": "0.0 0.0033 0.0 0.0 0.0",
                                "ftheta_max_angle": radians(100)}),
+    "WoodScape": (
+        json.dumps({"name": "FV", "extrinsic": {}, "intrinsic": {
+            "model": "radial_poly", "poly_order": 4, "width": 640, "height": 480, "aspect_ratio": 2.0,
+            "cx_offset": 1.5, "cy_offset": -2.5, "k1": 100.0, "k2": -8.0, "k3": 12.0, "k4": -2.0}}), "FTHETA",
+        SIZE | {"cx": 321.0, "cy": 237.0, "ftheta_reference": "ANGLE_TO_RADIUS", "ftheta_c": 0.5,
+                "ftheta_angle_to_radius": "0.0 200.0 -16.0 24.0 -4.0"},
+    ),
+    "OpenSfM": (
+        json.dumps({"v2 a": {"projection_type": "brown", "width": 640, "height": 480, "focal_x": 0.5, "focal_y": 0.6,
+                             "c_x": 0.01, "c_y": -0.02, **RADTAN, "k3": 0.25}}), PINHOLE,
+        SIZE | {"fx": 320.0, "fy": 384.0, "cx": 325.9, "cy": 226.7} | RADTAN | {"k3": 0.25},
+    ),
+    "OpenSfM, fisheye": (
+        json.dumps({"v2 b": {"projection_type": "fisheye", "width": 640, "height": 480, "focal": 0.5, "k1": 0.1,
+                             "k2": 0.2}}), FISHEYE,
+        SIZE | {"fx": 320.0, "fy": 320.0, "cx": 319.5, "cy": 239.5, "k1": 0.1, "k2": 0.2},
+    ),
     "OCam as JSON": (json.dumps(EGO), "OCAM",
                      SIZE | {"cx": 321.25, "cy": 238.5, "ocam_polynomial": "-231.5 0.0 0.0017", "ocam_c": 0.9991,
                              "ocam_d": 3e-4, "ocam_e": -4e-4}),
@@ -265,21 +280,21 @@ def test_every_lens_of_this_program_is_read_from_its_own_json(tmp_path):
         assert {name: cam.settings[name] for name in lens.settings} == pytest.approx(lens.settings)
 
 
-def test_cameras_bin_says_what_cameras_txt_says(tmp_path):
-    colmap(write, str(tmp_path), ("OPENCV", "FOV", "EUCM", "EQUIRECTANGULAR", "RAD_TAN_THIN_PRISM_FISHEYE"))
-    binary, text = (lenses_of(str(tmp_path / f"cameras.{kind}")) for kind in ("bin", "txt"))
-    assert sorted(binary) == sorted(text)
-    assert {lens.model for lens in binary} == {PINHOLE, "FOV", "EUCM", "EQUIRECTANGULAR", "FISHEYE624"}
-    content = (tmp_path / "cameras.bin").read_bytes()
-    for damaged in (content[:-3], content + b"\0", b"\xff" * 8 + content[8:]):
-        (tmp_path / "cameras.bin").write_bytes(damaged)
-        with pytest.raises(InputError, match=r"not a text file, and not a cameras\.bin of COLMAP"):
-            lenses_of(str(tmp_path / "cameras.bin"))
-
-
 def test_a_file_of_many_frames_is_read(tmp_path):
     pose = np.eye(4).tolist()
     some = [{"file_path": f"images/{i:06}.png", "transform_matrix": pose} for i in range(20_000)]
     text = json.dumps({"fl_x": 300.0, "cx": 320.0, "cy": 240.0, "w": 640, "h": 480, "frames": some})
     assert len(text) > 2 << 20
     assert lens_of(tmp_path, text).settings["fx"] == 300
+
+
+@pytest.mark.parametrize("axis", [0, 1])
+def test_woodscapes_aspect_ratio_stretches_the_picture_along_y(tmp_path, axis):
+    """A point 0.5 rad off the axis: the polynomial's radius from the center, twice as far along y."""
+    (tmp_path / "lens").write_text(FILES["WoodScape"][0])
+    cam = camera("FTHETA", {"resolution_x": 640, "resolution_y": 480, "calibration_file": str(tmp_path / "lens")})
+    direction = np.array((0.0, 0.0, -np.cos(0.5)))
+    direction[axis] = np.sin(0.5)
+    radius = 100 * 0.5 - 8 * 0.5**2 + 12 * 0.5**3 - 2 * 0.5**4
+    expected = (321.5 + radius, 242.5) if axis == 0 else (321.5, 242.5 + 2 * radius)
+    assert cam.project([direction])[0] == pytest.approx(expected, abs=1e-9)

@@ -2,8 +2,10 @@
 
 import pytest
 
+from camera_ray_caster.core.cameras.files import lenses_of
 from camera_ray_caster.core.records import InputError
 
+from ...colmap import colmap, write
 from .test_formats import GOOD, NUMBERS, PAIR, aria, mrcal, of_file
 
 
@@ -36,3 +38,15 @@ def test_a_center_outside_the_frame_belongs_to_a_picture_of_another_size(tmp_pat
     of_file(tmp_path / "aria.json", text, "OPENCV_PINHOLE")
     with pytest.raises(InputError, match=r"which has no size, are 320\.5 and 239.25, outside the frame of 320 x 240"):
         of_file(tmp_path / "aria.json", text, "OPENCV_PINHOLE", resolution_x=320, resolution_y=240)
+
+
+def test_cameras_bin_says_what_cameras_txt_says(tmp_path):
+    colmap(write, str(tmp_path), ("OPENCV", "FOV", "EUCM", "EQUIRECTANGULAR", "RAD_TAN_THIN_PRISM_FISHEYE"))
+    binary, text = (lenses_of(str(tmp_path / f"cameras.{kind}")) for kind in ("bin", "txt"))
+    assert sorted(binary) == sorted(text)
+    assert {lens.model for lens in binary} == {"OPENCV_PINHOLE", "FOV", "EUCM", "EQUIRECTANGULAR", "FISHEYE624"}
+    content = (tmp_path / "cameras.bin").read_bytes()
+    for damaged in (content[:-3], content + b"\0", b"\xff" * 8 + content[8:]):
+        (tmp_path / "cameras.bin").write_bytes(damaged)
+        with pytest.raises(InputError, match=r"not a text file, and not a cameras\.bin of COLMAP"):
+            lenses_of(str(tmp_path / "cameras.bin"))

@@ -25,14 +25,16 @@ from . import (
     ocam,
     okvis,
     opencv,
+    opensfm,
     recorded,
+    woodscape,
 )
 from .document import Document, Lens
 from .nearest import unknown
 
 FORMATS = (
     colmap_binary.read, colmap.read, mrcal.read, ocam.read, recorded.read, aria.read, nerfstudio.read, ftheta.read,
-    isaac.read, basalt.read, camodocal.read, okvis.read, kalibr.read, opencv.read,
+    isaac.read, woodscape.read, opensfm.read, basalt.read, camodocal.read, okvis.read, kalibr.read, opencv.read,
 )  # fmt: skip
 """Readers in the order in which they are tried."""
 

@@ -95,6 +95,14 @@ PROGRAMS = (
         "f-theta, fisheyePolynomial, pinhole", "", "windshields are refused",
     ),
     Program(
+        "WoodScape", "calibration .json", "intrinsic cx_offset cy_offset poly_order radial_poly aspect_ratio",
+        "radial_poly", "", "",
+    ),
+    Program(
+        "OpenSfM", "camera_models.json", "projection_type focal focal_x width height k1",
+        "perspective, brown, radial, fisheye, fisheye_opencv, spherical", "", "poses; other projections are refused",
+    ),
+    Program(
         "OCamCalib", "calib_results.txt; the same as .json",
         "polynomial direct mapping affine polynomialC2W image_center",
         "OCam", "", "",
