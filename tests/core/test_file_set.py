@@ -123,6 +123,7 @@ print("done")
 """
 
 
+@pytest.mark.full
 @pytest.mark.skipif(sys.platform == "win32", reason="Windows has no SIGKILL")
 @pytest.mark.parametrize("there", [NAMES, NAMES[:1]])
 def test_what_a_killed_run_left_is_completed_or_undone_by_the_next(tmp_path, there):
