@@ -27,7 +27,7 @@ def start(*words, action=signal.SIG_DFL, **options):
 
 def complaints(stderr):
     """The lines on standard error that do not say how far a run is: on a busy machine those come, too."""
-    return [line for line in stderr.splitlines() if not re.search(r"\d of \d+(, [\d:]+ left)?$", line)]
+    return [line for line in stderr.splitlines() if not re.search(r"\d of \d+(, [\d:]+ (left|so far))?$", line)]
 
 
 def small(bpy, path, **settings):

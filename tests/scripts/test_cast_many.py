@@ -1,6 +1,7 @@
 """What cast.py writes of many cameras and frames, what of it a second run takes, and how it tells how far it is."""
 
 import json
+import re
 
 import numpy as np
 import pytest
@@ -215,6 +216,17 @@ def test_cameras_whose_files_would_have_the_same_name_are_refused(command, blend
     blender.ops.wm.save_as_mainfile(filepath=str(scene))
     assert "would have the same name" in refused(command("cast", scene, *WORDS, "--output", tmp_path / "out"))
     assert not (tmp_path / "out").exists()
+
+
+def test_a_picture_that_takes_long_says_so(command, scene, tmp_path, monkeypatch):
+    """A wide picture with pixel times took minutes without a word."""
+    from camera_ray_caster.blender.terminal import progress
+
+    monkeypatch.setattr(progress, "LONG", 0.0)
+    done = command("cast", scene, "--output", tmp_path / "out")
+    assert done.returncode == 0
+    assert done.stderr
+    assert all(re.fullmatch(r"cast\.py: 0 of 1, 0:00:\d\d so far", line) for line in done.stderr.splitlines())
 
 
 @pytest.mark.parametrize("is_terminal", [True, False])

@@ -212,16 +212,17 @@ def _of(stamp: dict[str, Any], job: Job, ray_map: RayMap | None) -> dict[str, An
 
 
 def follow(outcomes: Iterable[Outcome], count: int, prog: str) -> Iterator[Outcome]:
-    """Yield outcomes as they come; show the progress if there are several jobs, and print each warning once."""
+    """Yield outcomes as they come; show the progress of several jobs or of a long one, and print each warning once."""
     progress, warned = Progress(count, prog), set()
-    for outcome in outcomes:
-        for line in outcome.warnings:
-            if line not in warned:
-                warn(prog, line)
-                warned.add(line)
-        if count > 1:
-            progress.add(outcome.made)
-        yield outcome
+    with signals.heard(progress.wait):
+        for outcome in outcomes:
+            for line in outcome.warnings:
+                if line not in warned:
+                    warn(prog, line)
+                    warned.add(line)
+            if count > 1:
+                progress.add(outcome.made)
+            yield outcome
 
 
 def summary(made: int, count: int, folder: Path) -> str:

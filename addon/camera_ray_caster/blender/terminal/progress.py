@@ -7,6 +7,9 @@ COLUMNS = 30
 EVERY = 10.0
 """Minimum number of seconds between lines without a terminal."""
 
+LONG = 30.0
+"""Number of seconds without an item after which the time so far is shown."""
+
 
 class Progress:
     """Counter of ``total`` items. Items from an earlier run count, but do not affect the estimated remaining time."""
@@ -31,6 +34,16 @@ class Progress:
         elif now - self.said >= EVERY:
             self.said = now
             print(f"{self.prog}: {text}", file=sys.stderr, flush=True)
+
+    def wait(self) -> bool:
+        """Show the time so far if nothing was shown for LONG; return False. A function for ``signals.heard``."""
+        now = monotonic()
+        if now - self.said >= LONG:
+            self.said = now
+            over = "\r\033[K" if sys.stderr.isatty() else ""  # the bar
+            text = f"{self.done} of {self.total}, {_words(now - self.began)} so far"
+            print(f"{over}{self.prog}: {text}", file=sys.stderr, flush=True)
+        return False
 
 
 def _words(seconds: float) -> str:
