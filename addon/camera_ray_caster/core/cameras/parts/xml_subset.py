@@ -1,4 +1,4 @@
-"""Reads XML: OpenCV's opencv_storage as entries, any other as elements, without entities and to a limited depth.
+"""Reads the XML of OpenCV's opencv_storage as entries, without document types and to a limited depth.
 
 In OpenCV's files an element is an entry. One with elements in it is a mapping, or a list if they are all named "_"; the
 words of one without are a scalar, or a list of scalars.
@@ -8,7 +8,7 @@ Reference: OpenCV documentation, File Input and Output using XML / YAML / JSON f
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from xml.parsers import expat
 
@@ -30,18 +30,9 @@ class Element:
     """An element of XML; ``text`` is all text directly in it."""
 
     name: str
-    attributes: dict[str, str]
     line: int
     children: list[Element] = field(default_factory=list)
     text: str = ""
-
-    def each(self, name: str) -> Iterator[Element]:
-        """Yield the elements of this name directly in it."""
-        return (child for child in self.children if child.name == name)
-
-    def first(self, name: str) -> Element | None:
-        """Return the first element of this name directly in it."""
-        return next(self.each(name), None)
 
 
 def tree(text: str, check: Callable[[], None] = lambda: None) -> Element:
@@ -52,11 +43,11 @@ def tree(text: str, check: Callable[[], None] = lambda: None) -> Element:
     texts: list[list[str]] = []
     done: list[Element] = []
 
-    def begin(name, attributes):
+    def begin(name, _):
         check()
         if len(open_elements) >= DEEPEST:
             raise XmlError(f"line {parser.CurrentLineNumber} is nested deeper than {DEEPEST} levels")
-        element = Element(name, attributes, parser.CurrentLineNumber)
+        element = Element(name, parser.CurrentLineNumber)
         if open_elements:
             open_elements[-1].children.append(element)
         open_elements.append(element)
