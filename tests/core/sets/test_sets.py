@@ -158,3 +158,16 @@ def test_masks_are_of_each_object(made):
     out = exported(folder, "masks")
     visible = cv2.imread(str(out / "mask_visible" / "PERSP_0002_0000.png"), cv2.IMREAD_UNCHANGED) > 0
     assert (visible[::-1] == (casts[1][1]["shape_index"] == 0)).all()
+
+
+def test_nerfstudios_frames_name_depths_and_masks(made):
+    folder, casts = made
+    out = exported(folder, "nerfstudio-scene")
+    frame = json.loads((out / "transforms.json").read_text())["frames"][1]
+    depth = cv2.imread(str(out / frame["depth_file_path"]), cv2.IMREAD_UNCHANGED)[::-1]
+    _, images = casts[1]
+    hit = np.isfinite(images["depth"])
+    assert np.abs(depth[hit] - 1000 * images["depth"][hit]).max() <= 0.51
+    assert (depth[~hit] == 0).all()
+    assert (cv2.imread(str(out / frame["mask_path"]), cv2.IMREAD_UNCHANGED) == 255).all()
+    assert (out / frame["file_path"]).is_file()

@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
 from typing import NamedTuple
 
-from . import bop, labels, maps, sparse
+from . import bop, labels, maps, nerfstudio, sparse
 from .reading import View, read_set, view_of
 
 Files = Iterator[tuple[str, str | bytes]]
@@ -26,6 +26,7 @@ class SetFormat(NamedTuple):
 SET_FORMATS = {
     "bop-scenes": SetFormat("BOP: a scene per camera with rgb, depth, masks, poses of objects and boxes", bop.files),
     "colmap-scene": SetFormat("COLMAP: images, sparse/0 and seed points with tracks, from the hits", sparse.files),
+    "nerfstudio-scene": SetFormat("nerfstudio: transforms.json, images, depths and masks", nerfstudio.files),
     "panoptic": SetFormat("COCO panoptic: ids of segments as PNG, and panoptic.json", labels.panoptic),
     "yolo": SetFormat("YOLO: images, and boxes in labels, by category", labels.yolo),
     "masks": SetFormat("a PNG of each object's visible and whole mask", labels.masks),

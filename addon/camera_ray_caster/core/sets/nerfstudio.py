@@ -1,0 +1,44 @@
+"""nerfstudio's transforms.json of a set, with images, depths and masks.
+
+Depths are 16 bits in millimeters along the viewing direction, as nerfstudio's depth_unit_scale_factor of 0.001 has them
+where a Blender unit is a meter; 0 is no hit. Masks are white where a pixel has a ray.
+Reference: nerfstudio documentation, Data conventions.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+
+import numpy as np
+
+from ..exports import export
+from ..records import InputError
+from .png import png
+from .reading import View
+
+MOST = 65535
+
+
+def files(views: list[View]) -> Iterator[tuple[str, str | bytes]]:
+    """Yield the files of a set; see the package. Raises InputError for cameras that nerfstudio cannot represent, and
+    for depths beyond 65 m.
+    """
+    made, _ = export("nerfstudio", [view.shot for view in views])
+    ((_, content),) = made
+    transforms = json.loads(str(content))
+    for frame, view in zip(transforms["frames"], views, strict=True):
+        depth = np.round(view.planar_depth() * 1000)
+        if depth.max(initial=0) > MOST:
+            raise InputError(f"depths of {view.name} are up to {depth.max() / 1000:.0f}: 16 bits hold 65 units")
+        valid = view.camera.rays().valid
+        for key, folder, pixels in (
+            ("depth_file_path", "depths", depth.clip(0).astype(np.uint16)),
+            ("mask_path", "masks", valid.astype(np.uint8) * 255),
+        ):
+            frame[key] = f"{folder}/{view.name}.png"
+            yield frame[key], png(pixels[::-1])
+        frame["file_path"] = f"images/{view.name}.png"
+        if view.picture is not None:
+            yield frame["file_path"], view.picture
+    yield "transforms.json", json.dumps(transforms, indent=1)
