@@ -3,6 +3,7 @@
 import errno
 import os
 import sys
+from types import SimpleNamespace
 
 import pytest
 
@@ -50,3 +51,18 @@ def test_an_error_of_another_kind_is_none_of_these(command, scene, tmp_path, mon
     monkeypatch.setattr("camera_ray_caster.blender.terminal.pictures.files.render", fail)
     with pytest.raises(RuntimeError, match="another"):
         command("cast", scene, "--output", tmp_path / "out")
+
+
+def test_workers_that_have_all_ended_are_not_waited_for(monkeypatch):
+    """Under little memory they end as they import Blender, and Dask gives up to start them again."""
+    pytest.importorskip("distributed")
+    from camera_ray_caster.blender.terminal import farm
+    from camera_ray_caster.core.records import InputError
+
+    runs = iter([{"a worker": 1}, {}, {"the worker, started again": 1}, {}, {}])
+    waiting = SimpleNamespace(done=lambda: False)
+    client = SimpleNamespace(map=lambda *words, **more: [waiting], nthreads=lambda: next(runs))
+    monkeypatch.setattr(farm, "CHECK", 0)
+    with pytest.raises(InputError, match=r"no worker runs any more; .*give fewer --workers"):
+        list(farm.outcomes(client, SimpleNamespace(workers=1), {}, {}, ["a job"]))
+    assert list(runs) == []
