@@ -16,8 +16,13 @@ from .records import InputError
 
 
 def shown(value) -> str:
-    """Return any value as one short line of text."""
-    return " ".join(shortened(value).split())
+    """Return any value as one short line of text, a scalar of numpy as the number that it is."""
+    return " ".join(shortened(value.item() if isinstance(value, np.generic) else value).split())
+
+
+def shape_of(array: np.ndarray) -> str:
+    """Return the shape of an array as text, and whether it has numbers that are not finite."""
+    return f"of shape {array.shape}" + ("" if np.isfinite(array).all() else ", with NaN or infinite numbers")
 
 
 def count(value, name: str, most: float = inf) -> int:

@@ -174,6 +174,12 @@ def test_each_ray_meets_the_shapes_at_its_own_time():
     assert crc.cast_rays(origin, [0.0, 0, -1], still, ("valid",), times=times)["valid"].all()
 
 
+def test_an_infinite_plane_along_an_axis_warns_of_nothing():
+    """Its bounds are infinite on both sides along two axes."""
+    ground = crc.planes((0.0, 0.0, -3.0), infinite=True)
+    assert crc.cast_rays([0.0, 0, 0], [0.0, 0, -1], ground, "distance")["distance"] == 3.0
+
+
 SPHERE = dict(origins=[0.0, 0, 0], directions=[0.0, 0, -1])
 
 

@@ -73,6 +73,17 @@ def test_what_cannot_be_exported_is_one_line_and_leaves_nothing(tmp_path, words,
     assert not (tmp_path / "out").exists()
 
 
+def test_the_help_names_every_format():
+    assert [one.key for one in FORMATS if f'"{one.key}"' not in crc.export.__doc__] == []
+
+
+@pytest.mark.parametrize("meters", [0, -1.0, np.float64(0)])
+def test_a_unit_has_a_length(tmp_path, meters):
+    with pytest.raises(crc.InputError, match=r"^meters is (0|-1\.0|0\.0): it must be above 0"):
+        crc.export("bop", perspectives(), tmp_path / "out", meters=meters)
+    assert not (tmp_path / "out").exists()
+
+
 def test_what_is_no_camera_and_no_folder(tmp_path):
     with pytest.raises(TypeError, match="takes cameras"):
         crc.export("json", "Camera", tmp_path)

@@ -143,8 +143,8 @@ def test_joining_forgets_no_field():
     ("make", "said"),
     [
         (lambda: crc.spheres([(0, 0)]), r"centers are of shape \(1, 2\)"),
-        (lambda: crc.spheres([(0, 0, np.nan)]), "finite"),
-        (lambda: crc.spheres([(0, 0, 0)], -1), "above 0"),
+        (lambda: crc.spheres([(0, 0, np.nan)]), r"centers are of shape \(1, 3\), with NaN or infinite numbers: they"),
+        (lambda: crc.spheres([(0, 0, 0)], -1), r"radii of spheres are -1\.0 or more: they must be above 0"),
         (lambda: crc.spheres([(0, 0, 0)], [1, 2]), r"radii is of shape \(2,\)"),
         (lambda: crc.spheres((0, 0, 0), axes=np.diag([1, 1, 0])), "row 0"),
         (lambda: crc.spheres((0, 0, 0), color="red"), "color"),

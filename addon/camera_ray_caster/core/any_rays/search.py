@@ -70,7 +70,7 @@ class Search:
         low, high = (
             np.concatenate([getattr(own, end) for own in self._kinds], axis=1)[:, order] for end in ("low", "high")
         )
-        inside = np.isfinite(low + high).all(axis=0)
+        inside = (np.isfinite(low) & np.isfinite(high)).all(axis=0)
         if np.count_nonzero(inside) <= FEW:
             return np.arange(len(self.at)), None
         return np.flatnonzero(~inside), tree_of(low[:, inside], high[:, inside], np.flatnonzero(inside))

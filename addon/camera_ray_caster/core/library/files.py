@@ -36,15 +36,16 @@ def export(
 ) -> Exported:
     """Write cameras into a folder, for another program; return the paths and remarks.
 
-    format: "colmap", "nerfstudio", "opencv", "ros", "mrcal", "bop", "stmap", "npz" or "json".
+    format: "colmap", "nerfstudio", "nerf", "opencv", "ros", "kalibr", "mrcal", "bop", "tum", "kitti", "euroc", "stmap",
+        "npz" or "json".
     cameras: a camera, or several. Those of one name are one camera at several frames: see ``name`` and ``frame`` of
         ``crc.camera``.
     meters: length of a unit, for formats with meters.
     target: for "stmap", the camera to whose picture the maps lead; default the perspective of the same lens.
 
     All files are written or none. Raises InputError, in one line, for an unknown format, a camera that the format
-    cannot represent (it names the formats that can), two cameras of one name and frame, and a folder that cannot be
-    written.
+    cannot represent (it names the formats that can), two cameras of one name and frame, a unit without length, and a
+    folder that cannot be written.
     """
     given = [cameras] if isinstance(cameras, Camera) else list(cameras)
     for one in (*given, *([] if target is None else [target])):
@@ -55,8 +56,11 @@ def export(
     chosen = next((one for one in FORMATS if one.key == format), None)
     if target is not None and chosen is not None and not chosen.takes_target:
         raise InputError(f"format {format} has no target camera: only maps have a target")
+    unit = number(meters, "meters", 1e12)
+    if unit <= 0:
+        raise InputError(f"meters is {shown(meters)}: it must be above 0, the length of a unit")
     names = file_names(one.name for one in given)
-    shots = [Shot(names[one.name], _frame(one), one, number(meters, "meters", 1e12), target) for one in given]
+    shots = [Shot(names[one.name], _frame(one), one, unit, target) for one in given]
     if len({shot.stem for shot in shots}) < len(shots):
         raise InputError("two cameras have one name and one frame: give them names (name=) or frames (frame=)")
     files, remarks = files_of(format, sorted(shots, key=lambda shot: shot.frame))

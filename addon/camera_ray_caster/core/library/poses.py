@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..arguments import numbers, shown
+from ..arguments import numbers, shape_of, shown
 from ..records import InputError
 
 
@@ -41,7 +41,7 @@ def pose_matrix(pose, name: str = "pose") -> np.ndarray:
         return np.eye(4)
     matrix = numbers(pose, name)
     if matrix.shape not in ((4, 4), (3, 4)) or not np.isfinite(matrix).all():
-        raise InputError(f"{name} is of shape {matrix.shape}: it must be (4, 4) or (3, 4) finite numbers")
+        raise InputError(f"{name} is {shape_of(matrix)}: it must be (4, 4) or (3, 4) finite numbers")
     return np.vstack((matrix[:3], (0.0, 0.0, 0.0, 1.0)))
 
 

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..arguments import flag, numbers, shown, word
+from ..arguments import flag, numbers, shape_of, shown, word
 from ..mesh import Mesh
 from ..records import INFINITE_PLANE, PLANE, SPHERE, InputError, Shapes, no_shapes
 from ..shapes.instances import Primitive, castable, mesh_primitive, put_in_world
@@ -94,7 +94,7 @@ def mesh(
     """
     points = numbers(vertices, "vertices")
     if points.ndim != 2 or points.shape[1] != 3 or not np.isfinite(points).all():
-        raise InputError(f"vertices are of shape {points.shape}: they must be (v, 3) finite numbers")
+        raise InputError(f"vertices are {shape_of(points)}: they must be (v, 3) finite numbers")
     kept = np.float32 if getattr(vertices, "dtype", None) == np.float32 else np.float64
     corners, starts = _faces(faces, len(points))
     if not len(starts):
@@ -155,14 +155,14 @@ def _placed(primitive: Primitive, matrices: np.ndarray, object_index, material_i
 def _rows(values, name: str) -> np.ndarray:
     rows = np.atleast_2d(numbers(values, name))
     if rows.ndim != 2 or rows.shape[1] != 3 or not np.isfinite(rows).all():
-        raise InputError(f"{name} are of shape {rows.shape}: they must be (n, 3) finite numbers")
+        raise InputError(f"{name} are {shape_of(rows)}: they must be (n, 3) finite numbers")
     return rows
 
 
 def _per_row(values: np.ndarray, name: str, n: int, width: tuple[int, ...]) -> np.ndarray:
     """Return values for each row, (n, *width), of one value or of n."""
     if values.shape not in (width, (n, *width)) or not np.isfinite(values).all():
-        raise InputError(f"{name} is of shape {values.shape}: it must be {width} or {(n, *width)} finite numbers")
+        raise InputError(f"{name} is {shape_of(values)}: it must be {width} or {(n, *width)} finite numbers")
     return np.broadcast_to(values, (n, *width))
 
 
@@ -206,7 +206,7 @@ def _at_corners(values, name: str, width: int, count: int, corners: np.ndarray) 
     found = numbers(values, name)
     if found.shape not in ((count, width), (len(corners), width)) or not np.isfinite(found).all():
         said = f"({count}, {width}), one per vertex, or ({len(corners)}, {width}), one per corner"
-        raise InputError(f"{name} are of shape {found.shape}: they must be {said}, finite numbers")
+        raise InputError(f"{name} are {shape_of(found)}: they must be {said}, finite numbers")
     return (found[corners] if len(found) == count else found).astype(np.float32)
 
 
