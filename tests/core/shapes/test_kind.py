@@ -6,10 +6,14 @@ import numpy as np
 import pytest
 
 from camera_ray_caster.core import tuning
+from camera_ray_caster.core.any_rays.door import cast_rays
 from camera_ray_caster.core.cast import cast
 from camera_ray_caster.core.casting.pixels import passes_at
-from camera_ray_caster.core.records import INFINITE_PLANE, SPHERE
+from camera_ray_caster.core.motion.landmarks import lit
+from camera_ray_caster.core.records import INFINITE_PLANE, SPHERE, InputError
 from camera_ray_caster.core.report.accuracy import accuracy
+from camera_ray_caster.core.report.indices import indices_of
+from camera_ray_caster.core.report.meetings import EQUATIONS
 from camera_ray_caster.core.shapes import kinds
 
 from ..cameras.model_examples import camera as camera_of
@@ -20,6 +24,7 @@ from .tetrahedron import FACES, OFFSETS, TETRAHEDRA
 PASSES = "shape_index", "distance", "position", "normal", "uv", "distance_bound", "normal_bound", "combined"
 SIZE = {"resolution_x": 36, "resolution_y": 28, "clip_end": 1e9}
 MODELS = "PERSP", "ORTHO", "EQUIRECTANGULAR", "PUSHBROOM"
+SHIPPED = kinds.KINDS
 
 
 @pytest.fixture(autouse=True)
@@ -120,3 +125,27 @@ def test_kinds_that_are_not_in_view_are_named():
     camera = camera_of("PERSP", SIZE)
     said = "\n".join(cast(camera, shapes_of((DISCS.number, (0, 0, -5), 1.0)), ("depth",)).plan.left_out())
     assert "sphere, plane, infinite plane, mesh, tetrahedron" in said
+
+
+def test_every_kind_that_ships_has_a_number_a_name_and_an_equation_of_its_own():
+    numbers = [kind.number for kind in SHIPPED]
+    assert sorted(EQUATIONS) == sorted(set(numbers)) == sorted(numbers), "of Step Through: core/report/meetings.py"
+    assert len({kind.name for kind in SHIPPED}) == len(SHIPPED)
+
+
+def test_reports_name_a_kind_by_its_number_not_by_its_place():
+    shapes = shapes_of((TETRAHEDRA.number, (0, 0, -5), 1.0), (INFINITE_PLANE, (0, 0, -9), 1.0))
+    assert [run["kind"] for run in indices_of(shapes)["shape_index"]] == ["TETRAHEDRON", "INFINITE_PLANE"]
+
+
+def test_the_motion_of_a_kind_is_judged_by_the_corners_of_its_cube():
+    points = lit((camera_of("PERSP", SIZE), shapes_of((TETRAHEDRA.number, (0, 0, -5), 1.0))))
+    assert np.array_equal(points.min(axis=0), (-1, -1, -6))
+    assert np.array_equal(points.max(axis=0), (1, 1, -4))
+
+
+def test_bodies_are_what_rays_without_a_camera_meet():
+    rays = (0.2, 0.2, 0), (0, 0, -1)
+    assert cast_rays(*rays, shapes_of((DISCS.number, (0, 0, -5), 1.0)))["distance"] == 5
+    with pytest.raises(InputError, match="do not meet shapes of the kind tetrahedron: leave these out"):
+        cast_rays(*rays, shapes_of((TETRAHEDRA.number, (0, 0, -5), 1.0)))

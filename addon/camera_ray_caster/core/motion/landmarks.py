@@ -9,7 +9,7 @@ import numpy as np
 
 from ..camera.camera import Camera
 from ..maths.vector import cross, dot
-from ..records import INFINITE_PLANE, MESH, SPHERE, Shapes
+from ..records import INFINITE_PLANE, MESH, PLANE, Shapes
 from .deformation import alike, changed, vertices
 from .interpolation import State
 
@@ -81,8 +81,8 @@ def _landmarks(shapes: Shapes, origins: np.ndarray, directions: np.ndarray) -> n
     """Return landmarks of shapes in their own frames, (n, 18, 3): the center, the corners of the bounding box, and the
     points at which rays meet the box; NaN where a ray misses it or the frame is flat.
     """
-    half = np.tile((1.0, 1.0, 0.0), (len(shapes), 1, 1))
-    half[shapes.kind == SPHERE] = 1.0
+    half = np.ones((len(shapes), 1, 3))
+    half[(shapes.kind == PLANE) | (shapes.kind == INFINITE_PLANE), :, 2] = 0.0
     if shapes.meshes:
         is_mesh = shapes.kind == MESH
         half[is_mesh, 0] = np.array([mesh.half_size for mesh in shapes.meshes])[shapes.mesh[is_mesh]]
