@@ -43,8 +43,8 @@ def toys_cross_slit(scene):
 
 
 def living_room(scene):
-    """Two hundred meshes are made with arrays, bevels, lathes and cushions. Pass indices distinguish the kinds of
-    furniture.
+    """Two hundred meshes are made with arrays, bevels, lathes and cushions. The floor, the walls, the rug and all light
+    wood have image textures. Pass indices distinguish the kinds of furniture.
     """
     furnish(scene)
     picture(scene, (2.3, -2.7, 1.65), (-0.42, 1.0, 1.02), 560, 350, world=DAYLIGHT, lens=18.5)

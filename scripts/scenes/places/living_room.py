@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from math import cos, pi, sin
 
+import bpy
+
 from ..parts import add, ico_sphere, lamp, square, sun, uv_sphere
 from ..solids import (
     assembled,
@@ -20,6 +22,18 @@ from ..solids import (
     tube,
     turned,
 )  # fmt: skip
+from ..textures import (
+    evening,
+    grained,
+    mapped,
+    packed,
+    rosette,
+    seen_from_above,
+    slope,
+    textured,
+    wallpaper,
+    wood,
+)  # fmt: skip
 
 WALLS, FLOOR, WINDOW, OUTSIDE, DOOR, TABLE, CHAIRS, SOFA, SHELF = range(1, 10)
 BOOKS, LAMPS, PLANT, DISHES, PICTURE, FIGURE = range(10, 16)
@@ -35,6 +49,9 @@ def living_room(scene) -> None:
     lounge(scene)
     plant(scene, (-2.55, 2.4, 0))
     entrance(scene)
+    textured(WOOD, packed("Wood", wood(WOOD)))
+    for thing in (thing for thing in bpy.data.objects if WOOD in thing.material_slots):
+        grained(thing)
     sun(scene, (50, 0, -58), 1.9, "fff1dc")
     sun(scene, (118, 0, 130), 0.8, "e6ecff")
     lamp(scene, (-0.3, 0, 1.6), 25, "ffdfb0")
@@ -46,13 +63,18 @@ def shell(scene) -> None:
     for k, color in enumerate(("c29669", "b58859", "caa075")):
         plank = block(scene, "Plank", (1.29, 0.194, 0.03), (-3.63 + 0.43 * k, -2.9 + 0.2 * k, -0.015), edge=0.004,
                       color=color, index=FLOOR)  # fmt: skip
-        repeated(plank, (7, (1.3, 0, 0)), (10, (0, 0.6, 0)))
+        repeated(grained(plank), (7, (1.3, 0, 0)), (10, (0, 0.6, 0)))
+        for copies in plank.modifiers[-2:]:  # no two neighbors show the same part of the image
+            copies.offset_u, copies.offset_v = 0.37, 0.43
+        textured(color, packed("Plank", wood(color, k)))
     for name, place, turn, half, color in (
         ("Back wall", (0, 3, 1.35), (90, 0, 0), 3.2, "eae4d6"),
         ("Front wall", (0, -3, 1.35), (90, 0, 180), 3.2, "e9dfce"),
         ("Right wall", (3.2, 0, 1.35), (90, 0, -90), 3.0, "d3ddd6"),
     ):
-        add(scene, name, square(), place, turn, (half + 0.01, 1.36, 1), color=color, index=WALLS)
+        wall = add(scene, name, square(), place, turn, (half + 0.01, 1.36, 1), color=color, index=WALLS)
+        mapped(wall, (2, 0, 0), (0, 2, 0))
+        textured(color, packed("Wallpaper", wallpaper(color)))
         skirting = block(scene, "Skirting", (2 * half, 0.02, 0.09), place, turn, color=WHITE, index=WALLS)
         skirting.rotation_euler.x, skirting.location.z = 0, 0.045
     add(scene, "Ceiling", square(), (0, 0, 2.7), (180, 0, 0), (3.21, 3.01, 1), color=WHITE, index=WALLS)
@@ -61,7 +83,9 @@ def shell(scene) -> None:
     sides = [(k, (k + 1) % 4, (k + 1) % 4 + 4, k + 4) for k in range(4)]
     wall = drawn("wall with a window", [(0, y, z) for y, z in corners], faces=sides)
     wall.shade_flat()
-    modified(add(scene, "Left wall", wall, (-3.2, 0, 0), color="e6dfd0", index=WALLS), "SOLIDIFY", thickness=0.2)
+    left = add(scene, "Left wall", wall, (-3.2, 0, 0), color="e6dfd0", index=WALLS)
+    modified(mapped(left, (0, 2, 0), (0, 0, 2)), "SOLIDIFY", thickness=0.2)
+    textured("e6dfd0", packed("Wallpaper", wallpaper("e6dfd0")))
     panes = [(0, 1.3 * a / 2, 1.575 + 0.725 * b) for a in range(-2, 3) for b in range(-1, 2)]
     frame = add(scene, "Window", sheet("panes", panes, 3), (-3.27, 0, 0), color=WHITE, index=WINDOW)
     modified(frame, "WIREFRAME", thickness=0.07)
@@ -84,12 +108,23 @@ def outside(scene) -> None:
                (x, y, -0.4), (0, 0, 9 * k), steps=16, color="7fbb86", index=OUTSIDE)  # fmt: skip
 
 
+RUG = (
+    (1.80, 0, 0, "3f6f8f"), (1.68, 0.03, 48, "2f5877"), (1.62, 0.03, 48, "3f6f8f"), (1.55, 0, 0, "e9dcc3"),
+    (1.45, 0, 0, "5f8fa8"), (1.27, 0.09, 16, "e9dcc3"), (1.24, 0.09, 16, "2f5877"), (1.04, 0.1, 16, "d98f6c"),
+    (0.94, 0.1, 16, "e9dcc3"), (0.78, 0, 0, "5f8fa8"), (0.55, 0.16, 8, "e9dcc3"), (0.5, 0.16, 8, "2f5877"),
+    (0.3, -0.08, 8, "d98f6c"), (0.12, 0, 0, "e9dcc3"),
+)  # fmt: skip
+"""The pattern, from the outside in: radius, wave, number of waves and color."""
+
+
 def dining(scene) -> None:
     """Add a rug, a laid table, four chairs and a lamp above the table."""
     at = -0.3, 0
+    pattern = packed("Rug", rosette(RUG, 3.6))
     for radius, high, color in ((1.75, 0.008, "3f6f8f"), (1.55, 0.012, "e9dcc3"), (1.45, 0.016, "5f8fa8")):
         edge = [(0, high), (radius, high), (radius, 0)]
-        turned(scene, "Rug", edge, (*at, 0), steps=64, color=color, index=FLOOR)
+        seen_from_above(turned(scene, "Rug", edge, (*at, 0), steps=64, color=color, index=FLOOR), 3.6)
+        textured(color, pattern)
     block(scene, "Table top", (1.7, 0.95, 0.05), (*at, 0.735), edge=0.015, color=WOOD, index=TABLE)
     block(scene, "Apron", (1.5, 0.75, 0.08), (*at, 0.67), color=DARK_WOOD, index=TABLE)
     leg = [(0, 0), (0.022, 0), (0.04, 0.55), (0.03, 0.57), (0.045, 0.6), (0.045, 0.7)]
@@ -165,12 +200,16 @@ def lounge(scene) -> None:
             scene, "Pillow", (0.16, 0.44, 0.44), (x + 0.12, y, 0.75), (0, 20, turn), crease=0.2, color=color, index=SOFA
         )
     block(scene, "Frame", (0.03, 1.3, 0.8), (3.18, -0.35, 1.65), color=DARK_WOOD, index=PICTURE)
-    block(scene, "Sky", (0.03, 1.2, 0.7), (3.17, -0.35, 1.65), edge=0, color="bcd7ea", index=PICTURE)
+    sky = block(scene, "Sky", (0.03, 1.2, 0.7), (3.17, -0.35, 1.65), edge=0, color="bcd7ea", index=PICTURE)
+    mapped(sky, (0, -1 / 1.2, 0), (0, 0, 1 / 0.7), 0.5)
+    textured("bcd7ea", packed("Sky", evening("f6d7b0", "7fb2dc", "fdf3ea")))
     far = (-0.6, 0), (0.6, 0), (0.6, 0.22), (0.3, 0.45), (0.05, 0.2), (-0.25, 0.38), (-0.6, 0.1)
     near = (-0.6, 0), (0.6, 0), (0.6, 0.05), (0.1, 0.16), (-0.3, 0.3), (-0.6, 0.2)
-    for outline, out, color in ((far, 3.152, "7f9fb8"), (near, 3.148, "3f6f6a")):
+    for outline, out, color, *top in ((far, 3.152, "7f9fb8", "f4f7fa", 0.55), (near, 3.148, "3f6f6a", "6fa36f", 0.35)):
         at = (out, -0.35, 1.3), (0, 0, 90)
-        prism(scene, "Mountains", outline, 0.01, *at, edge=0, color=color, index=PICTURE)
+        hills = prism(scene, "Mountains", outline, 0.01, *at, edge=0, color=color, index=PICTURE)
+        mapped(hills, (1 / 1.2, 0, 0), (0, 0, 1 / 0.5))
+        textured(color, packed("Mountains", slope(color, *top)))
     disc, at = [(0, 0), (0.09, 0), (0.09, -0.01)], ((3.15, -0.65, 1.83), (0, -90, 0))
     turned(scene, "Sun disc", disc, *at, color="f0b941", index=PICTURE)
     foot = [(0, 0), (0.15, 0), (0.15, 0.02), (0.015, 0.04), (0.012, 1.5), (0, 1.5)]
