@@ -22,7 +22,7 @@ WRONG_WORDS = {
     "beyond Blender's frames": (["small.blend", "--frame", "1e300"], "last frame"),
 }
 WRONG_FOR_CAST = {
-    "no such pass": (["small.blend", "--passes", "depth,z"], "there is no pass 'z': choose from combined, depth"),
+    "no such pass": (["small.blend", "--passes", "depth,normals"], "unknown pass 'normals': did you mean normal?"),
     "no such shading": (["small.blend", "--shading", "toon"], "MATERIAL"),
     "no such precision": (["small.blend", "--precision", "double"], "AUTOMATIC"),
     "frames backwards": (["small.blend", "--frames", "2:1"], "2:1 has no frames"),

@@ -85,6 +85,9 @@ def test_nerfs_files_have_every_picture_once(tmp_path):
     assert parts["train"]["camera_angle_x"] == pytest.approx(2 * atan(18 / 50), rel=1e-7)
     with pytest.raises(InputError, match=r"NeRF cannot represent .* which camera_angle_x alone does not say"):
         export("nerf", shots("shifted"))
+    zooming = [Shot("a", frame, camera("PERSP", {"lens": 30.0 + frame % 3})) for frame in range(1, 6)]
+    with pytest.raises(InputError, match=r"^NeRF has one camera_angle_x, but 'a_000[25]' and 'a_0003' differ: export"):
+        list(export("nerf", zooming)[0])
 
 
 def test_maps_of_a_camera_that_stands_still_are_written_once():

@@ -7,6 +7,7 @@ from functools import wraps
 from math import isnan
 from typing import TypeVar
 
+from ...core.arguments import unknown
 from ...core.camera.pixel_time import LAST_FRAME
 from ...core.cast import MOST_SAMPLES
 from ...core.casting.passes import PASSES
@@ -164,7 +165,7 @@ def sample_count(text: str) -> int:
 def pass_names(text: str) -> list[str]:
     """Return the pass names of "A,B,..."."""
     names = [name.strip() for name in text.split(",")]
-    unknown = [name for name in names if name not in PASSES]
-    if unknown:
-        raise argparse.ArgumentTypeError(f"there is no pass {unknown[0]!r}: choose from {', '.join(PASSES)}")
+    for name in names:
+        if name not in PASSES:
+            raise argparse.ArgumentTypeError(str(unknown("pass", name, PASSES)))
     return names

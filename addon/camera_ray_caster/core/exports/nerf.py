@@ -43,9 +43,11 @@ class Nerf(lenses.LensFormat):
 
     def files(self, shots):
         """See Format. Raises InputError for lenses that differ."""
-        angles = {_angle(shot): shot.name for shot in shots}
-        if max(angles) - min(angles) > NEAR:
-            raise InputError(f"NeRF has one camera_angle_x, but {' and '.join(map(repr, angles.values()))} differ")
+        angles = {_angle(shot): shot.stem for shot in shots}
+        least, most = min(angles), max(angles)
+        if most - least > NEAR:
+            differ = f"{angles[least]!r} and {angles[most]!r} differ"
+            raise InputError(f"NeRF has one camera_angle_x, but {differ}: export them separately, or for nerfstudio")
         of = {7: "val", 9: "test"}
         for part in PARTS:
             frames = [_frame(shot) for number, shot in enumerate(shots) if of.get(number % 10, "train") == part]
