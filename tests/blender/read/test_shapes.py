@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 from mathutils import Matrix
 
+from camera_ray_caster.blender.read import geometry
 from camera_ray_caster.blender.read.scene import read_shapes
 from camera_ray_caster.core.records import INFINITE_PLANE, PLANE, SPHERE
 
@@ -190,6 +191,17 @@ def test_the_points_of_a_cloud_are_spheres_under_the_objects_matrix(scene):
     np.testing.assert_array_equal(shapes.axes, [np.diag([0.25, -0.5, 1])] * 2)
     np.testing.assert_array_equal(shapes.object_index, [5, 5])
     assert counts(shapes) == {"Cloud": 2}
+
+
+@pytest.mark.parametrize("kind", [PLANE, 7])  # 7: any kind that is neither a sphere nor a plane
+def test_a_cloud_that_is_cast_as_another_kind_is_one_shape(scene, monkeypatch, kind):
+    monkeypatch.setitem(geometry.FORCED, "PLANE", kind)
+    item = new_object("Cloud", mesh_of((0, 0, 0), (2, 6, 0)))
+    item.camera_ray_caster.primitive = "PLANE"
+    points(item, radius=0.25)
+    shapes = read_shapes(scene)
+    assert shapes.kind.tolist() == [kind]
+    np.testing.assert_array_equal(shapes.center, [(1, 3, 0)])
 
 
 def test_points_without_a_radius_are_as_large_as_cycles_makes_them(scene):

@@ -131,7 +131,7 @@ def _of_points(cloud, kind) -> Found:
     if not len(cloud.points):
         return NOTHING
     positions = fetched(cloud.attributes["position"].data, "vector", np.float32, 3).reshape(-1, 3)
-    if kind in (PLANE, INFINITE_PLANE):
+    if kind not in (None, SPHERE):
         return _enclosing(kind, positions)
     radius = cloud.attributes.get("radius")
     radii = fetched(radius.data, "value", np.float32) if radius else np.full(len(positions), DEFAULT_RADIUS, np.float32)
