@@ -120,7 +120,7 @@ def test_cameras_of_different_sizes_are_cast_into_one_folder(blender, camera_sce
     assert commands.main("export", [str(out), "--format", "json", "--camera", "cam0"], "it") == 2
     assert "--camera is for a .blend, not for a finished set" in capfd.readouterr().err
     assert commands.main("export", [str(file), "--format", "yolo"], "it") == 2
-    assert "--format yolo is of a finished set" in capfd.readouterr().err
+    assert f"--format yolo is of a finished set: give its folder, which {str(file)!r} is not" in capfd.readouterr().err
     assert commands.main("cast", [str(file), "--rig", chain, "--camera", "Camera"], "it") == 2
     assert "--rig brings its own cameras" in capfd.readouterr().err
 

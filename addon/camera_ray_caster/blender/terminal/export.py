@@ -45,7 +45,8 @@ def run(arguments: Sequence[str], prog: str) -> int:
     if options.file is not None and options.file.is_dir():
         return _of_set(options)
     if options.format in SET_FORMATS:
-        raise InputError(f"--format {options.format} is of a finished set: give its folder in place of a .blend")
+        given = "a .blend" if options.file is None else repr(str(options.file))
+        raise InputError(f"--format {options.format} is of a finished set: give its folder, which {given} is not")
     scene = open_scene(options)
     if not options.cameras:
         check_camera(scene, scene.camera)

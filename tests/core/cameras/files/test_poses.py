@@ -127,3 +127,8 @@ def test_what_is_no_pose_is_refused_in_one_line(tmp_path, text, says):
     (tmp_path / "file").write_text(text)
     with pytest.raises(InputError, match=says):
         read(tmp_path / "file")
+
+
+def test_a_folder_without_a_model_of_colmap_is_refused_as_such(tmp_path):
+    with pytest.raises(InputError, match=r"^folder '.*' has no images.bin or images.txt, nor its sparse/0"):
+        read(tmp_path)

@@ -14,6 +14,7 @@ from pathlib import Path, PurePath
 
 import numpy as np
 
+from ...records import InputError
 from . import basalt, colmap_images, nerfstudio, okvis, trajectory
 from .document import Document, mapping
 from .kalibr import read as of_kalibr
@@ -26,17 +27,15 @@ ENDING = re.compile(r"(.*?)_(-?\d{4,}(?:\.\d+)?)")
 
 def beside(path: str) -> tuple[str, str]:
     """Return the file of lenses and the file of poses that belong to a path: COLMAP has one of each, others have both
-    in one. A folder stands for the COLMAP model in it, or its sparse/0.
+    in one. A folder stands for the COLMAP model in it, or its sparse/0. Raises InputError for a folder without one.
     """
     file = Path(path)
-    for folder in (file, file / "sparse" / "0", file / "sparse") if file.is_dir() else ():
-        for kind in ("bin", "txt"):
-            if (folder / f"images.{kind}").is_file():
-                file = folder / f"images.{kind}"
-                break
-        else:
-            continue
-        break
+    if file.is_dir():
+        folders = file, file / "sparse" / "0", file / "sparse"
+        found = [one for folder in folders for one in (folder / "images.bin", folder / "images.txt") if one.is_file()]
+        if not found:
+            raise InputError(f"folder {path!r} has no images.bin or images.txt, nor its sparse/0: give a file")
+        file = found[0]
     stem, kind = file.stem, file.suffix
     if stem not in ("images", "cameras") or kind not in (".bin", ".txt"):
         return str(file), str(file)
