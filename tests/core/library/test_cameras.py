@@ -117,6 +117,9 @@ def test_a_closed_path_is_closed():
         (("PERSP", SIZE, np.zeros((4, 4))), {}, "scale of zero"),
         (("PUSHBROOM", SIZE), {}, "PUSHBROOM needs slit_1: a point and a direction"),
         (("PUSHBROOM", SIZE), {"slit_1": [1, 2, 3]}, r"slit_1 is of shape \(3,\)"),
+        (("PUSHBROOM", SIZE), {"slit_1": [(0, 0, np.nan), (1, 0, 0)]}, r"slit_1 is of shape \(2, 3\), with NaN"),
+        (("PERSP", SIZE), {"frame": np.nan}, "frame is nan: it must be a number from"),
+        (("PERSP", SIZE), {"frame": 1e300}, "frame is 1e\\+300: it must be a number from"),
         (("STRIP", SIZE), {"path": [(0, 0, 0)]}, "path of camera 'Camera' has no length"),
         (("GENERAL_LINEAR", SIZE), {"ray_1": (1, 2)}, "ray_1"),
         (

@@ -63,7 +63,7 @@ def camera(model: str, size, pose=None, **settings: Any) -> Camera:
         raise unknown("model", model, known)
     width, height = _size(size)
     name = word(settings.pop("name", "Camera"), "name")
-    frame = a_number(settings.pop("frame", 0.0), "frame")
+    frame = number(settings.pop("frame", 0.0), "frame", pixel_time.LAST_FRAME)
     mode = settings.pop(pixel_time.MODE.name, pixel_time.NONE)
     if mode not in pixel_time.SETTINGS:
         raise unknown(pixel_time.MODE.name, mode, pixel_time.SETTINGS)

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from ..arguments import flag, numbers, shown, word
+from ..arguments import flag, numbers, shape_of, shown, word
 from ..cameras.parts.settings import Coefficients, Line, Setting, Whole
 from ..records import InputError
 
@@ -60,8 +60,9 @@ def _line(setting: Line, value) -> tuple[np.ndarray, np.ndarray, list[tuple[int,
     begins is closed.
     """
     points = numbers(value, setting.name)
-    if points.ndim != 2 or points.shape[1] != 3 or (not setting.sampled and len(points) != 2):
-        raise InputError(f"{setting.name} is of shape {points.shape}: it must be {line_in_words(setting)}")
+    of_shape = points.ndim == 2 and points.shape[1] == 3 and (setting.sampled or len(points) == 2)
+    if not of_shape or not np.isfinite(points).all():
+        raise InputError(f"{setting.name} is {shape_of(points)}: it must be {line_in_words(setting)}")
     if not setting.sampled:
         return np.stack((points[0], points[0] + points[1])), np.eye(4), [(0, 1)]
     edges = [(k, k + 1) for k in range(len(points) - 1)]
