@@ -63,6 +63,7 @@ def test_the_panels_say_what_the_camera_is_and_why_it_is_none(blender, scene):
     for panel in (*sidebar, camera_panels.SidebarSettings, *cast_panels.CLASSES[3:]):
         drawn(blender, panel)
     assert "Suzanne" in drawn(blender, left_out_panels.SidebarLeftOut)
+    assert "'Sphere': the exact shape is up to 0.96% of" in drawn(blender, cast_panels.SidebarNotes)
     assert "All reference checks passed" in drawn(blender, verify)
     scene.camera.location.x = 1
     assert "has changed since" in drawn(blender, verify)

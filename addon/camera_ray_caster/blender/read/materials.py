@@ -218,4 +218,6 @@ def _divided(parts: Parts, through: Value | None, alpha: Value | None) -> tuple[
 
 def as_color(part: Value) -> Value:
     """Return a part with three channels that are finite."""
+    if isinstance(part, Constant):
+        return constant(*np.broadcast_to(part.values[:, 0], 3))
     return function_of(lambda one: np.nan_to_num(np.broadcast_to(one, (3, one.shape[1]))), part)

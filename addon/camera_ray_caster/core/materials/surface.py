@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .values import Constant, Places, Value, all_constant
+from .values import Places, Value, all_constant
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,8 +34,3 @@ class Surface:
     def changes(self) -> bool:
         """Whether anything changes over the surface."""
         return not all(map(all_constant, (self.lit, self.own, self.glow, self.alpha)))
-
-    @property
-    def is_open(self) -> bool:
-        """Whether no point is hit."""
-        return isinstance(self.alpha, Constant) and not (self.alpha.values >= self.threshold).all()
