@@ -92,6 +92,7 @@ class SphericalStereo(Model):
     group = "Blender's Own"
     central = False
     smooth = False  # not where the offset ends
+    guarded = False  # the world's up is known to float32's rounding of the pose, 1e-7, and so is the inverse
     FORMULA = (
         Step("Direction without stereo, in a frame whose y is up", "D"),
         Step("Unit vector to the right of the direction", "side = D x up / |D x up|"),
