@@ -19,6 +19,8 @@ WRONG_WORDS = {
     "no number": (["small.blend", "--frame", "half"], "'half'"),
     "a negative number": (["small.blend", "--frame", "-1e9"], "-1e9 is beyond Blender's last frame"),
     "not finite": (["small.blend", "--frame", "nan"], "'nan' is not a frame number"),
+    "no size": (["small.blend", "--resolution", "640"], "'640'"),
+    "a small size": (["small.blend", "--resolution", "640x0"], "outside Blender's range of 4 to 65536"),
     "beyond Blender's frames": (["small.blend", "--frame", "1e300"], "last frame"),
 }
 WRONG_FOR_CAST = {
@@ -38,8 +40,6 @@ WRONG_FOR_CAST = {
     "a share of none": (["small.blend", "--frames", "1:4", "--shard", "0/0"], "give K/N, such as 1/4"),
     "half a share": (["small.blend", "--frames", "1:4", "--shard", "3"], "'3'"),
     "a share of one frame": (["small.blend", "--shard", "1/4"], "of the frames of --frames"),
-    "no size": (["small.blend", "--resolution", "640"], "'640'"),
-    "a small size": (["small.blend", "--resolution", "640x0"], "outside Blender's range of 4 to 65536"),
     "no such format": (["small.blend", "--format", "tiff"], "EXR"),
     "one frame for frames": (["small.blend", "--frames", "2"], "'2'"),
     "frame and frames": (["small.blend", "--frame", "1", "--frames", "1:2"], "not allowed with"),

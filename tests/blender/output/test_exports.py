@@ -148,7 +148,8 @@ def test_maps_are_written_as_they_are_computed(scene, tmp_path, target):
 
 @pytest.mark.parametrize("key", [one.key for one in FORMATS])
 def test_every_format_of_a_scene_appears_whole(scene, tmp_path, key):
-    _, paths = exports.write(scene, key, find_cameras(scene, ["ALL"]), [1, 2], tmp_path)
+    frames = [1] if key == "kalibr" else [1, 2]  # a camchain is of a rig that does not change
+    _, paths = exports.write(scene, key, find_cameras(scene, ["ALL"]), frames, tmp_path)
     assert names(tmp_path) == sorted(path.name for path in paths) != []
     assert all(path.stat().st_size > 0 for path in paths)
     if key in ("npz", "mrcal"):

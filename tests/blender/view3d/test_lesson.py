@@ -13,7 +13,9 @@ from camera_ray_caster.blender.view3d import lesson
 def test_rays_and_marks_are_drawn_for_pixels_where_overlays_are_shown(function, pixels, overlays, monkeypatch):
     asked = []
     space = SimpleNamespace(overlay=SimpleNamespace(show_overlays=overlays))
-    context = SimpleNamespace(space_data=space, preferences=SimpleNamespace(system=SimpleNamespace(ui_scale=1.0)))
+    preferences = SimpleNamespace(system=SimpleNamespace(ui_scale=1.0))
+    scene = SimpleNamespace(camera=None)
+    context = SimpleNamespace(space_data=space, region_data=None, scene=scene, preferences=preferences)
     monkeypatch.setattr(lesson, "bpy", SimpleNamespace(context=context))
     monkeypatch.setattr(lesson, "gpu", MagicMock())
     monkeypatch.setattr(lesson, "pixels", pixels)

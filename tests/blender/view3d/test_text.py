@@ -97,7 +97,7 @@ def test_the_notice_is_in_views_that_show_rays(perspective, shading, local_view,
         ),
         region_data=SimpleNamespace(view_perspective=perspective),
     )
-    monkeypatch.setattr(notice, "cached_scene", lambda context: SimpleNamespace(differences=(SENTENCE,)))
+    monkeypatch.setattr(notice, "cached_scene", lambda context: SimpleNamespace(differences=(SENTENCE,), reason=""))
     said, overlaid = list(notice._sentences(context)), show and show_overlays
     assert (SENTENCE in said) == (overlaid or (shading, perspective) == ("RENDERED", "CAMERA"))
     assert (notice.LOCAL_VIEW in said) == (local_view is not None and (overlaid or shading == "RENDERED"))

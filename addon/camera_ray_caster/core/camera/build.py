@@ -30,7 +30,7 @@ NEAR = 2.0**-13
 """Distance of the points that it must find, over the distance of the rays' origins from the world's origin."""
 
 FARTHEST_PLANE = 1e50
-"""Largest coordinate on the image plane: powers of larger ones overflow."""
+"""Largest coordinate on the image plane: powers of larger ones overflow. Rays that are parallel need none."""
 
 
 def camera_from(raw: BlenderCamera) -> Camera:
@@ -92,7 +92,7 @@ def _check_inverse(raw: BlenderCamera, model: Model, pose: Pose) -> None:
     arithmetic. The message names the number that is farthest from 1. Models that are not smooth may miss a pixel.
     """
     window = getattr(model, "window", None)
-    if window is not None and not np.abs(window.extent(model.frame)).max() <= FARTHEST_PLANE:
+    if window is not None and not model.parallel and not np.abs(window.extent(model.frame)).max() <= FARTHEST_PLANE:
         raise InputError(
             f"the frame of camera {raw.name!r} reaches too far on its image plane: {_farthest(raw, model, pose)}, too "
             "large or too small for the rest"
