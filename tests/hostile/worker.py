@@ -59,7 +59,10 @@ def of_script(name):
     """Return a script as a command."""
 
     def command(words):
+        import ends  # beside the scripts
+
         sys.argv[:] = [f"{name}.py", *words]
+        ends._leave = lambda temporary, status: None  # this process goes on
         runpy.run_path(str(ROOT / "scripts" / f"{name}.py"), run_name="__main__")
         return 0
 
