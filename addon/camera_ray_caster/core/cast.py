@@ -15,7 +15,7 @@ from .casting.flow import pictures
 from .casting.passes import PASSES, image_bytes
 from .casting.plan import Plan, make_plan
 from .casting.request import MATERIAL, PRECISIONS, Request, meaning
-from .casting.tiles import STEPS, Effort, Tile, cast_tile, in_threads, moments, shares
+from .casting.tiles import STEPS, Effort, Tile, cast_tile, in_threads, listening, moments, shares
 from .maths.speed import Scratch, processors
 from .records import Shapes
 from .scene import Scene
@@ -92,7 +92,7 @@ def cast(
         plans = {part: whole if count == 1 else make_plan(camera, shapes, part) for part, count in parts}
         tiles = list(shares(plans[parts[-1][0]], threads, parts[-1][1]))
     else:
-        tiles = list(moments(camera, time))
+        tiles = list(listening(moments(camera, time), progress))
     images.seconds = {"plan": perf_counter() - started}
     effort = Effort(len(tiles) * sum(count for part, count in parts if part.passes))
 

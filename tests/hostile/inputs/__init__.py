@@ -2,12 +2,24 @@
 
 import random
 
-from . import blend_bytes, calibrations, command_lines, images, lines, meshes, names, numbers, scripts, settings
+from . import (
+    blend_bytes,
+    calibrations,
+    command_lines,
+    images,
+    libraries,
+    lines,
+    meshes,
+    names,
+    numbers,
+    scripts,
+    settings,
+)  # fmt: skip
 
-KINDS = {
-    module.__name__.rpartition(".")[2]: module
-    for module in (settings, numbers, names, meshes, lines, images, calibrations, blend_bytes, scripts, command_lines)
-}
+MODULES = (
+    settings, numbers, names, libraries, meshes, lines, images, calibrations, blend_bytes, scripts, command_lines,
+)  # fmt: skip
+KINDS = {module.__name__.rpartition(".")[2]: module for module in MODULES}
 """Modules by name. ``COUNT`` is how many inputs a module has; ``make(chance, number, folder)`` makes one of them of
 the small scene that is open, with files in the folder, and returns a ``Hostile``.
 """

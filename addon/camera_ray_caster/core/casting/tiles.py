@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 from dataclasses import dataclass, replace
 from itertools import pairwise
@@ -93,6 +93,19 @@ def moments(camera: Camera, pixel_time: PixelTime) -> Iterator[Tile]:
         for tile in _bands(rows, columns, tuning.TILE_PIXELS[0]):
             meant = where[tile.rows.start - rows.start : tile.rows.stop - rows.start]
             yield replace(tile, frame=frame, where=None if meant.all() else meant)
+
+
+def listening(tiles: Iterable[Tile], progress: Callable[[float], bool] | None) -> Iterator[Tile]:
+    """Yield tiles, and call ``progress(0)`` meanwhile as a cast does: those of 65,536 columns with times of their own
+    take many seconds to find. Raises Cancelled if it returns False.
+    """
+    told = perf_counter()
+    for tile in tiles:
+        if progress is not None and perf_counter() - told > LISTEN:
+            if not progress(0.0):
+                raise Cancelled
+            told = perf_counter()
+        yield tile
 
 
 def _bands(rows: slice, columns: slice, pixels: int) -> Iterator[Tile]:

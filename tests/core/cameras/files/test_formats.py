@@ -174,6 +174,8 @@ SAID = [
     ("plain.yml", "width: 640\nheight: 480\nK:\n- - 300.0\n  - 0.0\n  - 320.5\n- - 0.0\n  - 301.0\n  - 239.25\n"
      "- - 0.0\n  - 0.0\n  - 1.0\nD:\n- 0.0\n", "OPENCV_PINHOLE", {}),
     ("omnidir.yml", OMNIDIR, "UCM", RADTAN | {"unified_xi": 1.25, "skew": 1.5}),
+    ("omnidir.yml", OMNIDIR.replace("cols: 4", "cols: 5").replace("-0.002 ]", "-0.002, 0. ]"), "UCM",
+     RADTAN | {"unified_xi": 1.25, "skew": 1.5}),
 ]  # fmt: skip
 
 
