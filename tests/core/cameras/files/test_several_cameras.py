@@ -1,7 +1,8 @@
-"""Calibration files of several cameras: one of them is chosen by its name."""
+"""Calibration files of several cameras, of which one is chosen by its name, and several files one after the other."""
 
 import pytest
 
+from camera_ray_caster.core.camera.calibration_file import chosen_lens, has_size
 from camera_ray_caster.core.cameras.files import lenses_of
 from camera_ray_caster.core.records import InputError
 
@@ -50,3 +51,12 @@ def test_cameras_bin_says_what_cameras_txt_says(tmp_path):
         (tmp_path / "cameras.bin").write_bytes(damaged)
         with pytest.raises(InputError, match=r"not a text file, and not a cameras\.bin of COLMAP"):
             lenses_of(str(tmp_path / "cameras.bin"))
+
+
+def test_a_file_without_a_size_leaves_nothing_to_the_next(tmp_path):
+    (tmp_path / "first").write_text('{"camera_angle_x": 0.7, "frames": []}')
+    (tmp_path / "second").write_text("fx: 300.\nfy: 301.\ncx: 32.\ncy: 24.\n")
+    chosen_lens(str(tmp_path / "first"), frame=(64, 48))
+    lens = chosen_lens(str(tmp_path / "second"), "OPENCV_PINHOLE")
+    assert not has_size(lens)
+    assert lens.settings["fx"] == 300

@@ -91,7 +91,7 @@ class Document:
         Raises InputError unless both sides are whole pixels.
         """
         if width is None and height is None:
-            return FRAME_SIZE
+            return dict(FRAME_SIZE)
         if width is None or height is None:
             raise self.refusal(f"it has {'a height and no width' if width is None else 'a width and no height'}")
         if min(width, height) < 1 or width % 1 or height % 1:
