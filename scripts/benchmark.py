@@ -5,6 +5,7 @@
     python scripts/benchmark.py --meshes        triangle meshes, also against Open3D
     python scripts/benchmark.py --models        rays and pictures of every camera model
     python scripts/benchmark.py --dataset       a data set of meshes: cost against writing alone, and two processes
+    python scripts/benchmark.py --against v0.1.0    this checkout against a commit: casts and the rays of each model
     python scripts/benchmark.py --scaling --picture FILE.png    cost against pixels, shapes and triangles
 
 In each round all contenders run in turn, so that other load on the machine affects all of them. A pause before each run
@@ -55,6 +56,9 @@ def main() -> int:
     parser.add_argument(
         "--dataset", action="store_true", help="measure pictures of a data set, with one process and with two"
     )
+    parser.add_argument(
+        "--against", metavar="COMMIT", help="compare the processor time of this checkout with that of another commit"
+    )
     parser.add_argument("--picture", type=Path, metavar="FILE", help="draw a diagram; with --scaling only")
     parser.add_argument("--json", type=Path, metavar="FILE", help="write the measurements to this file")
     options = parser.parse_args()
@@ -64,7 +68,14 @@ def main() -> int:
             parser.error(f"there is no folder for {str(path)!r}: create the folder or choose another folder")
     width, height = options.size
     rounds = options.rounds or (3 if options.quick else 9)
-    if options.models:
+    if options.against:
+        import against
+
+        try:
+            figures = against.run(options.against, rounds, options.size)
+        except LookupError as error:
+            parser.error(str(error))
+    elif options.models:
         import by_model
 
         figures = by_model.run(width, height, rounds, options.threads)

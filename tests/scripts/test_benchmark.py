@@ -79,3 +79,16 @@ def test_data_sets_are_timed(registered, monkeypatch, capsys):
 )  # fmt: skip
 def test_bad_input_is_refused_in_one_line(tmp_path, words, said):
     assert said in refused(script("benchmark", *words, folder=tmp_path))
+
+
+@pytest.mark.full
+def test_a_checkout_is_timed_against_a_commit_and_a_wrong_one_is_refused(tmp_path):
+    _, rows = figures(tmp_path, "--against", "HEAD", "--size", "32x18", "--rounds", "1")
+    names = [row["name"] for row in rows]
+    assert names[:2] == ["10 spheres, 4 passes", "1,000 spheres, 4 passes"]
+    assert {f"rays, {model.key}" for model in MODELS} <= {*names}
+    assert all(row["ratio"] == pytest.approx(row["here_ms"] / row["there_ms"]) for row in rows)
+    assert all(row["there_ms"] > 0 for row in rows)
+    refused = script("benchmark", "--against", "nothing")
+    assert refused.returncode == 2
+    assert "there is no commit 'nothing'" in refused.stderr

@@ -1,0 +1,157 @@
+"""Time this checkout against another commit: a fixed list of cases, alternately, each in a process of its own.
+
+The time is that of the processor, over all threads, which other programs change less than that of the clock: of each
+process the least of CASTS casts, of all rounds the least. The spread of the rounds' ratios tells what can be concluded.
+"""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+import tempfile
+from collections.abc import Callable
+from contextlib import contextmanager
+from functools import partial
+from importlib import import_module
+from importlib.util import find_spec
+from pathlib import Path
+from time import process_time
+
+import numpy as np
+
+ROOT = Path(__file__).resolve().parents[1]
+CASTS = 5
+FOUR, TWO = ("depth", "normal", "position", "object_index"), ("depth", "shape_index")
+SPHERES = (10, 1_000, 10_000)
+SIDES = {"1k": 22, "63k": 178, "1M": 707}
+"""Quads along a side of the meshes, which have twice as many triangles as quads."""
+
+
+def cases() -> dict[str, Callable]:
+    """Return the cases by name; each is a function that takes the picture's size and returns what is timed."""
+    from camera_ray_caster.core.cameras import MODELS
+
+    found: dict[str, Callable] = {
+        f"{count:,} spheres, {len(passes)} passes": partial(_spheres, count, passes)
+        for passes in (FOUR, TWO)
+        for count in SPHERES
+    }
+    found |= {f"{name} triangles, 4 passes": partial(_mesh, side) for name, side in SIDES.items()}
+    return found | {f"rays, {model.key}": partial(_rays, model.key) for model in MODELS}
+
+
+def run(commit: str, rounds: int, size: tuple[int, int]) -> list[dict]:
+    """Print and return the processor time of each case here and at a commit, and their ratios. Raises LookupError if
+    there is no such commit.
+    """
+    rows = []
+    with _checked_out(commit) as there:
+        print(f"\nprocessor time, ms; {size[0]} x {size[1]}; least of {rounds} rounds of {CASTS}")
+        print(f"  {'':34}{'there':>9}{'here':>9}{'here over there':>17}{'its rounds':>14}")
+        for name in cases():
+            times = [[_timed(root, name, size) for root in (there, ROOT)] for _ in range(rounds)]
+            if None in times[0]:
+                print(f"  {name:34}{'':>9}   one of the two has it not, or refuses it")
+                continue
+            before, here = np.min(times, axis=0)
+            ratios = sorted(one / other for other, one in times)
+            rows.append({"name": name, "there_ms": before, "here_ms": here, "ratio": here / before, "ratios": ratios})
+            print(f"  {name:34}{before:9.1f}{here:9.1f}{here / before:16.2f}x{ratios[0]:9.2f}-{ratios[-1]:.2f}")
+    return rows
+
+
+@contextmanager
+def _checked_out(commit: str):
+    """Give a folder with the files of a commit of this repository."""
+    with tempfile.TemporaryDirectory() as folder:
+        packed = subprocess.run(["git", "-C", ROOT, "archive", commit], capture_output=True, check=False)
+        if packed.returncode:
+            raise LookupError(f"there is no commit {commit!r} here: give one of git log")
+        subprocess.run(["tar", "-x", "-C", folder], input=packed.stdout, check=True)
+        yield Path(folder)
+
+
+def _timed(root: Path, name: str, size: tuple[int, int]) -> float | None:
+    """Return the milliseconds of a case with the add-on of a folder; None if it does not have it."""
+    words = [sys.executable, str(Path(__file__).resolve()), str(root), name, *map(str, size)]
+    done = subprocess.run(words, capture_output=True, text=True, check=False)
+    return float(done.stdout) if done.returncode == 0 else None
+
+
+def _camera(size: tuple[int, int]):
+    from camera_ray_caster.core.records import BlenderCamera
+
+    core = "camera_ray_caster.core."
+    module = "camera.build" if find_spec(core + "camera") else "cameras"  # before there was the folder camera/
+    record = BlenderCamera("Camera", "PERSP", np.eye(4), resolution_x=size[0], resolution_y=size[1])
+    return import_module(core + module).camera_from(record)
+
+
+def _cast(size, passes, **fields) -> Callable:
+    from camera_ray_caster.core.cast import cast
+    from camera_ray_caster.core.records import Shapes
+
+    count = len(fields["kind"])
+    index = np.arange(count, dtype=np.int32)
+    shapes = Shapes(
+        object_index=index, material_index=index, color=np.ones((count, 4), np.float32), name_index=index, **fields
+    )
+    camera = _camera(size)
+    return lambda: cast(camera, shapes, passes, threads=2)
+
+
+def _spheres(count: int, passes, size) -> Callable:
+    """Equal spheres without a wall, whose discs have 0.6 of the picture's area in sum."""
+    from camera_ray_caster.core.records import SPHERE
+
+    chance = np.random.default_rng(count)
+    depth, (across, up) = chance.uniform(12, 30, count), chance.uniform(-1, 1, (2, count))
+    wide = 18 / 50
+    high = wide * size[1] / size[0]
+    center = np.stack((across * wide * depth, up * high * depth, -depth), axis=1)
+    radius = np.sqrt(0.6 * 4 * wide * high / np.pi / np.sum(1 / depth**2))
+    axes = np.broadcast_to(np.eye(3) * radius, (count, 3, 3)).copy()
+    return _cast(size, passes, kind=np.full(count, SPHERE, np.uint8), center=center, axes=axes)
+
+
+def _mesh(side: int, size) -> Callable:
+    """A sheet of waves that fills the picture."""
+    from camera_ray_caster.core.mesh import Mesh
+    from camera_ray_caster.core.records import MESH
+
+    x, y = (part.ravel() for part in np.meshgrid(*2 * [np.linspace(-3, 3, side + 1)]))
+    vertices = np.stack((x, y, -6 + 0.2 * np.sin(7 * x) * np.cos(5 * y))).astype(np.float32)
+    corner = (np.arange(side)[:, None] * (side + 1) + np.arange(side)).ravel()
+    other = corner + side + 1
+    triangles = np.concatenate(([corner, corner + 1, other + 1], [corner, other + 1, other]), axis=1).astype(np.int32)
+    mesh = Mesh(vertices, triangles, np.arange(2 * len(corner), dtype=np.int32))
+    return _cast(
+        size, FOUR, kind=np.array([MESH], np.uint8), center=mesh.middle[None], axes=np.eye(3)[None], meshes=(mesh,),
+        mesh=np.zeros(1, np.int32), shared=np.zeros(1, bool),
+    )  # fmt: skip
+
+
+def _rays(key: str, size) -> Callable:
+    """The rays of the first example of a model in the contract test."""
+    from tests.core.cameras.model_examples import camera
+
+    return camera(key, {"resolution_x": size[0], "resolution_y": size[1]}).rays
+
+
+def _main() -> int:
+    """Print the milliseconds of one case with the add-on of a folder."""
+    root, name, *size = sys.argv[1:]
+    sys.path[:0] = [root, str(Path(root) / "addon")]
+    timed = cases()[name](tuple(map(int, size)))
+    timed()
+    least = np.inf
+    for _ in range(CASTS):
+        began = process_time()
+        timed()
+        least = min(least, process_time() - began)
+    print(1e3 * least)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(_main())
