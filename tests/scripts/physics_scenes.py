@@ -3,7 +3,7 @@
 from itertools import pairwise
 
 
-def _empty(bpy):
+def empty(bpy):
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
     scene = bpy.context.scene
     bpy.ops.object.camera_add(location=(0, -8, 1), rotation=(1.5708, 0, 0))
@@ -19,7 +19,7 @@ def _named(bpy, name):
 
 def rigid_body(bpy):
     """A cube that falls onto a slope."""
-    _empty(bpy)
+    empty(bpy)
     bpy.ops.rigidbody.world_add()
     bpy.ops.mesh.primitive_cube_add(size=0.5, location=(0, 0, 2), rotation=(0.3, 0.2, 0.1))
     _named(bpy, "Body")
@@ -31,7 +31,7 @@ def rigid_body(bpy):
 
 def cloth(bpy):
     """A cloth that falls onto a ball."""
-    _empty(bpy)
+    empty(bpy)
     bpy.ops.mesh.primitive_grid_add(x_subdivisions=6, y_subdivisions=6, size=2, location=(0, 0, 2))
     _named(bpy, "Body")
     bpy.ops.object.modifier_add(type="CLOTH")
@@ -41,7 +41,7 @@ def cloth(bpy):
 
 def particles(bpy):
     """Balls that fall from a plane, each for ten frames."""
-    _empty(bpy)
+    empty(bpy)
     bpy.ops.mesh.primitive_ico_sphere_add(radius=4, location=(50, 0, 0))
     ball = bpy.context.object
     bpy.ops.mesh.primitive_plane_add(size=2, location=(0, 0, 2))
@@ -54,7 +54,7 @@ def particles(bpy):
 
 def nodes(bpy):
     """A cube that simulation nodes move and turn by the same step in each frame."""
-    _empty(bpy)
+    empty(bpy)
     bpy.ops.mesh.primitive_cube_add(size=1)
     tree = bpy.data.node_groups.new("Simulation", "GeometryNodeTree")
     for way in ("INPUT", "OUTPUT"):
