@@ -162,3 +162,20 @@ def test_blender_s_own_rendering_asks_for_a_bake(blender, tmp_path):
     scene.frame_set(16)
     blender.ops.render.render()
     assert not reports.latest().warnings
+
+
+def test_particles_without_physics_are_what_they_are_at_a_frame(blender, command, tmp_path):
+    """Scattered things that do not move are often hidden in the viewport: nothing has to be baked."""
+    particles(blender)
+    settings = blender.data.objects["Body"].particle_systems[0].settings
+    settings.physics_type, settings.lifetime = "NO", 100
+    path = tmp_path / "scattered.blend"
+    for hidden in (False, True):
+        blender.data.objects["Body"].hide_set(hidden)
+        blender.ops.wm.save_as_mainfile(filepath=str(path))
+        run = lambda *words, out: command("cast", path, *WORDS, *words, "--output", tmp_path / out)  # noqa: E731
+        assert run("--frames", "9:11", out=f"whole{hidden}").returncode == 0
+        assert run("--frame", "11", out=f"single{hidden}").returncode == 0
+        assert same(tmp_path / f"whole{hidden}" / "scattered_0011.npz", tmp_path / f"single{hidden}" / "scattered.npz")
+        with np.load(tmp_path / f"single{hidden}" / "scattered.npz") as images:
+            assert len(np.unique(images["shape_index"])) > 3

@@ -22,6 +22,9 @@ from ..terminal.signals import raise_if_stopping
 CLOTH = {"CLOTH", "SOFT_BODY"}
 """Types of modifiers with one point cache."""
 
+STATELESS = {"NO", "KEYED"}
+"""Physics of particles that follow from the frame alone: Blender keeps no cache of them."""
+
 SHARED = "its cache is a folder that other processes may change"
 
 _simulated: dict[int, tuple[int, list]] = {}
@@ -160,7 +163,8 @@ def _caches(modifier) -> Iterator:
         yield modifier.point_cache
     elif modifier.type == "PARTICLE_SYSTEM":
         system = modifier.particle_system
-        if system.settings.type != "HAIR" or system.use_hair_dynamics:
+        is_hair, physics = system.settings.type == "HAIR", system.settings.physics_type
+        if system.use_hair_dynamics if is_hair else physics not in STATELESS:
             yield system.point_cache
     elif modifier.type == "DYNAMIC_PAINT" and modifier.canvas_settings is not None:
         for surface in modifier.canvas_settings.canvas_surfaces:
