@@ -142,6 +142,10 @@ def test_what_cannot_be_simulated_is_to_be_baked(blender, command, tmp_path, cas
     assert "the physics of 'Body' is not baked" in line
     assert line.endswith("bake it first")
     assert not (tmp_path / "out").exists()
+    done = command("cast", path, "--frame", "1", "--passes", "depth", "--output", tmp_path / "out")
+    assert done.returncode == 0, "its first frame is not simulated"
+    moving = command("cast", path, "--frame", "1", "--passes", "flow_forward", "--output", tmp_path / "moving")
+    assert "bake it first" in refused(moving), "but the next one is"
 
 
 def test_blender_s_own_rendering_asks_for_a_bake(blender, tmp_path):

@@ -67,10 +67,12 @@ def simulate(depsgraph, frame: float) -> None:
     if frame <= reached:
         return
     _keep(kept, False)
-    found = list(unbaked(depsgraph))
-    for one in found:
-        if one.obstacle:
+    every = list(unbaked(depsgraph))
+    for one in every:
+        if one.obstacle and frame - 1 > one.first:  # at its first frame nothing is simulated; ``frame`` is for flow
             raise one.refusal(one.obstacle)
+    found = [one for one in every if not one.obstacle]
+    for one in found:
         one.item.update_tag(refresh={"DATA"})  # the file may hold frames that were simulated from others
     if found:
         first = min(one.first for one in found)
