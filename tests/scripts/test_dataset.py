@@ -249,3 +249,13 @@ def test_any_cluster_of_dask_makes_them_and_what_its_workers_refuse_is_one_line(
     assert (bad.returncode, bad.stdout) == (2, "")
     assert "scale of zero" in line
     assert [name for name in left(out) if name.startswith((".", "Side_0003"))] == []
+
+
+def test_cameras_whose_time_is_an_image_have_a_preview_too(blender, command, scene, out):
+    """A report has no record of them."""
+    settings = blender.data.objects["Side"].data.camera_ray_caster
+    settings.time_mode, settings.time_image = "IMAGE", blender.data.images.new("Time", 2, 2)
+    blender.ops.wm.save_as_mainfile(filepath=str(scene))
+    done = command("dataset", scene, "--cameras", "Side", "--frames", "1:1", "--passes", "normal", "--output", out)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert (out / "preview.png").is_file()

@@ -24,6 +24,7 @@ from ..core.maths.rotations import polar, quaternion
 from ..core.records import InputError
 from .properties.calibration import READING, set_lens, settings_in
 from .properties.declared import GROUP, MODEL
+from .read.frames import frame_rate
 from .read.size import SIZE, size_of
 
 
@@ -35,7 +36,7 @@ def add_rig(scene, paths: Iterable[str], parent=None, model: str = "") -> list:
     z ahead, as in OpenCV. ``model`` is the key of the model for files that do not name theirs. Nothing is added if a
     file cannot be read: InputError.
     """
-    paths, rate = list(paths), scene.render.fps / scene.render.fps_base
+    paths, rate = list(paths), frame_rate(scene)
     found = [one for path in paths for one in mounted(path, model, size_of(scene), rate)]
     trajectories = [one for one in found if not one.lenses]
     cameras = [one for one in found if one.lenses]

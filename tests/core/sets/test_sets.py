@@ -153,6 +153,11 @@ def test_a_preview_shows_the_passes_side_by_side(made):
     assert len(np.unique(picture[:, 192:288].reshape(-1, 3), axis=0)) == 3 + (picture[:, 192:288] == 0).any()
 
 
+def test_the_axes_of_a_report_are_its_camera_s(made):
+    for view in read_set(made[0]):
+        assert (view.basis == view.camera.pose.basis).all()
+
+
 def test_masks_are_of_each_object(made):
     folder, casts = made
     out = exported(folder, "masks")

@@ -11,7 +11,7 @@ from ...core.exports.format import Shot
 from ...core.names import file_name, file_names
 from ...core.records import InputError
 from ..read.camera import eye_object, views_of
-from ..read.frames import go_to
+from ..read.frames import frame_rate, go_to
 from ..read.scene import evaluated, read_camera
 from ..read.size import own_size, sized
 from ..read.unique import unique_name
@@ -51,7 +51,7 @@ def shots(scene, cameras: Sequence, frames: Iterable[float], target=None, own_si
     eyes = [(camera, suffix, view) for camera in cameras for suffix, view in views]
     names = {camera: unique_name(camera, bpy.data.objects) for camera in cameras}
     file_names(f"{names[camera]}{suffix}" for camera, suffix, _ in eyes)  # raises if two names are equal
-    found, rate = [], scene.render.fps / scene.render.fps_base
+    found, rate = [], frame_rate(scene)
     sizes = {camera: own_size(camera) if own_sizes else None for camera in cameras}
     frames = list(frames)
     for size in dict.fromkeys(sizes.values()):

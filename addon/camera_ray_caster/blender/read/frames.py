@@ -26,6 +26,11 @@ def action_time(scene, frame: float = 1.0) -> float:
     return frame * scene.render.frame_map_old / scene.render.frame_map_new
 
 
+def frame_rate(scene) -> float:
+    """Return the frames of a second; a damaged file may have the base 0, which counts as 1."""
+    return scene.render.fps / (scene.render.fps_base or 1.0)
+
+
 def layer_of(scene):
     """Return the view layer in which a scene is read: the window's, or the first of another scene."""
     return bpy.context.view_layer if scene == bpy.context.scene else scene.view_layers[0]

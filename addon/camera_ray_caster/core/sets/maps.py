@@ -42,7 +42,7 @@ def normals(views: list[View]) -> Iterator[tuple[str, str | bytes]]:
 
 def preview(views: list[View]) -> Iterator[tuple[str, str | bytes]]:
     """Yield preview.png: of the first view of each camera a row of picture, depth, indices and normals, as cast."""
-    firsts = {view.camera.name: view for view in reversed(views)}
+    firsts = {view.report["camera"]["name"]: view for view in reversed(views)}
     rows = [row for view in firsts.values() if (row := _row(view)) is not None]
     if not rows:
         raise InputError("the set has none of the passes combined, depth, shape_index and normal, which previews show")
@@ -67,6 +67,6 @@ def _row(view: View) -> np.ndarray | None:
             parts.append(np.where(index > 0, index * (97, 57, 151) % 206 + 50, 0).astype(np.uint8))
             break
     if view.has("normal"):
-        turned = view.pixels("normal").astype(np.float64) @ view.camera.pose.basis
+        turned = view.pixels("normal").astype(np.float64) @ view.basis
         parts.append(np.round((turned + 1) / 2 * 255).astype(np.uint8))
     return np.hstack(parts) if parts else None

@@ -45,6 +45,14 @@ class View:
         return float(self.report["frame"])
 
     @property
+    def basis(self) -> np.ndarray:
+        """Return the axes of its camera in the world, (3, 3): the columns are x, y and z; also where its time is an
+        image, of which a report has no record.
+        """
+        x, y, ahead = (np.array(self.report["camera"][name], np.float64) for name in "uvw")
+        return np.stack((x, y, -ahead), axis=1)
+
+    @property
     def meters(self) -> float:
         """Return the length of a Blender unit in meters."""
         return float(self.report.get("host", {}).get("meters", 1.0))
