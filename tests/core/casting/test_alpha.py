@@ -20,6 +20,8 @@ from .neighbors import with_others
 from .test_cast import camera_at, shapes_of
 
 BOUNDS = "distance", "distance_bound", "shape_index"
+ON_EDGES = {"OPENCV_PINHOLE", "FOV", "STEREOGRAPHIC_PANORAMA", "DOME_MASTER", "PENCIL", "STRIP"}
+"""Models with an example of which whole columns or rows of pixels lie on the edges between stripes."""
 each_model = pytest.mark.parametrize(
     "key",
     [
@@ -52,7 +54,7 @@ def assert_nearest(cam, shapes, crossings):
             sure &= own_sure | ~np.isfinite(t)
             nearer = opaque & (t < nearest)
             nearest[nearer], row[nearer] = t[nearer], k
-    assert sure.mean() > 0.5  # whole columns of strips and domes lie on the edges between stripes
+    assert sure.mean() > (0.6 if cam.model.key in ON_EDGES else 0.9)
     distance, bound, found = (images[name][rays.valid][sure] for name in BOUNDS)
     np.testing.assert_array_equal(found, row[sure])
     met = np.isfinite(distance)

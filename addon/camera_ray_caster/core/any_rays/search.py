@@ -20,7 +20,7 @@ from .traversal import Traversal
 from .tree import Tree, tree_of
 
 RAYS = 1 << 16
-"""Number of rays that are searched at once. 2**14: 1.1 times the time of random rays in a room."""
+"""Number of rays that are searched at once: it bounds the memory of packets and pairs. Not tuned."""
 
 FEW = 12
 """Number of bodies that are tested one after the other at all rays, without a tree."""

@@ -19,7 +19,7 @@ from .packets import Packets
 from .tree import FAN, Tree
 
 PAIRS = 1 << 15
-"""Number of pairs divided at once. 2**13 and 2**17: 1.1 to 1.3 times the time of random rays in a room."""
+"""Number of pairs divided at once. Rays in a room, 2**13 and 2**17: 1.0 to 1.4 times the time."""
 
 SPLIT = 8.0
 """A packet is divided, not the node, if this many packets side by side would be wider than the node's box. Random rays
