@@ -85,6 +85,26 @@ def test_what_is_stored_as_an_image_and_is_none_is_refused(scene):
         crc.read_camera(scene)
 
 
+def test_a_vector_that_is_stored_as_one_number_is_refused(scene, reopened):
+    """Blender reads four numbers from the memory of one."""
+    data = scene.camera.data
+    own = data.camera_ray_caster
+    own.model = "GENERAL_LINEAR"
+    properties = data.bl_system_properties_get() if bpy.app.version >= (5, 0, 0) else data
+    properties["camera_ray_caster"]["ray_1"] = 1.0
+    refused = "ray_1 of 'Camera' is stored as one number, not as 4: reset it to its default, then set it again"
+    with pytest.raises(crc.InputError, match=refused):
+        crc.read_camera(scene)
+    with pytest.raises(crc.InputError, match=refused):
+        crc.read_camera(reopened())
+    data = bpy.context.scene.camera.data
+    crc.register()
+    own = data.camera_ray_caster
+    own.property_unset("ray_1")
+    own.ray_1 = 0.5, 0.25, -1.0, -0.5
+    assert crc.read_camera(bpy.context.scene).settings["ray_1"] == [0.5, 0.25, -1.0, -0.5]
+
+
 def test_the_times_of_pixels_and_their_image_are_as_they_were_stored(blender, scene, reopened):
     image = blender.data.images.new("Gray", 2, 1, float_buffer=True)
     image.pixels[:] = [0, 0, 0, 1, 1, 1, 1, 1]

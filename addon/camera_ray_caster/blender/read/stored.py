@@ -21,10 +21,15 @@ def own_value(owner, setting: Setting):
     """Return the value of a setting of a camera's data or of an object, as Blender has evaluated it.
 
     An unknown number of an enum, as from a newer version, is returned as a string of digits. Raises InputError if the
-    setting is animated and the add-on is not registered, since Blender cannot evaluate it then, and for a text that is
-    not UTF-8.
+    setting is animated and the add-on is not registered, since Blender cannot evaluate it then, for a text that is
+    not UTF-8, and for a vector that is stored as one number, of which Blender reads memory that is not its own.
     """
     group = getattr(owner, GROUP, None)
+    if setting.kind == "VECTOR" and isinstance(_raw(owner, setting), float | int):
+        raise InputError(
+            f"{setting.name} of {owner.name!r} is stored as one number, not as {len(setting.default)}: "
+            "reset it to its default, then set it again"
+        )
     if group is not None:
         try:
             value = getattr(group, setting.name)
@@ -39,10 +44,15 @@ def own_value(owner, setting: Setting):
     return _stored(owner, setting)
 
 
-def _stored(owner, setting: Setting):
+def _raw(owner, setting: Setting):
+    """Return the ID property of a setting, None if it was never set."""
     properties = owner.bl_system_properties_get() if HAS_SYSTEM_PROPERTIES else owner
     group = properties.get(GROUP) if properties is not None else None
-    value = group.get(setting.name) if group is not None else None
+    return group.get(setting.name) if group is not None else None
+
+
+def _stored(owner, setting: Setting):
+    value = _raw(owner, setting)
     return KINDS.get(setting.kind, _same)(setting, setting.default if value is None else value)
 
 
