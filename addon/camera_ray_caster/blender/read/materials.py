@@ -22,6 +22,11 @@ ALWAYS_NODES = bpy.app.version >= (5, 0, 0)
 OWN_IS_EMPTY = bpy.app.version >= (5, 2, 0)
 """Whether an empty slot that is linked to its object has no material in Cycles; the mesh's in earlier versions."""
 
+MESH_HAS_SLOTS = bpy.app.version >= (5, 2, 0)
+"""Whether Cycles knows as many slots as the evaluated mesh has materials; as many as the object has, if these are more,
+in earlier versions. They differ where nodes make the mesh.
+"""
+
 UNCHANGED = (float(np.float32(0.8)),) * 3
 """Default Base Color of a new Principled BSDF."""
 
@@ -98,13 +103,13 @@ class Looks:
 
     def of_item(self, item) -> tuple[Look, ...]:
         """Return the looks of all slots of an evaluated object."""
-        return self.of_slots(item, range(max(1, len(item.material_slots))))
+        return self.of_slots(item, range(max(1, _slot_count(item))))
 
     def _of_slot(self, item, slot: int) -> Look:
         """Return the look of a slot, or of the last one for slots after it; the object's color without a material."""
         slots, own = item.material_slots, item.original.material_slots
-        place = min(slot, len(slots) - 1)
-        material = slots[place].material if len(slots) else None
+        place = min(slot, _slot_count(item) - 1)
+        material = slots[place].material if place >= 0 else None
         if OWN_IS_EMPTY and 0 <= place < len(own) and own[place].link == "OBJECT" and own[place].material is None:
             material = None
         return Look(0, shown(item.color)) if material is None else self._of(material)
@@ -113,6 +118,11 @@ class Looks:
         if material not in self._known:
             self._known[material] = _look(material, self._threshold)
         return self._known[material]
+
+
+def _slot_count(item) -> int:
+    """Return the number of an evaluated object's material slots, as Cycles counts them."""
+    return len(item.data.materials) if MESH_HAS_SLOTS else len(item.material_slots)
 
 
 def _name(material) -> str:
