@@ -51,6 +51,7 @@ MAY_IMPORT = {
     "core.report.witness": LOW | {"core.report.sample"},
     "core.report.verification": LOW | {"core.report.sample", "core.report.witness"},
     "core.report": HITS | {"core.cast", "core.exports", "core.report", "core.version"},
+    "core.lesson": HITS | {"core.cast", "core.lesson"},
     "core.exports": RAYS | {"core.exports", "core.file_set", "core.motion", "core.names", "core.version"},
     "core.sets": HITS | {"core.annotations", "core.exports", "core.names", "core.sets"},
     "core": {"core"},

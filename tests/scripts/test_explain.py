@@ -5,7 +5,7 @@ import json
 import numpy as np
 import pytest
 
-from camera_ray_caster.core.report.meetings import words
+from camera_ray_caster.core.lesson.meetings import words
 
 
 def picture(command, path, folder, *passes):

@@ -247,7 +247,7 @@ def test_every_unit_of_blender_is_known_with_its_length(blender):
 def test_what_rounds_to_zero_has_no_sign(blender, scene):
     from camera_ray_caster.blender.ui.facts_panels import SidebarFacts
     from camera_ray_caster.blender.view3d.mouse_gizmo import _lines
-    from camera_ray_caster.core.report.diagram import Probe
+    from camera_ray_caster.core.lesson.diagram import Probe
 
     scene.camera.rotation_euler = (-1e-6, 1e-6, 1e-6)
     scene.camera.location.x = -1e-9

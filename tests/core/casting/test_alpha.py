@@ -9,10 +9,10 @@ from camera_ray_caster.core.any_rays.door import cast_rays
 from camera_ray_caster.core.cameras import MODELS
 from camera_ray_caster.core.cast import cast
 from camera_ray_caster.core.casting.visibility import Visibility, visible
+from camera_ray_caster.core.lesson.lesson import lesson
 from camera_ray_caster.core.materials.surface import Surface
 from camera_ray_caster.core.materials.values import OBJECT, UV, Coordinates, constant, function_of
 from camera_ray_caster.core.records import INFINITE_PLANE, PLANE, SPHERE
-from camera_ray_caster.core.report.lesson import lesson
 
 from ..shapes import meshes
 from ..shapes.test_mesh import examples

@@ -6,7 +6,7 @@ import numpy as np
 
 from camera_ray_caster.core.materials.values import OBJECT, UV, Coordinates, Layer, channel, constant
 from camera_ray_caster.core.mesh import Mesh
-from camera_ray_caster.core.shapes.displaced import Displacement, MeshNormals, displaced
+from camera_ray_caster.core.shapes.mesh.displaced import Displacement, MeshNormals, displaced
 
 SQUARE = Mesh(
     vertices=np.array([[0, 2, 2, 0], [0, 0, 2, 2], [1, 1, 1, 1]], np.float32),

@@ -9,11 +9,11 @@ from camera_ray_caster.core import tuning
 from camera_ray_caster.core.any_rays.door import cast_rays
 from camera_ray_caster.core.cast import cast
 from camera_ray_caster.core.casting.pixels import passes_at
+from camera_ray_caster.core.lesson.meetings import EQUATIONS
 from camera_ray_caster.core.motion.landmarks import lit
 from camera_ray_caster.core.records import INFINITE_PLANE, SPHERE, InputError
 from camera_ray_caster.core.report.accuracy import accuracy
 from camera_ray_caster.core.report.indices import indices_of
-from camera_ray_caster.core.report.meetings import EQUATIONS
 from camera_ray_caster.core.shapes import kinds
 
 from ..cameras.model_examples import camera as camera_of
@@ -130,7 +130,7 @@ def test_kinds_that_are_not_in_view_are_named():
 
 def test_every_kind_that_ships_has_a_number_a_name_and_an_equation_of_its_own():
     numbers = [kind.number for kind in SHIPPED]
-    assert sorted(EQUATIONS) == sorted(set(numbers)) == sorted(numbers), "of Step Through: core/report/meetings.py"
+    assert sorted(EQUATIONS) == sorted(set(numbers)) == sorted(numbers), "of Step Through: core/lesson/meetings.py"
     assert len({kind.name for kind in SHIPPED}) == len(SHIPPED)
 
 

@@ -5,9 +5,9 @@ import pytest
 
 from camera_ray_caster.core.casting.rays import chief_rays
 from camera_ray_caster.core.maths.speed import Scratch
-from camera_ray_caster.core.shapes.mesh_spans import Lattice
+from camera_ray_caster.core.shapes.mesh.spans import Lattice
+from camera_ray_caster.core.shapes.mesh.triangles import EDGES, edge_vectors
 from camera_ray_caster.core.shapes.search_rays import Cells, Present, SearchRays
-from camera_ray_caster.core.shapes.triangles import EDGES, edge_vectors
 
 from ..casting.test_cast import camera_at
 

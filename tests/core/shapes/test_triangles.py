@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from camera_ray_caster.core.maths.vector import cross
-from camera_ray_caster.core.shapes.triangles import ROUNDING, volumes
+from camera_ray_caster.core.shapes.mesh.triangles import ROUNDING, volumes
 
 COUNT = 300
 

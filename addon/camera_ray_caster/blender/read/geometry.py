@@ -8,8 +8,8 @@ import bpy
 import numpy as np
 
 from ...core.records import INFINITE_PLANE, PLANE, SPHERE
-from ...core.shapes.displaced import Displacement, displaced
 from ...core.shapes.instances import NO_MAP, Primitive, enclosing_primitive, mesh_primitive, points_primitive
+from ...core.shapes.mesh.displaced import Displacement, displaced
 from ...core.shapes.recognize import NOT_FINITE, MeshArrays, defect, exclude, recognize
 from ...core.shapes.uv_maps import with_map
 from .kept import Found

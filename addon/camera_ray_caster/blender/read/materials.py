@@ -10,7 +10,7 @@ import numpy as np
 
 from ...core.materials.surface import Surface
 from ...core.materials.values import Constant, Value, constant, function_of
-from ...core.shapes.displaced import Displacement
+from ...core.shapes.mesh.displaced import Displacement
 from .nodes import Unread
 from .outputs import displacement_of, has_bump, is_volume_alone
 from .shader_nodes import Parts, alpha_of, colors, material_nodes, transparency

@@ -5,7 +5,7 @@ from ctypes import c_char
 import numpy as np
 
 from ...core.mesh import Mesh
-from ...core.shapes.displaced import MeshNormals
+from ...core.shapes.mesh.displaced import MeshNormals
 from ...core.shapes.recognize import MeshArrays
 
 

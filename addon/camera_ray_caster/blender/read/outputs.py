@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 
 from ...core.materials.values import function_of
-from ...core.shapes.displaced import Displacement
+from ...core.shapes.mesh.displaced import Displacement
 from .nodes import Node, Nodes, Unread
 from .value_nodes import READ
 

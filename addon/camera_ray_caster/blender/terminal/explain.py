@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from ...core.cast import moment
-from ...core.report.lesson import lesson, pixel_at
+from ...core.lesson.lesson import lesson, pixel_at
 from ..engine.reading import read_as_rendered
 from . import signals
 from .options import add_frame, add_json, command_parser, go_to, open_scene, warn

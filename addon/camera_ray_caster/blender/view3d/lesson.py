@@ -14,9 +14,9 @@ import gpu
 import numpy as np
 from bpy.app.handlers import persistent
 
-from ...core.report.diagram import pixel_outline
-from ...core.report.in_picture import lines_in_picture, points_in_picture
-from ...core.report.lesson import Lesson, lesson
+from ...core.lesson.diagram import pixel_outline
+from ...core.lesson.in_picture import lines_in_picture, points_in_picture
+from ...core.lesson.lesson import Lesson, lesson
 from .camera_frame import camera_frame, frame_in, in_pixels
 from .overlay import batch_of, draw_batch
 from .scene_cache import CachedScene, cached_scene

@@ -6,7 +6,7 @@ import math
 
 import bpy
 
-from ...core.report.diagram import Probe, probe
+from ...core.lesson.diagram import Probe, probe
 from ..ui.drawing import length
 from . import text
 from .camera_frame import camera_frame

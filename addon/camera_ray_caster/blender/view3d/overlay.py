@@ -14,8 +14,8 @@ from bpy.props import BoolProperty, IntProperty, PointerProperty
 from bpy_extras.view3d_utils import location_3d_to_region_2d
 from gpu_extras.batch import batch_for_shader
 
-from ...core.report.diagram import Diagram, diagram
-from ...core.report.in_picture import lines_in_picture, points_in_picture
+from ...core.lesson.diagram import Diagram, diagram
+from ...core.lesson.in_picture import lines_in_picture, points_in_picture
 from .camera_frame import camera_frame, in_pixels
 from .scene_cache import CachedScene, cached_scene
 

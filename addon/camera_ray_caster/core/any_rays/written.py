@@ -13,7 +13,7 @@ from ..casting.plan import Plan
 from ..casting.rays import TileRays
 from ..casting.request import Request
 from ..maths.speed import Scratch
-from ..shapes.mesh_found import SEEN, SeenTriangles
+from ..shapes.mesh.found import SEEN, SeenTriangles
 from .given import camera_of
 from .search import Hits, Search
 

@@ -8,8 +8,8 @@ from ..arguments import numbers, shown
 from ..camera.camera import Camera
 from ..cast import moment
 from ..casting.request import MATERIAL
+from ..lesson.lesson import Lesson, lesson
 from ..records import InputError, Shapes
-from ..report.lesson import Lesson, lesson
 
 
 def explain(camera: Camera, shapes: Shapes, pixel, *, shading: str = MATERIAL, samples: int = 1) -> Lesson:

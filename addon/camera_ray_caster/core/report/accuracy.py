@@ -97,7 +97,7 @@ def sample(raster: Raster) -> tuple[np.ndarray, np.ndarray]:
     """Return the x (1, columns) and y (rows, 1) of at most PIXELS pixel centers, evenly over the render window.
 
     Rows and columns have the same step. A lattice of rays thus remains a lattice, which the search of meshes by spans
-    needs: see ``shapes.mesh_spans``.
+    needs: see ``shapes.mesh.spans``.
     """
     height, width = raster.shape
     step = isqrt(max(0, height * width - 1) // PIXELS) + 1

@@ -2,7 +2,7 @@
 
 A kind is one instance of a subclass of ``Kind``, listed in ``KINDS``. Its users are ``in_camera`` (``extent``,
 ``is_close``), the plan and the search (``shape_set``), the passes (``normals``, ``uv``) and the error bounds
-(``errors``, ``decision``). Elsewhere, only what makes shapes and the equations of ``report.meetings`` know the kinds;
+(``errors``, ``decision``). Elsewhere, only what makes shapes and the equations of ``lesson.meetings`` know the kinds;
 boxes of objects and landmarks of motion take the cube -1 to 1 of a shape's own frame for all but planes and meshes.
 
 A kind whose shapes are affine images of one surface, each described by a row of constants, derives from ``AffineKind``,

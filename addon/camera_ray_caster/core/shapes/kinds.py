@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from .kind import Kind
-from .mesh import MESHES
+from .mesh.meshes import MESHES
 from .plane import INFINITE_PLANES, PLANES
 from .sphere import SPHERES
 

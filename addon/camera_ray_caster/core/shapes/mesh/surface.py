@@ -12,13 +12,13 @@ from typing import Any
 
 import numpy as np
 
-from ..conventions import EPS
-from ..maths.speed import lazy, merged, taken
-from ..maths.vector import components, cross, difference, dot, matrix_rows, matvec, norm
-from ..mesh import Mesh
-from .frames import InCamera
-from .kind import HitPixels
-from .mesh_found import SEEN
+from ...conventions import EPS
+from ...maths.speed import lazy, merged, taken
+from ...maths.vector import components, cross, difference, dot, matrix_rows, matvec, norm
+from ...mesh import Mesh
+from ..frames import InCamera
+from ..kind import HitPixels
+from .found import SEEN
 
 TRIANGLES = "triangles"
 """Name under which ``HitPixels.noted`` has the ``HitTriangles`` of the pixels."""

@@ -7,9 +7,9 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from .. import tuning
-from .mesh_in_camera import Triangles
-from .windows import pixels_in
+from ... import tuning
+from ..windows import pixels_in
+from .in_camera import Triangles
 
 
 def nearest_first(near: np.ndarray, count: np.ndarray, most: int) -> Iterator[np.ndarray]:

@@ -13,12 +13,12 @@ from typing import Any
 
 import numpy as np
 
-from ..conventions import EPS
-from ..maths.speed import taken
-from ..maths.vector import cross, dot, is_grid, is_lattice, is_one, norm
-from .search_rays import SearchRays
+from ...conventions import EPS
+from ...maths.speed import taken
+from ...maths.vector import cross, dot, is_grid, is_lattice, is_one, norm
+from ..search_rays import SearchRays
+from ..windows import counted
 from .triangles import EDGES, ROUNDING, STEEP, plane
-from .windows import counted
 
 CLEAR = 1 / 8
 """Pixels. If rounding moves the crossings of an edge with the rows by more than this, the edge is nearly parallel to

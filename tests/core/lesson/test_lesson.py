@@ -7,10 +7,10 @@ import pytest
 
 from camera_ray_caster.core.camera.build import camera_from
 from camera_ray_caster.core.cast import cast
+from camera_ray_caster.core.lesson.lesson import lesson
+from camera_ray_caster.core.lesson.meetings import nearest, words
 from camera_ray_caster.core.mesh import Mesh
 from camera_ray_caster.core.records import INFINITE_PLANE, MESH, PLANE, SPHERE, BlenderCamera, InputError, Shapes
-from camera_ray_caster.core.report.lesson import lesson
-from camera_ray_caster.core.report.meetings import nearest, words
 
 TETRAHEDRON = Mesh(
     vertices=np.array([[-1, 1, 0, 0], [-1, -1, 1, 0], [0, 0, 0, 2]], np.float32),

@@ -7,9 +7,9 @@ from typing import Any
 
 import numpy as np
 
-from .. import tuning
-from ..maths.speed import taken
-from .search_rays import SearchRays
+from ... import tuning
+from ...maths.speed import taken
+from ..search_rays import SearchRays
 
 SEEN = "triangles seen"
 """Name under which the scratch notes the ``SeenTriangles`` of a tile, and of its array of each pixel's index there."""

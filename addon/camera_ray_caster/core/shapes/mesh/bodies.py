@@ -6,13 +6,13 @@ from typing import Any
 
 import numpy as np
 
-from ..maths.speed import Scratch
-from ..maths.vector import along, difference, norm
-from ..memory import require
-from .bodies import Bodies, places_of
-from .cutouts import Cutouts, crossings
-from .frames import InCamera
-from .mesh_surface import TRIANGLES, HitTriangles
+from ...maths.speed import Scratch
+from ...maths.vector import along, difference, norm
+from ...memory import require
+from ..bodies import Bodies, places_of
+from ..cutouts import Cutouts, crossings
+from ..frames import InCamera
+from .surface import TRIANGLES, HitTriangles
 from .triangles import ROUNDING, crossing, signs, volumes
 
 BYTES = 144

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from camera_ray_caster.core.cameras import MODELS
+from camera_ray_caster.core.lesson.formula import assignments, shown, value, with_numbers, worked_out
+from camera_ray_caster.core.lesson.lesson import lesson
 from camera_ray_caster.core.records import no_shapes
-from camera_ray_caster.core.report.formula import assignments, shown, value, with_numbers, worked_out
-from camera_ray_caster.core.report.lesson import lesson
 
 from ..cameras.model_examples import EXAMPLES, camera
 

@@ -4,18 +4,18 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..records import MESH, Shapes
-from .cutouts import Cutouts
-from .follow import Follow
-from .frames import InCamera, WorldRays
-from .kind import HitPixels, Kind, PixelNormals, Visible
-from .mesh_errors import TriangleErrors, decide
-from .mesh_follow import follow_meshes
-from .mesh_in_camera import MeshesInView
-from .mesh_normals import TriangleNormals
-from .mesh_search import MeshSet
-from .mesh_surface import HitTriangles
-from .triangle_bodies import TriangleBodies
+from ...records import MESH, Shapes
+from ..cutouts import Cutouts
+from ..follow import Follow
+from ..frames import InCamera, WorldRays
+from ..kind import HitPixels, Kind, PixelNormals, Visible
+from .bodies import TriangleBodies
+from .errors import TriangleErrors, decide
+from .follow import follow_meshes
+from .in_camera import MeshesInView
+from .normals import TriangleNormals
+from .search import MeshSet
+from .surface import HitTriangles
 
 
 class Meshes(Kind):

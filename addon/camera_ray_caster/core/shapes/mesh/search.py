@@ -10,19 +10,19 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from .. import tuning
-from ..maths.speed import merged, taken
-from ..maths.vector import dot, norm
-from .cutouts import Cutouts, crossings
-from .kind import Candidates, PixelBounds, ShapeSet
-from .mesh_found import NONE, SEEN, Found, SeenTriangles
-from .mesh_in_camera import MeshesInView, Triangles
-from .mesh_order import nearest_first, pieces, slabs
-from .mesh_spans import Lattice, spans
-from .mesh_surface import TRIANGLES, HitTriangles
-from .search_rays import SearchRays
+from ... import tuning
+from ...maths.speed import merged, taken
+from ...maths.vector import dot, norm
+from ..cutouts import Cutouts, crossings
+from ..kind import Candidates, PixelBounds, ShapeSet
+from ..search_rays import SearchRays
+from ..windows import Windows, banded, batches, in_tile, pixels_in, union
+from .found import NONE, SEEN, Found, SeenTriangles
+from .in_camera import MeshesInView, Triangles
+from .order import nearest_first, pieces, slabs
+from .spans import Lattice, spans
+from .surface import TRIANGLES, HitTriangles
 from .triangles import ROUNDING, crossing, edge_vectors, from_origin, signs, volumes
-from .windows import Windows, banded, batches, in_tile, pixels_in, union
 
 Reach = tuple[float, float]
 """Upper bounds of the lengths of the directions and of the origins of a tile's rays."""

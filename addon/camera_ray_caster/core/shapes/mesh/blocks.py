@@ -8,15 +8,15 @@ from itertools import product
 
 import numpy as np
 
-from .. import tuning
-from ..conventions import gamma
-from ..maths.speed import lazy, taken
-from ..maths.vector import inverse
-from ..mesh import Mesh
-from .frames import InCamera
-from .hulls import Points
-from .kind import PixelBounds
-from .windows import counted
+from ... import tuning
+from ...conventions import gamma
+from ...maths.speed import lazy, taken
+from ...maths.vector import inverse
+from ...mesh import Mesh
+from ..frames import InCamera
+from ..hulls import Points
+from ..kind import PixelBounds
+from ..windows import counted
 
 
 @dataclass(frozen=True, eq=False)

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from camera_ray_caster.core.cast import cast
+from camera_ray_caster.core.lesson.lesson import lesson
+from camera_ray_caster.core.lesson.light import MOST
 from camera_ray_caster.core.records import INFINITE_PLANE, PLANE, Lights
-from camera_ray_caster.core.report.lesson import lesson
-from camera_ray_caster.core.report.light import MOST
 
 from ..casting.test_cast import camera_at, random_shapes, shapes_of
 

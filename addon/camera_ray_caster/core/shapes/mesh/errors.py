@@ -6,12 +6,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..conventions import EPS, gamma
-from ..maths.speed import lazy
-from ..maths.vector import along, difference, dot, norm
-from .frames import InCamera, WorldRays
-from .kind import ShapeErrors
-from .mesh_surface import HitTriangles
+from ...conventions import EPS, gamma
+from ...maths.speed import lazy
+from ...maths.vector import along, difference, dot, norm
+from ..frames import InCamera, WorldRays
+from ..kind import ShapeErrors
+from .surface import HitTriangles
 from .triangles import ROUNDING, volumes
 
 CHUNK = 1 << 16

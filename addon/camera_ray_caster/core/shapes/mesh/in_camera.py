@@ -1,7 +1,7 @@
 """Meshes as a camera sees them: vertices in its frame, and the pixels in which each triangle may be seen.
 
 Only shapes with blocks that are neither out of view nor hidden are placed, and only the triangles of these blocks are
-bounded one by one: see ``mesh_blocks``.
+bounded one by one: see ``blocks``.
 """
 
 from __future__ import annotations
@@ -14,15 +14,15 @@ from typing import Any
 
 import numpy as np
 
-from .. import tuning
-from ..maths.speed import Shared, lazy, taken
-from ..memory import require
-from .frames import InCamera
-from .hulls import Points
-from .kind import Visible
-from .mesh_blocks import BlockRows, Blocks, camera_axes, vertex_count
+from ... import tuning
+from ...maths.speed import Shared, lazy, taken
+from ...memory import require
+from ..frames import InCamera
+from ..hulls import Points
+from ..kind import Visible
+from ..windows import counted
+from .blocks import BlockRows, Blocks, camera_axes, vertex_count
 from .triangles import side
-from .windows import counted
 
 VERTEX_BYTES, TRIANGLE_BYTES = 40, 32
 """Upper bounds of the memory of each vertex and each triangle in view."""

@@ -7,13 +7,13 @@ from typing import Any
 
 import numpy as np
 
-from .. import tuning
-from ..maths.speed import taken
-from ..maths.vector import dot, norm
-from .frames import InCamera
-from .kind import HitPixels
-from .mesh_found import SEEN, SeenTriangles
-from .mesh_surface import HitTriangles, affine_at
+from ... import tuning
+from ...maths.speed import taken
+from ...maths.vector import dot, norm
+from ..frames import InCamera
+from ..kind import HitPixels
+from .found import SEEN, SeenTriangles
+from .surface import HitTriangles, affine_at
 
 NORMALS = "normals of triangles"
 """Name under which the scratch notes the ``TriangleNormals`` of a tile."""

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from camera_ray_caster.core.report.in_picture import lines_in_picture, points_in_picture
+from camera_ray_caster.core.lesson.in_picture import lines_in_picture, points_in_picture
 
 from ..cameras.model_examples import camera
 

@@ -7,8 +7,8 @@ import pytest
 
 from camera_ray_caster.core.camera.build import camera_from
 from camera_ray_caster.core.cast import cast
+from camera_ray_caster.core.lesson.diagram import diagram, probe
 from camera_ray_caster.core.records import SPHERE, BlenderCamera, Shapes
-from camera_ray_caster.core.report.diagram import diagram, probe
 
 FISHEYE = {"panorama_type": "FISHEYE_EQUIDISTANT", "fisheye_fov": 3.0}
 CAMERAS = {

@@ -17,9 +17,9 @@ from typing import Any
 
 import numpy as np
 
-from ..conventions import EPS
-from ..maths.exact import volume_sign
-from ..maths.vector import cross, difference, dot, norm
+from ...conventions import EPS
+from ...maths.exact import volume_sign
+from ...maths.vector import cross, difference, dot, norm
 
 ROUNDING = 16 * EPS
 """Error bound of a volume, over the product of the lengths of its three vectors. The products have errors of at most

@@ -14,8 +14,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..materials.values import OBJECT, UV, Places, Value
-from ..mesh import Mesh
+from ...materials.values import OBJECT, UV, Places, Value
+from ...mesh import Mesh
 
 FARTHEST = 1e30
 """Offsets from which on, and those that are NaN, a vertex is not moved: float32 could not store its place."""
