@@ -119,6 +119,85 @@ def marks(user, scenes):
     overlay.show = False
 
 
+def click_seen(user, scenes):
+    """A click in a dome's picture selects what is seen there; Blender's outlines are hidden as long as they lie."""
+    yield from load(user, scenes, "living_room_omnimax")
+    space, view, context = user.area().spaces.active, user.region("WINDOW"), bpy.context
+    hidden = addon("ui.hide_overlays").LYING
+    space.overlay.show_bones = False
+
+    def overlays():
+        return {name: getattr(space.overlay, name) for name in hidden}
+
+    before = overlays()
+    tool(user, "builtin.select_box")
+    yield from user.press(f"{BUTTON}see_through(")
+    yield from user.until(lambda: not any(overlays().values()), "outlines and grid are hidden")
+    seen, probe = addon("view3d.scene_cache").cached_scene(context), addon("view3d.mouse_gizmo").probe
+    width, height = seen.camera.raster.size
+    names = set()
+    for x, y in ((0.3, 0.3), (0.5, 0.35), (0.65, 0.3), (0.4, 0.6), (0.6, 0.7)):
+        pixel = int(x * width), int(y * height)
+        yield from user.click(*place_of(user, *pixel))
+        yield from user.wait(0.3)
+        name = probe(seen.camera, seen.shapes, *pixel).name
+        assert [item.name for item in context.selected_objects] == [name]
+        assert context.object.name == name
+        names.add(name)
+    assert len(names) > 2, names
+    user.picture("click_seen")
+    own, asked = addon("ui.select_seen"), []
+    object_at = own.object_at
+    own.object_at = lambda *given: (asked.append(given), object_at(*given))[1]
+    yield from user.click(*np.add(place_of(user, 0, height / 2), (-20, 0)))
+    user.send("keydown", "shift")
+    yield from user.click(*place_of(user, *pixel))
+    user.send("keyup", "shift")
+    own.object_at = object_at
+    assert not asked, "outside of the frame and with a modifier key Blender selects"
+
+    tool(user, "builtin.select")
+    item = bpy.data.objects[name]
+    place = item.matrix_world.translation.copy()
+    start = place_of(user, *pixel)
+    yield from user.point(*start)
+    user.send("mousedown", 1)
+    yield from user.wait(0.2)
+    for step in range(1, 9):
+        user.send("mousemove", round(start[0] + 6 * step), user.window.height - 1 - round(start[1]))
+        yield
+    user.send("mouseup", 1)
+    yield from user.wait(0.5)
+    assert [one.name for one in context.selected_objects] == [name]
+    assert (item.matrix_world.translation - place).length > 0.01, "what is dragged moves"
+    tool(user, "builtin.select_box")
+
+    stored = str(user.folder / "hidden.blend")
+    bpy.ops.wm.save_as_mainfile(filepath=stored, copy=True)
+    assert overlays() == before, "the file has the overlays of before"
+    yield from user.until(lambda: not any(overlays().values()), "they are hidden again")
+    with bpy.context.temp_override(window=user.window, area=user.area(), region=view):
+        bpy.ops.view3d.view_camera()
+    yield from user.until(lambda: overlays() == before, "they come back in another view")
+    with bpy.context.temp_override(window=user.window, area=user.area(), region=view):
+        bpy.ops.view3d.view_camera()
+    yield from user.until(lambda: not any(overlays().values()), "they are hidden again")
+    bpy.context.scene.camera.data.camera_ray_caster.model = "BLENDER"
+    yield from user.until(lambda: overlays() == before, "they come back with a perspective")
+    bpy.context.scene.camera.data.camera_ray_caster.model = "OMNIMAX"
+    yield from user.until(lambda: not any(overlays().values()), "they are hidden again")
+    bpy.ops.wm.open_mainfile(filepath=stored, load_ui=False)
+    space = user.area().spaces.active
+    assert overlays() == before, "another file is loaded"
+    space.overlay.show_bones, space.shading.type = True, "SOLID"
+
+
+def tool(user, name):
+    """Set the 3D View's tool."""
+    with bpy.context.temp_override(window=user.window, area=user.area(), region=user.region("WINDOW")):
+        bpy.ops.wm.tool_set_by_id(name=name)
+
+
 def drag_a_ray(user, scenes):
     """The mark follows the mouse while it is dragged, and the sliders while they are set: ray and numbers with it."""
     yield from load(user, scenes, "living_room")
@@ -182,4 +261,4 @@ def dialog(user):
     return areas()[0]
 
 
-WINDOW_SCENARIOS = (shown_camera, set_frame, other_engine, marks, drag_a_ray)
+WINDOW_SCENARIOS = (shown_camera, set_frame, other_engine, marks, click_seen, drag_a_ray)

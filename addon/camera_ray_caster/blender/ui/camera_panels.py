@@ -56,7 +56,7 @@ class SidebarCamera(Sidebar, bpy.types.Panel):
         draw_ignored(layout, context, camera)
         draw_samples(layout, context, found)
         if seen and not drawn_alike(camera):
-            draw_message(layout, context, "Blender draws grid, outlines and gizmos in perspective")
+            draw_message(layout, context, "A click selects what is seen; Blender draws its gizmos in perspective")
 
 
 def draw_samples(layout, context, camera) -> None:

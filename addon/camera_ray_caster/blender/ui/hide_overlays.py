@@ -1,0 +1,96 @@
+"""Blender's outlines and grid in a 3D View are hidden while it shows the picture of a model that Blender does not draw.
+
+Blender draws them in its own perspective, where the picture has nothing of the kind. They come back when the view shows
+something else, before the file is saved, and before another one is loaded. The choice is made after a view is drawn:
+each change that matters redraws it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import bpy
+from bpy.app.handlers import persistent
+
+from .camera_panels import drawn_alike
+from .see_through import shows_picture
+
+LYING = (
+    "show_outline_selected", "show_floor", "show_axis_x", "show_axis_y", "show_axis_z", "show_ortho_grid",
+    "show_object_origins", "show_relationship_lines", "show_extras", "show_bones", "show_motion_paths",
+    "show_wireframes", "show_face_orientation", "show_cursor",
+)  # fmt: skip
+"""Properties of a view's overlays that are drawn in Blender's perspective."""
+
+_before: dict[int, dict[str, bool]] = {}
+"""What a view's overlays were before they were hidden, by the pointer of the 3D View."""
+
+
+def lies(space, scene) -> bool:
+    """Return whether a 3D View shows the picture of a camera whose model Blender does not draw."""
+    return shows_picture(space, scene) and not drawn_alike(scene.camera)
+
+
+def hide(space) -> None:
+    """Hide Blender's outlines and grid in a 3D View. One that was split off has nothing left to hide: it keeps what the
+    other one had.
+    """
+    before = {name: getattr(space.overlay, name) for name in LYING}
+    if not any(before.values()) and _before:
+        before = next(reversed(_before.values()))
+    _before[space.as_pointer()] = before
+    for name in LYING:
+        setattr(space.overlay, name, False)
+
+
+def restore(space) -> None:
+    """Restore the overlays of a 3D View in which they are hidden."""
+    for name, value in _before.pop(space.as_pointer(), {}).items():
+        setattr(space.overlay, name, value)
+
+
+def update() -> None:
+    """Hide or restore what has to be in each window."""
+    for window in bpy.context.window_manager.windows:
+        for area in window.screen.areas:
+            space = area.spaces.active
+            if area.type == "VIEW_3D" and lies(space, window.scene) != (space.as_pointer() in _before):
+                (restore if space.as_pointer() in _before else hide)(space)
+
+
+def draw() -> None:
+    """Have the overlays updated after this drawing if the view has changed; called by Blender for each 3D View."""
+    space = bpy.context.space_data
+    is_stale = lies(space, bpy.context.scene) != (space.as_pointer() in _before)
+    if is_stale and not bpy.app.timers.is_registered(update):
+        bpy.app.timers.register(update, first_interval=0.0)
+
+
+def _views() -> Iterator[bpy.types.SpaceView3D]:
+    """Yield the 3D Views of all workspaces, also those that another editor covers."""
+    for screen in bpy.data.screens:
+        for area in screen.areas:
+            yield from (space for space in area.spaces if space.type == "VIEW_3D")
+
+
+@persistent
+def restore_all(*_) -> None:
+    """Restore the overlays of every view: the file is saved, or another one is loaded. The next drawing hides them."""
+    for space in _views():
+        restore(space)
+    _before.clear()
+
+
+def stop() -> None:
+    """Restore everything, and hide nothing any more."""
+    if bpy.app.timers.is_registered(update):
+        bpy.app.timers.unregister(update)
+    restore_all()
+
+
+def register(undo) -> None:
+    """Register this module; see ``registration``."""
+    undo.callback(stop)
+    undo.add_handlers([("save_pre", restore_all), ("load_pre", restore_all)])
+    handle = bpy.types.SpaceView3D.draw_handler_add(draw, (), "WINDOW", "POST_PIXEL")
+    undo.callback(bpy.types.SpaceView3D.draw_handler_remove, handle, "WINDOW")
