@@ -20,23 +20,18 @@ if __name__ == "__main__":
 
     ends.begin(__file__)
 
-import gc
 import json
 import sys
 from pathlib import Path
-from time import perf_counter, sleep
-
-import numpy as np
 
 sys.path[:0] = [str(Path(__file__).resolve().parent), str(Path(__file__).resolve().parents[1] / "addon")]
 
 import arguments  # noqa: E402  (it lies beside this file)
-import contenders as c  # noqa: E402
 from kept_memory import keep_memory  # noqa: E402
+from measure import contenders as c  # noqa: E402
+from measure.turns import compare, spheres  # noqa: E402
 
 COUNTS = (10, 1_000, 10_000, 100_000)
-EMBREE_MOST = 10_000
-"""Maximum number of spheres, of 320 triangles each, that fit into the memory of a small machine."""
 
 
 def main() -> int:
@@ -69,26 +64,26 @@ def main() -> int:
     width, height = options.size
     rounds = options.rounds or (3 if options.quick else 9)
     if options.against:
-        import against
+        from measure import against
 
         try:
             figures = against.run(options.against, rounds, options.size)
         except LookupError as error:
             parser.error(str(error))
     elif options.models:
-        import by_model
+        from measure import by_model
 
         figures = by_model.run(width, height, rounds, options.threads)
     elif options.meshes:
-        import mesh_contest
+        from measure import mesh_contest
 
         figures = mesh_contest.run(compare, options.quick, width, height, rounds, options.threads)
     elif options.dataset:
-        import dataset_speed
+        from measure import dataset_speed
 
         figures = dataset_speed.run(8 if options.quick else 100)
     elif options.scaling:
-        import scaling
+        from measure import scaling
 
         figures = scaling.run(rounds, options.threads, options.quick)
         if options.picture:
@@ -102,68 +97,12 @@ def main() -> int:
     return 0
 
 
-def spheres(count: int, width: int, height: int, rounds: int, threads: int) -> list[dict]:
-    """Time one scene of spheres with every contender; return the rows of the table."""
-    entries = {
-        "ours, 4 passes": c.ours(c.PASSES, threads),
-        "ours, depth + index": c.ours(("depth", "shape_index"), threads),
-    }
-    if c.has("mitsuba"):
-        entries |= c.mitsubas()
-    if c.has("embreex") and c.has("trimesh") and count <= EMBREE_MOST:
-        entries["Embree, distance"] = c.embree
-    camera, shapes = c.scene(count, width, height)
-    title = f"{count:,} spheres and a wall, {width} x {height}, {threads} threads"
-    return [{"spheres": count} | row for row in compare(title, camera, shapes, entries, rounds)]
-
-
-def compare(title: str, camera, shapes, entries: dict, rounds: int) -> list[dict]:
-    """Time one scene with every contender, print its table and return the rows."""
-    print(f"\n{title}, {rounds} rounds, ms")
-    rows, runs = [], {}
-    for name, prepare in entries.items():
-        began = perf_counter()
-        runs[name] = prepare(camera, shapes)
-        rows.append({"name": name, "prepare_ms": 1e3 * (perf_counter() - began)})
-    times = take_turns(runs, rounds)
-    reference = {"4": np.median(times["ours, 4 passes"]), "d": np.median(times["ours, depth + index"])}
-    print(f"  {'':28}{'least':>9}{'median':>9}{'spread':>15}{'prepare':>10}{'over ours':>11}")
-    for row in rows:
-        own = times[row["name"]]
-        low, median, high = np.percentile(own, (25, 50, 75))
-        row |= {"least_ms": min(own), "median_ms": median, "low_ms": low, "high_ms": high}
-        row["over_ours"] = median / reference["4" if "4 passes" in row["name"] else "d"]
-        print(f"  {row['name']:28}{min(own):9.1f}{median:9.1f}{low:8.1f}-{high:.1f}".ljust(64)
-              + f"{row['prepare_ms']:9.0f}{row['over_ours']:10.2f}x")  # fmt: skip
-    return rows
-
-
-def take_turns(runs: dict, rounds: int) -> dict[str, list[float]]:
-    """Return the times of each run in milliseconds, round by round, after one untimed run."""
-    times: dict[str, list[float]] = {name: [] for name in runs}
-    for run in runs.values():
-        run()
-    gc.collect()
-    gc.disable()
-    try:
-        for _ in range(rounds):
-            for name, run in runs.items():
-                sleep(c.PAUSE)
-                began = perf_counter()
-                kept = run()
-                times[name].append(1e3 * (perf_counter() - began))
-                del kept
-    finally:
-        gc.enable()
-    return times
-
-
 def blender(width: int, height: int, threads: int, rounds: int) -> list[dict]:
     """Time ``scene.ray_cast`` in a loop, and Cycles at one sample with the same passes, if bpy is installed."""
     if not c.has("bpy"):
         print("\nBlender: not installed here")
         return []
-    import in_blender
+    from measure import in_blender
 
     return in_blender.run(*c.scene(10, width, height), c.PASSES, threads, rounds)
 

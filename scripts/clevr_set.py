@@ -55,7 +55,7 @@ def main(arguments: list[str] | None = None) -> int:
 
     keep_output()
     import bpy
-    from scenes.clevr import clevr
+    from make.scenes.clevr import clevr
 
     import camera_ray_caster
     from camera_ray_caster.blender.terminal import commands

@@ -27,7 +27,7 @@ import bpy  # noqa: F401  (first: bmesh, which the scenes use, comes with it)
 from arguments import Parser
 from door import through
 from ends import listen
-from scenes import BY_CYCLES, PICTURES
+from make.scenes import BY_CYCLES, PICTURES
 
 FOLDER = Path(__file__).resolve().parents[1] / "blend_scenes"
 

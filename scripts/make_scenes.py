@@ -23,7 +23,7 @@ from pathlib import Path
 import bpy
 from arguments import Parser
 from ends import listen
-from scenes import BY_CYCLES, EXAMPLES, GALLERY, SCENES
+from make.scenes import BY_CYCLES, EXAMPLES, GALLERY, SCENES
 
 ROOT = Path(__file__).resolve().parents[1]
 FOLDER = ROOT / "blend_scenes"

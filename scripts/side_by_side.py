@@ -28,7 +28,7 @@ def main() -> int:
     keep_output()
     try:
         from arguments import Parser
-        from precision import comparison, words
+        from measure.precision import comparison, words
     except ModuleNotFoundError as missing:
         print(f"side_by_side.py: {missing}: install the packages of the test extra", file=sys.stderr)
         return 2

@@ -25,7 +25,7 @@ def main() -> int:
     """Measure, write the files and print the tables; return the exit status."""
     try:
         from arguments import Parser
-        from precision import arithmetic, diagram, effort, words
+        from measure.precision import arithmetic, diagram, effort, words
     except ModuleNotFoundError as missing:
         print(f"work_precision.py: {missing}: install the packages of the test extra", file=sys.stderr)
         return 2
@@ -74,7 +74,7 @@ def _read(path):
         import bpy
     except ModuleNotFoundError as missing:
         raise InputError(f"{path!r} needs pip's bpy, which is not installed") from missing
-    from precision.arithmetic import small
+    from measure.precision.arithmetic import small
 
     import camera_ray_caster
     from camera_ray_caster.blender.read.camera import camera_record

@@ -30,10 +30,10 @@ def command(blender, capsys):
 
 @pytest.fixture(scope="module")
 def precision():
-    """The modules of scripts/precision, told to be quick: a run each, small pictures, few samples."""
+    """The modules of scripts/measure/precision, told to be quick: a run each, small pictures, few samples."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(sys, "path", [str(ROOT / "scripts"), str(ROOT), *sys.path])
-        from precision import arithmetic, comparison, effort, points
+        from measure.precision import arithmetic, comparison, effort, points
 
         patch.setattr(points, "REPEATS", 1)
         patch.setattr(arithmetic, "SIDE", 24)

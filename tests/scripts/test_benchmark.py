@@ -59,7 +59,7 @@ def test_scaling_is_measured_and_drawn(tmp_path):
 @pytest.mark.hostile
 def test_data_sets_are_timed(registered, monkeypatch, capsys):
     monkeypatch.setattr(sys, "path", [str(ROOT / "scripts"), *sys.path])
-    import dataset_speed
+    from measure import dataset_speed
 
     monkeypatch.setattr(dataset_speed, "SIZE", (32, 24))
     *rows, writing = dataset_speed.run(4)

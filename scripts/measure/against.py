@@ -19,7 +19,7 @@ from time import process_time
 
 import numpy as np
 
-ROOT = Path(__file__).resolve().parents[1]
+ROOT = Path(__file__).resolve().parents[2]
 CASTS = 5
 FOUR, TWO = ("depth", "normal", "position", "object_index"), ("depth", "shape_index")
 SPHERES = (10, 1_000, 10_000)
@@ -73,8 +73,8 @@ def _checked_out(commit: str):
 
 def _timed(root: Path, name: str, size: tuple[int, int]) -> float | None:
     """Return the milliseconds of a case with the add-on of a folder; None if it does not have it."""
-    words = [sys.executable, "-c", "import against; against.tell()", str(root), name, *map(str, size)]
-    done = subprocess.run(words, cwd=Path(__file__).resolve().parent, capture_output=True, text=True, check=False)
+    words = [sys.executable, "-c", "from measure import against; against.tell()", str(root), name, *map(str, size)]
+    done = subprocess.run(words, cwd=ROOT / "scripts", capture_output=True, text=True, check=False)
     return float(done.stdout) if done.returncode == 0 else None
 
 

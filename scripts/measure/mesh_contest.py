@@ -11,11 +11,12 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from time import perf_counter
 
-import contenders as c
 import numpy as np
 
 from camera_ray_caster.blender.read.scene import read_camera, read_shapes
 from camera_ray_caster.core.records import MESH, Shapes
+
+from . import contenders as c
 
 LEVELS = (0, 2, 3, 4, 5)
 """Subdivision levels: 1k, 16k, 63k, 252k and 1M triangles."""
@@ -161,7 +162,7 @@ def run(compare: Callable, quick: bool, width: int, height: int, rounds: int, th
 
 def _by_model(width: int, height: int, rounds: int, threads: int) -> list[dict]:
     """Print and return the times of other camera models of the contract test, in turns with the perspective."""
-    sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+    sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
     from tests.core.cameras.model_examples import camera as camera_of
 
     print("\n  63k triangles, four passes, by camera model, over the perspective")

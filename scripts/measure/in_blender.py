@@ -5,12 +5,13 @@ from __future__ import annotations
 from time import perf_counter, sleep
 
 import bpy
-import contenders as c
 import numpy as np
 from mathutils import Vector
 
 from camera_ray_caster.core.cast import cast
 from camera_ray_caster.core.records import SPHERE
+
+from . import contenders as c
 
 LOOP_RAYS = 20_000
 """Number of rays in the loops; the time is scaled to the whole picture. The generation of rays is not timed."""

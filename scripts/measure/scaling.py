@@ -8,12 +8,13 @@ import tracemalloc
 from dataclasses import replace
 from time import perf_counter
 
-import contenders as c
 import numpy as np
 
 from camera_ray_caster.core.cast import cast
 from camera_ray_caster.core.mesh import Mesh
 from camera_ray_caster.core.records import MESH
+
+from . import contenders as c
 
 COUNTS = (10, 100, 1_000, 10_000, 100_000, 1_000_000)
 TRIANGLES = (1_000, 4_000, 16_000, 64_000, 256_000, 1_024_000)

@@ -19,7 +19,7 @@ import numpy as np
 
 from camera_ray_caster.core.casting.passes import PASSES
 
-SCRIPT = Path(__file__).with_name("dataset.py")
+SCRIPT = Path(__file__).parents[1] / "dataset.py"
 CAMERAS, SIZE = 3, (640, 480)
 PASSES_CAST = [name for name in PASSES if not name.endswith("_bound") and not name.startswith("flow_")]
 FEW = 2

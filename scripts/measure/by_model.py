@@ -12,11 +12,12 @@ import sys
 from pathlib import Path
 from time import perf_counter
 
-import contenders as c
 import numpy as np
 
 from camera_ray_caster.core.cameras import MODELS
 from camera_ray_caster.core.cast import cast
+
+from . import contenders as c
 
 SPHERES = 1_000
 
@@ -79,7 +80,7 @@ def run(width: int, height: int, rounds: int, threads: int) -> list[dict]:
 
 def _cameras(frame: dict):
     """Yield the name and the camera of each model, and of each eye of spherical stereo."""
-    sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+    sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
     from tests.core.camera.test_spherical_stereo import FADING, MERGED, eye
     from tests.core.cameras.model_examples import camera
 
