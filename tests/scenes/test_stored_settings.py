@@ -1,4 +1,4 @@
-"""Files saved with version 0.1: each opens with the model and the settings that its maker in scripts/make/scenes gave it."""
+"""Files saved with version 0.1: each opens with the model and the settings that scripts/make/scenes gave it."""
 
 from math import pi, radians
 
