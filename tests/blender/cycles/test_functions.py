@@ -6,8 +6,9 @@ import pytest
 from camera_ray_caster.blender.cycles.shader import set_shader
 from camera_ray_caster.core.maths.recording import record
 from camera_ray_caster.core.shaders.camera_shader import CameraShader
-from camera_ray_caster.core.shaders.osl import HELPERS, Inputs, Term, Writer
+from camera_ray_caster.core.shaders.osl import Inputs, OslWriter
 from camera_ray_caster.core.shaders.rounding import Rounded, rounded
+from camera_ray_caster.core.shaders.writer import Term
 
 from .cycles import cycles_colors
 
@@ -93,10 +94,10 @@ def written(start, step, number):
 
 def rendered(bpy, formula, a, b):
     """Return what Cycles makes of a formula, (SIDE, SIDE) float64; 0 where it gives no number."""
-    writer = Writer(Inputs())
+    writer = OslWriter(Inputs())
     (value,) = writer.write(formula, [Term("a"), Term("b")])
-    helpers = "".join(f"{text}\n" for name, text in HELPERS.items() if name in writer.helpers)
-    text = SHADER.format(helpers=helpers, a=a, b=b, lines="\n".join(writer.lines), none=value.none, value=value.text)
+    helpers, none = "".join(f"{text}\n" for text in writer.helper_texts()), value.none or writer.NO
+    text = SHADER.format(helpers=helpers, a=a, b=b, lines="\n".join(writer.lines), none=none, value=value.text)
     scene, data = bpy.context.scene, bpy.data.cameras.new("Functions")
     scene.camera = bpy.data.objects.new("Functions", data)
     scene.collection.objects.link(scene.camera)

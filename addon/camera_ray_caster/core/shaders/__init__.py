@@ -1,1 +1,1 @@
-"""Cameras as shaders: the ray formula of any model, recorded and written in the Open Shading Language."""
+"""Ray formulas of any model, recorded and written in other languages: OSL, for cameras in Cycles, and JavaScript."""

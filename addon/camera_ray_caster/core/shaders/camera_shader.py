@@ -19,8 +19,9 @@ import numpy as np
 from ..camera.camera import Camera
 from ..conventions import EPS32
 from ..maths.recording import Parameter, Record, record
-from .osl import HELPERS, Inputs, Term, Writer
+from .osl import Inputs, OslWriter
 from .turn import UPRIGHT, Turn
+from .writer import Term
 
 MARK = "// Camera Ray Caster, from a {} camera. Inputs by place: {}. Checksum: {:08x}"
 MARKED = re.compile(r"// Camera Ray Caster, from a (\w+) camera\. Inputs by place: ([\d ]*)\. Checksum: (\w{8})")
@@ -111,9 +112,9 @@ def camera_shader(
     with operations that cannot be recorded.
     """
     model, inputs = camera.model, Inputs(places)
-    writer = Writer(inputs)
+    writer = OslWriter(inputs)
     found = writer.write(ray_record(camera), [Term("x"), Term("y"), Term("across"), Term("up")])
-    none = writer.either(*(part.none for part in found))
+    none = writer.either(*(part.none for part in found)) or writer.NO
     texts = [part.text for part in found]
     (width, height), opening = model.frame, camera.aperture
     frame = {"frame_width": width, "frame_height": height, "frame_shift_x": shift[0], "frame_shift_y": shift[1]}
@@ -122,7 +123,7 @@ def camera_shader(
     rest = TEXT.format(
         label=model.label,
         description=model.description,
-        helpers="".join(f"{text}\n" for name, text in HELPERS.items() if name in writer.helpers),
+        helpers="".join(f"{text}\n" for text in writer.helper_texts()),
         inputs="".join(f"    float {name} = 0,\n" for name in own),
         aperture="" if opening is None else HOLE if opening.is_hole else APERTURE,
         lines="\n".join((*writer.tables, *writer.lines)),

@@ -18,7 +18,7 @@ from ..conventions import EPS32
 from ..maths.recording import NUMPY, Record
 from ..maths.recording.derivatives import SLOPES
 from ..maths.recording.record import COMPARISONS, LOGICAL, NUMERIC, Arithmetic, repeat_body
-from .osl import LEAST
+from .writer import LEAST
 
 
 class Rounded(NamedTuple):
