@@ -51,7 +51,7 @@ def main(arguments: list[str] | None = None) -> int:
     asked = parser.parse_args(arguments)
 
     sys.path.insert(0, str(ADDON))
-    from camera_ray_caster.blender.terminal.standard_output import keep_output
+    from camera_ray_caster.blender.process.standard_output import keep_output
 
     keep_output()
     import bpy

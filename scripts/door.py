@@ -16,7 +16,7 @@ ENGINE = "CAMERA_RAY_CASTER"
 def through(command: str) -> int:
     """Run a command of the add-on's terminal with this process's arguments and return its exit status."""
     sys.path.insert(0, str(ADDON))
-    from camera_ray_caster.blender.terminal.standard_output import keep_output
+    from camera_ray_caster.blender.process.standard_output import keep_output
 
     keep_output()
     try:
@@ -32,7 +32,8 @@ def through(command: str) -> int:
     if installed is not None:
         addon_utils.disable(package_of(installed))
     import camera_ray_caster
-    from camera_ray_caster.blender.terminal import commands, signals
+    from camera_ray_caster.blender.process import signals
+    from camera_ray_caster.blender.terminal import commands
 
     listen(signals.stop)
     try:

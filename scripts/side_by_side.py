@@ -23,7 +23,7 @@ sys.path[:0] = [str(ROOT / "addon"), str(ROOT), str(ROOT / "scripts")]
 
 def main() -> int:
     """Run every tracer on every case and print the table."""
-    from camera_ray_caster.blender.terminal.standard_output import keep_output
+    from camera_ray_caster.blender.process.standard_output import keep_output
 
     keep_output()
     try:

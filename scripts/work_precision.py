@@ -29,7 +29,7 @@ def main() -> int:
     except ModuleNotFoundError as missing:
         print(f"work_precision.py: {missing}: install the packages of the test extra", file=sys.stderr)
         return 2
-    from camera_ray_caster.blender.terminal.standard_output import keep_output
+    from camera_ray_caster.blender.process.standard_output import keep_output
     from camera_ray_caster.core.records import InputError
 
     parser = Parser(prog="work_precision.py", description=__doc__.splitlines()[0])
@@ -77,10 +77,10 @@ def _read(path):
     from measure.precision.arithmetic import small
 
     import camera_ray_caster
+    from camera_ray_caster.blender.process.opening import open_file
     from camera_ray_caster.blender.read.camera import camera_record
     from camera_ray_caster.blender.read.scene import evaluated
     from camera_ray_caster.blender.read.shapes import shapes_record
-    from camera_ray_caster.blender.terminal.opening import open_file
 
     camera_ray_caster.register()
     try:

@@ -9,7 +9,8 @@ def main() -> int:
     command, *arguments = sys.argv[1:] or [""]
     try:
         from .blender import registration
-        from .blender.terminal import commands, signals
+        from .blender.process import signals
+        from .blender.terminal import commands
     except ImportError as error:
         missing = "pip's bpy, as camera-ray-caster[blender] brings it"
         print(f"camera-ray-caster: needs {missing}, or a library of the system: {error}", file=sys.stderr)

@@ -39,7 +39,7 @@ WIDTH, HEIGHT = 40, 30
 
 def tick(scene, names):
     """Tick these passes in every view layer."""
-    from camera_ray_caster.blender.engine import passes
+    from camera_ray_caster.blender.properties import passes
 
     for layer in scene.view_layers:
         passes.tick(scene, layer, names)

@@ -13,8 +13,8 @@ import pytest
 from mathutils import Matrix
 
 from camera_ray_caster.blender.engine import viewport
+from camera_ray_caster.blender.read.scene_cache import cached_scene
 from camera_ray_caster.blender.ui.cast_operator import Cast, cast_views
-from camera_ray_caster.blender.view3d.scene_cache import cached_scene
 from camera_ray_caster.core.casting.worker import Worker
 
 from .processes import SOURCE, blender_command, run

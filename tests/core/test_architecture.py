@@ -23,6 +23,9 @@ LOW = {
 }  # fmt: skip
 RAYS = LOW | {"core.cameras", "core.camera"}
 HITS = RAYS | {"core.motion", "core.shapes", "core.errors", "core.casting"}
+READ = {"core", "blender.properties", "blender.process", "blender.read"}
+RENDER = READ | {"blender.cycles", "blender.verification", "blender.output"}
+DOOR = RENDER | {"blender.engine", "blender.rig"}
 MAY_IMPORT = {
     "core.conventions": set(),
     "core.tuning": set(),
@@ -56,6 +59,19 @@ MAY_IMPORT = {
     "core.sets": HITS | {"core.annotations", "core.exports", "core.names", "core.sets"},
     "core": {"core"},
     "blender.verification.witness": LOW,
+    # Blender's data are read at the bottom, rendered and written in the middle; the doors stand on top
+    "blender.properties": {"core", "blender.properties"},
+    "blender.process": {"core", "blender.process"},
+    "blender.read": READ,
+    "blender.cycles": READ | {"blender.cycles"},
+    "blender.verification": READ | {"blender.cycles", "blender.verification"},
+    "blender.output": READ | {"blender.output"},
+    "blender.engine": RENDER | {"blender.engine"},
+    "blender.rig": {"core", "blender.properties", "blender.read"},
+    "blender.gallery": {"core"},
+    "blender.view3d": READ | {"blender.output", "blender.view3d"},
+    "blender.terminal": DOOR | {"blender.terminal"},
+    "blender.ui": DOOR | {"blender.gallery", "blender.view3d", "blender.ui"},
     "blender": {"blender", "core"},
     "": {"blender", "core"},
 }

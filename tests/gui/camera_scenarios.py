@@ -113,7 +113,7 @@ def told(user, scenes):
     line = np.s_[-120:-96, 60:500]  # below the names of the view and the object
     letters = [np.count_nonzero(picture[line][..., :3].min(axis=2) > 0.9) for picture in (with_line, without)]
     assert letters[0] > 100 > letters[1] + 50, letters
-    seen = addon("view3d.scene_cache").cached_scene(bpy.context)
+    seen = addon("read.scene_cache").cached_scene(bpy.context)
     assert not seen.differences
     assert not seen.shapes.left_out
 

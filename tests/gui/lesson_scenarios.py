@@ -8,9 +8,9 @@ from parts import BUTTON, addon, load
 
 def place_of(user, column, row):
     """Where a pixel of the camera is in the window."""
-    view, raster = user.region("WINDOW"), addon("view3d.scene_cache").cached_scene(bpy.context).camera.raster
+    view, raster = user.region("WINDOW"), addon("read.scene_cache").cached_scene(bpy.context).camera.raster
     with bpy.context.temp_override(window=user.window, area=user.area(), region=view):
-        left, bottom, right, top = addon("view3d.camera_frame").camera_frame(bpy.context)
+        left, bottom, right, top = addon("read.view").camera_frame(bpy.context)
     x, y = (column + 0.5) / raster.width, (row + 0.5) / raster.height
     return view.x + left + x * (right - left), view.y + bottom + y * (top - bottom)
 
@@ -22,7 +22,7 @@ def step_through(user, scenes):
     yield from user.press(f"{BUTTON}step_through(")
     yield from user.wait(0.5)
     assert space.region_3d.view_perspective == "CAMERA"
-    camera = addon("view3d.scene_cache").cached_scene(bpy.context).camera
+    camera = addon("read.scene_cache").cached_scene(bpy.context).camera
     yield from user.click(*place_of(user, 400, 200))
     (first,) = lesson.pixels
     assert np.abs(np.subtract(first, (400, 200))).max() <= 3
@@ -69,7 +69,7 @@ def step_through_image(user, scenes):
     yield from user.wait(1)
     view, sidebar = parts_of(editor)
     in_view = {"window": user.window, "area": editor, "region": view}
-    addon("engine.passes").tick(bpy.context.scene, bpy.context.view_layer, ["combined"])
+    addon("properties.passes").tick(bpy.context.scene, bpy.context.view_layer, ["combined"])
     bpy.ops.camera_ray_caster.cast()
     image = editor.spaces.active.image
     assert image == bpy.data.images["Ray Caster combined"]

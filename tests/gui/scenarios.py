@@ -48,7 +48,7 @@ def panel(user, scenes):
     assert area.spaces.active.image == bpy.data.images["Ray Caster combined"]
     depth = pixels_of(bpy.data.images["Ray Caster depth"])[..., 0]
     assert depth.min() > scene.camera.data.clip_start
-    assert depth.max() == addon("engine.passes").FAR
+    assert depth.max() == addon("properties.passes").FAR
     print({name: f"{1e3 * np.median(seconds or [0]):.2f} ms" for name, seconds in timings.items()})
     assert all(timings[name] for name in ("SidebarCamera", "SidebarVerify", "SidebarCast", "SidebarFacts"))
     slow = {name: np.median(seconds) for name, seconds in timings.items() if np.median(seconds or [0]) > DRAWN}
@@ -165,7 +165,7 @@ def viewport(user, scenes):
         shown = user.cut(user.picture(kind.replace(" ", "_")), view)
         area, region = user.area(), view
         with bpy.context.temp_override(window=user.window, area=area, region=region):
-            left, bottom, right, top = addon("view3d.camera_frame").camera_frame(bpy.context)
+            left, bottom, right, top = addon("read.view").camera_frame(bpy.context)
         differences = []
         for u in np.linspace(0.02, 0.98, 25):
             for v in np.linspace(0.02, 0.98, 15):

@@ -93,7 +93,7 @@ def marks(user, scenes):
     scene, lesson = bpy.context.scene, addon("view3d.lesson")
     yield from user.press(f"{BUTTON}see_through(")
     yield from user.wait(1)
-    raster = addon("view3d.scene_cache").cached_scene(bpy.context).camera.raster
+    raster = addon("read.scene_cache").cached_scene(bpy.context).camera.raster
     pixel = raster.width // 3, raster.height // 3
     yield from user.press(f"{BUTTON}step_through(")
     yield from user.click(*place_of(user, *pixel))
@@ -133,7 +133,7 @@ def click_seen(user, scenes):
     tool(user, "builtin.select_box")
     yield from user.press(f"{BUTTON}see_through(")
     yield from user.until(lambda: not any(overlays().values()), "outlines and grid are hidden")
-    seen, probe = addon("view3d.scene_cache").cached_scene(context), addon("view3d.mouse_gizmo").probe
+    seen, probe = addon("read.scene_cache").cached_scene(context), addon("view3d.mouse_gizmo").probe
     width, height = seen.camera.raster.size
     names = set()
     for x, y in ((0.3, 0.3), (0.5, 0.35), (0.65, 0.3), (0.4, 0.6), (0.6, 0.7)):

@@ -22,7 +22,7 @@ def content(name, number, size):
 
 def write(folder, name, number):
     """Write one set."""
-    from camera_ray_caster.blender.terminal import signals
+    from camera_ray_caster.blender.process import signals
     from camera_ray_caster.core.file_set import atomic_folder
 
     with atomic_folder(folder) as new:
@@ -35,7 +35,7 @@ def main():
     """Write until stopped, as a command of the terminal does: a signal is remembered, and the work asks."""
     name, folder, most = sys.argv[1:]
     sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "addon"))
-    from camera_ray_caster.blender.terminal import signals
+    from camera_ray_caster.blender.process import signals
     from camera_ray_caster.core.records import Cancelled
 
     ends.listen(signals.stop)

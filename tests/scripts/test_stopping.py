@@ -31,7 +31,8 @@ def test_a_run_that_is_ended_leaves_good_files_and_nothing_else(blender, tmp_pat
 @pytest.mark.parametrize("callback", ["load_post", "depsgraph_update_post", "render_init", "render_post"])
 def test_a_signal_within_a_callback_of_blenders_ends_the_run_in_one_line(blender, tmp_path, capfd, callback):
     """Python runs a signal's handler where it next runs at all, and Blender prints and drops what a callback raises."""
-    from camera_ray_caster.blender.terminal import commands, signals
+    from camera_ray_caster.blender.process import signals
+    from camera_ray_caster.blender.terminal import commands
 
     path = small(blender, tmp_path / "small.blend")
     handlers = getattr(blender.app.handlers, callback)
@@ -57,7 +58,8 @@ def test_a_signal_within_a_callback_of_blenders_ends_the_run_in_one_line(blender
 
 @pytest.mark.parametrize("command", ["cast", "verify"])
 def test_a_signal_ends_the_reading_of_a_camera_that_moves(blender, tmp_path, capfd, command):
-    from camera_ray_caster.blender.terminal import commands, signals
+    from camera_ray_caster.blender.process import signals
+    from camera_ray_caster.blender.terminal import commands
 
     visited = []
 
@@ -80,8 +82,8 @@ def test_a_signal_ends_the_reading_of_a_camera_that_moves(blender, tmp_path, cap
 
 
 def test_a_signal_after_the_render_ends_the_run_before_files_are_written(blender, tmp_path, monkeypatch):
-    from camera_ray_caster.blender.output import files
-    from camera_ray_caster.blender.terminal import commands, signals
+    from camera_ray_caster.blender.process import signals
+    from camera_ray_caster.blender.terminal import commands, files
 
     path = small(blender, tmp_path / "small.blend")
     rendered, save, saved = files._rendered, files._save, []
@@ -99,7 +101,7 @@ def test_a_signal_after_the_render_ends_the_run_before_files_are_written(blender
 
 
 def test_a_second_signal_is_not_waited_for():
-    from camera_ray_caster.blender.terminal import signals
+    from camera_ray_caster.blender.process import signals
 
     try:
         signals.stop()
@@ -112,8 +114,8 @@ def test_a_second_signal_is_not_waited_for():
 @pytest.mark.parametrize("moment", [0, 300, 700])
 def test_a_stop_is_heard_while_many_objects_are_read(blender, moment, monkeypatch):
     """At once, not when all have been read: of the instances of each block only some are looked at."""
+    from camera_ray_caster.blender.process import signals
     from camera_ray_caster.blender.read import groups, shapes
-    from camera_ray_caster.blender.terminal import signals
     from camera_ray_caster.core.records import Cancelled
 
     blender.ops.mesh.primitive_plane_add()
@@ -137,7 +139,7 @@ def test_a_stop_is_heard_while_many_objects_are_read(blender, moment, monkeypatc
 def test_what_a_thread_asks_is_not_asked_in_another():
     from threading import Thread
 
-    from camera_ray_caster.blender.terminal import signals
+    from camera_ray_caster.blender.process import signals
 
     answers = []
     with signals.heard(lambda: True):

@@ -12,7 +12,7 @@ from .engine import engine, viewport
 from .output import images, reports
 from .properties import calibration, groups, paths
 from .properties.declared import ENGINE
-from .read import kept
+from .read import kept, scene_cache
 from .terminal import commands
 from .ui import (
     add_line,
@@ -45,7 +45,7 @@ from .ui import (
     show_result,
     verify_panels,
 )
-from .view3d import lesson, mouse_gizmo, notice, overlay, scene_cache
+from .view3d import lesson, mouse_gizmo, notice, overlay
 
 CLASSES = (
     *groups.CLASSES, *overlay.CLASSES, *engine.CLASSES, *operators.CLASSES, *cast_operator.CLASSES,

@@ -61,7 +61,7 @@ def test_a_subframe_lies_between(scene, render):
 @pytest.mark.parametrize(("stopped", "ends"), [(True, False), (False, True), (False, False)])
 def test_each_tile_shows_progress_and_asks_whether_to_stop(stopped, ends, monkeypatch):
     from camera_ray_caster.blender.engine import engine
-    from camera_ray_caster.blender.terminal import signals
+    from camera_ray_caster.blender.process import signals
 
     shown = []
     stand_in = SimpleNamespace(doing=("", ""), update_progress=shown.append, update_stats=lambda *words: None)

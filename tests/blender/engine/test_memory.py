@@ -5,8 +5,8 @@ frame is rendered.
 import numpy as np
 import pytest
 
-from camera_ray_caster.blender.output import files
 from camera_ray_caster.blender.read.scene import read_camera, read_shapes
+from camera_ray_caster.blender.terminal import files
 from camera_ray_caster.core import memory
 from camera_ray_caster.core.cast import cast
 from camera_ray_caster.core.records import InputError

@@ -7,8 +7,7 @@ import bpy
 import numpy as np
 import pytest
 
-from camera_ray_caster.blender.read import kept, read_shapes
-from camera_ray_caster.blender.view3d import scene_cache
+from camera_ray_caster.blender.read import kept, read_shapes, scene_cache
 from camera_ray_caster.core.motion.means import same
 
 from .scene_parts import ADD, new_collection, new_object

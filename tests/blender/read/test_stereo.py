@@ -122,7 +122,7 @@ def test_a_model_with_eyes_of_its_own_is_rendered_with_each(blender, scene, tmp_
 
 def render_position(blender, scene, folder):
     """Render the position pass of both eyes into folder/picture_L.exr and _R."""
-    from camera_ray_caster.blender.engine import passes
+    from camera_ray_caster.blender.properties import passes
 
     scene.render.engine = "CAMERA_RAY_CASTER"
     settings = scene.render.image_settings

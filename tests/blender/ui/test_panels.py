@@ -219,7 +219,7 @@ def test_results_are_shown_in_their_own_scene_only(blender, scene, how):
     ],
 )
 def test_lengths_are_in_the_unit_of_the_scene(blender, system, unit, meters, text):
-    from camera_ray_caster.blender.ui.drawing import length
+    from camera_ray_caster.blender.read.lengths import length
 
     units = blender.context.scene.unit_settings
     units.system = system
@@ -231,7 +231,7 @@ def test_lengths_are_in_the_unit_of_the_scene(blender, system, unit, meters, tex
 
 
 def test_every_unit_of_blender_is_known_with_its_length(blender):
-    from camera_ray_caster.blender.ui.drawing import UNITS
+    from camera_ray_caster.blender.read.lengths import UNITS
 
     units, known = blender.context.scene.unit_settings, set()
     for units.system in ("METRIC", "IMPERIAL"):
@@ -268,7 +268,7 @@ def test_rays_in_the_status_bar_have_a_separator(blender, scene, capfd):
 
 
 def test_results_are_named_as_passes_are(blender, scene):
-    from camera_ray_caster.blender.engine import passes
+    from camera_ray_caster.blender.properties import passes
     from camera_ray_caster.blender.ui.show_result import ResultsMenu
 
     keys = ["combined", "uv", "object_index", "distance", "distance_bound"]

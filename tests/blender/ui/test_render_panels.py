@@ -9,7 +9,7 @@ def test_blenders_panels_know_the_engine(blender):
 
 
 def test_the_compositor_is_offered_the_ticked_passes(blender):
-    from camera_ray_caster.blender.engine import passes
+    from camera_ray_caster.blender.properties import passes
 
     scene = blender.context.scene
     scene.render.engine = "CAMERA_RAY_CASTER"

@@ -6,8 +6,8 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from camera_ray_caster.blender.engine import passes
 from camera_ray_caster.blender.output import images
+from camera_ray_caster.blender.properties import passes
 from camera_ray_caster.blender.read.scene import read_camera, read_shapes
 from camera_ray_caster.blender.registration import Undo
 from camera_ray_caster.blender.view3d import lesson

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from camera_ray_caster.blender.engine import passes
 from camera_ray_caster.blender.output import images, reports
+from camera_ray_caster.blender.properties import passes
 from camera_ray_caster.blender.read.scene import read_camera, read_scene, read_shapes
 from camera_ray_caster.blender.ui import cast_operator
 from camera_ray_caster.core.cast import cast

@@ -7,8 +7,8 @@ import blf
 import bpy
 import pytest
 
+from camera_ray_caster.blender.read.scene_cache import cached_scene
 from camera_ray_caster.blender.view3d import mouse_gizmo, notice, text
-from camera_ray_caster.blender.view3d.scene_cache import cached_scene
 
 
 @pytest.fixture

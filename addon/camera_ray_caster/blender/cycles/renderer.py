@@ -7,8 +7,8 @@ import bpy
 import numpy as np
 
 from ...core.records import InputError, Raster
-from ..terminal.opening import reported
-from ..terminal.signals import raise_if_stopping
+from ..process.opening import reported
+from ..process.signals import raise_if_stopping
 
 INSIDE = 0.25
 """Offset of a border from a pixel's edge, in pixels, so that rounding cannot move it to the next pixel."""

@@ -4,7 +4,8 @@ from collections.abc import Collection, Iterator
 
 from ...core.cameras.orthographic import Orthographic
 from ...core.cameras.perspective import Perspective
-from .passes import PASSES, RenderPass
+from ..properties.passes import PASSES, RenderPass
+from ..read.compositor import compositor_nodes
 
 ALWAYS = {"Image", "Alpha", "Noisy Image"}
 """Sockets of a Render Layers node that show the combined pass, which Blender always stores."""
@@ -22,18 +23,6 @@ def warnings(depsgraph, model: str, passes: Collection[RenderPass]) -> tuple[str
     scene, layer = depsgraph.scene, depsgraph.view_layer
     freestyle = scene.render.use_freestyle and layer.use_freestyle
     return (*_drawn_over(depsgraph, model, freestyle), *_missing(scene, layer, passes), *[FREESTYLE] * freestyle)
-
-
-def compositor_nodes(scene) -> Iterator:
-    """Yield the compositor's nodes that a render of the scene runs, those in groups, too, without muted nodes."""
-    if not scene.render.use_compositing:
-        return
-    from_5_0 = hasattr(scene, "compositing_node_group")
-    trees = [scene.compositing_node_group if from_5_0 else scene.node_tree if scene.use_nodes else None]
-    for tree in trees:  # the list grows during the loop
-        nodes = [node for node in tree.nodes if not node.mute] if tree is not None else []
-        yield from nodes
-        trees += [node.node_tree for node in nodes if node.type == "GROUP" and node.node_tree not in trees]
 
 
 def _missing(scene, layer, passes: Collection[RenderPass]) -> Iterator[str]:

@@ -17,14 +17,14 @@ from ...core.records import BlenderCamera, Cancelled, InputError
 from ...core.report.report import Report
 from ..cycles.picture import Picture
 from ..output import reports
+from ..process import signals
 from ..properties.declared import ENGINE
 from ..properties.labels import in_labels
+from ..properties.passes import stored, ticked
 from ..read import physics
 from ..read.frames import frame_of
-from ..terminal import signals
 from .after import warnings
 from .job import run
-from .passes import stored, ticked
 from .viewport import Viewport
 
 BAND_PIXELS = 1 << 18

@@ -10,10 +10,10 @@ import bpy
 
 from ...core.records import Cancelled, InputError
 from ..cycles.renderer import changed, only_engine
-from ..output.files import check_layers
+from ..process import signals
+from ..process.opening import reported
 from ..read.camera import check_camera
-from ..terminal import signals
-from ..terminal.opening import reported
+from ..read.frames import check_layers
 from .engine import CameraRayCaster
 from .job import Job
 

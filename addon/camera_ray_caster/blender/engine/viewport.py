@@ -23,8 +23,8 @@ from ...core.cast import cast
 from ...core.casting.worker import Worker
 from ...core.records import BlenderCamera, InputError
 from ..output.reports import left_out_count
-from ..view3d.camera_frame import camera_frame
-from ..view3d.scene_cache import CachedScene, cached_scene
+from ..read.scene_cache import CachedScene, cached_scene
+from ..read.view import camera_frame
 
 STEPS = (32, 8, 2, 1)
 """Side of a picture's pixel in pixels of the window, from coarse to fine."""

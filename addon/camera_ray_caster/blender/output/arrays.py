@@ -13,7 +13,7 @@ import numpy as np
 from ...core.casting.passes import PASSES
 from ...core.names import file_names
 from ...core.records import InputError
-from ..terminal.signals import raise_if_stopping
+from ..process.signals import raise_if_stopping
 
 LEVEL = 1
 """Level of deflate compression. All passes of a picture of meshes take 0.52 s of processor time and 11.5 MB; at

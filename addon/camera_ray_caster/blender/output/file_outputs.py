@@ -8,7 +8,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
-from ..engine.after import compositor_nodes
+from ..read.compositor import compositor_nodes
 
 
 def writing(scene) -> list:

@@ -15,8 +15,8 @@ from tempfile import TemporaryFile
 import bpy
 
 from ...core.records import InputError
-from ..terminal.opening import reported, scripts_given_back
-from ..terminal.standard_output import quiet_errors
+from ..process.opening import reported, scripts_given_back
+from ..process.standard_output import quiet_errors
 
 PROBE = 1 << 20
 """Bytes that a disk must still take after a failure, or else it is full."""

@@ -9,6 +9,8 @@ import math
 
 import bpy
 
+from ...core.records import InputError
+
 
 def frame_of(scene) -> float:
     """Return the current frame of a scene, original or evaluated, with its subframe."""
@@ -34,3 +36,9 @@ def frame_rate(scene) -> float:
 def layer_of(scene):
     """Return the view layer in which a scene is read: the window's, or the first of another scene."""
     return bpy.context.view_layer if scene == bpy.context.scene else scene.view_layers[0]
+
+
+def check_layers(scene) -> None:
+    """Raise InputError if no view layer is enabled for rendering."""
+    if not any(layer.use for layer in scene.view_layers):
+        raise InputError(f"no view layer of scene {scene.name!r} is used for rendering: enable one")

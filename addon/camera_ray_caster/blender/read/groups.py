@@ -9,7 +9,7 @@ import numpy as np
 
 from ...core.records import EVERYWHERE, Shapes, Slots
 from ...core.shapes.instances import Primitive, castable, lights_in_world, put_in_world
-from ..terminal.signals import raise_if_stopping
+from ..process.signals import raise_if_stopping
 from .kept import Found
 from .lights import World
 from .materials import Look

@@ -11,7 +11,7 @@ from ...core.casting.flow import NEXT, PREVIOUS, frames_of
 from ...core.motion.evaluations import Motion, measured, resolve
 from ...core.records import Shapes
 from ...core.scene import Scene
-from ..terminal.signals import raise_if_stopping
+from ..process.signals import raise_if_stopping
 from .evaluated import Eye, scene_at
 from .frames import action_time
 from .physics import prepare

@@ -17,7 +17,7 @@ from typing import Any
 import bpy
 
 from ...core.records import InputError
-from ..terminal.signals import raise_if_stopping
+from ..process.signals import raise_if_stopping
 
 CLOTH = {"CLOTH", "SOFT_BODY"}
 """Types of modifiers with one point cache."""

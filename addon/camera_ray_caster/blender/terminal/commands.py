@@ -11,9 +11,10 @@ import bpy
 
 from ...core.memory import exhausted
 from ...core.records import Cancelled, InputError
+from ..process import opening, signals
+from ..process.standard_output import keep_output
 from ..read import physics
-from . import cast, dataset, explain, export, opening, signals, to_cycles, verify
-from .standard_output import keep_output
+from . import cast, dataset, explain, export, to_cycles, verify
 
 COMMANDS = {
     "cast": cast.run, "dataset": dataset.run, "verify": verify.run, "explain": explain.run, "to_cycles": to_cycles.run,

@@ -24,12 +24,11 @@ from ...core.file_set import Taken, atomic_folder, clear_up
 from ...core.records import InputError
 from ...core.report.notes import sentences
 from ...core.sets import companions
-from ..output import files
 from ..output.annotations import collect
 from ..output.stamps import differing
 from ..read.camera import check_camera, check_markers
 from ..read.unique import unique_name
-from . import farm
+from . import farm, files
 from .options import command_parser, warn
 from .pictures import Pictures, add_words, follow, parsed, summary
 from .ray_maps import made_map

@@ -9,7 +9,7 @@ import numpy as np
 from ...core.cast import moment
 from ...core.lesson.lesson import lesson, pixel_at
 from ..engine.reading import read_as_rendered
-from . import signals
+from ..process import signals
 from .options import add_frame, add_json, command_parser, go_to, open_scene, warn
 
 

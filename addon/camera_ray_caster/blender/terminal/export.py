@@ -8,9 +8,9 @@ from ...core.exports.writing import write
 from ...core.records import InputError
 from ...core.sets import SET_FORMATS, read_set, sparse
 from ..output import exports
+from ..process.opening import not_run
 from ..read.camera import check_camera, check_markers, find_camera, find_cameras
 from ..read.frames import frame_of
-from .opening import not_run
 from .options import command_parser, go_to, open_scene, warn
 from .words import add_cameras, add_frames, check_cameras, count
 

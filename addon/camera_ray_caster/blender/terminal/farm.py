@@ -22,8 +22,8 @@ from threading import Lock, current_thread, main_thread
 from typing import Any
 
 from ...core.records import InputError
-from . import signals
-from .standard_output import keep_output, quiet_errors
+from ..process import signals
+from ..process.standard_output import keep_output, quiet_errors
 
 CHUNK = 4
 """Number of pictures per task of a worker."""

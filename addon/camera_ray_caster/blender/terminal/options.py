@@ -15,6 +15,8 @@ from ...core.cameras.parts.programs import FILE_WRITERS
 from ...core.records import InputError
 from ...core.report.report import WIDTH, Report, as_json, as_lines
 from ..engine.engine import CameraRayCaster
+from ..process import signals
+from ..process.opening import open_file, withhold_style_modules
 from ..properties.calibration import READING, set_calibration
 from ..read import frames
 from ..read.camera import check_camera, eye_object, find_camera, has_pixel_times, view_names
@@ -23,8 +25,6 @@ from ..read.frames import frame_of, layer_of
 from ..read.physics import simulate
 from ..read.size import size_of
 from ..rig import add_rig, frames_of
-from . import signals
-from .opening import open_file, withhold_style_modules
 from .words import Parser, frame_number, picture_size
 
 ENDS = "exit status: 0 done; 1 done, but a reference check of the camera's rays failed; 2 bad input; 130 interrupted."

@@ -20,10 +20,10 @@ from ..cycles.device import said_of_device, use_device
 from ..cycles.picture import Picture, picture_of
 from ..cycles.shader import check_cycles
 from ..engine.engine import CameraRayCaster
-from ..engine.passes import tick, ticked
-from ..output import files
 from ..output.annotations import check_annotations
 from ..output.stamps import file_hash, finished, stamp_of
+from ..process import signals
+from ..properties.passes import tick, ticked
 from ..read.camera import ALL, find_camera, find_cameras
 from ..read.frames import frame_of
 from ..read.keypoints import check_key_points
@@ -31,7 +31,7 @@ from ..read.scene import read_camera
 from ..read.size import own_size, set_size, size_of
 from ..read.unique import unique_name
 from ..rig import files_of
-from . import ray_maps, signals
+from . import files, ray_maps
 from .jobs import Job, Outcome, RayMap
 from .options import go_to, open_scene, stem, use_camera, warn
 from .progress import Progress

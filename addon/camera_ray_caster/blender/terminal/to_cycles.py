@@ -5,8 +5,8 @@ from pathlib import Path
 
 from ..cycles import to_cycles
 from ..output.saving import save_copy
-from . import signals
-from .opening import not_run
+from ..process import signals
+from ..process.opening import not_run
 from .options import command_parser, open_scene, warn
 
 

@@ -3,9 +3,9 @@
 from collections.abc import Sequence
 from dataclasses import replace
 
+from ..process import signals
+from ..process.opening import not_run
 from ..verification.check import verified
-from . import signals
-from .opening import not_run
 from .options import add_frame, add_json, command_parser, go_to, open_scene, show, warn
 
 

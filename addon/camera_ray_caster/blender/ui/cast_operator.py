@@ -16,9 +16,9 @@ from ...core.casting.worker import Worker
 from ...core.records import InputError
 from ...core.report.report import Report
 from ..engine.job import Job
-from ..engine.passes import ticked
 from ..output import images, reports
 from ..properties.labels import in_labels
+from ..properties.passes import ticked
 from ..read.camera import view_names
 from ..read.scene import evaluated_camera
 from .needs import OfScene, reporting

@@ -5,8 +5,8 @@ from __future__ import annotations
 import bpy
 
 from ...core.report.notes import sentences
-from ..engine.passes import PASSES, ticked
 from ..output import images, reports
+from ..properties.passes import PASSES, ticked
 from . import cast_operator
 from .drawing import Sidebar, draw_message, draw_row
 from .show_result import ResultsMenu

@@ -1,9 +1,6 @@
-"""Helpers for drawing panels: wrapped sentences, table rows, lengths in the scene's units."""
+"""Helpers for drawing panels: wrapped sentences, table rows."""
 
 from textwrap import wrap
-
-import bpy
-import numpy as np
 
 LETTER = 6.3
 """Approximate width of a letter in a panel, in pixels at interface scale 1."""
@@ -11,16 +8,6 @@ MARGIN = 20.0
 """Approximate margin on each side of a panel's fields, in pixels at interface scale 1."""
 NARROW = 280
 """Region width up to which a label next to its field would be cut off, in pixels at interface scale 1."""
-
-
-DIGITS = 6
-"""Significant digits of lengths, and digits after the point."""
-UNITS = {
-    "KILOMETERS": (1e3, " km"), "METERS": (1.0, " m"), "CENTIMETERS": (1e-2, " cm"), "MILLIMETERS": (1e-3, " mm"),
-    "MICROMETERS": (1e-6, " µm"), "MILES": (1609.344, " mi"), "FEET": (0.3048, "'"), "INCHES": (0.0254, '"'),
-    "THOU": (2.54e-5, " thou"),
-}  # fmt: skip
-"""Meters and sign of Blender's units of length, by key; the unit ADAPTIVE depends on the length."""
 
 
 class Sidebar:
@@ -65,20 +52,6 @@ def draw_message(layout, context, text: str, icon: str = "INFO") -> None:
     column.scale_y = 0.85
     for i, line in enumerate(wrap(text, max(16, int((width_of(context) - 65) / LETTER)))):
         column.label(text=line, icon="BLANK1" if i else icon)
-
-
-def length(context, value: float) -> str:
-    """Return a length as text in the scene's unit."""
-    units = context.scene.unit_settings
-    meters = value * units.scale_length
-    if units.system == "NONE":
-        text = f"{value:.{DIGITS}g}"
-    elif units.length_unit in UNITS:
-        size, sign = UNITS[units.length_unit]
-        text = np.format_float_positional(round(meters / size, DIGITS), DIGITS, fractional=False, trim="-") + sign
-    else:
-        text = bpy.utils.units.to_string(units.system, "LENGTH", meters, precision=DIGITS)
-    return text if set(text) & set("123456789") else text.lstrip("-")  # no -0
 
 
 def draw_row(layout, name: str, cells, factor: float) -> None:

@@ -10,7 +10,8 @@ from ...core.records import InputError
 from ..properties.declared import GROUP
 from ..properties.labels import in_labels
 from ..read.evaluated import camera_at
-from .drawing import Sidebar, draw_message, draw_row, length
+from ..read.lengths import length
+from .drawing import Sidebar, draw_message, draw_row
 
 
 def camera_of(context, camera_object) -> tuple[Camera | None, str]:

@@ -5,9 +5,9 @@ from math import floor
 import bpy
 from bpy.props import FloatProperty, IntProperty, PointerProperty
 
+from ..read.scene_cache import cached_scene
 from ..view3d import lesson
 from ..view3d.camera_frame import frame_in
-from ..view3d.scene_cache import cached_scene
 from .needs import OfScene
 
 HINT = "Click or drag in the camera's view or an Image Editor      Shift: One More      Esc, Enter: Done"

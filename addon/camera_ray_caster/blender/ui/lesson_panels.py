@@ -4,9 +4,9 @@ from collections.abc import Iterator
 
 import bpy
 
+from ..read.scene_cache import cached_scene
 from ..view3d.camera_frame import is_picture
 from ..view3d.lesson import lessons
-from ..view3d.scene_cache import cached_scene
 from .drawing import Sidebar, draw_message
 from .lesson_operators import ClearSteps, CopySteps, StepThrough
 from .point_operators import EmptyAtHit, PixelOfPoint

@@ -2,7 +2,7 @@
 
 import bpy
 
-from ..view3d.scene_cache import cached_scene
+from ..read.scene_cache import cached_scene
 from .drawing import Sidebar, draw_message
 
 

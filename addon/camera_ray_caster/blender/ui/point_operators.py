@@ -4,8 +4,8 @@ import bpy
 import numpy as np
 from mathutils import Matrix, Vector
 
+from ..read.scene_cache import cached_scene
 from ..view3d import lesson
-from ..view3d.scene_cache import cached_scene
 from .lesson_operators import OfLesson, redraw
 from .needs import OfScene, select_alone
 

@@ -5,8 +5,8 @@ from collections.abc import Iterator
 import bpy
 
 from ..engine.engine import CameraRayCaster
-from ..engine.passes import PASSES
 from ..output import reports
+from ..properties.passes import PASSES
 from .camera_panels import draw_samples
 from .drawing import draw_message
 from .facts_panels import camera_of

@@ -3,8 +3,8 @@
 import bpy
 
 from ...core.lesson.diagram import probe
+from ..read.scene_cache import cached_scene
 from ..read.unique import named
-from ..view3d.scene_cache import cached_scene
 from .hide_overlays import lies
 from .lesson_operators import pixel_at
 

@@ -3,8 +3,8 @@
 import bpy
 from bpy.props import StringProperty
 
-from ..engine.passes import PASSES
 from ..output import images
+from ..properties.passes import PASSES
 
 
 class ShowResult(bpy.types.Operator):

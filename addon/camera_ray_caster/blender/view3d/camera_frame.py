@@ -7,9 +7,9 @@ from contextlib import contextmanager
 
 import gpu
 import numpy as np
-from bpy_extras.view3d_utils import location_3d_to_region_2d
 
 from ..output import images
+from ..read.view import camera_frame
 
 FAR = 1000.0
 """Distance in pixels from the region's corner to the point where the scale of an Image Editor is measured."""
@@ -28,26 +28,6 @@ def in_pixels(frame, raster) -> Iterator[None]:
         gpu.matrix.translate((left, bottom))
         gpu.matrix.scale(((right - left) / raster.width, (top - bottom) / raster.height))
         yield
-
-
-def camera_frame(context) -> tuple[float, float, float, float] | None:
-    """Return left, bottom, right, top of the camera's frame as Blender draws it, in the region's pixels.
-
-    Return None if the view does not look through the scene's camera. Zoom, offset, shift and sensor fit are Blender's.
-    """
-    region_data, camera = context.region_data, context.scene.camera
-    if region_data is None or region_data.view_perspective != "CAMERA" or camera is None or camera.type != "CAMERA":
-        return None
-    if context.space_data.camera != camera:
-        return None
-    evaluated = camera.evaluated_get(context.view_layer.depsgraph)
-    matrix = region_data.view_matrix.inverted()
-    corners = [matrix @ corner for corner in evaluated.data.view_frame(scene=context.scene)]
-    seen = [location_3d_to_region_2d(context.region, region_data, corner) for corner in corners]
-    if None in seen:
-        return None
-    xs, ys = [point.x for point in seen], [point.y for point in seen]
-    return min(xs), min(ys), max(xs), max(ys)
 
 
 def image_frame(context, raster) -> tuple[float, float, float, float] | None:

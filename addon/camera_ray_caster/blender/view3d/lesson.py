@@ -17,9 +17,10 @@ from bpy.app.handlers import persistent
 from ...core.lesson.diagram import pixel_outline
 from ...core.lesson.in_picture import lines_in_picture, points_in_picture
 from ...core.lesson.lesson import Lesson, lesson
-from .camera_frame import camera_frame, frame_in, in_pixels
+from ..read.scene_cache import CachedScene, cached_scene
+from ..read.view import camera_frame
+from .camera_frame import frame_in, in_pixels
 from .overlay import batch_of, draw_batch
-from .scene_cache import CachedScene, cached_scene
 
 FAR = 100.0
 """Drawn length of a ray that hits nothing, in units of the camera's display size."""

@@ -7,10 +7,10 @@ import math
 import bpy
 
 from ...core.lesson.diagram import Probe, probe
-from ..ui.drawing import length
+from ..read.lengths import length
+from ..read.scene_cache import cached_scene
+from ..read.view import camera_frame
 from . import text
-from .camera_frame import camera_frame
-from .scene_cache import cached_scene
 
 MARGIN = 14
 """Distance between mouse and text, in pixels at interface scale 1."""

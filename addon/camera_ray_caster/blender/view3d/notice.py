@@ -12,8 +12,8 @@ from collections.abc import Iterator
 import bpy
 
 from ..properties.declared import ENGINE
+from ..read.scene_cache import cached_scene
 from . import text
-from .scene_cache import cached_scene
 
 MARGIN = 28
 """Distance between the text and the edge, in pixels at interface scale 1."""

@@ -16,8 +16,9 @@ from gpu_extras.batch import batch_for_shader
 
 from ...core.lesson.diagram import Diagram, diagram
 from ...core.lesson.in_picture import lines_in_picture, points_in_picture
-from .camera_frame import camera_frame, in_pixels
-from .scene_cache import CachedScene, cached_scene
+from ..read.scene_cache import CachedScene, cached_scene
+from ..read.view import camera_frame
+from .camera_frame import in_pixels
 
 
 class OverlayProperties(bpy.types.PropertyGroup):

@@ -11,10 +11,10 @@ from bpy.app.handlers import persistent
 from ...core.camera.camera import Camera
 from ...core.records import BlenderCamera, InputError, Shapes
 from ..properties.labels import in_labels
-from ..read.differences import evaluated_otherwise
-from ..read.evaluated import camera_at
-from ..read.frames import frame_of
-from ..read.shapes import shapes_record
+from .differences import evaluated_otherwise
+from .evaluated import camera_at
+from .frames import frame_of
+from .shapes import shapes_record
 
 
 @dataclass(frozen=True, eq=False)

@@ -21,14 +21,15 @@ from ...core.report.report import Report, as_json
 from ..cycles.picture import Picture
 from ..cycles.renderer import changed
 from ..engine.engine import CameraRayCaster
-from ..engine.passes import ticked
+from ..output import arrays, file_outputs, reports
+from ..output.annotations import ENDING, annotated
+from ..output.saving import blender_writes, check_whole
+from ..output.stamps import made
+from ..process import signals
+from ..process.opening import not_run, reported
+from ..properties.passes import ticked
 from ..read.camera import views_of
-from ..terminal import signals
-from ..terminal.opening import not_run, reported
-from . import arrays, file_outputs, reports
-from .annotations import ENDING, annotated
-from .saving import blender_writes, check_whole
-from .stamps import made
+from ..read.frames import check_layers
 
 PICTURE = {
     "media_type": "IMAGE",
@@ -182,12 +183,6 @@ def _save(scene, path: Path, settings) -> None:
     if path.suffix == ".png":
         for written in _views(scene, path) or [path]:
             check_whole(written)
-
-
-def check_layers(scene) -> None:
-    """Raise InputError if no view layer is enabled for rendering."""
-    if not any(layer.use for layer in scene.view_layers):
-        raise InputError(f"no view layer of scene {scene.name!r} is used for rendering: enable one")
 
 
 def _check_memory(scene) -> None:

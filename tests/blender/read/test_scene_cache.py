@@ -3,7 +3,7 @@
 import bpy
 import pytest
 
-from camera_ray_caster.blender.view3d.scene_cache import cached_scene
+from camera_ray_caster.blender.read.scene_cache import cached_scene
 
 LENS = "Only rays through the center of the lens are shown"
 

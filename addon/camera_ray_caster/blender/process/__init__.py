@@ -1,0 +1,1 @@
+"""The process that runs Blender: requests to stop, scripts in files that are not run, its output."""

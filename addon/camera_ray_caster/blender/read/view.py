@@ -1,0 +1,25 @@
+"""Where a 3D View in camera view shows the camera's frame."""
+
+from __future__ import annotations
+
+from bpy_extras.view3d_utils import location_3d_to_region_2d
+
+
+def camera_frame(context) -> tuple[float, float, float, float] | None:
+    """Return left, bottom, right, top of the camera's frame as Blender draws it, in the region's pixels.
+
+    Return None if the view does not look through the scene's camera. Zoom, offset, shift and sensor fit are Blender's.
+    """
+    region_data, camera = context.region_data, context.scene.camera
+    if region_data is None or region_data.view_perspective != "CAMERA" or camera is None or camera.type != "CAMERA":
+        return None
+    if context.space_data.camera != camera:
+        return None
+    evaluated = camera.evaluated_get(context.view_layer.depsgraph)
+    matrix = region_data.view_matrix.inverted()
+    corners = [matrix @ corner for corner in evaluated.data.view_frame(scene=context.scene)]
+    seen = [location_3d_to_region_2d(context.region, region_data, corner) for corner in corners]
+    if None in seen:
+        return None
+    xs, ys = [point.x for point in seen], [point.y for point in seen]
+    return min(xs), min(ys), max(xs), max(ys)
