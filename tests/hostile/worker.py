@@ -20,8 +20,10 @@ from .inputs import make
 from .inputs.parts import Hostile, small_scene
 from .judge import check_cast, check_export, check_refusal, check_set
 
-EXPORTED = "json", "colmap", "opencv", "stmap"
-"""Formats that are tried: of everything, with poses and lenses as others say them, of two lenses."""
+EXPORTED = "colmap", "opencv", "stmap"
+"""Formats besides JSON, which every camera is exported to, that take turns: with poses and lenses as others say them,
+of two lenses.
+"""
 
 SETS = 4
 """Of so many scenes of one sort one is made a data set, too, which takes as long as all else that is tried of it."""
@@ -69,8 +71,8 @@ def of_script(name):
     return command
 
 
-def outcome(hostile: Hostile, file: Path, folder: Path, in_set: bool) -> str:
-    """Return "cast" or "refused"; raise AssertionError for anything else. ``in_set``: a data set is made, too."""
+def outcome(hostile: Hostile, file: Path, folder: Path, number: int) -> str:
+    """Return "cast" or "refused" for the input of a number; raise AssertionError for anything else."""
     if hostile.script:
         check_refusal(*run(of_script(hostile.script), list(hostile.words), folder / "script"), folder / "script")
         return "refused"
@@ -87,9 +89,9 @@ def outcome(hostile: Hostile, file: Path, folder: Path, in_set: bool) -> str:
     else:
         assert verify[0] == 0, f"verify has status {verify[0]}: {verify[2] or verify[1]}"
         assert verify[2] == "", f"verify says {verify[2]}"
-    if in_set and not hostile.words:
+    if number % SETS == 0 and not hostile.words:
         check_annotated(cast[0], folder, file)
-    for key in () if hostile.words else EXPORTED:
+    for key in () if hostile.words else ("json", EXPORTED[number % len(EXPORTED)]):
         export = run(of_add_on("export"), [str(file), "--format", key, "--output", "out"], folder / key)
         if export[0] == 2:
             check_refusal(*export, folder / key)
@@ -125,7 +127,7 @@ def tried(kind, number) -> dict:
             file = made / "hostile.blend"
             bpy.ops.wm.save_as_mainfile(filepath=str(file), copy=True)
         try:
-            came = outcome(hostile, file, folder, number % SETS == 0)
+            came = outcome(hostile, file, folder, number)
             assert hostile.scripts is None or not hostile.scripts.exists(), "a script in the file ran"
             return {"what": hostile.what, "outcome": came, "said": ""}
         except AssertionError as error:
