@@ -9,7 +9,7 @@ import pytest
 
 from camera_ray_caster.core.conventions import EPS
 from camera_ray_caster.core.errors.rays import world_rays
-from camera_ray_caster.core.maths.chebyshev import PIECE, POINTS, ROUNDING
+from camera_ray_caster.core.maths.chebyshev import COEFFICIENT_ROUNDING, PIECE, POINTS
 from camera_ray_caster.core.maths.panels import COLUMNS, FEWEST, Disc, on_raster
 
 from ..cameras.model_examples import camera, raw_of
@@ -122,7 +122,7 @@ def test_outside_a_disc_there_is_nothing_and_only_points_of_panels_are_asked(mid
     function = Counted(ending if ends else values)
     found, exact = on_raster(function, x, y, Disc(middle, holds)), np.stack(list(ending(x, y)))
     largest = 2.0  # in a panel at the rim
-    np.testing.assert_allclose(found, exact, rtol=0, atol=(8 + ROUNDING) * EPS * largest)
+    np.testing.assert_allclose(found, exact, rtol=0, atol=(8 + COEFFICIENT_ROUNDING) * EPS * largest)
     assert function.asked < most * x.size * y.size
 
 

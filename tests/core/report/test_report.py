@@ -132,6 +132,8 @@ def test_the_table_says_all_and_fits(report):
     verdicts = {line.split()[0]: line.split()[-1] for line in lines if "witness" in line}
     assert verdicts == {"good": "ok", "bad": "FAILED"}
     assert "2 meshes cast as spheres or planes, with a deviation of at most 0.96% of the radius, in 'Sphere'" in table
+    one = as_lines(replace(report, exact=report.exact[:1]))
+    assert "1 mesh cast as spheres or planes" in " ".join(" ".join(one).split())
     assert "'A', 'B', 'C' and 2 more: its map is another" in table
     assert "'Sphere': the exact shape is up to 0.96% of its radius away from the mesh" in table
 

@@ -5,7 +5,7 @@ import pytest
 
 from camera_ray_caster.core.casting.rays import chief_rays
 from camera_ray_caster.core.maths.speed import Scratch
-from camera_ray_caster.core.shapes.mesh.spans import Lattice
+from camera_ray_caster.core.shapes.mesh.spans import RayLattice
 from camera_ray_caster.core.shapes.mesh.triangles import EDGES, edge_vectors
 from camera_ray_caster.core.shapes.search_rays import Cells, Present, SearchRays
 
@@ -46,7 +46,7 @@ def test_each_part_of_a_picture_of_planar_rays_is_a_lattice(kind):
     random = np.random.default_rng(0)
     for _ in range(500):
         (first_row, last_row), (first, last) = (np.sort(random.choice(size, 2, replace=False)) for size in rays.shape)
-        assert Lattice.of(whole.within((slice(first_row, last_row + 1), slice(first, last + 1)))) is not None
+        assert RayLattice.of(whole.within((slice(first_row, last_row + 1), slice(first, last + 1)))) is not None
 
 
 @pytest.mark.parametrize(("spread", "most"), [(0.0, 0.3), (0.01, 0.6), (0.1, 0.6)])

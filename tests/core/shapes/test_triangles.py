@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from camera_ray_caster.core.maths.vector import cross
-from camera_ray_caster.core.shapes.mesh.triangles import ROUNDING, volumes
+from camera_ray_caster.core.shapes.mesh.triangles import VOLUME_ROUNDING, volumes
 
 COUNT = 300
 
@@ -31,7 +31,7 @@ def test_volumes_are_right_to_their_bound(spread, away):
     origin = away * rng.normal(size=(3, COUNT))
     d = corners.mean(axis=0) - origin + spread * rng.normal(size=(3, COUNT))
     length = np.linalg.norm(corners, axis=1).max(axis=0) + np.linalg.norm(origin, axis=0)
-    bound = ROUNDING * np.linalg.norm(d, axis=0) * length**2
+    bound = VOLUME_ROUNDING * np.linalg.norm(d, axis=0) * length**2
     for found in (volumes(corners - origin, d), volumes(corners, d, cross(origin, d))):
         for (i, j), volume in zip(((1, 2), (2, 0), (0, 1)), found, strict=True):
             for k in range(COUNT):

@@ -35,7 +35,7 @@ from .shader import check_cycles, set_shader
 
 
 @dataclass(frozen=True)
-class Picture:
+class CyclesPicture:
     """The combined pass of every view layer and view."""
 
     pixels: Mapping[tuple[str, str], np.ndarray]
@@ -58,7 +58,7 @@ class Eye:
     """Cycles' shift of the raster, in widths of the frame; not all models use the shift of an eye."""
 
 
-def picture_of(scene) -> Picture:
+def picture_of(scene) -> CyclesPicture:
     """Render a scene's current frame with Cycles, with the file's settings and the rays of its camera.
 
     Raises InputError if Cycles is disabled or has no OSL, if ``read_camera`` refuses the camera, for a linked camera
@@ -70,7 +70,7 @@ def picture_of(scene) -> Picture:
         for view in view_names(scene):
             pixels |= {(layer, view): found for layer, found in _of_view(scene, view, run).items()}
     made_by = {"engine": "CYCLES", "device": device_of(scene), "samples": scene.cycles.samples}
-    return Picture(pixels, made_by, perf_counter() - started)
+    return CyclesPicture(pixels, made_by, perf_counter() - started)
 
 
 def _of_view(scene, view: str, render: Render) -> Mapping[str, np.ndarray]:

@@ -15,7 +15,7 @@ from ...core.memory import exhausted
 from ...core.motion.evaluations import UNRESOLVED
 from ...core.records import BlenderCamera, Cancelled, InputError
 from ...core.report.report import Report
-from ..cycles.picture import Picture
+from ..cycles.picture import CyclesPicture
 from ..output import reports
 from ..process import signals
 from ..properties.declared import ENGINE
@@ -45,7 +45,7 @@ class CameraRayCaster(Viewport, bpy.types.RenderEngine):
     """Reports of this frame's view layers, by name."""
     stopped = False
     """Whether a render was stopped since the caller last set this to False."""
-    picture: Picture | None = None
+    picture: CyclesPicture | None = None
     """Another engine's picture, which replaces the combined pass; None for our own."""
     images: dict[tuple[str, str], Images] | None = None
     """Images of a render, by layer and view; None if they are not kept."""

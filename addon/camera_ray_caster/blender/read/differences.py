@@ -1,6 +1,6 @@
 """Objects that a render evaluates otherwise than the viewport: hidden in the viewport, or shown in less detail."""
 
-from .visibility import Visibility
+from .visibility import ItemVisibility
 
 OF_MODIFIERS = (
     ("show_viewport", "show_render"),
@@ -31,7 +31,7 @@ def evaluated_otherwise(depsgraph) -> tuple[str, ...]:
     own = set(layer.objects)
     return tuple(sorted(
         item.name
-        for item in Visibility(depsgraph).rendered
+        for item in ItemVisibility(depsgraph).rendered
         if (item.type not in UNSEEN or item.is_instancer)
         and ((item in own and not item.visible_get(view_layer=layer)) or _differs(item, simplified))
     ))  # fmt: skip

@@ -85,7 +85,7 @@ class Placings:
         return (self.identities[:, None] * MIX + primitive.ids).ravel()
 
 
-def heeding(items: Iterable) -> Iterator:
+def cancellable(items: Iterable) -> Iterator:
     """Yield items; raise Cancelled if a request to stop has arrived."""
     for count, item in enumerate(items):
         if count % LISTEN == 0:
@@ -100,7 +100,7 @@ def gathered(groups: list[Group], left_out: Counter, world: World) -> Shapes:
     for group in groups:
         users[group.geometry] += len(group.matrices)
     notes: dict[tuple[str, str], None] = {}
-    there = [(group, group.placings()) for group in heeding(groups) if group.primitive is not None]
+    there = [(group, group.placings()) for group in cancellable(groups) if group.primitive is not None]
 
     def is_shared(group: Group) -> bool:
         return group.geometry is not None and (users[group.geometry] > 1 or group.is_displaced)

@@ -11,14 +11,14 @@ from ...core.mesh import Mesh
 from ...core.records import Shapes
 from ..properties.declared import EXACT_SHAPES, PRIMITIVE
 from .geometry import mesh_shapes, shapes_of
-from .groups import Group, gathered, heeding, listed
+from .groups import Group, cancellable, gathered, listed
 from .kept import Found, Reading
 from .lights import cone_of, light_color, world_of
 from .materials import Look, Looks, first_slot, is_finite
 from .nodes import Unread
 from .stored import own_value
 from .unique import unique_name
-from .visibility import Visibility, original_source
+from .visibility import ItemVisibility, original_source
 
 NO_SURFACE = frozenset(
     {"EMPTY", "CAMERA", "LIGHT", "ARMATURE", "SPEAKER", "LIGHT_PROBE", "LATTICE", "CURVE", "SURFACE", "FONT", "META"}
@@ -38,7 +38,7 @@ def shapes_record(depsgraph) -> Shapes:
     hides are skipped. Geometry that cannot be cast is in ``left_out``, once for each object and reason.
     """
     scene = _Scene(depsgraph)
-    for instance in heeding(depsgraph.object_instances):
+    for instance in cancellable(depsgraph.object_instances):
         scene.add(instance)
     shapes = scene.record()
     scene.reading.keep()
@@ -50,7 +50,7 @@ class _Scene:
 
     def __init__(self, depsgraph):
         self.world = world_of(depsgraph)
-        self.visibility = Visibility(depsgraph)
+        self.visibility = ItemVisibility(depsgraph)
         self.reading = Reading(depsgraph)
         self.looks = Looks(depsgraph.view_layer_eval)
         self.exact = own_value(depsgraph.scene_eval, EXACT_SHAPES)

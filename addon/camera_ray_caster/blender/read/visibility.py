@@ -12,7 +12,7 @@ RAYS = "camera", "diffuse", "glossy", "transmission", "volume_scatter", "shadow"
 """Kinds of rays in an object's Ray Visibility."""
 
 
-class Visibility:
+class ItemVisibility:
     """Visibility of the items of a depsgraph's ``object_instances``."""
 
     def __init__(self, depsgraph):

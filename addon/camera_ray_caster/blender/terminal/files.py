@@ -18,7 +18,7 @@ from ...core.memory import of_pixels, require
 from ...core.names import folded
 from ...core.records import Cancelled, InputError
 from ...core.report.report import Report, as_json
-from ..cycles.picture import Picture
+from ..cycles.picture import CyclesPicture
 from ..cycles.renderer import changed
 from ..engine.engine import CameraRayCaster
 from ..output import arrays, file_outputs, reports
@@ -65,7 +65,7 @@ def render(
     half: bool = False,
     shown: bool = True,
     file_output: bool = False,
-    picture: Picture | None = None,
+    picture: CyclesPicture | None = None,
     stamp: Mapping[str, Any] | None = None,
     keypoints: Sequence[str] | None = None,
     beside: Iterable[Path] = (),
@@ -118,7 +118,7 @@ def check(scene) -> None:
 
 
 @contextmanager
-def _engine_has(scene, picture: Picture | None, images: dict | None) -> Iterator[dict | None]:
+def _engine_has(scene, picture: CyclesPicture | None, images: dict | None) -> Iterator[dict | None]:
     """Let the engine show another engine's picture and store its cast images in ``images``; yield ``images``.
 
     Beside the picture of another engine, which shows the faces of meshes, meshes are not cast as exact shapes.

@@ -10,7 +10,7 @@ from ...core.report.report import Report
 
 
 @dataclass(frozen=True)
-class Job:
+class PictureJob:
     """One picture. ``camera`` None is the scene's camera, ``frame`` None the file's frame; the rest are file names."""
 
     camera: str | None

@@ -17,7 +17,7 @@ from ...core.names import file_names, frame_digits
 from ...core.records import InputError
 from ...core.report.report import Report
 from ..cycles.device import said_of_device, use_device
-from ..cycles.picture import Picture, picture_of
+from ..cycles.picture import CyclesPicture, picture_of
 from ..cycles.shader import check_cycles
 from ..engine.engine import CameraRayCaster
 from ..output.annotations import check_annotations
@@ -32,7 +32,7 @@ from ..read.size import own_size, set_size, size_of
 from ..read.unique import unique_name
 from ..rig import files_of
 from . import files, ray_maps
-from .jobs import Job, Outcome, RayMap
+from .jobs import Outcome, PictureJob, RayMap
 from .options import go_to, open_scene, stem, use_camera, warn
 from .progress import Progress
 from .words import Parser, add_cameras, check_cameras, pass_names, sample_count
@@ -137,23 +137,23 @@ class Pictures:
         rig = [file_hash(path) for name in self.options.rig or () for path in files_of(name)]
         return stamp_of(settings | {"calibration": calibration and file_hash(calibration), "rig": rig or None})
 
-    def jobs(self) -> list[Job]:
+    def jobs(self) -> list[PictureJob]:
         """Return a job for each requested camera and frame; with --cameras, files are named after the cameras."""
         asked, shard, scene = self.options, self.options.shard, self.scene
         frames = asked.frames if shard is None else asked.frames[shard[0] - 1 :: shard[1]]
         if asked.cameras is None:
             numbers = {asked.frame: ""} if frames is None else {frame: f"_{frame_digits(frame)}" for frame in frames}
-            return [Job(asked.camera, frame, stem() + end, f"report{end}") for frame, end in numbers.items()]
+            return [PictureJob(asked.camera, frame, stem() + end, f"report{end}") for frame, end in numbers.items()]
         cameras = find_cameras(scene, asked.cameras)
         names = file_names(unique_name(camera, bpy.data.objects) for camera in cameras)
         own = frame_of(scene) if asked.frame is None else asked.frame
         return [
-            Job(camera, frame, *2 * (f"{name}_{frame_digits(frame)}",))
+            PictureJob(camera, frame, *2 * (f"{name}_{frame_digits(frame)}",))
             for frame in ([own] if frames is None else frames)
             for camera, name in names.items()
         ]
 
-    def make(self, job: Job, stamp: dict[str, Any], prog: str, ray_map: RayMap | None = None) -> Outcome:
+    def make(self, job: PictureJob, stamp: dict[str, Any], prog: str, ray_map: RayMap | None = None) -> Outcome:
         """Make a picture, or skip it if it is finished and --skip-existing is given. If the camera's rays are those of
         ``ray_map``, leave out the ray passes.
         """
@@ -172,7 +172,7 @@ class Pictures:
         )
         return Outcome(report.passed, True, report.warnings, report.notes, report.exact, report, paths)
 
-    def render(self, job: Job, of: dict[str, Any], **more) -> tuple[Report, list[Path]]:
+    def render(self, job: PictureJob, of: dict[str, Any], **more) -> tuple[Report, list[Path]]:
         """Write the files of a job from the current state of the scene; ``of`` is their stamp; see ``files.render``."""
         asked = self.options
         return files.render(
@@ -180,12 +180,12 @@ class Pictures:
             layers=asked.format, half=asked.half, file_output=asked.file_output, stamp=of, **more,
         )  # fmt: skip
 
-    def finished(self, job: Job, stamp: dict[str, Any], ray_map: RayMap | None = None) -> Outcome | None:
+    def finished(self, job: PictureJob, stamp: dict[str, Any], ray_map: RayMap | None = None) -> Outcome | None:
         """Return the outcome of a finished job, or None if it is not finished."""
         found = finished(self.options.output / f"{job.report}.json", _of(stamp, job, ray_map))
         return None if found is None else Outcome(found["passed"])
 
-    def camera_at(self, job: Job) -> Camera:
+    def camera_at(self, job: PictureJob) -> Camera:
         """Set the scene to a job's camera and frame, and return the camera. Raises InputError if it cannot be cast."""
         if job.camera is not None:
             camera = find_camera(self.scene, job.camera)
@@ -199,14 +199,14 @@ class Pictures:
         for layer, keys in self.passes.items():
             tick(self.scene, self.scene.view_layers[layer], [key for key in keys if wanted(key)])
 
-    def _by_cycles(self, prog: str) -> Picture:
+    def _by_cycles(self, prog: str) -> CyclesPicture:
         """Render the current frame with Cycles, which a Python signal handler cannot interrupt."""
         files.check(self.scene)
         with signals.leaving(f"{prog}: {signals.STOPPED}"):
             return picture_of(self.scene)
 
 
-def _of(stamp: dict[str, Any], job: Job, ray_map: RayMap | None) -> dict[str, Any]:
+def _of(stamp: dict[str, Any], job: PictureJob, ray_map: RayMap | None) -> dict[str, Any]:
     """Return the stamp of a job's files."""
     return {**stamp, "camera": job.camera, "frame": job.frame, "rays": ray_map and ray_map.digest}
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from ...core.camera.camera import Camera
 from ..output.stamps import finished
-from .jobs import Job, RayMap
+from .jobs import PictureJob, RayMap
 
 PASSES = "ray_origin", "ray_direction"
 
@@ -23,7 +23,7 @@ def digest_of(camera: Camera) -> str:
     return found.hexdigest()
 
 
-def made_map(pictures, first: Job, stamp: dict) -> RayMap | None:
+def made_map(pictures, first: PictureJob, stamp: dict) -> RayMap | None:
     """Return the ray map of a camera, whose first job is ``first``; make the map from that job if it is missing.
 
     Return None if no map is useful: in a multi-view scene, or unless every view layer has ray passes and other passes.

@@ -13,7 +13,7 @@ from ..conventions import EPS32
 from ..maths.vector import components, norm
 from ..records import Shapes
 
-ROUNDING = 8 * EPS32
+PLACE_ROUNDING = 8 * EPS32
 """Relative rounding of coordinates that are stored as float32 and transformed by float32 matrices."""
 
 
@@ -43,11 +43,11 @@ class SeenKeyPoint:
 def seen_key_points(camera: Camera, shapes: Shapes, points: Sequence[KeyPoint]) -> list[SeenKeyPoint]:
     """Return key points with their pixels, depths and visibility; outside of the render window they are OUTSIDE.
 
-    A surface does not hide a point within ROUNDING of it; a point inside of a body is hidden. See ``visible``.
+    A surface does not hide a point within PLACE_ROUNDING of it; a point inside of a body is hidden. See ``visible``.
     """
     places = np.array([point.place for point in points], float).reshape(-1, 3)
     pixels = camera.project(places)
-    tolerance = ROUNDING * float(np.abs(places).max(initial=0.0))
+    tolerance = PLACE_ROUNDING * float(np.abs(places).max(initial=0.0))
     found = [Visibility(code) for code in visible(camera, shapes, places, tolerance).tolist()]
     rays, raster = camera.rays_at(*pixels.T), camera.raster
     low, high = (raster.x0, raster.y0), (raster.x1, raster.y1)

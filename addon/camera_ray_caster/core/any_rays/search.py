@@ -30,7 +30,7 @@ WORLD = Pose(np.zeros(3), np.eye(3))
 
 
 @dataclass(frozen=True, eq=False)
-class Hits:
+class RayHits:
     """Hits of rays, (m,) arrays."""
 
     ray: np.ndarray
@@ -82,18 +82,18 @@ class Search:
         """
         t, body = np.full(origin.shape[1], np.inf), np.full(origin.shape[1], -1)
 
-        def keep(part: np.ndarray, found: Hits) -> None:
+        def keep(part: np.ndarray, found: RayHits) -> None:
             _keep(found, t, body, part)
 
         self._search(origin, direction, near, far, lambda part: np.minimum(t[part], far), keep)
         return t, body
 
-    def all(self, origin: np.ndarray, direction: np.ndarray, near: float, far: float) -> Hits:
+    def all(self, origin: np.ndarray, direction: np.ndarray, near: float, far: float) -> RayHits:
         """Return all hits from near to far, by ray, t and body; a ray may hit a sphere twice."""
-        kept: list[Hits] = []
+        kept: list[RayHits] = []
 
-        def keep(part: np.ndarray, found: Hits) -> None:
-            kept.append(Hits(part[found.ray], found.t, found.body))
+        def keep(part: np.ndarray, found: RayHits) -> None:
+            kept.append(RayHits(part[found.ray], found.t, found.body))
 
         self._search(origin, direction, near, far, lambda part: np.full(len(part), far), keep, twice=True)
         ray, t, body = (
@@ -101,7 +101,7 @@ class Search:
             for name, kind in (("ray", np.intp), ("t", float), ("body", np.intp))
         )
         order = np.lexsort((body, t, ray))
-        return Hits(ray[order], t[order], body[order])
+        return RayHits(ray[order], t[order], body[order])
 
     def _search(
         self, origin, direction, near: float, far: float, limit: Callable, keep: Callable, twice: bool = False
@@ -127,7 +127,7 @@ class Search:
             packets = packets_of(*some)
             yield from Traversal(self._tree, packets, near, lambda: packets.farthest(limit())).pairs()
 
-    def _met(self, ray, body, some, near: float, far: float, scratch: Scratch, twice: bool) -> Iterator[Hits]:
+    def _met(self, ray, body, some, near: float, far: float, scratch: Scratch, twice: bool) -> Iterator[RayHits]:
         """Yield the hits among candidates, kind by kind."""
         origin, direction = some
         if np.ndim(body):
@@ -144,7 +144,7 @@ class Search:
                 which = np.broadcast_to(which, (len(hit),)) if np.ndim(which) == 0 else which[hit]
                 seen = bodies.is_hit(which, left, ahead, t, scratch)
                 some = np.flatnonzero(np.broadcast_to(seen, t.shape))
-                yield Hits(rays[some], t[some], self._place[k][which[some]])
+                yield RayHits(rays[some], t[some], self._place[k][which[some]])
                 again = np.arange(len(t)) if twice else np.flatnonzero(~np.broadcast_to(seen, t.shape))
                 if not bodies.twice:
                     break
@@ -152,7 +152,7 @@ class Search:
                 start = np.nextafter(t[again], np.inf)
 
 
-def _keep(found: Hits, t: np.ndarray, body: np.ndarray, rays: np.ndarray) -> None:
+def _keep(found: RayHits, t: np.ndarray, body: np.ndarray, rays: np.ndarray) -> None:
     """Keep the hits that are the nearest so far; a ray may have several."""
     ray, own_t, own = rays[found.ray], found.t, found.body
     while ray.size:

@@ -5,17 +5,16 @@ from __future__ import annotations
 import numpy as np
 
 from ..casting.hit_values import HitValues
-from ..casting.hits import NOTHING
-from ..casting.hits import Hits as PictureHits
+from ..casting.hits import NOTHING, Hits
 from ..casting.passes import PASSES
-from ..casting.pixel_bounds import PixelBounds
+from ..casting.pixel_bounds import CameraPixelBounds
 from ..casting.plan import Plan
 from ..casting.rays import TileRays
 from ..casting.request import Request
 from ..maths.speed import Scratch
-from ..shapes.mesh.found import SEEN, SeenTriangles
+from ..shapes.mesh.nearest import SEEN, SeenTriangles
 from .given import camera_of
-from .search import Hits, Search
+from .search import RayHits, Search
 
 Span = tuple[float, float]
 """The least and the largest t of hits."""
@@ -37,7 +36,7 @@ def write(search: Search, origin, direction, t, body, images: dict[str, np.ndarr
                 image[:, rays[part]] = out
 
 
-def t_errors(search: Search, origin, direction, hits: Hits) -> np.ndarray:
+def t_errors(search: Search, origin, direction, hits: RayHits) -> np.ndarray:
     """Return the error bounds of the t of hits, one for each ray (3, n)."""
     plan, scratch = _plan(search, origin, direction, (0.0, 1.0), ()), Scratch()
     error = np.full(hits.t.shape, np.inf)
@@ -52,7 +51,7 @@ def _plan(search: Search, origin, direction, span: Span, passes: tuple[str, ...]
     """Return the plan for the passes of rays (3, n): that of a picture in which every shape may be seen."""
     camera, shapes = camera_of(origin, direction, *span), search.shapes
     request = Request(passes, tuple(PASSES), cull=False)
-    pixels = PixelBounds(camera, sampled=False, cull=False)
+    pixels = CameraPixelBounds(camera, sampled=False, cull=False)
     bounds, _ = pixels.of_balls(search.placed.center, search.placed.radius)
     near = np.full(len(shapes), -np.inf)
     return Plan(camera, shapes, request, search.placed, pixels, np.arange(len(shapes)), bounds, near, clips=False)
@@ -71,4 +70,4 @@ def _values(plan: Plan, search: Search, part: slice, t, body, scratch: Scratch) 
     met, place = np.unique(body[some], return_inverse=True)
     scratch(SEEN, body.shape, np.int32)[some] = place
     scratch.noted = {SEEN: SeenTriangles(search.at[met], search.number[met])}
-    return HitValues(PictureHits(plan, rays, t, index))
+    return HitValues(Hits(plan, rays, t, index))

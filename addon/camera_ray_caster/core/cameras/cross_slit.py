@@ -24,7 +24,7 @@ from ..maths.intervals import Interval
 from ..maths.vector import components, cross, difference, dot, norm
 from ..records import BlenderCamera, InputError, Raster
 from .model import Step, WindowModel
-from .parts.lines import ROUNDING, SECOND_SLIT, SLIT, slit_from
+from .parts.lines import LINE_ROUNDING, SECOND_SLIT, SLIT, slit_from
 from .parts.silhouette import pinhole_interval, pixel_bounds
 from .perspective import Perspective
 
@@ -70,14 +70,14 @@ class CrossSlit(WindowModel):
             point, direction = slit_from(raw, slit)
             farthest = max(farthest, float(np.linalg.norm(point)))
             point = point + direction * ((MIDDLE - point) @ direction)  # small numbers keep the digits
-            if max(abs(direction[2]), abs(point[2] + 1)) <= ROUNDING:
+            if max(abs(direction[2]), abs(point[2] + 1)) <= LINE_ROUNDING:
                 raise InputError(
                     f"{slit.name} of camera {raw.name!r} lies in the picture's own plane, at depth {-point[2]:.6g}: it "
                     "must be nearer or farther than depth 1, or not parallel to the picture"
                 )
             slits.append((point, direction))
         first, second = slits
-        if np.linalg.norm(np.cross(first[1], second[1])) <= ROUNDING:
+        if np.linalg.norm(np.cross(first[1], second[1])) <= LINE_ROUNDING:
             raise InputError(f"slit_1 and slit_2 of camera {raw.name!r} are parallel: turn one of them")
         return cls(raster.size, Perspective.from_blender(raw, raster).window, (first, second), farthest)
 
@@ -169,6 +169,6 @@ def _axes_about(direction):
     """Return two unit vectors perpendicular to a direction: the first in the image plane, the second pointing ahead."""
     across = np.array((-direction[1], direction[0], 0.0))
     length = np.linalg.norm(across)
-    across = across / length if length > ROUNDING else np.array((1.0, 0.0, 0.0))
+    across = across / length if length > LINE_ROUNDING else np.array((1.0, 0.0, 0.0))
     ahead = np.cross(across, direction)
     return across, ahead / np.linalg.norm(ahead)

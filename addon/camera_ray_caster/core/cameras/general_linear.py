@@ -27,7 +27,7 @@ from .model import Model, Step
 from .parts.settings import Numbers, Setting
 from .parts.silhouette import MARGIN
 
-ROUNDING = 16 * EPS32
+RAY_ROUNDING = 16 * EPS32
 """Magnitude relative to the rays' numbers below which a value counts as zero: Blender stores the rays as float32."""
 
 STEEPEST = 1e6
@@ -151,22 +151,23 @@ def classify(three) -> str:
     rows = np.asarray(three)[1:] - np.asarray(three)[0]
     s, d = rows[:, :2].T, (rows[:, 2:] - rows[:, :2]).T
     size_s, size_d = np.abs(s).max(), np.abs(d).max()
-    if size_d <= ROUNDING * np.abs(three).max():
+    if size_d <= RAY_ROUNDING * np.abs(three).max():
         return "orthographic"
     c, a = (one[0, 0] * one[1, 1] - one[0, 1] * one[1, 0] for one in (s, d))
     b = s[0, 0] * d[1, 1] + d[0, 0] * s[1, 1] - s[0, 1] * d[1, 0] - d[0, 1] * s[1, 0]
-    if abs(a) <= ROUNDING * size_d**2:
-        if abs(b) > ROUNDING * size_s * size_d:
+    if abs(a) <= RAY_ROUNDING * size_d**2:
+        if abs(b) > RAY_ROUNDING * size_s * size_d:
             return "pushbroom"
-        return "twisted orthographic" if abs(c) > ROUNDING * size_s**2 else "EPI"
+        return "twisted orthographic" if abs(c) > RAY_ROUNDING * size_s**2 else "EPI"
     discriminant = b * b - 4 * a * c
-    if abs(discriminant) > ROUNDING * (b * b + 4 * abs(a * c) + (size_s * size_d) ** 2):
+    if abs(discriminant) > RAY_ROUNDING * (b * b + 4 * abs(a * c) + (size_s * size_d) ** 2):
         return "cross-slit" if discriminant > 0 else "bilinear"
     depth = -b / (2 * a)
-    return "pinhole" if np.abs(s + depth * d).max() <= np.sqrt(ROUNDING) * (size_s + abs(depth) * size_d) else "pencil"
+    apart = np.abs(s + depth * d).max()
+    return "pinhole" if apart <= np.sqrt(RAY_ROUNDING) * (size_s + abs(depth) * size_d) else "pencil"
 
 
 def _are_dependent(three) -> bool:
     """Return whether the rays, as points in four dimensions, lie on one line (or in one point)."""
     rows = three[1:] - three[0]
-    return bool(np.linalg.svd(rows, compute_uv=False)[-1] <= ROUNDING * np.abs(three).max())
+    return bool(np.linalg.svd(rows, compute_uv=False)[-1] <= RAY_ROUNDING * np.abs(three).max())

@@ -45,7 +45,7 @@ RADIUS_OF = Inverse(angle, slope, 0.0, 1.0)
 
 
 @dataclass(frozen=True)
-class Lens(Radial):
+class OmnimaxLens(Radial):
     """The lens alone, with its axis along the viewing direction."""
 
     def project(self, points):
@@ -76,7 +76,7 @@ class Lens(Radial):
 
 
 @dataclass(frozen=True)
-class Omnimax(Pitched, Lens):
+class Omnimax(Pitched, OmnimaxLens):
     """The lens, pitched up by the dome's tilt."""
 
     key = "OMNIMAX"

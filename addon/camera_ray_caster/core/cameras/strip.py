@@ -23,7 +23,7 @@ from ..maths.vector import components
 from ..records import BlenderCamera, InputError, Raster
 from .model import Model, Step
 from .parts.film import Window
-from .parts.lines import ROUNDING, path_from
+from .parts.lines import LINE_ROUNDING, path_from
 from .parts.settings import Flag, Line
 from .parts.silhouette import MARGIN
 from .perspective import Perspective
@@ -98,7 +98,7 @@ class Strip(Model):
                     f"{int(size.argmin())}: bend it, or clear follow_path"
                 )
             normals = normals / size
-        elif np.ptp(eyes[:, 0]) <= ROUNDING * np.ptp(eyes, axis=0).max():
+        elif np.ptp(eyes[:, 0]) <= LINE_ROUNDING * np.ptp(eyes, axis=0).max():
             raise InputError(
                 f"path of camera {raw.name!r} leads only ahead or up, where all columns see one plane: turn it across "
                 "the view, or set follow_path"

@@ -84,11 +84,11 @@ class Flow:
         self._known: tuple[np.ndarray, Moved] | None = None
 
     def at(self, shapes: Shapes, some: np.ndarray) -> np.ndarray:
-        """See ``pictures.Points``."""
+        """See ``pictures.MovingPoints``."""
         return self._points[:, some].T + self._moved(shapes, some).by.T
 
     def error(self, shapes: Shapes, some: np.ndarray) -> np.ndarray:
-        """See ``pictures.Points``."""
+        """See ``pictures.MovingPoints``."""
         moved, points = self._moved(shapes, some), self._points[:, some]
         return self._own_error[some] * (1 + moved.spread) + moved.error + gamma(2) * (norm(points) + norm(moved.by))
 

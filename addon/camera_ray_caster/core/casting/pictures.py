@@ -23,7 +23,7 @@ PLANS = 16
 """Number of cached plans of moments: the pixels of a tile are seen in few rows of the other frame."""
 
 
-class Points(Protocol):
+class MovingPoints(Protocol):
     """Points that may move with shapes."""
 
     def at(self, shapes: Shapes, some: np.ndarray) -> np.ndarray:
@@ -46,7 +46,7 @@ class Picture:
         if self.camera.pixel_time is None:
             self._plan(None)
 
-    def pixels(self, points: Points, count: int, beside: np.ndarray | None = None) -> np.ndarray:
+    def pixels(self, points: MovingPoints, count: int, beside: np.ndarray | None = None) -> np.ndarray:
         """Return the pixel coordinates (count, 2) at which points are seen, each at the pixel's own time; NaN for
         points not seen in the full frame. ``beside``: pixels (count, 2); with pixel times the search begins near their
         mean time, so that of several pixels that see a point one near that time is found.
@@ -68,7 +68,7 @@ class Picture:
         found = pixels_of(model.rays, model.frame, (points - pose.eye) @ inverse(pose.basis).T, start)
         return np.where(self._is_inside(found)[:, None], found, np.nan)
 
-    def before(self, points: Points, pixels: np.ndarray) -> np.ndarray:
+    def before(self, points: MovingPoints, pixels: np.ndarray) -> np.ndarray:
         """Return whether something is in front of points seen at pixels (n, 2), as numbers of ``aimed.is_before``; -1
         if the pixel is NaN. With pixel times the time is that of the pixel's center.
         """
@@ -92,7 +92,7 @@ class Picture:
         for frame in np.unique(times).tolist():
             yield frame, seen[times == frame]
 
-    def _project(self, points: Points, frame: float | None, some: np.ndarray) -> np.ndarray:
+    def _project(self, points: MovingPoints, frame: float | None, some: np.ndarray) -> np.ndarray:
         camera, shapes = self._moment(frame)
         return camera.project(points.at(shapes, some))
 

@@ -23,7 +23,7 @@ ball.
 
 
 @dataclass(frozen=True, eq=False)
-class PixelBounds:
+class CameraPixelBounds:
     """See ``shapes.kind.PixelBounds``. Bounds are (n, 4) int: x0, x1, y0, y1 in the pixels of the plan."""
 
     camera: Camera
@@ -43,7 +43,7 @@ class PixelBounds:
         high = height if self.rows is None else len(self.rows)
         return np.array([0, wide, 0, high])
 
-    def at(self, columns: np.ndarray, rows: np.ndarray) -> PixelBounds:
+    def at(self, columns: np.ndarray, rows: np.ndarray) -> CameraPixelBounds:
         """Return the bounds for some columns and rows of the render window."""
         return replace(self, columns=columns, rows=rows)
 

@@ -15,7 +15,7 @@ from ..shapes.frames import InCamera
 from ..shapes.in_camera import in_camera
 from ..shapes.kind import ShapeSet, Visible
 from ..shapes.normals import NormalTable, normal_table
-from .pixel_bounds import PixelBounds
+from .pixel_bounds import CameraPixelBounds
 from .request import Request
 
 
@@ -30,7 +30,7 @@ class Plan:
     shapes: Shapes
     request: Request
     in_camera: InCamera
-    pixels: PixelBounds
+    pixels: CameraPixelBounds
     seen: np.ndarray
     """(m,) indices into ``Shapes``, ascending: the shapes that some pixel may see."""
     bounds: np.ndarray
@@ -143,7 +143,7 @@ def make_plan(camera: Camera, shapes: Shapes, request: Request) -> Plan:
     """Return the plan. Raises InputError, which names the shape, if a shape cannot be cast."""
     placed = in_camera(shapes, camera.pose)
     near, far = _reach(camera, placed, request.sampled)
-    pixels = PixelBounds(camera, request.sampled, request.cull)
+    pixels = CameraPixelBounds(camera, request.sampled, request.cull)
     bounds, seen = pixels.of_balls(placed.center, placed.radius)
     if request.cull:
         seen &= (near <= camera.clip_end) & (far >= camera.clip_start)

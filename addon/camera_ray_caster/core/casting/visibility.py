@@ -52,7 +52,7 @@ def visible(camera: Camera, shapes: Shapes, points, tolerance: float = 0.0) -> n
 
 @dataclass(frozen=True)
 class _Still:
-    """Points that stand still: see ``pictures.Points``."""
+    """Points that stand still: see ``pictures.MovingPoints``."""
 
     places: np.ndarray
     errors: np.ndarray

@@ -55,7 +55,7 @@ def export(key: str, shots: Sequence[Shot]) -> tuple[Iterator[tuple[str, Content
             raise InputError(
                 f"{chosen.label} cannot represent the {what}{reason and ', '}{reason}: choose one of {able}"
             )
-    said = list(dict.fromkeys(line for shot in shots for line in chosen.unsaid(shot)))
+    said = list(dict.fromkeys(line for shot in shots for line in chosen.omissions(shot)))
     if not chosen.rigid:
         return chosen.files(shots), said
     cameras, moves = zip(*(rigid.with_rotation(shot.camera) for shot in shots), strict=True)

@@ -39,7 +39,7 @@ class Bop(lenses.LensFormat):
 
 
 def _image(shot: Shot) -> dict:
-    fx, fy, cx, cy = matrix_of(lenses.said(TABLE, shot.camera)[1].settings)
+    fx, fy, cx, cy = matrix_of(lenses.lens_of(TABLE, shot.camera)[1].settings)
     pose, millimeters = shot.camera.world_to_opencv, 1000.0 * shot.meters
     return {
         "cam_K": [fx, 0.0, cx, 0.0, fy, cy, 0.0, 0.0, 1.0],

@@ -51,7 +51,7 @@ class CameraJson(Format):
         """See Format."""
         return None
 
-    def unsaid(self, shot):
+    def omissions(self, shot):
         """See Format."""
         return []
 

@@ -48,8 +48,8 @@ class Colmap(lenses.LensFormat):
         """See Format."""
         if " " in shot.image:
             return "whose name has a space, which ends a name in COLMAP: rename it"
-        said = lenses.spoken(TABLE, shot.camera)
-        if said is not None and said[0] == SPHERE and not _is_whole(said[1], shot.camera.raster.size):
+        found = lenses.find_lens(TABLE, shot.camera)
+        if found is not None and found[0] == SPHERE and not _is_whole(found[1], shot.camera.raster.size):
             return "which is not the whole sphere"
         return super().refusal(shot)
 
@@ -69,7 +69,7 @@ class Colmap(lenses.LensFormat):
 
 def _line(shot: Shot) -> str:
     """Return a camera's line in cameras.txt, without its number."""
-    kind, lens = lenses.said(TABLE, shot.camera)
+    kind, lens = lenses.lens_of(TABLE, shot.camera)
     width, height = shot.camera.raster.size
     if kind == SPHERE:
         return f"{kind} {width} {height} {width} {height}"

@@ -87,7 +87,7 @@ class Format(ABC):
         The reason is a clause ("whose k3 is not 0"), or "" if the reason is the model itself.
         """
 
-    def unsaid(self, shot: Shot) -> list[str]:
+    def omissions(self, shot: Shot) -> list[str]:
         """Return lines on what the files omit of a camera without the format refusing it."""
         camera, raster = shot.camera, shot.camera.raster
         lines = {

@@ -62,8 +62,8 @@ def _beside(before, shot) -> np.ndarray:
 
 
 def _lens(shot) -> str:
-    said, lens = lenses.said(TABLE, shot.camera)
-    kind, bend = said.split("-")
+    model, lens = lenses.lens_of(TABLE, shot.camera)
+    kind, bend = model.split("-")
     shape, terms = SHAPES[kind][1], DISTORTIONS.get((kind, bend), ("", ()))[1]
     width, height = shot.camera.raster.size
     entries = {

@@ -67,7 +67,7 @@ def _lens(model: WindowModel, key: str, focal: float = 1.0, settings: Mapping[st
     return Lens("", key, matrix | dict(settings or {}))
 
 
-def spoken(table: Table, camera: Camera) -> tuple[str, Lens] | None:
+def find_lens(table: Table, camera: Camera) -> tuple[str, Lens] | None:
     """Return the first model of a format that can store a camera's lens, and the lens; None if no model can."""
     return next(
         (
@@ -80,9 +80,9 @@ def spoken(table: Table, camera: Camera) -> tuple[str, Lens] | None:
     )
 
 
-def said(table: Table, camera: Camera) -> tuple[str, Lens]:
-    """Return the result of ``spoken`` for a camera that the format does not refuse."""
-    found = spoken(table, camera)
+def lens_of(table: Table, camera: Camera) -> tuple[str, Lens]:
+    """Return the result of ``find_lens`` for a camera that the format does not refuse."""
+    found = find_lens(table, camera)
     assert found is not None
     return found
 
@@ -115,7 +115,7 @@ class LensFormat(Format):
         """See Format."""
         if shot.camera.pixel_time is not None:
             return OWN_TIMES
-        if spoken(self.table, shot.camera) is not None:
+        if find_lens(self.table, shot.camera) is not None:
             return None
         known = {key for key, _ in self.table.values()}
         for lens in calibrations(shot.camera):

@@ -28,15 +28,15 @@ class Mrcal(lenses.LensFormat):
 
     def refusal(self, shot):
         """See Format."""
-        said = lenses.spoken(TABLE, shot.camera)
-        if said is not None and said[0] == STEREOGRAPHIC and said[1].settings["unified_xi"] != 1:
+        found = lenses.find_lens(TABLE, shot.camera)
+        if found is not None and found[0] == STEREOGRAPHIC and found[1].settings["unified_xi"] != 1:
             return "whose unified_xi is not 1"
         return super().refusal(shot)
 
     def files(self, shots):
         """See Format."""
         for shot in shots:
-            kind, lens = lenses.said(TABLE, shot.camera)
+            kind, lens = lenses.lens_of(TABLE, shot.camera)
             pose = shot.camera.world_to_opencv
             numbers = {
                 "intrinsics": _intrinsics(kind, lens),

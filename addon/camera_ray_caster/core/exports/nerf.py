@@ -36,7 +36,7 @@ class Nerf(lenses.LensFormat):
         reason = super().refusal(shot)
         if reason is not None:
             return reason
-        fx, fy, cx, cy = matrix_of(lenses.said(TABLE, shot.camera)[1].settings, 0.5)
+        fx, fy, cx, cy = matrix_of(lenses.lens_of(TABLE, shot.camera)[1].settings, 0.5)
         width, height = shot.camera.raster.size
         middle = max(abs(cx - width / 2), abs(cy - height / 2)) <= NEAR * max(width, height)
         return None if middle and isclose(fx, fy, rel_tol=NEAR) else "which camera_angle_x alone does not say"
@@ -55,7 +55,7 @@ class Nerf(lenses.LensFormat):
 
 
 def _angle(shot: Shot) -> float:
-    fx, *_ = matrix_of(lenses.said(TABLE, shot.camera)[1].settings)
+    fx, *_ = matrix_of(lenses.lens_of(TABLE, shot.camera)[1].settings)
     return 2 * atan(shot.camera.raster.width / 2 / fx)
 
 

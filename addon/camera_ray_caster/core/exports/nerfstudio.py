@@ -32,7 +32,7 @@ class Nerfstudio(lenses.LensFormat):
         """See Format."""
         kinds: dict[str, str] = {}
         for shot in shots:
-            kinds.setdefault(lenses.said(TABLE, shot.camera)[0], shot.name)
+            kinds.setdefault(lenses.lens_of(TABLE, shot.camera)[0], shot.name)
         if len(kinds) > 1:
             several = " and ".join(f"{name!r} is {kind}" for kind, name in kinds.items())
             raise InputError(f"transforms.json has one camera_model, but camera {several}: export them separately")
@@ -41,7 +41,7 @@ class Nerfstudio(lenses.LensFormat):
 
 def _frame(shot: Shot) -> dict:
     camera = shot.camera
-    kind, lens = lenses.said(TABLE, camera)
+    kind, lens = lenses.lens_of(TABLE, camera)
     names = ("fl_x", "fl_y", "cx", "cy", *TABLE[kind][1])
     values = matrix_of(lens.settings, 0.5) + lenses.values(lens, TABLE[kind][1])
     pose = np.vstack((np.column_stack((camera.pose.basis, camera.pose.eye)), (0.0, 0.0, 0.0, 1.0)))

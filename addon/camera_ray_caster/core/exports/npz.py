@@ -27,9 +27,9 @@ class Npz(Format):
 
     formula = False
 
-    def unsaid(self, shot):
+    def omissions(self, shot):
         """See Format. The render border is in the files, so that only depth of field is missing."""
-        return super().unsaid(shot)[: shot.camera.aperture is not None]
+        return super().omissions(shot)[: shot.camera.aperture is not None]
 
     def files(self, shots):
         """See Format."""

@@ -43,7 +43,7 @@ class Opencv(lenses.LensFormat):
 
 
 def _lens(shot: Shot) -> str:
-    kind, lens = lenses.said(TABLE, shot.camera)
+    kind, lens = lenses.lens_of(TABLE, shot.camera)
     fx, fy, cx, cy = matrix_of(lens.settings)
     K = [[fx, lens.settings["skew"], cx], [0.0, fy, cy], [0.0, 0.0, 1.0]]
     width, height = shot.camera.raster.size

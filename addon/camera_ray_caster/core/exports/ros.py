@@ -36,7 +36,7 @@ class Ros(lenses.LensFormat):
 
 
 def _lens(shot: Shot) -> str:
-    kind, lens = lenses.said(TABLE, shot.camera)
+    kind, lens = lenses.lens_of(TABLE, shot.camera)
     fx, fy, cx, cy = matrix_of(lens.settings)
     width, height = shot.camera.raster.size
     matrices = {

@@ -44,12 +44,12 @@ class Stmap(Format):
 
     formula = False
 
-    def unsaid(self, shot):
+    def omissions(self, shot):
         """See Format. A line on the distance between the two eyes is added if they are apart."""
         one, other = shot.camera, shot.target or shot.camera
         apart = float(np.linalg.norm(one.pose.eye - other.pose.eye))
         line = f"{one.name!r} and {other.name!r} are {apart:.3g} apart: the maps are exact for distant objects only"
-        return [*super().unsaid(shot), *([line] if apart else [])]
+        return [*super().omissions(shot), *([line] if apart else [])]
 
     def files(self, shots):
         """See Format. Raises InputError if the perspective of the same lens is undefined."""

@@ -30,7 +30,7 @@ class Trajectory(Format):
         """See Format."""
         return None if shot.camera.pixel_time is None else OWN_TIMES
 
-    def unsaid(self, shot):
+    def omissions(self, shot):
         """See Format."""
         return []
 

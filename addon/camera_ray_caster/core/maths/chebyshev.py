@@ -31,7 +31,7 @@ TAIL = 2
 TERMS = POINTS - TAIL
 """Number of coefficients that are summed, along x or y."""
 
-ROUNDING = 4
+COEFFICIENT_ROUNDING = 4
 """Largest coefficient that counts as rounding, in EPS times a panel's largest value."""
 
 
@@ -63,7 +63,7 @@ class Polynomials:
         tail = np.maximum.reduceat(np.maximum(*tails), first)
         terms = upwards[..., TAIL:, :] @ _fit()[TAIL:].T
         terms[..., -1, -1] += start
-        return cls(terms, (tail <= ROUNDING * EPS * largest).all(axis=0), empty)
+        return cls(terms, (tail <= COEFFICIENT_ROUNDING * EPS * largest).all(axis=0), empty)
 
     def write(self, which: slice, first: int, out: np.ndarray, pieces: slice) -> None:
         """Write values of the panels ``which`` into ``out``, (values, panels, rows, columns): of the function's values

@@ -74,7 +74,7 @@ def on_raster(
     panels at the rim need no evaluation at each pixel. On a raster the arrays of ``out``, (some, rows, columns) with a
     pixel's values contiguous in memory, are filled one after the other; each holds a vector. The error is at most 8
     times the function's own error, 8 being the norm of the interpolation, plus the last coefficients, which are left
-    out: each is at most ROUNDING EPS of the vector's largest value in the panel.
+    out: each is at most COEFFICIENT_ROUNDING EPS of the vector's largest value in the panel.
     """
     if not is_raster(x, y):
         return function(x, y)

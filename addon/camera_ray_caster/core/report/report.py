@@ -255,10 +255,8 @@ def _exact_lines(report: Report) -> list[str]:
     if not report.exact:
         return []
     name, apart = max(report.exact, key=lambda each: each[1])
-    text = (
-        f"{len(report.exact)} meshes cast as spheres or planes, with a deviation of at most {apart:.2%} of the radius, "
-        f"in {name!r}"
-    )
+    meshes = "1 mesh" if len(report.exact) == 1 else f"{len(report.exact)} meshes"
+    text = f"{meshes} cast as spheres or planes, with a deviation of at most {apart:.2%} of the radius, in {name!r}"
     return _listed("Exact shapes", [text])
 
 

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import ClassVar
 
-from ..maths.recording import Step
+from ..maths.recording import Operation
 from .writer import C_FUNCTIONS, Term, Writer
 
 RUNTIME = """\
@@ -72,10 +72,10 @@ class JavaScriptWriter(Writer):
         """See Writer."""
         return Term("NaN")
 
-    def _searchsorted(self, step: Step, operands: list[Term], _) -> Term:
+    def _searchsorted(self, step: Operation, operands: list[Term], _) -> Term:
         entries, side = step.fixed
         or_equal = "true" if side == "right" else "false"
         return Term(self.put("let", f"countBelow({self.table(entries)}, {operands[0].text}, {or_equal})"))
 
-    def _take(self, step: Step, operands: list[Term], _) -> Term:
+    def _take(self, step: Operation, operands: list[Term], _) -> Term:
         return Term(self.put("let", f"entry({self.table(step.fixed[0])}, {operands[0].text})"))

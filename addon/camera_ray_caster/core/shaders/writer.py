@@ -11,7 +11,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, ClassVar, NamedTuple, Protocol
 
-from ..maths.recording import Record, Step
+from ..maths.recording import Operation, Record
 
 C_FUNCTIONS = {
     "add": "{} + {}", "subtract": "{} - {}", "multiply": "{} * {}", "divide": "{} / {}", "negative": "-{}",
@@ -172,7 +172,7 @@ class Writer:
             return self.YES
         return self.put(self.TRUTH, " || ".join(told)) if len(told) > 1 else told[0] if told else ""
 
-    def _function(self, step: Step, operands: list[Term], _) -> Term:
+    def _function(self, step: Operation, operands: list[Term], _) -> Term:
         texts, none = [operand.text for operand in operands], self.either(*(operand.none for operand in operands))
         operation = step.operation
         self.helpers |= {operation, *self.NEEDED_BY.get(operation, ())} & self.HELPERS.keys()
@@ -185,10 +185,10 @@ class Writer:
             none = self.either(none, self.put(self.TRUTH, self.ABSENT[operation].format(*texts)))
         return Term(self.put(self.NUMBER, self.FUNCTIONS[operation].format(*texts)), none)
 
-    def _input(self, step: Step, _, inputs: Sequence[Term]) -> Term:
+    def _input(self, step: Operation, _, inputs: Sequence[Term]) -> Term:
         return inputs[step.fixed[0]]
 
-    def _constant(self, step: Step, *_) -> Term:
+    def _constant(self, step: Operation, *_) -> Term:
         (value,) = step.fixed
         if step.truth:
             return Term(self.YES if value else self.NO)
@@ -198,14 +198,14 @@ class Writer:
         """Return the value that is undefined."""
         return Term("0.0", self.YES)
 
-    def _parameter(self, step: Step, *_) -> Term:
+    def _parameter(self, step: Operation, *_) -> Term:
         value, name = step.fixed
         return Term(self.constants.named(name, value))
 
     def _roundoff(self, *_) -> Term:
         return Term(self.literal(self.EPS))
 
-    def _where(self, step: Step, operands: list[Term], _) -> Term:
+    def _where(self, step: Operation, operands: list[Term], _) -> Term:
         condition, yes, no = operands
         kind = self.TRUTH if step.truth else self.NUMBER
         value = self.put(kind, self.FUNCTIONS["where"].format(condition.text, yes.text, no.text))
@@ -214,7 +214,7 @@ class Writer:
         nones = yes.none or self.NO, no.none or self.NO
         return Term(value, self.put(self.TRUTH, self.FUNCTIONS["where"].format(condition.text, *nones)))
 
-    def _searchsorted(self, step: Step, operands: list[Term], _) -> Term:
+    def _searchsorted(self, step: Operation, operands: list[Term], _) -> Term:
         """Write a binary search for the number of entries below a value (left), or not above it (right)."""
         (value,), (entries, side) = operands, step.fixed
         table, comparison = self.table(entries), "<" if side == "left" else "<="
@@ -227,11 +227,11 @@ class Writer:
         self.line("}")
         return Term(self.put(self.NUMBER, self.TO_NUMBER.format(low)), value.none)
 
-    def _take(self, step: Step, operands: list[Term], _) -> Term:
+    def _take(self, step: Operation, operands: list[Term], _) -> Term:
         (place,), (entries,) = operands, step.fixed
         return Term(self.put(self.NUMBER, f"{self.table(entries)}[{self.TO_INDEX.format(place.text)}]"), place.none)
 
-    def _loop(self, step: Step, operands: list[Term], _) -> list[Term]:
+    def _loop(self, step: Operation, operands: list[Term], _) -> list[Term]:
         body, most = step.fixed
         kinds = [self.TRUTH if inner.truth else self.NUMBER for inner in _inputs_of(body, len(operands))]
         state = [
@@ -252,10 +252,10 @@ class Writer:
         self.line("}")
         return state
 
-    def _part(self, step: Step, operands, _) -> Term:
+    def _part(self, step: Operation, operands, _) -> Term:
         return operands[0][step.fixed[0]]
 
-    def _stop_gradient(self, step: Step, operands: list[Term], _) -> Term:
+    def _stop_gradient(self, step: Operation, operands: list[Term], _) -> Term:
         return operands[0]
 
 
@@ -267,10 +267,10 @@ METHODS = {
 """Names of the methods that write the steps that are not plain functions."""
 
 
-def _inputs_of(body: Record, count: int) -> list[Step]:
+def _inputs_of(body: Record, count: int) -> list[Operation]:
     """Return the input step of each input of a loop's body; a numeric one if the body does not use the input."""
     found = {step.fixed[0]: step for step in body.steps if step.operation == "input"}
-    return [found.get(place, Step("input", fixed=(place,))) for place in range(count)]
+    return [found.get(place, Operation("input", fixed=(place,))) for place in range(count)]
 
 
 def in_range(value: float) -> float:

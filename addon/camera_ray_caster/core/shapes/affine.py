@@ -13,7 +13,7 @@ import numpy as np
 
 from ..maths.speed import Scratch, lazy, merged
 from ..maths.vector import along, components, difference, dot, matrix_rows, matvec
-from .affine_search import AffineSet, Group, divide
+from .affine_search import AffineSet, SearchGroup, divide
 from .bodies import Bodies, places_of
 from .cutouts import Cutouts, crossings
 from .frames import InCamera, WorldRays
@@ -78,7 +78,7 @@ class AffineKind(Kind):
         for part, is_simple, is_small, is_cut in divide(visible, None if cutouts is None else cutouts.may):
             constants = self.constants(shapes, part.at, part.parallel)
             own = cutouts if is_cut else None
-            groups.append(Group(self.intersect, self.lattice, part, is_simple, is_small, constants, own))
+            groups.append(SearchGroup(self.intersect, self.lattice, part, is_simple, is_small, constants, own))
         faces_eye = self.faces_eye or all(group.is_simple for group in groups)
         return AffineSet(tuple(groups), faces_eye, cutouts is not None)
 

@@ -20,7 +20,7 @@ from .windows import Windows, batches, in_tile, pixels_in
 
 
 @dataclass(frozen=True, eq=False)
-class Group:
+class SearchGroup:
     """Shapes of one kind that are tested in the same way."""
 
     intersect: Callable
@@ -113,7 +113,7 @@ class Group:
 class AffineSet(ShapeSet):
     """The shapes of one affine kind that a camera may see."""
 
-    groups: tuple[Group, ...]
+    groups: tuple[SearchGroup, ...]
     faces_eye: bool
     has_cutouts: bool = False
 
@@ -130,7 +130,7 @@ class AffineSet(ShapeSet):
 
 
 def divide(visible: Visible, may_be_cut: np.ndarray | None) -> Iterator[tuple[Visible, bool, bool, bool]]:
-    """Yield groups of shapes that are tested in the same way, and whether they are simple and small, see ``Group``, and
+    """Yield groups of shapes that are tested in the same way, whether they are simple and small (``SearchGroup``), and
     may have transparent points, which ``may_be_cut`` says for all ``Shapes``, (n,); None if no shape has any.
     """
     is_cut = np.zeros(len(visible.at), bool) if may_be_cut is None else may_be_cut[visible.at]

@@ -9,7 +9,7 @@ from .frames import MARGIN
 from .kind import PixelBounds
 
 
-class Points:
+class HullPoints:
     """Points in the camera's frame whose hulls are bounded by their images, or by balls if a line may look curved."""
 
     def __init__(self, pixels: PixelBounds, count: int):

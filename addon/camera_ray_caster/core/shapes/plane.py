@@ -28,7 +28,7 @@ GRAZING = 1 / 16
 
 
 @dataclass(frozen=True)
-class Constants:
+class PlaneConstants:
     """Planes as the eye sees them; the last axis counts the planes."""
 
     matrix: np.ndarray
@@ -64,16 +64,16 @@ class Plane(AffineKind):
         """See ``Kind``: N_z cancels if the eye is near the plane."""
         return np.abs(offset[:, 2]) < GRAZING * np.abs(shape_from_world[:, 2] * away).sum(axis=-1)
 
-    def constants(self, shapes: InCamera, at: np.ndarray, parallel=None) -> Constants:
+    def constants(self, shapes: InCamera, at: np.ndarray, parallel=None) -> PlaneConstants:
         """See ``AffineKind``."""
         center, offset = shapes.center[at].T, shapes.offset[at].T
         matrix = shapes.shape_from_camera[at].transpose(1, 2, 0)
         sign = np.where(offset[2] < 0, -1.0, 1.0)  # q and -q are the same plane
         matrix, offset = matrix * sign, offset * sign
         (x, y, z), (to_x, to_y, to_z) = offset, matrix
-        return Constants(matrix, center, z, np.stack((y * to_z - z * to_y, z * to_x - x * to_z)))
+        return PlaneConstants(matrix, center, z, np.stack((y * to_z - z * to_y, z * to_x - x * to_z)))
 
-    def intersect(self, constants: Constants, origin, direction, start: Any, scratch):
+    def intersect(self, constants: PlaneConstants, origin, direction, start: Any, scratch):
         """See ``AffineKind``. Both sides are visible. A ray within the plane does not hit it."""
         matrix = constants.matrix
         shape = np.broadcast_shapes(np.shape(constants.offset), *map(np.shape, direction), *map(np.shape, origin or ()))
@@ -95,9 +95,9 @@ class Plane(AffineKind):
                 found &= np.abs(across, out=across) <= d_z
         return t, found
 
-    def lattice(self, constants: Constants, direction) -> Lattice:
+    def lattice(self, constants: PlaneConstants, direction) -> PlaneLattice:
         """See ``AffineKind``."""
-        return Lattice(constants, self.has_edges, direction)
+        return PlaneLattice(constants, self.has_edges, direction)
 
     def normals(self, shapes: InCamera, at: np.ndarray) -> tuple[np.ndarray, PixelNormals | None]:
         """See ``Kind``; the normals point towards the eye."""
@@ -156,12 +156,12 @@ class InfinitePlane(Plane):
         return np.abs(d), d_error
 
 
-class Lattice:
+class PlaneLattice:
     """Planes and the rays of a pinhole: x is a row, y a column, z a number. D_z and N x D are affine in the pixel then:
     if the corners of a window show that a plane covers or misses all of it, no other pixel is tested.
     """
 
-    def __init__(self, planes: Constants, has_edges: bool, direction):
+    def __init__(self, planes: PlaneConstants, has_edges: bool, direction):
         """Take constants with two more axes behind the axis that counts the planes."""
         x, y, z = direction
         edges = planes.cross if has_edges else planes.cross[:0]

@@ -23,7 +23,7 @@ spheres, made by adding up small rotations, spread by up to 6.7e-6 (among 6 to 2
 spheres by 4e-7. Meshes that are only nearly spheres, such as a cube under Subdivision Surface, spread by 1e-3 or more.
 """
 
-ROUNDING = 8 * EPS32
+VERTEX_ROUNDING = 8 * EPS32
 """Allowance for float32, over the largest coordinate: an applied rotation, scale and offset, in three dimensions."""
 
 MIN_INRADIUS = 0.74
@@ -90,7 +90,7 @@ def exclude(mesh: MeshArrays) -> str:
         return ""
     sample = mesh.vertices[np.random.default_rng(0).integers(len(mesh.vertices), size=SAMPLE)]
     sample = sample - sample.mean(axis=0, dtype=np.float64)
-    rounding = ROUNDING * float(np.abs(mesh.vertices).max())
+    rounding = VERTEX_ROUNDING * float(np.abs(mesh.vertices).max())
     _, _, (_, _, across) = np.linalg.svd(sample, full_matrices=False)
     is_flat = np.ptp(sample @ across) <= 4 * rounding
     return "" if is_flat or _fitted(sample, rounding, slack=16.0) else NOT_ROUND
@@ -107,7 +107,7 @@ def recognize(mesh: MeshArrays) -> Primitive | str:
         return reason
     middle = mesh.vertices.mean(axis=0, dtype=np.float64)
     vertices = mesh.vertices - middle  # small numbers: an applied offset costs no digits
-    rounding = ROUNDING * float(np.abs(mesh.vertices).max())
+    rounding = VERTEX_ROUNDING * float(np.abs(mesh.vertices).max())
     _, areas = _faces(mesh, vertices)
     total, area = areas.sum(axis=0), np.linalg.norm(areas, axis=1).sum()
     if np.linalg.norm(total) > 0.99 * area:

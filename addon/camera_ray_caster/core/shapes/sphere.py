@@ -44,17 +44,17 @@ class Sphere(AffineKind):
         """See ``Kind``: |N|^2 - 1 cancels near the surface."""
         return np.sqrt((offset * offset).sum(axis=-1)) < sphere_rays.CLOSE
 
-    def constants(self, shapes: InCamera, at: np.ndarray, parallel: Any) -> sphere_rays.Constants:
+    def constants(self, shapes: InCamera, at: np.ndarray, parallel: Any) -> sphere_rays.SphereConstants:
         """See ``AffineKind``."""
         return sphere_rays.constants(shapes, at, parallel)
 
-    def intersect(self, constants: sphere_rays.Constants, origin, direction, start: Any, scratch: Scratch):
+    def intersect(self, constants: sphere_rays.SphereConstants, origin, direction, start: Any, scratch: Scratch):
         """See ``AffineKind``. Rays from inside hit the far side."""
         return sphere_rays.intersect(constants, origin, direction, start, scratch)
 
-    def lattice(self, constants: sphere_rays.Constants, direction) -> sphere_rays.Lattice:
+    def lattice(self, constants: sphere_rays.SphereConstants, direction) -> sphere_rays.SphereLattice:
         """See ``AffineKind``."""
-        return sphere_rays.Lattice(constants, direction)
+        return sphere_rays.SphereLattice(constants, direction)
 
     def normals(self, shapes: InCamera, at: np.ndarray) -> tuple[np.ndarray, PixelNormals | None]:
         """See ``Kind``; the normals point outwards. The constants of a round sphere are 1 / radius and the vector from

@@ -31,7 +31,7 @@ CLOSE = 2.0
 
 
 @dataclass(frozen=True)
-class Constants:
+class SphereConstants:
     """The constants of spheres as the eye sees them; the last axis counts the spheres."""
 
     matrix: np.ndarray
@@ -51,7 +51,7 @@ class Constants:
     """(2, 3, n): the first two rows of ``matrix`` times the root of c; NaN where the eye is inside."""
 
 
-def constants(shapes: InCamera, at, parallel=None) -> Constants:
+def constants(shapes: InCamera, at, parallel=None) -> SphereConstants:
     """Return the constants of the spheres at these indices; ``parallel`` is the common direction of parallel rays."""
     c = outside(shapes, at)
     offset = np.ascontiguousarray(shapes.offset[at].T)
@@ -63,7 +63,7 @@ def constants(shapes: InCamera, at, parallel=None) -> Constants:
     matrix = np.stack(_levelled([dot(axis, matrix) for axis in axes]))
     with np.errstate(invalid="ignore"):
         wide = np.sqrt(c) * matrix[:2]
-    return Constants(matrix, scale, shapes.center[at].T, distance, c, scale * c, wide)
+    return SphereConstants(matrix, scale, shapes.center[at].T, distance, c, scale * c, wide)
 
 
 def outside(shapes: InCamera, at):
@@ -105,11 +105,11 @@ def _levelled(matrix):
     return cosine * first + sine * second, level, third
 
 
-def intersect(sphere: Constants, origin, direction, start, scratch):
+def intersect(sphere: SphereConstants, origin, direction, start, scratch):
     """Return t, NaN for no hit, and None: see ``AffineKind.intersect``."""
     if origin is None and start is None:
         if is_lattice(direction):
-            return Lattice(sphere, direction).meet_all(scratch)
+            return SphereLattice(sphere, direction).meet_all(scratch)
         return _near_from_eye(sphere, direction, scratch), None
     if origin is not None and start is None and is_one(direction) and is_lattice(origin):
         return _near_parallel(sphere, origin, direction, scratch), None
@@ -155,7 +155,7 @@ def _cross_square(n, d, shape, scratch):
     return total
 
 
-def _near_from_eye(sphere: Constants, direction, scratch):
+def _near_from_eye(sphere: SphereConstants, direction, scratch):
     """Return near / (b + sqrt(D_z |D_z| - c (D_x^2 + D_y^2))), which is NaN also if the ray looks away (D_z < 0)."""
     z, t, across = _working(sphere, direction, scratch)
     linear(sphere.matrix[2], direction, z, across)
@@ -167,7 +167,7 @@ def _near_from_eye(sphere: Constants, direction, scratch):
     return _roots(sphere, z, t)
 
 
-class Lattice:
+class SphereLattice:
     """Spheres and the rays of a pinhole: x is a row, y a column, z a number. The near roots follow from
 
         D_z^2 - c (D_x^2 + D_y^2) = (D_z - wide D_x) (D_z + wide D_x) - (wide D_y)^2,  wide = root of c,
@@ -175,7 +175,7 @@ class Lattice:
     where each factor is a row plus a column, and the last term is a column.
     """
 
-    def __init__(self, spheres: Constants, direction):
+    def __init__(self, spheres: SphereConstants, direction):
         """Take constants with two more axes behind the axis that counts the spheres."""
         x, y, z = direction
         (across, up), ahead = spheres.wide, spheres.matrix[2]
@@ -211,7 +211,7 @@ def _near(row, column, near, away: bool, scratch):
     return t
 
 
-def _near_parallel(sphere: Constants, origin, direction, scratch):
+def _near_parallel(sphere: SphereConstants, origin, direction, scratch):
     """Return (N_z - sqrt(1 - N_x^2 - N_y^2)) / D_z for rays along z, whose origins are a row and a column."""
     x, y, z = difference(sphere.center, origin)
     to_x, to_y, to_z = sphere.matrix
@@ -224,12 +224,12 @@ def _near_parallel(sphere: Constants, origin, direction, scratch):
     return np.divide(t, dot(to_z, direction), out=t)
 
 
-def _working(sphere: Constants, vector, scratch):
+def _working(sphere: SphereConstants, vector, scratch):
     shape = np.broadcast_shapes(np.shape(sphere.outside), *map(np.shape, vector))
     return (scratch(name, shape) for name in ("ahead", "found", "across"))
 
 
-def _roots(sphere: Constants, ahead, t):
+def _roots(sphere: SphereConstants, ahead, t):
     """Turn discriminants into t, in place."""
     np.sqrt(t, out=t)
     np.add(t, np.multiply(ahead, sphere.distance, out=ahead), out=t)

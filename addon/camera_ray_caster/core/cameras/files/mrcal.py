@@ -13,7 +13,7 @@ from typing import Any
 from warnings import catch_warnings
 
 from ...records import InputError
-from ..parts.settings import ROUNDING
+from ..parts.settings import LIMIT_ROUNDING
 from .document import Document, Lens, matrix
 
 TERMS = ("k1", "k2", "p1", "p2", "k3", "k4", "k5", "k6", "s1", "s2", "s3", "s4")
@@ -72,7 +72,7 @@ def _panorama(document: Document, entries: dict) -> Lens:
     if min(fx, fy) <= 0:
         raise document.refusal("its pixels per radian must be above 0")
     low, high = (cy - height + 0.5) / fy, (cy + 0.5) / fy
-    if max(-low, high) > pi / 2 + ROUNDING:
+    if max(-low, high) > pi / 2 + LIMIT_ROUNDING:
         raise document.refusal("its picture reaches beyond a pole, which no panorama of Blender does")
     return Lens("", "EQUIRECTANGULAR", size | {
         "longitude_min": (-0.5 - cx) / fx, "longitude_max": (width - 0.5 - cx) / fx,

@@ -33,7 +33,7 @@ SECOND_SLIT = Line(
     ("EMPTY", "CURVE"),
 )
 
-ROUNDING = 16 * EPS32
+LINE_ROUNDING = 16 * EPS32
 """Sine of the angle below which the directions of objects, stored as float32, cannot be told apart."""
 
 
@@ -84,7 +84,7 @@ def image_axes(raw: BlenderCamera, direction) -> tuple[np.ndarray, np.ndarray]:
     Raises InputError if the slit is seen end on.
     """
     length = np.hypot(direction[0], direction[1])
-    if length <= ROUNDING:
+    if length <= LINE_ROUNDING:
         raise InputError(
             f"{SLIT.name} of camera {raw.name!r} runs along the viewing direction: turn it across the view"
         )

@@ -27,7 +27,7 @@ LARGEST, LARGEST_ANGLE = 1e152, 1e4
 float32 does not resolve a hundredth of a degree of a larger angle.
 """
 
-ROUNDING = 1e-6
+LIMIT_ROUNDING = 1e-6
 """Relative amount by which a value may exceed a limit, since Blender stores it as float32."""
 
 OWN, CAMERA, STEREO, RENDER, CYCLES = "own", "camera", "stereo", "render", "cycles"
@@ -102,7 +102,7 @@ class Number(Setting):
         value = self.given(raw)
         if (
             not isinstance(value, int | float)
-            or not low - ROUNDING * abs(low) <= value <= high + ROUNDING * abs(high)  # NaN is not
+            or not low - LIMIT_ROUNDING * abs(low) <= value <= high + LIMIT_ROUNDING * abs(high)  # NaN is not
         ):
             raise self.refusal(raw, self.in_words(value), self.range_in_words(low, high))
         return float(value)

@@ -18,9 +18,23 @@ from .number import (
     roundoff,
     stop_gradient,
 )
-from .record import DOMAIN, NUMPY, Record, Step
+from .record import DOMAIN, NUMPY, Operation, Record
 
 __all__ = [
-    "DOMAIN", "NUMPY", "Dual", "NotRecordable", "Parameter", "Record", "Recorded", "Step", "differentiate",
-    "is_recorded", "look_up", "loop", "may_hold", "record", "roundoff", "stop_gradient",
+    "DOMAIN",
+    "NUMPY",
+    "Dual",
+    "NotRecordable",
+    "Operation",
+    "Parameter",
+    "Record",
+    "Recorded",
+    "differentiate",
+    "is_recorded",
+    "look_up",
+    "loop",
+    "may_hold",
+    "record",
+    "roundoff",
+    "stop_gradient",
 ]  # fmt: skip

@@ -10,7 +10,7 @@ from typing import Any, NoReturn
 import numpy as np
 
 from ...conventions import EPS
-from .record import COMPARISONS, LOGICAL, NUMERIC, Record, Step, repeat
+from .record import COMPARISONS, LOGICAL, NUMERIC, Operation, Record, repeat
 
 
 class Parameter(float):
@@ -90,7 +90,7 @@ class _Tape:
     """The steps of a record under construction."""
 
     def __init__(self):
-        self.steps: list[Step] = []
+        self.steps: list[Operation] = []
         self._known: dict[tuple, int] = {}
 
     def add(self, operation: str, operands: Sequence[Recorded] = (), fixed: tuple = (), truth: bool = False):
@@ -98,7 +98,7 @@ class _Tape:
         places = tuple(operand.place for operand in operands)
         place = self._known.setdefault((operation, places, repr(fixed)), len(self.steps))  # 0.0 and -0.0 differ
         if place == len(self.steps):
-            self.steps.append(Step(operation, places, fixed, truth))
+            self.steps.append(Operation(operation, places, fixed, truth))
         return Recorded(self, place)
 
     def own(self, value, operation: str) -> Recorded:
@@ -134,7 +134,7 @@ class _Tape:
                 needed.update(self.steps[place].operands)
         new = {old: place for place, old in enumerate(sorted(needed))}
         steps = (self.steps[old] for old in new)
-        moved = (Step(s.operation, tuple(new[k] for k in s.operands), s.fixed, s.truth) for s in steps)
+        moved = (Operation(s.operation, tuple(new[k] for k in s.operands), s.fixed, s.truth) for s in steps)
         return Record(tuple(moved), tuple(new[output.place] for output in outputs))
 
 

@@ -48,7 +48,7 @@ DOMAIN: Arithmetic = {
 
 
 @dataclass(frozen=True)
-class Step:
+class Operation:
     """One operation: ``operands`` are the indices of earlier steps, whose values it takes, ``fixed`` other arguments.
 
     In addition to the operations above there are: ``input`` (fixed: its index among the inputs), ``constant`` (fixed: a
@@ -73,7 +73,7 @@ class Record:
     The body of a loop takes the state as inputs, and returns the next state and whether it is settled.
     """
 
-    steps: tuple[Step, ...]
+    steps: tuple[Operation, ...]
     outputs: tuple[int, ...]
 
     def evaluate(self, arithmetic: Arithmetic, inputs: Sequence) -> tuple:

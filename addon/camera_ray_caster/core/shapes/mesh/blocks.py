@@ -14,7 +14,7 @@ from ...maths.speed import lazy, taken
 from ...maths.vector import inverse
 from ...mesh import Mesh
 from ..frames import InCamera
-from ..hulls import Points
+from ..hulls import HullPoints
 from ..kind import PixelBounds
 from ..windows import counted
 
@@ -86,7 +86,7 @@ class BlockRows:
         middle = center + (axes * offset).sum(axis=1)
         reach = (size * half).sum(axis=1) + gamma(16) * lost
         count = len(row)
-        corners = Points(pixels, 8 * count)
+        corners = HullPoints(pixels, 8 * count)
         signs = np.array([*product((-1.0, 1.0), repeat=3)]).T
         corners.write(slice(None), (middle[:, None] + reach[:, None] * signs[..., None]).reshape(3, -1))
         bounds, near, seen = corners.hulls(np.arange(8 * count).reshape(8, -1))

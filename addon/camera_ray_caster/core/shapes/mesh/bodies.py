@@ -13,7 +13,7 @@ from ..bodies import Bodies, places_of
 from ..cutouts import Cutouts, crossings
 from ..frames import InCamera
 from .surface import TRIANGLES, HitTriangles
-from .triangles import ROUNDING, crossing, signs, volumes
+from .triangles import VOLUME_ROUNDING, crossing, signs, volumes
 
 BYTES = 144
 """Upper bound of the memory of each triangle, with its box and its share of the tree."""
@@ -75,7 +75,7 @@ def _met(corners: np.ndarray, direction: Any) -> np.ndarray:
     inner = np.minimum(np.minimum(first, second), third)
     np.maximum(inner, -np.maximum(np.maximum(first, second), third), out=inner)
     longest = np.maximum.reduce([norm(corner) for corner in corners])
-    doubt = ROUNDING * longest**2 * norm(direction)
+    doubt = VOLUME_ROUNDING * longest**2 * norm(direction)
     met = inner > doubt
     open_ = np.flatnonzero(np.abs(inner) <= doubt)
     if open_.size:

@@ -12,7 +12,7 @@ from ...maths.vector import along, difference, dot, norm
 from ..frames import InCamera, WorldRays
 from ..kind import ShapeErrors
 from .surface import HitTriangles
-from .triangles import ROUNDING, volumes
+from .triangles import VOLUME_ROUNDING, volumes
 
 CHUNK = 1 << 16
 """Number of pairs of rays and triangles that are processed at once."""
@@ -118,4 +118,4 @@ def decide(shapes: InCamera, at: np.ndarray, rays: WorldRays) -> tuple[np.ndarra
                 moved[mine], 4 * (bound + np.broadcast_to(rays.origin_error, at.shape).ravel()[mine]) / reach
             )
     turned = np.broadcast_to(rays.direction_error, at.shape).ravel() / norm(direction)
-    return value.reshape(at.shape), (moved + 4 * turned + ROUNDING).reshape(at.shape)
+    return value.reshape(at.shape), (moved + 4 * turned + VOLUME_ROUNDING).reshape(at.shape)

@@ -18,7 +18,7 @@ from ... import tuning
 from ...maths.speed import Shared, lazy, taken
 from ...memory import require
 from ..frames import InCamera
-from ..hulls import Points
+from ..hulls import HullPoints
 from ..kind import Visible
 from ..windows import counted
 from .blocks import BlockRows, Blocks, camera_axes, vertex_count
@@ -35,7 +35,7 @@ class Triangles:
     """Some triangles that some pixel may see."""
 
     which: np.ndarray
-    """(k,): their indices among the triangles of all blocks; in a search their numbers there, see ``Found.enter``."""
+    """(k,): their indices among the triangles of all blocks; in a search their numbers there, see ``Nearest.enter``."""
     corners: np.ndarray
     """(3, k) indices of vertices."""
     bounds: np.ndarray
@@ -72,7 +72,7 @@ class MeshesInView:
         self._start = np.cumsum(sizes[:, 0]) - sizes[:, 0]
         self.chunk = tuning.CHUNK if visible.pixels.has_straight_lines else tuning.BALLS
         """Number of triangles or blocks to be bounded at once."""
-        self._vertices = Points(visible.pixels, total)
+        self._vertices = HullPoints(visible.pixels, total)
         self._index = np.int32 if total < 2**31 else np.int64
         rows = BlockRows(shapes, visible.at, self._start)
         self._boxing = Shared([

@@ -12,7 +12,7 @@ from ...maths.speed import taken
 from ...maths.vector import dot, norm
 from ..frames import InCamera
 from ..kind import HitPixels
-from .found import SEEN, SeenTriangles
+from .nearest import SEEN, SeenTriangles
 from .surface import HitTriangles, affine_at
 
 NORMALS = "normals of triangles"

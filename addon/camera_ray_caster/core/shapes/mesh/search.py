@@ -17,12 +17,12 @@ from ..cutouts import Cutouts, crossings
 from ..kind import Candidates, PixelBounds, ShapeSet
 from ..search_rays import SearchRays
 from ..windows import Windows, banded, batches, in_tile, pixels_in, union
-from .found import NONE, SEEN, Found, SeenTriangles
 from .in_camera import MeshesInView, Triangles
+from .nearest import NONE, SEEN, Nearest, SeenTriangles
 from .order import nearest_first, pieces, slabs
-from .spans import Lattice, spans
+from .spans import RayLattice, spans
 from .surface import TRIANGLES, HitTriangles
-from .triangles import ROUNDING, crossing, edge_vectors, from_origin, signs, volumes
+from .triangles import VOLUME_ROUNDING, crossing, edge_vectors, from_origin, signs, volumes
 
 Reach = tuple[float, float]
 """Upper bounds of the lengths of the directions and of the origins of a tile's rays."""
@@ -77,8 +77,8 @@ class MeshSet(ShapeSet):
         whole, rays = rays, rays.within(window)
         first_row, first_column = (own.start for own in window)
         bounds -= np.array([first_column, first_column, first_row, first_row], bounds.dtype)
-        found = Found.of(nearest[window], rays)
-        lattice = Lattice.of(rays)
+        found = Nearest.of(nearest[window], rays)
+        lattice = RayLattice.of(rays)
         reach = _longest(rays.direction), _longest(rays.origin or (0.0,))
         near = blocks.near.take(here)
         cast = partial(self._in_spans, lattice) if lattice else self._in_cells
@@ -112,7 +112,7 @@ class MeshSet(ShapeSet):
         return bounds if self.pixels is None else self.pixels.within(bounds)
 
     def _in_spans(
-        self, lattice: Lattice, rays: SearchRays, reach: Reach, triangles: Triangles, found: Found
+        self, lattice: RayLattice, rays: SearchRays, reach: Reach, triangles: Triangles, found: Nearest
     ) -> Iterator[None]:
         """Keep the hits of a lattice of rays on triangles, in small steps."""
         at, bands = banded(triangles.bounds, tuning.SPANNED_PIXELS)
@@ -123,7 +123,7 @@ class MeshSet(ShapeSet):
             yield
         self._test(rays, rest, found)
 
-    def _in_cells(self, rays: SearchRays, reach: Reach, triangles: Triangles, found: Found) -> Iterator[None]:
+    def _in_cells(self, rays: SearchRays, reach: Reach, triangles: Triangles, found: Nearest) -> Iterator[None]:
         """Keep the hits on triangles, in small steps; wide triangles are tested only in cells where they may be hit."""
         is_wide = pixels_in(triangles.bounds) >= tuning.WIDE_PIXELS
         yield from self._in_pixels(rays, reach, triangles.only(np.flatnonzero(~is_wide)), found)
@@ -138,7 +138,7 @@ class MeshSet(ShapeSet):
             own = own.only(found.may_show(own.bounds, own.near))
             yield from self._in_pixels(rays, reach, own, found)
 
-    def _span(self, rays: SearchRays, lattice: Lattice, reach: Reach, triangles: Triangles, found: Found) -> Open:
+    def _span(self, rays: SearchRays, lattice: RayLattice, reach: Reach, triangles: Triangles, found: Nearest) -> Open:
         """Keep the hits on triangles in spans, and ray by ray on triangles without spans. Return the pixels in which
         triangles still have to be tested.
         """
@@ -153,7 +153,7 @@ class MeshSet(ShapeSet):
                 pass
         return Open.of(triangles, *seen.open)
 
-    def _in_pixels(self, rays: SearchRays, reach: Reach, triangles: Triangles, found: Found) -> Iterator[None]:
+    def _in_pixels(self, rays: SearchRays, reach: Reach, triangles: Triangles, found: Nearest) -> Iterator[None]:
         """Keep the hits on triangles that are tested pixel by pixel, in small steps."""
         if rays.origin is None:
             triangles = triangles.only(*banded(triangles.bounds, tuning.TRACED_PIXELS))
@@ -166,7 +166,7 @@ class MeshSet(ShapeSet):
                 cast(rays, corners, _doubt(corners, reach), own.only(meets), found)
             yield
 
-    def _from_eye(self, rays: SearchRays, corners, doubt, triangles: Triangles, found: Found) -> None:
+    def _from_eye(self, rays: SearchRays, corners, doubt, triangles: Triangles, found: Nearest) -> None:
         """Keep the hits of rays from the eye in triangles' bounds: all rays share the planes through eye and edges."""
         pixel, k = rays.present.within(triangles.bounds)
         _, direction = rays.at(pixel)
@@ -174,7 +174,7 @@ class MeshSet(ShapeSet):
         inner = _inside(tuple(dot(taken(normal, k), direction) for normal in normals), is_turned=True)
         self._decide(rays, inner, taken(doubt, k), triangles, k, pixel, found)
 
-    def _from_anywhere(self, rays: SearchRays, corners, doubt, triangles: Triangles, found: Found) -> None:
+    def _from_anywhere(self, rays: SearchRays, corners, doubt, triangles: Triangles, found: Nearest) -> None:
         """Keep the hits of rays with many origins, in windows: by moments, without corners relative to each origin."""
         windows = Windows.around(triangles.bounds, rays.shape)
         direction, moment = (tuple(map(windows.flat, parts)) for parts in (rays.direction, rays.moment))
@@ -184,13 +184,13 @@ class MeshSet(ShapeSet):
         pixel = windows.pixel.reshape(-1)[near]
         self._decide(rays, inner.reshape(-1)[near], doubt[k], triangles, k, pixel, found)
 
-    def _decide(self, rays: SearchRays, inner, doubt, triangles: Triangles, k, pixel, found: Found) -> None:
+    def _decide(self, rays: SearchRays, inner, doubt, triangles: Triangles, k, pixel, found: Nearest) -> None:
         """Keep the hits on triangles, one per pixel, given how far inside the rays are and the error bound of that."""
         is_open, is_met = np.abs(inner) <= doubt, inner > doubt
         self._test(rays, [Open.of(triangles, k[is_open], pixel[is_open])], found)
         self._meet(rays, Open.of(triangles, k[is_met], pixel[is_met]), found)
 
-    def _test(self, rays: SearchRays, rest: list[Open], found: Found) -> None:
+    def _test(self, rays: SearchRays, rest: list[Open], found: Nearest) -> None:
         """Keep the hits among triangles that have to be tested, by exact signs where rounding could decide. All are
         tested at once, since one computation of exact signs takes a millisecond.
         """
@@ -199,7 +199,7 @@ class MeshSet(ShapeSet):
         some = Open(*(np.concatenate(part, axis=-1) for part in zip(*rest, strict=True)))
         origin, direction = rays.at(some.pixel)
         corners = np.array([from_origin(corner, origin) for corner in self.meshes.places(some.vertices)])
-        doubt = ROUNDING * np.maximum.reduce([norm(corner) for corner in corners]) ** 2 * norm(direction)
+        doubt = VOLUME_ROUNDING * np.maximum.reduce([norm(corner) for corner in corners]) ** 2 * norm(direction)
         inner = _inside(volumes(corners, direction), is_turned=False)
         met = inner > doubt
         open_ = np.flatnonzero(np.abs(inner) <= doubt)
@@ -208,12 +208,12 @@ class MeshSet(ShapeSet):
             met[open_] = ((exact >= 0).all(axis=0) | (exact <= 0).all(axis=0)) & exact.any(axis=0)
         self._meet(rays, Open(some.which[met], some.vertices[:, met], some.pixel[met]), found)
 
-    def _meet(self, rays: SearchRays, met: Open, found: Found) -> None:
+    def _meet(self, rays: SearchRays, met: Open, found: Nearest) -> None:
         """Keep the hits on triangles that are known to be hit, one per pixel."""
         t = crossing(self.meshes.places(met.vertices), *rays.at(met.pixel))
         self._keep(rays, found, met.pixel, t, met.which)
 
-    def _keep(self, rays: SearchRays, found: Found, pixel: np.ndarray, t: np.ndarray, which: np.ndarray) -> None:
+    def _keep(self, rays: SearchRays, found: Nearest, pixel: np.ndarray, t: np.ndarray, which: np.ndarray) -> None:
         """Keep hits at or beyond the clip start, on points that are not transparent."""
         met = (t >= self.clip_start) & (t < np.inf)
         if self.cutouts is not None:
@@ -223,7 +223,7 @@ class MeshSet(ShapeSet):
             pixel, t, which = pixel[met], t[met], which[met]
         found.keep(pixel, t, which)
 
-    def _is_hit(self, cutouts: Cutouts, rays: SearchRays, found: Found, pixel, t, which) -> np.ndarray:
+    def _is_hit(self, cutouts: Cutouts, rays: SearchRays, found: Nearest, pixel, t, which) -> np.ndarray:
         """Return which crossings with triangles, (m,), are hits: all but those with transparent points."""
         own, triangle = np.unique(which, return_inverse=True)
         at, number = self.meshes.blocks.numbers(found.entry(own))
@@ -253,7 +253,7 @@ def _inside(volumes: tuple[Any, Any, Any], is_turned: bool) -> np.ndarray:
 def _doubt(corners: Any, reach: Reach) -> np.ndarray:
     """Return an error bound of the volumes of triangles with corners in the camera's frame, for all rays of a tile."""
     longest = np.maximum.reduce([norm(corner) for corner in corners])
-    return ROUNDING * reach[0] * (longest + reach[1]) ** 2
+    return VOLUME_ROUNDING * reach[0] * (longest + reach[1]) ** 2
 
 
 def _longest(vectors: Any) -> float:

@@ -18,7 +18,7 @@ from ...maths.speed import taken
 from ...maths.vector import cross, dot, is_grid, is_lattice, is_one, norm
 from ..search_rays import SearchRays
 from ..windows import counted
-from .triangles import EDGES, ROUNDING, STEEP, plane
+from .triangles import EDGES, STEEP, VOLUME_ROUNDING, plane
 
 CLEAR = 1 / 8
 """Pixels. If rounding moves the crossings of an edge with the rows by more than this, the edge is nearly parallel to
@@ -28,12 +28,12 @@ the rows. It then accepts or rejects whole rows of the bounds; rows that it leav
 
 EVEN = 8 * EPS
 """Largest deviation of coordinates from even distances, over the largest coordinate. Their rounding reaches 5.7 EPS in
-parts of a picture of 1920 columns. It changes the volumes by at most half of ROUNDING, which is doubled for it.
+parts of a picture of 1920 columns. It changes the volumes by at most half of VOLUME_ROUNDING, which is doubled for it.
 """
 
 
 @dataclass(frozen=True, eq=False)
-class Lattice:
+class RayLattice:
     """The rays of a tile at even distances, as l = (first[0] + column step[0], first[1] + row step[1], 1).
 
     A pinhole's directions are (l[0], l[1], z); parallel rays have the origins (l[0], l[1], 0) and directions (0, 0, z).
@@ -53,7 +53,7 @@ class Lattice:
     """The length of the longest l."""
 
     @classmethod
-    def of(cls, rays: SearchRays) -> Lattice | None:
+    def of(cls, rays: SearchRays) -> RayLattice | None:
         """Return the lattice of the rays; None if they are on no lattice, or not at even distances."""
         if rays.origin is None and is_lattice(rays.direction):
             x, y, z = rays.direction
@@ -84,7 +84,7 @@ class Lattice:
         return x, y, z * self.z
 
     def scale(self, corners: np.ndarray) -> np.ndarray:
-        """Return the scale of the volumes: their errors are at most ROUNDING times it."""
+        """Return the scale of the volumes: their errors are at most VOLUME_ROUNDING times it."""
         longest = norm(corners.swapaxes(0, 1)).max(axis=0)
         return (longest + self.reach) ** 2 if self.is_parallel else longest**2 * self.reach
 
@@ -102,11 +102,11 @@ class Spans:
     """Triangles and the pixels in which they have to be tested exactly, since rounding could decide."""
 
 
-def spans(lattice: Lattice, corners: Any, bounds: np.ndarray, width: int) -> Spans:
+def spans(lattice: RayLattice, corners: Any, bounds: np.ndarray, width: int) -> Spans:
     """Return the spans of triangles with corners (3, 3, k), seen within bounds (k, 4) of a tile of this width."""
     normal, product = plane(corners)
     height, slope = dot(normal, corners[0]), normal[2] * lattice.z
-    scale = 2 * ROUNDING * lattice.scale(corners)
+    scale = 2 * VOLUME_ROUNDING * lattice.scale(corners)
     edges = to_x, to_y, to_z = lattice.edges(corners)
     if lattice.is_parallel:
         for coefficient in edges:
@@ -156,7 +156,7 @@ def spans(lattice: Lattice, corners: Any, bounds: np.ndarray, width: int) -> Spa
     )
 
 
-def _crossing(lattice: Lattice, corner: Any, normal: Any, at: np.ndarray, row, span: np.ndarray, column) -> np.ndarray:
+def _crossing(lattice: RayLattice, corner: Any, normal: Any, at: np.ndarray, row, span, column) -> np.ndarray:
     """Return t, (m,), at columns of spans of some rows of triangles ``at``; equal to that of ``crossing``."""
     x, y = taken(lattice.x, column), taken(lattice.y, row)
     if lattice.is_parallel:
@@ -172,7 +172,7 @@ def _crossing(lattice: Lattice, corner: Any, normal: Any, at: np.ndarray, row, s
     return np.divide(height, first, out=first)
 
 
-def _level(lattice: Lattice, edges: Any, is_level: np.ndarray, scale, bounds: np.ndarray, at, row):
+def _level(lattice: RayLattice, edges: Any, is_level: np.ndarray, scale, bounds: np.ndarray, at, row):
     """Return the rows of triangles, as ``at`` and ``row``, without those that lie outside of an edge nearly parallel to
     the rows, and in which of them rounding could decide.
     """

@@ -18,7 +18,7 @@ from ...maths.vector import components, cross, difference, dot, matrix_rows, mat
 from ...mesh import Mesh
 from ..frames import InCamera
 from ..kind import HitPixels
-from .found import SEEN
+from .nearest import SEEN
 
 TRIANGLES = "triangles"
 """Name under which ``HitPixels.noted`` has the ``HitTriangles`` of the pixels."""

@@ -21,7 +21,7 @@ from ...conventions import EPS
 from ...maths.exact import volume_sign
 from ...maths.vector import cross, difference, dot, norm
 
-ROUNDING = 16 * EPS
+VOLUME_ROUNDING = 16 * EPS
 """Error bound of a volume, over the product of the lengths of its three vectors. The products have errors of at most
 gamma(7), and their magnitudes add up to at most 6 / sqrt(27) of the lengths' product. Two rounded corners add as much,
 and the lengths are rounded, too.
@@ -60,7 +60,7 @@ def volumes(corners: Any, d: Any, moment: Any = None) -> tuple[Any, Any, Any]:
 
     If the rays' moments, o x d, are given, the corners are not relative to o: d . ((a - o) x (b - o)) is
     d . (a x b) + (o x d) . (b - a), where only d and the moment have a value per pixel. The error of these volumes is
-    at most ROUNDING |d| (r + |o|)^2, with r the length of the longest corner.
+    at most VOLUME_ROUNDING |d| (r + |o|)^2, with r the length of the longest corner.
     """
     first, second, third = (_edge_volume(d, moment, corners[i], corners[j]) for i, j in EDGES)
     return first, second, third
@@ -103,7 +103,7 @@ def side(corners: np.ndarray) -> np.ndarray:
     found = volume(corners[0], corners[1], corners[2])
     most = norm(corners[0]) * norm(corners[1]) * norm(corners[2])
     sign = np.sign(found)
-    open_ = np.flatnonzero(~(np.abs(found) > ROUNDING * most))
+    open_ = np.flatnonzero(~(np.abs(found) > VOLUME_ROUNDING * most))
     if open_.size:
         sign[open_] = volume_sign(*corners[:, :, open_])
     return sign

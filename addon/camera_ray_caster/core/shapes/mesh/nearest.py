@@ -26,11 +26,11 @@ class SeenTriangles:
 
 
 NONE = -1
-"""Number of no triangle."""
+"""In place of the number of a triangle, where none is hit."""
 
 
 @dataclass(eq=False)
-class Found:
+class Nearest:
     """The nearest triangle of each pixel so far; of several at exactly the same t the first."""
 
     t: np.ndarray
@@ -45,7 +45,7 @@ class Found:
     """
 
     @classmethod
-    def of(cls, nearest: np.ndarray, rays: SearchRays) -> Found:
+    def of(cls, nearest: np.ndarray, rays: SearchRays) -> Nearest:
         """Begin with the t that were found before; no triangle behind these is kept."""
         t = rays.scratch("triangle t", rays.shape, np.float64)
         number = rays.scratch("triangle found", rays.shape, np.int32)
