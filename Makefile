@@ -51,7 +51,8 @@ lint: $(VENV)/ready  ## check style, types and the table of models
 	$(VENV)/bin/python scripts/make_docs.py --check
 
 check-model: $(VENV)/ready  ## hold a camera model of your own to the contract of all models: MODEL=/path/to/its.py
-	$(VENV)/bin/python -m pytest -q -m "" --model "$(MODEL)" tests/core/cameras tests/core/truth tests/core/errors
+	$(VENV)/bin/python -m pytest -q -m "" --model "$(MODEL)" tests/core/cameras tests/core/truth tests/core/errors \
+		tests/core/camera/test_setting_derivatives.py
 
 zip: $(VENV)/ready  ## build the extension for Blender in dist/
 	$(VENV)/bin/python scripts/make_zip.py dist

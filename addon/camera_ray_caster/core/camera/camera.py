@@ -9,22 +9,24 @@ from typing import Any, Literal, overload
 
 import numpy as np
 
-from ..arguments import flag, numbers
+from ..arguments import flag, numbers, word
 from ..cameras import find_model
 from ..cameras.model import Model
 from ..cameras.parts.aperture import Aperture
-from ..cameras.parts.settings import values_of
+from ..cameras.parts.parameters import parameters_of, values_of, with_parameters
 from ..conventions import gamma
+from ..maths.recording import Varied
 from ..maths.speed import lazy
 from ..maths.vector import inverse, matvec, norm
 from ..memory import of_pixels, require
 from ..records import BlenderCamera, InputError, Pose, Raster, Rays, RaysJacobian
 from .evaluation import pixels_of, rays_through
-from .jacobian import of_projection, of_rays
+from .jacobian import of_projection, of_rays, of_settings
 from .meeting import meeting
 from .pixel_time import CameraMotion, PixelTime
 from .pixels import by_time, given
 from .sampling import in_opening, sub_pixel
+from .spherical_stereo import with_eye
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,6 +67,35 @@ class Camera:
     def settings(self) -> dict[str, Any]:
         """The values of the model's SETTINGS, by name, as plain numbers, words and lists."""
         return values_of(find_model(self.record).SETTINGS, self.record)
+
+    @property
+    def parameters(self) -> dict[str, float]:
+        """The real numbers among the settings, by name, in the order of the model's SETTINGS: by these
+        ``project(points, jacobian="settings")`` differentiates. A vector's or polynomial's numbers have their places
+        beside the name, as in "ray_1[0]". Words, files, objects and whole numbers are none of them.
+        """
+        return parameters_of(find_model(self.record).SETTINGS, self.record)
+
+    @lazy
+    def _varied(self) -> Model:
+        """The model made of varied numbers. Raises InputError if the record does not have the model."""
+        kind, numbers = find_model(self.record), self.parameters.values()
+
+        def made(raw: BlenderCamera) -> Model:
+            return with_eye(kind.from_blender(raw, self.raster), raw, self.pose)
+
+        def varied(place: int, number: float) -> Varied:
+            return Varied(number, tuple(1.0 if k == place else None for k in range(len(numbers))))
+
+        with np.errstate(all="ignore"):  # NaN means no ray
+            x, y = np.meshgrid(*(np.linspace(0, side, 5) for side in self.raster.size))
+            own, other = (sum(one.rays(x, y), ()) for one in (self.model, made(self.record)))
+            if not all(np.array_equal(*parts, equal_nan=True) for parts in zip(own, other, strict=True)):
+                raise InputError(
+                    f"the lens of camera {self.name!r} lies between two that were read, and no settings give it: ask a "
+                    "camera that was read at its frame"
+                )
+            return made(with_parameters(kind.SETTINGS, self.record, map(varied, range(len(numbers)), numbers)))
 
     @property
     def K(self) -> np.ndarray | None:
@@ -213,11 +244,13 @@ class Camera:
     @overload
     def project(self, points, jacobian: Literal[False] = False) -> np.ndarray: ...
     @overload
-    def project(self, points, jacobian: Literal[True]) -> tuple[np.ndarray, np.ndarray]: ...
+    def project(self, points, jacobian: Literal[True, "settings"]) -> tuple[np.ndarray, np.ndarray]: ...
     def project(self, points, jacobian=False):
         """Return the pixel coordinates (..., 2) in the full frame of world points (..., 3); NaN for points that are not
         seen or not finite. With ``jacobian`` return also the derivatives with respect to the points, (..., 2, 3), in
-        pixels per world unit, for every model; see ``camera.jacobian``.
+        pixels per world unit, for every model; see ``camera.jacobian``. With ``jacobian="settings"`` these are the
+        derivatives by the n numbers of ``parameters`` instead, (..., 2, n), in pixels per unit of each (radians for
+        angles); 0 by a number on which the picture does not depend.
 
         With pixel times and a moving camera the pixels are found by a search, with points that stand still: see
         ``meeting``. Raises InputError for derivatives in this case, and for an array of another shape.
@@ -226,16 +259,19 @@ class Camera:
         if points.shape[-1:] != (3,):
             raise InputError(f"points of shape {points.shape} cannot be projected: give x, y, z, shape (..., 3)")
         each = points.reshape(-1, 3)
-        if flag(jacobian, "jacobian"):
+        by_settings = isinstance(jacobian, str) and bool(word(jacobian, "jacobian", ("settings",)))
+        if by_settings or flag(jacobian, "jacobian"):
             if self._moves:
                 raise InputError(
                     f"camera {self.name!r} moves from pixel to pixel, and its speed is not known to rounding: ask the "
-                    "camera of one frame, camera.at(frame).project(points, jacobian=True)"
+                    f"camera of one frame, camera.at(frame).project(points, jacobian={jacobian!r})"
                 )
-            require(64 * len(each), "the derivatives of the pixels", "project fewer points at once")
+            count = len(self.parameters) if by_settings else 3
+            require((16 + 16 * count) * len(each), "the derivatives of the pixels", "project fewer points at once")
             pixels = self.project(points)
-            found = of_projection(self.model, self.pose, each, pixels.reshape(-1, 2))
-            return pixels, found.reshape(*points.shape[:-1], 2, 3)
+            given = self.pose, each, pixels.reshape(-1, 2)
+            found = of_settings(self._varied, count, *given) if by_settings else of_projection(self.model, *given)
+            return pixels, found.reshape(*points.shape[:-1], 2, count)
         if self._moves:
             time: Any = self.pixel_time
             motion: Any = self.motion

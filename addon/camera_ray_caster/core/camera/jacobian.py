@@ -9,6 +9,8 @@ the pixel, and B the camera's axes:
     |det B  d . (v_x x v_y)| / |B d| perpendicular to the ray, v = o' + t d'.
     A point p = o + t d moves its pixel by (v_y x d) . dp / D in x and (d x v_x) . dp / D in y, D = d . (v_x x v_y):
     Cramer's rule for the implicit function.
+    A setting by which the ray changes, o_s and d_s, moves the pixel as a point would that moves by -(o_s + t d_s). Here
+    the settings' derivatives begin in the model's ``from_blender`` (``maths.recording.varied``).
 Rounding: the error of a direction's derivative is at most 16 EPS of its length; that of an origin's, 16 EPS of the
 length of both derivatives; that of a pixel's with respect to points, 16 EPS of its length times the distances of the
 point and of the ray's origin from the world's origin over t. A move of the pixel by ``Model.pixel_rounding`` adds its
@@ -50,13 +52,13 @@ BLOCK_PIXELS = 1 << 14
 class RayDerivatives:
     """The chief rays at pixel coordinates and their derivatives; vectors are three components that broadcast."""
 
-    def __init__(self, model: Model, pose: Pose, x, y):
-        """Differentiate at x and y, arrays that broadcast."""
-        numbers = differentiate(model.recorded, (x, y))
+    def __init__(self, model: Model, pose: Pose, x, y, parameters: int = 0):
+        """Differentiate at x and y, arrays that broadcast, and by the parameters of a model of varied numbers."""
+        numbers = differentiate(model.recorded, (x, y), parameters)
         self.pose = pose
         self.origin, self.direction = (tuple(one.value for one in three) for three in (numbers[:3], numbers[3:]))
         self.origin_by, self.direction_by = (
-            [tuple(0.0 if one.partials[k] is None else one.partials[k] for one in three) for k in range(2)]
+            [tuple(0.0 if one.partials[k] is None else one.partials[k] for one in three) for k in range(2 + parameters)]
             for three in (numbers[:3], numbers[3:])
         )
 
@@ -92,14 +94,22 @@ class RayDerivatives:
 
     def by_point(self, point: Any) -> tuple[Any, Any]:
         """Return the derivatives of the pixel's x and y with respect to the seen points, all in the camera's frame."""
-        beside = difference(point, self.origin)
-        by_x, by_y = self._at(dot(beside, self.direction) / dot(self.direction, self.direction))
+        by_x, by_y = self._at(self._place(point))[:2]
         to_x, to_y = cross(by_y, self.direction), cross(self.direction, by_x)
         volume = dot(by_x, to_x)
         return tuple(part / volume for part in to_x), tuple(part / volume for part in to_y)
 
+    def by_parameters(self, point: Any) -> list[list[Any]]:
+        """Return the derivatives of the pixel's x and y by the parameters, two lists, where it sees the points."""
+        moves = self._at(self._place(point))[2:]
+        return [[-dot(gradient, move) for move in moves] for gradient in self.by_point(point)]
+
+    def _place(self, point: Any) -> Any:
+        """Return the t at which rays are nearest to the points."""
+        return dot(difference(point, self.origin), self.direction) / dot(self.direction, self.direction)
+
     def _at(self, t: Any) -> list[Any]:
-        """Return the derivatives by x and by y of the points of the rays at t."""
+        """Return the derivatives of the points of the rays at t: by x, by y and by each parameter."""
         return [along(o, d, t) for o, d in zip(self.origin_by, self.direction_by, strict=True)]
 
     def _volume(self, sides: list[Any]) -> Any:
@@ -152,4 +162,26 @@ def of_projection(model: Model, pose: Pose, points: np.ndarray, pixels: np.ndarr
                     result[part, row, axis] = component
 
     in_blocks(put, (len(points), 1), BLOCK_PIXELS)
+    return result
+
+
+def of_settings(varied: Model, count: int, pose: Pose, points: np.ndarray, pixels: np.ndarray) -> np.ndarray:
+    """Return the derivatives (n, 2, count) of the pixels (n, 2) that see world points (n, 3), by the ``count``
+    parameters of a model of varied numbers.
+
+    NaN if the pixel is NaN or has no ray; not finite if all pixels of a line see the point.
+    """
+    result = np.empty((len(points), 2, count))
+    camera_from_world = inverse(pose.basis)
+
+    def put(part: slice) -> None:
+        with np.errstate(all="ignore"):  # NaN means no pixel
+            local = components((points[part] - pose.eye) @ camera_from_world.T)
+            rays = RayDerivatives(varied, pose, pixels[part, 0], pixels[part, 1], count)
+            for row, moves in enumerate(rays.by_parameters(local)):
+                for place, move in enumerate(moves):
+                    result[part, row, place] = move
+        result[part][np.isnan(pixels[part]).any(axis=1)] = np.nan
+
+    in_blocks(put, (len(points), 1), BLOCK_PIXELS // 4)
     return result

@@ -9,8 +9,9 @@ Reference: Snyder (1987), page 105; R. Szeliski, Image Alignment and Stitching (
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import pi, radians, tan
+from math import pi, radians
 
+from ..maths.recording import tan
 from ..records import BlenderCamera, Raster
 from .central_cylindrical import CentralCylindrical
 from .model import Step

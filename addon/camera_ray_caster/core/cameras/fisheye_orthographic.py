@@ -9,10 +9,11 @@ Reference: Snyder (1987), chapter 20; H. Bettonvil, Fisheye Lenses (2005).
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import asin, pi, sin
+from math import asin, pi
 
 import numpy as np
 
+from ..maths.recording import sin
 from ..records import BlenderCamera, Raster
 from .model import Step
 from .parts.film import SHIFT, Window

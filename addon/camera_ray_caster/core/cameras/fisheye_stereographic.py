@@ -10,11 +10,12 @@ Reference: Snyder (1987), chapter 21.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import atan, radians, tan
+from math import atan, radians
 from typing import ClassVar
 
 import numpy as np
 
+from ..maths.recording import tan
 from ..records import BlenderCamera, Raster
 from .model import Step
 from .parts.film import SHIFT, Window

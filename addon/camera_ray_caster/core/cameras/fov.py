@@ -10,10 +10,11 @@ References: F. Devernay and O. Faugeras, Straight Lines Have to Be Straight (200
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import atan, inf, pi, radians, tan
+from math import atan, inf, pi, radians
 
 import numpy as np
 
+from ..maths.recording import tan
 from ..records import BlenderCamera, Raster
 from .model import Step
 from .parts.calibrated import Calibrated

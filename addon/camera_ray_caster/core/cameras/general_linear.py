@@ -21,6 +21,7 @@ import numpy as np
 
 from ..conventions import EPS32
 from ..maths.intervals import Interval
+from ..maths.recording import array
 from ..maths.vector import components
 from ..records import BlenderCamera, InputError, Raster
 from .model import Model, Step
@@ -70,7 +71,7 @@ class GeneralLinear(Model):
         """Build the camera from ray_1, ray_2 and ray_3. Raises InputError if, as points, they lie on one line, and
         for slopes beyond STEEPEST.
         """
-        three = np.array([ray.read(raw) for ray in RAYS])
+        three = array([ray.read(raw) for ray in RAYS])
         if _are_dependent(three):
             names, rays = ", ".join(ray.name for ray in RAYS), ", ".join(str(tuple(ray)) for ray in three.tolist())
             raise InputError(
@@ -169,5 +170,5 @@ def classify(three) -> str:
 
 def _are_dependent(three) -> bool:
     """Return whether the rays, as points in four dimensions, lie on one line (or in one point)."""
-    rows = three[1:] - three[0]
+    rows = (three[1:] - three[0]).astype(np.float64)
     return bool(np.linalg.svd(rows, compute_uv=False)[-1] <= RAY_ROUNDING * np.abs(three).max())

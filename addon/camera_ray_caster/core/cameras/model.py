@@ -12,6 +12,11 @@ exclude nothing. A closed form is an improvement, not a duty. One contract test 
 ``rays`` is arithmetic on two numbers or arrays. It branches on their values only by numpy's ``where``, and leaves out
 work only where ``may_hold`` says that no value needs it, so that the formula can be recorded
 (``core.maths.recording``) and evaluated with any number of digits.
+
+``from_blender`` also runs on varied numbers, which carry the derivatives by the settings
+(``core.maths.recording.varied``): what rays depend on is made by Python's operators, numpy's functions of numbers, and
+``sin``, ``cos``, ``tan`` and ``array`` of ``core.maths.recording``, since those of the module math and arrays of
+float64 drop derivatives. A term is left out where a number is false, not where it equals 0.
 """
 
 from __future__ import annotations

@@ -11,8 +11,9 @@ Reference: Snyder (1987), chapter 21; D. German et al., Flattening the Viewable 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import inf, pi, tan
+from math import inf, pi
 
+from ..maths.recording import tan
 from ..records import BlenderCamera, Raster
 from .fisheye_stereographic import WIDEST, FisheyeStereographic
 from .model import Step

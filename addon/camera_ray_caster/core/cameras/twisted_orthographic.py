@@ -14,6 +14,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..maths.recording import array
 from ..records import BlenderCamera, Raster
 from .general_linear import STEEPEST, GeneralLinear
 from .model import Step
@@ -52,8 +53,8 @@ class TwistedOrthographic(GeneralLinear):
         window = Orthographic.from_blender(raw, raster).window
         point, direction = slit_from(raw)
         along, across = image_axes(raw, direction)
-        corners = np.array(((0, 0), (raster.width, 0), (0, raster.height)), np.float64)
-        places = np.stack(window.plane_from_pixels(*corners.T), axis=-1)
+        corners = (0.0, 0.0), (float(raster.width), 0.0), (0.0, float(raster.height))
+        places = array([window.plane_from_pixels(*corner) for corner in corners])
         slopes = TWIST.read(raw) * ((places - point[:2]) @ along[:2])
         check_slope(raw, float(np.abs(slopes).max()), (TWIST, ORTHO_SCALE), STEEPEST)
         ends = places + slopes[:, None] * across[:2]

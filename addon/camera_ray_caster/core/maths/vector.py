@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from .recording import array
+
 ALL = slice(None)
 """Every row, or every column."""
 
@@ -36,15 +38,15 @@ def inverse(matrix) -> np.ndarray:
     (OpenBLAS 0.3.23), on the core that the next tile of a picture needs.
     """
     crossed = cofactors(matrix).T
-    return crossed / dot(crossed[0], np.asarray(matrix)[:, 0])
+    return crossed / dot(crossed[0], array(matrix)[:, 0])
 
 
 def cofactors(matrix) -> np.ndarray:
     """Return the cofactor matrix of a (3, 3) matrix, which maps the cross product of two vectors to the cross product
     of their images; right to gamma(2) of the lengths of its columns.
     """
-    first, second, third = np.asarray(matrix, np.float64).T
-    return np.array([cross(second, third), cross(third, first), cross(first, second)]).T
+    first, second, third = array(matrix).T
+    return array([cross(second, third), cross(third, first), cross(first, second)]).T
 
 
 def is_one(components) -> bool:

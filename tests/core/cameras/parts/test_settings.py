@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 
+from camera_ray_caster.core.cameras.parts.parameters import values_of
 from camera_ray_caster.core.cameras.parts.settings import (
     ABOVE_ZERO,
     Choice,
@@ -13,7 +14,6 @@ from camera_ray_caster.core.cameras.parts.settings import (
     Number,
     Numbers,
     span,
-    values_of,
 )
 from camera_ray_caster.core.records import BlenderCamera, InputError
 

@@ -167,7 +167,7 @@ class Calibration:
                 f"the calibration's matrix, {xx:.6g}, {xy:.6g}; {yx:.6g}, {yy:.6g}, maps all directions to nearly one "
                 "line of the picture: check skew and affine terms"
             )
-        if xy == yx == 0:
+        if not (xy or yx):
             return Window(*self.center, 1 / (xx * scale_x), 1 / (yy * scale_y))
         pitch, shear = (yy / volume / scale_x, xx / volume / scale_y), (xy / volume / scale_y, yx / volume / scale_x)
         return AffineWindow(*self.center, *pitch, *shear)

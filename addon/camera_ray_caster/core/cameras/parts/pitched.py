@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import cos, pi, sin
+from math import pi
 
 import numpy as np
 
+from ...maths.recording import cos, sin
 from ...maths.vector import components
 from ..model import Step
 from .radial import Radial

@@ -14,7 +14,7 @@ A. Sanchez-Salmeron (2010), thin prism.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from functools import cached_property
 from math import atan, hypot, inf, radians, tan
 
@@ -60,7 +60,7 @@ class RadialTangential:
     @property
     def bends(self) -> bool:
         """Whether there is any distortion."""
-        return self != RadialTangential()
+        return any(getattr(self, one.name) for one in fields(self))
 
     def gain(self, r_squared):
         """Return g and its derivative by r^2."""

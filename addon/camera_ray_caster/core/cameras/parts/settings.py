@@ -8,13 +8,13 @@ from __future__ import annotations
 
 import math
 from abc import ABC
-from collections.abc import Iterable
 from dataclasses import dataclass, field, fields
 from reprlib import repr as shortened
 from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
+from ...maths.recording import Varied
 from ...records import BlenderCamera, InputError
 
 FULL_TURN = 2 * math.pi
@@ -105,7 +105,7 @@ class Number(Setting):
             or not low - LIMIT_ROUNDING * abs(low) <= value <= high + LIMIT_ROUNDING * abs(high)  # NaN is not
         ):
             raise self.refusal(raw, self.in_words(value), self.range_in_words(low, high))
-        return float(value)
+        return value if isinstance(value, Varied) else float(value)
 
     def in_words(self, value) -> str:
         """Return a value with its unit."""
@@ -213,14 +213,21 @@ class Coefficients(Text):
 
         Raises InputError, which names the setting and its value.
         """
-        text = str(self.given(raw))
-        try:
-            numbers = tuple(map(float, text.strip(" []()").replace(",", " ").split()))
-        except ValueError:
-            numbers = ()
+        numbers = self.numbers(raw)
         if not (0 < len(numbers) <= self.most and all(abs(number) <= LARGEST for number in numbers)):
-            raise self.refusal(raw, shortened(text), f"1 to {self.most} finite numbers, from the constant up")
+            text = shortened(str(self.given(raw)))
+            raise self.refusal(raw, text, f"1 to {self.most} finite numbers, from the constant up")
         return numbers
+
+    def numbers(self, raw: BlenderCamera) -> tuple[float, ...]:
+        """Return the numbers as they are given; none for text that has anything else."""
+        given = self.given(raw)
+        if isinstance(given, tuple):
+            return given
+        try:
+            return tuple(map(float, str(given).strip(" []()").replace(",", " ").split()))
+        except ValueError:
+            return ()
 
 
 @dataclass(frozen=True)
@@ -281,11 +288,6 @@ def farthest_from_one(numbers: dict[str, float]) -> str:
     """Return, for a message, the number whose magnitude is farthest from 1 in ratio, with its name; 0 counts as 1."""
     name, value = max(numbers.items(), key=lambda item: abs(math.log(abs(item[1]))) if item[1] else 0.0)
     return f"{name} is {value:.6g}"
-
-
-def values_of(settings: Iterable[Setting], raw: BlenderCamera) -> dict[str, Any]:
-    """Return the values of some settings in a record, by name; see ``Setting.reported``."""
-    return {setting.name: setting.reported(raw) for setting in settings}
 
 
 def _plain(value):

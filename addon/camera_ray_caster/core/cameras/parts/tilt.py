@@ -12,10 +12,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import product
-from math import cos, sin
 
 import numpy as np
 
+from ...maths.recording import array, cos, sin
 from ...maths.vector import inverse
 
 
@@ -33,8 +33,8 @@ class Tilt:
     @cached_property
     def _matrix(self) -> np.ndarray:
         (cx, sx), (cy, sy) = ((cos(tau), sin(tau)) for tau in (self.tau_x, self.tau_y))
-        turn = np.array([[cy, 0, -sy], [0, 1, 0], [sy, 0, cy]]) @ [[1, 0, 0], [0, cx, sx], [0, -sx, cx]]
-        return np.array([[turn[2, 2], 0, -turn[0, 2]], [0, turn[2, 2], -turn[1, 2]], [0, 0, 1]]) @ turn
+        turn = array([[cy, 0, -sy], [0, 1, 0], [sy, 0, cy]]) @ array([[1, 0, 0], [0, cx, sx], [0, -sx, cx]])
+        return array([[turn[2, 2], 0, -turn[0, 2]], [0, turn[2, 2], -turn[1, 2]], [0, 0, 1]]) @ turn
 
     @cached_property
     def _inverse(self) -> np.ndarray:

@@ -71,7 +71,7 @@ class Unified(Calibrated):
         s = r_squared
         if self.alpha:
             root = np.sqrt(np.maximum(1 + (1 - 2 * self.alpha) * self.beta * s, 0.0))
-            if 0 < self.alpha <= 0.999:
+            if 0 <= self.alpha <= 0.999:
                 scale, ahead = self.alpha * root + (1 - self.alpha), 1 - self.beta * self.alpha**2 * s
             else:
                 scale = abs(1 - 2 * self.alpha)

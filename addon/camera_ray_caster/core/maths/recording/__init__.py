@@ -19,6 +19,7 @@ from .number import (
     stop_gradient,
 )
 from .record import DOMAIN, NUMPY, Operation, Record
+from .varied import Varied, array, cos, sin, tan
 
 __all__ = [
     "DOMAIN",
@@ -29,6 +30,9 @@ __all__ = [
     "Parameter",
     "Record",
     "Recorded",
+    "Varied",
+    "array",
+    "cos",
     "differentiate",
     "is_recorded",
     "look_up",
@@ -36,5 +40,7 @@ __all__ = [
     "may_hold",
     "record",
     "roundoff",
+    "sin",
     "stop_gradient",
+    "tan",
 ]  # fmt: skip

@@ -13,6 +13,7 @@ Reference: A. Griewank and A. Walther, Evaluating Derivatives, 2nd ed. (2008), c
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import cache
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -27,18 +28,20 @@ class Dual(NamedTuple):
     partials: tuple[Any, ...]
 
 
-def differentiate(record: Record, inputs: Sequence) -> tuple[Dual, ...]:
-    """Return the outputs of a record at these inputs, numbers or arrays that broadcast, with their partial derivatives.
+def differentiate(record: Record, inputs: Sequence, parameters: int = 0) -> tuple[Dual, ...]:
+    """Return the outputs of a record at these inputs, numbers or arrays that broadcast, with their partial derivatives:
+    by the inputs, and then by the parameters of the varied numbers of the formula, of which there are ``parameters``.
 
     The values are the same as with NUMPY. A partial derivative broadcasts with its value, and may have fewer axes.
     """
-    count = range(len(inputs))
+    count = range(len(inputs) + parameters)
     duals = [Dual(value, tuple(1.0 if k == own else None for k in count)) for own, value in enumerate(inputs)]
-    return record.evaluate(_dual_arithmetic(len(inputs)), duals)
+    return record.evaluate(dual_arithmetic(len(count)), duals)
 
 
-def _dual_arithmetic(count: int) -> Arithmetic:
-    """Return the arithmetic of duals with ``count`` partial derivatives."""
+@cache
+def dual_arithmetic(count: int) -> Arithmetic:
+    """Return the arithmetic of duals with ``count`` partial derivatives; the last are those of varied numbers."""
     zero = (None,) * count
     special: dict[str, Callable] = {
         "where": lambda condition, yes, no: Dual(
@@ -47,13 +50,14 @@ def _dual_arithmetic(count: int) -> Arithmetic:
         "minimum": lambda a, b: Dual(np.minimum(a.value, b.value), _select(a.value <= b.value, a, b)),
         "maximum": lambda a, b: Dual(np.maximum(a.value, b.value), _select(a.value >= b.value, a, b)),
         "all": lambda settled: NUMPY["all"](settled.value),
+        "varied": lambda value, slopes: Dual(value, zero[len(slopes) :] + slopes),
     }
 
     def flat(function: Callable) -> Callable:
         return lambda *given: Dual(function(*(one.value if isinstance(one, Dual) else one for one in given)), zero)
 
-    rest = {name: _with_slopes(name) if name in SLOPES else flat(function) for name, function in NUMPY.items()}
-    return rest | special
+    rest = {name: flat(function) for name, function in NUMPY.items()}
+    return rest | {name: _with_slopes(name) for name in SLOPES} | special
 
 
 def _select(condition, yes: Dual, no: Dual) -> tuple[Any, ...]:
@@ -66,7 +70,7 @@ def _select(condition, yes: Dual, no: Dual) -> tuple[Any, ...]:
 
 def _with_slopes(name: str) -> Callable:
     """Return an operation on duals, by the chain rule."""
-    function, slopes = NUMPY[name], SLOPES[name]
+    function, slopes = getattr(np, name), SLOPES[name]
 
     def apply(*operands: Dual) -> Dual:
         values = [operand.value for operand in operands]
@@ -111,7 +115,11 @@ SLOPES: dict[str, tuple[Callable, ...]] = {
     "sinh": (lambda f, a: np.cosh(a),),
     "cosh": (lambda f, a: np.sinh(a),),
     "tanh": (lambda f, a: 1 / np.cosh(a) ** 2,),
+    "arcsinh": (lambda f, a: 1 / np.hypot(1, a),),
+    "arccosh": (lambda f, a: 1 / np.sqrt((a - 1) * (a + 1)),),
+    "arctanh": (lambda f, a: 1 / ((1 - a) * (1 + a)),),
+    "cbrt": (lambda f, a: f / (3 * a),),
 }
 """Partial derivatives with respect to each operand, from the result and the operands. Operations that are not listed
-are constant between jumps, or select one of their operands.
+are constant between jumps, or select one of their operands. The last four are those of varied numbers alone.
 """

@@ -11,6 +11,7 @@ import numpy as np
 
 from ...conventions import EPS
 from .record import COMPARISONS, LOGICAL, NUMERIC, Operation, Record, repeat
+from .varied import Varied
 
 
 class Parameter(float):
@@ -53,7 +54,7 @@ def loop(body: Callable, state: Sequence, most: int) -> Sequence:
         return repeat(body, state, most, np.all)
     tape = next(value for value in state if is_recorded(value)).tape
     start = [tape.own(value, "a loop") for value in state]
-    inner = _Tape()
+    inner = _Tape(varies=False)
     after, settled = body(*(inner.add("input", fixed=(i,), truth=value.truth) for i, value in enumerate(start)))
     after = [inner.own(value, "a loop") for value in after]
     if [value.truth for value in after] != [value.truth for value in start]:
@@ -89,8 +90,9 @@ def roundoff(number):
 class _Tape:
     """The steps of a record under construction."""
 
-    def __init__(self):
+    def __init__(self, varies: bool = True):
         self.steps: list[Operation] = []
+        self._varies = varies  # whether varied numbers keep their derivatives
         self._known: dict[tuple, int] = {}
 
     def add(self, operation: str, operands: Sequence[Recorded] = (), fixed: tuple = (), truth: bool = False):
@@ -109,6 +111,8 @@ class _Tape:
             return value
         if isinstance(value, Parameter):
             return self.add("parameter", fixed=(float(value), value.name))
+        if isinstance(value, Varied) and self._varies:
+            return self.add("varied", fixed=(float(value), value.slopes))
         if isinstance(value, bool | np.bool_):
             return self.add("constant", fixed=(bool(value),), truth=True)
         if np.ndim(value) or not isinstance(np.asarray(value).item(), Real):

@@ -53,6 +53,7 @@ class Operation:
 
     In addition to the operations above there are: ``input`` (fixed: its index among the inputs), ``constant`` (fixed: a
     float64 or a bool), ``parameter`` (fixed: a float64 and its name; only if a formula was given a ``Parameter``),
+    ``varied`` (fixed: a float64 and its derivatives by parameters; only if a formula was given a ``Varied`` number),
     ``where``, ``stop_gradient`` (its operand, without derivatives), ``roundoff`` (of the arithmetic of the evaluation:
     2**-53 in float64), ``searchsorted`` (of a number in a table; fixed: the ascending table and numpy's side), ``take``
     (a table's entry at an integer; fixed: the table), ``loop`` (of its initial state; fixed: its body and the largest
@@ -140,6 +141,7 @@ NUMPY: Arithmetic = {
     **{name: getattr(np, name) for name in NUMERIC | COMPARISONS | LOGICAL | {"where", "all"}},
     "constant": lambda value: value,
     "parameter": lambda value, name: value,
+    "varied": lambda value, slopes: value,
     "roundoff": lambda: EPS,
     "stop_gradient": lambda a: a,
     "searchsorted": lambda number, table, side: np.searchsorted(table, number, side).astype(np.float64),

@@ -1,0 +1,52 @@
+"""The values of settings, and the real numbers among them, by which pictures change smoothly: a camera's parameters."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import replace
+from typing import Any
+
+from ...maths.recording import Varied
+from ...records import BlenderCamera
+from .settings import RECORD_FIELDS, Coefficients, Number, Numbers, Setting, Whole
+
+
+def values_of(settings: Iterable[Setting], raw: BlenderCamera) -> dict[str, Any]:
+    """Return the values of some settings in a record, by name; see ``Setting.reported``."""
+    return {setting.name: setting.reported(raw) for setting in settings}
+
+
+def parameters_of(settings: Iterable[Setting], raw: BlenderCamera) -> dict[str, float]:
+    """Return the real numbers of some settings in a record, by name and in order.
+
+    The numbers of a vector or a polynomial have their places beside the name: "ray_1[0]". Whole numbers are left out.
+    """
+    return {name: value for setting in settings for name, value in _named(setting, raw).items()}
+
+
+def with_parameters(settings: Iterable[Setting], raw: BlenderCamera, numbers: Iterable[float]) -> BlenderCamera:
+    """Return the record with these numbers in place of those of ``parameters_of``."""
+    rest = iter(numbers)
+    fields: dict[str, Any] = {}
+    others: dict[str, Any] = {}
+    for setting in settings:
+        own = tuple(next(rest) for _ in _named(setting, raw))
+        if own:
+            (fields if setting.name in RECORD_FIELDS else others)[setting.name] = _value(setting, own)
+    return replace(raw, **fields, settings={**raw.settings, **others})
+
+
+def _named(setting: Setting, raw: BlenderCamera) -> dict[str, float]:
+    if isinstance(setting, Number):
+        return {} if isinstance(setting, Whole) else {setting.name: float(setting.given(raw))}
+    several = setting.numbers(raw) if isinstance(setting, Coefficients) else ()
+    several = setting.given(raw) if isinstance(setting, Numbers) else several
+    return {f"{setting.name}[{place}]": float(number) for place, number in enumerate(several)}
+
+
+def _value(setting: Setting, numbers: tuple[float, ...]) -> Any:
+    """Return the value in a record: text for a polynomial, unless its numbers vary."""
+    if isinstance(setting, Number):
+        return numbers[0]
+    plain = isinstance(setting, Coefficients) and not any(isinstance(number, Varied) for number in numbers)
+    return " ".join(repr(float(number)) for number in numbers) if plain else numbers

@@ -1,0 +1,97 @@
+"""Numbers that vary: plain numbers with their derivatives by some parameters, such as the settings of a camera.
+
+A formula from parameters to constants runs on them as on any float, branches and refusals included; where the constants
+meet recorded numbers they become steps ``varied`` of the record, and ``differentiate`` gives the derivatives by the
+parameters beside those by the inputs. A varied number is true, even if it is 0: truth asks whether a term may be left
+out, and its derivative may not. Comparisons are those of its value.
+Arrays of float64, loops and tables take the value alone: what they compute (limits, guesses, iterations to a root that
+are followed by a step of Newton's method) is constant, or has the derivatives of that step. ``array`` makes an array
+that keeps them.
+Reference: A. Griewank and A. Walther, Evaluating Derivatives, 2nd ed. (2008), chapter 3 (forward mode).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from numbers import Real
+from typing import Any
+
+import numpy as np
+
+from .derivatives import Dual, dual_arithmetic
+from .record import COMPARISONS, LOGICAL
+
+FLAT = COMPARISONS | LOGICAL | {
+    "sign", "floor", "ceil", "rint", "greater", "greater_equal", "not_equal", "isfinite", "isnan",
+}  # fmt: skip
+"""Operations that have no derivative but 0."""
+
+
+class Varied(float):
+    """A number with ``slopes``: its derivative by each parameter, None for 0."""
+
+    slopes: tuple[float | None, ...]
+
+    def __new__(cls, value: float, slopes: tuple[float | None, ...]):
+        """Return the number with these derivatives."""
+        number = super().__new__(cls, value)
+        number.slopes = slopes
+        return number
+
+    def __bool__(self) -> bool:
+        return True
+
+    def __array_ufunc__(self, ufunc, method, *operands, **options):
+        if all(isinstance(one, Real) for one in operands) and ufunc.__name__ not in FLAT:
+            return _apply(ufunc.__name__, *operands)
+        if not all(isinstance(one, Real | np.ndarray) for one in operands):
+            return NotImplemented
+        kept = any(getattr(one, "dtype", None) == np.dtype(object) for one in operands)
+        put = (lambda one: np.asarray(one, object)) if kept else float
+        values = [put(one) if isinstance(one, Varied) else one for one in operands]
+        return getattr(ufunc, method)(*values, **options)
+
+
+def array(parts: Any) -> np.ndarray:
+    """Return an array of float64, or of objects if one of the parts is a varied number."""
+    if isinstance(parts, np.ndarray) and parts.dtype != object:
+        return np.asarray(parts, np.float64)
+    found = np.array(parts, object)
+    return found if any(isinstance(one, Varied) for one in found.flat) else found.astype(np.float64)
+
+
+def _apply(name: str, *operands: Any) -> Any:
+    count = next(len(one.slopes) for one in operands if isinstance(one, Varied))
+    zero = (None,) * count
+    duals = [Dual(float(one), one.slopes if isinstance(one, Varied) else zero) for one in operands]
+    known = dual_arithmetic(count)
+    if name not in known:
+        raise NotImplementedError(f"{name} of a setting has no derivative: write it by numpy's functions that record")
+    found = known[name](*duals)
+    return Varied(found.value, tuple(None if one is None else float(one) for one in found.partials))
+
+
+def _operator(name: str, swapped: bool = False) -> Callable:
+    def apply(self, *other):
+        if not all(isinstance(one, Real) for one in other):
+            return NotImplemented
+        return _apply(name, *other, self) if swapped else _apply(name, self, *other)
+
+    return apply
+
+
+for _word, _name in {"add": "add", "sub": "subtract", "mul": "multiply", "truediv": "divide", "pow": "power"}.items():
+    setattr(Varied, f"__{_word}__", _operator(_name))
+    setattr(Varied, f"__r{_word}__", _operator(_name, swapped=True))
+for _word, _name in {"neg": "negative", "abs": "absolute"}.items():
+    setattr(Varied, f"__{_word}__", _operator(_name))
+
+
+def _function(name: str) -> Callable[[float], float]:
+    plain = getattr(math, name)
+    return lambda number: _apply(name, number) if isinstance(number, Varied) else plain(number)
+
+
+sin, cos, tan = _function("sin"), _function("cos"), _function("tan")
+"""Those of the module math, also for varied numbers."""
