@@ -50,7 +50,7 @@ def camera_facts(camera: Camera) -> dict[str, object]:
         **({"plane_from_pixels": _plane(camera.model)} if isinstance(camera.model, WindowModel) else {}),
         "world_to_opencv": camera.world_to_opencv.tolist(),
         "settings": dict(camera.settings),
-        "formula": [step._asdict() for step in camera.model.FORMULA],
+        "formula": [step._asdict() for step in camera.model.steps],
     }
 
 

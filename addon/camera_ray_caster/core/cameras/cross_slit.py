@@ -55,8 +55,8 @@ class CrossSlit(WindowModel):
             "Normals of the planes through P and each slit (point s, direction l)",
             "n_1 = l_1 × (P - s_1), n_2 = l_2 × (P - s_2)",
         ),
-        Step("Direction, ahead", "m = n_1 × n_2, d = -m / m_z"),
-        Step("Origin, on the camera's plane", "o = P - d"),
+        Step("Direction, ahead", "m = n_1 × n_2, r = -m / m_z"),
+        Step("Origin, on the camera's plane", "o = P - r"),
     )
 
     @classmethod

@@ -38,7 +38,7 @@ class CubemapFace(WindowModel):
     SETTINGS = SHIFT
     FORMULA = (
         Step("Angles across and up", "alpha = (x/W - 1/2 + shift_x) pi/2, beta = (y/H - 1/2 + shift_y) pi/2"),
-        Step("Direction, of any length", "d = (tan(alpha), tan(beta), -1)"),
+        Step("Direction, of any length", "r = (tan(alpha), tan(beta), -1)"),
     )
 
     @classmethod

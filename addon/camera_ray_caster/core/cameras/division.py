@@ -44,8 +44,8 @@ class Division(Calibrated):
     SETTINGS = (*CALIBRATION, LAMBDA)
     FORMULA = (
         COORDINATES,
-        Step("Radius and depth", "r = sqrt(a² + b²), n = 1 + lambda r²"),
-        Step("Direction", "d = (a, b, -n) / sqrt(r² + n²)"),
+        Step("Radius and depth", "rho = sqrt(a² + b²), n = 1 + lambda rho²"),
+        Step("Direction", "r = (a, b, -n) / sqrt(rho² + n²)"),
     )
 
     @classmethod

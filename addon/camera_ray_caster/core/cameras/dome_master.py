@@ -17,8 +17,8 @@ from ..records import BlenderCamera, Raster
 from .fisheye_equidistant import FisheyeEquidistant
 from .model import Step
 from .parts.film import SHIFT, Window
-from .parts.pitched import PITCH, TILT, Pitched
-from .parts.radial import FOV, RADIUS, RAY, ROUND_PLANE
+from .parts.pitched import LENS_RAY, PITCH, TILT, Pitched
+from .parts.radial import FOV, RADIUS, ROUND_PLANE
 
 
 @dataclass(frozen=True)
@@ -32,7 +32,7 @@ class DomeMaster(Pitched, FisheyeEquidistant):
     number = 7
     SETTINGS = (FOV, TILT, *SHIFT)
     FORMULA = (
-        ROUND_PLANE, RADIUS, Step("Angle from the zenith", "theta = r fov / 2"), RAY, PITCH,
+        ROUND_PLANE, RADIUS, Step("Angle from the zenith", "theta = rho fov / 2"), LENS_RAY, PITCH,
         Step("Elevation of the axis", "e = 90° - tilt"),
     )  # fmt: skip
 

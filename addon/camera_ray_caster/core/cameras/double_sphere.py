@@ -30,10 +30,10 @@ class DoubleSphere(Unified):
     FORMULA = (
         COORDINATES,
         RADIUS,
-        Step("Lengths", "D = alpha sqrt(1 + (1 - 2 alpha) r²) + 1 - alpha, N = 1 - alpha² r²"),
-        Step("On the second sphere", "s = D r / sqrt(D² r² + N²), c = N / sqrt(D² r² + N²)"),
+        Step("Lengths", "D = alpha sqrt(1 + (1 - 2 alpha) rho²) + 1 - alpha, N = 1 - alpha² rho²"),
+        Step("On the second sphere", "s = D rho / sqrt(D² rho² + N²), c = N / sqrt(D² rho² + N²)"),
         Step("Distance from the second sphere's center to the first sphere", "t = xi c + sqrt(1 - xi² s²)"),
-        Step("Direction", "d = (a/r t s, b/r t s, xi - t c)"),
+        Step("Direction", "r = (a/rho t s, b/rho t s, xi - t c)"),
     )
 
     @classmethod

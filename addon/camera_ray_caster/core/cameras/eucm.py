@@ -30,8 +30,8 @@ class EnhancedUnifiedCamera(Unified):
     FORMULA = (
         COORDINATES,
         RADIUS,
-        Step("Lengths", "D = alpha sqrt(1 + (1 - 2 alpha) beta r²) + 1 - alpha, N = 1 - beta alpha² r²"),
-        Step("Direction", "d = (D a, D b, -N) / sqrt(D² r² + N²)"),
+        Step("Lengths", "D = alpha sqrt(1 + (1 - 2 alpha) beta rho²) + 1 - alpha, N = 1 - beta alpha² rho²"),
+        Step("Direction", "r = (D a, D b, -N) / sqrt(D² rho² + N²)"),
     )
 
     @classmethod

@@ -18,7 +18,7 @@ from ..records import BlenderCamera, Raster
 from .model import Step
 from .parts.calibration import CALIBRATION, K1, K2, K3, K4, K5, K6, P1, P2, S1, S2, S3, S4, Calibration
 from .parts.kannala_brandt import KannalaBrandt
-from .parts.radial import COORDINATES, RAY
+from .parts.radial import DISTORTED, RAY
 from .parts.radial_tangential import RadialTangential
 
 RADIAL = K1, K2, K3, K4, K5, K6
@@ -35,12 +35,20 @@ class Fisheye624(KannalaBrandt):
     number = 20
     SETTINGS = (*CALIBRATION, *RADIAL, *REST)
     FORMULA = (
-        COORDINATES,
-        Step("Undistorted across, by Newton's method", "a + 2 p1 a b + p2 (r² + 2 a²) + s1 r² + s2 r⁴, r² = a² + b²"),
-        Step("Undistorted down, b also down", "b + p1 (r² + 2 b²) + 2 p2 a b + s3 r² + s4 r⁴"),
-        Step("Angle, by Newton's method", "r = theta (1 + k1 theta² + k2 theta⁴ + ... + k6 theta¹²)"),
+        DISTORTED,
+        Step("Radius of the undistorted a and b, y up, found by Newton's method", "rho = sqrt(a² + b²)"),
+        Step("Their distortion across gives u", "u = a - 2 p1 a b + p2 (rho² + 2 a²) + s1 rho² + s2 rho⁴"),
+        Step("Their distortion down gives v", "v = -b + p1 (rho² + 2 b²) - 2 p2 a b + s3 rho² + s4 rho⁴"),
+        Step(
+            "Angle, by Newton's method",
+            "rho = theta (1 + k1 theta² + k2 theta⁴ + k3 theta⁶ + k4 theta⁸ + k5 theta¹⁰ + k6 theta¹²)",
+        ),
         RAY,
     )
+
+    def formula_values(self, x, y):
+        """See KannalaBrandt; also the undistorted coordinates."""
+        return self.undistorted(x, y) | super().formula_values(x, y)
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> Fisheye624:

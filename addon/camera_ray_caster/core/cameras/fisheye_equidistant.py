@@ -33,7 +33,7 @@ class FisheyeEquidistant(Radial):
     factors_by_polynomials = True
     by_polynomials = True
     SETTINGS: ClassVar[tuple[Setting, ...]] = (FISHEYE_FOV, *SHIFT)
-    FORMULA: ClassVar[tuple[Step, ...]] = (WHOLE_PLANE, RADIUS, Step("Angle from the axis", "theta = r fov / 2"), RAY)
+    FORMULA: ClassVar[tuple[Step, ...]] = (WHOLE_PLANE, RADIUS, Step("Angle from the axis", "theta = rho fov / 2"), RAY)
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> FisheyeEquidistant:

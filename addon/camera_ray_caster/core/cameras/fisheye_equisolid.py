@@ -35,7 +35,7 @@ class FisheyeEquisolid(Radial):
     FORMULA: ClassVar[tuple[Step, ...]] = (
         SENSOR_PLANE,
         RADIUS,
-        Step("Angle from the axis", "theta = 2 asin(r / (2 lens))"),
+        Step("Angle from the axis", "theta = 2 asin(rho / (2 lens))"),
         RAY,
     )
 

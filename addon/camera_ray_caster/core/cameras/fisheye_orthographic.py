@@ -29,7 +29,7 @@ class FisheyeOrthographic(Radial):
     description = "The half sphere ahead, as seen from far away"
     number = 2
     SETTINGS = (FOV, *SHIFT)
-    FORMULA = (ROUND_PLANE, RADIUS, Step("Angle from the axis", "theta = asin(r sin(fov / 2))"), RAY)
+    FORMULA = (ROUND_PLANE, RADIUS, Step("Angle from the axis", "theta = asin(rho sin(fov / 2))"), RAY)
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> FisheyeOrthographic:

@@ -57,7 +57,7 @@ class FisheyePolynomial(Radial):
     by_polynomials = True
     SETTINGS = (*COEFFICIENTS, FISHEYE_FOV, *FILM)
     FORMULA = (
-        SENSOR_PLANE, RADIUS, Step("Angle from the axis", "theta = -(k0 + k1 r + k2 r² + k3 r³ + k4 r⁴)"), RAY,
+        SENSOR_PLANE, RADIUS, Step("Angle from the axis", "theta = -(k0 + k1 rho + k2 rho² + k3 rho³ + k4 rho⁴)"), RAY,
     )  # fmt: skip
 
     @classmethod

@@ -37,7 +37,7 @@ class FisheyeStereographic(Radial):
     FORMULA: ClassVar[tuple[Step, ...]] = (
         ROUND_PLANE,
         RADIUS,
-        Step("Angle from the axis", "theta = 2 atan(r tan(fov / 4))"),
+        Step("Angle from the axis", "theta = 2 atan(rho tan(fov / 4))"),
         RAY,
     )
 

@@ -23,9 +23,7 @@ from .parts.film import FARTHEST_PIXELS
 from .parts.radial import COORDINATES, RADIUS, RAY, radii_of
 from .parts.settings import Number
 
-OMEGA = Number(
-    "fov_omega", "Omega", "Angle of the fisheye; 0 is a pinhole", 1.0, 0.0, radians(179), "angle", digits=4
-)
+OMEGA = Number("fov_omega", "Omega", "Angle of the fisheye; 0 is a pinhole", 1.0, 0.0, radians(179), "angle", digits=4)
 
 PINHOLE = 1e-8
 """Omega up to which r differs from tan(theta) by less than rounding."""
@@ -47,7 +45,7 @@ class FieldOfView(Calibrated):
     FORMULA = (
         COORDINATES,
         RADIUS,
-        Step("Angle from the axis", "theta = atan(tan(r omega) / (2 tan(omega / 2)))"),
+        Step("Angle from the axis", "theta = atan(tan(rho omega) / (2 tan(omega / 2)))"),
         RAY,
     )
 

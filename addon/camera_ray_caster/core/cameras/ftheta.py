@@ -15,7 +15,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from math import inf, pi
+from math import inf, pi, sqrt
 
 from numpy.polynomial import Polynomial
 
@@ -24,7 +24,7 @@ from ..maths.polynomials import horner, positive_roots
 from ..maths.speed import lazy
 from ..records import BlenderCamera, Raster
 from .model import Step
-from .parts.calibrated import Calibrated
+from .parts.calibrated import Calibrated, in_words
 from .parts.calibration import PRINCIPAL_POINT, Calibration
 from .parts.radial import RAY, factors_of, radii_of
 from .parts.settings import ABOVE_ZERO, Choice, Coefficients, Item, Number
@@ -95,15 +95,32 @@ class FTheta(Calibrated):
     by_polynomials = True
     SETTINGS = (*PRINCIPAL_POINT, REFERENCE, *POLYNOMIALS.values(), C, D, E, MAX_ANGLE)
     FORMULA = (
-        Step("Pixels, or mm, from the center, v down", "u = x - 1/2 - cx, v = H - y - 1/2 - cy"),
         Step(
-            "On a sensor perpendicular to the axis of the lens",
-            "(u', v') = ((c, d), (e, 1))⁻¹ (u, v), r² = u'² + v'², a = u', b = -v'",
+            "From the center x_0, y_0, v down, in units of the calibration, of s_x and s_y pixels of the frame",
+            "u = (x - x_0) / s_x, v = (y_0 - y) / s_y",
         ),
-        Step("Angle, forward, by Newton's method", "r = k1 theta + k2 theta² + ..."),
-        Step("Angle, backward", "theta = k1 r + k2 r² + ..."),
+        Step(
+            "On a sensor perpendicular to the axis of the lens, y up",
+            "a = (u - d v) / (c - d e), b = (e u - c v) / (c - d e), rho = sqrt(a² + b²)",
+        ),
+        Step("Angle, forward, by Newton's method", "rho = k1 theta + k2 theta² + ..."),
+        Step("Angle, backward", "theta = k1 rho + k2 rho² + ..."),
         RAY,
     )
+
+    @property
+    def steps(self) -> tuple[Step, ...]:
+        """See Model: with the polynomial of these settings."""
+        *before, forward, backward, ray = self.FORMULA
+        given, found = ("theta", "rho") if self.forward else ("rho", "theta")
+        words = (forward if self.forward else backward).words
+        return (*before, Step(words, f"{found} = {in_words('k', 1, self.polynomial, given)}"), ray)
+
+    def formula_values(self, x, y):
+        """See Model: the coefficients, and the angle that is found by iteration."""
+        values = {f"k{i}": k for i, k in enumerate(self.polynomial, 1)}
+        rho = sqrt(self._r_squared(x, y))
+        return values | ({"theta": float(self._inverse(rho))} if self.forward and rho <= self.own_rim else {})
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> FTheta:

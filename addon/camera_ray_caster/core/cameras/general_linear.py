@@ -62,9 +62,15 @@ class GeneralLinear(Model):
     SETTINGS: ClassVar[tuple[Setting, ...]] = RAYS
     FORMULA: ClassVar[tuple[Step, ...]] = (
         Step("Place in the frame", "alpha = x/W, beta = y/H"),
-        Step("Ray through (s, t, 0) and (u, v, -1)", "(1 - alpha - beta) ray_1 + alpha ray_2 + beta ray_3"),
-        Step("Origin and direction", "o = (s, t, 0), d = (u - s, v - t, -1)"),
+        Step("Origin, among those of the three rays", "o = (1 - alpha - beta) o_1 + alpha o_2 + beta o_3"),
+        Step("At depth 1, among the points of the three rays", "q = (1 - alpha - beta) q_1 + alpha q_2 + beta q_3"),
+        Step("Direction", "r = q - o"),
     )
+
+    def formula_values(self, x, y):
+        """See Model: where the three rays pierce the camera's plane, and the plane at depth 1."""
+        origins = {f"o_{k}": np.array((s, t, 0.0)) for k, (s, t, _, _) in enumerate(self.three, 1)}
+        return origins | {f"q_{k}": np.array((u, v, -1.0)) for k, (_, _, u, v) in enumerate(self.three, 1)}
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> GeneralLinear:

@@ -27,7 +27,7 @@ class Mirrorball(FisheyeEquisolid):
     label = "Mirror Ball"
     description = "All directions, as reflected by a small chrome sphere"
     SETTINGS = SHIFT
-    FORMULA = (WHOLE_PLANE, RADIUS, Step("Angle from the axis", "theta = 2 asin(r)"), RAY)
+    FORMULA = (WHOLE_PLANE, RADIUS, Step("Angle from the axis", "theta = 2 asin(rho)"), RAY)
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> Mirrorball:

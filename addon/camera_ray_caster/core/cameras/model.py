@@ -94,7 +94,14 @@ class Model(ABC):
     into the record, the report and the table of models are made from them.
     """
     FORMULA: ClassVar[tuple[Step, ...]]
-    """Steps of the formula from the pixel (x, y) to the ray."""
+    """Steps of the formula from the pixel (x, y) to the ray: r is its direction, of any length, o its origin, rho a
+    radius in the picture. Each step assigns names, worked out from settings, facts, ``formula_values`` and other steps.
+    """
+
+    @property
+    def steps(self) -> tuple[Step, ...]:
+        """FORMULA as it is for these settings: with as many terms of a polynomial as there are coefficients."""
+        return self.FORMULA
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> Self:

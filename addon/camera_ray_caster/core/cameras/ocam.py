@@ -26,7 +26,7 @@ from ..maths.polynomials import horner, positive_roots
 from ..maths.speed import lazy
 from ..records import BlenderCamera, Raster
 from .model import Step
-from .parts.calibrated import Calibrated
+from .parts.calibrated import Calibrated, in_words
 from .parts.calibration import PRINCIPAL_POINT, Calibration
 from .parts.radial import radii_of
 from .parts.settings import Coefficients, Number
@@ -61,13 +61,27 @@ class OCam(Calibrated):
     by_polynomials = True
     SETTINGS = (*PRINCIPAL_POINT, POLYNOMIAL, C, D, E)
     FORMULA = (
-        Step("Pixels, or mm, from the center, v down", "u = x - 1/2 - cx, v = H - y - 1/2 - cy"),
         Step(
-            "On a sensor perpendicular to the axis of the lens", "(u', v') = ((1, e), (d, c))⁻¹ (u, v), r² = u'² + v'²"
+            "From the center x_0, y_0, v down, in units of the calibration, of s_x and s_y pixels of the frame",
+            "u = (x - x_0) / s_x, v = (y_0 - y) / s_y",
         ),
-        Step("Behind the picture", "f = a0 + a1 r + a2 r² + ..."),
-        Step("Direction", "d = (u', -v', f) / sqrt(r² + f²)"),
+        Step(
+            "On a sensor perpendicular to the axis of the lens, y up",
+            "a = (c u - e v) / (c - d e), b = (d u - v) / (c - d e), rho = sqrt(a² + b²)",
+        ),
+        Step("Behind the picture", "f = a0 + a1 rho + a2 rho² + ..."),
+        Step("Direction", "r = (a, b, f) / sqrt(rho² + f²)"),
     )
+
+    @property
+    def steps(self) -> tuple[Step, ...]:
+        """See Model: with the polynomial of these settings."""
+        *before, behind, ray = self.FORMULA
+        return (*before, Step(behind.words, f"f = {in_words('a', 0, self.polynomial, 'rho')}"), ray)
+
+    def formula_values(self, x, y):
+        """See Model: the coefficients."""
+        return {f"a{i}": a for i, a in enumerate(self.polynomial)}
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> OCam:

@@ -22,6 +22,7 @@ from ..maths.vector import components
 from ..records import BlenderCamera, InputError, Raster
 from .model import Step, WindowModel
 from .parts.film import Window
+from .parts.meridians import RAY
 from .parts.settings import FULL_TURN, STEREO, Choice, Item, Number
 from .parts.silhouette import longitude_latitude, pixel_bounds, turned
 
@@ -63,10 +64,17 @@ class OmnidirectionalStereo(WindowModel):
     smooth = False  # if both eyes have a picture, rays jump between them
     SETTINGS = (EYE, DISTANCE)
     FORMULA = (
-        Step("Longitude and latitude in the eye's picture", "lon = (x/W - 1/2) 360°, lat = (y/H - 1/2) 180°"),
-        Step("Origin, s = -1 for the left eye, +1 for the right eye", "o = s distance/2 (cos(lon), 0, sin(lon))"),
-        Step("Direction", "d = (cos(lat) sin(lon), sin(lat), -cos(lat) cos(lon))"),
+        Step("Longitude and latitude at X, Y of the eye's picture", "lon = (X/W - 1/2) 360°, lat = (Y/H - 1/2) 180°"),
+        Step(
+            "Origin, on the circle of the eyes; s = -1 for the left eye, +1 for the right eye",
+            "o = (s radius cos(lon), 0, s radius sin(lon))",
+        ),
+        RAY,
     )
+
+    def formula_values(self, x, y):
+        """See Model: the place in the eye's picture, the eye's side, and half the distance of the eyes."""
+        return dict(zip("XYs", map(float, self._one_eye(x, y)), strict=True)) | {"radius": self.radius}
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> OmnidirectionalStereo:

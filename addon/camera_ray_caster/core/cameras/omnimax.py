@@ -23,8 +23,8 @@ from ..maths.vector import components
 from ..records import BlenderCamera, Raster
 from .model import Step
 from .parts.film import SHIFT, Window
-from .parts.pitched import PITCH, TILT, Pitched
-from .parts.radial import RADIUS, RAY, Radial, factors_of, radii_of
+from .parts.pitched import LENS_RAY, PITCH, TILT, Pitched
+from .parts.radial import RADIUS, Radial, factors_of, radii_of
 
 ASPECT = 1.283458
 LINEAR, CUBIC, QUINTIC = 1.411269, -0.09439, 0.25674
@@ -88,18 +88,20 @@ class Omnimax(Pitched, OmnimaxLens):
     by_polynomials = True
     SETTINGS = (TILT, *SHIFT)
     FORMULA = (
-        Step("Pixel on the film, its top at 1, at most 1.283458 as wide as high", "(a, b), see the references"),
+        Step(
+            "Pixel on the film, its top at 1, at most 1.283458 as wide as high",
+            "a = left + x/W (right - left), b = bottom + y/H (top - bottom)",
+        ),
         RADIUS,
-        Step("Angle from the axis", "theta = 1.411269 r - 0.09439 r³ + 0.25674 r⁵"),
-        RAY,
-        Step("No ray more than 45° below the axis", "d_y < d_z"),
+        Step("Angle from the axis", "theta = 1.411269 rho - 0.09439 rho³ + 0.25674 rho⁵"),
+        Step(f"{LENS_RAY.words}; no ray more than 45° below the axis, where d_y < d_z", LENS_RAY.symbols),
         PITCH,
         Step("Elevation of the axis", "e = tilt"),
     )
 
     def formula_values(self, x: float, y: float) -> dict[str, Any]:
-        """See Model: the pixel on the film."""
-        return dict(zip("ab", map(float, self._plane(x, y)), strict=True))
+        """See Model: the frame's edges on the film."""
+        return dict(zip(("left", "right", "bottom", "top"), self.window.extent(self.frame), strict=True))
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> Omnimax:

@@ -32,7 +32,7 @@ class OpencvFisheye(KannalaBrandt):
     FORMULA = (
         COORDINATES,
         RADIUS,
-        Step("Angle, by Newton's method", "r = theta (1 + k1 theta² + k2 theta⁴ + k3 theta⁶ + k4 theta⁸)"),
+        Step("Angle, by Newton's method", "rho = theta (1 + k1 theta² + k2 theta⁴ + k3 theta⁶ + k4 theta⁸)"),
         RAY,
     )
 

@@ -22,7 +22,7 @@ from ..records import BlenderCamera, Raster
 from .model import Step, WindowModel
 from .parts.calibration import CALIBRATION, PINHOLE, Calibration
 from .parts.film import OFF_AXIS
-from .parts.radial import up_to
+from .parts.radial import DISTORTED, up_to
 from .parts.radial_tangential import RadialTangential
 from .parts.silhouette import angular_radius, pixel_bounds, radial_intervals
 from .parts.tilt import Tilt
@@ -43,14 +43,21 @@ class OpencvPinhole(WindowModel):
     planar = True
     SETTINGS = (*CALIBRATION, *PINHOLE)
     FORMULA = (
-        Step("On the sensor, y down", "v = (H - y - 1/2 - cy) / fy, u = (x - 1/2 - cx - skew v) / fx"),
-        Step("Distorted coordinates, T the tilt by tau_x and tau_y", "(u, v, 1) ~ T⁻¹ (u, v, 1)"),
-        Step("Undistorted, by Newton's method", "distort(X, Y) = (u, v)"),
-        Step("Gain, r² = X² + Y²", "g = (1 + k1 r² + k2 r⁴ + k3 r⁶) / (1 + k4 r² + k5 r⁴ + k6 r⁶)"),
-        Step("Distortion across", "X g + 2 p1 X Y + p2 (r² + 2 X²) + s1 r² + s2 r⁴"),
-        Step("Distortion down", "Y g + p1 (r² + 2 Y²) + 2 p2 X Y + s3 r² + s4 r⁴"),
-        Step("Direction", "d = (X, -Y, -1)"),
+        DISTORTED,
+        Step("Without the tilt by tau_x and tau_y", "m = u t_1 + v t_2 + t_3, a = m_x / m_z, b = m_y / m_z"),
+        Step(
+            "Gain at the undistorted X and Y, y down, found by Newton's method",
+            "rho = sqrt(X² + Y²), g = (1 + k1 rho² + k2 rho⁴ + k3 rho⁶) / (1 + k4 rho² + k5 rho⁴ + k6 rho⁶)",
+        ),
+        Step("Their distortion across gives a", "a = X g + 2 p1 X Y + p2 (rho² + 2 X²) + s1 rho² + s2 rho⁴"),
+        Step("Their distortion down gives b", "b = Y g + p1 (rho² + 2 Y²) + 2 p2 X Y + s3 rho² + s4 rho⁴"),
+        Step("Direction", "r = (X, -Y, -1)"),
     )
+
+    def formula_values(self, x, y):
+        """See Model: the columns of the tilt's inverse, and the undistorted coordinates."""
+        X, up = map(float, self._undistorted(x, y))
+        return {f"t_{i}": column for i, column in enumerate(self.tilt.columns, 1)} | {"X": X, "Y": -up}
 
     @property
     def guarded(self) -> bool:  # type: ignore[override]

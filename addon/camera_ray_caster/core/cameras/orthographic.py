@@ -18,6 +18,15 @@ from .model import Step, WindowModel
 from .parts.film import FILM, ORTHO_SCALE, Window, off_axis
 from .parts.silhouette import pixel_bounds
 
+PLANE = (
+    Step("Pixel on the camera's plane", "X = (x - W/2 + shift_x V) q, Y = ((y - H/2) p + shift_y V) q"),
+    Step(
+        "Width of a pixel on the plane, V pixels on the fitted side, each p times as high as wide",
+        "q = ortho_scale / V",
+    ),
+)
+"""The first steps of models with an orthographic frame."""
+
 
 @dataclass(frozen=True)
 class Orthographic(WindowModel):
@@ -34,11 +43,7 @@ class Orthographic(WindowModel):
     ray_rounding = gamma(2)
     SETTINGS = (ORTHO_SCALE, *FILM)
     FORMULA = (
-        Step("Pixel on the camera's plane", "X = (x - W/2 + shift_x V) q, Y = ((y - H/2) p + shift_y V) q"),
-        Step(
-            "Width of a pixel on the plane, V pixels on the fitted side, each p times as high as wide",
-            "q = ortho_scale / V",
-        ),
+        *PLANE,
         Step("Origin", "o = eye + X u + Y v"),
         Step("Direction, the same for all", "r = w"),
         Step(

@@ -25,7 +25,7 @@ from .model import Step, WindowModel
 from .parts.lines import SLIT, image_axes, slit_from
 from .parts.settings import Number
 from .parts.silhouette import pinhole_interval, pixel_bounds
-from .perspective import Perspective
+from .perspective import PLANE, Perspective
 
 SLIDE = Number(
     "pencil_slide", "Slide",
@@ -54,10 +54,15 @@ class Pencil(WindowModel):
     by_polynomials = True
     SETTINGS = (SLIT, SLIDE, *Perspective.SETTINGS)
     FORMULA = (
-        Step("Direction, the pixel on the perspective window", "d = (X, Y, -1)"),
-        Step("Its tangent across the slit, l along it, n across, w ahead", "m = (n . d) / (w . d)"),
-        Step("Origin, on the slit", "o = point + slide m l"),
+        *PLANE,
+        Step("Direction", "r = (X, Y, -1)"),
+        Step("Its tangent across the slit, l along it, n across, c ahead", "m = (n . r) / (c . r)"),
+        Step("Origin, on the slit through s", "o = s + slide m l"),
     )
+
+    def formula_values(self, x, y):
+        """See Model: the slit."""
+        return dict(zip("slnc", (self.point, *self.axes), strict=True))
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> Pencil:

@@ -22,6 +22,15 @@ from .parts.film import FILM, LENS, Film, Window, off_axis
 from .parts.settings import Setting
 from .parts.silhouette import pinhole_interval, pixel_bounds
 
+PLANE = (
+    Step("Pixel on the plane at unit depth", "X = (x - W/2 + shift_x V) q, Y = ((y - H/2) p + shift_y V) q"),
+    Step(
+        "Width of a pixel on the plane, V pixels on the fitted side, each p times as high as wide",
+        "q = sensor / (lens V)",
+    ),
+)
+"""The first steps of models with a perspective window."""
+
 
 @dataclass(frozen=True)
 class Perspective(WindowModel):
@@ -36,11 +45,7 @@ class Perspective(WindowModel):
     ray_rounding = gamma(2)
     SETTINGS: ClassVar[tuple[Setting, ...]] = (LENS, *FILM)
     FORMULA: ClassVar[tuple[Step, ...]] = (
-        Step("Pixel on the plane at unit depth", "X = (x - W/2 + shift_x V) q, Y = ((y - H/2) p + shift_y V) q"),
-        Step(
-            "Width of a pixel on the plane, V pixels on the fitted side, each p times as high as wide",
-            "q = sensor / (lens V)",
-        ),
+        *PLANE,
         Step("Direction along the axes u, v, w", "r = X u + Y v + w"),
         Step("Normalized form over [-1, 1]², moved by the shift", "r = x u + aspect y v + d w, d = 1 / tan(fov / 2)"),
     )

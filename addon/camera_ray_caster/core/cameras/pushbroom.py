@@ -26,7 +26,7 @@ from .orthographic import Orthographic
 from .parts.film import ORTHO_SCALE
 from .parts.lines import SLIT, image_axes, slit_from
 from .parts.silhouette import pinhole_interval, pixel_bounds
-from .perspective import Perspective
+from .perspective import PLANE, Perspective
 
 
 @dataclass(frozen=True)
@@ -49,10 +49,18 @@ class Pushbroom(WindowModel):
     by_polynomials = True
     SETTINGS = (SLIT, ORTHO_SCALE, *Perspective.SETTINGS)
     FORMULA = (
-        Step("Point on the perspective window, a along the slit's picture, n across", "(X, Y)"),
-        Step("Origin, on the slit", "o: a . o = k a . (X, Y), k the orthographic frame over the perspective one"),
-        Step("Direction", "d = (n . (X, Y)) n + w"),
+        *PLANE,
+        Step(
+            "Origin, on the slit through s, with steps c of length 1 along its picture a; k is the orthographic frame "
+            "over the perspective one",
+            "P = X u + Y v, o = s + k (a . P) c",
+        ),
+        Step("Direction, n across the slit's picture", "m = n . P, r = m n + w"),
     )
+
+    def formula_values(self, x, y):
+        """See Model: the slit."""
+        return {"s": self.start, "c": self.step, "a": self.along, "n": self.across, "k": self.stretch}
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> Pushbroom:

@@ -18,8 +18,8 @@ from ..records import BlenderCamera, Raster
 from .fisheye_stereographic import WIDEST, FisheyeStereographic
 from .model import Step
 from .parts.film import SHIFT, Window
-from .parts.pitched import PITCH, Pitched
-from .parts.radial import FOV, RAY, ROUND_PLANE
+from .parts.pitched import LENS_RAY, PITCH, Pitched
+from .parts.radial import FOV, ROUND_PLANE
 from .parts.settings import Number
 
 ELEVATION = Number(
@@ -41,9 +41,10 @@ class StereographicPanorama(Pitched, FisheyeStereographic):
     SETTINGS = (FOV, ELEVATION, *SHIFT)
     FORMULA = (
         ROUND_PLANE,
-        Step("Angle from the axis", "theta = 2 atan(r tan(fov / 4)), r = sqrt(a² + b²)"),
-        RAY,
+        Step("Angle from the axis", "theta = 2 atan(rho tan(fov / 4)), rho = sqrt(a² + b²)"),
+        LENS_RAY,
         PITCH,
+        Step("Elevation of the axis", "e = elevation"),
     )
 
     @classmethod

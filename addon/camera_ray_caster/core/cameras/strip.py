@@ -26,7 +26,7 @@ from .parts.film import Window
 from .parts.lines import LINE_ROUNDING, path_from
 from .parts.settings import Flag, Line
 from .parts.silhouette import MARGIN
-from .perspective import Perspective
+from .perspective import PLANE, Perspective
 
 PATH = Line(
     "path",
@@ -76,11 +76,22 @@ class Strip(Model):
     smooth = False  # a path may bend between neighboring columns
     SETTINGS = (PATH, FOLLOW, *Perspective.SETTINGS)
     FORMULA = (
-        Step("Origin, at the pixel's share of the path's length", "o = path(x/W)"),
-        Step("Where the column looks, level: ahead, or to the left of the path", "f"),
-        Step("Row of the perspective window", "Y = ((y - H/2) a + shift_y V) q"),
-        Step("Direction", "d = f + Y v"),
+        Step("Place between the points A and B of the path, whose columns are x_A, x_B", "f = (x - x_A) / (x_B - x_A)"),
+        Step("Origin", "o = A + f (B - A)"),
+        Step("Normal of the column, level, between those at A and B", "n = (1 - f) n_A + f n_B"),
+        Step("Where the column looks", "h = (n_z, 0, -n_x) / sqrt(n_x² + n_z²)"),
+        Step("Row of the perspective window", PLANE[0].symbols.partition(", ")[2]),
+        PLANE[1],
+        Step("Direction", "r = h + Y v"),
     )
+
+    def formula_values(self, x, y):
+        """See Model: the stretch of the path on which the column is."""
+        k = int(np.clip(np.searchsorted(self.columns, x, side="right") - 1, 0, len(self.columns) - 2))
+        level = np.insert(self.normals, 1, 0.0, axis=1)
+        parts = ("x", self.columns), ("n", level)
+        ends = {f"{name}_{end}": values[at] for name, values in parts for end, at in (("A", k), ("B", k + 1))}
+        return ends | {"A": self.eyes[k], "B": self.eyes[k + 1]}
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> Strip:

@@ -17,7 +17,7 @@ from ..records import BlenderCamera, Raster
 from .model import Step
 from .parts.calibration import CALIBRATION, K1, K2, K3, K4, P1, P2, S1, S3, Calibration
 from .parts.kannala_brandt import KannalaBrandt
-from .parts.radial import COORDINATES, RAY
+from .parts.radial import DISTORTED, RAY
 from .parts.radial_tangential import RadialTangential
 
 DISTORTION = K1, K2, P1, P2, K3, K4, S1, S3
@@ -33,13 +33,20 @@ class ThinPrismFisheye(KannalaBrandt):
     number = 21
     SETTINGS = (*CALIBRATION, *DISTORTION)
     FORMULA = (
-        COORDINATES,
-        Step("Undistorted across, by Newton's method", "a g + 2 p1 a b + p2 (r² + 2 a²) + s1 r², r² = a² + b²"),
-        Step("Undistorted down, b also down", "b g + p1 (r² + 2 b²) + 2 p2 a b + s3 r²"),
-        Step("Gain", "g = 1 + k1 r² + k2 r⁴ + k3 r⁶ + k4 r⁸"),
-        Step("Angle from the axis", "theta = r"),
+        DISTORTED,
+        Step(
+            "Gain at the undistorted a and b, y up, found by Newton's method",
+            "rho = sqrt(a² + b²), g = 1 + k1 rho² + k2 rho⁴ + k3 rho⁶ + k4 rho⁸",
+        ),
+        Step("Their distortion across gives u", "u = a g - 2 p1 a b + p2 (rho² + 2 a²) + s1 rho²"),
+        Step("Their distortion down gives v", "v = -b g + p1 (rho² + 2 b²) - 2 p2 a b + s3 rho²"),
+        Step("Angle from the axis", "theta = rho"),
         RAY,
     )
+
+    def formula_values(self, x, y):
+        """See Model: the undistorted coordinates."""
+        return self.undistorted(x, y)
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> ThinPrismFisheye:

@@ -18,7 +18,7 @@ from ..maths.recording import array
 from ..records import BlenderCamera, Raster
 from .general_linear import STEEPEST, GeneralLinear
 from .model import Step
-from .orthographic import Orthographic
+from .orthographic import PLANE, Orthographic
 from .parts.film import ORTHO_SCALE, check_slope
 from .parts.lines import SLIT, image_axes, slit_from
 from .parts.settings import Number
@@ -35,6 +35,9 @@ TWIST = Number(
 class TwistedOrthographic(GeneralLinear):
     """A general linear camera, given by its rays at three corners of the orthographic frame."""
 
+    axis: np.ndarray
+    """On the camera's plane, a point of the axis and the directions along and across it, (3, 3)."""
+
     key = "TWISTED_ORTHOGRAPHIC"
     label = "Twisted Orthographic"
     description = "Parallel rays whose direction turns along an axis"
@@ -42,10 +45,15 @@ class TwistedOrthographic(GeneralLinear):
     by_polynomials = True
     SETTINGS = (SLIT, TWIST, *Orthographic.SETTINGS)
     FORMULA = (
-        Step("Origin, the pixel on the orthographic frame", "o = X u + Y v"),
-        Step("Slope across the axis, l along it and n across", "m = twist (o - point) . l"),
-        Step("Direction", "d = m n + w"),
+        *PLANE,
+        Step("Origin", "o = X u + Y v"),
+        Step("Slope across the axis, which goes through s; l along it, n across", "m = twist ((o - s) . l)"),
+        Step("Direction", "r = m n + w"),
     )
+
+    def formula_values(self, x, y):
+        """See Model: the axis."""
+        return dict(zip("sln", self.axis, strict=True))
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> TwistedOrthographic:
@@ -58,4 +66,5 @@ class TwistedOrthographic(GeneralLinear):
         slopes = TWIST.read(raw) * ((places - point[:2]) @ along[:2])
         check_slope(raw, float(np.abs(slopes).max()), (TWIST, ORTHO_SCALE), STEEPEST)
         ends = places + slopes[:, None] * across[:2]
-        return cls(raster.size, np.concatenate((places, ends), axis=1))
+        axis = np.stack((point, along, across)) * (1.0, 1.0, 0.0)
+        return cls(raster.size, np.concatenate((places, ends), axis=1), axis)

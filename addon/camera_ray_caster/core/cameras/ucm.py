@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from ..records import BlenderCamera, Raster
 from .model import Step
 from .parts.calibration import CALIBRATION, K1, K2, P1, P2, Calibration
-from .parts.radial import COORDINATES, RAY
+from .parts.radial import DISTORTED, RAY
 from .parts.unified import XI, Unified
 
 DISTORTION = K1, K2, P1, P2
@@ -31,12 +31,23 @@ class UnifiedCamera(Unified):
     number = 17
     SETTINGS = (*CALIBRATION, XI, *DISTORTION)
     FORMULA = (
-        COORDINATES,
-        Step("Undistorted, by Newton's method, y down", "distort(a, -b): a g + 2 p1 a b + p2 (r² + 2 a²), ..."),
-        Step("Gain, r² = a² + b²", "g = 1 + k1 r² + k2 r⁴"),
-        Step("Angle from the axis", "r = sin(theta) / (xi + cos(theta))"),
+        DISTORTED,
+        Step(
+            "Gain at the undistorted a and b, y up, found by Newton's method",
+            "rho = sqrt(a² + b²), g = 1 + k1 rho² + k2 rho⁴",
+        ),
+        Step("Their distortion across gives u", "u = a g - 2 p1 a b + p2 (rho² + 2 a²)"),
+        Step("Their distortion down gives v", "v = -b g + p1 (rho² + 2 b²) - 2 p2 a b"),
+        Step(
+            "Angle from the axis, seen from the center and from xi behind it",
+            "phi = atan(rho), theta = phi + asin(xi sin(phi))",
+        ),
         RAY,
     )
+
+    def formula_values(self, x, y):
+        """See Model: the undistorted coordinates."""
+        return self.undistorted(x, y)
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> UnifiedCamera:

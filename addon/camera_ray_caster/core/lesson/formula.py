@@ -2,13 +2,14 @@
 
 A formula is text for readers: ``theta = 2 asin(r / (2 f))``, ``d = (a, b, -n) / sqrt(r² + n²)``. Adjacent terms are
 multiplied, from left to right together with divisions. A superscript is a power, ° the factor from degrees to radians,
-× the cross product. m_z is the last component of a vector m that was assigned.
+× the cross product, a point between spaces the dot product. m_x, m_y and m_z are the components of a vector m that was
+assigned.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -18,25 +19,26 @@ FUNCTIONS = {
     "sqrt": np.sqrt, "min": np.minimum, "max": np.maximum,
 }  # fmt: skip
 POWERS = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹", "0123456789")
-TOKEN = re.compile(r"\s*(?:(\d+\.?\d*)|([A-Za-z_][A-Za-z_0-9]*'?)|([⁰¹²³⁴⁵⁶⁷⁸⁹]+)|(°)|([-+*/(),×]))")
+TOKEN = re.compile(r"\s*(?:(\d+\.?\d*)|([A-Za-z_][A-Za-z_0-9]*'?)|([⁰¹²³⁴⁵⁶⁷⁸⁹]+)|(°)|(\.\s|[-+*/(),×]))")
 
 
-class Cross:
-    """The cross product of the vectors on both sides: ``a @ cross @ b``, with the precedence of a product."""
+class Product:
+    """A product of the vectors on both sides: ``a @ cross @ b``, with the precedence of a product of numbers."""
 
     __array_ufunc__ = None  # numpy leaves @ to this class
 
-    def __init__(self, first=None):
-        self._first = first
+    def __init__(self, of: Callable, first=None):
+        self._of, self._first = of, first
 
     def __rmatmul__(self, first):
-        return Cross(first)
+        return Product(self._of, first)
 
     def __matmul__(self, second):
-        return np.cross(self._first, second)
+        return self._of(self._first, second)
 
 
-SIGNS = {"degree": np.pi / 180, "cross": Cross()}
+SIGNS = {"degree": np.pi / 180, "cross": Product(np.cross), "dot": Product(np.vdot)}
+PRODUCTS = {"×": "@cross@", ".": "@dot@"}
 NAME = re.compile(r"[A-Za-z_][A-Za-z_0-9]*'?")
 PRODUCT = re.compile(r"(?<=[\w)⁰¹²³⁴⁵⁶⁷⁸⁹°'])\s+(?=[\w(])")
 """The space between two factors."""
@@ -79,7 +81,7 @@ def value(expression: str, known: Mapping[str, Any]) -> Any:
                 return None
             words.append(f"known[{name!r}]")
         else:
-            sign = "@cross@" if sign == "×" else sign
+            sign = sign and PRODUCTS.get(sign.strip(), sign)
             words.append(number or name or sign or (degrees and "*degree") or f"**{power.translate(POWERS)}")
         ended = bool(sign == ")" if sign else name not in FUNCTIONS)
     try:
@@ -109,7 +111,7 @@ def worked_out(formulas: Sequence[tuple[str, Mapping[str, Any]]], known: Mapping
                 lines[at] = f"{name} = {result}" if put_in == result else f"{name} = {put_in} = {result}"
                 known[name] = found
                 if np.ndim(found):
-                    known[f"{name}_z"] = found[-1]
+                    known |= {f"{name}_{axis}": part for axis, part in zip("xyz", found, strict=True)}
     return [[lines[at] for at in sorted(lines) if parts[at][0] == k] for k in range(len(formulas))]
 
 

@@ -11,6 +11,8 @@ import numpy as np
 
 from ..camera.camera import Camera
 from ..cameras.model import WindowModel
+from ..cameras.parts.calibrated import Calibrated
+from ..cameras.parts.calibration import PRINCIPAL_POINT, Calibration
 from ..cameras.parts.film import Film
 from ..cast import MOST_SAMPLES, cast
 from ..casting.hit_values import HitValues
@@ -177,14 +179,15 @@ def _formula(camera: Camera, seen: Probe):
     yield model.label
     with np.errstate(all="ignore"):  # the pixel may have no ray
         given, moved = model.formula_values(x, y), {}
+    given = {name: number for name, number in given.items() if np.isfinite(number).all()}
     if given:
         yield f"with {', '.join(f'{name} = {shown(number)}' for name, number in given.items())}"
     if isinstance(model, WindowModel):
         plane = model.window.plane_from_pixels(x, y)
         pitch = model.window.pitch_x, model.window.pitch_y
         moved = {name: 2 * X / (q * side) for name, X, q, side in zip("xy", plane, pitch, model.frame, strict=True)}
-    formulas = [(step.symbols, moved if NORMALIZED in step.words else {}) for step in model.FORMULA]
-    for step, lines in zip(model.FORMULA, worked_out(formulas, _known(camera, x, y) | given), strict=True):
+    formulas = [(step.symbols, moved if NORMALIZED in step.words else {}) for step in model.steps]
+    for step, lines in zip(model.steps, worked_out(formulas, _known(camera, x, y) | given), strict=True):
         yield f"{step.words}: {step.symbols}"
         yield from (f"  {line}" for line in lines)
     with np.errstate(all="ignore"):  # NaN means: no ray
@@ -204,21 +207,22 @@ def _known(camera: Camera, x: float, y: float) -> dict[str, Any]:
     model, raster = camera.model, camera.raster
     facts: dict[str, Any] = dict(model.facts())
     numbers = {name: number for name, number in (camera.settings | facts).items() if type(number) in (int, float)}
-    known: dict[str, Any] = {}
+    known: dict[str, Any] = dict(zip("uvw", np.diag([1.0, 1.0, -1.0]), strict=True))
+    known |= {"e": np.zeros(3), "eye": np.zeros(3)}
     for name, number in reversed(numbers.items()):
         parts = name.split("_")
         known |= {"_".join(parts[start:]): number for start in range(1, len(parts))}
     known |= numbers
     known |= {"pi": np.pi, "W": raster.width, "H": raster.height, "x": x, "y": y, "p": raster.pixel_aspect}
-    known |= dict(zip("uvw", np.diag([1.0, 1.0, -1.0]), strict=True)) | {"e": np.zeros(3), "eye": np.zeros(3)}
     if "field_of_view" in facts:
         known["fov"] = np.radians(facts["field_of_view"][0])
     if camera.K is not None:
         (known["fx"], known["skew"], known["cx"]), (_, known["fy"], known["cy"]), _ = camera.K
-    if isinstance(model, WindowModel):
-        film = Film.from_blender(camera.record, raster)
-        known |= {"sensor": film.size, "V": film.fitted_pixels}
-    return known
+    if isinstance(model, Calibrated):
+        calibration = Calibration.from_blender(camera.record, raster, settings=PRINCIPAL_POINT)
+        known |= dict(zip(("x_0", "y_0", "s_x", "s_y"), calibration.center + calibration.scale, strict=True))
+    film = Film.from_blender(camera.record, raster)
+    return known | {"sensor": film.size, "V": film.fitted_pixels}
 
 
 def _world(camera: Camera, seen: Probe) -> tuple[str, ...]:

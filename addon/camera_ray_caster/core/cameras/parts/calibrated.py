@@ -8,6 +8,7 @@ where r(theta) stops growing, or where the distortion stops being one-to-one, wh
 from __future__ import annotations
 
 from abc import abstractmethod
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Self
@@ -19,6 +20,14 @@ from .film import FARTHEST_PIXELS
 from .radial import RIM_SLACK, Radial
 from .radial_tangential import RadialTangential
 from .silhouette import angular_radius, pixel_bounds, radial_intervals
+
+SUPERSCRIPTS = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
+
+
+def in_words(name: str, first: int, coefficients: Sequence[float], variable: str) -> str:
+    """Return a polynomial as a formula, such as "k1 theta + k2 theta²"; ``first`` is the power of the first term."""
+    powers = ["", f" {variable}", *(f" {variable}{str(i).translate(SUPERSCRIPTS)}" for i in range(2, 99))]
+    return " + ".join(f"{name}{i}{powers[i]}" for i in range(first, first + len(coefficients)))
 
 
 @dataclass(frozen=True)
@@ -66,6 +75,10 @@ class Calibrated(Radial):
         if not self.distortion.bends:
             return super().rays(x, y)
         return (0.0, 0.0, 0.0), tuple(on_raster(self._directions, x, y, count=3))
+
+    def undistorted(self, x: float, y: float) -> dict[str, float]:
+        """Return a and b of a pixel on the undistorted plane, y up, as values for a formula."""
+        return dict(zip("ab", map(float, self._plane(x, y)), strict=True))
 
     def _directions(self, x, y):
         a, b = self._plane(x, y)

@@ -21,7 +21,7 @@ from .film import Window
 from .settings import FULL_TURN
 from .silhouette import longitude_latitude, pixel_bounds, turned
 
-RAY = Step("Direction", "d = (cos(lat) sin(lon), sin(lat), -cos(lat) cos(lon))")
+RAY = Step("Direction", "r = (cos(lat) sin(lon), sin(lat), -cos(lat) cos(lon))")
 
 
 def longitude(low: str, high: str) -> Step:

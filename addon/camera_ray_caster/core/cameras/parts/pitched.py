@@ -10,13 +10,14 @@ import numpy as np
 from ...maths.recording import cos, sin
 from ...maths.vector import components
 from ..model import Step
-from .radial import Radial
+from .radial import RAY, Radial
 from .settings import Number
 
 TILT = Number("tilt", "Dome Tilt", "Angle by which the dome is tilted towards the front", 0.0, 0.0, pi / 2, "angle", 4)
 
+LENS_RAY = Step("Direction in the frame of the lens, with the same azimuth", RAY.symbols.replace("r = ", "d = ", 1))
 PITCH = Step(
-    "Turned up by the elevation e about the camera's X", "(d_x, d_y cos(e) - d_z sin(e), d_y sin(e) + d_z cos(e))"
+    "Turned up by the elevation e about the camera's X", "r = (d_x, d_y cos(e) - d_z sin(e), d_y sin(e) + d_z cos(e))"
 )
 
 

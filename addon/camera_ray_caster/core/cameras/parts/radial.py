@@ -50,8 +50,11 @@ SENSOR_PLANE = Step(
 COORDINATES = Step(
     "Distorted coordinates, in focal lengths, y up", "b = (H - y - 1/2 - cy) / -fy, a = (x - 1/2 - cx + skew b) / fx"
 )
-RADIUS = Step("Radius", "r = sqrt(a² + b²); no ray beyond the rim")
-RAY = Step("Direction, with the same azimuth", "d = (a/r sin(theta), b/r sin(theta), -cos(theta))")
+DISTORTED = Step(
+    "Distorted coordinates, in focal lengths, y down", "v = (H - y - 1/2 - cy) / fy, u = (x - 1/2 - cx - skew v) / fx"
+)
+RADIUS = Step("Radius", "rho = sqrt(a² + b²); no ray beyond the rim")
+RAY = Step("Direction, with the same azimuth", "r = (a/rho sin(theta), b/rho sin(theta), -cos(theta))")
 
 TINY = 1e-300
 """A radius in place of r = 0: its square underflows, and its reciprocal is finite."""

@@ -40,6 +40,11 @@ class Tilt:
     def _inverse(self) -> np.ndarray:
         return inverse(self._matrix)
 
+    @property
+    def columns(self) -> np.ndarray:
+        """The columns, one a row, of the matrix that takes (u, v, 1) to a multiple of (x, y, 1)."""
+        return self._inverse.T
+
     def onto_sensor(self, x, y):
         """Return (u, v) on the sensor of points of the upright picture; NaN for points without an image there."""
         return _mapped(self._matrix, x, y)
