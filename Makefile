@@ -15,7 +15,7 @@ endif
 
 SCENE := blend_scenes/spheres_and_planes.blend
 
-.PHONY: cast test test-full test-hostile test-all test-blender lint check-model zip dist clean help
+.PHONY: cast test test-full test-hostile test-all test-blender lint check-model docs zip dist clean help
 
 cast: $(VENV)/ready  ## render the example scene into out/ and print the report
 	$(VENV)/bin/python scripts/cast.py $(SCENE) --output out
@@ -54,6 +54,9 @@ check-model: $(VENV)/ready  ## hold a camera model of your own to the contract o
 	$(VENV)/bin/python -m pytest -q -m "" --model "$(MODEL)" tests/core/cameras tests/core/truth tests/core/errors \
 		tests/core/camera/test_setting_derivatives.py
 
+docs: .venv/docs/ready  ## build the documentation site in out/site/; without Blender, warnings are errors
+	.venv/docs/bin/python -m sphinx -q -W --keep-going -c docs -d out/doctrees . out/site
+
 zip: $(VENV)/ready  ## build the extension for Blender in dist/
 	$(VENV)/bin/python scripts/make_zip.py dist
 
@@ -62,7 +65,7 @@ dist: zip  ## build the extension for Blender and the wheel for pip in dist/
 	rm -rf build
 
 clean:  ## remove everything that these commands made
-	rm -rf build out dist .venv addon/*.egg-info .hypothesis .mypy_cache .pytest_cache .ruff_cache
+	rm -rf build out dist docs/api docs/cameras .venv addon/*.egg-info .hypothesis .mypy_cache .pytest_cache .ruff_cache
 	find addon scripts tests -name __pycache__ -prune -exec rm -rf {} +
 
 help:  ## show this list
@@ -72,6 +75,11 @@ help:  ## show this list
 .venv/bpy-%/ready: pyproject.toml
 	$(PYTHON) -m venv --without-pip $(@D)
 	$(PYTHON) -m pip --python $(@D)/bin/python install --quiet --editable '.[test]' 'bpy==$*.*'
+	@touch $@
+
+.venv/docs/ready: pyproject.toml
+	$(PYTHON) -m venv --without-pip $(@D)
+	$(PYTHON) -m pip --python $(@D)/bin/python install --quiet --editable '.[docs]'
 	@touch $@
 
 # Pure Python only: Blender brings its own Python and its own numpy.
