@@ -29,7 +29,7 @@ exclude_patterns = [".venv*", "out", "dist", "build", "docs/lesson"]
 
 myst_heading_anchors = 3
 myst_enable_extensions = ["html_image"]
-myst_links_external_new_tab = False
+smartquotes = False  # u' is a name in a formula
 
 autodoc_member_order = "bysource"
 autodoc_typehints = "none"

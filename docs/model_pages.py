@@ -6,8 +6,9 @@ from pathlib import Path
 
 import make_docs  # in scripts/, beside the table of models
 import numpy as np
-from camera_ray_caster import cast, join, planes, spheres
+
 from camera_ray_caster import camera as make_camera
+from camera_ray_caster import cast, join, planes, spheres
 from camera_ray_caster.core.camera.camera import Camera
 from camera_ray_caster.core.cameras import MODELS
 from camera_ray_caster.core.cameras.model import GROUPS, Model
@@ -27,10 +28,18 @@ INDEX = """\
 
 {count} models. Each page has the formula, the settings with their units and ranges, and where the model ends. The
 [table of all models](../../addon/camera_ray_caster/core/cameras/README.md) is one page to search in; it has
-[the time of each pixel](../../addon/camera_ray_caster/core/cameras/README.md#the-time-of-each-pixel), too. A model of your own
-is [25 lines](../tutorials/camera_of_your_own.md).
+[the time of each pixel](../../addon/camera_ray_caster/core/cameras/README.md#the-time-of-each-pixel), too. A model of
+your own is [25 lines](../tutorials/camera_of_your_own.md).
 """
 ALL = "```{toctree}\n:hidden:\nAll in one table </addon/camera_ray_caster/core/cameras/README>\n```\n"
+WRITERS = """
+## Which format represents which model
+
+With the models' defaults.
+
+| format | represents |
+|---|---|
+"""
 PAGE = """\
 # {label}
 
@@ -126,7 +135,7 @@ def shot_of(model: type[Model]) -> Shot:
 
 def writers() -> str:
     """Return the table of the models that each export format represents."""
-    text = "\n## Which format represents which model\n\nWith the models' defaults.\n\n| format | represents |\n|---|---|\n"
+    text = WRITERS
     for one in FORMATS:
         able = [model.label for model in MODELS if one.refusal(shot_of(model)) is None]
         text += f"| `{one.key}` | {'all' if len(able) == len(MODELS) else ', '.join(able)} |\n"

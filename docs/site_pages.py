@@ -8,8 +8,9 @@ import re
 import shutil
 from pathlib import Path
 
-import camera_ray_caster as crc
 import model_pages  # in this folder
+
+import camera_ray_caster as crc
 from camera_ray_caster.core.casting import passes as declared
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -45,6 +46,7 @@ def setup(app):
     app.connect("builder-inited", make_pages)
     app.connect("source-read", adapt)
     app.connect("autodoc-process-docstring", as_rest)
+    app.connect("html-page-context", lead_back)
     app.connect("build-finished", add_files)
     return {"parallel_read_safe": True, "version": crc.__version__}
 
@@ -62,8 +64,8 @@ def adapt(app, page: str, source: list[str]) -> None:
     """Add the contents to the start page, and lead links to the table of models to the models' pages."""
     source[0] = TABLE.sub(r"(\1docs/cameras/index.md)", source[0])
     if page == "docs/index":
-        trees = (f"```{{toctree}}\n:hidden:\n:caption: {title}\n" + "\n".join(pages) for title, pages in CONTENTS.items())
-        source[0] += "".join(f"\n{tree}\n```\n" for tree in trees)
+        for title, pages in CONTENTS.items():
+            source[0] += "\n".join(("\n```{toctree}", ":hidden:", f":caption: {title}", *pages, "```\n"))
     elif page == "docs/formats":
         source[0] += model_pages.writers()
 
@@ -121,7 +123,8 @@ def passes() -> str:
         f"| `{name}` | {one.channels or 1} | {'as asked' if one.dtype is None else one.dtype.__name__} | {one.text} |\n"
         for name, one in declared.PASSES.items()
     )
-    return f"# Passes\n\n{model_pages.as_markdown(declared.__doc__)}\n\n| pass | channels | type | |\n|---|---|---|---|\n{rows}"
+    text = model_pages.as_markdown(declared.__doc__ or "")
+    return f"# Passes\n\n{text}\n\n| pass | channels | type | |\n|---|---|---|---|\n{rows}"
 
 
 def as_rest(app, what, name, thing, options, lines: list[str]) -> None:
@@ -146,6 +149,15 @@ def rest_of(lines: list[str]) -> list[str]:
             last = "text"
         last = "" if not line.strip() else "definition" if begins else last
     return found
+
+
+def lead_back(app, page: str, template, context, doctree) -> None:
+    """Lead a page of source back to the public names: viewcode asks for those of the modules that define them."""
+    if page.startswith("_modules/"):
+        for name, module in crc._MODULES.items():
+            context["body"] = re.sub(
+                rf"(?<=#camera_ray_caster){re.escape(module)}(?=\.{name}\b)", "", context.get("body", "")
+            )
 
 
 def add_files(app, error) -> None:

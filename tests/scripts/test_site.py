@@ -1,0 +1,114 @@
+"""The documentation site: built without Blender, with warnings as errors; its links, its pages of models and names."""
+
+import html
+import re
+import subprocess
+import sys
+from html.parser import HTMLParser
+from time import monotonic
+from urllib.parse import unquote, urlsplit
+
+import pytest
+
+import camera_ray_caster as crc
+
+from .running import ROOT
+
+pytestmark = pytest.mark.full
+pytest.importorskip("sphinx", reason="the extra docs is not installed")
+
+SECONDS = 120
+BUILD = """
+import sys
+class Refuse:
+    def find_spec(self, name, path=None, target=None):
+        if name.partition(".")[0] in {"bpy", "mathutils", "bmesh", "gpu", "imbuf"}:
+            raise ModuleNotFoundError(name, name=name)
+sys.meta_path.insert(0, Refuse())
+from sphinx.cmd.build import main
+sys.exit(main(sys.argv[1:]))
+"""
+"""Sphinx where Blender cannot be imported."""
+
+
+class Page(HTMLParser):
+    """What a page links to, and where it can be linked to."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.links, self.anchors = [], set()
+        self.feed(text)
+
+    def handle_starttag(self, tag, attrs):
+        """Keep links and anchors."""
+        found = dict(attrs)
+        self.anchors |= {found[key] for key in ("id", "name") if found.get(key)}
+        self.links += [found[key] for key in ("href", "src") if found.get(key)]
+
+
+@pytest.fixture(scope="module")
+def site(tmp_path_factory):
+    """The folder of the built site."""
+    folder = tmp_path_factory.mktemp("site")
+    words = ["-q", "-W", "--keep-going", "-E", "-c", ROOT / "docs", "-d", folder / "doctrees", ROOT, folder / "site"]
+    start = monotonic()
+    done = subprocess.run([sys.executable, "-c", BUILD, *map(str, words)], capture_output=True, text=True, timeout=600)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert monotonic() - start < SECONDS
+    return folder / "site"
+
+
+@pytest.fixture(scope="module")
+def pages(site):
+    """The pages by path."""
+    return {path: Page(path.read_text(encoding="utf-8")) for path in site.rglob("*.html")}
+
+
+def test_every_link_leads_somewhere(site, pages):
+    broken = []
+    for path, page in pages.items():
+        for link in page.links:
+            parts = urlsplit(link)
+            if parts.scheme or parts.netloc:
+                is_right = parts.scheme in {"https", "http", "data", "mailto"} and bool(parts.netloc or parts.path)
+            else:
+                target = (path.parent / unquote(parts.path)).resolve() if parts.path else path
+                is_right = target.exists() and target.is_relative_to(site)
+                if is_right and parts.fragment and target in pages:
+                    is_right = unquote(parts.fragment) in pages[target].anchors
+            if not is_right:
+                broken.append((path.relative_to(site).as_posix(), link))
+    assert broken == []
+    assert len(pages) > 50
+
+
+def test_no_page_asks_another_host_for_anything(site):
+    """Scripts, styles and fonts come with the site."""
+    asked = re.compile(r'<(?:script|img|iframe)[^>]* src="(?:https?:)?//|<link[^>]* href="(?:https?:)?//')
+    assert [path for path in site.rglob("*.html") if asked.search(path.read_text(encoding="utf-8"))] == []
+
+
+def test_every_public_name_is_documented(pages, site):
+    anchors = pages[site / "docs" / "api" / "index.html"].anchors
+    assert {name for name in crc.__all__ if f"camera_ray_caster.{name}" not in anchors} == set()
+
+
+@pytest.mark.parametrize("key", crc.models())
+def test_every_model_has_its_page(key, site):
+    """With its picture, all of its settings, its formula, and code that runs."""
+    text = (site / "docs" / "cameras" / f"{key.lower()}.html").read_text(encoding="utf-8")
+    assert re.search(r'<img alt="A room seen by this camera"[^>]* src="\.\./\.\./_images/\w+\.png"', text)
+    assert [one.name for one in crc.models()[key].SETTINGS if f">{one.name}<" not in text] == []
+    said = html.unescape(text)
+    assert [step for step in crc.models()[key].FORMULA if step.words not in said or step.symbols not in said] == []
+    source = (ROOT / "docs" / "cameras" / f"{key.lower()}.md").read_text(encoding="utf-8")
+    names = {}
+    exec(re.search(r"^```python\n(.*?)^```$", source, re.MULTILINE | re.DOTALL)[1], names)
+    assert names["rays"].directions.shape == (480, 640, 3)
+
+
+def test_the_start_leads_to_three_paths(site):
+    text = (site / "docs" / "index.html").read_text(encoding="utf-8")
+    paths = ["I work in computer vision", "I make pictures", "I teach, or learn"]
+    assert re.findall(r"<h2>(.*?)<a", text) == [*paths, "Install"]
+    assert "url=docs/index.html" in (site / "index.html").read_text(encoding="utf-8")
