@@ -88,16 +88,17 @@ def test_the_whole_way_is_shown(scene, slow, monkeypatch):
 def test_a_stop_ends_the_render_after_a_tile_and_leaves_no_report(scene, slow, monkeypatch):
     import bpy
 
-    from camera_ray_caster.blender.engine.engine import CameraRayCaster
+    from camera_ray_caster.blender.engine.engine import CameraRayCaster, RenderCall
     from camera_ray_caster.blender.output import reports
 
     scene.render.resolution_x = scene.render.resolution_y = 1000
     asked = []
     monkeypatch.setattr(CameraRayCaster, "advance", lambda self, fraction: bool(asked.append(fraction)))
-    bpy.ops.render.render()
+    with RenderCall().handed() as call:
+        bpy.ops.render.render()
     assert len(asked) == 1
     assert asked[0] < 0.5
-    assert CameraRayCaster.stopped
+    assert call.stopped
     assert reports.latest() is None
 
 

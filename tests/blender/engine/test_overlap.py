@@ -7,7 +7,7 @@ import bpy
 import numpy as np
 import pytest
 
-from camera_ray_caster.blender.engine.engine import CameraRayCaster
+from camera_ray_caster.blender.engine.engine import CameraRayCaster, RenderCall
 from camera_ray_caster.blender.output import reports
 
 
@@ -16,9 +16,9 @@ def ended(capfd):
     """A function that renders and checks that nothing is said, kept or left running."""
 
     def ended():
-        CameraRayCaster.stopped = False
-        bpy.ops.render.render()
-        assert CameraRayCaster.stopped
+        with RenderCall().handed() as call:
+            bpy.ops.render.render()
+        assert call.stopped
         assert reports.latest() is None
         assert "Error" not in "".join(capfd.readouterr())
 

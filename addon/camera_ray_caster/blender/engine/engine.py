@@ -1,8 +1,11 @@
 """The render engine: Blender requests a picture, ``job`` casts it, and Blender stores, shows and writes it."""
 
+from __future__ import annotations
+
 import math
-from collections.abc import Mapping
-from dataclasses import replace
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
 from functools import partial, reduce
 from operator import add
 
@@ -33,6 +36,29 @@ BAND_PIXELS = 1 << 18
 """
 
 
+@dataclass(eq=False)
+class RenderCall:
+    """What is handed to the engine for one render, and what it hands back. A render that Blender starts has none."""
+
+    picture: CyclesPicture | None = None
+    """Another engine's picture, which replaces the combined pass; None for our own."""
+    images: dict[tuple[str, str], Images] | None = None
+    """Images of the render, by layer and view; None if they are not kept."""
+    report: Report | None = None
+    """The report of all view layers; None if the render failed."""
+    stopped: bool = False
+    """Whether the render was stopped."""
+
+    @contextmanager
+    def handed(self) -> Iterator[RenderCall]:
+        """Let the engine have this call inside the context."""
+        CameraRayCaster.call = self
+        try:
+            yield self
+        finally:
+            CameraRayCaster.call = None
+
+
 class CameraRayCaster(Viewport, bpy.types.RenderEngine):
     """Rays of the scene's camera, cast at meshes, spheres and planes."""
 
@@ -43,12 +69,7 @@ class CameraRayCaster(Viewport, bpy.types.RenderEngine):
     """The view layer that is cast, and words for it."""
     done: Mapping[str, Report] = {}
     """Reports of this frame's view layers, by name."""
-    stopped = False
-    """Whether a render was stopped since the caller last set this to False."""
-    picture: CyclesPicture | None = None
-    """Another engine's picture, which replaces the combined pass; None for our own."""
-    images: dict[tuple[str, str], Images] | None = None
-    """Images of a render, by layer and view; None if they are not kept."""
+    call: RenderCall | None = None
 
     def update_render_passes(self, scene=None, renderlayer=None):
         """Tell the compositor which sockets a view layer has."""
@@ -64,7 +85,8 @@ class CameraRayCaster(Viewport, bpy.types.RenderEngine):
         try:
             self.render_or_report(depsgraph)
         except (Cancelled, KeyboardInterrupt, ReferenceError):
-            type(self).stopped = True
+            if self.call is not None:
+                self.call.stopped = True
 
     def render_or_report(self, depsgraph):
         """Render one view layer, or report why not."""
@@ -109,8 +131,9 @@ class CameraRayCaster(Viewport, bpy.types.RenderEngine):
         self.update_stats(*self.doing)
         keys = [entry.key for entry in wanted]
         given, made_by = {}, {"engine": self.bl_idname, "samples": depsgraph.scene_eval.camera_ray_caster.samples}
-        if self.picture is not None and "combined" in keys:
-            given, made_by = {"combined": self.picture.pixels[layer, view]}, self.picture.made_by
+        call = self.call or RenderCall()
+        if call.picture is not None and "combined" in keys:
+            given, made_by = {"combined": call.picture.pixels[layer, view]}, call.picture.made_by
 
         def store(images: Images, rows: slice) -> None:
             found = images | given
@@ -121,8 +144,8 @@ class CameraRayCaster(Viewport, bpy.types.RenderEngine):
             visit=partial(self.visit, depsgraph), view=view, eye=partial(self.eye, view=view),
         )  # fmt: skip
         images |= given
-        if self.images is not None:
-            self.images[layer, view] = images
+        if call.images is not None:
+            call.images[layer, view] = images
         views = {view: report.record} if view else {}
         return replace(report, passes=tuple(keys), combined=made_by, views=views)
 
@@ -174,7 +197,10 @@ class CameraRayCaster(Viewport, bpy.types.RenderEngine):
             if not finding.passed:
                 self.report({"WARNING"}, f"the reference check {finding.witness} failed: see the report")
         self.done = {layer: report} if layer in self.done else {**self.done, layer: report}
-        reports.keep(reduce(add, self.done.values()), source)
+        whole = reduce(add, self.done.values())
+        reports.keep(whole, source)
+        if self.call is not None:
+            self.call.report = whole
 
     def advance(self, fraction: float) -> bool:
         """Show the progress of the cast and the time; return whether to continue."""

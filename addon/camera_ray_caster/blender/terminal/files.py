@@ -1,8 +1,8 @@
 """A rendered frame as files: a picture, its passes as EXR or NPZ, and the report. All files appear, or none."""
 
 import os
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from contextlib import ExitStack, contextmanager, redirect_stdout
+from collections.abc import Iterable, Mapping, Sequence
+from contextlib import ExitStack, redirect_stdout
 from dataclasses import replace
 from math import ceil
 from pathlib import Path
@@ -20,8 +20,8 @@ from ...core.records import Cancelled, InputError
 from ...core.report.report import Report, as_json
 from ..cycles.picture import CyclesPicture
 from ..cycles.renderer import changed
-from ..engine.engine import CameraRayCaster
-from ..output import arrays, file_outputs, reports
+from ..engine.engine import RenderCall
+from ..output import arrays, file_outputs
 from ..output.annotations import ENDING, annotated
 from ..output.saving import blender_writes, check_whole
 from ..output.stamps import made
@@ -84,8 +84,9 @@ def render(
     if layers == NPZ:
         arrays.entry_names(layer.name for layer in scene.view_layers if layer.use)
     keeps = layers == NPZ or keypoints is not None
-    with _engine_has(scene, picture, {} if keeps else None) as images, atomic_folder(folder) as temporary:
-        report = _composited(scene, file_output)
+    call = RenderCall(picture, {} if keeps else None)
+    with atomic_folder(folder) as temporary:
+        report = _composited(scene, call, file_output)
         report = report if picture is None else report.with_seconds(cycles=picture.seconds)
         started = perf_counter()
         if shown:
@@ -94,12 +95,12 @@ def render(
             _save(scene, temporary / f"{name}.exr", LAYERS | ({"color_depth": "16"} if half else {}))
         else:
             suffixes = {view.name: view.file_suffix for view in scene.render.views}
-            arrays.save(temporary / f"{name}.npz", images, suffixes, half)
+            arrays.save(temporary / f"{name}.npz", call.images, suffixes, half)
             if half:
                 report = replace(report, accuracy=replace(report.accuracy, stored=float(arrays.HALF.eps) / 2))
         if keypoints is not None:
             shows = f"{name}.png" if shown else f"{name}.{layers.lower()}"
-            text = annotated(scene, next(iter(images.values())), shows, keypoints)
+            text = annotated(scene, next(iter(call.images.values())), shows, keypoints)
             (temporary / f"{name}{ENDING}").write_text(text, encoding="utf-8")
         report = report.with_seconds(files=perf_counter() - started)
         if stamp is not None:
@@ -117,55 +118,43 @@ def check(scene) -> None:
     _check_memory(scene)
 
 
-@contextmanager
-def _engine_has(scene, picture: CyclesPicture | None, images: dict | None) -> Iterator[dict | None]:
-    """Let the engine show another engine's picture and store its cast images in ``images``; yield ``images``.
-
-    Beside the picture of another engine, which shows the faces of meshes, meshes are not cast as exact shapes.
-    """
-    with ExitStack() as stack:
-        if picture is not None:
-            changed(stack, scene.camera_ray_caster, exact_shapes=False)
-        CameraRayCaster.picture, CameraRayCaster.images = picture, images
-        try:
-            yield images
-        finally:
-            CameraRayCaster.picture = CameraRayCaster.images = None
-
-
-def _composited(scene, file_output: bool) -> Report:
+def _composited(scene, call: RenderCall, file_output: bool) -> Report:
     """Render the current frame, with File Output nodes writing only if ``file_output``, and return the report."""
     nodes = file_outputs.writing(scene)
     if file_output:
         before = file_outputs.files(scene, nodes)
-        report = _rendered(scene)
+        report = _rendered(scene, call)
         written = file_outputs.changed(before, file_outputs.files(scene, nodes))
         return replace(report, file_outputs=written, warnings=(*report.warnings, *not_run()))
     with file_outputs.muted(nodes):
-        report = _rendered(scene)
+        report = _rendered(scene, call)
     return replace(report, warnings=(*report.warnings, *not_run(), *([NOT_WRITTEN] if nodes else [])))
 
 
-def _rendered(scene) -> Report:
-    """Render the current frame and return its report, with Blender's share of the time. Raises Cancelled if stopped."""
-    reports.forget()
-    CameraRayCaster.stopped = False
+def _rendered(scene, call: RenderCall) -> Report:
+    """Render the current frame and return its report, with Blender's share of the time. Raises Cancelled if stopped.
+
+    Beside the picture of another engine, which shows the faces of meshes, meshes are not cast as exact shapes.
+    """
     scene.render.use_sequencer = False  # strips would replace the cast picture
     if hasattr(scene.render, "use_render_cache"):  # before 5.2
         scene.render.use_render_cache = False  # cache files are placed by the scene's name
     started = perf_counter()
     try:
-        with redirect_stdout(None):  # warnings go into the report, errors into the exception
+        with ExitStack() as stack:
+            if call.picture is not None:
+                changed(stack, scene.camera_ray_caster, exact_shapes=False)
+            stack.enter_context(call.handed())
+            stack.enter_context(redirect_stdout(None))  # warnings go into the report, errors into the exception
             bpy.ops.render.render(scene=scene.name)
     except RuntimeError as error:
         raise InputError(reported(error)) from error
     elapsed = perf_counter() - started
-    report = reports.latest()
-    if CameraRayCaster.stopped:
+    if call.stopped:
         raise Cancelled
-    if report is None:
+    if call.report is None:
         raise RuntimeError("the render failed: see the messages in the terminal")
-    return report.with_seconds(blender=elapsed - sum(report.seconds.values()))
+    return call.report.with_seconds(blender=elapsed - sum(call.report.seconds.values()))
 
 
 def _save(scene, path: Path, settings) -> None:
