@@ -1,4 +1,4 @@
-"""Make a data set of cameras and frames of a .blend, in one process or on many machines.
+"""Make a data set of cameras and frames of a .blend, in one process or on many machines: ``cast.py --dataset``.
 
     python scripts/dataset.py FILE.blend --cameras ALL --frames 1:100                        in this process
     python scripts/dataset.py FILE.blend --cameras ALL --frames 1:100 --workers 4            in four

@@ -30,7 +30,9 @@ def origin(path):
 def test_each_camera_and_frame_has_its_files(command, scene, tmp_path):
     done = command("cast", scene, *WORDS, "--format", "npz", "--output", tmp_path / "out")
     assert (done.returncode, done.stderr) == (0, "")
-    assert done.stdout == f"Wrote 4 pictures into {tmp_path / 'out'}\n"
+    said, note = done.stdout.splitlines()
+    assert said == f"Wrote 4 pictures into {tmp_path / 'out'}"
+    assert note.startswith("'Sphere': the exact shape is up to 0.96% of its radius away from the mesh")
     stems = [f"{camera}_{frame}" for camera in ("Side", "Top") for frame in ("0001", "0003")]
     assert left(tmp_path / "out") == [f"{stem}.{kind}" for stem in stems for kind in ("json", "npz", "png")]
     assert origin(tmp_path / "out" / "Side_0003.npz") == [0, 0.5, 5]
@@ -153,7 +155,8 @@ def test_finished_files_are_taken(command, scene, tmp_path):
     (out / "Top_0001.json").write_text('{"made": [')
     done = command("cast", scene, *WORDS, "--skip-existing", "--output", out)
     assert (done.returncode, done.stderr) == (0, "")
-    assert done.stdout == f"Wrote 3 of 4 pictures into {out}; the other pictures were already finished\n"
+    said = done.stdout.splitlines()[0]
+    assert said == f"Wrote 3 of 4 pictures into {out}; the other pictures were already finished"
     after = states(out)
     assert after.keys() == before.keys()
     kept = {name for name in after if after[name] == before[name]}
@@ -193,6 +196,20 @@ def test_what_was_made_of_something_else_is_made_again(command, blender, scene, 
         done = command("cast", scene, *words, *other, "--skip-existing", "--output", tmp_path / "out")
         assert done.returncode == 0
         assert ("Wrote 0 of 1 pictures" in done.stdout) == is_finished
+
+
+def test_an_option_that_is_not_named_is_a_setting_of_the_pictures(registered, scene):
+    """``--skip-existing`` keeps no picture that was made with another value of an option which nobody thought of."""
+    from camera_ray_caster.blender.terminal.cast import _parser
+    from camera_ray_caster.blender.terminal.pictures import WHICH, Pictures, parsed
+
+    parser = _parser("cast.py")
+    parser.add_argument("--new", default="a word")
+    declared = {action.dest for action in parser._actions} - {"help"} | {"prog", "pictures"}
+    assert declared >= set(WHICH)
+    settings = Pictures(parsed(parser, [str(scene)])).stamp()["settings"]
+    assert settings["new"] == "a word"
+    assert settings.keys() == declared - set(WHICH) | {"calibration", "rig"}
 
 
 def test_a_witness_that_disagreed_still_does(command, scene, tmp_path):

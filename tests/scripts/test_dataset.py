@@ -159,7 +159,7 @@ REFUSED = {
     "--workers 2 --scheduler tcp://127.0.0.1:1": "not allowed with",
     "--scheduler tcp://127.0.0.1:1": "no Dask scheduler answers at 'tcp://127.0.0.1:1'",
     "--scheduler nothing://x": "'nothing://x' is not an address: give an address such as tcp://HOST:PORT",
-    "--shard 1/2": "unrecognized arguments",
+    "--frame 1": "not allowed with",
 }
 
 
@@ -210,6 +210,18 @@ def test_two_workers_make_what_one_process_makes(scene, out, tmp_path):
     assert left(out) == left(tmp_path / "one")
     for path in out.glob("*.npz"):
         assert path.read_bytes() == (tmp_path / "one" / path.name).read_bytes()
+
+
+@pytest.mark.full
+def test_a_cast_by_workers_is_one_by_this_process(scene, tmp_path):
+    one, two = tmp_path / "one", tmp_path / "two"
+    alone = script("cast", scene, *WORDS, "--format", "npz", "--output", one)
+    done = script("cast", scene, *WORDS, "--format", "npz", "--workers", "2", "--output", two)
+    assert (done.returncode, complaints(done.stderr)) == (0, [])
+    assert done.stdout == alone.stdout.replace(str(one), str(two))
+    assert left(one) == left(two)
+    for path in two.glob("*.npz"):
+        assert path.read_bytes() == (one / path.name).read_bytes()
 
 
 @pytest.fixture

@@ -1,16 +1,70 @@
-"""The command that renders a Blender file into pictures, passes and reports."""
+"""The command that renders a Blender file into pictures, passes and reports, by one process or several."""
 
+from __future__ import annotations
+
+import argparse
 from collections.abc import Sequence
+from itertools import chain
+from pathlib import Path
+
+import bpy
 
 from ...core.file_set import clear_up
+from ...core.report.notes import sentences
 from ..output.annotations import collect
+from . import dataset, farm, files
 from .options import add_frame, add_json, command_parser, show, warn
 from .pictures import Pictures, add_words, follow, parsed, summary
-from .words import add_frames, share
+from .words import add_frames, count, scheduler_address, share
 
 
 def run(arguments: Sequence[str], prog: str) -> int:
     """Render cameras and frames of a file into pictures, EXR or NPZ files and reports; return the exit status."""
+    options = parsed(_parser(prog), arguments)
+    pictures = Pictures(options)
+    for line in pictures.warnings:
+        warn(prog, line)
+    if options.dataset:
+        dataset.complete(options, pictures)
+    if options.skip_existing:
+        clear_up(options.output)
+    jobs, stamp = pictures.jobs(), pictures.stamp()
+    first = {job.camera: job for job in reversed(jobs)}
+    shared = bool(options.workers or options.scheduler)
+    if options.dataset or shared:
+        _make_absolute(options)
+        for job in first.values():
+            pictures.camera_at(job)  # refuse bad input before anything is made
+            files.check(pictures.scene)
+    several = len(jobs) != 1 or options.dataset or shared
+    passed, made = True, 0
+    notes: dict[tuple[str, str], None] = {}
+    exact: dict[tuple[str, float], None] = {}
+    with farm.cluster(options) as client:
+        maps = dataset.begin(pictures, first, stamp) if options.dataset else {}
+        if client is None:
+            outcomes = (pictures.make(job, stamp, prog, maps.get(job.camera)) for job in jobs)
+        else:
+            taken = {job: pictures.taken(job, stamp, maps.get(job.camera)) for job in jobs}
+            missing = [job for job in jobs if taken[job] is None]
+            outcomes = chain(filter(None, taken.values()), farm.outcomes(client, options, stamp, maps, missing))
+        for outcome in follow(outcomes, len(jobs), prog):
+            passed &= outcome.passed
+            made += outcome.made
+            notes |= dict.fromkeys(outcome.notes)
+            exact |= dict.fromkeys(outcome.exact)
+            if outcome.report is not None and (options.json or not several):
+                show(outcome.report, options.json, f"Wrote {', '.join(map(str, outcome.paths))}")
+    if pictures.keypoints is not None and several and not options.shard:
+        collect(options.output, [job.name for job in jobs])
+    if options.dataset:
+        dataset.end(options, first)
+    if not options.json and (several or not made):
+        print(summary(made, len(jobs), options.output), *sentences([*notes], [*exact]), sep="\n", flush=True)
+    return int(not passed)
+
+
+def _parser(prog: str):
     parser = command_parser(
         prog,
         "Cast the rays of a Blender file's cameras at what they show.",
@@ -28,26 +82,25 @@ def run(arguments: Sequence[str], prog: str) -> int:
     add_words(parser)
     parser.add_argument("--skip-existing", action="store_true",
                         help="skip pictures that are already finished, from the same file and settings")  # fmt: skip
+    parser.add_argument("--dataset", action="store_true", help=
+        "make the folder a data set: CAMERA_FRAME files of the scene's frames, rays of cameras that stand still once, "
+        "dataset.json, a reader and a preview; a second run makes the missing pictures")  # fmt: skip
+    where = parser.add_mutually_exclusive_group()
+    where.add_argument("--workers", type=count, metavar="N", help=
+        "number of Dask processes on this machine; default: no Dask, only this process")  # fmt: skip
+    where.add_argument("--scheduler", type=scheduler_address, metavar="tcp://HOST:PORT",
+                       help="address of the scheduler of a Dask cluster; its workers need this package, "
+                            "bpy, the file and the folder")  # fmt: skip
     parser.add_argument("--file-output", action="store_true",
                         help="also write the files of the compositor's File Output nodes; default: the "
                              "nodes write nothing")  # fmt: skip
     add_json(parser)
     parser.set_defaults(pictures=True)
-    options = parsed(parser, arguments)
-    pictures = Pictures(options)
-    for line in pictures.warnings:
-        warn(prog, line)
-    if options.skip_existing:
-        clear_up(options.output)
-    jobs, stamp = pictures.jobs(), pictures.stamp()
-    passed, made = True, 0
-    for outcome in follow((pictures.make(job, stamp, prog) for job in jobs), len(jobs), prog):
-        passed &= outcome.passed
-        made += outcome.made
-        if outcome.made and (len(jobs) == 1 or options.json):
-            show(outcome.report, options.json, f"Wrote {', '.join(map(str, outcome.paths))}")
-    if pictures.keypoints is not None and len(jobs) > 1 and not options.shard:
-        collect(options.output, [job.name for job in jobs])
-    if not options.json and (len(jobs) != 1 or not made):
-        print(summary(made, len(jobs), options.output), flush=True)
-    return int(not passed)
+    return parser
+
+
+def _make_absolute(options: argparse.Namespace) -> None:
+    """Make all paths absolute, so that they hold in every process."""
+    options.file, options.output = Path(bpy.data.filepath).absolute(), options.output.absolute()
+    options.calibration = options.calibration and options.calibration.absolute()
+    options.rig = options.rig and [str(Path(path).absolute()) for path in options.rig]

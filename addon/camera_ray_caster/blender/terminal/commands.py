@@ -14,12 +14,16 @@ from ...core.records import Cancelled, InputError
 from ..process import opening, signals
 from ..process.standard_output import keep_output
 from ..read import physics
-from . import cast, dataset, explain, export, to_cycles, verify
+from . import cast, explain, export, to_cycles, verify
 
 COMMANDS = {
-    "cast": cast.run, "dataset": dataset.run, "verify": verify.run, "explain": explain.run, "to_cycles": to_cycles.run,
+    "cast": cast.run,
+    "dataset": lambda arguments, prog: cast.run(("--dataset", *arguments), prog),
+    "verify": verify.run,
+    "explain": explain.run,
+    "to_cycles": to_cycles.run,
     "export": export.run,
-}  # fmt: skip
+}
 
 
 def main(command: str, arguments: Sequence[str], prog: str) -> int:

@@ -21,6 +21,7 @@ from importlib import import_module
 from threading import Lock, current_thread, main_thread
 from typing import Any
 
+from ...core.file_set import clear_up
 from ...core.records import InputError
 from ..process import signals
 from ..process.standard_output import keep_output, quiet_errors
@@ -49,7 +50,8 @@ _opened: dict[str, Any] = {}
 def cluster(options) -> Iterator[Any]:
     """Yield a client of the Dask cluster that the options name, a new local or a running one; None without a cluster.
 
-    Raises InputError if Dask is not installed, no scheduler answers, or a worker lacks a package.
+    What killed workers left behind is removed afterwards. Raises InputError if Dask is not installed, no scheduler
+    answers, or a worker lacks a package.
     """
     if not (options.workers or options.scheduler):
         yield None
@@ -59,6 +61,7 @@ def cluster(options) -> Iterator[Any]:
     except ModuleNotFoundError as error:
         raise InputError("--workers and --scheduler need Dask: install it with pip install '.[farm]'") from error
     with ExitStack() as stack:
+        stack.callback(clear_up, options.output)
         address = options.scheduler or stack.enter_context(_local(options.workers))
         try:
             client = stack.enter_context(distributed.Client(address, timeout=ANSWER, set_as_default=False))
@@ -187,8 +190,8 @@ def work(options, stamp: Mapping[str, Any], maps: Mapping[str, Any], jobs: Seque
             if others:
                 raise InputError(f"a worker differs from this machine in {', '.join(others)}: make them equal")
             _opened["of"] = options, stamp
-        made = (_opened["pictures"].make(job, stamp, "dataset.py", maps[job.camera]) for job in jobs)
-        return [replace(outcome, report=None, paths=()) for outcome in made]
+        made = (_opened["pictures"].make(job, stamp, options.prog, maps.get(job.camera)) for job in jobs)
+        return [outcome if options.json else replace(outcome, report=None, paths=()) for outcome in made]
 
 
 def _leave() -> None:

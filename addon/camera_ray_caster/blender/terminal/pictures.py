@@ -43,11 +43,13 @@ ENGINES = CameraRayCaster.bl_idname, CYCLES
 DEFAULT_PASSES = ("combined", "depth", "normal", "position", "object_index")
 """Passes that are cast if a view layer has only the combined pass enabled."""
 
-SETTINGS = (
-    "passes", "shading", "precision", "engine", "samples", "device", "resolution", "format", "half",
-    "calibration_camera", "model", "rig_parent", "enable_autoexec", "annotations", "keypoints",
+WHICH = (
+    "prog", "file", "camera", "cameras", "frame", "frames", "shard", "calibration", "rig", "output", "pictures", "json",
+    "skip_existing", "dataset", "workers", "scheduler",
 )  # fmt: skip
-"""Options that pictures depend on, in addition to the file, camera and frame."""
+"""Options that say which pictures are made, where and by whom, and files, whose content a stamp holds. All others are
+settings of the pictures.
+"""
 
 
 def add_words(parser) -> None:
@@ -69,9 +71,9 @@ def add_words(parser) -> None:
     )
     parser.add_argument("--device", type=str.upper, metavar="KIND", help=
         "kind of device that Cycles renders on, such as CPU or OPTIX; default: the file's and the Preferences'")
-    parser.add_argument("--format", type=str.upper, choices=files.FORMATS, default=files.EXR,
+    parser.add_argument("--format", type=str.upper, choices=files.FORMATS,
                         help="file format of the passes: a multilayer EXR file, or NumPy arrays; "
-                             "default: %(default)s")  # fmt: skip
+                             "default: EXR, or NPZ with --dataset")  # fmt: skip
     parser.add_argument(
         "--half", action="store_true", help="write floating-point arrays, and the colors of EXR files, with 16 bits"
     )
@@ -92,6 +94,8 @@ def parsed(parser: Parser, arguments: Sequence[str]) -> Namespace:
         raise InputError(f"--device applies to --engine {CYCLES} only: the add-on casts on the processor")
     if options.shard and options.frames is None:
         raise InputError("--shard selects a share of the frames of --frames: add --frames")
+    options.format = options.format or (files.NPZ if options.dataset else files.EXR)
+    options.skip_existing |= options.dataset
     return options
 
 
@@ -132,7 +136,7 @@ class Pictures:
 
     def stamp(self) -> dict[str, Any]:
         """Return the stamp that all pictures share; see ``stamps``."""
-        settings = {name: getattr(self.options, name) for name in SETTINGS}
+        settings = {name: value for name, value in vars(self.options).items() if name not in WHICH}
         calibration = self.options.calibration
         rig = [file_hash(path) for name in self.options.rig or () for path in files_of(name)]
         return stamp_of(settings | {"calibration": calibration and file_hash(calibration), "rig": rig or None})
@@ -157,7 +161,7 @@ class Pictures:
         """Make a picture, or skip it if it is finished and --skip-existing is given. If the camera's rays are those of
         ``ray_map``, leave out the ray passes.
         """
-        taken = self.finished(job, stamp, ray_map) if self.options.skip_existing else None
+        taken = self.taken(job, stamp, ray_map)
         if taken is not None:
             return taken
         camera = self.camera_at(job)  # refuses bad input before anything is made
@@ -180,9 +184,10 @@ class Pictures:
             layers=asked.format, half=asked.half, file_output=asked.file_output, stamp=of, **more,
         )  # fmt: skip
 
-    def finished(self, job: PictureJob, stamp: dict[str, Any], ray_map: RayMap | None = None) -> Outcome | None:
-        """Return the outcome of a finished job, or None if it is not finished."""
-        found = finished(self.options.output / f"{job.report}.json", _of(stamp, job, ray_map))
+    def taken(self, job: PictureJob, stamp: dict[str, Any], ray_map: RayMap | None = None) -> Outcome | None:
+        """Return the outcome of a job that is finished and skipped; None if it has to be done."""
+        report = self.options.output / f"{job.report}.json"
+        found = finished(report, _of(stamp, job, ray_map)) if self.options.skip_existing else None
         return None if found is None else Outcome(found["passed"])
 
     def camera_at(self, job: PictureJob) -> Camera:
