@@ -80,7 +80,7 @@ def write(root: Path, folder: Path) -> None:
     folder.mkdir(exist_ok=True)
     for model in MODELS:
         (folder / f"{name_of(model)}.md").write_text(page(model, root, folder), encoding="utf-8")
-    (folder / "index.md").write_text(index(), encoding="utf-8")
+    (folder / "index.md").write_text(index(root, folder), encoding="utf-8")
 
 
 def name_of(model: type[Model]) -> str:
@@ -88,14 +88,17 @@ def name_of(model: type[Model]) -> str:
     return model.key.lower()
 
 
-def index() -> str:
+def index(root: Path, folder: Path) -> str:
     """Return the page that lists the models by group, with their descriptions."""
     parts = [INDEX.format(count=len(MODELS))]
     for group in GROUPS:
         models = [model for model in MODELS if model.group == group]
-        rows = "".join(f"| [{one.label}]({name_of(one)}.md) | {one.description} |\n" for one in models)
+        rows = "".join(
+            f"| ![]({picture(one, root, folder)}) | [{one.label}]({name_of(one)}.md) | {one.description} |\n"
+            for one in models
+        )
         names = "\n".join(map(name_of, models))
-        parts.append(f"## {group}\n\n| | |\n|---|---|\n{rows}\n```{{toctree}}\n:hidden:\n{names}\n```\n")
+        parts.append(f"## {group}\n\n| | | |\n|---|---|---|\n{rows}\n```{{toctree}}\n:hidden:\n{names}\n```\n")
     return "\n".join((*parts, ALL))
 
 

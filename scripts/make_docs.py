@@ -1,4 +1,4 @@
-"""Write the pages of camera models and of files, from their declarations.
+"""Write the pages of camera models and of files, from their declarations, and the picture of the house.
 
     python scripts/make_docs.py
     python scripts/make_docs.py --check    # writes nothing; exit status 1 if the page is not up to date
@@ -26,11 +26,14 @@ from camera_ray_caster.core.camera import pixel_time  # noqa: E402  (found by th
 from camera_ray_caster.core.cameras import MODELS  # noqa: E402
 from camera_ray_caster.core.cameras.model import GROUPS, Model  # noqa: E402
 from camera_ray_caster.core.cameras.parts.programs import PROGRAMS, Program  # noqa: E402
-from camera_ray_caster.core.cameras.parts.settings import OWN, Setting  # noqa: E402
+from camera_ray_caster.core.cameras.parts.settings import OWN, Coefficients, Setting  # noqa: E402
 from camera_ray_caster.core.exports import FORMATS  # noqa: E402
 from camera_ray_caster.core.sets import SET_FORMATS  # noqa: E402
 
 CAMERAS = ROOT / "addon" / "camera_ray_caster" / "core" / "cameras"
+
+TABLE = ROOT / "tests" / "core" / "test_architecture.py"
+"""The test that says who may import whom."""
 
 HEAD = """\
 # Camera models
@@ -157,13 +160,19 @@ def choice(setting) -> tuple[str, str, str]:
     return "", ", ".join(f"`{item.key}`" for item in setting.items), f"`{setting.default}`"
 
 
+def text(setting) -> tuple[str, str, str]:
+    """Return the unit, the range and the default of a text, which may have the numbers of a polynomial."""
+    kind = "numbers" if isinstance(setting, Coefficients) else "text"
+    return "", kind, f"`{setting.default}`" if setting.default else "none"
+
+
 KINDS = {
     "FLOAT": number,
     "INT": number,
     "ENUM": choice,
     "BOOLEAN": lambda setting: ("", "on or off", "on" if setting.default else "off"),
     "VECTOR": lambda setting: ("", f"{len(setting.default)} numbers", str(setting.default)),
-    "TEXT": lambda setting: ("", "numbers", f"`{setting.default}`"),
+    "TEXT": text,
     "FILE": lambda setting: ("", "a file or none", "none"),
     "OBJECT": lambda setting: ("", " or ".join(setting.types).lower(), "none"),
     "IMAGE": lambda setting: ("", "an image", "none"),
@@ -174,10 +183,15 @@ KINDS = {
 def main() -> int | str:
     """Write the pages, or with --check return an error message if one is not up to date."""
     from arguments import Parser  # in this folder
+    from make import architecture
 
     parser = Parser(prog="make_docs.py", description=__doc__.splitlines()[0])
     parser.add_argument("--check", action="store_true", help="write nothing; exit status 1 if it is not up to date")
-    pages = {CAMERAS / "README.md": page(), CAMERAS / "files" / "README.md": files()}
+    pages = {
+        CAMERAS / "README.md": page(),
+        CAMERAS / "files" / "README.md": files(),
+        ROOT / "docs" / "pictures" / "architecture.svg": architecture.picture(TABLE),
+    }
     if not parser.parse_args().check:
         for path, text in pages.items():
             path.write_text(text, encoding="utf-8")

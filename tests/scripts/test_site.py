@@ -109,6 +109,6 @@ def test_every_model_has_its_page(key, site):
 
 def test_the_start_leads_to_three_paths(site):
     text = (site / "docs" / "index.html").read_text(encoding="utf-8")
-    paths = ["I work in computer vision", "I make pictures", "I teach, or learn"]
+    paths = ["For computer vision", "For pictures", "For teaching"]
     assert re.findall(r"<h2>(.*?)<a", text) == [*paths, "Install"]
     assert "url=docs/index.html" in (site / "index.html").read_text(encoding="utf-8")
