@@ -11,10 +11,11 @@ documentation, Camera Models, where lambda is k.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import inf, sqrt
+from math import inf
 
 import numpy as np
 
+from ..maths.recording.scalars import sqrt
 from ..records import BlenderCamera, Raster
 from .model import Step
 from .parts.calibrated import Calibrated

@@ -11,11 +11,12 @@ Reference: Blender manual, Cameras > Panoramic; rays read out of Cycles.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import asin, sin
+from math import asin
 from typing import ClassVar
 
 import numpy as np
 
+from ..maths.recording import sin
 from ..records import BlenderCamera, Raster
 from .model import Step
 from .parts.film import FILM, Film, Window

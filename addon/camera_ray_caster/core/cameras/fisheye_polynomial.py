@@ -21,6 +21,7 @@ import numpy as np
 from ..conventions import gamma
 from ..maths.inversion import Inverse
 from ..maths.polynomials import positive_roots
+from ..maths.recording import is_recorded
 from ..maths.speed import lazy
 from ..records import BlenderCamera, InputError, Raster
 from .model import Step
@@ -71,6 +72,8 @@ class FisheyePolynomial(Radial):
         coefficients = tuple(-coefficient.read(raw) for coefficient in COEFFICIENTS)
         half_fov = FISHEYE_FOV.read(raw) / 2
         lens = cls(raster.size, window, np.inf, coefficients, half_fov)
+        if is_recorded(half_fov, *coefficients):
+            return lens  # the rim alone would need the inverse, and rays end there without it
         corner, turns = lens._corner, _turns(coefficients, lens._corner)
         if turns.size and _is_seen_beyond(coefficients, turns, corner, half_fov):
             names = ", ".join(f"k{i} = {-k:g}" for i, k in enumerate(coefficients))

@@ -17,10 +17,10 @@ from dataclasses import dataclass
 from functools import cached_property
 from math import inf, pi, sqrt
 
-from numpy.polynomial import Polynomial
-
 from ..maths.inversion import Inverse
-from ..maths.polynomials import horner, positive_roots
+from ..maths.polynomials import horner
+from ..maths.recording import least_root
+from ..maths.recording.scalars import least
 from ..maths.speed import lazy
 from ..records import BlenderCamera, Raster
 from .model import Step
@@ -137,14 +137,13 @@ class FTheta(Calibrated):
             raise setting.refusal(raw, repr(setting.given(raw)), "0, a number above 0, and more")
         window = Calibration.from_blender(raw, raster, settings=PRINCIPAL_POINT).window(((c, d), (e, 1.0)))
         forward = reference == ANGLE_TO_RADIUS
-        return cls(raster.size, window, inf, tuple(coefficients), forward, min(MAX_ANGLE.read(raw), pi)).settled()
+        return cls(raster.size, window, inf, tuple(coefficients), forward, least(MAX_ANGLE.read(raw), pi)).settled()
 
     @lazy
     def limit(self) -> float:
         """The largest angle (forward) or radius (backward) at which the polynomial is valid."""
-        polynomial = Polynomial((0.0, *self.polynomial))
-        end = [self.max_angle] if self.forward else positive_roots(polynomial - self.max_angle)
-        return float(min([*end, *positive_roots(polynomial.deriv())]))
+        end = self.max_angle if self.forward else least_root((-self.max_angle, *self.polynomial))
+        return least(end, least_root([i * k for i, k in enumerate(self.polynomial, 1)]))
 
     @property
     def own_rim(self) -> float:

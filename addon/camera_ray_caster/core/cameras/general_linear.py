@@ -21,7 +21,7 @@ import numpy as np
 
 from ..conventions import EPS32
 from ..maths.intervals import Interval
-from ..maths.recording import array
+from ..maths.recording import array, is_recorded
 from ..maths.vector import components
 from ..records import BlenderCamera, InputError, Raster
 from .model import Model, Step
@@ -78,6 +78,8 @@ class GeneralLinear(Model):
         for slopes beyond STEEPEST.
         """
         three = array([ray.read(raw) for ray in RAYS])
+        if is_recorded(*three.flat):  # what is refused is that of who gives numbers to the record
+            return cls(raster.size, three)
         if _are_dependent(three):
             names, rays = ", ".join(ray.name for ray in RAYS), ", ".join(str(tuple(ray)) for ray in three.tolist())
             raise InputError(

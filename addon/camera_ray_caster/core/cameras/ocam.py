@@ -18,11 +18,12 @@ from functools import cached_property
 from math import inf
 
 import numpy as np
-from numpy.polynomial import Polynomial
 from numpy.polynomial.polynomial import polyval
 
 from ..maths.inversion import Inverse
-from ..maths.polynomials import horner, positive_roots
+from ..maths.polynomials import horner
+from ..maths.recording import least_root
+from ..maths.recording.scalars import largest, least
 from ..maths.speed import lazy
 from ..records import BlenderCamera, Raster
 from .model import Step
@@ -102,8 +103,8 @@ class OCam(Calibrated):
     def own_rim(self) -> float:
         """See Calibrated; also the corner of the frame."""
         corners = np.meshgrid(*((0.0, side) for side in self.frame))
-        corner = np.hypot(*self.window.plane_from_pixels(*corners)).max()
-        return float(min([corner, *positive_roots(Polynomial(self._slopes))]))
+        corner = largest(*np.hypot(*self.window.plane_from_pixels(*corners)).ravel())
+        return least(corner, least_root(self._slopes))
 
     @property
     def _slopes(self) -> list[float]:

@@ -14,11 +14,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from math import cbrt, inf
+from math import inf
 
 import numpy as np
 
 from ..maths.intervals import Interval
+from ..maths.recording.scalars import cbrt
 from ..maths.vector import along, components, difference, dot, norm
 from ..records import BlenderCamera, Raster
 from .model import Step, WindowModel

@@ -15,6 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..maths.recording import array
+from ..maths.recording.scalars import largest
 from ..records import BlenderCamera, Raster
 from .general_linear import STEEPEST, GeneralLinear
 from .model import Step
@@ -64,7 +65,7 @@ class TwistedOrthographic(GeneralLinear):
         corners = (0.0, 0.0), (float(raster.width), 0.0), (0.0, float(raster.height))
         places = array([window.plane_from_pixels(*corner) for corner in corners])
         slopes = TWIST.read(raw) * ((places - point[:2]) @ along[:2])
-        check_slope(raw, float(np.abs(slopes).max()), (TWIST, ORTHO_SCALE), STEEPEST)
+        check_slope(raw, largest(*map(abs, slopes)), (TWIST, ORTHO_SCALE), STEEPEST)
         ends = places + slopes[:, None] * across[:2]
         axis = np.stack((point, along, across)) * (1.0, 1.0, 0.0)
         return cls(raster.size, np.concatenate((places, ends), axis=1), axis)

@@ -58,13 +58,14 @@ class Inverse:
 
     def __call__(self, target):
         """Return the inverse of an array of targets, or of a recorded number."""
-        knots, values = self._table
         if is_recorded(target):  # without the table, which only has the digits of float64
-            goal = np.where(self._is_within(target), np.clip(target, values[0], values[-1]), np.nan)
+            values = [self.function(end) for end in (self.low, self.high)]
+            goal = np.where(self._is_within(target, values), np.clip(target, *values), np.nan)
             x = self._bracketed(stop_gradient(goal), self.low, self.low, self.high)
             return x - (self.function(x) - goal) / self.derivative(x)  # whose derivative is the inverse's own
+        knots, values = self._table
         target = np.asarray(target, np.float64)
-        within = self._is_within(target)
+        within = self._is_within(target, values)
         x = np.interp(target, values, knots)
         with np.errstate(divide="ignore", invalid="ignore"):
             step = (self.function(x) - target) / self.derivative(x)
@@ -77,9 +78,8 @@ class Inverse:
             x[slow] = self._bracketed(goal, np.interp(goal, values, knots), knots[cell], knots[cell + 1])
         return x
 
-    def _is_within(self, target):
-        _, values = self._table
-        slack = 8 * EPS * np.abs(values).max()
+    def _is_within(self, target, values):
+        slack = 8 * EPS * np.maximum(np.abs(values[0]), np.abs(values[-1]))
         return (target >= values[0] - slack) & (target <= values[-1] + slack)
 
     def _bracketed(self, target, x, left, right):

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from math import inf
+
 import numpy as np
 from numpy.polynomial import Polynomial
 
@@ -36,3 +39,8 @@ def positive_roots(polynomial: Polynomial) -> np.ndarray:
     last = np.flatnonzero(size > LEAST * size.max())
     roots = Polynomial(polynomial.coef[: last[-1] + 1]).roots() if last.size else np.zeros(0)
     return np.sort(roots.real[(np.abs(roots.imag) <= REAL * np.abs(roots)) & (roots.real > 0)])
+
+
+def least_root(coefficients: Sequence[float]) -> float:
+    """Return the least positive real root of a polynomial, inf without one; coefficients from the constant up."""
+    return min(positive_roots(Polynomial(coefficients)).tolist(), default=inf)

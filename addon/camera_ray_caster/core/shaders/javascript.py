@@ -34,8 +34,39 @@ function countBelow(table, value, orEqual) {
 function entry(table, place) {
   return place >= 0 && place < table.length ? table[place] : NaN;
 }
+function valueOf(polynomial, x) {
+  return polynomial.reduceRight((sum, coefficient) => sum * x + coefficient, 0);
+}
+function positiveRoots(polynomial) {
+  const size = Math.max(...polynomial.map(Math.abs));
+  let count = polynomial.length;
+  while (count > 1 && !(Math.abs(polynomial[count - 1]) > 1e-250 * size)) count--;
+  if (count < 2) return [];
+  const own = polynomial.slice(0, count), lead = Math.abs(own[count - 1]);
+  const turns = positiveRoots(own.map((coefficient, k) => k * coefficient).slice(1));
+  const far = 1 + Math.max(...own.slice(0, -1).map((coefficient) => Math.abs(coefficient) / lead));
+  const roots = [];
+  [...turns.filter((turn) => turn < far), far].reduce((left, right) => {
+    const rises = valueOf(own, right) > valueOf(own, left);
+    let low = left, high = right;
+    if (valueOf(own, left) * valueOf(own, right) < 0) {
+      for (let middle = (low + high) / 2; low < middle && middle < high; middle = (low + high) / 2) {
+        if (valueOf(own, middle) > 0 === rises) high = middle;
+        else low = middle;
+      }
+      roots.push(high);
+    } else if (valueOf(own, right) === 0 && right < far) roots.push(right);
+    return right;
+  }, 0);
+  return roots;
+}
+function leastRoot(polynomial) {
+  return Math.min(...positiveRoots(polynomial), Infinity);
+}
 """
-"""Functions that JavaScript lacks: numpy's remainder, rint, searchsorted and a table's entry."""
+"""Functions that JavaScript lacks: numpy's remainder, rint, searchsorted and a table's entry; and the least
+positive root of a polynomial, by bisection between the roots of its derivative, which lie below Cauchy's bound.
+"""
 
 
 @dataclass
@@ -71,6 +102,9 @@ class JavaScriptWriter(Writer):
     def undefined(self) -> Term:
         """See Writer."""
         return Term("NaN")
+
+    def _least_root(self, step: Operation, operands: list[Term], _) -> Term:
+        return Term(self.put("let", f"leastRoot([{', '.join(operand.text for operand in operands)}])"))
 
     def _searchsorted(self, step: Operation, operands: list[Term], _) -> Term:
         entries, side = step.fixed

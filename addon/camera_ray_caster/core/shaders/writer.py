@@ -262,6 +262,7 @@ class Writer:
 METHODS = {
     name: f"_{name}" for name in (
         "input", "constant", "parameter", "where", "roundoff", "searchsorted", "take", "loop", "part", "stop_gradient",
+        "least_root",
     )
 }  # fmt: skip
 """Names of the methods that write the steps that are not plain functions."""

@@ -16,6 +16,7 @@ from typing import Self
 import numpy as np
 
 from ...maths.panels import Disc, on_raster
+from ...maths.recording.scalars import least, plain
 from .film import FARTHEST_PIXELS
 from .radial import RIM_SLACK, Radial
 from .radial_tangential import RadialTangential
@@ -50,7 +51,7 @@ class Calibrated(Radial):
 
     def settled(self) -> Self:
         """See Model: the rim, which may jump or become infinite where the coefficients change little."""
-        rim = min(self.own_rim, self.distortion.limit)
+        rim = least(self.own_rim, self.distortion.limit)
         return self if rim == self.rim else replace(self, rim=rim)
 
     @property
@@ -97,7 +98,7 @@ class Calibrated(Radial):
     @cached_property
     def _farthest(self) -> float:
         """Return a radius in the distorted picture beyond which there is certainly no ray."""
-        return float(self.distortion.farthest(self.rim)) * (1 + RIM_SLACK) if self.rim < np.inf else np.inf
+        return plain(self.distortion.farthest(self.rim)) * (1 + RIM_SLACK) if self.rim < np.inf else np.inf
 
     def _pixels(self, a, b):
         across, down = self.distortion.distort(a, -b)

@@ -13,6 +13,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import radians
 
+from ...maths.recording.scalars import largest
 from ...records import BlenderCamera, InputError, Raster
 from .affine import AffineWindow
 from .film import FARTHEST_PIXELS, FILM, LENS, OFF_AXIS, Film, Window
@@ -145,7 +146,7 @@ class Calibration:
                 fx = fy = LENS.read(raw)
         else:
             width, height, cx, cy = (setting.read(raw, high=FARTHEST_PIXELS) for setting in (*SIZE, *CENTER))
-            width, height = width or raster.width, height or raster.height
+            width, height = (side if side > 0 else own for side, own in zip((width, height), raster.size, strict=True))
             scale = raster.width / width, raster.height / height
             center = (cx + 0.5) * scale[0], (height - (cy + 0.5)) * scale[1]
             if SKEW in settings:
@@ -161,7 +162,7 @@ class Calibration:
         """
         scale_x, scale_y = self.scale
         (xx, xy), (yx, yy) = linear or ((self.fx, self.skew), (0.0, self.fy))
-        volume, size = xx * yy - xy * yx, max(map(abs, (xx, xy, yx, yy)))
+        volume, size = xx * yy - xy * yx, largest(*map(abs, (xx, xy, yx, yy)))
         if (linear or self.skew) and not abs(volume) > FLATTEST * size * size:
             raise InputError(
                 f"the calibration's matrix, {xx:.6g}, {xy:.6g}; {yx:.6g}, {yy:.6g}, maps all directions to nearly one "

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ...conventions import gamma
+from ...maths.recording.scalars import largest, least
 from ...records import BlenderCamera, InputError, Raster
 from .settings import ABOVE_ZERO, CAMERA, RENDER, Choice, Item, Number, farthest_from_one
 
@@ -207,7 +208,7 @@ class Window:
         numbers: the settings that determine the length. Raises InputError for a frame that reaches beyond STEEPEST.
         """
         window = cls.from_blender(raw, raster, fitted_length)
-        check_slope(raw, float(np.abs(window.extent(raster.size)).max()), numbers)
+        check_slope(raw, largest(*map(abs, window.extent(raster.size))), numbers)
         return window
 
     @classmethod
@@ -240,7 +241,7 @@ class Window:
         high, also if the window is mirrored.
         """
         x, y = self.plane_from_pixels(*(np.array([0.0, side]) for side in frame))
-        return float(x.min()), float(x.max()), float(y.min()), float(y.max())
+        return least(*x), largest(*x), least(*y), largest(*y)
 
     def matrix(self, height: int) -> np.ndarray:
         """Return K, (3, 3), from image-plane coordinates, y down, to pixels of a frame of this height in OpenCV's

@@ -10,13 +10,15 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from math import inf, pi, sqrt
+from math import inf, pi
 from typing import Self
 
 import numpy as np
 
 from ...maths.inversion import Inverse
-from ...maths.polynomials import horner, positive_roots
+from ...maths.polynomials import horner
+from ...maths.recording import least_root
+from ...maths.recording.scalars import least, sqrt
 from ...maths.speed import lazy
 from ...records import Raster
 from .calibrated import Calibrated
@@ -63,7 +65,7 @@ class KannalaBrandt(Calibrated):
     @lazy
     def limit(self) -> float:
         """The angle at which the polynomial stops growing, at most pi."""
-        return min([pi, *map(sqrt, positive_roots(np.polynomial.Polynomial(self._slope)).tolist())])
+        return least(pi, sqrt(least_root(self._slope)))
 
     @property
     def own_rim(self) -> float:

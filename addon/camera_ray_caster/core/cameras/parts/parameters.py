@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from dataclasses import replace
 from typing import Any
 
-from ...maths.recording import Varied
+from ...maths.recording import Varied, is_recorded
 from ...records import BlenderCamera
 from .settings import RECORD_FIELDS, Coefficients, Number, Numbers, Setting, Whole
 
@@ -45,8 +45,9 @@ def _named(setting: Setting, raw: BlenderCamera) -> dict[str, float]:
 
 
 def _value(setting: Setting, numbers: tuple[float, ...]) -> Any:
-    """Return the value in a record: text for a polynomial, unless its numbers vary."""
+    """Return the value in a record: text for a polynomial, unless its numbers vary or are recorded."""
     if isinstance(setting, Number):
         return numbers[0]
-    plain = isinstance(setting, Coefficients) and not any(isinstance(number, Varied) for number in numbers)
+    varies = is_recorded(*numbers) or any(isinstance(number, Varied) for number in numbers)
+    plain = isinstance(setting, Coefficients) and not varies
     return " ".join(repr(float(number)) for number in numbers) if plain else numbers

@@ -16,14 +16,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass, fields
 from functools import cached_property
-from math import atan, hypot, inf, radians, tan
+from math import atan, inf, radians, tan
 
 import numpy as np
-from numpy.polynomial.polynomial import polyval
 
 from ...maths.inversion import Inverse
-from ...maths.polynomials import positive_roots, with_slope
-from ...maths.recording import is_recorded, loop, roundoff, stop_gradient
+from ...maths.polynomials import horner, with_slope
+from ...maths.recording import is_recorded, least_root, loop, roundoff, stop_gradient
+from ...maths.recording.scalars import hypot, least
 from .edge import Edge
 
 STEEPEST = tan(radians(89.9))
@@ -79,7 +79,7 @@ class RadialTangential:
         s, k = r_squared, self
         terms = ((k.k1, k.k2, k.k3, k.r8), (k.k4, k.k5, k.k6))
         parts = (((1.0, *own), (1.0, *map(abs, own))) for own in terms)
-        return sum(polyval(s, larger) / np.abs(polyval(s, own)) for own, larger in parts)
+        return sum(horner(s, larger) / np.abs(horner(s, own)) for own, larger in parts)
 
     def distort(self, x, y):
         """Return the distorted coordinates (x', y') of undistorted ones."""
@@ -130,10 +130,8 @@ class RadialTangential:
         below = np.polynomial.Polynomial([1, 0, self.k4, 0, self.k5, 0, self.k6])
         slope = (above.deriv() * below - above * below.deriv()) * r
         bend = r * (6 * hypot(self.p1, self.p2) + 2 * hypot(self.s1, self.s3)) + 4 * r**3 * hypot(self.s2, self.s4)
-        least = inf
-        for polynomial in (below, above * below - bend * below**2, above * below + slope - bend * below**2):
-            least = min(least, *positive_roots(polynomial).tolist(), inf)
-        return least * (1 - 1e-9)
+        polynomials = below, above * below - bend * below**2, above * below + slope - bend * below**2
+        return least(*(least_root(polynomial.coef.tolist()) for polynomial in polynomials)) * (1 - 1e-9)
 
     @cached_property
     def edge(self) -> Edge:
@@ -147,7 +145,7 @@ class RadialTangential:
     @cached_property
     def _radius(self):
         """Return the inverse of r g(r^2), up to the limit or 89.9 degrees, whichever is less."""
-        high = min(self.limit, STEEPEST)
+        high = least(self.limit, STEEPEST)
         return Inverse(lambda r: r * self.gain(r * r)[0], self._radial_slope, 0.0, high, _even_in_angle)
 
     def _radial_slope(self, r):

@@ -14,7 +14,7 @@ from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
-from ...maths.recording import Varied
+from ...maths.recording import Varied, is_recorded
 from ...records import BlenderCamera, InputError
 
 FULL_TURN = 2 * math.pi
@@ -100,12 +100,12 @@ class Number(Setting):
         """
         low, high = self.limits(self.low if low is None else low, self.high if high is None else high)
         value = self.given(raw)
-        if (
+        if not is_recorded(value) and (
             not isinstance(value, int | float)
             or not low - LIMIT_ROUNDING * abs(low) <= value <= high + LIMIT_ROUNDING * abs(high)  # NaN is not
         ):
             raise self.refusal(raw, self.in_words(value), self.range_in_words(low, high))
-        return value if isinstance(value, Varied) else float(value)
+        return value if isinstance(value, Varied) or is_recorded(value) else float(value)
 
     def in_words(self, value) -> str:
         """Return a value with its unit."""
@@ -186,6 +186,8 @@ class Numbers(Setting):
     def read(self, raw: BlenderCamera) -> tuple[float, ...]:
         """Return the numbers. Raises InputError, which names the setting and its value."""
         values, count = tuple(self.given(raw)), len(self.default)
+        if is_recorded(*values):
+            return values
         if len(values) != count or not all(isinstance(part, int | float) and abs(part) <= LARGEST for part in values):
             raise self.refusal(raw, f"{values}", f"{count} finite numbers")
         return values
@@ -214,6 +216,8 @@ class Coefficients(Text):
         Raises InputError, which names the setting and its value.
         """
         numbers = self.numbers(raw)
+        if is_recorded(*numbers):
+            return numbers
         if not (0 < len(numbers) <= self.most and all(abs(number) <= LARGEST for number in numbers)):
             text = shortened(str(self.given(raw)))
             raise self.refusal(raw, text, f"1 to {self.most} finite numbers, from the constant up")

@@ -15,11 +15,12 @@ The picture ends where r stops growing with theta; otherwise r has no limit.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import inf, sqrt
+from math import inf
 from typing import Self
 
 import numpy as np
 
+from ...maths.recording.scalars import least, sqrt
 from ...records import BlenderCamera, Raster
 from .calibrated import Calibrated
 from .calibration import Calibration
@@ -64,7 +65,7 @@ class Unified(Calibrated):
         if self.xi > 1:  # phi is at most asin(1 / xi)
             steepest = 1 / sqrt((self.xi - 1) * (self.xi + 1))
             rims.append(steepest / (self.alpha * sqrt(self.beta * steepest * steepest + 1) + 1 - self.alpha))
-        return min(rims)
+        return least(*rims)
 
     def factors(self, r_squared):
         """See Radial."""

@@ -6,11 +6,13 @@ iterates and reads tables, for arrays as well as for recorded numbers.
 """
 
 from .derivatives import Dual, differentiate
+from .known import record_known
 from .number import (
     NotRecordable,
     Parameter,
     Recorded,
     is_recorded,
+    least_root,
     look_up,
     loop,
     may_hold,
@@ -18,7 +20,7 @@ from .number import (
     roundoff,
     stop_gradient,
 )
-from .record import DOMAIN, NUMPY, Operation, Record
+from .record import DOMAIN, NUMPY, Operation, Record, needed
 from .varied import Varied, array, cos, sin, tan
 
 __all__ = [
@@ -35,10 +37,13 @@ __all__ = [
     "cos",
     "differentiate",
     "is_recorded",
+    "least_root",
     "look_up",
     "loop",
     "may_hold",
+    "needed",
     "record",
+    "record_known",
     "roundoff",
     "sin",
     "stop_gradient",

@@ -10,7 +10,8 @@ from typing import Any, NoReturn
 import numpy as np
 
 from ...conventions import EPS
-from .record import COMPARISONS, LOGICAL, NUMERIC, Operation, Record, repeat
+from .. import polynomials
+from .record import COMPARISONS, LOGICAL, NUMERIC, Operation, Record, needed, repeat
 from .varied import Varied
 
 
@@ -35,7 +36,7 @@ def record(function: Callable, count: int) -> Record:
 
     Numbers that do not depend on the input are recorded as exact constants. Raises NotRecordable.
     """
-    tape = _Tape()
+    tape = Tape()
     return tape.record(function(*(tape.add("input", fixed=(place,)) for place in range(count))))
 
 
@@ -44,22 +45,33 @@ def is_recorded(*values) -> bool:
     return any(isinstance(value, Recorded) for value in values)
 
 
+def tape_of(*values) -> Tape:
+    """Return the tape that records an operation on values, one of which is recorded: in a loop's body that of the
+    loop, unless all recorded values are known.
+    """
+    recorded = [value for value in values if is_recorded(value)]
+    return next((value for value in recorded if not value.is_known), recorded[0]).tape
+
+
 def loop(body: Callable, state: Sequence, most: int) -> Sequence:
     """Repeat ``state, settled = body(*state)`` until all is settled, at most ``most`` times; return the last state.
 
     state: numbers, arrays or recorded numbers; all entries of arrays continue until the last is settled. For recorded
-    numbers the body is called once, and must take everything that it needs from its state, except constants.
+    numbers the body is called once, and must take everything that it needs from its state, except constants and what
+    depends on parameters alone.
     """
     if not is_recorded(*state):
         return repeat(body, state, most, np.all)
-    tape = next(value for value in state if is_recorded(value)).tape
+    tape = tape_of(*state)
     start = [tape.own(value, "a loop") for value in state]
-    inner = _Tape(varies=False)
+    inner = Tape(varies=False, outer=tape, state=len(start))
     after, settled = body(*(inner.add("input", fixed=(i,), truth=value.truth) for i, value in enumerate(start)))
     after = [inner.own(value, "a loop") for value in after]
     if [value.truth for value in after] != [value.truth for value in start]:
         raise NotRecordable("a loop whose state is a number once, and true or false once, cannot be recorded")
-    made = tape.add("loop", start, (inner.record([*after, inner.truth(settled, "a loop")]), most))
+    settled = inner.truth(settled, "a loop")
+    taken = [Recorded(tape, place) for place in inner.taken]
+    made = tape.add("loop", [*start, *taken], (inner.record([*after, *inner.taken.values(), settled]), most))
     return tuple(tape.add("part", [made], (i,), value.truth) for i, value in enumerate(start))
 
 
@@ -82,17 +94,28 @@ def stop_gradient(number):
     return number.tape.add("stop_gradient", [number]) if is_recorded(number) else number
 
 
+def least_root(coefficients: Sequence):
+    """Return the least positive root of a polynomial, inf without one; coefficients, recorded or not, ascend."""
+    if not is_recorded(*coefficients):
+        return polynomials.least_root(coefficients)
+    tape = tape_of(*coefficients)
+    return tape.add("least_root", [tape.own(value, "least_root") for value in coefficients])
+
+
 def roundoff(number):
     """Return the unit roundoff of the arithmetic in which a number is computed: EPS, or a recorded number."""
     return number.tape.add("roundoff") if is_recorded(number) else EPS
 
 
-class _Tape:
+class Tape:
     """The steps of a record under construction."""
 
-    def __init__(self, varies: bool = True):
-        self.steps: list[Operation] = []
+    def __init__(self, varies: bool = True, outer: Tape | None = None, state: int = 0):
         self._varies = varies  # whether varied numbers keep their derivatives
+        self.outer, self.state = outer, state
+        self.taken: dict[int, Recorded] = {}
+        """Inputs beyond the state of a loop's body, by the places of these numbers in the outer tape."""
+        self.steps: list[Operation] = []
         self._known: dict[tuple, int] = {}
 
     def add(self, operation: str, operands: Sequence[Recorded] = (), fixed: tuple = (), truth: bool = False):
@@ -106,6 +129,11 @@ class _Tape:
     def own(self, value, operation: str) -> Recorded:
         """Return an operand of an operation: a number that this tape has recorded, or a constant."""
         if is_recorded(value):
+            if value.tape is not self and self.outer is not None and value.is_known:
+                place = self.outer.own(value, operation).place
+                if place not in self.taken:
+                    self.taken[place] = self.add("input", (), (self.state + len(self.taken),), value.truth)
+                return self.taken[place]
             if value.tape is not self:
                 raise NotRecordable(f"{operation} of a number that is not in the loop's state cannot be recorded")
             return value
@@ -131,15 +159,7 @@ class _Tape:
 
     def record(self, values) -> Record:
         """Return the record of values, without unneeded steps."""
-        outputs = [self.own(value, "an output") for value in values]
-        needed = {output.place for output in outputs}
-        for place in reversed(range(len(self.steps))):
-            if place in needed:
-                needed.update(self.steps[place].operands)
-        new = {old: place for place, old in enumerate(sorted(needed))}
-        steps = (self.steps[old] for old in new)
-        moved = (Operation(s.operation, tuple(new[k] for k in s.operands), s.fixed, s.truth) for s in steps)
-        return Record(tuple(moved), tuple(new[output.place] for output in outputs))
+        return needed(self.steps, [self.own(value, "an output").place for value in values])
 
 
 def _operator(ufunc) -> Any:
@@ -161,8 +181,10 @@ class Recorded:
     """A number whose value is known only when its record is evaluated; a scalar for numpy."""
 
     ndim, shape, size = 0, (), 1
+    is_known = False
+    """Whether the value is known, since it depends on parameters alone: see ``known``."""
 
-    def __init__(self, tape: _Tape, place: int):
+    def __init__(self, tape: Tape, place: int):
         self.tape, self.place = tape, place
 
     @property
@@ -174,15 +196,15 @@ class Recorded:
         name = ufunc.__name__
         if method != "__call__" or options:
             raise NotRecordable(f"{name}{_more(method, options)} of a recorded number cannot be recorded")
-        name = SAME.get(name, name)
-        operands = tuple(self.tape.own(operand, name) for operand in operands)
+        name, tape = SAME.get(name, name), tape_of(*operands)
+        operands = tuple(tape.own(operand, name) for operand in operands)
         if name in DERIVED:
             return DERIVED[name](*operands)
         if name in LOGICAL:
-            return self.tape.add(name, [self.tape.truth(operand, name) for operand in operands], truth=True)
+            return tape.add(name, [tape.truth(operand, name) for operand in operands], truth=True)
         if name in NUMERIC or name in COMPARISONS:
-            numbers = [self.tape.number(operand, name) for operand in operands]
-            return self.tape.add(name, numbers, truth=name in COMPARISONS)
+            numbers = [tape.number(operand, name) for operand in operands]
+            return tape.add(name, numbers, truth=name in COMPARISONS)
         raise NotRecordable(f"{name} of a recorded number cannot be recorded")
 
     def __array_function__(self, function, types, operands, options):
@@ -242,7 +264,7 @@ DERIVED: dict[str, Callable] = {
 
 
 def _where(condition, yes, no):
-    tape = next(value for value in (condition, yes, no) if is_recorded(value)).tape
+    tape = tape_of(condition, yes, no)
     condition, yes, no = tape.truth(condition, "where"), tape.own(yes, "where"), tape.own(no, "where")
     truth = yes.truth and no.truth
     if not truth:

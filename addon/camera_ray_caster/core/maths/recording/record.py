@@ -10,13 +10,14 @@ NaN
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from typing import Any
 
 import numpy as np
 
 from ...conventions import EPS
+from ..polynomials import least_root
 
 Arithmetic = Mapping[str, Callable]
 """Functions by the names of the operations that they perform."""
@@ -55,7 +56,8 @@ class Operation:
     float64 or a bool), ``parameter`` (fixed: a float64 and its name; only if a formula was given a ``Parameter``),
     ``varied`` (fixed: a float64 and its derivatives by parameters; only if a formula was given a ``Varied`` number),
     ``where``, ``stop_gradient`` (its operand, without derivatives), ``roundoff`` (of the arithmetic of the evaluation:
-    2**-53 in float64), ``searchsorted`` (of a number in a table; fixed: the ascending table and numpy's side), ``take``
+    2**-53 in float64), ``least_root`` (the least positive root of the polynomial with its operands as coefficients, inf
+    without one), ``searchsorted`` (of a number in a table; fixed: the ascending table and numpy's side), ``take``
     (a table's entry at an integer; fixed: the table), ``loop`` (of its initial state; fixed: its body and the largest
     number of repetitions) and ``part`` (of a loop; fixed: the index of a value in its last state).
     """
@@ -117,6 +119,17 @@ class Record:
         return body
 
 
+def needed(steps: Sequence[Operation], outputs: Sequence[int]) -> Record:
+    """Return the record of these outputs, without unneeded steps."""
+    kept = set(outputs)
+    for place in reversed(range(len(steps))):
+        if place in kept:
+            kept.update(steps[place].operands)
+    new = {old: place for place, old in enumerate(sorted(kept))}
+    moved = (replace(steps[old], operands=tuple(new[k] for k in steps[old].operands)) for old in new)
+    return Record(tuple(moved), tuple(new[place] for place in outputs))
+
+
 def repeat_body(arithmetic: Arithmetic, body: Record, most: int, state: Sequence) -> Sequence:
     """Return the last state of a loop whose body is a record; see ``repeat``."""
     return repeat(body.as_body(arithmetic), state, most, arithmetic["all"])
@@ -144,6 +157,7 @@ NUMPY: Arithmetic = {
     "varied": lambda value, slopes: value,
     "roundoff": lambda: EPS,
     "stop_gradient": lambda a: a,
+    "least_root": lambda *coefficients: least_root(coefficients),
     "searchsorted": lambda number, table, side: np.searchsorted(table, number, side).astype(np.float64),
     "take": _take,
 }

@@ -54,11 +54,12 @@ class Varied(float):
 
 
 def array(parts: Any) -> np.ndarray:
-    """Return an array of float64, or of objects if one of the parts is a varied number."""
+    """Return an array of float64, or of objects if one of the parts is a varied or a recorded number."""
     if isinstance(parts, np.ndarray) and parts.dtype != object:
         return np.asarray(parts, np.float64)
     found = np.array(parts, object)
-    return found if any(isinstance(one, Varied) for one in found.flat) else found.astype(np.float64)
+    kept = any(isinstance(one, Varied) or not isinstance(one, Real) for one in found.flat)
+    return found if kept else found.astype(np.float64)
 
 
 def _apply(name: str, *operands: Any) -> Any:
@@ -89,9 +90,15 @@ for _word, _name in {"neg": "negative", "abs": "absolute"}.items():
 
 
 def _function(name: str) -> Callable[[float], float]:
-    plain = getattr(math, name)
-    return lambda number: _apply(name, number) if isinstance(number, Varied) else plain(number)
+    plain, recorded = getattr(math, name), getattr(np, name)
+
+    def apply(number):
+        if isinstance(number, Varied):
+            return _apply(name, number)
+        return plain(number) if isinstance(number, Real) else recorded(number)
+
+    return apply
 
 
 sin, cos, tan = _function("sin"), _function("cos"), _function("tan")
-"""Those of the module math, also for varied numbers."""
+"""Those of the module math, also for varied and for recorded numbers."""

@@ -1,0 +1,106 @@
+"""A record of rays in two parts: what depends on settings alone, computed once, and what each pixel needs."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from ..maths.recording import Operation, Record, needed
+from ..shaders.glsl import GlslWriter
+from ..shaders.javascript import JavaScriptWriter
+from ..shaders.writer import Term, Writer
+
+INPUTS = 2
+"""The pixel coordinates x and y."""
+RAY = 6
+"""Numbers of a ray: its origin and its direction."""
+
+
+@dataclass(frozen=True)
+class Parts:
+    """Two records. ``first`` returns conditions and then ``kept`` numbers; ``rest`` takes x, y and these numbers."""
+
+    first: Record
+    rest: Record
+    conditions: int
+    """Number of conditions under which the record is that of the formula."""
+    truths: tuple[bool, ...]
+    """Of each kept number, whether it is a truth value."""
+
+
+def split(record: Record) -> Parts:
+    """Return the parts of a record of RAY numbers and conditions, as ``record_known`` makes it."""
+    varying: set[int] = set()
+    for place, step in enumerate(record.steps):
+        if step.operation == "input" or not varying.isdisjoint(step.operands):
+            varying.add(place)
+    rays, conditions = record.outputs[:RAY], record.outputs[RAY:]
+    steps: list[Operation] = [Operation("input", fixed=(place,)) for place in range(INPUTS)]
+    places: dict[int, int] = {}
+    kept: dict[int, None] = {}
+
+    def place_of(old: int) -> int:
+        """Return the place in the second part of a step of the whole."""
+        if old not in places:
+            step = record.steps[old]
+            if step.operation == "input":
+                places[old] = step.fixed[0]
+                return places[old]
+            if old not in varying and step.operation != "constant":
+                kept[old] = None
+                step = Operation("input", fixed=(INPUTS + len(kept) - 1,), truth=step.truth)
+            else:
+                step = replace(step, operands=tuple(map(place_of, step.operands)))
+            places[old] = len(steps)
+            steps.append(step)
+        return places[old]
+
+    outputs = tuple(map(place_of, rays))
+    first = needed(record.steps, (*conditions, *kept))
+    truths = tuple(record.steps[old].truth for old in kept)
+    return Parts(first, needed(steps, outputs), len(conditions), truths)
+
+
+@dataclass(frozen=True)
+class Constants:
+    """Numbers are written in the text; parameters are members of the object ``s``."""
+
+    writer: type[Writer]
+
+    def number(self, value: float) -> str:
+        """Return the text of a constant."""
+        return self.writer.literal(value)
+
+    def named(self, name: str, value: float) -> str:
+        """Return the text of a parameter."""
+        return f's["{name}"]'
+
+
+def javascript(parts: Parts) -> str:
+    """Return an object of two functions: ``prepare(s)`` gives the kept numbers of settings, null where a condition does
+    not hold; ``rays(k, x, y)`` the six numbers of a pixel's ray from these, NaN in the direction without a ray.
+    """
+    first, rest = JavaScriptWriter(Constants(JavaScriptWriter)), JavaScriptWriter(Constants(JavaScriptWriter))
+    known = [term.text for term in first.write(parts.first, [])]
+    conditions, kept = known[: parts.conditions], known[parts.conditions :]
+    ray = rest.write(parts.rest, [Term("x"), Term("y"), *(Term(f"k[{place}]") for place in range(len(kept)))])
+    holds = " && ".join(conditions) or "true"
+    return "\n".join((
+        "{ prepare(s) {", *first.tables, *first.lines, f"    return {holds} ? [{', '.join(kept)}] : null; }},",
+        "  rays(k, x, y) {", *rest.tables, *rest.lines, f"    return [{', '.join(term.text for term in ray)}]; }} }}",
+    ))  # fmt: skip
+
+
+def glsl(parts: Parts) -> tuple[str, set[str]]:
+    """Return the function ``bool ray(float x, float y, out vec3 o, out vec3 d)`` in GLSL ES 3.0, and the helpers that
+    it calls. It returns whether there is a ray; the kept numbers are its uniforms ``k``, 1 for true.
+    """
+    writer = GlslWriter(Constants(GlslWriter))
+    kept = [Term(f"(k[{place}] != 0.0)" if truth else f"k[{place}]") for place, truth in enumerate(parts.truths)]
+    ray = writer.write(parts.rest, [Term("x"), Term("y"), *kept])
+    none = writer.either(*(part.none for part in ray)) or writer.NO
+    texts = [part.text for part in ray]
+    return "\n".join((
+        "bool ray(float x, float y, out vec3 o, out vec3 d) {", *writer.tables, *writer.lines,
+        f"    o = vec3({', '.join(texts[:3])});", f"    d = vec3({', '.join(texts[3:])});",
+        f"    return !({none});", "}",
+    )), writer.helpers  # fmt: skip

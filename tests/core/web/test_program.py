@@ -1,0 +1,73 @@
+"""Programs of cameras: the rays of any settings are those of a camera with these settings, in numpy and in node."""
+
+import json
+
+import numpy as np
+import pytest
+
+from camera_ray_caster.core.errors.rays import world_rays
+from camera_ray_caster.core.maths.recording import NUMPY
+from camera_ray_caster.core.shaders.javascript import RUNTIME
+from camera_ray_caster.core.web.program import holds
+from camera_ray_caster.core.web.split import javascript
+
+from ..shaders.javascript import NUMBERS, node
+from .programs import KEYS, program, settings
+
+PIXELS = 40
+
+
+def pixels(camera):
+    """Pixel coordinates all over the frame."""
+    generator = np.random.default_rng(3)
+    return tuple(generator.uniform(0.0, side, PIXELS) for side in camera.raster.size)
+
+
+def variant_of(key, values):
+    """The variant whose conditions hold."""
+    chosen = program(key).choices
+    for variant in program(key).variants:
+        if all(variant.choices[name] == values[name] for name in chosen) and holds(variant.parts, values):
+            return variant
+    raise AssertionError(f"no variant for {values}")
+
+
+def check(camera, x, y, found):
+    """Compare rays, (6, n), with a camera's: both may have the error that its bound allows."""
+    with np.errstate(all="ignore"):  # pixels without a ray
+        expected = np.array([np.broadcast_to(part, x.shape) for vector in camera.model.rays(x, y) for part in vector])
+        bounds = world_rays(camera, x, y)
+    assert np.array_equal(np.isnan(found[3]), np.isnan(expected[3]))
+    for part, error in ((slice(0, 3), bounds.origin_error), (slice(3, 6), bounds.direction_error)):
+        assert not (np.linalg.norm(found[part] - expected[part], axis=0) > 2 * error).any()
+
+
+@pytest.mark.parametrize("key", KEYS)
+def test_rays_of_any_settings_are_the_cameras(key):
+    count = 0
+    for values, camera in settings(key):
+        parts, (x, y) = variant_of(key, values).parts, pixels(camera)
+        given = NUMPY | {"parameter": lambda value, name, values=values: values[name]}
+        with np.errstate(all="ignore"):
+            kept = parts.first.evaluate(given, ())[parts.conditions :]
+            found = parts.rest.evaluate(given, (x, y, *kept))
+        check(camera, x, y, np.array([np.broadcast_to(part, x.shape) for part in found], float))
+        count += 1
+    assert count
+
+
+@pytest.mark.full
+@pytest.mark.parametrize("key", KEYS)
+def test_javascript_gives_the_same_rays(key):
+    cases = list(settings(key))
+    variants = [variant_of(key, values) for values, _ in cases]
+    places = [np.transpose(pixels(camera)).tolist() for _, camera in cases]
+    calls = ",\n".join(
+        f"run({javascript(variant.parts)}, {json.dumps(values)}, {json.dumps(place)})"
+        for variant, (values, _), place in zip(variants, cases, places, strict=True)
+    )
+    run = "function run(program, s, places) { const k = program.prepare(s); "
+    run += "return places.map(([x, y]) => program.rays(k, x, y)); }"
+    found = node(f"{RUNTIME}\n{run}\nconsole.log(JSON.stringify([{calls}], {NUMBERS}));")
+    for (_, camera), rays in zip(cases, found, strict=True):
+        check(camera, *pixels(camera), np.array([[float(str(value)) for value in ray] for ray in rays]).T)
