@@ -120,16 +120,18 @@ def contracts() -> str:
 def passes() -> str:
     """Return the page of the passes."""
     rows = "".join(
-        f"| `{name}` | {one.channels or 1} | {'as asked' if one.dtype is None else one.dtype.__name__} | {one.text} |\n"
+        f"| `{name}` | {one.channels or 1} | {'`dtype`' if one.dtype is None else one.dtype.__name__} | {one.text} |\n"
         for name, one in declared.PASSES.items()
     )
-    text = model_pages.as_markdown(declared.__doc__ or "")
-    return f"# Passes\n\n{text}\n\n| pass | channels | type | |\n|---|---|---|---|\n{rows}"
+    text = model_pages.as_markdown((declared.__doc__ or "").partition("\n\n")[2])
+    return (
+        f"# Passes\n\n{text}\n\n`dtype` is that of the cast.\n\n| pass | channels | type | |\n|---|---|---|---|\n{rows}"
+    )
 
 
 def as_rest(app, what, name, thing, options, lines: list[str]) -> None:
     """Turn a docstring into reStructuredText, in place."""
-    lines[:] = rest_of(lines)
+    lines[:] = [] if lines[:1] and lines[0].startswith("Alias for field number") else rest_of(lines)
 
 
 def rest_of(lines: list[str]) -> list[str]:
