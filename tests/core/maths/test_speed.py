@@ -45,6 +45,8 @@ def test_scratch_lends_the_same_memory_by_name_and_type():
     assert not np.shares_memory(first, scratch("b", (4, 5)))
     assert not np.shares_memory(first, scratch("a", (4, 5), np.int32))
     assert scratch("a", (40, 50)).shape == (40, 50)
+    assert not np.shares_memory(scratch.part("b")("a", (4, 5)), scratch("a", (4, 5)))
+    assert scratch.part("b") is scratch.part("b")
 
 
 @pytest.mark.parametrize("shapes", [((1, 7), (5, 1), ()), ((5, 7),) * 3, ((5, 7), (5, 1), (5, 7)), ((), (), ())])

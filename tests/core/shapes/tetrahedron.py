@@ -43,7 +43,7 @@ class Tetrahedron(Kind):
 
         def normals(pixels, point, direction):
             matrix = matrix_rows(np.swapaxes(shapes.shape_from_world[pixels.at], 1, 2))
-            normal = np.array(unit(matvec(matrix, FACES[pixels.kept("face", np.int8)].T)))
+            normal = np.array(unit(matvec(matrix, FACES[pixels.in_tile(pixels.known[8])].T)))
             return -np.sign(dot(normal, direction)) * normal
 
         return np.full((len(at), 4), np.nan), normals
@@ -52,7 +52,7 @@ class Tetrahedron(Kind):
         """u counts the triangles, v is q_x."""
         away = np.array(point).T - (shapes.shapes.center - shapes.pose.eye)[pixels.at]
         q = np.einsum("nij,nj->ni", shapes.shape_from_world[pixels.at], away)
-        return pixels.kept("face", np.int8).astype(float), q[:, 0]
+        return pixels.in_tile(pixels.known[8]).astype(float), q[:, 0]
 
     def errors(self, shapes, pixels, rays, from_eye, unit):
         """Of the triangles that are hit."""
@@ -75,7 +75,7 @@ class TetrahedronSet(ShapeSet):
         """One window, the tile; each of its pixels has its own shape and triangle."""
         best = np.full((1, *rays.shape), np.inf)
         at = np.zeros((1, *rays.shape), np.intp)
-        face = rays.scratch("face", rays.shape, np.int8)
+        face = rays.known[8] = np.zeros(rays.shape, np.int8)
         for shape in self.visible.at:
             matrix = self.shapes.shape_from_camera[shape]
             d = matvec(matrix, rays.direction)
@@ -104,7 +104,7 @@ class TetrahedronErrors(ShapeErrors):
     @property
     def t(self):
         """See ``ShapeErrors``."""
-        face = self.pixels.kept("face", np.int8)
+        face = self.pixels.in_tile(self.pixels.known[8])
         normal, offset = FACES[face].T, OFFSETS[face]
         local, tau = self.local, self.pixels.t / self.local.frame.scale
         d, n = dot(normal, local.d), dot(normal, local.n)

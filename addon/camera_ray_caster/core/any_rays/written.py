@@ -12,7 +12,8 @@ from ..casting.plan import Plan
 from ..casting.rays import TileRays
 from ..casting.request import Request
 from ..maths.speed import Scratch
-from ..shapes.mesh.nearest import SEEN, SeenTriangles
+from ..records import MESH
+from ..shapes.mesh.nearest import SeenTriangles
 from .given import camera_of
 from .search import RayHits, Search
 
@@ -68,6 +69,6 @@ def _values(plan: Plan, search: Search, part: slice, t, body, scratch: Scratch) 
     index[some] = search.at[body[some]]
     some &= search.is_triangle[body]
     met, place = np.unique(body[some], return_inverse=True)
-    scratch(SEEN, body.shape, np.int32)[some] = place
-    scratch.noted = {SEEN: SeenTriangles(search.at[met], search.number[met])}
-    return HitValues(Hits(plan, rays, t, index))
+    of_pixel = np.zeros(body.shape, np.int32)
+    of_pixel[some] = place
+    return HitValues(Hits(plan, rays, t, index, {MESH: SeenTriangles(search.at[met], search.number[met], of_pixel)}))

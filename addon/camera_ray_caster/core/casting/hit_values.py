@@ -235,4 +235,4 @@ class HitValues:
     def pixels(self, where: np.ndarray) -> HitPixels:
         """Return the pixels marked in ``where``, each of which hits something."""
         hits = self.hits
-        return HitPixels(where, (self.index, hits.t), hits.first_row, hits.rays.from_eye, self.scratch)
+        return HitPixels(where, (self.index, hits.t), hits.first_row, hits.rays.from_eye, hits.known)

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, replace
+from typing import Any
 
 import numpy as np
 
@@ -27,6 +28,8 @@ class Hits:
     """t of the hits; inf where nothing is hit."""
     index: np.ndarray
     """Index into ``Shapes`` of the nearest shape, NOTHING where nothing is hit."""
+    known: Mapping[int, Any] = field(default_factory=dict)
+    """What kinds know of the hits of the tile: see ``SearchRays.known``."""
     first_row: int = 0
     """Row of the tile at which these hits begin."""
 
@@ -42,7 +45,7 @@ class Hits:
                 for vector in (self.rays.origin, self.rays.direction)
             )
             rays = replace(self.rays, y=self.rays.y[rows], origin=origin, direction=direction)
-            yield rows, Hits(self.plan, rays, self.t[rows], self.index[rows], first)
+            yield rows, Hits(self.plan, rays, self.t[rows], self.index[rows], self.known, first)
 
     @lazy
     def seen(self) -> np.ndarray:

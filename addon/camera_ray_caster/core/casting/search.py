@@ -34,7 +34,7 @@ def nearest_hits(
     own = SearchRays(
         None if rays.from_eye else rays.origin,
         rays.direction,
-        rays.corner, shape, scratch, t if has_cutouts else None,
+        rays.corner, shape, scratch.part("kinds"), t if has_cutouts else None,
     )  # fmt: skip
     nearest = Nearest(own, t, scratch("index", shape, plan.index_type))
     if before is not None or has_cutouts:
@@ -54,7 +54,7 @@ def nearest_hits(
         beyond = np.greater(nearest.t, plan.camera.clip_end, out=scratch("closer", shape, bool))
         np.copyto(nearest.index, NOTHING, where=beyond)
         np.copyto(nearest.t, np.inf, where=beyond)
-    return Hits(plan, rays, nearest.t, nearest.index)
+    return Hits(plan, rays, nearest.t, nearest.index, own.known)
 
 
 @dataclass

@@ -10,7 +10,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..camera.camera import Camera
-from ..maths.speed import Scratch
 from ..maths.vector import inverse
 from ..records import INFINITE_PLANE, MESH, PLANE, SPHERE, Shapes
 from ..shapes.cutouts import Cutouts, crossings
@@ -147,7 +146,7 @@ class _Transparent:
         if cutouts is None:
             return ""
         own = HitTriangles(self._placed, np.zeros(1, int), at, np.array([triangle]), False)
-        pixels = crossings(at, np.array([t]), False, Scratch(), **{TRIANGLES: own})
+        pixels = crossings(at, np.array([t]), False, **{TRIANGLES: own})
         return "" if cutouts.hit(pixels, inverse(self._placed.pose.basis) @ point[:, None])[0] else TRANSPARENT
 
 

@@ -91,8 +91,11 @@ class Scratch:
 
     def __init__(self) -> None:
         self._arrays: dict[tuple, np.ndarray] = {}
-        self.noted: dict[str, Any] = {}
-        """Notes of the search of a tile for its passes, by name; the search of the next tile overwrites them."""
+        self._parts: dict[str, Scratch] = {}
+
+    def part(self, name: str) -> Scratch:
+        """Return working arrays whose names are apart from those of this one and of other parts."""
+        return self._parts.setdefault(name, Scratch())
 
     def __call__(self, name: str, shape, dtype=None) -> np.ndarray:
         """Return the array of this name and dtype in this shape, with the values last written, or arbitrary values."""

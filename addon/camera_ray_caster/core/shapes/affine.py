@@ -140,7 +140,7 @@ class AffineBodies(Bodies):
         found, at = np.ones(len(t), bool), self.at[body]
         some = np.flatnonzero(self._cutouts.may[at])
         point = along(tuple(part[some] for part in origin), tuple(part[some] for part in direction), t[some])
-        found[some] = self._cutouts.hit(crossings(at[some], t[some], False, scratch), point)
+        found[some] = self._cutouts.hit(crossings(at[some], t[some], False), point)
         return found
 
 

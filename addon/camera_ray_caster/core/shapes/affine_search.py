@@ -106,7 +106,7 @@ class SearchGroup:
         if self.cutouts is None:
             return cross(None)
         nearest = None if rays.nearest is None else part(rays.nearest)
-        return self.cutouts.first_hit(at, origin, direction, nearest, rays.scratch, cross)
+        return self.cutouts.first_hit(at, origin, direction, nearest, cross)
 
 
 @dataclass(frozen=True, eq=False)

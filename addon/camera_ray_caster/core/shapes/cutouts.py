@@ -11,7 +11,6 @@ from typing import Any
 
 import numpy as np
 
-from ..maths.speed import Scratch
 from ..maths.vector import matvec
 from .frames import InCamera
 from .kind import HitPixels, Kind
@@ -58,7 +57,7 @@ class Cutouts:
         return found
 
     def first_hit(
-        self, at: Any, origin: Any, direction: Any, nearest: Any, scratch: Scratch, cross: Cross
+        self, at: Any, origin: Any, direction: Any, nearest: Any, cross: Cross
     ) -> tuple[np.ndarray, np.ndarray]:
         """Return t of the first crossing that is a hit, and where there is one, as ``AffineKind.intersect`` does.
 
@@ -71,7 +70,7 @@ class Cutouts:
         while open_.any():
             where = np.nonzero(open_)
             span = t[where]
-            pixels = crossings(np.broadcast_to(at, t.shape)[where], span, origin is None, scratch)
+            pixels = crossings(np.broadcast_to(at, t.shape)[where], span, origin is None)
             point = [span * np.broadcast_to(part, t.shape)[where] for part in direction]
             if origin is not None:
                 point = [p + np.broadcast_to(part, t.shape)[where] for p, part in zip(point, origin, strict=True)]
@@ -85,9 +84,9 @@ class Cutouts:
         return t, found
 
 
-def crossings(at: np.ndarray, t: np.ndarray, from_eye: bool, scratch: Scratch, **noted: Any) -> HitPixels:
+def crossings(at: np.ndarray, t: np.ndarray, from_eye: bool, **noted: Any) -> HitPixels:
     """Return crossings, (m,), in the form of hit pixels, with the notes of their kind."""
-    return HitPixels(np.ones((1, len(at)), bool), (at[None], t[None]), 0, from_eye, scratch, noted)
+    return HitPixels(np.ones((1, len(at)), bool), (at[None], t[None]), 0, from_eye, noted=noted)
 
 
 def _crossed(found: tuple[Any, Any], nearest: Any) -> tuple[np.ndarray, np.ndarray]:

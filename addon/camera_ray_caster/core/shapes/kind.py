@@ -7,14 +7,14 @@ boxes of objects and landmarks of motion take the cube -1 to 1 of a shape's own 
 
 A kind whose shapes are affine images of one surface, each described by a row of constants, derives from ``AffineKind``,
 which implements most of the interface. Any other kind, such as meshes, derives from ``Kind`` and implements
-``ShapeSet.rest`` instead of ``ShapeSet.large``. It stores further data of a hit (which triangle) in an array of
-``SearchRays.scratch``, from which ``HitPixels.kept`` reads them for normals, uv and errors, or in ``Scratch.noted``.
+``ShapeSet.rest`` instead of ``ShapeSet.large``. What it knows of the hits of a tile (which triangle) it puts into
+``SearchRays.known`` under its number, and finds for normals, uv and errors in ``HitPixels.known``.
 """
 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple, Protocol
 
@@ -117,7 +117,8 @@ class HitPixels:
     """First row of the block, in the tile."""
     from_eye: bool
     """Whether their rays leave the eye."""
-    scratch: Scratch
+    known: Mapping[int, Any] = field(default_factory=dict)
+    """``SearchRays.known`` of the tile."""
     noted: dict[str, Any] = field(default_factory=dict)
     """Results that a kind has computed for these pixels, by name."""
 
@@ -140,11 +141,10 @@ class HitPixels:
         """Return the components of a vector of the block, which broadcast, at these pixels, (m,) each."""
         return tuple(taken(np.broadcast_to(part, self.where.shape).reshape(-1), self.places) for part in vector)
 
-    def kept(self, name: str, dtype: type) -> np.ndarray:
-        """Return the (m,) entries of these pixels in an array of the scratch that the search filled for the tile."""
-        rows, columns = self.where.shape
-        (kept,) = self.of((self.scratch(name, (self.first_row + rows, columns), dtype)[self.first_row :],))
-        return kept
+    def in_tile(self, values: np.ndarray) -> np.ndarray:
+        """Return the (m,) entries of these pixels in an array of the tile, (rows, columns)."""
+        (own,) = self.of((values[self.first_row : self.first_row + len(self.where)],))
+        return own
 
 
 class ShapeErrors(ABC):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -25,8 +25,11 @@ class SearchRays:
     shape: tuple[int, int]
     """Rows and columns."""
     scratch: Scratch
+    """Working arrays of the kinds; their content is lost when another shape is tested."""
     nearest: np.ndarray | None = None
     """t of the nearest hits so far, (rows, columns), if shapes with transparent points need it."""
+    known: dict[int, Any] = field(default_factory=dict)
+    """What kinds know of the hits of the tile besides t and shape, by number of the kind; it travels with the hits."""
 
     def within(self, window: tuple[slice, slice]) -> SearchRays:
         """Return the rays of some rows and columns of the tile."""

@@ -65,7 +65,7 @@ class TriangleBodies(Bodies):
         at, own_t = at[some], t[some]
         triangles = HitTriangles(self._shapes, np.arange(len(some)), at, self.number[body[some]], from_eye=False)
         point = along(tuple(part[some] for part in origin), tuple(part[some] for part in direction), own_t)
-        found[some] = self._cutouts.hit(crossings(at, own_t, False, scratch, **{TRIANGLES: triangles}), point)
+        found[some] = self._cutouts.hit(crossings(at, own_t, False, **{TRIANGLES: triangles}), point)
         return found
 
 

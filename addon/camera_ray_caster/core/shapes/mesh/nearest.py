@@ -11,18 +11,19 @@ from ... import tuning
 from ...maths.speed import taken
 from ..search_rays import SearchRays
 
-SEEN = "triangles seen"
-"""Name under which the scratch notes the ``SeenTriangles`` of a tile, and of its array of each pixel's index there."""
-
 
 @dataclass(frozen=True, eq=False)
 class SeenTriangles:
-    """The triangles that some pixel of a tile sees, (k,) each."""
+    """The triangles that some pixel of a tile sees: what the search knows of hits on meshes."""
 
     at: np.ndarray
-    """Indices into ``Shapes``."""
+    """(k,) indices into ``Shapes``."""
     number: np.ndarray
-    """Indices into the triangles of the mesh."""
+    """(k,) indices into the triangles of the mesh."""
+    of_pixel: np.ndarray
+    """(rows, columns): which of them each pixel of the tile sees; undefined where it sees no mesh."""
+    noted: dict[str, Any] = field(default_factory=dict)
+    """Results that have been computed for these triangles, by name."""
 
 
 NONE = -1

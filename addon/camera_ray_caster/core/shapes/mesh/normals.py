@@ -10,21 +10,20 @@ import numpy as np
 from ... import tuning
 from ...maths.speed import taken
 from ...maths.vector import dot, norm
+from ...records import MESH
 from ..frames import InCamera
 from ..kind import HitPixels
-from .nearest import SEEN, SeenTriangles
+from .nearest import SeenTriangles
 from .surface import HitTriangles, affine_at
 
 NORMALS = "normals of triangles"
-"""Name under which the scratch notes the ``TriangleNormals`` of a tile."""
+"""Name under which ``SeenTriangles.noted`` has the ``TriangleNormals`` of a tile."""
 
 
 @dataclass(frozen=True, eq=False)
 class TriangleNormals:
     """Normals, of any length, of the k triangles that a tile sees: constant + slope . p at p relative to the eye."""
 
-    seen: SeenTriangles
-    """The triangles, as the search noted them."""
     constant: np.ndarray
     """(3, k)."""
     slope: np.ndarray | None
@@ -35,10 +34,10 @@ class TriangleNormals:
     @classmethod
     def of(cls, shapes: InCamera, pixels: HitPixels) -> TriangleNormals:
         """Return the normals of the pixels' tile."""
-        noted = pixels.scratch.noted
-        if NORMALS not in noted or noted[NORMALS].seen is not noted[SEEN]:
-            noted[NORMALS] = cls._of_tile(shapes, noted[SEEN], pixels.from_eye)
-        return noted[NORMALS]
+        seen = pixels.known[MESH]
+        if NORMALS not in seen.noted:
+            seen.noted[NORMALS] = cls._of_tile(shapes, seen, pixels.from_eye)
+        return seen.noted[NORMALS]
 
     @classmethod
     def _of_tile(cls, shapes: InCamera, seen: SeenTriangles, from_eye: bool) -> TriangleNormals:
@@ -57,7 +56,7 @@ class TriangleNormals:
                 constant[:, own] = turn * np.array(some.area)
                 continue
             constant[:, own], slope[..., own] = some.affine(turn * some.corner_normals)
-        return cls(seen, constant, slope, area)
+        return cls(constant, slope, area)
 
     def at(self, pixels: HitPixels, point: Any, direction: Any) -> Any:
         """Return the unit normals turned towards the rays, as in Blender's Normal pass; (m,) components.
@@ -65,7 +64,7 @@ class TriangleNormals:
         The sign comes from the side of the face that is hit, not from the interpolated normal. The result is 0 where
         the interpolated normals cancel.
         """
-        which = pixels.kept(SEEN, np.int32).astype(np.intp)
+        which = pixels.in_tile(pixels.known[MESH].of_pixel).astype(np.intp)
         if self.slope is None:
             normal = taken(self.constant, which)
         else:

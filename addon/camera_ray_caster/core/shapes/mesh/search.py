@@ -13,12 +13,13 @@ import numpy as np
 from ... import tuning
 from ...maths.speed import merged, taken
 from ...maths.vector import dot, norm
+from ...records import MESH
 from ..cutouts import Cutouts, crossings
 from ..kind import Candidates, PixelBounds, ShapeSet
 from ..search_rays import SearchRays
 from ..windows import Windows, banded, batches, in_tile, pixels_in, union
 from .in_camera import MeshesInView, Triangles
-from .nearest import NONE, SEEN, Nearest, SeenTriangles
+from .nearest import NONE, Nearest, SeenTriangles
 from .order import nearest_first, pieces, slabs
 from .spans import RayLattice, spans
 from .surface import TRIANGLES, HitTriangles
@@ -51,7 +52,7 @@ class Open(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class MeshSet(ShapeSet):
-    """The meshes that a camera may see. ``rest`` stores the triangle of each pixel in the scratch."""
+    """The meshes that a camera may see. ``rest`` tells the triangle of each pixel: see ``SeenTriangles``."""
 
     meshes: MeshesInView
     clip_start: float
@@ -99,12 +100,12 @@ class MeshSet(ShapeSet):
         seen, of_pixel = found.seen()
         if not seen.size:
             return
-        whole.scratch(SEEN, whole.shape, np.int32)[window] = of_pixel
-        noted = SeenTriangles(*blocks.numbers(seen))
-        whole.scratch.noted[SEEN] = noted
+        of_tile = whole.scratch("triangles seen", whole.shape, np.int32)
+        of_tile[window] = of_pixel
+        whole.known[MESH] = known = SeenTriangles(*blocks.numbers(seen), of_tile)
         corner = np.array([first_row]), np.array([first_column])
         met = found.number != NONE
-        at = merged(noted.at)
+        at = merged(known.at)
         at = at[None, None] if len(at) == 1 else at.take(of_pixel)[None]
         yield Candidates(at, corner, found.t[None], met[None])
 
@@ -233,7 +234,7 @@ class MeshSet(ShapeSet):
             origin, direction = rays.at(pixel[some])
             point = direction * t[some] if origin is None else origin + direction * t[some]
             own = HitTriangles(cutouts.shapes, triangle[some], at, number, origin is None).only(slice(None))
-            pixels = crossings(at[triangle[some]], t[some], origin is None, rays.scratch, **{TRIANGLES: own})
+            pixels = crossings(at[triangle[some]], t[some], origin is None, **{TRIANGLES: own})
             is_hit[some] = cutouts.hit(pixels, point)
         return is_hit
 

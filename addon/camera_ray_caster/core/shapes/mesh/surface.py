@@ -16,9 +16,9 @@ from ...conventions import EPS
 from ...maths.speed import lazy, merged, taken
 from ...maths.vector import components, cross, difference, dot, matrix_rows, matvec, norm
 from ...mesh import Mesh
+from ...records import MESH
 from ..frames import InCamera
 from ..kind import HitPixels
-from .nearest import SEEN
 
 TRIANGLES = "triangles"
 """Name under which ``HitPixels.noted`` has the ``HitTriangles`` of the pixels."""
@@ -45,8 +45,8 @@ class HitTriangles:
     def of(cls, shapes: InCamera, pixels: HitPixels) -> HitTriangles:
         """Return the triangles of one or more pixels that see meshes; they are made at first use and noted."""
         if TRIANGLES not in pixels.noted:
-            of_tile, which = pixels.scratch.noted[SEEN], pixels.kept(SEEN, np.int32)
-            own = cls(shapes, which, of_tile.at, of_tile.number, pixels.from_eye)
+            seen = pixels.known[MESH]
+            own = cls(shapes, pixels.in_tile(seen.of_pixel), seen.at, seen.number, pixels.from_eye)
             pixels.noted[TRIANGLES] = own.only(slice(None))
         return pixels.noted[TRIANGLES]
 
