@@ -7,12 +7,10 @@ from pathlib import Path
 import make_docs  # in scripts/, beside the table of models
 import numpy as np
 
-from camera_ray_caster import camera as make_camera
-from camera_ray_caster import cast, join, planes, spheres
+import camera_ray_caster as crc
 from camera_ray_caster.core.camera.camera import Camera
 from camera_ray_caster.core.cameras import MODELS
 from camera_ray_caster.core.cameras.model import GROUPS, Model
-from camera_ray_caster.core.cameras.parts.settings import Line
 from camera_ray_caster.core.exports import FORMATS, Shot
 from camera_ray_caster.core.sets.png import png, srgb
 
@@ -20,8 +18,13 @@ PICTURES = Path("blend_scenes", "pictures")
 """The gallery, which has a picture of each model, named as the model's file but for those of SHOWN_BY."""
 SHOWN_BY = {"PERSP": "pinhole", "ORTHO": "isometric", "STEREOGRAPHIC_PANORAMA": "little_planet"}
 SIZE = 480, 320
-LINES = [(0.0, 0.0, 0.0), (1.0, 0.0, 0.0)], [(0.0, 0.0, 2.0), (0.0, 1.0, 0.0)]
-"""For settings that are lines: points and directions, or points of a path; the camera's plane is z = 0."""
+NEEDED = {
+    "slit_1": "[(0.0, 0.0, 0.0), (1.0, 0.0, 0.0)]",
+    "slit_2": "[(0.0, 0.0, 2.0), (0.0, 1.0, 0.0)]",
+    "path": "[(0.0, 0.0, 0.0), (1.0, 0.0, 0.0)]",
+    "ray_directions": 'crc.camera("FISHEYE_EQUIDISTANT", (64, 48)).rays().directions',
+}
+"""Settings that have no default, in Python: lines are a point and a direction, or the points of a path."""
 
 INDEX = """\
 # Camera models
@@ -114,7 +117,7 @@ def page(model: type[Model], root: Path, folder: Path) -> str:
         writers=", ".join(f"`{one.key}`" for one in FORMATS if one.refusal(shot_of(model)) is None),
         file=file.name,
         path=file.relative_to(root).as_posix(),
-        given="".join(f", {name}={line}" for name, line in lines_of(model).items()),
+        given=given(model),
         steps="\n".join(f"1. {step.words}:\n\n       {step.symbols}\n" for step in model.FORMULA),
         settings=make_docs.table(model.SETTINGS).strip() or "It has none.",
         text=as_markdown(inspect.getdoc(inspect.getmodule(model))),
@@ -123,12 +126,12 @@ def page(model: type[Model], root: Path, folder: Path) -> str:
 
 def plain_camera(model: type[Model]) -> Camera:
     """Return a camera with the model's defaults at the origin."""
-    return make_camera(model.key, SIZE, **lines_of(model))
+    return eval(f'crc.camera("{model.key}", {SIZE}{given(model)})', {"crc": crc})
 
 
-def lines_of(model: type[Model]) -> dict[str, list[tuple[float, float, float]]]:
-    """Return lines for those settings that have no default."""
-    return dict(zip((one.name for one in model.SETTINGS if isinstance(one, Line)), LINES, strict=False))
+def given(model: type[Model]) -> str:
+    """Return the settings without a default as a call of ``crc.camera`` has them."""
+    return "".join(f", {one.name}={NEEDED[one.name]}" for one in model.SETTINGS if one.name in NEEDED)
 
 
 def shot_of(model: type[Model]) -> Shot:
@@ -166,9 +169,9 @@ def picture(model: type[Model], root: Path, folder: Path) -> str:
 
 def room_seen_by(model: type[Model]) -> np.ndarray:
     """Return the picture that a model with its defaults has of some balls on the ground, (rows, columns, 4), uint8."""
-    place = np.array([(x, -0.5, z) for x in (-3.0, 0.0, 3.0) for z in (-3.0, -6.0, 3.0, 6.0)])
-    ground = planes((0.0, -1.0, 0.0), [[1, 0], [0, 0], [0, 1]], infinite=True)
-    shapes = join(spheres(place, 0.5, color=0.5 + place[:, [0, 2, 0]] / 15), ground)
-    images = cast(plain_camera(model), shapes, passes=("combined", "valid"), shading="GRID", samples=4)
-    color = np.concatenate((srgb(images["combined"][..., :3]), 255 * images["valid"][..., None]), axis=-1)
+    place = np.array([(x, -0.5, z) for x in (-4.0, -1.3, 1.3, 4.0) for z in (-8.0, -4.5, 4.5, 8.0)])
+    ground = crc.planes((0.0, -1.0, 0.0), [[1, 0], [0, 0], [0, 1]], infinite=True)
+    shapes = crc.join(crc.spheres(place, 0.5, color=0.5 + place[:, [0, 2, 1]] / (10, 20, 2)), ground)
+    images = crc.cast(plain_camera(model), shapes, passes=("combined", "shape_index"), shading="GRID", samples=4)
+    color = np.concatenate((srgb(images["combined"][..., :3]), 255 * (images["shape_index"] >= 0)[..., None]), axis=-1)
     return color[::-1].astype(np.uint8)

@@ -1,6 +1,7 @@
 """The documentation site: built without Blender, with warnings as errors; its links, its pages of models and names."""
 
 import html
+import importlib
 import re
 import subprocess
 import sys
@@ -8,6 +9,7 @@ from html.parser import HTMLParser
 from time import monotonic
 from urllib.parse import unquote, urlsplit
 
+import numpy as np
 import pytest
 
 import camera_ray_caster as crc
@@ -112,3 +114,17 @@ def test_the_start_leads_to_three_paths(site):
     paths = ["For computer vision", "For pictures", "For teaching"]
     assert re.findall(r"<h2>(.*?)<a", text) == [*paths, "Install"]
     assert "url=docs/index.html" in (site / "index.html").read_text(encoding="utf-8")
+
+
+def test_a_model_that_the_gallery_does_not_show_is_cast(monkeypatch, tmp_path):
+    for folder in ("docs", "scripts"):
+        monkeypatch.syspath_prepend(str(ROOT / folder))
+    pages = importlib.import_module("model_pages")
+    monkeypatch.setitem(pages.SHOWN_BY, "FOV", None)
+    monkeypatch.setattr(pages, "PICTURES", tmp_path.relative_to("/"))
+    shown = pages.picture(crc.models()["FOV"], tmp_path, tmp_path)
+    assert shown == "../../fov.png"
+    assert (tmp_path / "fov.png").read_bytes().startswith(b"\x89PNG")
+    colors = pages.room_seen_by(crc.models()["FOV"])
+    assert colors.shape == (320, 480, 4)
+    assert len(np.unique(colors.reshape(-1, 4), axis=0)) > 1000  # balls and ground, with a grid
