@@ -72,6 +72,7 @@ MAY_IMPORT = {
     "blender.view3d": READ | {"blender.output", "blender.view3d"},
     "blender.terminal": DOOR | {"blender.terminal"},
     "blender.ui": DOOR | {"blender.gallery", "blender.view3d", "blender.ui"},
+    "blender.ui.cast_all": DOOR | {"blender.terminal", "blender.ui"},
     "blender": {"blender", "core"},
     "": {"blender", "core"},
 }

@@ -3,6 +3,7 @@
 import _cycles
 import bpy
 import numpy as np
+from all_scenarios import ALL_SCENARIOS
 from camera_scenarios import CAMERA_SCENARIOS
 from cast_scenarios import CAST_SCENARIOS
 from lesson_scenarios import LESSON_SCENARIOS
@@ -248,6 +249,7 @@ SCENARIOS = {
     for scenario in (
         panel, no_camera, left_out, *CAST_SCENARIOS, overlay, ray_under_mouse, viewport,
         cycles, *CAMERA_SCENARIOS, *LESSON_SCENARIOS, *STRANGER_SCENARIOS, *REDRAW_SCENARIOS, *WINDOW_SCENARIOS,
+        *ALL_SCENARIOS,
         disable,
     )
 }  # fmt: skip

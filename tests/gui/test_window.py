@@ -22,7 +22,7 @@ SCENARIOS = (
     "ray_under_mouse", "viewport", "cycles", "camera_settings", "model_gallery", "search", "told", "step_through",
     "step_through_image", "examples", "cast_a_cube", "see_through", "ray_of_a_pixel", "export_colmap",
     "redraws_of_shapes", "redraws_of_monkeys", "redraws_all_around",
-    "shown_camera", "set_frame", "other_engine", "marks", "click_seen", "drag_a_ray", "disable",
+    "shown_camera", "set_frame", "other_engine", "marks", "click_seen", "drag_a_ray", "cast_all", "disable",
 )  # fmt: skip
 SIZE = "1400x900"
 LIMIT = 1200

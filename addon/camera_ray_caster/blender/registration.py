@@ -18,6 +18,7 @@ from .ui import (
     add_line,
     camera_panels,
     cameras_list,
+    cast_all,
     cast_operator,
     cast_panels,
     cycles_operators,
@@ -52,7 +53,7 @@ CLASSES = (
     *cycles_operators.CLASSES, *frame.CLASSES, *other_engine.CLASSES, *add_line.CLASSES, *export_operators.CLASSES,
     *rig_operators.CLASSES, *mouse_gizmo.CLASSES, *render_panels.CLASSES, *gallery_panels.CLASSES,
     *menus.CLASSES, *presets.CLASSES, *model_panels.CLASSES,
-    *see_through.CLASSES, *select_seen.CLASSES, *camera_panels.CLASSES, *cameras_list.CLASSES,
+    *see_through.CLASSES, *select_seen.CLASSES, *camera_panels.CLASSES, *cast_all.CLASSES, *cameras_list.CLASSES,
     *show_result.CLASSES, *cast_panels.CLASSES, *verify_panels.CLASSES,
     *left_out_panels.CLASSES, *lesson_operators.CLASSES, *point_operators.CLASSES, *gallery_operators.CLASSES,
     *lesson_panels.CLASSES, *facts_panels.CLASSES, *overlay_panels.CLASSES, *object_panels.CLASSES,
@@ -62,7 +63,7 @@ CLASSES = (
 MODULES = (
     groups, paths, kept, follow, reports, images, gallery, scene_cache, viewport, cast_operator, overlay, lesson,
     notice, render_panels, menus, gallery_operators, lesson_operators, presets, export_operators, rig_operators,
-    commands, other_engine, see_through, hide_overlays, select_seen,
+    commands, other_engine, see_through, hide_overlays, select_seen, cast_all,
 )  # fmt: skip
 """Modules that register more than classes. Their ``register(undo)`` gives ``undo`` the callbacks that undo it."""
 

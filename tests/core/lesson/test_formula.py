@@ -60,7 +60,7 @@ def test_a_name_is_known_wherever_it_is_assigned():
 def test_the_components_of_a_vector_are_known():
     formulas = [("m = u × (0, r, x)", {}), ("d = -m / m_z, n = m_x m_y", {})]
     assert worked_out(formulas, KNOWN) == [
-        ["m = u × (0, 2, 2.5) = (0, -2.5, 2)"], ["d = -m / 2 = (0, 1.25, -1)", "n = 0 · (-2.5) = -0"],
+        ["m = u × (0, 2, 2.5) = (0, -2.5, 2)"], ["d = -m / 2 = (0, 1.25, -1)", "n = 0 · (-2.5) = 0"],
     ]  # fmt: skip
 
 

@@ -20,7 +20,7 @@ from .words import add_frames, count, scheduler_address, share
 
 def run(arguments: Sequence[str], prog: str) -> int:
     """Render cameras and frames of a file into pictures, EXR or NPZ files and reports; return the exit status."""
-    options = parsed(_parser(prog), arguments)
+    options = options_of(arguments, prog)
     pictures = Pictures(options)
     for line in pictures.warnings:
         warn(prog, line)
@@ -64,7 +64,8 @@ def run(arguments: Sequence[str], prog: str) -> int:
     return int(not passed)
 
 
-def _parser(prog: str):
+def options_of(arguments: Sequence[str], prog: str) -> argparse.Namespace:
+    """Return the options of a command line. Raises InputError for options that cannot be combined."""
     parser = command_parser(
         prog,
         "Cast the rays of a Blender file's cameras at what they show.",
@@ -96,7 +97,7 @@ def _parser(prog: str):
                              "nodes write nothing")  # fmt: skip
     add_json(parser)
     parser.set_defaults(pictures=True)
-    return parser
+    return parsed(parser, arguments)
 
 
 def _make_absolute(options: argparse.Namespace) -> None:

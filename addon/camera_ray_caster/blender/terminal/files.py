@@ -1,13 +1,13 @@
 """A rendered frame as files: a picture, its passes as EXR or NPZ, and the report. All files appear, or none."""
 
 import os
-from collections.abc import Iterable, Mapping, Sequence
-from contextlib import ExitStack, redirect_stdout
+from collections.abc import Generator, Iterable, Mapping, Sequence
+from contextlib import ExitStack, closing, redirect_stdout
 from dataclasses import replace
 from math import ceil
 from pathlib import Path
 from time import perf_counter
-from typing import Any
+from typing import Any, TypeVar
 
 import bpy
 import numpy as np
@@ -52,10 +52,34 @@ EXR, NPZ = "EXR", "NPZ"
 FORMATS = EXR, NPZ
 """File formats of passes: a multilayer EXR, or NumPy arrays."""
 
+T = TypeVar("T")
+Making = Generator[None, None, T]
+"""Steps that wait for a render of the scene wherever they yield, and return something in the end."""
+
 NOT_WRITTEN = "the compositor's File Output nodes were not run: --file-output makes them write their files"
 
 
-def render(
+def render(scene, *where, **how) -> tuple[Report, list[Path]]:
+    """Run ``rendering`` from its beginning to its end."""
+    return at_once(scene, rendering(scene, *where, **how))
+
+
+def at_once(scene, making: Making[T]) -> T:
+    """Run what waits for renders of the scene to its end, with a render wherever it waits; return its result."""
+    with closing(making):
+        while True:
+            try:
+                next(making)
+            except StopIteration as end:
+                return end.value
+            try:
+                with redirect_stdout(None):  # warnings go into the report, errors into the exception
+                    bpy.ops.render.render(scene=scene.name)
+            except RuntimeError as error:
+                raise InputError(reported(error)) from error
+
+
+def rendering(
     scene,
     folder: Path,
     name: str,
@@ -69,8 +93,10 @@ def render(
     stamp: Mapping[str, Any] | None = None,
     keypoints: Sequence[str] | None = None,
     beside: Iterable[Path] = (),
-) -> tuple[Report, list[Path]]:
-    """Render the scene's current frame into ``folder`` and return the report and the paths of the files.
+) -> Making[tuple[Report, list[Path]]]:
+    """Make files of the scene's current frame in ``folder``; return the report and the paths of the files.
+
+    It waits once, by a ``yield``, for a render of the scene; if it is closed there, nothing is left behind.
 
     The files are NAME.png, NAME.exr (or .npz, depending on ``layers``) and REPORT_NAME.json; with several views,
     NAME_L.png, NAME_R.png and so on, by the views' suffixes. ``half`` stores real numbers of passes with 16 bits.
@@ -86,7 +112,7 @@ def render(
     keeps = layers == NPZ or keypoints is not None
     call = RenderCall(picture, {} if keeps else None)
     with atomic_folder(folder) as temporary:
-        report = _composited(scene, call, file_output)
+        report = yield from _composited(scene, call, file_output)
         report = report if picture is None else report.with_seconds(cycles=picture.seconds)
         started = perf_counter()
         if shown:
@@ -118,21 +144,22 @@ def check(scene) -> None:
     _check_memory(scene)
 
 
-def _composited(scene, call: RenderCall, file_output: bool) -> Report:
+def _composited(scene, call: RenderCall, file_output: bool) -> Making[Report]:
     """Render the current frame, with File Output nodes writing only if ``file_output``, and return the report."""
     nodes = file_outputs.writing(scene)
     if file_output:
         before = file_outputs.files(scene, nodes)
-        report = _rendered(scene, call)
+        report = yield from _rendered(scene, call)
         written = file_outputs.changed(before, file_outputs.files(scene, nodes))
         return replace(report, file_outputs=written, warnings=(*report.warnings, *not_run()))
     with file_outputs.muted(nodes):
-        report = _rendered(scene, call)
+        report = yield from _rendered(scene, call)
     return replace(report, warnings=(*report.warnings, *not_run(), *([NOT_WRITTEN] if nodes else [])))
 
 
-def _rendered(scene, call: RenderCall) -> Report:
-    """Render the current frame and return its report, with Blender's share of the time. Raises Cancelled if stopped.
+def _rendered(scene, call: RenderCall) -> Making[Report]:
+    """Wait for a render of the current frame; return its report, with Blender's share of the time. Raises Cancelled if
+    it was stopped.
 
     Beside the picture of another engine, which shows the faces of meshes, meshes are not cast as exact shapes.
     """
@@ -140,15 +167,11 @@ def _rendered(scene, call: RenderCall) -> Report:
     if hasattr(scene.render, "use_render_cache"):  # before 5.2
         scene.render.use_render_cache = False  # cache files are placed by the scene's name
     started = perf_counter()
-    try:
-        with ExitStack() as stack:
-            if call.picture is not None:
-                changed(stack, scene.camera_ray_caster, exact_shapes=False)
-            stack.enter_context(call.handed())
-            stack.enter_context(redirect_stdout(None))  # warnings go into the report, errors into the exception
-            bpy.ops.render.render(scene=scene.name)
-    except RuntimeError as error:
-        raise InputError(reported(error)) from error
+    with ExitStack() as stack:
+        if call.picture is not None:
+            changed(stack, scene.camera_ray_caster, exact_shapes=False)
+        stack.enter_context(call.handed())
+        yield
     elapsed = perf_counter() - started
     if call.stopped:
         raise Cancelled

@@ -102,14 +102,15 @@ def parsed(parser: Parser, arguments: Sequence[str]) -> Namespace:
 class Pictures:
     """A file, opened and set up for the options of a command line, and its pictures."""
 
-    def __init__(self, options):
-        """Open the file and set up its scene. Raises InputError for bad input."""
+    def __init__(self, options, scene=None):
+        """Open the file and set up its scene, or set up a scene that is open. Raises InputError for bad input."""
         by_cycles = options.engine == CYCLES
         if by_cycles:
             check_cycles()
         self.options = options
         self.warnings: list[str] = []
-        self.scene = scene = open_scene(options, self.warnings.append)
+        self.scene = scene = scene or open_scene(options, self.warnings.append)
+        scene.render.engine = CameraRayCaster.bl_idname
         if self.keypoints is not None:
             check_annotations(scene)
             check_key_points(scene, self.keypoints)
@@ -157,9 +158,15 @@ class Pictures:
             for camera, name in names.items()
         ]
 
-    def make(self, job: PictureJob, stamp: dict[str, Any], prog: str, ray_map: RayMap | None = None) -> Outcome:
+    def make(self, *what) -> Outcome:
+        """Run ``making`` from its beginning to its end."""
+        return files.at_once(self.scene, self.making(*what))
+
+    def making(
+        self, job: PictureJob, stamp: dict[str, Any], prog: str, ray_map: RayMap | None = None
+    ) -> files.Making[Outcome]:
         """Make a picture, or skip it if it is finished and --skip-existing is given. If the camera's rays are those of
-        ``ray_map``, leave out the ray passes.
+        ``ray_map``, leave out the ray passes. It waits for renders of the scene.
         """
         taken = self.taken(job, stamp, ray_map)
         if taken is not None:
@@ -171,15 +178,16 @@ class Pictures:
         self.tick(lambda key: key not in left_out)
         picture = self._by_cycles(prog) if self.options.engine == CYCLES else None
         of = _of(stamp, job, ray_map)
-        report, paths = self.render(
+        report, paths = yield from self.rendering(
             job, of, shown=self.options.pictures, picture=picture, beside=beside, keypoints=self.keypoints
         )
         return Outcome(report.passed, True, report.warnings, report.notes, report.exact, report, paths)
 
-    def render(self, job: PictureJob, of: dict[str, Any], **more) -> tuple[Report, list[Path]]:
-        """Write the files of a job from the current state of the scene; ``of`` is their stamp; see ``files.render``."""
+    def rendering(self, job: PictureJob, of: dict[str, Any], **more) -> files.Making[tuple[Report, list[Path]]]:
+        """Write the files of a job from the current state of the scene; ``of`` is their stamp; see ``files.rendering``.
+        """
         asked = self.options
-        return files.render(
+        return files.rendering(
             self.scene, asked.output, job.name, job.report,
             layers=asked.format, half=asked.half, file_output=asked.file_output, stamp=of, **more,
         )  # fmt: skip

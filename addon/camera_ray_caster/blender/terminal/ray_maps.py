@@ -9,6 +9,7 @@ import numpy as np
 
 from ...core.camera.camera import Camera
 from ..output.stamps import finished
+from .files import at_once
 from .jobs import PictureJob, RayMap
 
 PASSES = "ray_origin", "ray_direction"
@@ -39,5 +40,6 @@ def made_map(pictures, first: PictureJob, stamp: dict) -> RayMap | None:
         return RayMap(file, found["made"]["of"]["rays"])
     digest = digest_of(pictures.camera_at(first))
     pictures.tick(PASSES.__contains__)
-    pictures.render(replace(first, name=name, report=name), {**of, "rays": digest}, shown=False)
+    making = pictures.rendering(replace(first, name=name, report=name), {**of, "rays": digest}, shown=False)
+    at_once(pictures.scene, making)
     return RayMap(file, digest)

@@ -8,6 +8,7 @@ from bpy.props import BoolProperty, StringProperty
 from ...core.records import InputError
 from ..properties.labels import label_of
 from ..read.camera import ALL, find_camera, find_cameras
+from .cast_all import draw_all
 from .drawing import Sidebar
 from .export_operators import Export
 from .gallery_panels import key_of
@@ -55,7 +56,7 @@ class SidebarCameras(Sidebar, bpy.types.Panel):
         return sum(item.type == "CAMERA" for item in context.scene.objects) > 1
 
     def draw(self, context):
-        """Draw a row for each camera, and the export of all."""
+        """Draw a row for each camera, and the cast and the export of all."""
         layout, active = self.layout, context.scene.camera
         column = layout.column(align=True)
         try:
@@ -70,6 +71,7 @@ class SidebarCameras(Sidebar, bpy.types.Panel):
             through = row.operator(UseCamera.bl_idname, text="", icon="CAMERA_DATA")
             through.name, through.see_through = item.name, True
         layout.operator_context = "INVOKE_DEFAULT"
+        draw_all(layout, context)
         export = layout.operator(Export.bl_idname, text="Export All", icon="EXPORT")
         export.format, export.cameras, export.frames = "json", "ALL", "RANGE"
 

@@ -78,17 +78,17 @@ def begin(scene, _=None):
     if said and bpy.app.background:
         print(f"Warning: {said}. Set the render engine to Camera Ray Caster, or use the camera in Cycles", flush=True)
     elif said:
-        _later(f"{said}. What would work is in the sidebar, tab Ray Caster", 0.0)
+        show_later(f"{said}. What would work is in the sidebar, tab Ray Caster", 0.0)
 
 
 @persistent
 def end(scene, _=None):
     """Clear the status bar some time after a render has ended."""
     if not bpy.app.background and ignored(scene, scene.camera):
-        _later(None, SHOWN)
+        show_later(None, SHOWN)
 
 
-def _later(text: str | None, seconds: float) -> None:
+def show_later(text: str | None, seconds: float) -> None:
     """Show a text in the status bar from a timer: Blender calls the handlers of a render in the render's thread."""
     bpy.app.timers.register(partial(show, text), first_interval=seconds)
 

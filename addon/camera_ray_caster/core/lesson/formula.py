@@ -120,7 +120,7 @@ def shown(number: Any) -> str:
     of the longest component if this is below 1.
     """
     if np.ndim(number) == 0:
-        return f"{number:.6g}"
+        return f"{number + 0.0:.6g}"
     parts = np.asarray(number, np.float64)
     with np.errstate(invalid="ignore"):
         least = 5e-7 * np.minimum(np.abs(parts).max(initial=0.0), 1.0)

@@ -1,0 +1,97 @@
+"""What a user does with all cameras of a scene, one scenario a function: see scenarios.py."""
+
+import json
+
+import bpy
+from parts import BUTTON, addon, load
+from window_scenarios import dialog, middle
+
+LIST = 58
+"""Pixels from the button Use in Cycles down to the title of the list of cameras."""
+
+
+def cast_all(user, scenes):
+    """The list of cameras casts them all at all frames into a folder, as the terminal does; Esc leaves whole frames."""
+    yield from load(user, scenes, "toys")
+    scene, run = bpy.context.scene, addon("ui.cast_all")
+    second = bpy.data.objects.new("Dome", bpy.data.cameras.new("Dome"))
+    second.data.camera_ray_caster.model, second.matrix_world = "OMNIMAX", scene.camera.matrix_world.copy()
+    scene.collection.objects.link(second)
+    scene.render.engine, scene.render.resolution_percentage = "BLENDER_WORKBENCH", 20
+    scene.frame_start, scene.frame_end, scene.frame_current = 1, 2, 7
+    before = kept(scene)
+    yield from user.wait(0.7)
+    user.picture("cameras_closed")
+    yield from open_list(user)
+    user.picture("cameras_open")
+    yield from user.press(f"{BUTTON}cast_all(")
+    folder = user.folder / "all"
+    folder.mkdir(exist_ok=True)
+    yield from into(user, folder)
+    yield from user.until(run.running, "the pictures are being made")
+    yield from user.until(lambda: run.running() is None, "the pictures are made", 120)
+    assert run.latest().startswith("Wrote 4 pictures into"), run.latest()
+    assert sorted(path.stem for path in folder.glob("*.png")) == [
+        f"{name}_{frame:04}" for name in (scene.camera.name, "Dome") for frame in (1, 2)
+    ]
+    check_whole(folder)
+    assert kept(scene) == before
+    yield from user.wait(0.5)
+    user.picture("cameras_cast")
+
+    scene.render.resolution_percentage, scene.frame_end = 60, 50
+    yield from user.press(f"{BUTTON}cast_all(")
+    folder = user.folder / "stopped"
+    folder.mkdir(exist_ok=True)
+    yield from into(user, folder)
+    yield from user.until(lambda: run.running() and run.running().made, "a picture is made", 120)
+    yield from user.wait(0.5)
+    user.picture("cameras_casting")
+    yield from user.key("Escape")
+    yield from user.until(lambda: run.running() is None, "it has ended", 20)
+    assert run.latest().startswith("Stopped: "), run.latest()
+    assert 0 < len(list(folder.glob("*.json"))) < 100
+    check_whole(folder)
+    scene.render.resolution_percentage, scene.frame_end = 20, 2
+    assert kept(scene) == before
+
+
+def kept(scene):
+    """What a run must leave as it was."""
+    render = scene.render
+    return (
+        scene.camera.name, scene.frame_current, render.engine, render.resolution_x, render.resolution_y,
+        render.resolution_percentage, render.image_settings.file_format, render.use_lock_interface,
+        bpy.context.view_layer.use_pass_z, bpy.context.preferences.view.render_display_type,
+    )  # fmt: skip
+
+
+def check_whole(folder):
+    """Each report stands beside the files that it lists, with their sizes; nothing else is there."""
+    named = set()
+    for path in folder.glob("*.json"):
+        sizes = json.loads(path.read_text())["made"]["files"]
+        assert {name: (folder / name).stat().st_size for name in sizes} == sizes
+        named |= {path.name, *sizes}
+    assert {path.name for path in folder.iterdir()} == named
+
+
+def open_list(user):
+    """Unfold the list of cameras, two rows below the button Use in Cycles."""
+    button, region = f"{BUTTON}use_in_cycles(", user.region()
+    yield from user.find(button)
+    yield from user.click(region.x + region.width // 4, user.known[button] - LIST)
+    yield from user.wait(0.7)
+
+
+def into(user, folder):
+    """Choose a folder in the file dialog."""
+    browser = yield from dialog(user)
+    browser.spaces.active.params.directory = str(folder).encode()
+    yield from user.wait(1)
+    user.picture("cameras_dialog")
+    yield from user.point(*middle(browser))
+    yield from user.key("Return")
+
+
+ALL_SCENARIOS = (cast_all,)
