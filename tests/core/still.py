@@ -1,7 +1,13 @@
 """Passes of scenes that were read at one frame only."""
 
+from camera_ray_caster.core.any_rays.door import WITHOUT_PIXEL
 from camera_ray_caster.core.casting.flow import FRAMES
 from camera_ray_caster.core.casting.passes import PASSES
 
 STILL = tuple(name for name in PASSES if name not in FRAMES)
 """Those that look into no other frame."""
+
+
+def passes_of(model, passes=tuple(PASSES)):
+    """Those of some passes that a model has: single beams have neither areas nor flow."""
+    return passes if model.differentiable else tuple(name for name in passes if name not in WITHOUT_PIXEL)

@@ -45,7 +45,7 @@ MAY_IMPORT = {
     "core.casting": HITS,
     "core.any_rays": HITS | {"core.any_rays"},
     "core.scene": RAYS | {"core.motion"},
-    "core.cast": HITS | {"core.scene"},
+    "core.cast": HITS | {"core.any_rays", "core.scene"},
     "core.annotations": HITS | {"core.cast", "core.version", "core.annotations"},
     "core.shaders": RAYS | {"core.shaders"},
     "core.motion": RAYS | {"core.motion"},

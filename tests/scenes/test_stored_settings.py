@@ -31,6 +31,9 @@ STORED = {
         {"pan_min": -pi, "pan_max": pi, "latitude_bottom": radians(-35), "latitude_top": radians(50)},
     ),
     "street": ("PERSP", {"lens": 21, "shift_y": 0.05}),
+    "street_scanner": (
+        "SCANNER", {"time_mode": "SWEEP", "scanner_device": "OS1_64", "scanner_rate": 10, "fps": 10, **TIMES},
+    ),
     "street_pushbroom": (
         "PUSHBROOM", {"slit_1": ((0, -6.5, 3.2), (1, -6.5, 3.2)), "lens": 12.6, "ortho_scale": 30, "shift_y": 0.015},
     ),

@@ -10,7 +10,9 @@ from time import perf_counter
 import numpy as np
 
 from . import arguments, memory, tuning
+from .any_rays.sweep import cast_sweep, check_passes
 from .camera.camera import Camera
+from .camera.times import SweepTime
 from .casting.flow import pictures
 from .casting.passes import PASSES, image_bytes
 from .casting.plan import Plan, make_plan
@@ -79,11 +81,23 @@ def cast(
         warnings.warn(f"precision is {meaning(precision)}", stacklevel=2)
     request = Request(passes, tuple(PASSES), shading, arguments.flag(cull, "cull"))
     memory.require(image_bytes(camera.raster.shape, passes, dtype), memory.of_pixels("the passes", camera.raster.shape))
+    check_passes(camera, passes)
     request = replace(request, others=pictures(camera, shapes, passes))
+    given = camera, shapes
+    camera, shapes = without_times(camera, shapes)
     time = camera.pixel_time
+    if isinstance(time, SweepTime):
+        images = Images(cast_sweep(camera, shapes, request, dtype, progress))
+        images.camera, images.shapes = camera, shapes
+        images.plan = make_plan(*moment(camera, shapes, (time.first + time.last) / 2), request)
+        images.seconds = {"plan": 0.0, "rays": 0.0, "cast": perf_counter() - started, "passes": 0.0}
+        if finished is not None:
+            finished(images, slice(0, camera.raster.shape[0]))
+            images.seconds["write"] = perf_counter() - started - images.seconds["cast"]
+        return images
     whole = make_plan(*moment(camera, shapes, (time.first + time.last) / 2 if time else None), request)
     images = Images({name: PASSES[name].empty(camera.raster.shape, dtype) for name in passes})
-    images.camera, images.shapes, images.plan = camera, shapes, whole
+    (images.camera, images.shapes), images.plan = given, whole
     sampled = ("combined",) if samples > 1 and "combined" in passes else ()
     parts = [(replace(request, passes=tuple(name for name in passes if name not in sampled)), 1)]
     parts += [(replace(request, passes=sampled, sampled=True), samples)] if sampled else []
@@ -137,3 +151,11 @@ def moment(camera: Camera, shapes: Shapes, frame: float | None) -> tuple[Camera,
     if frame is None:
         return camera, shapes
     return camera.at(frame), shapes if shapes.motion is None else shapes.motion.shapes_at(frame)
+
+
+def without_times(camera: Camera, shapes: Shapes) -> tuple[Camera, Shapes]:
+    """Return camera and shapes without the pixels' times if nothing moves meanwhile; else as they are."""
+    motions = [motion for motion in (camera.motion, shapes.motion) if motion is not None]
+    if camera.pixel_time is None or not all(motion.is_still for motion in motions):
+        return camera, shapes
+    return replace(camera, pixel_time=None, motion=None), replace(shapes, motion=None)

@@ -174,6 +174,10 @@ class Lights:
 class MovingShapes(Protocol):
     """An object that returns the shapes at any frame, such as ``Motion``."""
 
+    @property
+    def is_still(self) -> bool:
+        """Whether neither the shapes nor the camera move."""
+
     def shapes_at(self, frame: float) -> Shapes:
         """Return the shapes at a frame."""
 

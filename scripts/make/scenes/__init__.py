@@ -35,6 +35,7 @@ GALLERY = {
         meshes.rotunda_panorama,
         meshes.street,
         meshes.street_pushbroom,
+        meshes.street_scanner,
         meshes.sculpture_garden,
         meshes.propeller,
         meshes.twisted_monkey,

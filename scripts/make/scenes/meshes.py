@@ -11,6 +11,7 @@ from .places.airfield import airfield
 from .places.living_room import living_room as furnish
 from .places.rotunda import rotunda
 from .places.sculpture_garden import sculpture_garden as garden
+from .places.street import CAR
 from .places.street import street as houses
 from .places.toy_table import backdrop, toy_table
 from .sets import photograph
@@ -103,6 +104,21 @@ def street_pushbroom(scene):
     own = {"model": "PUSHBROOM", "slit_1": slit(scene, "Slit", eye)}
     as_wide_as_tall = 36 * 10.5 / 30  # at the fronts
     picture(scene, eye, (0, 4, 3.2), 840, 364, world=SKY, own=own, lens=as_wide_as_tall, ortho_scale=30, shift_y=0.015)
+
+
+def street_scanner(scene):
+    """A scanner with 64 beams is driven along the street at 15 m/s while it turns: a row is a beam, a column a moment
+    of the sweep, in which another car comes the other way.
+    """
+    houses(scene)
+    scene.render.fps = 10
+    wheels = add(scene, "Drive")
+    for thing in [thing for thing in scene.objects if thing.pass_index == CAR and thing.location.x > 0]:
+        thing.parent = wheels
+    driven(wheels, "location", 0, "-1.2 * (frame - 1)")
+    own = {"model": "SCANNER", "time_mode": "SWEEP", "scanner_device": "OS1_64", "scanner_start": pi / 2}
+    camera = picture(scene, (-6, -2.6, 1.9), (0, -2.6, 1.9), 1024, 64, world=SKY, own=own)
+    driven(camera, "location", 0, "-6 + 1.5 * (frame - 1)")
 
 
 def sculpture_garden(scene):

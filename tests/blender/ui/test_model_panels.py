@@ -58,6 +58,7 @@ TIMES = {
         "rolling_shutter_duration",
         *EFFORT,
     ),
+    "SWEEP": ("fps", "fps_base", *EFFORT),
 }
 
 

@@ -165,7 +165,8 @@ def check(raw):
     assert (beside <= (1e-6 + 1e-10 * size) * np.linalg.norm(towards, axis=-1) + 1e-13 * size).all()
     around = [cam.rays_at(x + across, y + up).valid for across, up in ((0.01, 0), (-0.01, 0), (0, 0.01), (0, -0.01))]
     smooth = np.all(around, axis=0) & ~((x == cam.raster.width / 2) & (y == cam.raster.height / 2))  # no rim, no axis
-    assert np.isfinite(cam.rays_jacobian_at(x, y).directions[smooth]).all()
+    if cam.model.differentiable:
+        assert np.isfinite(cam.rays_jacobian_at(x, y).directions[smooth]).all()
     if size < 1e6:
         local = np.linalg.solve(cam.pose.basis, (points - cam.pose.eye).T).T
         x0, x1, y0, y1 = cam.model.bounds(local, np.full(len(local), 1e-3)).T

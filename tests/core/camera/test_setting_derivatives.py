@@ -13,7 +13,7 @@ from camera_ray_caster.core.records import InputError
 
 from ..cameras.model_examples import EXAMPLES, camera
 
-CASES = [(model, k) for model in MODELS for k in range(len(EXAMPLES[model.key]))]
+CASES = [(model, k) for model in MODELS if model.differentiable for k in range(len(EXAMPLES[model.key]))]
 STEP = 2.0**-9
 """Change of a number over its size: the difference errs by about STEP^4 of it, and by EPS of a pixel over STEP."""
 

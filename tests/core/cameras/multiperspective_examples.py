@@ -23,9 +23,30 @@ EXAMPLES = {
     "TWISTED_ORTHOGRAPHIC": [{}, PORTRAIT | LEANING, WIDE_PIXELS | LEANING, BORDER | {"twist": 0.0}],
     "STRIP": [{}, PORTRAIT, WIDE_PIXELS | {"path": BEND, "follow_path": True}, BORDER | {"lens": 8.0}],
     "OMNIDIRECTIONAL_STEREO": [{}, SHIFTED | {"eye": "RIGHT", "interocular_distance": 3.0}, BORDER],
+    "SCANNER": [
+        {},
+        {"scanner_device": "VLP_32C", "matrix_world": TURNED},
+        BORDER | {"scanner_device": "TERRESTRIAL", "scanner_start": -2.0},
+        {"scanner_device": "SOLID_STATE", "scanner_rate": 25.0},
+        {"scanner_direction": "COUNTERCLOCKWISE", "scanner_elevations": "-60, -5, 2.5, 80", "matrix_world": TURNED,
+         "scanner_azimuths": "1 2 3 4", "scanner_ahead": "0.25, .2, .25, .2", "scanner_right": "-0.125",
+         "scanner_up": "0.5 .4 .3 .6", "scanner_delays": "1000"},
+    ],
 }
 
 FACTS = {
+    "SCANNER": [
+        # columns are 3.75 degrees apart, the first looks ahead; rows 5 degrees
+        ({"scanner_low": -0.5, "scanner_high": 0.5}, (0.5, 27), (0, 0, 0), (0, 0, -1)),
+        ({"scanner_low": -0.5, "scanner_high": 0.5}, (24.5, 0.5), (0, 0, 0), (cos(0.5), -sin(0.5), 0)),
+        ({"scanner_low": -0.5, "scanner_high": 0.5, "scanner_direction": "COUNTERCLOCKWISE"}, (24.5, 53.5), (0, 0, 0),
+         (-cos(0.5), sin(0.5), 0)),
+        # the lower beam, at 90 degrees more, has its origin 2 ahead of the axis, and looks down
+        ({"scanner_elevations": "45 -45", "scanner_azimuths": "0 90", "scanner_ahead": "1 2", "scanner_right": "0 3",
+          "scanner_up": "4 5"}, (0.5, 13.5), (2, 5, 3), (1, -1, 0)),
+        # a sweep takes 0.1 s: what fires 25 ms late looks a quarter of a turn farther
+        ({"scanner_delays": "25000"}, (0.5, 27), (0, 0, 0), (1, 0, 0)),
+    ],
     "GENERAL_LINEAR": [
         # ray 1 at the bottom left corner, 2 at the bottom right, 3 at the top left
         ({}, (0, 0), (-0.1, -0.1, 0), (-0.5, -0.3, -1)),
@@ -77,6 +98,7 @@ FACTS = {
 }
 
 UNSEEN = {
+    "SCANNER": [(0, 0, 0)],
     "GENERAL_LINEAR": [(0, 0, 0.1), (3, 1, 5)],
     "CROSS_SLIT": [(0, 0, 0.1), (3, 0, 0), (1, 2, 4)],
     "PUSHBROOM": [(0, 0, 0), (1, 2, 0), (3, -1, 5)],
@@ -87,6 +109,16 @@ UNSEEN = {
 }
 
 REFUSED = {
+    "SCANNER": [
+        ({"scanner_elevations": "1 2", "scanner_azimuths": "1 2 3"}, "scanner_azimuths"),
+        ({"scanner_elevations": "1 nan"}, "scanner_elevations"),
+        ({"scanner_elevations": "7 7"}, "must differ"),
+        ({"scanner_elevations": "7 97"}, "between -90 and 90"),
+        ({"scanner_rate": 0.0}, "scanner_rate"),
+        ({"scanner_period": 2e5}, "scanner_period"),
+        ({"scanner_device": "ROUND"}, "scanner_device"),
+        ({"scanner_nearest": 5.0, "scanner_farthest": 4.0}, "range"),
+    ],
     "GENERAL_LINEAR": [
         ({"ray_3": (-0.1, -0.1, -0.6, -0.4)}, "ray_1, ray_2, ray_3 .* dependent"),
         ({"ray_3": (0.3, -0.1, 1.8, -0.4)}, "ray_1, ray_2, ray_3 .* dependent"),

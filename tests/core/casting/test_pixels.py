@@ -9,11 +9,11 @@ import pytest
 
 from camera_ray_caster.core.cameras import MODELS
 from camera_ray_caster.core.cast import cast
-from camera_ray_caster.core.casting.passes import PASSES
 from camera_ray_caster.core.casting.pixels import hits_at, passes_at
 
 from ..cameras.model_examples import camera as camera_of
 from ..shapes import meshes
+from ..still import passes_of
 from .neighbors import at_rest
 from .test_cast import camera_at, random_shapes
 
@@ -24,11 +24,12 @@ LATTICES = [([31], [7]), ([0, 63], [0, 47]), ([5, 6, 7, 40], [3, 11, 30, 31, 46]
 @pytest.mark.parametrize("model", MODELS, ids=lambda model: model.key)
 def test_passes_at_pixels_are_those_of_the_picture(model):
     camera, shapes = at_rest(camera_of(model.key, SIZE), random_shapes(np.random.default_rng(0), 40))
-    whole = cast(camera, shapes, tuple(PASSES), np.float64)
+    passes = passes_of(model)
+    whole = cast(camera, shapes, passes, np.float64)
     assert (whole["shape_index"] >= 0).any()
     for columns, rows in LATTICES:
-        some = passes_at(camera, shapes, np.array(columns), np.array(rows), tuple(PASSES))
-        for name in PASSES:
+        some = passes_at(camera, shapes, np.array(columns), np.array(rows), passes)
+        for name in passes:
             assert some[name].dtype == whole[name].dtype
             assert np.array_equal(some[name], whole[name][np.ix_(rows, columns)], equal_nan=True), name
 

@@ -20,6 +20,7 @@ from ...core.camera.build import camera_from
 from ...core.camera.camera import Camera
 from ...core.camera.pixel_time import LinearTime, groups
 from ...core.camera.stereo import blender_shift, eye_record
+from ...core.camera.times import SweepTime
 from ...core.casting.passes import image_bytes
 from ...core.memory import of_pixels, require
 from ...core.records import BlenderCamera, InputError
@@ -81,6 +82,10 @@ def _of_view(scene, view: str, render: Render) -> Mapping[str, np.ndarray]:
     with _only(scene, eye, view):
         if isinstance(time, LinearTime):
             return _rolled(scene, eye, time, render)
+        if isinstance(time, SweepTime):
+            raise InputError(
+                f"Cycles cannot move camera {eye.raw.name!r} from beam to beam: cast it, or set Time to One Time"
+            )
         if time is not None:
             return _one_by_one(scene, eye, time, view, render)
         with _custom(eye):

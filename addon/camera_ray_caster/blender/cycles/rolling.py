@@ -4,6 +4,7 @@ from typing import Any
 
 from ...core.camera.camera import Camera
 from ...core.camera.pixel_time import ROLLING_SHUTTER, LinearTime
+from ...core.camera.times import SweepTime
 from ...core.records import BlenderCamera, InputError
 from ...core.shaders.turn import UPRIGHT, Turn, shutter_of
 from ..read.frames import go_to
@@ -17,6 +18,8 @@ def check_time(raw: BlenderCamera, camera: Camera) -> None:
     time = camera.pixel_time
     if time is None or (isinstance(time, LinearTime) and Turn.of(time) == UPRIGHT):
         return
+    if isinstance(time, SweepTime):
+        raise InputError(f"Cycles cannot move camera {raw.name!r} from beam to beam: set Time to One Time")
     other = "set Readout to Top to Bottom" if is_shutter(raw) else "set End to an earlier frame than Start"
     raise InputError(
         f"each pixel of camera {raw.name!r} has its own time, but Cycles exposes rows from the top down: render the "

@@ -78,6 +78,10 @@ class _MovingAlone:
     motion: MovingShapes
     row: int
 
+    @property
+    def is_still(self) -> bool:
+        return self.motion.is_still
+
     def shapes_at(self, frame: float) -> Shapes:
         return _only(self.motion.shapes_at(frame), self.row)
 

@@ -14,6 +14,7 @@ from ..casting.passes import PASSES, image_bytes
 from ..conventions import gamma
 from ..maths.vector import norm
 from ..records import InputError, Shapes
+from .moving import cast_apart, moving_of
 from .search import Search
 from .written import t_errors, write
 
@@ -76,12 +77,15 @@ def cast_rays(
     all_hits = arguments.flag(all_hits, "all_hits")
     _require(shapes, shape, passes, dtype)
     count = origin.shape[1]
-    parts = _by_time(shapes, times, shape)
+    each = _times(shapes, times, shape)
     if all_hits:
-        return _all(shapes, parts, origin, direction, shape, passes, near, far, dtype)
+        return _all(shapes, _by_time(shapes, each), origin, direction, shape, passes, near, far, dtype)
     images = RayImages({name: PASSES[name].empty((1, count), dtype) for name in passes})
     images.shapes = shapes
-    for then, some in parts:
+    moving = None if each is None else moving_of(shapes)
+    if moving is not None and each is not None:
+        cast_apart(moving, search_of(moving.still), origin, direction, each, (near, far), images)
+    for then, some in _by_time(shapes, each) if moving is None else ():
         search = search_of(then)
         own = origin[:, some], direction[:, some]
         t, body = search.nearest(*own, near, far)
@@ -102,7 +106,7 @@ def occluded(origins, targets, shapes: Shapes, times=None) -> np.ndarray:
     start, end, shape = _points(origins, "origins", targets, "targets")
     _require(shapes, shape, ("valid",), np.dtype(np.float64))
     hidden = np.zeros(start.shape[1], bool)
-    for then, some in _by_time(shapes, times, shape):
+    for then, some in _by_time(shapes, _times(shapes, times, shape)):
         search = search_of(then)
         own = start[:, some]
         towards = end[:, some] - own
@@ -184,11 +188,10 @@ def _require(shapes: Shapes, shape: tuple[int, ...], passes: tuple[str, ...], dt
     memory.require(128 * count + image_bytes((1, count), passes, dtype), f"the passes of {count:,} rays", PARTS)
 
 
-def _by_time(shapes: Shapes, times, shape: tuple[int, ...]) -> Iterator[tuple[Shapes, Any]]:
-    """Yield the shapes at each time, and the indices of the rays of that time."""
+def _times(shapes: Shapes, times, shape: tuple[int, ...]) -> np.ndarray | None:
+    """Return the time of each ray, (n,); None if the shapes have one time."""
     if times is None:
-        yield shapes, slice(None)
-        return
+        return None
     given = arguments.numbers(times, "times")
     try:
         each = np.broadcast_to(given, shape).reshape(-1)
@@ -196,7 +199,12 @@ def _by_time(shapes: Shapes, times, shape: tuple[int, ...]) -> Iterator[tuple[Sh
         raise InputError(f"times of shape {given.shape} do not broadcast to rays of shape {shape}") from error
     if not np.isfinite(each).all():
         raise InputError("times hold NaN or infinite numbers: give each ray the frame at which it is cast")
-    if shapes.motion is None:
+    return None if shapes.motion is None else each
+
+
+def _by_time(shapes: Shapes, each: np.ndarray | None) -> Iterator[tuple[Shapes, Any]]:
+    """Yield the shapes at each time, and the indices of the rays of that time."""
+    if each is None or shapes.motion is None:
         yield shapes, slice(None)
         return
     for time in np.unique(each).tolist():

@@ -54,16 +54,23 @@ def camera_from(raw: BlenderCamera) -> Camera:
     _check_apart(raw, lens, pose)
     _check_inverse(raw, lens, pose)
     model = with_eye(lens, raw, pose)
+    nearest, farthest = lens.limits
+    start, end = max(raw.clip_start, nearest), min(raw.clip_end, farthest)
+    if not start < end:
+        raise InputError(
+            f"clip start {raw.clip_start}, clip end {raw.clip_end} of camera {raw.name!r} leave nothing of the range "
+            f"from {nearest} to {farthest} that it measures"
+        )
     return Camera(
         name=raw.name,
         model=model,
         pose=pose,
         raster=raster,
-        clip_start=raw.clip_start,
-        clip_end=raw.clip_end,
+        clip_start=start,
+        clip_end=end,
         record=raw,
         aperture=model.aperture(raw, pose),
-        pixel_time=pixel_time_from(raw, raster),
+        pixel_time=pixel_time_from(raw, raster, lens.firing),
     )
 
 

@@ -8,7 +8,7 @@ from ..cameras import MODELS
 from ..cameras.files import lenses_of
 from ..cameras.files.document import FRAME_SIZE, Lens
 from ..cameras.model import Model
-from ..cameras.parts.calibration import CENTER, FILE, FILE_CAMERA, FROM_FILE, SIZE
+from ..cameras.parts.calibration import CENTER, FILE, FILE_CAMERA, SIZE
 from ..cameras.parts.settings import RECORD_FIELDS
 from ..records import BlenderCamera, InputError, Raster
 
@@ -31,7 +31,8 @@ def with_file(raw: BlenderCamera, model: type[Model], raster: Raster) -> Blender
     if lens.model != model.key:
         raise InputError(f"{path!r} is a calibration for {model_of(lens).label}, not {model.label}: choose that model")
     _check_shape(path, lens, raster)
-    given = {one.name: one.default for one in model.SETTINGS if one not in FROM_FILE and one.name not in RECORD_FIELDS}
+    kept = model.BESIDE_FILE
+    given = {one.name: one.default for one in model.SETTINGS if one not in kept and one.name not in RECORD_FIELDS}
     fields = {name: value for name, value in lens.settings.items() if name in RECORD_FIELDS}
     settings = {name: value for name, value in lens.settings.items() if name not in RECORD_FIELDS}
     return replace(raw, **fields, settings={**raw.settings, **given, **settings})
@@ -43,6 +44,8 @@ def _check_shape(path: str, lens: Lens, raster: Raster) -> None:
     been calibrated with their own or with square pixels. Of a file that does not tell the size, the center has to lie
     in the frame.
     """
+    if SIZE[0].name not in lens.settings:
+        return
     width, height = (lens.settings[side.name] for side in SIZE)
     x, y = (lens.settings[one.name] for one in CENTER)
     if not width and not (0 <= x < raster.width and 0 <= y < raster.height):

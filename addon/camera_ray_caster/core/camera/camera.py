@@ -27,6 +27,8 @@ from .pixel_time import CameraMotion, PixelTime
 from .pixels import by_time, given
 from .sampling import in_opening, sub_pixel
 from .spherical_stereo import with_eye
+from .sweep import rays_in_sweep
+from .times import SweepTime
 
 
 @dataclass(frozen=True, eq=False)
@@ -185,6 +187,8 @@ class Camera:
         x, y, shape = given(x, y)
         timed = self.pixel_time is not None
         require((57 if timed else 25 if self.model.central else 49) * math.prod(shape), of_pixels("the rays", shape))
+        if isinstance(self.pixel_time, SweepTime):
+            return rays_in_sweep(self, self.pixel_time, x, y, shape)
         if self.pixel_time is not None:
             time, (origins, directions) = self._timed(Camera.rays_at, x, y, (3,))
             return Rays(origins, directions, ~np.isnan(directions[..., 0]), time)
@@ -225,6 +229,7 @@ class Camera:
 
         The derivatives have the shape of x and y, and then 3 and 2.
         """
+        self._check_differentiable()
         x, y, shape = given(x, y)
         size = (96 if self._moves or not self.model.central else 48) * math.prod(shape)
         require(size, of_pixels("the derivatives of the rays", shape))
@@ -261,6 +266,7 @@ class Camera:
         each = points.reshape(-1, 3)
         by_settings = isinstance(jacobian, str) and bool(word(jacobian, "jacobian", ("settings",)))
         if by_settings or flag(jacobian, "jacobian"):
+            self._check_differentiable()
             if self._moves:
                 raise InputError(
                     f"camera {self.name!r} moves from pixel to pixel, and its speed is not known to rounding: ask the "
@@ -278,3 +284,10 @@ class Camera:
             sought = meeting(time, lambda frame, some: self.at(frame).project(each[some]), len(each), motion.cuts)
             return sought.reshape(*points.shape[:-1], 2)
         return pixels_of(self, each).reshape(*points.shape[:-1], 2)
+
+    def _check_differentiable(self) -> None:
+        if not self.model.differentiable:
+            raise InputError(
+                f"{self.model.label} of camera {self.name!r} has no derivatives: its pixels are single beams, not "
+                "parts of a picture"
+            )

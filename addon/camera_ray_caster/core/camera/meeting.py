@@ -14,7 +14,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.polynomial.chebyshev import chebpts2, chebval, chebvander
 
-from .pixel_time import ImageTime, LinearTime, PixelTime
+from .times import ImageTime, LinearTime, PixelTime, SweepTime
 
 NODES = chebpts2(12)
 """Nodes of a piece, from -1 to 1."""
@@ -75,7 +75,7 @@ def meeting(
 
 @dataclass(frozen=True)
 class _Search:
-    clock: LinearTime
+    clock: LinearTime | SweepTime
     project: Project
     length: float
     """Length of the time range in frames."""

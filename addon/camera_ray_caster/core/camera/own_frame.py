@@ -12,7 +12,7 @@ from ..cameras.model import Model
 from ..cameras.parts.calibration import FILE, FILE_CAMERA, MILLIMETERS, SIZE, UNIT
 from ..cameras.parts.film import raster_from
 from ..records import BlenderCamera
-from .calibration_file import chosen_lens
+from .calibration_file import chosen_lens, with_file
 
 LEAST, MOST = 4, 65536
 """Range of Blender's resolution, in pixels."""
@@ -43,7 +43,12 @@ def own_frame(raw: BlenderCamera) -> OwnFrame | None:
         shape = wide / high if wide and high and aspect == 1 else None
         asked = f"its calibrated pictures have {wide} × {high} pixels"
     else:
-        shape = model.from_blender(raw, raster).shape
+        lens = model.from_blender(with_file(raw, model, raster), raster)
+        shape = lens.shape
+        if lens.size is not None and lens.size != raster.size:
+            wide, high = lens.size
+            sentence = f"the frame has {raster.width} × {raster.height} pixels, and {model.label} {wide} × {high}"
+            return OwnFrame(wide, high, sentence)
         if shape is not None:
             shape *= aspect
             wide, high = (round(shape * height), height) if width > shape * height else (width, round(width / shape))

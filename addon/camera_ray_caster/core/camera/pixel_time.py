@@ -5,23 +5,24 @@ image. Rolling shutter: a slit scan of the rows, or columns, that a sensor reads
 Top-Bottom). Row number k of H, counted from 1 in the order of reading, is cast at the fraction k / H of the shutter
 interval, by row index and not by row center. With a duration d each row is exposed for the fraction d of the interval,
 all rows are read within the rest, and the chief ray has the middle of its row's exposure. Other orders of reading give
-the same picture turned.
+the same picture turned. Scanner: beam by beam, as the model says; see ``cameras.scanner``.
 Source: G. Levin, An Informal Catalogue of Slit-Scan Video Artworks (2005).
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Any, Protocol
 
 import numpy as np
 
+from ..cameras.model import Firing
 from ..cameras.parts.settings import ABOVE_ZERO, CYCLES, RENDER, Choice, Image, Item, Number, Setting, Whole, span
 from ..memory import of_pixels, require
 from ..records import BlenderCamera, InputError, Raster
+from .times import ImageTime, LinearTime, PixelTime, SweepTime
 
-NONE, ROWS, COLUMNS, IMAGE, ROLLING_SHUTTER = "NONE", "ROWS", "COLUMNS", "IMAGE", "ROLLING_SHUTTER"
+NONE, ROWS, COLUMNS, IMAGE, ROLLING_SHUTTER, SWEEP = "NONE", "ROWS", "COLUMNS", "IMAGE", "ROLLING_SHUTTER", "SWEEP"
 MODE = Choice(
     "time_mode", "Time", "Frame at which the ray of each pixel is cast",
     NONE,
@@ -34,6 +35,7 @@ MODE = Choice(
             ROLLING_SHUTTER, "Rolling Shutter",
             "Rows or columns in the order in which a sensor reads them, within the shutter interval of motion blur", 4,
         ),
+        Item(SWEEP, "Scanner Sweep", "When each beam of a scanner fires; the sweep begins at the current frame", 5),
     ),
 )  # fmt: skip
 START = Number("time_start", "Start", "Frame of the first row, the first column, or black pixels", 1.0)
@@ -77,6 +79,8 @@ READOUT = Choice(
         Item("RIGHT_TO_LEFT", "Right to Left", "Columns", 3),
     ),
 )  # fmt: skip
+FPS = Whole("fps", "Frame Rate", "Frames in a second, before it is divided by Base", 24, 1, owner=RENDER)
+FPS_BASE = Number("fps_base", "Base", "Divisor of the frame rate", 1.0, 1e-5, owner=RENDER)
 
 SETTINGS: dict[str, tuple[Setting, ...]] = {
     NONE: (),
@@ -84,6 +88,7 @@ SETTINGS: dict[str, tuple[Setting, ...]] = {
     COLUMNS: (START, END, TOLERANCE, EVALUATIONS),
     IMAGE: (GRAY, START, END, TOLERANCE, EVALUATIONS),
     ROLLING_SHUTTER: (READOUT, POSITION, SHUTTER, DURATION, TOLERANCE, EVALUATIONS),
+    SWEEP: (FPS, FPS_BASE, TOLERANCE, EVALUATIONS),
 }
 """The settings that each item of MODE reads, in the order of the panel."""
 
@@ -99,76 +104,18 @@ LEVELS = 256
 """Number of times to which a gray image is rounded, from black to white: the values of an 8 bit image."""
 
 
-@dataclass(frozen=True)
-class LinearTime:
-    """frame = origin + per_column x + per_row y, over the pixel coordinates of the full frame."""
-
-    origin: float
-    per_column: float
-    per_row: float
-    first: float
-    """The earliest frame of a pixel center; ``last`` is the latest."""
-    last: float
-    tolerance: float
-    """Allowed error, in pixels, of motion between evaluations of the scene."""
-    most: int
-    """Maximum number of evaluations of the scene."""
-
-    @property
-    def span(self) -> tuple[float, float]:
-        """The earliest and the latest frame within the picture, half a pixel beyond the outermost pixel centers."""
-        margin = (abs(self.per_column) + abs(self.per_row)) / 2
-        return self.first - margin, self.last + margin
-
-    def frame_at(self, x, y):
-        """Return the frame at pixel coordinates, in their broadcast shape or one that broadcasts to it."""
-        if self.per_column == 0:
-            return self.origin + self.per_row * y
-        return self.origin + self.per_column * x
-
-
-@dataclass(frozen=True)
-class ImageTime:
-    """The frame of every pixel of the full raster, (height, width); other fields as in ``LinearTime``."""
-
-    frames: np.ndarray
-    tolerance: float
-    most: int
-
-    @property
-    def first(self) -> float:
-        """The earliest frame."""
-        return float(self.frames.min())
-
-    @property
-    def last(self) -> float:
-        """The latest frame."""
-        return float(self.frames.max())
-
-    @property
-    def span(self) -> tuple[float, float]:
-        """The earliest and the latest frame within the picture."""
-        return self.first, self.last
-
-    def frame_at(self, x, y):
-        """Return the frame of the pixels that contain the coordinates; beyond the raster, that of the nearest pixel;
-        NaN for coordinates that are NaN.
-        """
-        row, column = (
-            np.nan_to_num(np.clip(np.floor(place), 0, size - 1)).astype(int)
-            for place, size in zip((y, x), self.frames.shape, strict=True)
-        )
-        return np.where(np.isnan(x) | np.isnan(y), np.nan, self.frames[row, column])
-
-
-PixelTime = LinearTime | ImageTime
-
-
 class CameraMotion(Protocol):
     """An object that returns a camera at any frame."""
 
     def camera_at(self, frame: float) -> Any:
         """Return the ``Camera`` at a frame, without its pixel times."""
+
+    def poses_at(self, frames: np.ndarray) -> tuple[np.ndarray, np.ndarray] | None:
+        """Return the eyes (n, 3) and bases (n, 3, 3) at frames (n,); None if the model changes in between."""
+
+    @property
+    def is_still(self) -> bool:
+        """Whether neither the camera nor the shapes move."""
 
     @property
     def cuts(self) -> tuple[float, ...]:
@@ -199,16 +146,35 @@ def groups(pixel_time: PixelTime, x, y):
         yield float(frame), *box, same[box]
 
 
-def pixel_time_from(raw: BlenderCamera, raster: Raster) -> PixelTime | None:
+def pixel_time_from(raw: BlenderCamera, raster: Raster, firing: Firing | None) -> PixelTime | None:
     """Return the pixel times that a camera's settings describe; None if all pixels have one time.
 
     Slit scan: the bottom or left edge of the frame has ``time_start``, the opposite edge ``time_end``. IMAGE: black is
-    the start, white the end; the image is stretched over the frame, nearest pixel. Raises InputError for an unknown
-    mode, equal or non-finite ends, and an image that is missing or has pixels that are not finite.
+    the start, white the end; the image is stretched over the frame, nearest pixel. SWEEP: column and row fire as the
+    model says, from the current frame on. Raises InputError for an unknown mode, equal or non-finite ends, an image
+    that is missing or has pixels that are not finite, and a sweep of a model that does not fire.
     """
     if MODE.name not in raw.settings or MODE.read(raw) == NONE:
         return None
+    if MODE.read(raw) == SWEEP:
+        return _sweep(raw, raster, firing)
     return MAKERS[MODE.read(raw)](raw, raster)
+
+
+def _sweep(raw: BlenderCamera, raster: Raster, firing: Firing | None) -> SweepTime:
+    if firing is None:
+        raise InputError(
+            f"camera {raw.name!r} has the times of a scanner's sweep, but is no scanner: set {MODE.name} to another of "
+            "its items, or choose the model SCANNER"
+        )
+    rate = FPS.read(raw) / FPS_BASE.read(raw)
+    step = firing.per_column * rate
+    found = SweepTime(
+        raw.settings["frame"] - step / 2, step, firing.rows * rate, raster.width, TOLERANCE.read(raw),
+        int(EVALUATIONS.read(raw)),
+    )  # fmt: skip
+    _check_range(raw, found.first, found.last)
+    return found
 
 
 def _rows(raw: BlenderCamera, raster: Raster) -> LinearTime:
@@ -263,12 +229,16 @@ def _linear(raw: BlenderCamera, origin: float, per_column: float, per_row: float
         for y in (0.5, raster.height - 0.5)
     ]  # fmt: skip
     first, last = min(corners), max(corners)
+    _check_range(raw, first, last)
+    return LinearTime(origin, per_column, per_row, first, last, *_effort(raw))
+
+
+def _check_range(raw: BlenderCamera, first: float, last: float) -> None:
     if not -LAST_FRAME <= first <= last <= LAST_FRAME:
         raise InputError(
             f"the times of camera {raw.name!r} are frames {first:g} to {last:g}: keep them between -{LAST_FRAME} and "
             f"{LAST_FRAME}, Blender's first and last frames"
         )
-    return LinearTime(origin, per_column, per_row, first, last, *_effort(raw))
 
 
 def _image_share(raw: BlenderCamera, raster: Raster) -> np.ndarray:

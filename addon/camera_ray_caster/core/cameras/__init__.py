@@ -33,6 +33,7 @@ from .orthographic import Orthographic
 from .pencil import Pencil
 from .perspective import Perspective
 from .pushbroom import Pushbroom
+from .scanner import Scanner
 from .stereographic_panorama import StereographicPanorama
 from .strip import Strip
 from .thin_prism_fisheye import ThinPrismFisheye
@@ -48,6 +49,7 @@ MODELS: list[type[Model]] = [
     FTheta, OCam, Omnimax, DomeMaster, Cylindrical,
     StereographicPanorama,
     GeneralLinear, CrossSlit, Pushbroom, Pencil, TwistedOrthographic, Strip, OmnidirectionalStereo,
+    Scanner,
 ]  # fmt: skip
 """All models. ``key`` is Blender's camera or panorama type, or the name of a model that Blender does not have."""
 

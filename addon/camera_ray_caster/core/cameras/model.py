@@ -33,6 +33,7 @@ from ..maths.recording import Record, record
 from ..maths.speed import lazy
 from ..records import BlenderCamera, Pose, Raster
 from .parts.aperture import Aperture, thin_lens
+from .parts.calibration import FROM_FILE
 from .parts.film import Window
 from .parts.inverse import pixels_of
 from .parts.outline import outline_of
@@ -48,6 +49,14 @@ class Step(NamedTuple):
 
     words: str
     symbols: str
+
+
+class Firing(NamedTuple):
+    """When the pixels of a scanner fire, in seconds from the begin of a sweep."""
+
+    per_column: float
+    rows: np.ndarray
+    """(height,): what each row adds."""
 
 
 @dataclass(frozen=True)
@@ -83,6 +92,8 @@ class Model(ABC):
     sines: with the check, ``project`` would take 1.4 to 6 times the time. Their inverse is checked in a few places of
     each new camera.
     """
+    differentiable: ClassVar[bool] = True
+    """Whether pixels are parts of one picture. Otherwise there are no derivatives, no solid angles and no flow."""
     by_polynomials: ClassVar[bool] = False
     """Whether ``Camera.rays`` approximates a whole picture by polynomials (see ``maths.panels``). It is set for models
     whose rays take 1.4 to 17 times as long without them, and fill most of the picture, or a disc beyond which
@@ -93,6 +104,8 @@ class Model(ABC):
     """All settings that ``from_blender`` reads, in the order of the panel. Blender's properties, the panel, the copying
     into the record, the report and the table of models are made from them.
     """
+    BESIDE_FILE: ClassVar[tuple[Setting, ...]] = FROM_FILE
+    """The settings that a calibration file leaves as they are; it replaces all others."""
     FORMULA: ClassVar[tuple[Step, ...]]
     """Steps of the formula from the pixel (x, y) to the ray: r is its direction, of any length, o its origin, rho a
     radius in the picture. Each step assigns names, worked out from settings, facts, ``formula_values`` and other steps.
@@ -194,6 +207,21 @@ class Model(ABC):
         The default is the record as it is: the eyes are parallel, as those of Blender's panoramas.
         """
         return raw
+
+    @property
+    def limits(self) -> tuple[float, float]:
+        """Least and largest t that the device measures, within the clip range. The default is any."""
+        return 0.0, np.inf
+
+    @property
+    def size(self) -> tuple[int, int] | None:
+        """Columns and rows of a device's own frame; None, the default, if any frame will do."""
+        return None
+
+    @property
+    def firing(self) -> Firing | None:
+        """When pixels fire; None, the default, for cameras without such times."""
+        return None
 
     @property
     def shape(self) -> float | None:

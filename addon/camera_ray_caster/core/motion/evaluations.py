@@ -15,8 +15,9 @@ the evaluations can be missed; whole frames and those with keys are evaluated fi
 from __future__ import annotations
 
 from bisect import bisect_right
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
+from functools import cached_property
 from itertools import pairwise
 
 import numpy as np
@@ -68,6 +69,31 @@ class Motion:
     def camera_at(self, frame: float) -> Camera:
         """Return the camera at a frame, without its pixel_time."""
         return replace(self._interval(frame).camera_at(frame), pixel_time=None, motion=None)
+
+    @cached_property
+    def is_still(self) -> bool:
+        """Whether camera and shapes are the same in all evaluations."""
+        looks = [
+            ((camera.model, camera.pose, camera.aperture, camera.clip_start, camera.clip_end), shapes)
+            for camera, shapes in self.states.values()
+        ]
+        return all(same(looks[0], other) for other in looks[1:])
+
+    def parts(self, frames: np.ndarray) -> Iterator[tuple[TimeInterval, np.ndarray]]:
+        """Yield intervals and the indices of the frames within."""
+        starts = [interval.frames[0] for interval in self.intervals]
+        which = np.maximum(np.searchsorted(starts, frames, side="right") - 1, 0)
+        for k in np.unique(which).tolist():
+            yield self.intervals[k], np.flatnonzero(which == k)
+
+    def poses_at(self, frames: np.ndarray) -> tuple[np.ndarray, np.ndarray] | None:
+        """Return the eyes (n, 3) and bases (n, 3, 3) of the camera at frames (n,); None if its model changes."""
+        if not all(same(camera.model, other.model) for (camera, _), (other, _) in pairwise(self.states.values())):
+            return None
+        eyes, bases = np.empty((len(frames), 3)), np.empty((len(frames), 3, 3))
+        for interval, some in self.parts(frames):
+            eyes[some], bases[some] = interval.poses_at(frames[some])
+        return eyes, bases
 
     def shapes_at(self, frame: float) -> Shapes:
         """Return the shapes at a frame."""

@@ -45,6 +45,19 @@ class TimeInterval:
         model = model.settled().posed(pose)
         return replace(cameras[0], pose=pose, model=model, aperture=aperture, clip_start=start, clip_end=end)
 
+    def poses_at(self, frames: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return the eyes (n, 3) and the bases (n, 3, 3) of the camera at frames (n,)."""
+        weights = [np.broadcast_to(weight, frames.shape)[:, None] for weight in self._weights(frames)]
+        eyes = mean([camera.pose.eye[None] for camera, _ in self.states], weights)
+        bases = self._camera_axes.at(weights)
+        return np.broadcast_to(eyes, (len(frames), 3)), bases / np.linalg.norm(bases, axis=1, keepdims=True)
+
+    def centers_at(self, frames: np.ndarray) -> np.ndarray:
+        """Return the centers of the shapes at frames (n,), (shapes, n, 3)."""
+        weights = [np.broadcast_to(weight, frames.shape)[:, None] for weight in self._weights(frames)]
+        found = mean([shapes.center[:, None] for _, shapes in self.states], weights)
+        return np.broadcast_to(found, (len(found), len(frames), 3))
+
     def shapes_at(self, frame: float) -> Shapes:
         """Return the shapes at a frame. What is not interpolated (indices, and all if shapes appear or disappear) is
         that of the last evaluation before it.
@@ -62,8 +75,8 @@ class TimeInterval:
         """Return camera and shapes at a frame."""
         return self.camera_at(frame), self.shapes_at(frame)
 
-    def _weights(self, frame: float) -> list[float]:
-        """Return the weight of each evaluation in the polynomial at a frame (Lagrange)."""
+    def _weights(self, frame) -> list:
+        """Return the weight of each evaluation in the polynomial at a frame, or at frames (n,) (Lagrange)."""
         return [
             prod((frame - other) / (node - other) for other in self.frames if other != node)
             for node in self.frames
@@ -105,8 +118,9 @@ class Turning:
         return cls(matrices[0], rotations[0], turns, stretches, still[:, None, None])
 
     def at(self, weights) -> np.ndarray:
-        """Return the matrices interpolated with the weights of the times."""
-        moved = rotation(mean(self.turns, weights)) @ self.rotations @ mean(self.stretches, weights)
+        """Return the matrices interpolated with the weights of the times: numbers, or for one matrix (m, 1) arrays."""
+        each = [weight[..., None] if np.ndim(weight) else weight for weight in weights]
+        moved = rotation(mean(self.turns, weights)) @ self.rotations @ mean(self.stretches, each)
         return np.where(self.still, self.first, moved)
 
 

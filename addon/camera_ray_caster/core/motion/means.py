@@ -36,8 +36,8 @@ def same(one, other) -> bool:
     return np.array_equal(one, other)
 
 
-def mean(values: Sequence, weights: Sequence[float]) -> np.ndarray:
-    """Return the weighted mean, computed as an addition to the first value."""
+def mean(values: Sequence, weights: Sequence) -> np.ndarray:
+    """Return the weighted mean by numbers or arrays, computed as an addition to the first value."""
     total = values[0]
     for value, weight in zip(values[1:], weights[1:], strict=True):
         total = total + weight * (value - values[0])

@@ -18,6 +18,7 @@ from . import (
     colmap,
     colmap_binary,
     ftheta,
+    hesai,
     isaac,
     kalibr,
     mrcal,
@@ -26,15 +27,18 @@ from . import (
     okvis,
     opencv,
     opensfm,
+    ouster,
     recorded,
+    velodyne,
     woodscape,
 )
 from .document import Document, Lens
 from .nearest import unknown
 
 FORMATS = (
-    colmap_binary.read, colmap.read, mrcal.read, ocam.read, recorded.read, aria.read, nerfstudio.read, ftheta.read,
-    isaac.read, woodscape.read, opensfm.read, basalt.read, camodocal.read, okvis.read, kalibr.read, opencv.read,
+    colmap_binary.read, colmap.read, hesai.read, mrcal.read, ocam.read, velodyne.read, ouster.read, recorded.read,
+    aria.read, nerfstudio.read, ftheta.read, isaac.read, woodscape.read, opensfm.read, basalt.read, camodocal.read,
+    okvis.read, kalibr.read, opencv.read,
 )  # fmt: skip
 """Readers in the order in which they are tried."""
 

@@ -108,6 +108,21 @@ PROGRAMS = (
         "OCam", "", "",
     ),
     Program(
+        "Velodyne", "calibrations of the ROS driver as .yaml",
+        "lasers laser_id rot_correction vert_correction num_lasers",
+        "lasers, with angles and offsets, as scanners", "",
+        "when lasers fire, which is that of the device; corrections of ranges",
+    ),
+    Program(
+        "Ouster", "metadata .json of all firmware",
+        "beam_altitude_angles beam_azimuth_angles lidar_mode beam_intrinsics lidar_intrinsics",
+        "beams, their origins, columns and rate, as scanners", "", "sensors without a turning head are refused",
+    ),
+    Program(
+        "Hesai", "angle corrections .csv", "channel elevation azimuth", "channels, as scanners", "",
+        "columns and times",
+    ),
+    Program(
         "this add-on", "camera.json, report.json", "format cameras all_frames frames record settings", "every model",
         "json", "nothing",
     ),

@@ -209,6 +209,7 @@ class Coefficients(Text):
     """The coefficients of a polynomial of any degree, from the constant up: text, which keeps all their digits."""
 
     most: ClassVar[int] = 64
+    order: ClassVar[str] = ", from the constant up"
 
     def read(self, raw: BlenderCamera) -> tuple[float, ...]:
         """Return the numbers of the text, which has commas or spaces between them, and may have brackets around them.
@@ -219,8 +220,7 @@ class Coefficients(Text):
         if is_recorded(*numbers):
             return numbers
         if not (0 < len(numbers) <= self.most and all(abs(number) <= LARGEST for number in numbers)):
-            text = shortened(str(self.given(raw)))
-            raise self.refusal(raw, text, f"1 to {self.most} finite numbers, from the constant up")
+            raise self.refusal(raw, shortened(str(self.given(raw))), f"1 to {self.most} finite numbers{self.order}")
         return numbers
 
     def numbers(self, raw: BlenderCamera) -> tuple[float, ...]:

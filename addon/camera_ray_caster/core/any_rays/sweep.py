@@ -1,0 +1,50 @@
+"""The cast of a scanner that sweeps while it or the shapes move: each beam is a ray with a time of its own."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection
+from dataclasses import replace
+
+import numpy as np
+
+from ..camera.camera import Camera
+from ..casting.passes import PASSES
+from ..casting.request import Request
+from ..records import Cancelled, InputError, Raster, Shapes
+from .door import WITHOUT_PIXEL, cast_rays
+
+RAYS = 1 << 16
+"""Number of rays that are cast at once, between two calls of ``progress``."""
+
+
+def check_passes(camera: Camera, passes: Collection[str]) -> None:
+    """Raise InputError for passes that need neighboring pixels, if the camera's pixels are single beams."""
+    absent = [name for name in passes if name in WITHOUT_PIXEL]
+    if absent and not camera.model.differentiable:
+        raise InputError(
+            f"{camera.model.label} of camera {camera.name!r} has no {', '.join(absent)}: its pixels are single beams, "
+            "not parts of a picture"
+        )
+
+
+def cast_sweep(
+    camera: Camera, shapes: Shapes, request: Request, dtype, progress: Callable[[float], bool] | None
+) -> dict[str, np.ndarray]:
+    """Return the passes of the render window of a scanner, (rows, columns[, channels]); see ``cast``."""
+    height, width = camera.raster.shape
+    images = {name: PASSES[name].empty((height, width), dtype) for name in request.passes}
+    step = max(1, RAYS // width)
+    for first in range(0, height, step):
+        if progress is not None and not progress(first / height):
+            raise Cancelled
+        rows = slice(first, min(first + step, height))
+        rays = replace(camera, raster=_part(camera.raster, rows)).rays()
+        span = camera.clip_start, camera.clip_end
+        found = cast_rays(rays.origins, rays.directions, shapes, request.passes, rays.time, *span, dtype=dtype)
+        for name, image in images.items():
+            image[rows] = found[name]
+    return images
+
+
+def _part(raster: Raster, rows: slice) -> Raster:
+    return replace(raster, y0=raster.y0 + rows.start, y1=raster.y0 + rows.stop)

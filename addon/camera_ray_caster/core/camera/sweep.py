@@ -1,0 +1,51 @@
+"""The rays of a scanner that moves while it sweeps: each beam leaves from where the scanner is when it fires."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from ..maths.vector import norm
+from ..records import InputError, Rays
+from .evaluation import rays_through
+from .pixels import in_blocks
+from .times import SweepTime
+
+BLOCK = 1 << 14
+"""Number of rays computed at once."""
+
+
+def rays_in_sweep(camera: Any, time: SweepTime, x, y, shape: tuple[int, ...]) -> Rays:
+    """Return the world rays at pixel coordinates that broadcast to a shape, each at its own time; see
+    ``Camera.rays_at``. Raises InputError for a scanner whose settings change during the sweep.
+    """
+    frames = np.clip(time.frame_at(x, y), *time.span)
+    if camera.motion is None:
+        return replace(rays_through(camera, x, y, shape), time=np.broadcast_to(frames, shape))
+    x, y, each = (np.broadcast_to(part, shape).reshape(-1) for part in (x, y, frames))
+    origins, directions = np.empty((2, len(each), 3))
+
+    def put(some: slice) -> None:
+        poses = camera.motion.poses_at(np.nan_to_num(each[some]))
+        if poses is None:
+            raise InputError(f"settings of camera {camera.name!r} change during the sweep: remove their keyframes")
+        with np.errstate(all="ignore"):  # NaN means no ray
+            eyes, bases = poses
+            origin, direction = camera.model.rays(x[some], y[some])
+            ahead = _turned(bases, direction)
+            ahead /= norm(ahead.T)[:, None]
+            ahead[np.isnan(each[some])] = np.nan
+            directions[some], origins[some] = ahead, eyes + _turned(bases, origin)
+
+    in_blocks(put, (len(each), 1), BLOCK)
+    lost = ~np.isfinite(directions).all(axis=-1)
+    directions[lost] = np.nan
+    origins, directions = (part.reshape(*shape, 3) for part in (origins, directions))
+    return Rays(origins, directions, ~lost.reshape(shape), each.reshape(shape))
+
+
+def _turned(bases: np.ndarray, vector) -> np.ndarray:
+    """Return vectors in the world, (n, 3), given their components in the frames of bases, (n, 3, 3)."""
+    return sum(bases[..., axis] * np.asarray(part)[..., None] for axis, part in enumerate(vector))

@@ -1,0 +1,69 @@
+"""The settings of scanners: what a device determines, and how it is run."""
+
+from __future__ import annotations
+
+from math import pi, radians
+
+from ...records import BlenderCamera
+from .settings import ABOVE_ZERO, FULL_TURN, LARGEST_ANGLE, Choice, Coefficients, Item, Number, Whole
+
+
+class Table(Coefficients):
+    """A number for each beam, in the order of the device's channels; one number holds for all beams."""
+
+    most = 4096
+    order = ""
+
+    def read(self, raw: BlenderCamera) -> tuple[float, ...]:
+        """See Coefficients; () for an empty text."""
+        return super().read(raw) if str(self.given(raw)).strip() else ()
+
+
+RATE = Number("scanner_rate", "Rate", "Sweeps per second", 10.0, 1e-6, 1e6, soft_high=20.0)
+START = Number(
+    "scanner_start", "Start Angle", "Angle by which the first column is turned clockwise, seen from above",
+    0.0, unit="angle",
+)  # fmt: skip
+ELEVATIONS = Table(
+    "scanner_elevations", "Elevations", "Elevation of each beam, degrees. If empty, the rows of the frame are beams "
+                                        "from the lowest to the highest elevation", "",
+)  # fmt: skip
+LOW = Number("scanner_low", "Lowest", "Elevation of the lowest row", radians(-15), -pi / 2, pi / 2, "angle")
+HIGH = Number("scanner_high", "Highest", "Elevation of the highest row", radians(15), -pi / 2, pi / 2, "angle")
+AZIMUTHS = Table("scanner_azimuths", "Azimuths", "Azimuth of each beam from the head's, degrees clockwise", "0")
+AHEAD, RIGHT, UP = (
+    Table(f"scanner_{name}", name.title(), f"Origin of each beam, Blender units {where}", "0")
+    for name, where in (
+        ("ahead", "from the axis in the beam's azimuth"),
+        ("right", "to the right of the beam's azimuth"),
+        ("up", "above the scanner's center"),
+    )
+)
+DELAYS = Table("scanner_delays", "Delays", "Time at which each beam fires after its column begins, microseconds", "0")
+ROW_SHARE = Number(
+    "scanner_row_share", "Row Share", "Part of the time from column to column in which the rows fire one after the "
+                                      "other, upwards, as a mirror turns; beside the delays", 0.0, 0.0, 1.0,
+)  # fmt: skip
+SWEEP = Number("scanner_sweep", "Sweep", "Angle of a sweep", FULL_TURN, ABOVE_ZERO, LARGEST_ANGLE, "angle")
+COLUMNS = Whole("scanner_columns", "Columns", "Number of columns of a sweep; 0 is the frame's width", 0, 0, 1 << 20)
+PERIOD = Number(
+    "scanner_period", "Period", "Time from column to column, microseconds; then a sweep has as many columns as fit in. "
+                                "0 divides the sweep by its columns", 0.0, 0.0, digits=3,
+)  # fmt: skip
+CLOCKWISE = "CLOCKWISE"
+DIRECTION = Choice(
+    "scanner_direction", "Direction", "How the head turns, seen from above",
+    CLOCKWISE,
+    (
+        Item(CLOCKWISE, "Clockwise", "To the right", 0),
+        Item("COUNTERCLOCKWISE", "Counterclockwise", "To the left", 1),
+    ),
+)  # fmt: skip
+NEAREST = Number("scanner_nearest", "Nearest", "Least range that is measured", 0.0, 0.0, unit="length")
+FARTHEST = Number("scanner_farthest", "Farthest", "Largest range; 0 is no limit", 0.0, 0.0, unit="length")
+
+OF_DEVICE = (
+    ELEVATIONS, LOW, HIGH, AZIMUTHS, AHEAD, RIGHT, UP, DELAYS, ROW_SHARE, SWEEP, COLUMNS, PERIOD, DIRECTION, NEAREST,
+    FARTHEST,
+)  # fmt: skip
+"""The settings that a device determines."""

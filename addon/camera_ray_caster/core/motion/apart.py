@@ -1,0 +1,65 @@
+"""The shapes of a motion that move, apart from those that stand still."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from ..records import Shapes
+from .evaluations import Motion
+from .interpolation import TimeInterval, matched
+from .means import same
+
+BY_SHAPE = (
+    "kind", "center", "axes", "object_index", "material_index", "color", "name_index", "mesh", "shared", "surface",
+    "identity",
+)  # fmt: skip
+"""The arrays of ``Shapes`` with a row for each shape, or empty."""
+
+
+def rows_of(shapes: Shapes, some: np.ndarray) -> Shapes:
+    """Return some of the shapes, by ascending index, without their motion and the neighboring frames."""
+    each = {name: getattr(shapes, name) for name in BY_SHAPE}
+    kept = {name: values[some] if len(values) else values for name, values in each.items()}
+    slots = None if shapes.slots is None else replace(shapes.slots, first=shapes.slots.first[some])
+    used, place = np.unique(kept["mesh"], return_inverse=True)
+    first = np.count_nonzero(used < 0)
+    meshes, kept["mesh"] = tuple(shapes.meshes[k] for k in used[first:]), (place - first).astype(np.int32)
+    return replace(shapes, meshes=meshes, slots=slots, motion=None, next=None, previous=None, **kept)
+
+
+def moving(motion: Motion) -> np.ndarray | None:
+    """Return which shapes differ between evaluations, in place or in looks, (n,) bool; None if there are not the same
+    shapes in all.
+    """
+    first, *others = (shapes for _, shapes in motion.states.values())
+    moves = np.zeros(len(first), bool)
+    if not all(matched(first, other) for other in others):
+        return None
+    for other in others:
+        for name in BY_SHAPE:
+            values = getattr(first, name)
+            if len(values):
+                moves |= (values != getattr(other, name)).reshape(len(values), -1).any(axis=1)
+        changed = [not same(*meshes) for meshes in zip(first.meshes, other.meshes, strict=True)]
+        if any(changed):
+            moves |= np.append(changed, False)[first.mesh]
+        if not (same(first.slots, other.slots) and same(first.surfaces, other.surfaces)):
+            moves[:] = True
+    return moves
+
+
+def of_rows(motion: Motion, some: np.ndarray) -> Motion:
+    """Return the motion of some of the shapes, by ascending index."""
+    states = {frame: (camera, rows_of(shapes, some)) for frame, (camera, shapes) in motion.states.items()}
+    intervals = tuple(TimeInterval.of(states, interval.frames) for interval in motion.intervals)
+    return replace(motion, states=states, intervals=intervals)
+
+
+def centers_at(motion: Motion, frames: np.ndarray) -> np.ndarray:
+    """Return the centers of the shapes at frames (n,), (shapes, n, 3); all evaluations have to have the same."""
+    centers = np.empty((len(next(iter(motion.states.values()))[1]), len(frames), 3))
+    for interval, some in motion.parts(frames):
+        centers[:, some] = interval.centers_at(frames[some])
+    return centers
