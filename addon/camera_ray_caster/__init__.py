@@ -16,7 +16,7 @@ In Blender, or with pip's ``bpy``::
     images = crc.cast(crc.read_scene(bpy.context.scene), passes=("depth", "normal"))
 
 Cameras
-    camera, load_calibration, models, register_model, camera_from_json, camera_to_json, look_at, pose_from_opencv
+    camera, load_calibration, fit, models, register_model, camera_from_json, camera_to_json, look_at, pose_from_opencv
 Shapes
     spheres, planes, mesh, join; Scene(camera, shapes) has both
 What is seen
@@ -50,6 +50,7 @@ if TYPE_CHECKING:
     from .core.library.cameras import camera, load_calibration
     from .core.library.explaining import explain
     from .core.library.files import export
+    from .core.library.fitting import fit
     from .core.library.join import join
     from .core.library.models import models
     from .core.library.poses import look_at, pose_from_opencv
@@ -81,6 +82,7 @@ _MODULES = {
     "cast_rays": ".core.any_rays.door",
     "explain": ".core.library.explaining",
     "export": ".core.library.files",
+    "fit": ".core.library.fitting",
     "join": ".core.library.join",
     "load_calibration": ".core.library.cameras",
     "look_at": ".core.library.poses",
@@ -118,6 +120,7 @@ __all__ = [
     "cast_rays",
     "explain",
     "export",
+    "fit",
     "join",
     "load_calibration",
     "look_at",

@@ -13,9 +13,8 @@ from ..arguments import flag, numbers, word
 from ..cameras import find_model
 from ..cameras.model import Model
 from ..cameras.parts.aperture import Aperture
-from ..cameras.parts.parameters import parameters_of, values_of, with_parameters
+from ..cameras.parts.parameters import parameters_of, values_of, varied
 from ..conventions import gamma
-from ..maths.recording import Varied
 from ..maths.speed import lazy
 from ..maths.vector import inverse, matvec, norm
 from ..memory import of_pixels, require
@@ -81,13 +80,10 @@ class Camera:
     @lazy
     def _varied(self) -> Model:
         """The model made of varied numbers. Raises InputError if the record does not have the model."""
-        kind, numbers = find_model(self.record), self.parameters.values()
+        kind = find_model(self.record)
 
         def made(raw: BlenderCamera) -> Model:
             return with_eye(kind.from_blender(raw, self.raster), raw, self.pose)
-
-        def varied(place: int, number: float) -> Varied:
-            return Varied(number, tuple(1.0 if k == place else None for k in range(len(numbers))))
 
         with np.errstate(all="ignore"):  # NaN means no ray
             x, y = np.meshgrid(*(np.linspace(0, side, 5) for side in self.raster.size))
@@ -97,7 +93,7 @@ class Camera:
                     f"the lens of camera {self.name!r} lies between two that were read, and no settings give it: ask a "
                     "camera that was read at its frame"
                 )
-            return made(with_parameters(kind.SETTINGS, self.record, map(varied, range(len(numbers)), numbers)))
+            return made(varied(kind.SETTINGS, self.record, list(self.parameters)))
 
     @property
     def K(self) -> np.ndarray | None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -22,6 +22,16 @@ def parameters_of(settings: Iterable[Setting], raw: BlenderCamera) -> dict[str, 
     The numbers of a vector or a polynomial have their places beside the name: "ray_1[0]". Whole numbers are left out.
     """
     return {name: value for setting in settings for name, value in _named(setting, raw).items()}
+
+
+def varied(settings: Iterable[Setting], raw: BlenderCamera, names: Sequence[str]) -> BlenderCamera:
+    """Return the record in which the parameters of these names are varied numbers, by themselves in this order."""
+    place = {name: place for place, name in enumerate(names)}
+    numbers = (
+        Varied(number, tuple(1.0 if k == place[name] else None for k in range(len(names)))) if name in place else number
+        for name, number in parameters_of(settings, raw).items()
+    )
+    return with_parameters(settings, raw, numbers)
 
 
 def with_parameters(settings: Iterable[Setting], raw: BlenderCamera, numbers: Iterable[float]) -> BlenderCamera:

@@ -1,0 +1,147 @@
+"""The camera of another model nearest to a camera: least squares over the pixels of a region.
+
+Assumption: the rays of both leave one eye. The residual of a pixel is the vector from it to the pixel at which the
+fitted camera sees the pixel's ray, in pixels. The sum of squares that is made least is that of at most SAMPLED times
+SAMPLED pixels, even over the region, with those at its edges; worst and mean are those of all pixels of the region.
+Pixels without a ray do not count, nor do those whose rays the fitted camera does not see: they are counted apart.
+Singular: parameters that move all pixels alike, such as focal length and sensor, are determined only together. Those of
+HELD keep their values unless they are asked for.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ..cameras.model import Model
+from ..memory import of_pixels, require
+from ..records import InputError
+from .build import camera_from
+from .camera import Camera
+from .fit_search import Search
+from .fit_start import guesses
+
+SAMPLED = 61
+"""Largest number of columns and of rows of pixels that are summed over."""
+
+HELD = {"skew", "sensor_width", "sensor_height", "ftheta_d", "ftheta_e", "ocam_d", "ocam_e", "ocam_polynomial[1]"}
+"""Parameters that are 0 for most lenses, or that another one replaces."""
+
+HELD_OF = {"OPENCV_PINHOLE": {"k4", "k5", "k6", "s1", "s2", "s3", "s4", "tau_x", "tau_y"}}
+"""Further ones of a model: those that OpenCV's calibration holds by default as well."""
+
+
+@dataclass(frozen=True, eq=False)
+class Fit:
+    """A camera of another model, and how far its pixels are from those of the first camera."""
+
+    camera: Camera
+    """The fitted camera: at the same place, with a picture of the same size."""
+    parameters: dict[str, float]
+    """The numbers that were fitted, by name; the others of ``camera.parameters`` have kept their values."""
+    covariance: np.ndarray
+    """Their covariance, (n, n), if each coordinate of a pixel errs by itself with the variance of the residuals."""
+    residual: np.ndarray
+    """The vector from each pixel to where the fitted camera sees its ray, in pixels, (rows, columns, 2), y up, row 0 at
+    the bottom; NaN outside of the region, without a ray, and where the fitted camera does not see it."""
+    worst: float
+    """Largest length of the residuals, in pixels."""
+    mean: float
+    """Mean length of the residuals, in pixels."""
+    unseen: int
+    """Number of pixels of the region whose rays the fitted camera does not see."""
+    converged: bool
+    """Whether the search ended at a minimum; else at an edge of the settings or of what the fitted camera sees."""
+
+    @property
+    def summary(self) -> str:
+        """The model and its distance from the first camera, in one line."""
+        line = f"{self.camera.model.label}, at most {self.worst:.2g} and in the mean {self.mean:.2g} pixels away"
+        line += f", does not see {self.unseen} pixels" if self.unseen else ""
+        return line if self.converged else f"{line}, at an edge of what it can be: fit a smaller region"
+
+
+def fit_model(
+    camera: Camera,
+    kind: type[Model],
+    region: np.ndarray | None = None,
+    free: Collection[str] | None = None,
+    given: Mapping[str, Any] | None = None,
+) -> Fit:
+    """Return the camera of a model nearest to a camera.
+
+    region: bool, (rows, columns) of the full frame; None for all of it. free: names of the parameters to fit; None for
+    all but HELD and those that are given. given: values in records of settings, from which the search starts.
+
+    Raises InputError, in one line, if there is nothing to fit, for a parameter that does not exist, and if the model
+    sees too few of the rays.
+    """
+    if camera.pixel_time is not None:
+        raise InputError(f"pixels of camera {camera.name!r} have their own times: fit that of one frame, at(frame)")
+    for model, what in ((camera.model, f"camera {camera.name!r}"), (kind, kind.label)):
+        if not model.central:
+            raise InputError(f"the rays of {what} have no eye in common: only cameras with one eye can be fitted")
+    width, height = camera.raster.size
+    require(64 * width * height, of_pixels("the residuals", (height, width)))
+    region = np.ones((height, width), bool) if region is None else region
+    rays = _rays(camera)
+    there = region & np.isfinite(rays).all(axis=-1)
+    if not there.any():
+        raise InputError(f"camera {camera.name!r} has no ray in the region: there is nothing to fit")
+    given = dict(given or {})
+    held = HELD | HELD_OF.get(kind.key, set()) | given.keys()
+    rows, columns = (_even(there.any(axis=axis)) for axis in (1, 0))
+    some = np.zeros_like(there)
+    some[np.ix_(rows, columns)] = there[np.ix_(rows, columns)]
+    starts = guesses(camera, kind, given)
+    searches = [Search.of(kind, start, camera.raster, _pixels(some), rays[some], free, held) for start in starts]
+    search, values, converged = _best(searches)
+    fitted = camera_from(search.record(values))
+    residual = np.full((height, width, 2), np.nan)
+    with np.errstate(all="ignore"):  # NaN means not seen
+        residual[there] = fitted.model.project(rays[there]) - _pixels(there)
+    lengths = np.hypot(*residual[there].T)
+    seen = lengths[np.isfinite(lengths)]
+    parameters = dict(zip(search.names, values.tolist(), strict=True))
+    return Fit(
+        fitted, parameters, search.covariance(values), residual, float(seen.max()), float(seen.mean()),
+        len(lengths) - len(seen), converged,
+    )  # fmt: skip
+
+
+def within(camera: Camera, angle: float) -> np.ndarray:
+    """Return which pixels have a ray within an angle from the viewing direction, bool, (rows, columns)."""
+    rays = _rays(camera)
+    with np.errstate(invalid="ignore"):  # NaN means no ray
+        return np.arctan2(np.hypot(rays[..., 0], rays[..., 1]), -rays[..., 2]) <= angle
+
+
+def _best(searches: list[Search]) -> tuple[Search, np.ndarray, bool]:
+    """Return the search that sees most rays, and among those the one with the least sum; its parameters and its end."""
+    found = [(search, *search.run()) for search in searches]
+    offs = [search.residual(values) for search, values, _ in found]
+    best = min(range(len(found)), key=lambda k: (np.isnan(offs[k]).sum(), np.nansum(offs[k] ** 2)))
+    return found[best]
+
+
+def _rays(camera: Camera) -> np.ndarray:
+    """Return the directions of all pixels of the frame, (rows, columns, 3), in the camera's frame."""
+    width, height = camera.raster.size
+    x, y = np.arange(width)[None, :] + 0.5, np.arange(height)[:, None] + 0.5
+    with np.errstate(all="ignore"):  # NaN means no ray
+        _, direction = camera.model.rays(x, y)
+        rays = np.stack([np.broadcast_to(part, (height, width)) for part in direction], axis=-1).astype(np.float64)
+        return rays / np.linalg.norm(rays, axis=-1, keepdims=True)
+
+
+def _pixels(region: np.ndarray) -> np.ndarray:
+    return np.argwhere(region)[:, ::-1] + 0.5
+
+
+def _even(used: np.ndarray) -> np.ndarray:
+    """Return at most SAMPLED indices, even from the first to the last that is used."""
+    first, last = np.flatnonzero(used)[[0, -1]]
+    return np.unique(np.linspace(first, last, min(last - first + 1, SAMPLED)).round().astype(int))
