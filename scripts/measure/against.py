@@ -13,7 +13,6 @@ from collections.abc import Callable
 from contextlib import contextmanager
 from functools import partial
 from importlib import import_module
-from importlib.util import find_spec
 from pathlib import Path
 from time import process_time
 
@@ -81,10 +80,12 @@ def _timed(root: Path, name: str, size: tuple[int, int]) -> float | None:
 def _camera(size: tuple[int, int]):
     from camera_ray_caster.core.records import BlenderCamera
 
-    core = "camera_ray_caster.core."
-    module = "camera.build" if find_spec(core + "camera") else "cameras"  # before there was the folder camera/
     record = BlenderCamera("Camera", "PERSP", np.eye(4), resolution_x=size[0], resolution_y=size[1])
-    return import_module(core + module).camera_from(record)
+    try:
+        module = import_module("camera_ray_caster.core.camera.build")
+    except ImportError:  # older than the folder camera/
+        module = import_module("camera_ray_caster.core.cameras")
+    return module.camera_from(record)
 
 
 def _cast(size, passes, **fields) -> Callable:
@@ -93,9 +94,10 @@ def _cast(size, passes, **fields) -> Callable:
 
     count = len(fields["kind"])
     index = np.arange(count, dtype=np.int32)
-    shapes = Shapes(
-        object_index=index, material_index=index, color=np.ones((count, 4), np.float32), name_index=index, **fields
-    )
+    fields |= {"color": np.ones((count, 4), np.float32)}
+    if "centre" in Shapes.__dataclass_fields__:  # as older commits spell them
+        fields = {{"center": "centre", "color": "colour"}.get(name, name): values for name, values in fields.items()}
+    shapes = Shapes(object_index=index, material_index=index, name_index=index, **fields)
     camera = _camera(size)
     return lambda: cast(camera, shapes, passes, threads=2)
 

@@ -11,6 +11,7 @@ from ..casting.pixel_bounds import CameraPixelBounds
 from ..casting.plan import Plan
 from ..casting.rays import TileRays
 from ..casting.request import Request
+from ..casting.store import write as write_passes
 from ..maths.speed import Scratch
 from ..records import MESH
 from ..shapes.mesh.nearest import SeenTriangles
@@ -31,10 +32,10 @@ def write(search: Search, origin, direction, t, body, images: dict[str, np.ndarr
         for first in range(0, len(t), CHUNK):
             part = slice(first, first + CHUNK)
             values = _values(plan, search, part, t, body, scratch)
-            for name, image in images.items():
-                out = np.empty((1, values.hits.t.shape[1], *image.shape[2:]), image.dtype)
-                PASSES[name].write(values, out)
-                image[:, rays[part]] = out
+            outs = {name: PASSES[name].empty((1, len(rays[part])), image.dtype) for name, image in images.items()}
+            write_passes(values, outs)
+            for name, out in outs.items():
+                images[name][:, rays[part]] = out
 
 
 def t_errors(search: Search, origin, direction, hits: RayHits) -> np.ndarray:

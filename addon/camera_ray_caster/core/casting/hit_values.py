@@ -54,16 +54,18 @@ class HitValues:
     def index(self) -> np.ndarray:
         """The index of the hits in numpy's type for indices."""
         index = self.scratch("index as intp", self.hits.index.shape, np.intp)
-        np.copyto(index, self.hits.index)
+        np.copyto(index, self.hits.index if self.hits.shape is None else self.hits.shape)
         return index
 
-    def look_up(self, table: np.ndarray, out: np.ndarray | str) -> np.ndarray:
-        """Return the entries of a table (..., n + 1) for the pixels' shapes, the last entry where nothing is hit. They
-        are written to ``out``: an array, or the name of a working array, which the next call with this name overwrites.
+    def look_up(self, table: np.ndarray, out: str) -> np.ndarray:
+        """Return the entries of a table (..., n + 1) for the pixels' shapes, the last entry where nothing is hit; they
+        broadcast to (..., rows, columns). They may be in the working array of the name ``out``, which the next call
+        with this name overwrites.
         """
-        if isinstance(out, str):
-            out = self.scratch(out, table.shape[:-1] + self.hits.t.shape, table.dtype.type)
-        return np.take(table, self.index, axis=-1, mode="wrap", out=out)
+        if self.hits.shape is not None:
+            return table[..., self.hits.shape, None, None]
+        array = self.scratch(out, table.shape[:-1] + self.hits.t.shape, table.dtype.type)
+        return np.take(table, self.index, axis=-1, mode="wrap", out=array)
 
     @lazy
     def direction(self) -> Any:
@@ -120,10 +122,11 @@ class HitValues:
         others = [(self.look_up(mask, f"others {k}"), normals) for k, (mask, normals) in enumerate(table.others)]
         if not (others and (np.logical_or.reduce([mask for mask, _ in others]) >= self.hits.seen).all()):
             offset = self.look_up(table.offset, "offset of normals")
-            if table.gain is None:
-                normal = offset
+            gain = None if table.gain is None else self.look_up(table.gain, "gain of normals")
+            if gain is None or (gain.size == 1 and gain == 0):
+                np.copyto(normal, offset)
             else:
-                np.multiply(self.look_up(table.gain, "gain of normals"), self.point, out=normal)
+                np.multiply(gain, self.point, out=normal)
                 if faces_eye and table.is_sum:
                     return normal, offset
                 np.add(normal, offset, out=normal)
@@ -132,12 +135,12 @@ class HitValues:
             if not faces_eye:
                 np.multiply(-np.sign(dot(normal, self.direction)), normal, out=normal)
         for mask, normals in others:
-            pixels = self.pixels(mask)
-            if not pixels.places.size:
+            if not (where := mask & self.hits.seen).any():
                 continue
+            pixels = self.pixels(where)
             direction = None if faces_eye else pixels.of(self.direction)
             for component, own in zip(normal, normals(pixels, pixels.of(self.point), direction), strict=True):
-                component.reshape(-1)[pixels.places] = own
+                component[where] = own
         return normal, ZERO
 
     @lazy
@@ -156,7 +159,7 @@ class HitValues:
     def _kinds(self) -> list[tuple[Kind, HitPixels]]:
         """The kinds that are hit, each with its pixels."""
         kinds = self.look_up(self.plan.kinds, "kinds")
-        return [(kind, self.pixels(where)) for kind, where in by_kind(kinds)]
+        return [(kind, self.pixels(where & self.hits.seen)) for kind, where in by_kind(kinds)]
 
     @lazy
     def cosine(self) -> np.ndarray:
@@ -235,4 +238,4 @@ class HitValues:
     def pixels(self, where: np.ndarray) -> HitPixels:
         """Return the pixels marked in ``where``, each of which hits something."""
         hits = self.hits
-        return HitPixels(where, (self.index, hits.t), hits.first_row, hits.rays.from_eye, hits.known)
+        return HitPixels(where, (self.index, hits.t), hits.window, hits.rays.from_eye, hits.known)

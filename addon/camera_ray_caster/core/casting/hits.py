@@ -3,16 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
 from .. import tuning
-from ..maths.speed import lazy
-from ..maths.vector import ALL, cut
+from ..maths.speed import lazy, widened
+from ..maths.vector import ALL
+from ..shapes.windows import in_tile
 from .plan import Plan
 from .rays import TileRays
+
+Window = tuple[slice, slice]
+"""Rows and columns."""
 
 NOTHING = -1
 """Shape index of a pixel that sees no shape."""
@@ -20,7 +24,7 @@ NOTHING = -1
 
 @dataclass(frozen=True, eq=False)
 class Hits:
-    """The hits of the rays of a tile, or of some of its rows: (rows, columns) arrays."""
+    """The hits of the rays of a tile, or of a window of it: (rows, columns) arrays."""
 
     plan: Plan
     rays: TileRays
@@ -30,27 +34,44 @@ class Hits:
     """Index into ``Shapes`` of the nearest shape, NOTHING where nothing is hit."""
     known: Mapping[int, Any] = field(default_factory=dict)
     """What kinds know of the hits of the tile: see ``SearchRays.known``."""
-    first_row: int = 0
-    """Row of the tile at which these hits begin."""
+    window: Window = (ALL, ALL)
+    """Rows and columns of the tile in which these hits are."""
+    shape: int | None = None
+    """The shape whose hits are meant; None for all shapes."""
 
-    def blocks(self) -> Iterator[tuple[slice, Hits]]:
-        """Yield (rows, hits) for blocks of rows of about BLOCK_PIXELS pixels."""
+    def blocks(self) -> Iterator[tuple[Window, Hits]]:
+        """Yield (window, hits) for blocks of rows of about BLOCK_PIXELS pixels."""
         height, width = self.t.shape
         step = max(1, tuning.BLOCK_PIXELS // width)
         for first in range(0, height, step):
-            rows = slice(first, first + step)
-            window = rows, ALL
-            origin, direction = (
-                tuple(cut(component, window) for component in vector)
-                for vector in (self.rays.origin, self.rays.direction)
-            )
-            rays = replace(self.rays, y=self.rays.y[rows], origin=origin, direction=direction)
-            yield rows, Hits(self.plan, rays, self.t[rows], self.index[rows], self.known, first)
+            window = slice(first, min(first + step, height)), ALL
+            yield window, self._part(window)
+
+    def layers(self) -> Iterator[tuple[Window, Hits]]:
+        """Yield (window, hits) for each shape that is seen, in the pixels of its bounds."""
+        here, bounds = in_tile(self.plan.bounds, self.rays.corner, self.rays.shape)
+        for at, own in zip(self.plan.seen[here].tolist(), bounds.tolist(), strict=True):
+            window = widened(own, self.rays.shape[1])
+            layer = self._part(window, at)
+            if layer.seen.any():
+                yield window, layer
+
+    def _part(self, window: Window, shape: int | None = None) -> Hits:
+        """Return the hits in a window, or there those of one shape."""
+        first = self.window[0].start or 0
+        place = slice(first + window[0].start, first + window[0].stop), window[1]
+        own = self.t[window], self.index[window]
+        return Hits(self.plan, self.rays.within(window), *own, self.known, place, shape)
 
     @lazy
     def seen(self) -> np.ndarray:
-        """Whether a shape is hit, bool."""
-        return self.index != NOTHING
+        """Whether a shape that is meant is hit, bool."""
+        return self.index != NOTHING if self.shape is None else self.index == self.shape
+
+    @lazy
+    def where(self) -> Any:
+        """The pixels that passes of the surface write: ``seen``, or True for all; misses are then written later."""
+        return True if self.shape is None or self.seen.all() else self.seen
 
     @lazy
     def missed(self) -> np.ndarray | None:

@@ -19,12 +19,11 @@ from typing import Any
 import numpy as np
 
 from ..errors.hits import HitErrors
-from ..maths.speed import whole_rows, write_where
+from ..maths.speed import write_where
 from ..maths.vector import matvec, unit
 from . import shading
 from .flow import NEXT, PREVIOUS, flow_of
-from .hit_values import ZERO, HitValues
-from .hits import Hits
+from .hit_values import HitValues
 
 ROUNDED_UP = 1 + 2.0**-9
 """Factor that makes up for the rounding of the bounds themselves, to the type in which they are stored."""
@@ -39,7 +38,9 @@ class Pass:
     """All that is declared of a pass. The engine's passes, the check boxes, their order, pictures and files follow."""
 
     write: Callable[[HitValues, np.ndarray], None]
-    """Function that fills ``out``, (rows, columns[, channels]): ``write(values, out)``."""
+    """Function that fills ``out``, (rows, columns[, channels]): ``write(values, out)``. If ``missed`` is not None, it
+    writes only the pixels that ``values.hits.where`` marks: there may be other shapes in the others.
+    """
     text: str
     """Explanation for tooltips, without a period at the end."""
     letters: str = "X"
@@ -53,6 +54,8 @@ class Pass:
     """That of Blender before 5.0, for Blender's own passes that have another there."""
     blender: str = ""
     """Name of Blender's own check box in the view layer; "" if the check box is the add-on's."""
+    missed: float | None = None
+    """The number where nothing is hit, of a pass of the surfaces that are hit."""
     bounds: tuple[str, ...] = ()
     """Passes whose stored numbers this one bounds the errors of."""
 
@@ -84,37 +87,36 @@ def depth(values: HitValues, out):
 
 def distance(values: HitValues, out):
     """The length of the ray from its origin to the hit."""
-    np.multiply(values.hits.t, values.length, out=out, casting="same_kind")
-    write_where(out, np.inf, values.hits.missed)
+    _store(values, np.multiply(values.hits.t, values.length, out=values.array("stored")), out)
 
 
 def position(values: HitValues, out):
     """The hit point in the world."""
-    _write(out, values.point, values.plan.camera.pose.eye[:, None, None], values.hits.missed)
+    _store_sum(values, values.point, values.plan.camera.pose.eye[:, None, None], out)
 
 
 def normal(values: HitValues, out):
     """The surface's unit normal in the world, turned towards the ray's origin, without normal and bump maps."""
-    _write(out, *values.normal_terms, values.hits.missed)
+    _store_sum(values, *values.normal_terms, out)
 
 
 def uv(values: HitValues, out):
     """The render UV map of the mesh, (u, v, 0); 0 without a map. An exact sphere with a map has u = longitude / 2 pi +
     1/2 and v = latitude / pi + 1/2, and shapes that are made without a mesh have the coordinates of their surface.
     """
-    out[...] = 0
     for where, (u, v) in values.uv:
         out[..., 0][where], out[..., 1][where] = u, v
+    out[..., 2] = 0
 
 
 def object_index(values: HitValues, out):
     """Blender's pass index of the object."""
-    values.look_up(values.plan.object_index, out)
+    _store(values, values.look_up(values.plan.object_index, "indices"), out)
 
 
 def material_index(values: HitValues, out):
     """Blender's pass index of the material."""
-    np.take(values.plan.material_index, values.material, mode="wrap", out=out)
+    _store(values, np.take(values.plan.material_index, values.material, mode="wrap"), out)
 
 
 def shape_index(values: HitValues, out):
@@ -124,7 +126,6 @@ def shape_index(values: HitValues, out):
 
 def face_index(values: HitValues, out):
     """The polygon of the evaluated mesh, -1 where no mesh is hit."""
-    out[...] = -1
     for where, polygon in values.by_kind(lambda kind, pixels: kind.polygon(values.plan.in_camera, pixels)):
         out[where] = polygon
 
@@ -137,12 +138,12 @@ def valid(values: HitValues, out):
 def ray_origin(values: HitValues, out):
     """The origin of the chief ray in the world."""
     pose = values.plan.camera.pose
-    _write(out, matvec(pose.basis, values.hits.rays.origin), pose.eye[:, None, None], values.hits.lost)
+    _write_ray(values, matvec(pose.basis, values.hits.rays.origin), pose.eye, out)
 
 
 def ray_direction(values: HitValues, out):
     """The unit direction of the chief ray in the world."""
-    _write(out, unit(values.direction), ZERO, values.hits.lost)
+    _write_ray(values, unit(values.direction), (0.0, 0.0, 0.0), out)
 
 
 def solid_angle(values: HitValues, out):
@@ -159,8 +160,7 @@ def footprint(values: HitValues, out):
     its center, on the tangent plane at the hit. The error is that of ``solid_angle``, plus those of the hit's distance
     and normal over the cosine of the angle between ray and normal.
     """
-    out[...] = values.derivatives.area_at(values.distance) / values.cosine
-    write_where(out, np.inf, values.hits.missed)
+    _store(values, values.derivatives.area_at(values.distance) / values.cosine, out)
 
 
 def flow_forward(values: HitValues, out):
@@ -203,14 +203,26 @@ def _bound(values: HitValues, out, of: Callable[[HitErrors], tuple[np.ndarray, A
         out[where] = (bound + np.finfo(out.dtype).eps * size) * ROUNDED_UP
 
 
-def _write(out, vector, offset, blank):
-    """Store vector plus offset, three components each, and 0 where ``blank`` is set; ``blank`` may be None."""
-    if isinstance(vector, np.ndarray):  # all at once: threads wait for each other between calls
+def _store(values: HitValues, numbers: np.ndarray, out) -> None:
+    """Write numbers where the shapes that are meant are hit."""
+    np.copyto(out, numbers, where=values.hits.where, casting="same_kind")
+
+
+def _store_sum(values: HitValues, vector: np.ndarray, offset: np.ndarray, out) -> None:
+    """Write vector plus offset, (3, rows, columns) each, where the shapes that are meant are hit."""
+    if values.hits.where is True:  # all at once: threads wait for each other between calls
         np.add(vector, offset, out=out.transpose(2, 0, 1), casting="same_kind")
-    else:
-        for axis, component in enumerate(vector):
-            np.add(component, offset[axis], out=out[..., axis], casting="same_kind")
-    write_where(out, 0, blank)
+        return
+    total = np.add(vector, offset, out=values.array("stored", 3))
+    for axis in range(3):  # all at once takes four to seven times as long
+        _store(values, total[axis], out[..., axis])
+
+
+def _write_ray(values: HitValues, vector, offset, out) -> None:
+    """Write vector plus offset, three components each, and 0 for pixels without a ray."""
+    for axis, component in enumerate(vector):
+        np.add(component, offset[axis], out=out[..., axis], casting="same_kind")
+    write_where(out, 0, values.hits.lost)
 
 
 PASSES = {
@@ -220,24 +232,26 @@ PASSES = {
                    shown=AS_IS),
     "depth": Pass(depth, "Blender's Z: along the viewing direction, or along the ray for panoramas", "Z",
                   blender="use_pass_z"),
-    "distance": Pass(distance, "Distance along the ray. The Z pass has the planar depth"),
-    "position": Pass(position, "Hit point in world space", "XYZ", blender="use_pass_position"),
+    "distance": Pass(distance, "Distance along the ray. The Z pass has the planar depth",
+                      missed=np.inf),
+    "position": Pass(position, "Hit point in world space", "XYZ", blender="use_pass_position", missed=0),
     "normal": Pass(normal, "Unit normal in world space, turned towards the ray's origin", "XYZ", shown=SIGNED,
-                   blender="use_pass_normal"),
-    "uv": Pass(uv, "Coordinates of the render UV map", "UVA", shown=AS_IS, label="UV", blender="use_pass_uv"),
+                   blender="use_pass_normal", missed=0),
+    "uv": Pass(uv, "Coordinates of the render UV map", "UVA", shown=AS_IS, label="UV", blender="use_pass_uv", missed=0),
     "object_index": Pass(object_index, "Pass index of the object", dtype=np.int32, shown=COUNTED,
-                         label_before_5_0="IndexOB", blender="use_pass_object_index"),
+                         label_before_5_0="IndexOB", blender="use_pass_object_index", missed=0),
     "material_index": Pass(material_index, "Pass index of the material", dtype=np.int32, shown=COUNTED,
-                           label_before_5_0="IndexMA", blender="use_pass_material_index"),
+                           label_before_5_0="IndexMA", blender="use_pass_material_index", missed=0),
     "shape_index": Pass(shape_index, "Number of the shape. Each instance has its own number", dtype=np.int32,
                         shown=COUNTED),
     "face_index": Pass(face_index, "Number of the face of the mesh after its modifiers, -1 where no face is hit",
-                       dtype=np.int32, shown=COUNTED),
+                       dtype=np.int32, shown=COUNTED, missed=-1),
     "valid": Pass(valid, "Whether the pixel has a ray", dtype=np.bool_, shown=AS_IS),
     "ray_origin": Pass(ray_origin, "Origin of the pixel's ray in world space", "XYZ"),
     "ray_direction": Pass(ray_direction, "Unit direction of the pixel's ray in world space", "XYZ", shown=SIGNED),
     "solid_angle": Pass(solid_angle, "Solid angle of the pixel, in steradians, to first order"),
-    "footprint": Pass(footprint, "Area of the surface that the pixel covers, in square Blender units, to first order"),
+    "footprint": Pass(footprint, "Area of the surface that the pixel covers, in square Blender units, to first order",
+                      missed=np.inf),
     "flow_forward": Pass(flow_forward, "Motion of the surface point to the next frame, in pixels, x and y; NaN where "
                                        "the point is not in the next picture", "XY"),
     "flow_backward": Pass(flow_backward, "Motion of the surface point to the previous frame, in pixels, x and y; NaN "
@@ -257,34 +271,3 @@ def image_bytes(shape: tuple[int, int], passes: Iterable[str], dtype) -> int:
     """Return the number of bytes of the arrays of some passes."""
     sizes = (max(PASSES[name].channels, 1) * np.dtype(PASSES[name].dtype or dtype).itemsize for name in passes)
     return shape[0] * shape[1] * sum(sizes)
-
-
-def store(hits: Hits, outs: dict[str, np.ndarray], where=None) -> None:
-    """Write passes into parts of images, only where ``where``, (rows, columns) bool, is set; None for all pixels."""
-    if where is not None:
-        meant = {name: np.empty_like(out) for name, out in outs.items()}
-        store(hits, meant)
-        for name, out in outs.items():
-            put(meant[name], out, where)
-        return
-    with whole_rows(hits.t.shape[1]):
-        for rows, block in hits.blocks():
-            values = HitValues(block)
-            for name, out in outs.items():
-                PASSES[name].write(values, out[rows])
-
-
-def add_combined(hits: Hits, total: np.ndarray) -> None:
-    """Add the combined pass to a sum, (rows, columns, 4)."""
-    with whole_rows(hits.t.shape[1]):
-        for rows, block in hits.blocks():
-            once = hits.rays.scratch("once", total[rows].shape, np.float64)
-            combined(HitValues(block), once)
-            total[rows] += once
-
-
-def put(image: np.ndarray, out: np.ndarray, where) -> None:
-    """Copy an image, (rows, columns[, channels]), only where ``where`` is set; None for all pixels."""
-    if where is None:
-        np.copyto(out, image, casting="same_kind")
-    write_where(out, image, where)

@@ -12,11 +12,12 @@ from ..maths.speed import Scratch
 from ..records import Shapes
 from .flow import pictures
 from .hits import Hits
-from .passes import PASSES, store
+from .passes import PASSES
 from .plan import Plan, make_plan
 from .rays import chief_rays
 from .request import Request
 from .search import nearest_hits
+from .store import store
 
 
 def hits_at(plan: Plan, columns: np.ndarray, rows: np.ndarray) -> Hits:

@@ -8,6 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
+from .. import tuning
 from ..camera.camera import Camera
 from ..records import Shapes
 from ..shapes import kinds
@@ -15,6 +16,7 @@ from ..shapes.frames import InCamera
 from ..shapes.in_camera import in_camera
 from ..shapes.kind import ShapeSet, Visible
 from ..shapes.normals import NormalTable, normal_table
+from ..shapes.windows import pixels_in
 from .pixel_bounds import CameraPixelBounds
 from .request import Request
 
@@ -83,6 +85,12 @@ class Plan:
         for edge, sign in ((y0, 1), (y1, -1)):
             change += sign * np.bincount(edge, x1 - x0, height + 1)
         return np.cumsum(change)[:height] + width
+
+    @cached_property
+    def is_layered(self) -> bool:
+        """Whether the shapes that may be seen are few and large: their passes are then written shape by shape."""
+        _, width, _, height = self.pixels.whole.tolist()
+        return tuning.LAYER_PIXELS * len(self.seen) + pixels_in(self.bounds).sum() <= tuning.LAYERED * width * height
 
     @property
     def index_type(self) -> np.dtype:

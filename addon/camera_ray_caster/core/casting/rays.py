@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
 from ..camera.camera import Camera
 from ..maths.speed import Scratch
+from ..maths.vector import cut
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,6 +35,13 @@ class TileRays:
     def shape(self) -> tuple[int, int]:
         """Rows and columns."""
         return self.y.shape[0], self.x.shape[1]
+
+    def within(self, window: tuple[slice, slice]) -> TileRays:
+        """Return the rays in a window, rows and columns."""
+        rows, columns = window
+        origin, direction = (tuple(cut(part, window) for part in vector) for vector in (self.origin, self.direction))
+        corner = self.corner[0] + (columns.start or 0), self.corner[1] + (rows.start or 0)
+        return replace(self, x=self.x[:, columns], y=self.y[rows], corner=corner, origin=origin, direction=direction)
 
 
 def chief_rays(camera: Camera, x: np.ndarray, y: np.ndarray, corner: tuple[int, int], scratch: Scratch) -> TileRays:

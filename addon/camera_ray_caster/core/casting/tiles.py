@@ -16,10 +16,10 @@ from ..camera.camera import Camera
 from ..camera.pixel_time import PixelTime, groups
 from ..maths.speed import STRIP, Scratch, sharing
 from ..records import Cancelled
-from .passes import add_combined, put, store
 from .plan import Plan
 from .rays import chief_rays, sampled_rays
 from .search import nearest_hits
+from .store import add_combined, put, store
 
 STEPS = "rays", "cast", "passes"
 """The steps whose seconds are measured per tile: making the rays, finding the nearest hits, writing the passes."""

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from ..maths.vector import matvec
+from ..maths.vector import ALL, matvec
 from .frames import InCamera
 from .kind import HitPixels, Kind
 from .surface_places import KindPlaces, SurfacePlaces
@@ -86,7 +86,8 @@ class Cutouts:
 
 def crossings(at: np.ndarray, t: np.ndarray, from_eye: bool, **noted: Any) -> HitPixels:
     """Return crossings, (m,), in the form of hit pixels, with the notes of their kind."""
-    return HitPixels(np.ones((1, len(at)), bool), (at[None], t[None]), 0, from_eye, noted=noted)
+    where = np.ones((1, len(at)), bool)
+    return HitPixels(where, (at[None], t[None]), (ALL, ALL), from_eye, noted=noted)
 
 
 def _crossed(found: tuple[Any, Any], nearest: Any) -> tuple[np.ndarray, np.ndarray]:

@@ -113,8 +113,8 @@ class HitPixels:
     """(rows, columns) of the block, bool: True at these pixels."""
     hits: tuple[np.ndarray, np.ndarray]
     """Indices into ``Shapes`` and t of the whole block, (rows, columns) each."""
-    first_row: int
-    """First row of the block, in the tile."""
+    window: tuple[slice, slice]
+    """Rows and columns of the block in the tile."""
     from_eye: bool
     """Whether their rays leave the eye."""
     known: Mapping[int, Any] = field(default_factory=dict)
@@ -143,7 +143,7 @@ class HitPixels:
 
     def in_tile(self, values: np.ndarray) -> np.ndarray:
         """Return the (m,) entries of these pixels in an array of the tile, (rows, columns)."""
-        (own,) = self.of((values[self.first_row : self.first_row + len(self.where)],))
+        (own,) = self.of((values[self.window],))
         return own
 
 
