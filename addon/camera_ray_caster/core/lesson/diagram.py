@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -21,6 +22,10 @@ MISS, NORMAL, LIFT = 1.25, 0.03, 0.002
 """Lengths in units of the longest ray that hits: of a ray that hits nothing, of a normal, and of the lift of hit points
 off their surface, which would hide half of them otherwise.
 """
+
+
+PROBED = "ray_origin", "ray_direction", "distance", "shape_index", "valid"
+"""Passes from which a ``Probe`` is made."""
 
 
 @dataclass(frozen=True)
@@ -93,9 +98,13 @@ def diagram(camera: Camera, shapes: Shapes, size: float, rays_across: int) -> Di
 
 def probe(camera: Camera, shapes: Shapes, column: int, row: int, **options) -> Probe:
     """Return the ray of one pixel of the full frame and its hit; ``options`` are those of ``passes_at``."""
-    passes = ("ray_origin", "ray_direction", "distance", "shape_index", "valid")
-    images = passes_at(camera, shapes, np.array([column]), np.array([row]), passes, **options)
-    found = {name: image[0, 0] for name, image in images.items()}
+    images = passes_at(camera, shapes, np.array([column]), np.array([row]), PROBED, **options)
+    return probe_of(camera, shapes, column, row, images)
+
+
+def probe_of(camera: Camera, shapes: Shapes, column: int, row: int, images: Mapping[str, np.ndarray]) -> Probe:
+    """Return the ray of one pixel and its hit from the passes PROBED, (1, 1[, channels]) each."""
+    found = {name: images[name][0, 0] for name in PROBED}
     index = int(found["shape_index"])
     raster = camera.raster
     blank = np.full(3, np.nan)

@@ -21,7 +21,7 @@ from ..casting.pixels import hits_at, stored, window_of
 from ..casting.plan import make_plan
 from ..casting.request import MATERIAL, Request
 from ..records import InputError, Shapes
-from .diagram import Probe, probe
+from .diagram import PROBED, Probe, probe_of
 from .formula import shown, worked_out
 from .light import color_lines
 from .meetings import Meeting, meetings, nearest, words
@@ -114,10 +114,10 @@ def lesson(
         )
     place = np.array([column]), np.array([row])
     look: dict[str, Any] = {"shading": shading}
-    seen = probe(camera, shapes, column, row, **look)
     names, still = ("position", "normal", "combined", "depth"), window_of(camera, *place)
-    hits = hits_at(make_plan(still, shapes, Request(names, tuple(PASSES), **look)), *place)
+    hits = hits_at(make_plan(still, shapes, Request((*PROBED, *names), tuple(PASSES), **look)), *place)
     found = stored(hits)
+    seen = probe_of(camera, shapes, column, row, found)
     point, normal, color, depth = (found[name][0, 0] for name in names)
     steps, met = [*_raster(camera, seen), ("Model", tuple(_formula(camera, seen)))], []
     if np.isnan(seen.direction).any():

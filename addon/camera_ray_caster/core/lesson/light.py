@@ -60,8 +60,8 @@ def _told(light: Light, number: int) -> tuple[str, str]:
     told = f"{light.kind} {number} towards {words(place / np.linalg.norm(place))}, {cosine}"
     if light.kind != SUN:
         part = "" if light.kind == POINT else f"beam {beam:.6g}, "
-        told = f"{told}, {part}r = {np.sqrt(_one(light.square)):.6g}, P = {words(light.power)}"
-        return told, f"P {'beam ' if part else ''}cosine / (4 pi² r²)"
+        told = f"{told}, {part}distance = {np.sqrt(_one(light.square)):.6g}, P = {words(light.power)}"
+        return told, f"P {'beam ' if part else ''}cosine / (4 pi² distance²)"
     return f"{told}, E = {words(light.power)}", "E cosine / pi"
 
 
