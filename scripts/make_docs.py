@@ -176,6 +176,7 @@ KINDS = {
     "FILE": lambda setting: ("", "a file or none", "none"),
     "OBJECT": lambda setting: ("", " or ".join(setting.types).lower(), "none"),
     "IMAGE": lambda setting: ("", "an image", "none"),
+    "VECTORS": lambda setting: ("", "(rows, columns, 3)", "none"),
 }
 """Functions that return the unit, the range and the default in words, by kind of setting."""
 

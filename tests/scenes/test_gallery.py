@@ -37,7 +37,7 @@ DISC = pi / 4
 """Of its square."""
 SHARES = {
     "mirrorball": DISC, "fisheye_equidistant": DISC, "fisheye_orthographic": DISC, "fisheye_stereographic": DISC,
-    "dome_master": DISC, "rotunda_fisheye": DISC,
+    "dome_master": DISC, "rotunda_fisheye": DISC, "ray_table": DISC,
     "omnimax": None, "living_room_omnimax": None, "fisheye_equisolid": None, "fisheye_polynomial": None,
     "opencv_fisheye": None, "ucm": None, "eucm": None, "double_sphere": None, "thin_prism_fisheye": None,
 }  # fmt: skip

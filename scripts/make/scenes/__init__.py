@@ -63,6 +63,7 @@ GALLERY = {
         calibrated.division,
         calibrated.ftheta,
         calibrated.ocam,
+        calibrated.ray_table,
     ),
     "Panoramas": _by_name(
         panoramas.equirectangular,

@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
+import numpy as np
+
 from .lenses import AHEAD, CORNER, FRONT, MIDDLE
 from .sets import photograph, room
 
 SMALL = 312, 208
+FOLDER = Path(__file__).parents[3] / "blend_scenes"
 
 
 def opencv_pinhole(scene):
@@ -87,6 +92,38 @@ def ocam(scene):
     along the axis.
     """
     calibrated(scene, model="OCAM", ocam_polynomial="-68 0 0.0045 1e-6 2.5e-8", ocam_c=0.999, ocam_d=0.002)
+
+
+def ray_table(scene):
+    """A table of 52 × 52 rays stands for a camera that looks into a ball of chrome, and sees the room behind it. The
+    rays start on the ball, so that there is no eye. Between the rays of the table there is a cubic spline.
+    """
+    room(scene)
+    np.savez_compressed(FOLDER / "ray_table.npz", **ball_mirror(52))
+    own = {"model": "RAY_TABLE", "calibration_file": "//ray_table.npz"}
+    photograph(scene, (0, 0.5, 2.4), (0, -6, 2.4), 208, 208, own=own)
+
+
+def ball_mirror(side: int, radius: float = 0.6, away: float = 3.0, most: float = 0.9) -> dict[str, np.ndarray]:
+    """Return origins and directions (side, side, 3) of the rays of a camera behind a ball, after their reflection.
+
+    The camera is ``away`` behind its own eye, the middle of the ball, and looks at it; the rim of the picture is at
+    ``most`` of the ball's. NaN beyond it.
+    """
+    place = (2 * np.arange(side) + 1) / side - 1
+    x, y = np.meshgrid(place, place)
+    slope = most * radius / np.sqrt(away * away - radius * radius)
+    seen = np.stack((slope * x, slope * y, -np.ones_like(x)), axis=-1)
+    seen /= np.linalg.norm(seen, axis=-1, keepdims=True)
+    eye = np.array((0.0, 0.0, away))
+    along = seen @ eye
+    outside = x * x + y * y > 1
+    depth = -along - np.sqrt(np.where(outside, np.nan, along * along - away * away + radius * radius))
+    origins = eye + depth[..., None] * seen
+    normal = origins / radius
+    directions = seen - 2 * (seen * normal).sum(axis=-1, keepdims=True) * normal
+    turned = np.array((-1, 1, -1))  # the frame looks where the ball's middle reflects to, and is not mirrored
+    return {"origins": np.float32(origins * turned), "directions": np.float32(directions * turned)}
 
 
 def calibrated(scene, focal: float = 1.0, **own):

@@ -14,7 +14,7 @@ from camera_ray_caster.core.camera.build import camera_from
 from camera_ray_caster.core.cameras import MODELS
 from camera_ray_caster.core.records import BlenderCamera
 
-from . import central_examples, multiperspective_examples
+from . import central_examples, multiperspective_examples, table_examples
 from .example_frames import BORDER, DEFAULTS, IDENTITY, PORTRAIT, SHIFTED, TURNED, WIDE_PIXELS
 
 __all__ = ["BORDER", "EXAMPLES", "FACTS", "IDENTITY", "ONLY_SOME", "REFUSED", "TURNED", "UNSEEN", "camera", "raw_of"]
@@ -22,6 +22,7 @@ __all__ = ["BORDER", "EXAMPLES", "FACTS", "IDENTITY", "ONLY_SOME", "REFUSED", "T
 ONLY_SOME = {
     **central_examples.ONLY_SOME,
     **multiperspective_examples.ONLY_SOME,
+    **table_examples.ONLY_SOME,
     "longitude_min": -pi, "longitude_max": pi, "latitude_min": -pi / 2, "latitude_max": pi / 2,
     "fisheye_fov": pi, "fisheye_lens": 10.5,
     "fisheye_polynomial_k0": 0.0, "fisheye_polynomial_k1": -pi / 72, "fisheye_polynomial_k2": 0.0,
@@ -35,6 +36,7 @@ ONLY_SOME = {
 EXAMPLES = defaultdict(lambda: [{}], {
     **central_examples.EXAMPLES,
     **multiperspective_examples.EXAMPLES,
+    **table_examples.EXAMPLES,
     "PERSP": [{}, PORTRAIT, WIDE_PIXELS, BORDER | {"lens": 4.0}, {"lens": 400.0, "matrix_world": TURNED}],
     "ORTHO": [{}, PORTRAIT, WIDE_PIXELS, BORDER | {"ortho_scale": 0.01}, {"ortho_scale": 50.0, "matrix_world": TURNED}],
     "EQUIRECTANGULAR": [{}, SHIFTED, BORDER, {"longitude_min": 0.5, "latitude_max": 0.1, "shift_y": 0.2}],
@@ -61,6 +63,7 @@ EXAMPLES = defaultdict(lambda: [{}], {
 FACTS = {
     **central_examples.FACTS,
     **multiperspective_examples.FACTS,
+    **table_examples.FACTS,
     "PERSP": [
         # the right edge of a 36 mm sensor behind 18 mm makes 45 degrees, the center looks ahead
         ({"lens": 18.0}, (96, 27), (0, 0, 0), (1, 0, -1)),
@@ -134,6 +137,7 @@ FACTS = {
 UNSEEN = {
     **central_examples.UNSEEN,
     **multiperspective_examples.UNSEEN,
+    **table_examples.UNSEEN,
     "PERSP": [(0, 0, 0), (1, 2, 0), (0, 0, 1), (3, -1, 5)],
     "ORTHO": [],
     "EQUIRECTANGULAR": [(0, 0, 0)],
@@ -150,6 +154,7 @@ UNSEEN = {
 REFUSED = {
     **central_examples.REFUSED,
     **multiperspective_examples.REFUSED,
+    **table_examples.REFUSED,
     "PERSP": [
         ({"lens": 0.0}, "lens"),
         ({"lens": float("nan")}, "lens"),

@@ -23,7 +23,8 @@ def test_menu_numbers_are_those_of_files_that_were_saved():
         "CAMERA_OBSCURA", "FISHEYE_ORTHOGRAPHIC", "FISHEYE_STEREOGRAPHIC", "OPENCV_PINHOLE", "OPENCV_FISHEYE",
         "OMNIMAX", "DOME_MASTER", "CYLINDRICAL", "STEREOGRAPHIC_PANORAMA", "GENERAL_LINEAR", "CROSS_SLIT",
         "PUSHBROOM", "PENCIL", "TWISTED_ORTHOGRAPHIC", "STRIP", "OMNIDIRECTIONAL_STEREO", "UCM", "EUCM",
-        "DOUBLE_SPHERE", "FISHEYE624", "THIN_PRISM_FISHEYE", "FOV", "DIVISION", "FTHETA", "OCAM",
+        "DOUBLE_SPHERE", "FISHEYE624", "THIN_PRISM_FISHEYE", "FOV", "DIVISION", "FTHETA", "OCAM", "RAY_TABLE",
+        "SCANNER",
     )  # fmt: skip
     assert numbers | {key: number for number, key in enumerate(saved, 1)} == numbers
     assert len(set(numbers.values())) == len(numbers)

@@ -36,8 +36,8 @@ def test_npz_has_the_rays_of_the_window(key):
     assert name == "Camera_0012.npz"
     arrays = np.load(BytesIO(content))
     rays = there.rays()
-    assert sorted(arrays) == ["directions", "origins", "valid"]
-    for part in arrays:
+    assert sorted(arrays) == ["area", "directions", "origins", "pose", "valid"]
+    for part in ("directions", "origins", "valid"):
         assert arrays[part].dtype == getattr(rays, part).dtype
         assert np.array_equal(arrays[part], getattr(rays, part), equal_nan=part == "directions")
 

@@ -12,6 +12,8 @@ from camera_ray_caster.core.cameras import MODELS
 from camera_ray_caster.core.cameras.parts.settings import RECORD_FIELDS, Line
 from camera_ray_caster.core.records import BlenderCamera
 
+from ..cameras.table_examples import pinhole
+
 SIZE = 96, 54
 LINES = {
     "slit_1": [(-1.0, 0.2, -3.0), (1.0, 0.3, 0.1)],
@@ -24,11 +26,15 @@ def lines_of(model):
     return {one.name: LINES[one.name] for one in model.SETTINGS if isinstance(one, Line)}
 
 
+def tables_of(model):
+    return {"ray_directions": pinhole()} if model.key == "RAY_TABLE" else {}
+
+
 @pytest.mark.one_for_each("model")
 @pytest.mark.parametrize("model", MODELS, ids=lambda model: model.key)
 def test_a_model_by_its_key_is_that_of_its_declared_defaults(model):
-    found = crc.camera(model.key, SIZE, **lines_of(model))
-    settings = {one.name: one.default for one in model.SETTINGS if one.name not in RECORD_FIELDS}
+    found = crc.camera(model.key, SIZE, **lines_of(model), **tables_of(model))
+    settings = {one.name: one.default for one in model.SETTINGS if one.name not in RECORD_FIELDS} | tables_of(model)
     for name, line in lines_of(model).items():
         points = np.array(line) if name == "path" else np.array((line[0], np.add(*line)))
         settings[name] = points, np.eye(4), [(k, k + 1) for k in range(len(points) - 1)]
@@ -38,7 +44,7 @@ def test_a_model_by_its_key_is_that_of_its_declared_defaults(model):
     np.testing.assert_array_equal(found.rays().directions, expected.directions)
     np.testing.assert_array_equal(found.rays().origins, expected.origins)
     assert found == found
-    assert found != crc.camera(model.key, SIZE, **lines_of(model))
+    assert found != crc.camera(model.key, SIZE, **lines_of(model), **tables_of(model))
     assert len({found, found}) == 1
 
 

@@ -5,7 +5,7 @@ from math import inf, nan
 
 from camera_ray_caster.core.camera import pixel_time
 from camera_ray_caster.core.cameras import MODELS
-from camera_ray_caster.core.cameras.parts.settings import OWN
+from camera_ray_caster.core.cameras.parts.settings import FROM_A_FILE, OWN
 
 from .parts import WHOLES, Hostile, new_object, put, store
 
@@ -41,7 +41,8 @@ def values(setting):
 CASES = [
     (model, mode, setting, value)
     for model, mode, setting in chain(
-        ((model, pixel_time.NONE, setting) for model in MODELS for setting in model.SETTINGS),
+        ((model, pixel_time.NONE, setting) for model in MODELS for setting in model.SETTINGS
+         if setting.owner != FROM_A_FILE),
         ((MODELS[0], mode, setting) for mode, settings in pixel_time.SETTINGS.items() for setting in settings),
         ((MODELS[0], pixel_time.NONE, setting) for setting in (pixel_time.MODE,)),
     )

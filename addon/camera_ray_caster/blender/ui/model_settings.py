@@ -65,10 +65,10 @@ def not_used(camera) -> list[str]:
 
 def not_counted(settings, own) -> tuple[Setting, ...]:
     """Return the settings of a model that are not used with its unit of length or its calibration file, which takes
-    the place of all others; () if it has no unit.
+    the place of all others; without a unit, the name of a camera in a file alone, where there is none.
     """
     if UNIT not in settings:
-        return ()
+        return () if own.calibration_file else (FILE_CAMERA,)
     if own.calibration_file:
         return tuple(setting for setting in settings if setting not in FROM_FILE)
     return FILE_CAMERA, *(IN_PIXELS if own.calibration_unit == MILLIMETERS else (LENS, *FILM))

@@ -44,7 +44,7 @@ def _check_shape(path: str, lens: Lens, raster: Raster) -> None:
     been calibrated with their own or with square pixels. Of a file that does not tell the size, the center has to lie
     in the frame.
     """
-    if SIZE[0].name not in lens.settings:
+    if CENTER[0].name not in lens.settings:
         return
     width, height = (lens.settings[side.name] for side in SIZE)
     x, y = (lens.settings[one.name] for one in CENTER)

@@ -33,6 +33,7 @@ from .orthographic import Orthographic
 from .pencil import Pencil
 from .perspective import Perspective
 from .pushbroom import Pushbroom
+from .ray_table import RayTable
 from .scanner import Scanner
 from .stereographic_panorama import StereographicPanorama
 from .strip import Strip
@@ -46,7 +47,7 @@ MODELS: list[type[Model]] = [
     CentralCylindrical, CameraObscura,
     FisheyeOrthographic, FisheyeStereographic, OpencvPinhole, OpencvFisheye,
     UnifiedCamera, EnhancedUnifiedCamera, DoubleSphere, Fisheye624, ThinPrismFisheye, FieldOfView, Division,
-    FTheta, OCam, Omnimax, DomeMaster, Cylindrical,
+    FTheta, OCam, RayTable, Omnimax, DomeMaster, Cylindrical,
     StereographicPanorama,
     GeneralLinear, CrossSlit, Pushbroom, Pencil, TwistedOrthographic, Strip, OmnidirectionalStereo,
     Scanner,

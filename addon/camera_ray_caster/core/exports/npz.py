@@ -1,8 +1,10 @@
 """numpy's NPZ: the ray of every pixel of the render window, for any camera.
 
 origins and directions are (rows, columns, 3) float64 in the world; directions have unit length, and are NaN where there
-is no ray. valid is (rows, columns) bool. time, the frame of each pixel (rows, columns), is stored if pixels have their
-own times. Row 0 is the bottom row.
+is no ray. valid is (rows, columns) bool, pose the (4, 4) matrix from the camera's frame to the world, area the left,
+bottom, right and top end of the window in fractions of the frame: with these the file is a calibration file of the Ray
+Table, a camera that has these rays and may be moved. time, the frame of each pixel (rows, columns), is stored if pixels
+have their own times. Row 0 is the bottom row.
 """
 
 from __future__ import annotations
@@ -36,6 +38,10 @@ class Npz(Format):
         for shot in shots:
             rays = shot.camera.rays()
             own = {} if rays.time is None else {"time": rays.time}
-            content = BytesIO()
-            np.savez(content, origins=rays.origins, directions=rays.directions, valid=rays.valid, **own)
+            pose, content = np.eye(4), BytesIO()
+            pose[:3, :3], pose[:3, 3] = shot.camera.pose.basis, shot.camera.pose.eye
+            raster = shot.camera.raster
+            area = np.array((raster.x0, raster.y0, raster.x1, raster.y1)) / (raster.size * 2)
+            given = {"origins": rays.origins, "directions": rays.directions, "valid": rays.valid}
+            np.savez(content, **given, pose=pose, area=area, **own)
             yield f"{shot.stem}.npz", content.getvalue()

@@ -80,6 +80,10 @@ def _image(setting: Setting, value) -> np.ndarray:
     return gray
 
 
+def _vectors(setting: Setting, value) -> np.ndarray | None:
+    return None if value is None else numbers(value, setting.name).copy()
+
+
 KINDS: dict[str, Callable[[Any, Any], Any]] = {
     "FLOAT": lambda setting, value: a_number(value, setting.name),
     "INT": _whole,
@@ -90,5 +94,6 @@ KINDS: dict[str, Callable[[Any, Any], Any]] = {
     "FILE": _file,
     "OBJECT": _line,
     "IMAGE": _image,
+    "VECTORS": _vectors,
 }
 """Functions that turn a value into that of a record, by kind of setting."""

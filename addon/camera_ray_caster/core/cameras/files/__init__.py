@@ -28,6 +28,7 @@ from . import (
     opencv,
     opensfm,
     ouster,
+    ray_arrays,
     recorded,
     velodyne,
     woodscape,
@@ -36,9 +37,9 @@ from .document import Document, Lens
 from .nearest import unknown
 
 FORMATS = (
-    colmap_binary.read, colmap.read, hesai.read, mrcal.read, ocam.read, velodyne.read, ouster.read, recorded.read,
-    aria.read, nerfstudio.read, ftheta.read, isaac.read, woodscape.read, opensfm.read, basalt.read, camodocal.read,
-    okvis.read, kalibr.read, opencv.read,
+    ray_arrays.read, colmap_binary.read, colmap.read, hesai.read, mrcal.read, ocam.read, velodyne.read, ouster.read,
+    recorded.read, aria.read, nerfstudio.read, ftheta.read, isaac.read, woodscape.read, opensfm.read, basalt.read,
+    camodocal.read, okvis.read, kalibr.read, opencv.read,
 )  # fmt: skip
 """Readers in the order in which they are tried."""
 

@@ -126,6 +126,10 @@ PROGRAMS = (
         "this add-on", "camera.json, report.json", "format cameras all_frames frames record settings", "every model",
         "json", "nothing",
     ),
+    Program(
+        "ray tables", "this add-on's ray maps as .npz; .npy of directions, or of origins and directions",
+        reads="a ray for each pixel, or fewer", lost="pixel times",
+    ),
     Program("NeRF", "transforms_train.json, _val and _test", export="nerf", lost="all lenses but centered pinholes"),
     Program("TUM", "trajectories .txt", export="tum", lost="lenses"),
     Program("KITTI", "poses .txt", export="kitti", lost="lenses, times"),

@@ -31,8 +31,10 @@ LIMIT_ROUNDING = 1e-6
 """Relative amount by which a value may exceed a limit, since Blender stores it as float32."""
 
 OWN, CAMERA, STEREO, RENDER, CYCLES = "own", "camera", "stereo", "render", "cycles"
+FROM_A_FILE = "file"
 """Owner of a setting: the add-on's properties, which are made from the setting, or, for Blender's own settings, the
-camera, its stereoscopy settings, the scene's render settings or the scene's Cycles settings.
+camera, its stereoscopy settings, the scene's render settings or the scene's Cycles settings. What a calibration file or
+a script alone gives has no property.
 """
 
 RECORD_FIELDS = frozenset(entry.name for entry in fields(BlenderCamera))

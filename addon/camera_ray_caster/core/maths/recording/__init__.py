@@ -6,6 +6,7 @@ iterates and reads tables, for arrays as well as for recorded numbers.
 """
 
 from .derivatives import Dual, differentiate
+from .entries import Entries
 from .known import record_known
 from .number import (
     NotRecordable,
@@ -19,6 +20,7 @@ from .number import (
     record,
     roundoff,
     stop_gradient,
+    whole,
 )
 from .record import DOMAIN, NUMPY, Operation, Record, needed
 from .varied import Varied, array, cos, sin, tan
@@ -27,6 +29,7 @@ __all__ = [
     "DOMAIN",
     "NUMPY",
     "Dual",
+    "Entries",
     "NotRecordable",
     "Operation",
     "Parameter",
@@ -48,4 +51,5 @@ __all__ = [
     "sin",
     "stop_gradient",
     "tan",
+    "whole",
 ]  # fmt: skip

@@ -11,6 +11,7 @@ import numpy as np
 
 from ...conventions import EPS
 from .. import polynomials
+from .entries import Entries
 from .record import COMPARISONS, LOGICAL, NUMERIC, Operation, Record, needed, repeat
 from .varied import Varied
 
@@ -78,6 +79,11 @@ def loop(body: Callable, state: Sequence, most: int) -> Sequence:
 def look_up(table, place):
     """Return the entry of a table, (n,) float64, at an integer or an array of integers: ``table[place]``."""
     return place.tape.add("take", [place], (_entries(table),)) if is_recorded(place) else table[place]
+
+
+def whole(number):
+    """Return a whole number or an array of them in the type of an index, for ``look_up``."""
+    return number if is_recorded(number) else np.asarray(number).astype(np.intp)
 
 
 def may_hold(condition) -> bool:
@@ -278,8 +284,8 @@ def _searchsorted(table, number, side="left"):
     return number.tape.add("searchsorted", [number], (_entries(table), side))
 
 
-def _entries(table) -> tuple[float, ...]:
-    return tuple(np.asarray(table, np.float64).tolist())
+def _entries(table) -> Sequence[float]:
+    return table if isinstance(table, Entries) else tuple(np.asarray(table, np.float64).tolist())
 
 
 def _more(method: str, options) -> str:

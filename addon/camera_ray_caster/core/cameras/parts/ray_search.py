@@ -1,0 +1,148 @@
+"""The inverse of a table of rays: the place of the table whose interpolated ray passes through a point.
+
+Newton's method begins at the entry whose ray passes nearest. With m and o the interpolated direction and origin, by u
+and v their derivatives, and t the point's place on the ray, r = p - o - t m is what the ray misses the point by, and
+(w_v x m) . r / D and (m x w_u) . r / D are the steps in u and v, w = o' + t m', D = m . (w_u x w_v): Cramer's rule,
+as in ``core.camera.jacobian``. The table is continued into its holes and beyond its edges, so that a search may pass
+there.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ...conventions import EPS
+from .ray_grid import AROUND, LINEAR, RayGrid, weights_of
+
+STARTS = 32
+"""Entries on each axis among which the search begins."""
+
+REGIONS, TRIES = 4, 6
+"""Regions on each axis, and from how many of them a point is sought, from the best entry of each: near the poles of
+panoramas and at their seams the nearest entry may lead nowhere.
+"""
+
+STEPS, FULL = 24, 8
+"""Largest number of steps, and of full ones: a smooth table takes about six. Later ones are halved, which ends cycles
+between the cells of a table with kinks.
+"""
+
+SLACK = 64
+"""A ray meets a point within this many times EPS (1 + s), as an angle: s is the sum of the distances of the point and
+of the ray's origin from the eye, over the distance between the two.
+"""
+
+AT_ONCE = 2048
+"""Number of points sought at once: their working arrays take some megabytes."""
+
+
+def places_of(grid: RayGrid, points: np.ndarray) -> np.ndarray:
+    """Return the places u, v (n, 2) in entries whose rays pass through points (n, 3); NaN where none was found. A place
+    may be in a hole of the table or beyond it. If several rays pass through a point, it is one of them.
+    """
+    found, starts = np.full((len(points), 2), np.nan), _Starts(grid)
+    for first in range(0, len(points), AT_ONCE):
+        part = points[first : first + AT_ONCE]
+        own = found[first : first + AT_ONCE]
+        near = starts.nearest(part)
+        own[:] = _search(grid, part, near[0])
+        for start in near[1:TRIES]:
+            lost = np.flatnonzero(np.isnan(own[:, 0]))
+            lost = lost[~np.isnan(grid.bounds(part[lost], np.zeros(len(lost)))[:, 0])]
+            if not len(lost):
+                break
+            own[lost] = _search(grid, part[lost], start[lost])
+    return found
+
+
+def _search(grid: RayGrid, points: np.ndarray, place: np.ndarray) -> np.ndarray:
+    active, ends = np.arange(len(points)), np.array(grid.shape[::-1], np.float64)
+    for count in range(STEPS):
+        beside, step, _ = _missed(grid, points[active], place[active])
+        size = np.abs(step).max(axis=1)
+        step *= np.minimum(1.0, np.maximum(ends.max() / STARTS, 1.0) / size)[:, None]
+        step = np.where(np.isfinite(step), step, 0.0)
+        moved = np.clip(place[active] + (step if count < FULL else step / 2), -1.0, ends)
+        still = np.abs(moved - place[active]).max(axis=1) <= 2 * EPS * ends.max()
+        place[active] = moved
+        active = active[~still]
+        if not len(active):
+            break
+    beside, _, missed = _missed(grid, points, place)
+    reach = np.sqrt((points * points).sum(axis=1)) + grid.farthest
+    distance = np.sqrt((beside * beside).sum(axis=1))
+    return np.where((missed <= SLACK * EPS * (distance + reach))[:, None], place, np.nan)
+
+
+def _missed(grid: RayGrid, points: np.ndarray, place: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return the way (n, 3) from the rays' origins to points, Newton's steps (n, 2), and the distance (n,) by which the
+    rays miss the points; infinity for points behind the origins.
+    """
+    value, by_u, by_v = _derivatives(grid, place)
+    m, m_u, m_v = (part[:, :3] for part in (value, by_u, by_v))
+    beside = points if grid.origins is None else points - value[:, 3:]
+    t = (_dot(beside, m) / _dot(m, m))[:, None]
+    r = beside - t * m
+    w_u, w_v = t * m_u, t * m_v
+    if grid.origins is not None:
+        w_u, w_v = w_u + by_u[:, 3:], w_v + by_v[:, 3:]
+    to_u, to_v = np.cross(w_v, m), np.cross(m, w_u)
+    step = np.stack((_dot(to_u, r), _dot(to_v, r)), axis=1) / _dot(w_u, to_u)[:, None]
+    return beside, step, np.where(t[:, 0] > 0, np.sqrt(_dot(r, r)), np.inf)
+
+
+def _derivatives(grid: RayGrid, place: np.ndarray) -> list[np.ndarray]:
+    """Return the interpolated vectors at places (n, 2), and their derivatives by u and by v, each (n, 3 or 6)."""
+    cell = np.clip(np.floor(place), -1, np.array(grid.shape[::-1]) - 1)
+    (across, across_by), (up, up_by) = (_weights(place[:, k] - cell[:, k], grid.kind) for k in (0, 1))
+    first, taps = cell.astype(np.intp) + AROUND - (grid.kind != LINEAR), np.arange(across.shape[1])
+    read = grid.nodes[first[:, 1, None, None] + taps[:, None], first[:, 0, None, None] + taps]
+    rows, rows_by = ((read * weights[:, :, None, None]).sum(axis=1) for weights in (up, up_by))
+    each = (rows, across), (rows, across_by), (rows_by, across)
+    return [(lines * weights[:, :, None]).sum(axis=1) for lines, weights in each]
+
+
+def _weights(t: np.ndarray, kind: str) -> tuple[np.ndarray, np.ndarray]:
+    """Return the weights of ``weights_of`` at t (n,) and their derivatives, each (n, 4), or (n, 2) for LINEAR."""
+    s = 1 - t
+    by = [-s * s / 2, t * (3 * t - 4) / 2, s * (4 - 3 * s) / 2, t * t / 2]
+    if kind == LINEAR:
+        by = [np.full(t.shape, -1.0), np.ones(t.shape)]
+    return np.stack(weights_of(t, kind), axis=1), np.stack(by, axis=1)
+
+
+class _Starts:
+    """Entries of a table, some on each axis, in REGIONS x REGIONS regions."""
+
+    def __init__(self, grid: RayGrid):
+        some = np.ix_(*(np.unique(np.linspace(0, side - 1, STARTS).round().astype(int)) for side in grid.shape))
+        if not grid.known[some].any():
+            some = np.ix_(*map(np.arange, grid.shape))
+        known = grid.known[some]
+        row, column = (np.broadcast_to(axis, known.shape)[known] for axis in some)
+        regions = row * REGIONS // grid.shape[0] * REGIONS + column * REGIONS // grid.shape[1]
+        order = np.argsort(regions, kind="stable")
+        self.places = np.stack((column, row), axis=1)[order].astype(np.float64)
+        self.ahead = grid.directions[row, column][order]
+        self.eyes = None if grid.origins is None else grid.origins[row, column][order]
+        self.first = np.flatnonzero(np.diff(regions[order], prepend=-1))
+
+    def nearest(self, points: np.ndarray) -> np.ndarray:
+        """Return the places (regions, n, 2) of the entry of each region whose ray makes the least angle with the way
+        from its origin to each point; for each point those of the least angles first.
+        """
+        along = points @ self.ahead.T
+        if self.eyes is not None:
+            along -= _dot(self.eyes, self.ahead)
+            away = _dot(points, points)[:, None] - 2 * points @ self.eyes.T + _dot(self.eyes, self.eyes)
+            along /= np.sqrt(np.maximum(away, np.finfo(float).tiny))
+        along = np.where(np.isnan(along), -np.inf, along)
+        ends = (*self.first[1:].tolist(), len(self.places))
+        best = [part + along[:, part:end].argmax(axis=1) for part, end in zip(self.first, ends, strict=True)]
+        chosen = np.stack(best, axis=1)
+        order = np.argsort(-np.take_along_axis(along, chosen, axis=1), axis=1, kind="stable")
+        return self.places[np.take_along_axis(chosen, order, axis=1).T]
+
+
+def _dot(left: np.ndarray, right: np.ndarray) -> np.ndarray:
+    return (left * right).sum(axis=1)

@@ -1,0 +1,32 @@
+"""The setting that is a table of vectors."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from reprlib import repr as shortened
+from typing import Any
+
+import numpy as np
+
+from ...records import BlenderCamera
+from .settings import Setting
+
+
+@dataclass(frozen=True)
+class Vectors(Setting):
+    """A table of vectors, (rows, columns, 3) from the bottom left, or None."""
+
+    kind = "VECTORS"
+
+    def read(self, raw: BlenderCamera) -> np.ndarray | None:
+        """Return the table as float64. Raises InputError, which names the setting, for rows of unequal length."""
+        given = self.given(raw)
+        try:
+            return None if given is None else np.asarray(given, np.float64)
+        except (TypeError, ValueError) as error:
+            raise self.refusal(raw, shortened(given), "rows of equal length, of three numbers each entry") from error
+
+    def reported(self, raw: BlenderCamera) -> Any:
+        """Return the shape of the table for a report, which would be too long with all numbers; None without one."""
+        table = self.read(raw)
+        return None if table is None else list(table.shape)

@@ -1,0 +1,247 @@
+"""A table of rays: any camera by the rays of its pixels, as it was measured, computed or exported.
+
+Assumption: rays change smoothly from entry to entry. The entries are the centers of pixels, or of squares of pixels,
+that fill the frame; a frame of another size has the same rays, as a picture that is scaled. Between the entries unit
+directions, and origins if there are any, are interpolated component by component, by a cubic spline or by straight
+lines; half an entry beyond the outermost ones they are continued. Entries with NaN are squares without rays.
+A table may also have the control points of a cubic B-spline, as the generic cameras of T. Schöps et al.
+The inverse is numerical. ``facts`` has the errors of the interpolation, estimated from every second row and column.
+Singular: places where the table's rays do not change from entry to entry, such as the poles of a panorama.
+Refused: tables that fold, where pixels next to each other see one point.
+References: M. Grossberg and S. Nayar, A general imaging model and a method for finding its parameters, ICCV 2001;
+T. Schöps et al., Why having 10,000 parameters in your camera model is better than twelve, CVPR 2020.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..conventions import gamma
+from ..maths.recording import look_up, whole
+from ..maths.vector import norm
+from ..records import BlenderCamera, InputError, Raster
+from .model import Model, Step
+from .parts.calibration import FROM_FILE
+from .parts.ray_grid import AROUND, CUBIC, LINEAR, SPLINE, RayGrid, weights_of
+from .parts.ray_search import places_of
+from .parts.settings import FROM_A_FILE, Choice, Flag, Item, Numbers
+from .parts.silhouette import MARGIN
+from .parts.vectors import Vectors
+
+DIRECTIONS = Vectors(
+    "ray_directions",
+    "Directions",
+    "Directions of the rays in the camera's frame, of any length; NaN where there is no ray",
+    None,
+    owner=FROM_A_FILE,
+)
+ORIGINS = Vectors(
+    "ray_origins", "Origins", "Origins of the rays in the camera's frame; without them all leave the eye", None,
+    owner=FROM_A_FILE,
+)  # fmt: skip
+AREA = Numbers(
+    "ray_area", "Area", "Part of the frame that the entries fill, 0 to 1 from the bottom left", (0.0, 0.0, 1.0, 1.0),
+    ("Left", "Bottom", "Right", "Top"), owner=FROM_A_FILE,
+)  # fmt: skip
+OPENCV = "OPENCV"
+AXES = Choice(
+    "ray_axes", "Axes", "Axes of the rays in a file that does not tell", "BLENDER",
+    (
+        Item("BLENDER", "Blender", "X right, Y up, the camera looks along -Z", 0),
+        Item(OPENCV, "OpenCV", "X right, Y down, the camera looks along Z", 1),
+    ),
+)  # fmt: skip
+INTERPOLATION = Choice(
+    "ray_interpolation", "Interpolation", "Rays between the entries of the table", CUBIC,
+    (
+        Item(CUBIC, "Cubic", "A cubic spline through the entries, smooth", 0),
+        Item(LINEAR, "Linear", "Straight lines between the entries", 1),
+        Item(SPLINE, "Control Points", "The entries are the control points of a cubic B-spline", 2),
+    ),
+)  # fmt: skip
+SLIDE = Flag(
+    "ray_slide",
+    "Slide Origins",
+    "Move each origin along its ray, near the mean of all origins: for tables whose origins jump along the rays. "
+    "Distances are measured from there",
+    False,
+)
+
+BESIDE = 1e-9
+"""Fraction of an entry by which a place may lie beyond the table: rounding must not lose the frame's edges."""
+
+KEPT = 4
+"""Number of tables that are kept: an animated camera reads its table for every frame."""
+
+_latest: dict[tuple, tuple] = {}
+
+
+@dataclass(frozen=True)
+class RayTable(Model):
+    """A table over the frame: place u = x scale_x + shift_x of an entry, 0 to columns - 1, and v likewise."""
+
+    grid: RayGrid
+    scale: tuple[float, float]
+    """Entries per pixel."""
+    shift: tuple[float, float]
+    """The place of the frame's corner (0, 0)."""
+
+    key = "RAY_TABLE"
+    label = "Ray Table"
+    description = "Rays as a table gives them: measured, computed or exported, one for each pixel or fewer"
+    group = "Calibrated"
+    number = 26
+    SETTINGS = (*FROM_FILE, AXES, INTERPOLATION, SLIDE, DIRECTIONS, ORIGINS, AREA)
+    BESIDE_FILE = (*FROM_FILE, AXES, INTERPOLATION, SLIDE)
+    FORMULA = (
+        Step("Place in the table, from the center of its first entry", "u = a x + g, v = c y + h"),
+        Step("Column and row of the entry below it, and the rest", "i, j, s = u - i, t = v - j"),
+        Step(
+            "Weights of the four columns around it, for a cubic; and of rows, by t",
+            "w0 = (1 - s)³/6, w1 = (4 - 3 s² (2 - s))/6, w2 = (4 - 3 (1 - s)² (1 + s))/6, w3 = s³/6",
+        ),
+        Step("Weighted sum of the control points of 4 × 4 entries", "m"),
+        Step("Direction, with the length n of m", "d = m / n"),
+    )
+
+    @classmethod
+    def from_blender(cls, raw: BlenderCamera, raster: Raster) -> RayTable:
+        """Build the camera from the table that its file or its settings give.
+
+        Raises InputError, which names the camera, for a table that is missing or that ``RayGrid`` refuses.
+        """
+        directions, origins = DIRECTIONS.read(raw), ORIGINS.read(raw)
+        if directions is None:
+            raise InputError(
+                f"camera {raw.name!r} has no table of rays: choose its file (Calibration), or give {DIRECTIONS.name}"
+            )
+        (left, bottom, right, top), kind = AREA.read(raw), INTERPOLATION.read(raw)
+        if not (right > left and top > bottom):
+            raise AREA.refusal(raw, f"{AREA.read(raw)}", "left, bottom, right, top, in ascending order")
+        try:
+            grid = _grid(directions, origins, kind, AXES.read(raw), SLIDE.read(raw))
+        except InputError as error:
+            raise InputError(f"table of rays of camera {raw.name!r}: {error}") from error
+        rows, columns = grid.shape
+        wide, high = columns / (right - left), rows / (top - bottom)
+        scale, shift = (wide / raster.width, high / raster.height), (-left * wide - 0.5, -bottom * high - 0.5)
+        return cls(raster.size, grid, scale, shift)
+
+    @property
+    def central(self) -> bool:  # type: ignore[override]  # a table tells by its origins
+        """See Model."""
+        return self.grid.origins is None
+
+    @property
+    def smooth(self) -> bool:  # type: ignore[override]
+        """See Model: straight lines have kinks, and a table with holes ends in corners."""
+        return self.grid.kind != LINEAR
+
+    def rays(self, x, y):
+        """Return origin and unit direction; see Model."""
+        inside, total = self._sums(x, y)
+        length = norm(total[:3])
+        length = np.where(inside & (length > 0), length, np.nan)
+        return tuple(total[3:]) or (0.0, 0.0, 0.0), tuple(part / length for part in total[:3])
+
+    def _sums(self, x, y):
+        """Return whether there are entries at pixels, and the interpolated components: 3, or 6 with an origin.
+
+        They are sums of differences from one entry, so that derivatives lose no digits where entries differ little.
+        """
+        grid, (rows, columns) = self.grid, self.grid.shape
+        u, v = (place * scale + shift for place, scale, shift in zip((x, y), self.scale, self.shift, strict=True))
+        margin = 1.0 if grid.kind == SPLINE else -0.5
+        in_u, in_v = _is_within(u, columns, margin), _is_within(v, rows, margin)
+        u, v, inside = np.where(in_u, u, margin + 0.25), np.where(in_v, v, margin + 0.25), in_u & in_v
+        if grid.has_holes:
+            near_u, near_v = (np.clip(np.floor(at + 0.5), 0, n - 1) for at, n in ((u, columns), (v, rows)))
+            inside = inside & (look_up(grid.has_ray, whole(near_v * columns + near_u)) > 0)
+        column, row = np.clip(np.floor(u), -1, columns - 1), np.clip(np.floor(v), -1, rows - 1)
+        across, up = weights_of(u - column, grid.kind), weights_of(v - row, grid.kind)
+        first, wide = AROUND - (grid.kind != LINEAR), columns + 2 * AROUND
+        corner, taps = whole((row + first) * wide + (column + first)), range(len(across))
+        own = corner + (AROUND - first) * (wide + 1)
+        total = []
+        for entries in grid.columns:
+            base = look_up(entries, own)
+            beside = ((look_up(entries, corner + (k * wide + i)) - base for k in taps) for i in taps)
+            total.append(base + _sum(across, (_sum(up, column) for column in beside)))
+        return inside, total
+
+    def project(self, points):
+        """See Model: the numerical inverse, from the entry whose ray passes nearest to the point."""
+        points = np.asarray(points, np.float64)
+        with np.errstate(all="ignore"):  # NaN and inf are valid results: no ray
+            places = places_of(self.grid, points.reshape(-1, 3))
+            pixels = (places - self.shift) / self.scale
+            pixels[np.isnan(self.rays(*pixels.T)[1][0])] = np.nan
+        return pixels.reshape(*points.shape[:-1], 2)
+
+    def bounds(self, centers, radii):
+        """See Model: those of the blocks of entries whose rays may meet the balls."""
+        (a, c), (b, d) = self.scale, self.shift
+        places = self.grid.bounds(centers, radii)
+        return (places - (b, b, d, d)) / (a, a, c, c) + (-MARGIN, MARGIN, -MARGIN, MARGIN)
+
+    @property
+    def formula_reach(self) -> float:
+        """See Model."""
+        return self.grid.farthest
+
+    @property
+    def ray_rounding(self) -> float:
+        """See Model: of weights (5 each), of sums of 4 products of them (4 each), and of the length and the quotient,
+        over the length that the sum has at least.
+        """
+        return gamma(24) * self.grid.largest / self.grid.shortest
+
+    def formula_rounding(self, x, y):
+        """See Model: the rounding of origins, which are sums as directions are."""
+        return gamma(20) * self.grid.farthest, 0.0
+
+    def formula_values(self, x, y):
+        """See Model: the numbers of the table's place in the frame, the entry, and the weighted sum."""
+        (a, c), (g, h) = self.scale, self.shift
+        found = self._sums(x, y)[1]
+        sums = np.array([float(part) for part in found[:3]])
+        i, j = np.floor(x * a + g), np.floor(y * c + h)
+        return {"a": a, "g": g, "c": c, "h": h, "i": i, "j": j, "m": sums, "n": float(norm(sums))}
+
+    def facts(self) -> dict[str, object]:
+        """See Model: the size of the table, its entries without rays, and the estimated errors between them: of
+        directions in radians and in pixels, and of origins.
+        """
+        angle, distance = self.grid.errors
+        rows, columns = self.grid.shape
+        said: dict[str, object] = {
+            "table": [columns, rows],
+            "entries_without_ray": int((~self.grid.known).sum()),
+            "interpolation_error": angle,
+        }
+        return said if self.central else said | {"interpolation_error_of_origins": distance}
+
+
+def _is_within(place, count: int, margin: float):
+    return (place >= margin - BESIDE) & (place <= count - 1 - margin + BESIDE)
+
+
+def _sum(weights, values):
+    total = 0.0
+    for weight, value in zip(weights, values, strict=True):
+        total = total + weight * value
+    return total
+
+
+def _grid(directions, origins, kind: str, axes: str, slide: bool) -> RayGrid:
+    """Return the table of some arrays, which are kept with it: the same arrays give the same table."""
+    asked = (id(directions), id(origins), kind, axes, slide)
+    if asked not in _latest:
+        flip = np.array((1.0, -1.0, -1.0)) if axes == OPENCV else 1.0
+        grid = RayGrid(directions * flip, None if origins is None else origins * flip, kind)
+        if len(_latest) >= KEPT:
+            _latest.clear()
+        _latest[asked] = directions, origins, grid.slid() if slide else grid
+    return _latest[asked][-1]

@@ -1,0 +1,203 @@
+"""Tables of rays: what is between their entries, and files of them, against the cameras that they were sampled from."""
+
+from io import BytesIO
+
+import numpy as np
+import pytest
+
+import camera_ray_caster as crc
+from camera_ray_caster.core.conventions import EPS
+
+from .model_examples import camera
+from .table_examples import pinhole, stacked
+
+FRAME = 96, 54
+SAMPLED = [
+    ("PERSP", {"lens": 18.0}),
+    ("FISHEYE_EQUIDISTANT", {"fisheye_fov": 3.0}),
+    ("EQUIRECTANGULAR", {"longitude_min": -1.5, "longitude_max": 1.2, "latitude_min": -1.0, "latitude_max": 1.1}),
+    ("OPENCV_PINHOLE", {"fx": 60.0, "fy": 60.0, "cx": 47.5, "cy": 26.5, "calibration_width": 96,
+                        "calibration_height": 54, "k1": -0.2, "k2": 0.04, "p1": 0.004}),
+    ("CROSS_SLIT", {"lens": 18.0}),
+    ("TWISTED_ORTHOGRAPHIC", {"twist": 0.3, "ortho_scale": 8.0}),
+]  # fmt: skip
+each_sampled = pytest.mark.parametrize(("key", "settings"), SAMPLED, ids=[key for key, _ in SAMPLED])
+
+
+def sampled(cam, columns=32, rows=18, **settings):
+    """The table of a camera's rays at the centers of entries, which are larger than pixels."""
+    width, height = cam.raster.size
+    rays = cam.rays_at((np.arange(columns) + 0.5) * width / columns, (np.arange(rows)[:, None] + 0.5) * height / rows)
+    origins = None if cam.model.central else rays.origins
+    return crc.camera("RAY_TABLE", cam.raster.size, ray_directions=rays.directions, ray_origins=origins, **settings)
+
+
+def everywhere(cam, count=3000):
+    return (np.random.default_rng(4).uniform(0, 1, (count, 2)) * cam.raster.size).T
+
+
+@each_sampled
+@pytest.mark.parametrize("kind", ["CUBIC", "LINEAR"])
+def test_the_error_between_entries_is_what_the_report_estimates(key, settings, kind):
+    """At most twice the estimate, and at least a tenth of it: both are of the worst place, but of different ones."""
+    cam = camera(key, settings)
+    table = sampled(cam, ray_interpolation=kind)
+    x, y = everywhere(cam)
+    own, found = cam.rays_at(x, y), table.rays_at(x, y)
+    both = own.valid & found.valid
+    assert both.mean() > 0.95 * own.valid.mean()
+    angle = np.linalg.norm(own.directions - found.directions, axis=1)[both].max()
+    facts = table.model.facts()
+    assert facts["interpolation_error"] / 10 <= angle <= 2 * facts["interpolation_error"]
+    if not cam.model.central:
+        off = np.linalg.norm(own.origins - found.origins, axis=1)[both].max()
+        estimate = facts["interpolation_error_of_origins"]
+        assert estimate / 10 - 32 * EPS <= off <= 2 * estimate + 32 * EPS
+
+
+@each_sampled
+def test_finer_tables_are_nearer_to_their_camera(key, settings):
+    """By 2^3 at least with twice the entries, and the entries themselves are rays of the table."""
+    cam = camera(key, settings)
+    x, y = everywhere(cam)
+    errors = []
+    for fine in (1, 2, 4):
+        table = sampled(cam, 24 * fine, 14 * fine)
+        own, found = cam.rays_at(x, y), table.rays_at(x, y)
+        inside = np.abs(np.stack((x, y), 1) / FRAME - 0.5).max(axis=1) < 0.45
+        whole = own.valid & found.valid & inside
+        if key == "FISHEYE_EQUIDISTANT":
+            whole &= np.hypot(x - 48, y - 27) < 38
+        errors.append(np.linalg.norm(own.directions - found.directions, axis=1)[whole].max())
+        u, v = (np.arange(24 * fine) + 0.5) * 4 / fine, (np.arange(14 * fine)[:, None] + 0.5) * 54 / 14 / fine
+        one, other = cam.rays_at(u, v), table.rays_at(u, v)
+        np.testing.assert_array_equal(one.valid, other.valid)
+        np.testing.assert_allclose(other.directions, one.directions, rtol=0, atol=16 * EPS)
+        np.testing.assert_allclose(other.origins, one.origins, rtol=0, atol=32 * EPS)
+    assert errors[1] < errors[0] / 8
+    assert errors[2] < errors[1] / 8
+
+
+@each_sampled
+def test_the_inverse_finds_the_pixel_of_every_ray(key, settings):
+    table = sampled(camera(key, settings))
+    x, y = everywhere(table)
+    rays = table.rays_at(x, y)
+    points = (rays.origins + np.random.default_rng(1).uniform(1, 50, (len(x), 1)) * rays.directions)[rays.valid]
+    off = np.abs(table.project(points) - np.stack((x, y), axis=1)[rays.valid])
+    assert off.max() <= 1e-9
+
+
+@each_sampled
+def test_ray_maps_are_tables_of_the_same_rays(key, settings, tmp_path):
+    """In the camera's place and in another, also of a part of the picture."""
+    border = {"use_border": True, "border_min_x": 0.25, "border_max_x": 0.75, "border_max_y": 0.5}
+    turned = np.array(((0, -1, 0, 3), (1, 0, 0, -2), (0, 0, 1, 5), (0, 0, 0, 1.0)))
+    for own in ({}, border):
+        cam = camera(key, settings | own | {"matrix_world": turned})
+        (path,) = crc.export("npz", cam, tmp_path).paths
+        table = crc.load_calibration(path, pose=turned)
+        assert (table.model.key, table.raster.size) == ("RAY_TABLE", FRAME)
+        one, other = cam.rays(), table.rays_at(cam.raster.columns(), cam.raster.rows())
+        np.testing.assert_array_equal(one.valid, other.valid)
+        np.testing.assert_allclose(other.directions, one.directions, rtol=0, atol=32 * EPS)
+        np.testing.assert_allclose(other.origins, one.origins, rtol=0, atol=64 * EPS)
+        assert crc.load_calibration(path, size=(48, 27)).raster.size == (48, 27)
+        path.unlink()
+
+
+def test_half_an_entry_beyond_the_outermost_centers_the_table_is_continued():
+    """Exactly where rays change as a parabola does: origins here. Further out there are none."""
+    x, y = np.arange(8.0)[None], np.arange(6.0)[:, None]
+    origins = stacked((x + 5) ** 2 / 10, y - x * y / 8, 0.0)
+    table = crc.camera("RAY_TABLE", (80, 60), ray_directions=np.full((6, 8, 3), (0, 0, -1.0)), ray_origins=origins)
+    u, v = np.linspace(0, 80, 41), np.linspace(0, 60, 31)[:, None]
+    rays = table.rays_at(u, v)
+    assert rays.valid.all()
+    i, j = u / 10 - 0.5, v / 10 - 0.5
+    np.testing.assert_allclose(rays.origins, stacked((i + 5) ** 2 / 10, j - i * j / 8, 0.0), rtol=0, atol=1e-5)
+    assert not table.rays_at([-0.1, 80.1, 40, 40], [30, 30, -0.1, 60.1]).valid.any()
+
+
+def test_holes_are_squares_without_rays_and_their_neighbors_are_not_bent():
+    table = pinhole(48, 36)
+    whole = crc.camera("RAY_TABLE", (96, 72), ray_directions=table)
+    table[10:14, 20:26] = np.nan
+    cam = crc.camera("RAY_TABLE", (96, 72), ray_directions=table)
+    x, y = everywhere(cam)
+    inside = (x > 40) & (x < 52) & (y > 20) & (y < 28)
+    rays = cam.rays_at(x, y)
+    np.testing.assert_array_equal(rays.valid, ~inside)
+    off = np.abs(rays.directions - whole.rays_at(x, y).directions)[~inside].max()
+    assert off < 5e-5  # half an entry beyond: 0.31 h^3 times the third derivative
+    assert cam.model.facts()["entries_without_ray"] == 24
+    assert np.isnan(cam.project(whole.rays_at(x[inside], y[inside]).directions)).all()
+
+
+def test_origins_that_jump_along_their_rays_may_be_slid():
+    cam = camera("CROSS_SLIT", {"lens": 18.0})
+    x, y = (np.arange(48) + 0.5) * 2, (np.arange(27)[:, None] + 0.5) * 2
+    rays = cam.rays_at(x, y)
+    jumps = rays.origins + np.random.default_rng(3).uniform(-0.1, 0.1, (27, 48, 1)) * rays.directions
+    given = {"ray_directions": rays.directions, "ray_origins": jumps}
+    x, y = everywhere(cam)
+    own = cam.rays_at(x, y)
+    off = []
+    for slide in (False, True):
+        found = crc.camera("RAY_TABLE", FRAME, **given, ray_slide=slide).rays_at(x, y)
+        off.append(np.linalg.norm(np.cross(found.origins - own.origins, own.directions), axis=1).max())
+    assert off[1] < 1e-4 < 1e-3 < off[0]
+
+
+def saved(**arrays):
+    content = BytesIO()
+    np.savez(content, **arrays)
+    return content.getvalue()
+
+
+def array_file(array):
+    content = BytesIO()
+    np.save(content, array)
+    return content.getvalue()
+
+
+def test_arrays_of_numpy_are_tables(tmp_path):
+    six = np.concatenate((pinhole() * (1, 1, 0), pinhole()), axis=2).astype(np.float32)
+    (tmp_path / "six.npy").write_bytes(array_file(six))
+    (tmp_path / "three.npy").write_bytes(array_file(pinhole()))
+    found = crc.load_calibration(tmp_path / "six.npy")
+    assert found.raster.size == (24, 18)
+    rays = found.rays()
+    np.testing.assert_allclose(rays.origins, six[..., :3], rtol=0, atol=8 * EPS)
+    unit = six[..., 3:] / np.linalg.norm(six[..., 3:], axis=2)[..., None]
+    np.testing.assert_allclose(rays.directions, unit, rtol=0, atol=1e-7)
+    assert crc.load_calibration(tmp_path / "three.npy").model.central
+    both = crc.camera("RAY_TABLE", (48, 36), calibration_file=tmp_path / "three.npy", ray_interpolation="LINEAR")
+    assert both.model.grid.kind == "LINEAR"
+
+
+BAD = {
+    "truncated": (saved(directions=pinhole())[:900], "damaged"),
+    "no directions": (saved(origins=pinhole()), "no directions"),
+    "shape": (saved(directions=pinhole()[0]), r"of shape \(24, 3\)"),
+    "origins": (saved(directions=pinhole(), origins=pinhole()[1:]), "origins are of shape"),
+    "valid": (saved(directions=pinhole(), valid=np.ones(5)), "valid is of shape"),
+    "objects": (saved(directions=np.array([None, "a"])), "no array of numpy"),
+    "words": (saved(directions=np.full((3, 3, 3), "a")), "directions is"),
+    "pose": (saved(directions=pinhole(), pose=np.zeros((4, 4))), "pose must be"),
+    "area": (saved(directions=pinhole(), area=np.zeros(4)), "area must be"),
+    "times": (saved(directions=pinhole(), time=np.zeros((18, 24))), "their own times"),
+    "cut npy": (array_file(pinhole())[:500], "damaged"),
+    "everywhere NaN": (array_file(pinhole() * np.nan), "no ray"),
+}
+
+
+@pytest.mark.parametrize("name", BAD)
+def test_files_that_are_no_table_are_refused_in_one_line(name, tmp_path):
+    content, word = BAD[name]
+    path = tmp_path / "table.bin"
+    path.write_bytes(content)
+    with pytest.raises(crc.InputError, match=word) as caught:
+        crc.load_calibration(path)
+    assert "\n" not in str(caught.value)
+    assert str(path) in str(caught.value)
