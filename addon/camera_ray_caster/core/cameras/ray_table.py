@@ -19,7 +19,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..conventions import gamma
-from ..maths.recording import look_up, whole
+from ..maths.recording import is_recorded, look_up
 from ..maths.vector import norm
 from ..records import BlenderCamera, InputError, Raster
 from .model import Model, Step
@@ -158,11 +158,11 @@ class RayTable(Model):
         u, v, inside = np.where(in_u, u, margin + 0.25), np.where(in_v, v, margin + 0.25), in_u & in_v
         if grid.has_holes:
             near_u, near_v = (np.clip(np.floor(at + 0.5), 0, n - 1) for at, n in ((u, columns), (v, rows)))
-            inside = inside & (look_up(grid.has_ray, whole(near_v * columns + near_u)) > 0)
+            inside = inside & (look_up(grid.has_ray, _whole(near_v * columns + near_u)) > 0)
         column, row = np.clip(np.floor(u), -1, columns - 1), np.clip(np.floor(v), -1, rows - 1)
         across, up = weights_of(u - column, grid.kind), weights_of(v - row, grid.kind)
         first, wide = AROUND - (grid.kind != LINEAR), columns + 2 * AROUND
-        corner, taps = whole((row + first) * wide + (column + first)), range(len(across))
+        corner, taps = _whole((row + first) * wide + (column + first)), range(len(across))
         own = corner + (AROUND - first) * (wide + 1)
         total = []
         for entries in grid.columns:
@@ -226,6 +226,11 @@ class RayTable(Model):
 
 def _is_within(place, count: int, margin: float):
     return (place >= margin - BESIDE) & (place <= count - 1 - margin + BESIDE)
+
+
+def _whole(number):
+    """Return a whole number or an array of them in the type of an index, for ``look_up``."""
+    return number if is_recorded(number) else np.asarray(number).astype(np.intp)
 
 
 def _sum(weights, values):

@@ -20,7 +20,6 @@ from .number import (
     record,
     roundoff,
     stop_gradient,
-    whole,
 )
 from .record import DOMAIN, NUMPY, Operation, Record, needed
 from .varied import Varied, array, cos, sin, tan
@@ -51,5 +50,4 @@ __all__ = [
     "sin",
     "stop_gradient",
     "tan",
-    "whole",
 ]  # fmt: skip

@@ -81,11 +81,6 @@ def look_up(table, place):
     return place.tape.add("take", [place], (_entries(table),)) if is_recorded(place) else table[place]
 
 
-def whole(number):
-    """Return a whole number or an array of them in the type of an index, for ``look_up``."""
-    return number if is_recorded(number) else np.asarray(number).astype(np.intp)
-
-
 def may_hold(condition) -> bool:
     """Return whether a condition holds for any entry of an array; True for a recorded condition. A formula may skip
     work that no entry needs, if the work would leave all numbers as they are.
