@@ -30,11 +30,9 @@ float32 does not resolve a hundredth of a degree of a larger angle.
 LIMIT_ROUNDING = 1e-6
 """Relative amount by which a value may exceed a limit, since Blender stores it as float32."""
 
-OWN, CAMERA, STEREO, RENDER, CYCLES = "own", "camera", "stereo", "render", "cycles"
-FROM_A_FILE = "file"
+OWN, CAMERA, STEREO, RENDER, CYCLES, FROM_A_FILE = "own", "camera", "stereo", "render", "cycles", "file"
 """Owner of a setting: the add-on's properties, which are made from the setting, or, for Blender's own settings, the
-camera, its stereoscopy settings, the scene's render settings or the scene's Cycles settings. What a calibration file or
-a script alone gives has no property.
+camera, its stereoscopy settings, the scene's render settings or its Cycles settings; FROM_A_FILE has no property.
 """
 
 RECORD_FIELDS = frozenset(entry.name for entry in fields(BlenderCamera))
