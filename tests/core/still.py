@@ -1,10 +1,9 @@
 """Passes of scenes that were read at one frame only."""
 
 from camera_ray_caster.core.any_rays.door import WITHOUT_PIXEL
-from camera_ray_caster.core.casting.flow import FRAMES
 from camera_ray_caster.core.casting.passes import PASSES
 
-STILL = tuple(name for name in PASSES if name not in FRAMES)
+STILL = tuple(name for name, one in PASSES.items() if not one.frames)
 """Those that look into no other frame."""
 
 

@@ -13,8 +13,8 @@ from . import arguments, memory, tuning
 from .any_rays.sweep import cast_sweep, check_passes
 from .camera.camera import Camera
 from .camera.times import SweepTime
-from .casting.flow import pictures
-from .casting.passes import PASSES, image_bytes
+from .casting.needs import image_bytes, pictures
+from .casting.passes import PASSES
 from .casting.plan import Plan, make_plan
 from .casting.request import MATERIAL, PRECISIONS, Request, meaning
 from .casting.tiles import STEPS, Effort, Tile, cast_tile, in_threads, listening, moments, shares

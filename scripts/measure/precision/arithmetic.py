@@ -3,12 +3,12 @@
 from dataclasses import replace
 
 import numpy as np
+from tests.core.errors.decisions import decision
 from tests.core.errors.extreme_cases import CASES, Case, around
 from tests.core.truth import truth
 
 from camera_ray_caster.core.camera.build import camera_from
 from camera_ray_caster.core.cast import cast
-from camera_ray_caster.core.errors.hits import decision
 from camera_ray_caster.core.records import INFINITE_PLANE, SPHERE
 from camera_ray_caster.core.shapes.in_camera import in_camera
 

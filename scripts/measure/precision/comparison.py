@@ -3,9 +3,9 @@
 import sys
 
 import numpy as np
+from tests.core.errors.decisions import decision
 from tests.core.truth import truth
 
-from camera_ray_caster.core.errors.hits import decision
 from camera_ray_caster.core.shapes.in_camera import in_camera
 
 from .tracers import TRACERS, Given

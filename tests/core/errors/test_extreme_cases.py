@@ -10,12 +10,12 @@ from mpmath import cos, mpf, pi, sin
 
 from camera_ray_caster.core.cast import cast
 from camera_ray_caster.core.conventions import EPS
-from camera_ray_caster.core.errors.hits import decision
 from camera_ray_caster.core.motion.evaluations import resolve
 from camera_ray_caster.core.records import PLANE, SPHERE, InputError
 
 from ..truth import truth
 from .condition import TIGHT, condition
+from .decisions import decision
 from .extreme_cases import CASES, STIFF, TURN, Case, shapes_of
 
 PASSES = (

@@ -3,11 +3,11 @@
 import numpy as np
 
 from camera_ray_caster.core.cast import cast
-from camera_ray_caster.core.errors.hits import decision
 from camera_ray_caster.core.records import SPHERE
 from camera_ray_caster.core.shapes.in_camera import in_camera
 
 from ..cameras.model_examples import camera
+from .decisions import decision
 from .extreme_cases import shapes_of
 
 ALONG_MINUS_X = [[0, 0, 1, 4], [0, 1, 0, -2], [-1, 0, 0, 5], [0, 0, 0, 1]]

@@ -69,10 +69,5 @@ class Disc(AffineKind):
         """A constant's."""
         return hits.local.frame.rounding
 
-    def decide(self, shapes, local):
-        """How far inside of the edge."""
-        (d, _, d_error, _), across = local.z(), local.cross
-        return np.abs(d) - np.hypot(across[0], across[1]), d_error + 2 * local.product_error()
-
 
 DISCS = Disc()

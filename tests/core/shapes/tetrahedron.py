@@ -58,10 +58,6 @@ class Tetrahedron(Kind):
         """Of the triangles that are hit."""
         return TetrahedronErrors(pixels, LocalRays(shapes, pixels.at, rays, from_eye))
 
-    def decision(self, shapes, at, rays, from_eye):
-        """Always open."""
-        return np.zeros(at.shape), np.ones(at.shape)
-
 
 @dataclass(frozen=True, eq=False)
 class TetrahedronSet(ShapeSet):

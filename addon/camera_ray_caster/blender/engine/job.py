@@ -13,8 +13,7 @@ import numpy as np
 from ...core.camera.camera import Camera
 from ...core.camera.stereo import eye_record
 from ...core.cast import Images, cast
-from ...core.casting.flow import frames_of
-from ...core.casting.passes import image_bytes
+from ...core.casting.needs import frames_of, image_bytes
 from ...core.casting.request import meaning
 from ...core.memory import of_pixels, require
 from ...core.records import Finding, Shapes

@@ -12,7 +12,7 @@ from typing import Any, TypeVar
 import bpy
 import numpy as np
 
-from ...core.casting.passes import image_bytes
+from ...core.casting.needs import image_bytes
 from ...core.file_set import atomic_folder
 from ...core.memory import of_pixels, require
 from ...core.names import folded

@@ -10,7 +10,8 @@ from weakref import WeakKeyDictionary
 import numpy as np
 
 from .. import arguments, memory
-from ..casting.passes import PASSES, image_bytes
+from ..casting.needs import image_bytes
+from ..casting.passes import PASSES
 from ..conventions import gamma
 from ..maths.vector import norm
 from ..records import InputError, Shapes

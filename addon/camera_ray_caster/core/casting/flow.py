@@ -19,46 +19,20 @@ own time, and it is seen at the other pixel's own time: see ``camera.meeting``.
 
 from __future__ import annotations
 
-from collections.abc import Collection
-
 import numpy as np
 
-from ..camera.camera import Camera
 from ..conventions import gamma
 from ..maths.speed import lazy
 from ..maths.vector import norm
 from ..motion.matching import rows_in
-from ..records import InputError, Shapes
+from ..records import Shapes
 from ..shapes.follow import Moved
 from ..shapes.kind import HitPixels, Kind
 from .hit_values import HitValues
 from .pictures import Picture
 
 NEXT, PREVIOUS = "next", "previous"
-
-FRAMES = {"flow_forward": (NEXT,), "flow_backward": (PREVIOUS,), "flow_hidden": (NEXT, PREVIOUS)}
-"""Other frames that each pass needs, by the name of the pass."""
-
-
-def frames_of(passes: Collection[str]) -> set[str]:
-    """Return the other frames that passes need, out of NEXT and PREVIOUS."""
-    return {name for key, names in FRAMES.items() if key in passes for name in names}
-
-
-def pictures(camera: Camera, shapes: Shapes, passes: Collection[str]) -> dict[str, Picture]:
-    """Return the pictures of other frames that passes need, by name. Raises InputError for one that was not read."""
-    found = {}
-    for name in sorted(frames_of(passes)):
-        there = getattr(camera, name), getattr(shapes, name)
-        if None in there:
-            raise InputError(
-                f"passes {', '.join(key for key in passes if name in FRAMES.get(key, ()))} look into the {name} frame, "
-                "which was not read: read camera and shapes with read_scene(scene, passes=...)"
-            )
-        found[name] = Picture(*there)
-        if "flow_hidden" in passes:
-            found[name].prepare()
-    return found
+"""The names of the neighboring frames, as of the attributes of camera and shapes that hold them."""
 
 
 def flow_of(values: HitValues, name: str) -> Flow:

@@ -12,7 +12,7 @@ first row. Cycles shows any of them, by rounding and the order of its own search
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
@@ -58,6 +58,10 @@ class Pass:
     """The number where nothing is hit, of a pass of the surfaces that are hit."""
     bounds: tuple[str, ...] = ()
     """Passes whose stored numbers this one bounds the errors of."""
+    frames: tuple[str, ...] = ()
+    """The other frames that it looks into, NEXT or PREVIOUS."""
+    casts: bool = False
+    """Whether it casts rays of its own in these frames."""
 
     @property
     def channels(self) -> int:
@@ -253,11 +257,11 @@ PASSES = {
     "footprint": Pass(footprint, "Area of the surface that the pixel covers, in square Blender units, to first order",
                       missed=np.inf),
     "flow_forward": Pass(flow_forward, "Motion of the surface point to the next frame, in pixels, x and y; NaN where "
-                                       "the point is not in the next picture", "XY"),
+                                       "the point is not in the next picture", "XY", frames=(NEXT,)),
     "flow_backward": Pass(flow_backward, "Motion of the surface point to the previous frame, in pixels, x and y; NaN "
-                                         "where the point is not in the previous picture", "XY"),
+                                         "where the point is not in the previous picture", "XY", frames=(PREVIOUS,)),
     "flow_hidden": Pass(flow_hidden, "Whether the surface point is hidden by another surface in the next frame (X) or "
-                                     "in the previous frame (Y)", "XY", np.bool_),
+                                     "in the previous frame (Y)", "XY", np.bool_, frames=(NEXT, PREVIOUS), casts=True),
     "distance_bound": Pass(distance_bound, "Upper bound of the rounding error of distance and depth, in Blender units",
                            bounds=("distance", "depth")),
     "position_bound": Pass(position_bound, "Upper bound of the rounding error of the position, in Blender units",
@@ -265,9 +269,3 @@ PASSES = {
     "normal_bound": Pass(normal_bound, "Upper bound of the rounding error of the unit normal", bounds=("normal",)),
 }  # fmt: skip
 """Every pass by its name, in the order of the report."""
-
-
-def image_bytes(shape: tuple[int, int], passes: Iterable[str], dtype) -> int:
-    """Return the number of bytes of the arrays of some passes."""
-    sizes = (max(PASSES[name].channels, 1) * np.dtype(PASSES[name].dtype or dtype).itemsize for name in passes)
-    return shape[0] * shape[1] * sum(sizes)

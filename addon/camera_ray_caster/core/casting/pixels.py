@@ -10,8 +10,8 @@ import numpy as np
 from ..camera.camera import Camera
 from ..maths.speed import Scratch
 from ..records import Shapes
-from .flow import pictures
 from .hits import Hits
+from .needs import pictures
 from .passes import PASSES
 from .plan import Plan, make_plan
 from .rays import chief_rays

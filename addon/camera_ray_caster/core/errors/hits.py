@@ -19,8 +19,6 @@ from ..maths.speed import lazy
 from ..maths.vector import along, difference, norm
 from ..shapes.frames import InCamera, WorldRays
 from ..shapes.kind import HitPixels, Kind
-from ..shapes.kinds import by_kind
-from .rays import world_rays
 
 
 class HitErrors:
@@ -63,17 +61,3 @@ class HitErrors:
     def normal(self) -> np.ndarray:
         """The bound of the unit normal, as a vector's length; 2 where no bound is known."""
         return np.fmin(self._shape.normal(self.point) + gamma(8), 2.0)
-
-
-def decision(camera: Camera, shapes: InCamera, at: int, x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return the value that decides whether rays at pixel coordinates x, y hit one shape, and its error bound.
-
-    A value beyond the bound is positive on a hit and negative on a miss; within the bound the decision is open. For a
-    sphere it is the discriminant, for a plane the distance of the crossing inside its edges, for an infinite plane the
-    steepness of the ray.
-    """
-    ((kind, _),) = by_kind(shapes.shapes.kind[[at]])
-    with np.errstate(all="ignore"):
-        rays = world_rays(camera, x, y)
-        which = np.full(np.broadcast_shapes(np.shape(x), np.shape(y)), at)
-        return kind.decision(shapes, which, rays, camera.model.central)

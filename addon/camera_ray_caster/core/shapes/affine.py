@@ -68,10 +68,6 @@ class AffineKind(Kind):
     def normal_error(self, hits: AffineErrors, point: np.ndarray) -> np.ndarray:
         """Return the error bound of the unit normal: see ``ShapeErrors``."""
 
-    @abstractmethod
-    def decide(self, shapes: InCamera, local: LocalRays) -> tuple[Any, Any]:
-        """Return the value and the bound that ``Kind.decision`` returns, from rays in the shapes' frames."""
-
     def shape_set(self, shapes: InCamera, visible: Visible) -> AffineSet:
         """See ``Kind``."""
         groups, cutouts = [], Cutouts.of(self, shapes, visible.at)
@@ -109,10 +105,6 @@ class AffineKind(Kind):
     def errors(self, shapes: InCamera, pixels: HitPixels, rays: WorldRays, from_eye: bool, unit: bool) -> AffineErrors:
         """See ``Kind``."""
         return AffineErrors(self, shapes, pixels, LocalRays(shapes, pixels.at, rays, from_eye), unit)
-
-    def decision(self, shapes: InCamera, at: np.ndarray, rays: WorldRays, from_eye: bool) -> tuple[Any, Any]:
-        """See ``Kind``."""
-        return self.decide(shapes, LocalRays(shapes, at, rays, from_eye))
 
 
 class AffineBodies(Bodies):

@@ -2,7 +2,7 @@
 
 A kind is one instance of a subclass of ``Kind``, listed in ``KINDS``. Its users are ``in_camera`` (``extent``,
 ``is_close``), the plan and the search (``shape_set``), the passes (``normals``, ``uv``) and the error bounds
-(``errors``, ``decision``). Elsewhere, only what makes shapes and the equations of ``lesson.meetings`` know the kinds;
+(``errors``). Elsewhere, only what makes shapes and the equations of ``lesson.meetings`` know the kinds;
 boxes of objects and landmarks of motion take the cube -1 to 1 of a shape's own frame for all but planes and meshes.
 
 A kind whose shapes are affine images of one surface, each described by a row of constants, derives from ``AffineKind``,
@@ -278,9 +278,3 @@ class Kind(ABC):
     @abstractmethod
     def errors(self, shapes: InCamera, pixels: HitPixels, rays: WorldRays, from_eye: bool, unit: bool) -> ShapeErrors:
         """Return the error bounds of hits. ``unit``: whether normals from constants are left unnormalized."""
-
-    @abstractmethod
-    def decision(self, shapes: InCamera, at: np.ndarray, rays: WorldRays, from_eye: bool) -> tuple[Any, Any]:
-        """Return a value that decides whether rays hit shapes, one shape per ray, and its error bound. A value whose
-        magnitude exceeds the bound is positive on a hit and negative on a miss; otherwise the decision is open.
-        """

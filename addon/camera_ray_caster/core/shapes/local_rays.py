@@ -11,7 +11,7 @@ import numpy as np
 
 from ..conventions import gamma
 from ..maths.speed import lazy, taken
-from ..maths.vector import cross, difference, dot, norm
+from ..maths.vector import difference, dot, norm
 from .frames import InCamera, Offsets, WorldRays
 
 
@@ -79,17 +79,12 @@ class LocalRays:
         return d, self.offset.row("vector", 2), d_error, self.offset.row("row_error", 2)
 
     @property
-    def cross(self) -> Any:
-        """N x D."""
-        return cross(self.n, self.d)
-
-    @property
     def inner(self) -> Any:
         """N . D."""
         return dot(self.n, self.d)
 
     def product_error(self) -> np.ndarray:
-        """Return an error bound of ``inner`` and of ``cross``: of the vector's length, and so of each component."""
+        """Return an error bound of ``inner``, and of the cross product of N and D as a vector's length."""
         n, d = self.offset.length, norm(self.d)
         return n * self.d_error + d * self.n_error + self.n_error * self.d_error + gamma(4) * n * d
 

@@ -21,7 +21,6 @@ from ..records import INFINITE_PLANE, PLANE, Shapes
 from .affine import AffineErrors, AffineKind
 from .frames import InCamera
 from .kind import PixelNormals
-from .local_rays import LocalRays
 
 GRAZING = 1 / 16
 """If N_z is below this fraction of the sum of its terms' magnitudes, it is computed with twice the digits."""
@@ -127,13 +126,6 @@ class Plane(AffineKind):
         """See ``AffineKind``."""
         return hits.local.frame.rounding
 
-    def decide(self, shapes: InCamera, local: LocalRays):
-        """Return |D_z| - max(|(N x D)_x|, |(N x D)_y|), which is positive inside the edges, and its error bound."""
-        d, _, d_error, _ = local.z()
-        steep, across = np.abs(d), local.cross
-        inside = np.minimum(steep - np.abs(across[0]), steep - np.abs(across[1]))
-        return inside, d_error + local.product_error()
-
 
 class InfinitePlane(Plane):
     """Planes without edges: infinite planes."""
@@ -149,11 +141,6 @@ class InfinitePlane(Plane):
     def extent(self, shapes: Shapes, at: np.ndarray, axes: np.ndarray):
         """See ``Kind``."""
         return np.inf, np.inf
-
-    def decide(self, shapes: InCamera, local: LocalRays):
-        """Return |D_z| and its error bound: a ray misses only if it is parallel to the plane."""
-        d, _, d_error, _ = local.z()
-        return np.abs(d), d_error
 
 
 class PlaneLattice:

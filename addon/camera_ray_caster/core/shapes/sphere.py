@@ -80,7 +80,7 @@ class Sphere(AffineKind):
         q_error = span * local.d_error + local.n_error + gamma(2) * (span * d + local.offset.length)
         residual = np.abs((length - 1) * (length + 1)) + (2 * length + q_error) * q_error
         residual += gamma(6) * (length * length + 1)
-        if (known := _outside(hits.shapes, local)) is not None:
+        if (known := outside(hits.shapes, local)) is not None:
             (c, c_rest), b, b_error = known, local.inner, local.product_error()
             terms = a * tau * tau + 2 * np.abs(b * tau) + np.abs(c)
             near = np.abs((a * tau - 2 * b) * tau + c) + gamma(8) * terms + c_rest
@@ -109,25 +109,6 @@ class Sphere(AffineKind):
             error += np.where(frame.is_scalar, along / length, 0.0)
         return error
 
-    def decide(self, shapes: InCamera, local: LocalRays):
-        """Return the discriminant |D|^2 - |N x D|^2, in scaled units, and the bound below which hit or miss is open.
-
-        If b^2 - |D|^2 c with the exact c has the smaller error bound, as it has near the surface, it is returned
-        instead, with its bound. The bound of the first form is EPS (distance / radius).
-        """
-        d, across = norm(local.d), norm(local.cross)
-        moved = local.product_error()
-        value = (d - across) * (d + across)
-        d_squared = 2 * d * local.d_error + local.d_error**2
-        error = d_squared + 2 * across * moved + moved**2 + gamma(8) * (d * d + across * across)
-        if (known := _outside(shapes, local)) is None:
-            return value, error
-        (c, c_rest), b = known, local.inner
-        c_error = gamma(4) * np.abs(c) + c_rest
-        near = 2 * np.abs(b) * moved + moved**2 + (np.abs(c) + c_error) * d_squared + d * d * c_error
-        near = near + gamma(8) * (b * b + d * d * np.abs(c))
-        return np.where(near < error, b * b - d * d * c, value), np.fmin(error, near)
-
 
 def _curved(shapes: InCamera, at: np.ndarray) -> PixelNormals:
     """Return a function that gives the unit normals of hit pixels on the ellipsoids at these indices."""
@@ -151,7 +132,7 @@ def _curved(shapes: InCamera, at: np.ndarray) -> PixelNormals:
     return normals
 
 
-def _outside(shapes: InCamera, local: LocalRays) -> tuple[Any, Any] | None:
+def outside(shapes: InCamera, local: LocalRays) -> tuple[Any, Any] | None:
     """Return |N|^2 - 1 of near shapes, NaN for other shapes, and the part of its error bound beyond gamma(4) of itself;
     None if no shape is near or the rays do not leave the eye.
     """

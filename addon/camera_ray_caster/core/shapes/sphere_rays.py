@@ -10,8 +10,8 @@ is EPS (distance / radius)^2, which loses distant spheres. The near root for an 
 is stable. For rays from the eye c is a constant of the sphere, and right however near the surface is (see ``outside``).
 D is scaled by a power of two to about 1, which rounds nothing, and t by the same factor afterwards: no size or distance
 from 1e-150 to 1e150 overflows.
-A tangent ray is a hit or a miss as rounding has it: the discriminant is open within its error, and ``decide`` says how
-far. To find these rays alone, for an exact sign as of meshes, takes 0.09 of the kernel's time.
+A tangent ray is a hit or a miss as rounding has it: the discriminant is open within its error, EPS (distance / radius).
+To find these rays alone, for an exact sign as of meshes, takes 0.09 of the kernel's time.
 References: E. Haines et al., Precision Improvements for Ray/Sphere Intersection, Ray Tracing Gems (2019), chapter 7;
 D. Goldberg, What Every Computer Scientist Should Know About Floating-Point Arithmetic (1991), section 1.4.
 """

@@ -9,13 +9,9 @@ import numpy as np
 from ...conventions import EPS, gamma
 from ...maths.speed import lazy
 from ...maths.vector import along, difference, dot, norm
-from ..frames import InCamera, WorldRays
+from ..frames import WorldRays
 from ..kind import ShapeErrors
 from .surface import HitTriangles
-from .triangles import VOLUME_ROUNDING, volumes
-
-CHUNK = 1 << 16
-"""Number of pairs of rays and triangles that are processed at once."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,35 +83,3 @@ class TriangleErrors(ShapeErrors):
         left = norm(triangles.interpolated(corner_normals, place)) - change
         smooth = np.where(left > 0, change / left, 2.0) + gamma(64)
         return np.where(each(spread > 0), smooth, each(turn))
-
-
-def decide(shapes: InCamera, at: np.ndarray, rays: WorldRays) -> tuple[np.ndarray, np.ndarray]:
-    """Return a value for each ray and its shape, and its error bound: see ``Kind.decision``. The value of a triangle is
-    the least of the volumes of its edges, counted positive inside, over its longest corner's square times |direction|.
-    The largest value of the shape's triangles is returned.
-    """
-    at = np.broadcast_to(at, np.broadcast_shapes(np.shape(at), *map(np.shape, rays.direction)))
-    origin, direction = (
-        np.array([np.broadcast_to(c, at.shape).ravel() for c in v]) for v in (rays.origin, rays.direction)
-    )
-    value, moved = np.full(at.size, -np.inf), np.zeros(at.size)
-    for row in np.unique(at).tolist():
-        mine = np.flatnonzero(at.ravel() == row)
-        mesh = shapes.shapes.meshes[shapes.shapes.mesh[row]]
-        step = max(1, CHUNK // mine.size)
-        for first in range(0, len(mesh), step):
-            number = np.arange(first, min(first + step, len(mesh)))
-            some = HitTriangles(shapes, np.arange(len(number)), np.full(len(number), row), number, False)
-            corners = [difference([c[:, None] for c in corner], origin[:, None, mine]) for corner in some.corners]
-            lengths = [norm(corner) for corner in corners]
-            scale = np.maximum.reduce(lengths) ** 2 * norm(direction[:, mine])
-            found = [v / scale for v in volumes(corners, direction[:, None, mine])]
-            inner = np.maximum(np.minimum.reduce(found), -np.maximum.reduce(found))
-            value[mine] = np.maximum(value[mine], inner.max(axis=0))
-            reach = np.minimum.reduce(np.maximum.reduce(lengths))
-            bound = TriangleErrors(some, np.zeros(len(number)), rays)._moved.max()
-            moved[mine] = np.maximum(
-                moved[mine], 4 * (bound + np.broadcast_to(rays.origin_error, at.shape).ravel()[mine]) / reach
-            )
-    turned = np.broadcast_to(rays.direction_error, at.shape).ravel() / norm(direction)
-    return value.reshape(at.shape), (moved + 4 * turned + VOLUME_ROUNDING).reshape(at.shape)

@@ -10,7 +10,7 @@ from ..follow import Follow
 from ..frames import InCamera, WorldRays
 from ..kind import HitPixels, Kind, PixelNormals, Visible
 from .bodies import TriangleBodies
-from .errors import TriangleErrors, decide
+from .errors import TriangleErrors
 from .follow import follow_meshes
 from .in_camera import MeshesInView
 from .normals import TriangleNormals
@@ -90,10 +90,6 @@ class Meshes(Kind):
     def errors(self, shapes: InCamera, pixels: HitPixels, rays: WorldRays, from_eye: bool, unit: bool):
         """See ``Kind``."""
         return TriangleErrors(HitTriangles.of(shapes, pixels), pixels.t, rays)
-
-    def decision(self, shapes: InCamera, at: np.ndarray, rays: WorldRays, from_eye: bool):
-        """See ``Kind``: how far the ray is inside the triangle that it hits, or outside the nearest triangle."""
-        return decide(shapes, at, rays)
 
 
 MESHES = Meshes()

@@ -1,0 +1,40 @@
+"""What passes need: memory, and the pictures of other frames."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable
+
+import numpy as np
+
+from ..camera.camera import Camera
+from ..records import InputError, Shapes
+from .passes import PASSES
+from .pictures import Picture
+
+
+def image_bytes(shape: tuple[int, int], passes: Iterable[str], dtype) -> int:
+    """Return the number of bytes of the arrays of some passes."""
+    sizes = (max(PASSES[name].channels, 1) * np.dtype(PASSES[name].dtype or dtype).itemsize for name in passes)
+    return shape[0] * shape[1] * sum(sizes)
+
+
+def frames_of(passes: Collection[str]) -> set[str]:
+    """Return the other frames that passes look into, out of NEXT and PREVIOUS."""
+    return {frame for name in passes for frame in PASSES[name].frames}
+
+
+def pictures(camera: Camera, shapes: Shapes, passes: Collection[str]) -> dict[str, Picture]:
+    """Return the pictures of other frames that passes need, by name. Raises InputError for one that was not read."""
+    found = {}
+    for frame in sorted(frames_of(passes)):
+        looking = [name for name in passes if frame in PASSES[name].frames]
+        there = getattr(camera, frame), getattr(shapes, frame)
+        if None in there:
+            raise InputError(
+                f"passes {', '.join(looking)} look into the {frame} frame, which was not read: read camera and shapes "
+                "with read_scene(scene, passes=...)"
+            )
+        found[frame] = Picture(*there)
+        if any(PASSES[name].casts for name in looking):
+            found[frame].prepare()
+    return found
