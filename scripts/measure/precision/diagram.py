@@ -10,10 +10,7 @@ from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
 
 from .arithmetic import METHODS
 
-COLORS = {
-    "float32 textbook": "#d1495b", "float32 robust": "#edae49", "float64 textbook": "#66a182",
-    "float64 robust": "#2e4057",
-}  # fmt: skip
+COLORS = {"float32 textbook": "#d1495b", "float64 textbook": "#66a182", "float64 robust": "#2e4057"}
 OTHERS = ("#2e4057", "#d1495b", "#66a182")
 FLOOR = 1e-17
 LABELS = {"everyday: spheres and planes around": "everyday: spheres and planes"}

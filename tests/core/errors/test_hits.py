@@ -133,6 +133,7 @@ class Passing:
     """A sphere that comes from far on the left, is before the camera from frame 0 to 1, and goes."""
 
     camera: object
+    is_still = False
 
     def shapes_at(self, frame):
         return shapes_of([(SPHERE, (8 * (frame - 0.5), 0, -7.0), 4.0)])
