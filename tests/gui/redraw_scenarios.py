@@ -48,9 +48,9 @@ class Watch:
                 if self.spent and plan.camera.raster.width < 400:  # the others are cast beside the window
                     self.spent[-1] += time.thread_time() - began
 
-        def made(target, shapes, shown, step, progress=None):
+        def made(target, shapes, shown, step, spare, progress=None):
             began = time.perf_counter()
-            picture = cast(target, shapes, shown, step, progress)
+            picture = cast(target, shapes, shown, step, spare, progress)
             self.made.append((step, time.perf_counter() - began))
             return picture
 

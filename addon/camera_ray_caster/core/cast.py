@@ -13,6 +13,7 @@ from . import arguments, memory, tuning
 from .any_rays.sweep import cast_sweep, check_passes
 from .camera.camera import Camera
 from .camera.times import SweepTime
+from .casting.images import Images, check_reusable
 from .casting.needs import image_bytes, pictures
 from .casting.passes import PASSES
 from .casting.plan import Plan, make_plan
@@ -24,15 +25,6 @@ from .scene import Scene
 
 MOST_SAMPLES = 1 << 24
 """Maximum number of rays per pixel, as in Cycles. More rays do not make a mean that is stored as float32 more exact."""
-
-
-class Images(dict[str, np.ndarray]):
-    """The passes by name, (rows, columns[, channels]) arrays with row 0 at the bottom, and how they were made."""
-
-    camera: Camera
-    shapes: Shapes
-    plan: Plan
-    seconds: dict[str, float]
 
 
 def cast(
@@ -48,6 +40,7 @@ def cast(
     precision: str = "AUTOMATIC",
     progress: Callable[[float], bool] | None = None,
     finished: Callable[[Images, slice], None] | None = None,
+    into: Images | None = None,
 ) -> Images:
     """Return the passes of the camera's render window as a mapping of name to array.
 
@@ -61,10 +54,15 @@ def cast(
     and twenty times a second; if it returns False, the cast stops before the next shape and raises Cancelled.
     ``finished(images, rows)`` is called there, too, as soon as some rows, a slice, are complete in all passes, once for
     each row; the other rows are undefined.
+    ``into``: the images of an earlier cast, which are written and returned, so that a series of pictures takes no new
+    memory. Each requested pass must be there with the shape and type of this cast, writable, C-contiguous and without
+    memory of another; passes that are not requested are removed from it, and its camera, shapes, plan and seconds are
+    replaced. Its contents are undefined after Cancelled, and after an error while it is written.
     ``cull=False`` tests every shape at every pixel: the same picture, but slower.
     Raises InputError for an unknown pass, shading or precision, for a dtype that is not a floating-point type, for a
     number of samples or threads that is not whole or below 1, for more than MOST_SAMPLES samples, for flow to frames
-    that were not read, and for passes that need more memory than is available.
+    that were not read, for passes that need more memory than is available, and, before anything is written, for
+    ``into`` that does not fit.
     """
     if isinstance(camera, Scene) and shapes is None:
         shapes, camera = camera.shapes, camera.camera
@@ -80,14 +78,20 @@ def cast(
     if arguments.word(precision, "precision", PRECISIONS) == "FAST":
         warnings.warn(f"precision is {meaning(precision)}", stacklevel=2)
     request = Request(passes, tuple(PASSES), shading, arguments.flag(cull, "cull"))
-    memory.require(image_bytes(camera.raster.shape, passes, dtype), memory.of_pixels("the passes", camera.raster.shape))
+    shape = camera.raster.shape
+    if into is None:
+        memory.require(image_bytes(shape, passes, dtype), memory.of_pixels("the passes", shape))
+    else:
+        check_reusable(into, passes, shape, dtype)
     check_passes(camera, passes)
     request = replace(request, others=pictures(camera, shapes, passes))
     given = camera, shapes
     camera, shapes = without_times(camera, shapes)
     time = camera.pixel_time
     if isinstance(time, SweepTime):
-        images = Images(cast_sweep(camera, shapes, request, dtype, progress))
+        found = cast_sweep(camera, shapes, request, dtype, progress)
+        images = Images(found) if into is None else into
+        images.take(found)
         images.camera, images.shapes = camera, shapes
         images.plan = make_plan(*moment(camera, shapes, (time.first + time.last) / 2), request)
         images.seconds = {"plan": 0.0, "rays": 0.0, "cast": perf_counter() - started, "passes": 0.0}
@@ -96,7 +100,8 @@ def cast(
             images.seconds["write"] = perf_counter() - started - images.seconds["cast"]
         return images
     whole = make_plan(*moment(camera, shapes, (time.first + time.last) / 2 if time else None), request)
-    images = Images({name: PASSES[name].empty(camera.raster.shape, dtype) for name in passes})
+    images = Images({name: PASSES[name].empty(shape, dtype) for name in passes}) if into is None else into
+    images.keep(passes)
     (images.camera, images.shapes), images.plan = given, whole
     sampled = ("combined",) if samples > 1 and "combined" in passes else ()
     parts = [(replace(request, passes=tuple(name for name in passes if name not in sampled)), 1)]
@@ -138,7 +143,7 @@ def cast(
     others = round(whole.work.sum() / len(tiles) / tuning.SERIAL_WORK)  # may hold the interpreter in turn
     busy = in_threads(run, tiles, min(threads, 1 + others), effort, progress, end)
     if time is not None:  # a row may have pixels of many times
-        tell(slice(0, camera.raster.shape[0]))
+        tell(slice(0, shape[0]))
     share = (perf_counter() - began - write) / max(busy.sum(), np.finfo(float).tiny)
     images.seconds |= dict(zip(STEPS, busy * share, strict=True))
     if finished is not None:

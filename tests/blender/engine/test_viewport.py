@@ -15,18 +15,22 @@ PICTURE = 1.0
 
 @pytest.fixture
 def view(camera_scene, monkeypatch):
-    """A view whose pictures are made and shown without a graphics card; ``shown`` has their steps, in order."""
+    """A view whose pictures are made and shown without a graphics card; ``shown`` has their steps, in order,
+    and ``arrays`` the pictures.
+    """
     cast = viewport._cast
     view = viewport.Viewport()
-    view.shown, view.seconds = [], 0.0
+    view.shown, view.arrays, view.seconds = [], [], 0.0
 
-    def made(target, shapes, shown, step, progress=None):
+    def made(target, shapes, shown, step, spare, progress=None):
         sleep(view.seconds)
-        return step, cast(target, shapes, shown, step, progress)
+        images, rectangle = cast(target, shapes, shown, step, spare, progress)
+        return images, (step, rectangle)
 
     def show(self, picture):
-        self.shown.append(picture[0])
-        self._picture = picture[1]
+        images, (step, self._picture) = picture
+        self.shown.append(step)
+        self.arrays.append(images["combined"])
 
     monkeypatch.setattr(viewport, "_cast", made)
     monkeypatch.setattr(viewport.Viewport, "_show", show)
@@ -89,3 +93,14 @@ def test_a_redraw_does_not_wait_for_a_slow_picture_and_the_next_one_is_coarser(v
     finished(view)
     drawn(view, 9)
     assert view.shown[count:] == [8, 32, 8], "then it becomes finer"
+
+
+def test_a_picture_takes_the_memory_of_the_last_one_of_its_size(view):
+    for away in (6, 7):
+        drawn(view, away)
+        while view._worker is not None:
+            finished(view)
+            drawn(view, away)
+    for step in (8, 1):
+        first, second = (array for array, own in zip(view.arrays, view.shown, strict=True) if own == step)
+        assert first is second

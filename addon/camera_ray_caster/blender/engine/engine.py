@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import partial, reduce
 from operator import add
 
@@ -44,6 +44,8 @@ class RenderCall:
     """Another engine's picture, which replaces the combined pass; None for our own."""
     images: dict[tuple[str, str], Images] | None = None
     """Images of the render, by layer and view; None if they are not kept."""
+    spare: dict[tuple[str, str], Images] = field(default_factory=dict)
+    """Images of an earlier render, whose memory this one takes."""
     report: Report | None = None
     """The report of all view layers; None if the render failed."""
     stopped: bool = False
@@ -141,6 +143,7 @@ class CameraRayCaster(Viewport, bpy.types.RenderEngine):
 
         images, report = run(
             depsgraph, self.camera_override, [key for key in keys if key not in given], self.advance, store,
+            call.spare.pop((layer, view), None),
             visit=partial(self.visit, depsgraph), view=view, eye=partial(self.eye, view=view),
         )  # fmt: skip
         images |= given

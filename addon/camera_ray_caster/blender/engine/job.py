@@ -13,6 +13,7 @@ import numpy as np
 from ...core.camera.camera import Camera
 from ...core.camera.stereo import eye_record
 from ...core.cast import Images, cast
+from ...core.casting.images import reusable
 from ...core.casting.needs import frames_of, image_bytes
 from ...core.casting.request import meaning
 from ...core.memory import of_pixels, require
@@ -104,13 +105,19 @@ class Job:
         self,
         progress: Callable[[float], bool] | None = None,
         finished: Callable[[Images, slice], None] | None = None,
+        spare: Images | None = None,
     ) -> tuple[Images, Report]:
-        """Cast the passes; return images and report. ``progress``, ``finished`` and Cancelled are as in ``cast``."""
+        """Cast the passes; return images and report. ``progress``, ``finished`` and Cancelled are as in ``cast``. The
+        images are ``spare``, an earlier picture's, if they fit.
+        """
         settings = {"shading": self.shading, "samples": self.samples}
         shapes = [self.camera.raster.shape, self.stored]
         needed = sum(image_bytes(shape, self.passes, np.float32) for shape in shapes)
         require(needed, of_pixels("the passes", self.stored))
-        images = cast(self.camera, self.shapes, self.passes, **settings, progress=progress, finished=finished)
+        into = reusable(spare, tuple(self.passes), self.camera.raster.shape, np.float32)
+        images = cast(
+            self.camera, self.shapes, self.passes, **settings, progress=progress, finished=finished, into=into
+        )
         began = perf_counter()
         bounds = accuracy(self.camera, self.shapes, images.plan)
         seconds = {**self.seconds, **images.seconds, "accuracy": perf_counter() - began}
@@ -121,6 +128,8 @@ class Job:
         return images, report
 
 
-def run(depsgraph, camera_object, passes: Sequence[str], progress=None, finished=None, **eye) -> tuple[Images, Report]:
+def run(
+    depsgraph, camera_object, passes: Sequence[str], progress=None, finished=None, spare=None, **eye
+) -> tuple[Images, Report]:
     """Read and cast in one call: see ``Job``."""
-    return Job.read(depsgraph, camera_object, passes, **eye).cast(progress, finished)
+    return Job.read(depsgraph, camera_object, passes, **eye).cast(progress, finished, spare)

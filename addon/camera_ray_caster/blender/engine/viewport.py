@@ -6,6 +6,7 @@ the view has changed meanwhile; the next one is coarser.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import partial
 from time import perf_counter
@@ -19,7 +20,8 @@ from gpu_extras.presets import draw_texture_2d
 from ...core.camera.build import camera_from
 from ...core.camera.camera import Camera
 from ...core.camera.view_records import frame_record, view_record
-from ...core.cast import cast
+from ...core.cast import Images, cast
+from ...core.casting.images import reusable
 from ...core.casting.worker import Worker
 from ...core.records import BlenderCamera, InputError
 from ..output.reports import left_out_count
@@ -80,6 +82,8 @@ class Viewport:
     _worker: Worker | None = None
     _is_first = True
     """Whether the worker casts the first picture of a view."""
+    _spare: Mapping[int, Images] = {}
+    """Pictures that were shown, by their index in STEPS, whose memory the next ones take."""
     _picture: tuple | None = None
     """Latest texture and its rectangle in the region."""
 
@@ -139,14 +143,18 @@ class Viewport:
     def _start(self, step: int, is_first: bool = False) -> None:
         """Start the cast of a picture, given by its index in STEPS."""
         self._step, self._is_first = step, is_first
-        self._worker = Worker(partial(self._cast, STEPS[self._step]))
+        spare = self._spare.get(step)
+        self._spare = {other: images for other, images in self._spare.items() if other != step}
+        self._worker = Worker(partial(self._cast, STEPS[self._step], spare))
         _workers.append(self._worker)
         if not bpy.app.timers.is_registered(redraw_if_finished):
             bpy.app.timers.register(redraw_if_finished, first_interval=INTERVAL)
 
     def _take(self) -> None:
         worker, self._worker = self._worker, None
-        self._show(worker.result())
+        picture = worker.result()
+        self._show(picture)
+        self._spare = {**self._spare, self._step: picture[0]}
 
     def _abandon(self) -> None:
         if self._worker is not None:
@@ -154,7 +162,8 @@ class Viewport:
             self._worker = None
 
     def _show(self, picture) -> None:
-        pixels, rectangle = picture
+        images, rectangle = picture
+        pixels = images["combined"]
         height, width = pixels.shape[:2]
         buffer = gpu.types.Buffer("FLOAT", pixels.size, pixels.ravel())
         self._picture = gpu.types.GPUTexture((width, height), format="RGBA16F", data=buffer), rectangle
@@ -183,11 +192,14 @@ def _target(context, raw: BlenderCamera | None) -> Target | None:
     return Target(left, bottom, width, height, raw, seen)
 
 
-def _cast(target: Target, shapes, shown: dict[str, str], step: int, progress=None):
-    """Return the combined pass at a step, (rows, columns, 4) float32, and its rectangle. This may run in a thread."""
-    camera = target.camera(step)
-    images = cast(camera, shapes, ("combined",), np.float32, **shown, progress=progress)
-    return images["combined"], target.rectangle(camera.raster)
+def _cast(target: Target, shapes, shown: dict[str, str], step: int, spare: Images | None, progress=None):
+    """Return the images at a step, with the combined pass, in the memory of ``spare`` if it fits, and their rectangle.
+    This may run in a thread.
+    """
+    camera, passes = target.camera(step), ("combined",)
+    into = reusable(spare, passes, camera.raster.shape, np.float32)
+    images = cast(camera, shapes, passes, np.float32, **shown, progress=progress, into=into)
+    return images, target.rectangle(camera.raster)
 
 
 def redraw_if_finished() -> float | None:

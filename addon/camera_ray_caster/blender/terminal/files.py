@@ -12,6 +12,7 @@ from typing import Any, TypeVar
 import bpy
 import numpy as np
 
+from ...core.cast import Images
 from ...core.casting.needs import image_bytes
 from ...core.file_set import atomic_folder
 from ...core.memory import of_pixels, require
@@ -93,6 +94,7 @@ def rendering(
     stamp: Mapping[str, Any] | None = None,
     keypoints: Sequence[str] | None = None,
     beside: Iterable[Path] = (),
+    spare: dict[tuple[str, str], Images] | None = None,
 ) -> Making[tuple[Report, list[Path]]]:
     """Make files of the scene's current frame in ``folder``; return the report and the paths of the files.
 
@@ -103,14 +105,15 @@ def rendering(
     NAME.png is written only if ``shown``. The compositor's File Output nodes write only with ``file_output``.
     ``picture`` replaces the combined pass. ``stamp`` is stored in the report, with the sizes of the files and of the
     files in ``beside``; see ``stamps``. If ``keypoints`` is not None, NAME_coco.json is written for the first view
-    layer; see ``annotations``. Raises InputError if Blender cannot render or the folder cannot be written, and
-    Cancelled if stopped; then no files are left behind.
+    layer; see ``annotations``. The passes take the memory of ``spare``, an earlier picture's images by layer and view,
+    and are left there for the next one. Raises InputError if Blender cannot render or the folder cannot be written,
+    and Cancelled if stopped; then no files are left behind.
     """
     check(scene)
     if layers == NPZ:
         arrays.entry_names(layer.name for layer in scene.view_layers if layer.use)
     keeps = layers == NPZ or keypoints is not None
-    call = RenderCall(picture, {} if keeps else None)
+    call = RenderCall(picture, {} if keeps else None, spare or {})
     with atomic_folder(folder) as temporary:
         report = yield from _composited(scene, call, file_output)
         report = report if picture is None else report.with_seconds(cycles=picture.seconds)
@@ -128,6 +131,8 @@ def rendering(
             shows = f"{name}.png" if shown else f"{name}.{layers.lower()}"
             text = annotated(scene, next(iter(call.images.values())), shows, keypoints)
             (temporary / f"{name}{ENDING}").write_text(text, encoding="utf-8")
+        if keeps and spare is not None:
+            spare.update(call.images)
         report = report.with_seconds(files=perf_counter() - started)
         if stamp is not None:
             report = replace(report, made=made(stamp, (*sorted(temporary.iterdir()), *beside)))

@@ -11,6 +11,7 @@ from typing import Any
 import bpy
 
 from ...core.camera.camera import Camera
+from ...core.cast import Images
 from ...core.casting.passes import PASSES
 from ...core.casting.request import PRECISIONS, SHADINGS
 from ...core.names import file_names, frame_digits
@@ -109,6 +110,7 @@ class Pictures:
             check_cycles()
         self.options = options
         self.warnings: list[str] = []
+        self.spare: dict[tuple[str, str], Images] = {}
         self.scene = scene = scene or open_scene(options, self.warnings.append)
         scene.render.engine = CameraRayCaster.bl_idname
         if self.keypoints is not None:
@@ -189,7 +191,8 @@ class Pictures:
         asked = self.options
         return files.rendering(
             self.scene, asked.output, job.name, job.report,
-            layers=asked.format, half=asked.half, file_output=asked.file_output, stamp=of, **more,
+            layers=asked.format, half=asked.half, file_output=asked.file_output, stamp=of, spare=self.spare,
+            **more,
         )  # fmt: skip
 
     def taken(self, job: PictureJob, stamp: dict[str, Any], ray_map: RayMap | None = None) -> Outcome | None:

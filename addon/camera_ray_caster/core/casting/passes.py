@@ -70,7 +70,11 @@ class Pass:
 
     def empty(self, shape: tuple[int, int], dtype) -> np.ndarray:
         """Return an uninitialized array for the pass of a picture, (rows, columns[, channels])."""
-        return np.empty((*shape, self.channels) if self.channels else shape, self.dtype or dtype)
+        return np.empty(self.shape(shape), self.dtype or dtype)
+
+    def shape(self, shape: tuple[int, int]) -> tuple[int, ...]:
+        """Return the shape of the array for the pass of a picture of (rows, columns)."""
+        return (*shape, self.channels) if self.channels else shape
 
 
 def combined(values: HitValues, out):

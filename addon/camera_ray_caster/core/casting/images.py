@@ -1,0 +1,67 @@
+"""The pictures that a cast returns, in arrays of its own or in those of an earlier cast."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from itertools import combinations
+
+import numpy as np
+
+from ..arguments import shown
+from ..camera.camera import Camera
+from ..records import InputError, Shapes
+from .passes import PASSES
+from .plan import Plan
+
+
+class Images(dict[str, np.ndarray]):
+    """The passes by name, (rows, columns[, channels]) arrays with row 0 at the bottom, and how they were made."""
+
+    camera: Camera
+    shapes: Shapes
+    plan: Plan
+    seconds: dict[str, float]
+
+    def keep(self, passes: tuple[str, ...]) -> None:
+        """Remove all but some passes, and put these in their order."""
+        kept = {name: self[name] for name in passes}
+        self.clear()
+        self.update(kept)
+
+    def take(self, found: Mapping[str, np.ndarray]) -> None:
+        """Write passes into these arrays, and keep no others."""
+        self.keep(tuple(found))
+        for name, image in found.items():
+            if image is not self[name]:
+                self[name][...] = image
+
+
+def reusable(images: Images | None, passes: tuple[str, ...], shape: tuple[int, int], dtype) -> Images | None:
+    """Return the images if a cast can write passes into them, else None."""
+    try:
+        check_reusable(images, passes, shape, dtype)
+    except InputError:
+        return None
+    return images
+
+
+def check_reusable(images: Images | None, passes: tuple[str, ...], shape: tuple[int, int], dtype) -> None:
+    """Raise InputError, which names the pass, if a cast cannot write passes into the images of an earlier one."""
+    if not isinstance(images, Images):
+        raise InputError(f"into is {shown(images)}: it must be the images that an earlier cast returned")
+    for name in passes:
+        found, meant = images.get(name), PASSES[name]
+        whole = meant.shape(shape)
+        if not isinstance(found, np.ndarray):
+            raise InputError(f"into has no pass {name}: cast the same passes into it as before, or without into")
+        if found.shape != whole or found.dtype != (meant.dtype or dtype):
+            needed = f"{whole} and {np.dtype(meant.dtype or dtype)}"
+            raise InputError(
+                f"the pass {name} of into has the shape and type {found.shape} and {found.dtype}, and this cast needs "
+                f"{needed}: cast without into"
+            )
+        if not (found.flags.writeable and found.flags.c_contiguous):
+            raise InputError(f"the pass {name} of into is not a writable, C-contiguous array: cast without into")
+    for one, other in combinations(passes, 2):
+        if np.may_share_memory(images[one], images[other]):  # exact for contiguous arrays
+            raise InputError(f"the passes {one} and {other} of into share memory: cast without into")
