@@ -39,7 +39,19 @@ def test_the_active_camera_at_the_files_frame_is_the_default(command, scene, tmp
     assert wrote.startswith("Wrote ")
 
 
+def test_a_lens_that_the_format_does_not_have_is_fitted_and_its_error_stated(command, tmp_path):
+    out = tmp_path / "out"
+    words = ["export", ROOT / "blend_scenes" / "division.blend", "--format", "opencv"]
+    assert "cannot represent the Division" in refused(command(*words, "--output", out))
+    done = command(*words, "--fit", "40", "--output", out)
+    assert (done.returncode, done.stderr) == (0, "")
+    (remark,) = [line for line in done.stdout.splitlines() if "fitted to its Division, within 40 degrees" in line]
+    (file,) = out.iterdir()
+    assert file.read_text().startswith(f"%YAML:1.0\n---\n# {remark}\n")
+
+
 WRONG = {
+    "an angle that is none": (["--format", "opencv", "--fit", "200"], "200 is not an angle above 0, up to 180 degrees"),
     "no format": ([], "--format"),
     "no such format": (["--format", "fbx"], "'fbx'"),
     "no such camera": (["--format", "json", "--cameras", "Top", "Front"], "no camera 'Front'"),

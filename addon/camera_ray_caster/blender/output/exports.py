@@ -20,18 +20,20 @@ from .saving import blender_writes
 
 
 def write(
-    scene, key: str, cameras: Sequence, frames: Iterable[float], folder: Path, target=None, own_sizes: bool = True
-):
+    scene, key: str, cameras: Sequence, frames: Iterable[float], folder: Path, target=None, own_sizes: bool = True,
+    fit: float | None = None,
+):  # fmt: skip
     """Export camera objects of a scene at some frames, in the format ``key``, into ``folder``; return lines of messages
     and the paths of the files.
 
-    In a stereo scene each rendered view of a camera is exported, with its suffix. ``target`` is the
-    camera object to which maps lead. The scene is restored afterwards. Raises InputError if a camera cannot be read or
-    represented or the folder cannot be written, and Cancelled if stopped; then no files are left behind.
+    In a stereo scene each rendered view of a camera is exported, with its suffix. ``target`` is the camera object to
+    which maps lead; ``fit``: see ``core.exports.export``. The scene is restored afterwards. Raises InputError if a
+    camera cannot be read or represented or the folder cannot be written, and Cancelled if stopped; then no files are
+    left behind.
     """
     if target is not None and not find_format(key).takes_target:
         raise InputError(f"format {key} has no target camera: only maps have a target")
-    files, said = export(key, shots(scene, cameras, frames, target, own_sizes))
+    files, said = export(key, shots(scene, cameras, frames, target, own_sizes), fit)
     return said, writing.write(_until_stopped(files), folder, _write_image)
 
 

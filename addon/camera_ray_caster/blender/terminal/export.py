@@ -1,6 +1,7 @@
 """The command that exports cameras, by frame, to files of other programs."""
 
 from collections.abc import Sequence
+from math import pi
 from pathlib import Path
 
 from ...core.exports import FORMATS, export
@@ -12,7 +13,7 @@ from ..process.opening import not_run
 from ..read.camera import check_camera, check_markers, find_camera, find_cameras
 from ..read.frames import frame_of
 from .options import command_parser, go_to, open_scene, warn
-from .words import add_cameras, add_frames, check_cameras, count
+from .words import add_cameras, add_frames, check_cameras, count, degrees
 
 OF_SCENES = "camera", "cameras", "frames", "calibration", "rig", "resolution", "to"
 """Options that choose or change what a .blend has."""
@@ -37,6 +38,9 @@ def run(arguments: Sequence[str], prog: str) -> int:
     add_frames(parser)
     parser.add_argument("--to", metavar="NAME", help="target camera of the maps, for stmap only; "
                                                      "default: a perspective camera with the same lens")  # fmt: skip
+    parser.add_argument("--fit", nargs="?", type=degrees, const=pi, metavar="DEGREES", help=
+        "write the nearest lens that the format has in place of one that it has not, and state its error in pixels; "
+        "DEGREES from the viewing direction count, default: all")  # fmt: skip
     parser.add_argument("--output", type=Path, default=Path("out"), metavar="FOLDER", help="default: %(default)s")
     options = parser.parse_args(arguments)
     check_cameras(options)
@@ -56,7 +60,8 @@ def run(arguments: Sequence[str], prog: str) -> int:
     target = find_camera(scene, options.to) if options.to is not None else None
     frames = options.frames or [frame_of(scene)]
     go_to(scene, None, max(frames))
-    said, paths = exports.write(scene, options.format, cameras, frames, options.output, target, not options.resolution)
+    said, paths = exports.write(scene, options.format, cameras, frames, options.output, target, not options.resolution,
+                               options.fit)  # fmt: skip
     for line in not_run():
         warn(prog, line)
     print("\n".join((*said, f"Wrote {', '.join(map(str, paths))}")), flush=True)
@@ -70,10 +75,12 @@ def _of_set(options) -> int:
         raise InputError(f"--{unused[0].replace('_', '-')} is for a .blend, not for a finished set: leave it out")
     views = read_set(options.file)
     if options.format in SET_FORMATS:
+        if options.fit:
+            raise InputError(f"--fit does not apply to --format {options.format}: choose a format of cameras")
         given = {"count": options.points} if options.points else {}
         files, said = SET_FORMATS[options.format].files(views, **given), []
     else:
-        files, said = export(options.format, [view.shot for view in views])
+        files, said = export(options.format, [view.shot for view in views], options.fit)
     paths = write(files, options.output)
     print("\n".join((*said, f"Wrote {', '.join(map(str, paths))}")), flush=True)
     return 0

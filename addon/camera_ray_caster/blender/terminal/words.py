@@ -4,7 +4,7 @@ import argparse
 import re
 from collections.abc import Callable, Sequence
 from functools import wraps
-from math import isnan
+from math import isnan, pi, radians
 from typing import TypeVar
 
 from ...core.arguments import unknown
@@ -113,6 +113,15 @@ def check_cameras(options: argparse.Namespace) -> None:
         raise InputError("--camera and --cameras exclude each other: leave out --camera")
     if options.cameras and options.calibration:
         raise InputError("--calibration applies to one camera: name the camera with --camera instead of --cameras")
+
+
+@of_form("an angle")
+def degrees(text: str) -> float:
+    """Return an angle in radians, given in degrees above 0, up to 180."""
+    angle = radians(float(text))
+    if not 0 < angle <= pi:
+        raise argparse.ArgumentTypeError(f"{text} is not an angle above 0, up to 180 degrees")
+    return angle
 
 
 @of_form("a whole number")

@@ -14,6 +14,7 @@ from . import rigid
 from .bop import Bop
 from .camera_json import CameraJson
 from .colmap import Colmap
+from .fitted import with_fits, with_heads
 from .format import Content, Format, Shot
 from .kalibr import Kalibr
 from .mrcal import Mrcal
@@ -40,13 +41,19 @@ def find_format(key: str) -> Format:
     return formats[key]
 
 
-def export(key: str, shots: Sequence[Shot]) -> tuple[Iterator[tuple[str, Content]], list[str]]:
+def export(
+    key: str, shots: Sequence[Shot], fit: float | None = None
+) -> tuple[Iterator[tuple[str, Content]], list[str]]:
     """Return the files of an export, as an iterator over name and content, and lines of remarks for the user.
 
+    fit: of a lens that the format cannot represent, the nearest one that it can is written, fitted to the pixels within
+    this angle of the viewing direction, in radians; see ``fitted``. None: such a lens is refused.
     The iterator makes each content when it is reached. Raises InputError, in one line, for an unknown format, and for a
     camera that the format cannot represent; the message then lists the formats that can.
     """
-    chosen = find_format(key)
+    chosen, fits = find_format(key), list[str]()
+    if fit is not None:
+        shots, fits = with_fits(chosen, shots, fit, _refusal)
     for shot in shots:
         reason = _refusal(chosen, shot)
         if reason is not None:
@@ -55,13 +62,13 @@ def export(key: str, shots: Sequence[Shot]) -> tuple[Iterator[tuple[str, Content
             raise InputError(
                 f"{chosen.label} cannot represent the {what}{reason and ', '}{reason}: choose one of {able}"
             )
-    said = list(dict.fromkeys(line for shot in shots for line in chosen.omissions(shot)))
+    said = [*fits, *dict.fromkeys(line for shot in shots for line in chosen.omissions(shot))]
     if not chosen.rigid:
-        return chosen.files(shots), said
+        return with_heads(chosen.files(shots), fits), said
     cameras, moves = zip(*(rigid.with_rotation(shot.camera) for shot in shots), strict=True)
     rotated = [replace(shot, camera=camera) for shot, camera in zip(shots, cameras, strict=True)]
     moved = f"poses are the nearest rotations to Blender's matrices, which moves pixels by up to {max(moves):.1e}"
-    return chosen.files(rotated), [moved, *said]
+    return with_heads(chosen.files(rotated), fits), [moved, *said]
 
 
 def _refusal(chosen: Format, shot: Shot) -> str | None:

@@ -46,4 +46,4 @@ def _image(shot: Shot) -> dict:
         "cam_R_w2c": pose[:3, :3].ravel().tolist(),
         "cam_t_w2c": (pose[:3, 3] * millimeters).tolist(),
         "depth_scale": millimeters,
-    }
+    } | shot.remark

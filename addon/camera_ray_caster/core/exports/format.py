@@ -43,6 +43,14 @@ class Shot:
     rate: float = 24.0
     """Frames in a second."""
 
+    fit: str = ""
+    """Remark on a lens that was fitted to the camera's; empty for the camera's own lens."""
+
+    @property
+    def remark(self) -> dict[str, str]:
+        """Return the entry of JSON with the remark on a fitted lens; none for the camera's own lens."""
+        return {"fit": self.fit} if self.fit else {}
+
     @property
     def seconds(self) -> float:
         """Time of the frame; frame 0 is at 0 seconds."""

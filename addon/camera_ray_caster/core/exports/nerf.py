@@ -62,4 +62,4 @@ def _angle(shot: Shot) -> float:
 def _frame(shot: Shot) -> dict:
     pose = shot.camera.pose
     matrix = np.vstack((np.column_stack((pose.basis, pose.eye)), (0.0, 0.0, 0.0, 1.0)))
-    return {"file_path": f"./{shot.stem}", "transform_matrix": matrix.tolist()}
+    return {"file_path": f"./{shot.stem}", "transform_matrix": matrix.tolist()} | shot.remark

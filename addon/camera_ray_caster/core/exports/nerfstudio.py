@@ -47,4 +47,4 @@ def _frame(shot: Shot) -> dict:
     pose = np.vstack((np.column_stack((camera.pose.basis, camera.pose.eye)), (0.0, 0.0, 0.0, 1.0)))
     width, height = camera.raster.size
     size = {"file_path": shot.image, "w": width, "h": height}
-    return size | dict(zip(names, values, strict=True)) | {"transform_matrix": pose.tolist()}
+    return size | dict(zip(names, values, strict=True)) | {"transform_matrix": pose.tolist()} | shot.remark

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Sequence
+from math import pi
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -33,6 +34,7 @@ def export(
     *,
     meters: float = 1.0,
     target: Camera | None = None,
+    fit: bool | float = False,
 ) -> Exported:
     """Write cameras into a folder, for another program; return the paths and remarks.
 
@@ -41,6 +43,9 @@ def export(
     cameras: a camera, or several. Those of one name are one camera at several frames: see ``name`` and ``frame`` of
         ``crc.camera``.
     meters: length of a unit, for formats with meters.
+    fit: whether a lens that the format cannot represent is replaced by the nearest one that it can, with its error in
+        pixels in the files and the remarks; a number is the largest angle from the viewing direction, in radians, of
+        the pixels that count. See ``crc.fit``.
     target: for "stmap", the camera to whose picture the maps lead; default the perspective of the same lens.
 
     All files are written or none. Raises InputError, in one line, for an unknown format, a camera that the format
@@ -59,11 +64,14 @@ def export(
     unit = number(meters, "meters", 1e12)
     if unit <= 0:
         raise InputError(f"meters is {shown(meters)}: it must be above 0, the length of a unit")
+    if not isinstance(fit, bool) and not 0 < number(fit, "fit", 10) <= pi:
+        raise InputError(f"fit is {shown(fit)}: it must be True, False or an angle above 0, up to pi")
+    angle = (pi if fit else None) if isinstance(fit, bool) else float(fit)
     names = file_names(one.name for one in given)
     shots = [Shot(names[one.name], _frame(one), one, unit, target) for one in given]
     if len({shot.stem for shot in shots}) < len(shots):
         raise InputError("two cameras have one name and one frame: give them names (name=) or frames (frame=)")
-    files, remarks = files_of(format, sorted(shots, key=lambda shot: shot.frame))
+    files, remarks = files_of(format, sorted(shots, key=lambda shot: shot.frame), angle)
     try:
         path = Path(folder)
     except TypeError as error:

@@ -1,0 +1,95 @@
+"""Cameras that a format cannot represent, replaced by the nearest ones that it can, with their error in its files.
+
+A lens is fitted to each model of the format (see ``camera.fit``), with the terms that the format stores. The one that
+sees most is taken, and among those the one that errs least in the mean. Poses stay as they are.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
+from math import pi
+
+from ..camera.camera import Camera
+from ..camera.fit import HELD, HELD_OF, Fit, fit_model, within
+from ..cameras import MODELS
+from ..cameras.parts.calibration import CALIBRATION
+from ..records import InputError
+from .format import Content, Format, Shot
+from .lenses import MATRIX, LensFormat
+
+FAR = 0.05
+"""Part of the frame: a lens that errs by more is no likeness."""
+
+Refusal = Callable[[Format, Shot], str | None]
+
+
+def with_fits(chosen: Format, shots: Sequence[Shot], angle: float, refusal: Refusal) -> tuple[list[Shot], list[str]]:
+    """Return the shots, with fitted cameras where the format refuses a lens, and a remark on each of those lenses.
+
+    angle: of the pixels that count, the largest one from the viewing direction, in radians. Raises InputError if no
+    lens of the format is near.
+    """
+    known: dict[str, tuple[Camera, str]] = {}
+    found = []
+    for shot in shots:
+        camera = shot.camera
+        fits = isinstance(chosen, LensFormat) and camera.pixel_time is None and camera.model.central
+        if refusal(chosen, shot) is None or not fits:
+            found.append(shot)
+            continue
+        key = repr((type(camera.model), camera.settings, camera.raster))
+        if key not in known:
+            nearest = _nearest(chosen, shot, angle, refusal)
+            known[key] = nearest.camera, _remark(shot, nearest, angle)
+        fitted, remark = known[key]
+        found.append(replace(shot, camera=_lent(camera, fitted), fit=remark))
+    return found, list(dict.fromkeys(shot.fit for shot in found if shot.fit))
+
+
+def _lent(camera: Camera, fitted: Camera) -> Camera:
+    """Return a camera with the lens of another one."""
+    return replace(camera, model=fitted.model, record=replace(fitted.record, name=camera.record.name))
+
+
+def _nearest(chosen: Format, shot: Shot, angle: float, refusal: Refusal) -> Fit:
+    camera, terms = shot.camera, dict[str, set[str]]()
+    for key, names in getattr(chosen, "table", {}).values():
+        terms.setdefault(key, set()).update(names)
+    region = None if angle >= pi else within(camera, angle)
+    found: list[Fit] = []
+    for kind in MODELS:
+        if kind.key not in terms or not set(CALIBRATION) <= set(kind.SETTINGS):
+            continue
+        free = {*MATRIX, *terms[kind.key]} - HELD - HELD_OF.get(kind.key, set())
+        try:
+            fitted = fit_model(camera, kind, region, free)
+        except InputError:  # this model sees too little
+            continue
+        if refusal(chosen, replace(shot, camera=_lent(camera, fitted.camera))) is None:
+            found.append(fitted)
+    what = f"{camera.model.label} of camera {camera.name!r}"
+    if not found:
+        raise InputError(f"no lens of {chosen.label} can be fitted to the {what}: choose another format")
+    best = min(found, key=lambda fit: (fit.unseen, fit.mean))
+    if best.worst > FAR * max(camera.raster.size):
+        raise InputError(
+            f"no lens of {chosen.label} is like the {what}: the nearest one, {best.summary}; fit less of the picture "
+            "(--fit DEGREES), or choose another format"
+        )
+    return best
+
+
+def _remark(shot: Shot, fit: Fit, angle: float) -> str:
+    within = f", within {angle * 180 / pi:.4g} degrees of the viewing direction" if angle < pi else ""
+    return f"{shot.name}: fitted to its {shot.camera.model.label}{within}: {fit.summary}"
+
+
+def with_heads(files: Iterator[tuple[str, Content]], remarks: Sequence[str]) -> Iterator[tuple[str, Content]]:
+    """Yield files with remarks as comments in the head of text; JSON, which has no comments, has them in its frames."""
+    head = "".join(f"# {line}\n" for line in remarks)
+    for name, content in files:
+        if isinstance(content, str) and not name.endswith(".json"):
+            start = content.index("---\n") + 4 if content.startswith("%YAML") else 0
+            content = content[:start] + head + content[start:]
+        yield name, content
