@@ -198,16 +198,17 @@ def test_what_was_made_of_something_else_is_made_again(command, blender, scene, 
         assert ("Wrote 0 of 1 pictures" in done.stdout) == is_finished
 
 
-def test_an_option_that_is_not_named_is_a_setting_of_the_pictures(registered, scene):
+def test_an_option_that_is_not_named_is_a_setting_of_the_pictures(registered, scene, monkeypatch):
     """``--skip-existing`` keeps no picture that was made with another value of an option which nobody thought of."""
-    from camera_ray_caster.blender.terminal.cast import _parser
-    from camera_ray_caster.blender.terminal.pictures import WHICH, Pictures, parsed
+    from camera_ray_caster.blender.terminal import cast
+    from camera_ray_caster.blender.terminal.pictures import WHICH, Pictures
 
-    parser = _parser("cast.py")
-    parser.add_argument("--new", default="a word")
-    declared = {action.dest for action in parser._actions} - {"help"} | {"prog", "pictures"}
+    add_json = cast.add_json
+    monkeypatch.setattr(cast, "add_json", lambda parser: (add_json(parser), parser.set_defaults(new="a word")))
+    options = cast.options_of([str(scene)], "cast.py")
+    declared = vars(options).keys()
     assert declared >= set(WHICH)
-    settings = Pictures(parsed(parser, [str(scene)])).stamp()["settings"]
+    settings = Pictures(options).stamp()["settings"]
     assert settings["new"] == "a word"
     assert settings.keys() == declared - set(WHICH) | {"calibration", "rig"}
 

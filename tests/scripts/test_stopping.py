@@ -88,8 +88,8 @@ def test_a_signal_after_the_render_ends_the_run_before_files_are_written(blender
     path = small(blender, tmp_path / "small.blend")
     rendered, save, saved = files._rendered, files._save, []
 
-    def interrupted(scene):
-        report = rendered(scene)
+    def interrupted(*given):
+        report = rendered(*given)
         signals.stop()
         return report
 

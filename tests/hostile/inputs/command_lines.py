@@ -34,7 +34,7 @@ WRONG = {
         *MANY, ("--workers", "0"), ("--workers", "-1"), ("--workers", "nan"), ("--workers", "1" * 5000), ("--workers",),
         ("--scheduler", ""), ("--scheduler", "nowhere"), ("--scheduler", "tcp://"),
         ("--scheduler", "tcp://127.0.0.1:x"), ("--scheduler", "tcp://127.0.0.1:1", "--workers", "2"),
-        ("--shard", "1/2"), ("--frame", "1"), ("--camera", "Camera", "--cameras", "ALL"),
+        ("--shard", "2/1"), ("--frame", "1"), ("--camera", "Camera", "--cameras", "ALL"),
         ("--resolution", "0x0"), ("--resolution", "-1x1"), ("--resolution", "1x"), ("--resolution", "9" * 20 + "x1"),
         ("--samples", "4"), ("--engine", "CYCLES", "--samples", "0"), ("--engine", "toon"), ("--format", "tiff"),
         ("--half=1",), ("--annotations=1",), ("--keypoints",), ("--keypoints", ""), ("--keypoints", "nobody"),
