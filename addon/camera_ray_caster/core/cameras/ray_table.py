@@ -97,14 +97,22 @@ class RayTable(Model):
     BESIDE_FILE = (*FROM_FILE, AXES, INTERPOLATION, SLIDE)
     FORMULA = (
         Step("Place in the table, from the center of its first entry", "u = a x + g, v = c y + h"),
-        Step("Column and row of the entry below it, and the rest", "i, j, s = u - i, t = v - j"),
+        Step("The rest beyond column i and row j, the entry before it", "s = u - i, t = v - j"),
         Step(
-            "Weights of the four columns around it, for a cubic; and of rows, by t",
+            "Weights of the four columns around it, and of rows by t",
             "w0 = (1 - s)³/6, w1 = (4 - 3 s² (2 - s))/6, w2 = (4 - 3 (1 - s)² (1 + s))/6, w3 = s³/6",
         ),
-        Step("Weighted sum of the control points of 4 × 4 entries", "m"),
-        Step("Direction, with the length n of m", "d = m / n"),
+        Step("Direction: the sum m of the entries around it with both weights, over its length n", "r = m / n"),
     )
+    LINES = Step("Weights of the two columns around it, and of rows by t", "w0 = 1 - s, w1 = s")
+    ORIGIN = Step("Origin, the sum q of the origins with the same weights", "o = q")
+
+    @property
+    def steps(self):
+        """See Model: a table with straight lines has other weights, and one with origins a sum of them."""
+        place, rest, weights, direction = self.FORMULA
+        weights = self.LINES if self.grid.kind == LINEAR else weights
+        return place, rest, weights, direction, *([] if self.central else [self.ORIGIN])
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> RayTable:
@@ -203,12 +211,11 @@ class RayTable(Model):
         return gamma(20) * self.grid.farthest, 0.0
 
     def formula_values(self, x, y):
-        """See Model: the numbers of the table's place in the frame, the entry, and the weighted sum."""
+        """See Model: the numbers of the table's place in the frame, the entry, and the weighted sums."""
         (a, c), (g, h) = self.scale, self.shift
-        found = self._sums(x, y)[1]
-        sums = np.array([float(part) for part in found[:3]])
-        i, j = np.floor(x * a + g), np.floor(y * c + h)
-        return {"a": a, "g": g, "c": c, "h": h, "i": i, "j": j, "m": sums, "n": float(norm(sums))}
+        sums = np.array([float(part) for part in self._sums(x, y)[1]])
+        given = {"a": a, "g": g, "c": c, "h": h, "i": np.floor(x * a + g), "j": np.floor(y * c + h)}
+        return given | {"m": sums[:3], "n": float(norm(sums[:3]))} | ({} if self.central else {"q": sums[3:]})
 
     def facts(self) -> dict[str, object]:
         """See Model: the size of the table, its entries without rays, and the estimated errors between them: of
