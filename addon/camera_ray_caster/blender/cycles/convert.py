@@ -17,7 +17,7 @@ from ..read.scene import evaluated_camera
 from .animation import insert_keyframes, is_animated
 from .device import said_of_device
 from .rolling import check_time, set_up_time
-from .shader import check_cycles, check_enabled, clear_shader, set_inputs, set_shader
+from .shader import check_cycles, check_enabled, clear_shader, set_inputs, set_shader, texture_folder
 
 MOST_FRAMES = 10_000
 """Maximum number of frames with keyframes: almost seven minutes of film. Evaluating them takes about 20 s."""
@@ -59,6 +59,7 @@ def to_cycles(scene, camera_object=None) -> list[str]:
         insert_keyframes(active.data, {action_time(scene, frame): each for frame, each in shaders.items()})
         said = _said_of_keyframes(shaders)
     set_inputs(active.data, shader)
+    said += [f"Cycles reads the rays from {path!r}, which has to stay there" for path in shader.textures]
     return said + set_up_time(scene, raw, camera) + _engine_said(scene) + said_of_device(scene)
 
 
@@ -79,7 +80,7 @@ def from_cycles(camera_object) -> None:
 
 def shader_of(raw: BlenderCamera, camera: Camera, places: frozenset[int] = frozenset()) -> CameraShader:
     """Return the shader of a camera and the record that it was made from."""
-    return camera_shader(camera, raw.type, (raw.shift_x, raw.shift_y), places)
+    return camera_shader(camera, raw.type, (raw.shift_x, raw.shift_y), places, folder=texture_folder())
 
 
 def _frames(scene) -> range:

@@ -32,7 +32,7 @@ from ..read.scene import evaluated, evaluated_camera
 from .device import device_of
 from .renderer import Render, border, changed, cycles_engine
 from .rolling import blur_settings, is_shutter
-from .shader import check_cycles, set_shader
+from .shader import check_cycles, set_shader, texture_folder
 
 
 @dataclass(frozen=True)
@@ -153,7 +153,7 @@ def _only(scene, eye: Eye, view: str) -> Iterator[None]:
 @contextmanager
 def _custom(eye: Eye, turn: Turn = UPRIGHT) -> Iterator[None]:
     """Make a camera object a custom camera temporarily, by a copy of its data with a shader that no handler updates."""
-    shader = camera_shader(eye.camera, eye.raw.type, (eye.shift_x, eye.raw.shift_y), turn=turn)
+    shader = camera_shader(eye.camera, eye.raw.type, (eye.shift_x, eye.raw.shift_y), turn=turn, folder=texture_folder())
     item = eye.camera_object
     if not item.is_editable:
         raise InputError(f"camera {item.name!r} is linked from a library: make it local first (Object > Relations)")

@@ -3,12 +3,14 @@
 Blender keeps the inputs of a custom camera as ID properties of ``camera.cycles_custom``, which can be animated.
 """
 
+import os
 import sys
 from pathlib import Path
 
 import bpy
 import numpy as np
 
+from ...core.exports.exr import exr
 from ...core.records import InputError
 from ...core.shaders.camera_shader import CameraShader
 from ..read.camera import shader_mark
@@ -43,6 +45,7 @@ def set_shader(camera, shader: CameraShader) -> None:
     Raises InputError if Cycles cannot compile the shader; type and shader of the camera are then unchanged. The text of
     a camera that already has a shader of ours is replaced without this check.
     """
+    _write_textures(shader)
     _let_cycles_query()  # if Cycles is the engine, Blender also compiles as soon as the text changes
     if shader_mark(camera) is not None:
         remove_keyframes(camera)
@@ -75,6 +78,7 @@ def clear_shader(camera) -> None:
 
 def rewrite(camera, shader: CameraShader) -> None:
     """Replace the shader in a camera's text, and set its inputs. A text that other cameras share is copied first."""
+    _write_textures(shader)
     _let_cycles_query()
     if any(other != camera and other.custom_shader == camera.custom_shader for other in bpy.data.cameras):
         camera.custom_shader = camera.custom_shader.copy()
@@ -100,6 +104,27 @@ def has_inputs(camera, shader: CameraShader) -> bool:
 def stored(shader: CameraShader) -> dict[str, float]:
     """Return the values of a shader's inputs as Blender stores them."""
     return {name: float(np.float32(value)) for name, value in shader.values.items()}
+
+
+def texture_folder() -> str:
+    """Return the folder of the textures that shaders read: that of the .blend, or this Blender's temporary one."""
+    return Path(bpy.data.filepath or bpy.app.tempdir + "/_").parent.as_posix()
+
+
+def _write_textures(shader: CameraShader) -> None:
+    """Write the textures that a shader reads; the name of a file tells its content. Raises InputError."""
+    for name, image in shader.textures.items():
+        path = Path(name)
+        if path.exists():
+            continue
+        try:
+            part = path.with_suffix(f".{os.getpid()}")
+            part.write_bytes(exr(image))
+            part.replace(path)
+        except OSError as error:
+            raise InputError(
+                f"the rays for Cycles cannot be written to {name!r}: {error.strerror}; save the file in another folder"
+            ) from error
 
 
 def _compile(camera) -> bool:

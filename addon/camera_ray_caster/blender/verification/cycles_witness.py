@@ -21,7 +21,7 @@ from ...core.records import Finding, InputError
 from ...core.report.sample import angles_between, finding, length_of, not_compared
 from ...core.shaders.accuracy import ray_bounds
 from ...core.shaders.camera_shader import CameraShader, camera_shader
-from ..cycles.shader import check_cycles, set_shader
+from ..cycles.shader import check_cycles, set_shader, texture_folder
 
 CYCLES = "Cycles"
 
@@ -49,7 +49,7 @@ def cycles_finding(camera: Camera) -> Finding:
     """
     camera = replace(camera, pixel_time=None, motion=None, aperture=None)
     shift = tuple(float(camera.settings.get(name, 0.0)) for name in ("shift_x", "shift_y"))
-    shader = camera_shader(camera, "PERSP", shift)
+    shader = camera_shader(camera, "PERSP", shift, folder=texture_folder())
     shader = replace(shader, source=shader.source.partition("\n")[2])  # without a mark it does not follow settings
     return compared(camera, shift, lambda center, half, size: _ends(camera, shader, shift, center, half, size))
 

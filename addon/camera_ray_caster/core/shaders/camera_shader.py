@@ -77,6 +77,8 @@ class CameraShader:
     values: Mapping[str, float]
     places: frozenset[int]
     """Places of the unnamed constants that are inputs; see ``osl.Inputs``."""
+    textures: Mapping[str, np.ndarray]
+    """Images that the shader reads, by the paths of their EXR files: (rows, columns, 3) float32, from the bottom."""
 
 
 @dataclass(frozen=True)
@@ -103,16 +105,17 @@ def camera_shader(
     shift: tuple[float, float],
     places: frozenset[int] = frozenset(),
     turn: Turn = UPRIGHT,
+    folder: str = "",
 ) -> CameraShader:
     """Return the shader that gives Cycles the rays of a camera for all of its pixels and aperture, at one time.
 
     blender_type: the type for ``read_mark``. shift: Cycles' shift of the raster, in fractions of the frame. places:
     constants that are inputs in any case, for cameras whose settings change. turn: the transformation from Cycles'
-    raster to the camera's. The rays are those of ``Camera.sample_rays`` in float32. Raises NotRecordable for a model
-    with operations that cannot be recorded.
+    raster to the camera's. folder: of ``textures``. The rays are those of ``Camera.sample_rays`` in float32. Raises
+    NotRecordable for a model with operations that cannot be recorded, and InputError for a table that is too large.
     """
     model, inputs = camera.model, Inputs(places)
-    writer = OslWriter(inputs)
+    writer = OslWriter(inputs, folder=folder)
     found = writer.write(ray_record(camera), [Term("x"), Term("y"), Term("across"), Term("up")])
     none = writer.either(*(part.none for part in found)) or writer.NO
     texts = [part.text for part in found]
@@ -136,7 +139,7 @@ def camera_shader(
     said = " ".join(map(str, sorted(inputs.used)))
     values = {**{name: float(value) for name, value in frame.items()}, **own}
     source = f"{MARK.format(blender_type, said, crc32(rest.encode()))}\n{rest}"
-    return CameraShader(source, values, frozenset(inputs.used))
+    return CameraShader(source, values, frozenset(inputs.used), writer.textures)
 
 
 def ray_record(camera: Camera) -> Record:

@@ -11,7 +11,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import ClassVar
 
-from .writer import C_ABSENT, C_FUNCTIONS, C_HELPERS, Writer, in_range
+import numpy as np
+
+from ..maths.recording import Entries, Operation
+from .texels import FIRST, MOST_IN_TEXT, WIDE, texture_of
+from .writer import C_ABSENT, C_FUNCTIONS, C_HELPERS, Term, Writer, in_range
 
 LITERALS = frozenset((0.0, 0.5, 1.0, 2.0, 3.0, 4.0, math.pi / 2, math.pi, 2 * math.pi, math.inf))
 """Constants that are written in the text, as are their negatives: they belong to the formula and are not settings."""
@@ -30,9 +34,47 @@ class OslWriter(Writer):
     ABSENT = {name: text.replace("abs(", "fabs(") for name, text in C_ABSENT.items()}
     HELPERS = C_HELPERS | {"cos": C_HELPERS["cos"].replace("abs(", "fabs(")}
 
+    folder: str = ""
+    """The folder of textures."""
+    textures: dict[str, np.ndarray] = field(default_factory=dict)
+    """Images of tables that are too long for the text, by the paths of their files: see ``texels``."""
+    _names: dict[tuple, str] = field(default_factory=dict)
+    _files: dict[str, tuple[str, int]] = field(default_factory=dict)
+    _texels: dict[tuple, str] = field(default_factory=dict)
+    """Names of the colors that were read, by texture and place."""
+
     def table_text(self, name: str, entries: Sequence[float]) -> str:
         """See Writer. Cycles cannot pass arrays to the inputs of a shader."""
         return f"    float {name}[{len(entries)}] = {{{', '.join(map(self.literal, entries))}}};"
+
+    def _take(self, step: Operation, operands: list[Term], inputs) -> Term:
+        """Write a look-up; in a large table as a texel, of which several columns of the table are the channels."""
+        (place,), (entries,) = operands, step.fixed
+        if not isinstance(entries, Entries) or len(entries) <= MOST_IN_TEXT:
+            return super()._take(step, operands, inputs)
+        name, channel = self._texture(entries), entries.column % 3
+        if (name, place.text) not in self._texels:
+            file, high = self._files[name]
+            row = self.put("float", f"floor({place.text} / {WIDE}.0)")
+            s, t = f"({place.text} - {row} * {WIDE}.0 + 0.5) / {WIDE}.0", f"({row} + 1.5) / {high}.0"
+            read = f'texture("{file}", {s}, fabs({name}_turned - {t}), "interp", "closest")'
+            self._texels[name, place.text] = self.put("color", read)
+        found = self.put("float", f"{self._texels[name, place.text]}[{channel}]")
+        return Term(found, self.either(place.none, f"{name}_none"))
+
+    def _texture(self, entries: Entries) -> str:
+        """Write the reading of the mark of a table's texture, unless it exists; return the texture's name."""
+        key = id(entries.table), entries.column // 3
+        if key not in self._names:
+            file, image = texture_of(entries)
+            path, high, name = f"{self.folder}/{file}", len(image), f"texture{len(self._names) + 1}"
+            self._names[key], self._files[name], self.textures[path] = name, (path, high), image
+            self.tables += [
+                f'    color {name} = texture("{path}", {0.5 / WIDE}, {0.5 / high}, "interp", "closest");',
+                f"    int {name}_none = fabs({name}[1] - {FIRST[1]}) > 0.01;",
+                f"    float {name}_turned = {name}[0] > {FIRST[1]} ? 1.0 : 0.0;",
+            ]
+        return self._names[key]
 
 
 @dataclass

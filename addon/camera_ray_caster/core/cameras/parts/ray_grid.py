@@ -107,12 +107,13 @@ class RayGrid:
     @lazy
     def columns(self) -> list[Entries]:
         """The components of ``nodes``, each as a flat table: a row after the other."""
-        return [Entries(column.ravel()) for column in np.moveaxis(self.nodes, 2, 0)]
+        table = self.nodes.reshape(-1, self.nodes.shape[2])
+        return [Entries(table, column) for column in range(table.shape[1])]
 
     @lazy
     def has_ray(self) -> Entries:
         """Flat table of 1 for entries with a ray and 0 for others."""
-        return Entries(self.known.ravel().astype(np.float64))
+        return Entries(self.known.reshape(-1, 1).astype(np.float64))
 
     @lazy
     def farthest(self) -> float:

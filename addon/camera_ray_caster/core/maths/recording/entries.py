@@ -8,10 +8,14 @@ import numpy as np
 
 
 class Entries(Sequence):
-    """A large table for ``look_up``, (n,) float64: records share it, instead of the numbers of each look-up."""
+    """A large table for ``look_up``, (n,) float64: records share it, instead of the numbers of each look-up.
 
-    def __init__(self, values: np.ndarray):
-        self.values = np.asarray(values, np.float64)
+    It is a column of ``table``, (n, k), whose other columns are looked up at the same places.
+    """
+
+    def __init__(self, table: np.ndarray, column: int = 0):
+        self.table, self.column = table, column
+        self.values = np.ascontiguousarray(table[:, column], np.float64)
 
     def __len__(self) -> int:
         return len(self.values)
