@@ -3,7 +3,7 @@
 A test with many cases keeps ``CASES`` of them, spread evenly from a place that its name gives, so that all tests
 together try every model, file and pass. A test marked ``one_for_each("key")`` keeps one case for each value of that
 parameter, and of the k-th value the k-th of its cases. A test that is slow and says little that is new is marked
-``full`` by hand.
+``full`` by hand, and one whose cases are slow ``cases(1)``.
 """
 
 import importlib.util
@@ -39,7 +39,8 @@ def mark_the_rest(items):
             cases.setdefault(item.nodeid.split("[", 1)[0], []).append(item)
     kept = 0
     for name, group in cases.items():
-        chosen = one_for_each(group) or spread(group, name)
+        mark = group[0].get_closest_marker("cases")
+        chosen = one_for_each(group) or spread(group, name, mark.args[0] if mark else CASES)
         for item in set(group) - chosen:
             item.add_marker(pytest.mark.full)
         kept += len(chosen)
@@ -57,12 +58,12 @@ def one_for_each(cases):
     return {those[k % len(those)] for k, those in enumerate(values.values())}
 
 
-def spread(cases, name):
-    """The set of at most CASES cases, evenly apart."""
-    if len(cases) <= CASES:
+def spread(cases, name, count):
+    """The set of at most ``count`` cases, evenly apart."""
+    if len(cases) <= count:
         return set(cases)
     first = crc32(name.encode()) % len(cases)
-    return {cases[(first + k * len(cases) // CASES) % len(cases)] for k in range(CASES)}
+    return {cases[(first + k * len(cases) // count) % len(cases)] for k in range(count)}
 
 
 def added_models(path):

@@ -50,6 +50,7 @@ def unambiguous(scene):
     return (np.array(found) == found[0]).all(axis=(0, 1))
 
 
+@pytest.mark.cases(1)
 @pytest.mark.parametrize("name", PLACES)
 def test_a_place_is_what_cycles_sees(blender, name):
     scene = small(opened(blender, name))
@@ -114,6 +115,7 @@ def height(corners, place):
     return heights[np.minimum(np.minimum(u, v), 1 - u - v).argmax()]
 
 
+@pytest.mark.cases(1)
 @pytest.mark.parametrize("name", ["propeller", "twisted_monkey"])
 def test_each_row_is_a_still_picture_of_its_time(blender, name):
     from camera_ray_caster.blender.engine.job import run

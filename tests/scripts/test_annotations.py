@@ -63,6 +63,7 @@ def test_a_data_set_has_one_file_of_them_too_whatever_shows_the_picture(scene, t
     assert all((tmp_path / image["file_name"]).is_file() for image in whole["images"])
 
 
+@pytest.mark.cases(1)
 @pytest.mark.parametrize(("words", "said"), [
     (["--keypoints", "Nobody"], "no key point 'Nobody'"),
     (["--keypoints", "Top"], "no key point 'Top'"),

@@ -72,6 +72,7 @@ def test_data_sets_are_timed(registered, monkeypatch, capsys):
     assert f"{rows[0]['cpu'] / writing['cpu']:.2f} x" in capsys.readouterr().out
 
 
+@pytest.mark.cases(1)
 @pytest.mark.parametrize(
     ("words", "said"),
     [(("--size", "1920"), "size"), (("--rounds", "0"), "from 1 up"), (("--threads", "-2"), "from 1 up"),

@@ -119,6 +119,7 @@ def test_a_device_without_shaders_is_warned_of(command, scene, tmp_path, monkeyp
     assert done.stderr == "cast.py: warning: Cycles renders on CUDA\n"
 
 
+@pytest.mark.cases(1)
 @pytest.mark.skipif(sys.platform == "win32", reason="Windows ends a process without telling it")
 @pytest.mark.parametrize("unread", [False, True])
 def test_a_signal_ends_cycles_at_once_whoever_reads_of_it(blender, tmp_path, unread):

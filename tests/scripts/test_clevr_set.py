@@ -46,6 +46,7 @@ def test_passes_of_another_view_are_found_out(made, tmp_path, name):
     assert "do not fit together" in done.stdout
 
 
+@pytest.mark.cases(1)
 @pytest.mark.parametrize("content", [b"no zip", None])
 def test_a_broken_view_is_refused_in_one_line(made, tmp_path, content):
     """A damaged file; and one without the rays that are needed, beside a name that is no frame's."""

@@ -49,6 +49,7 @@ def test_every_script_is_here():
     assert scripts == set(WORDS)
 
 
+@pytest.mark.cases(1)
 @pytest.mark.parametrize("name", WORDS)
 def test_full_standard_output_is_one_line_and_status_2(name, tmp_path):
     with open("/dev/full", "w") as full, start(name, tmp_path, stdout=full) as run:
@@ -57,6 +58,7 @@ def test_full_standard_output_is_one_line_and_status_2(name, tmp_path):
     assert line == f"{name}.py: cannot use standard output: No space left on device; choose another place"
 
 
+@pytest.mark.cases(1)
 @pytest.mark.parametrize("name", WORDS)
 def test_a_pipe_that_nobody_reads_needs_no_words(name, tmp_path):
     reading, writing = os.pipe()
@@ -66,6 +68,7 @@ def test_a_pipe_that_nobody_reads_needs_no_words(name, tmp_path):
     assert run.returncode == 141
 
 
+@pytest.mark.cases(1)
 @pytest.mark.parametrize("closed", [">&-", ">&- 2>&-", "<&- >&- 2>&-"])
 @pytest.mark.parametrize("name", ["cast", "environment"])
 def test_closed_standard_output_is_refused_before_anything_is_made(name, closed, tmp_path):
@@ -98,6 +101,7 @@ def hears(pid, number):
     return mask >> (number - 1) & 1
 
 
+@pytest.mark.cases(1)
 @pytest.mark.skipif(sys.platform != "linux", reason="asks the system which signals a process hears")
 @pytest.mark.parametrize("name", WORDS)
 def test_a_stop_during_the_imports_is_one_line(name, tmp_path):

@@ -70,6 +70,7 @@ def test_wrong_words_are_refused(scene, monkeypatch, command, case):
     assert left(scene.parent) == before
 
 
+@pytest.mark.cases(1)
 @pytest.mark.parametrize("command", ["cast", "verify"])
 @pytest.mark.parametrize("case", ["missing", "no .blend", "no such camera", "no such option"])
 def test_a_refusal_is_one_line_and_status_2(scene, command, case):
@@ -80,6 +81,7 @@ def test_a_refusal_is_one_line_and_status_2(scene, command, case):
     assert said in line
 
 
+@pytest.mark.cases(1)
 @pytest.mark.parametrize("command", ["cast", "verify"])
 def test_a_python_without_bpy_is_told_what_it_needs(command):
     words = [sys.executable, "-S", ROOT / "scripts" / f"{command}.py"]  # -S: no packages
@@ -87,6 +89,7 @@ def test_a_python_without_bpy_is_told_what_it_needs(command):
     assert "needs Blender or pip's bpy, which `make cast`" in refused(done)
 
 
+@pytest.mark.cases(1)
 @pytest.mark.parametrize("name", ["make_scenes", "make_pictures"])
 def test_what_is_made_has_to_be_known(name):
     assert f"{name}.py: no {name[5:-1]} is called no?such: choose from " in refused(script(name, "no\nsuch"))

@@ -9,6 +9,7 @@ import pytest
 from .running import ROOT, left, small, start
 
 
+@pytest.mark.cases(1)
 @pytest.mark.skipif(sys.platform == "win32", reason="Windows ends a process without telling it")
 @pytest.mark.parametrize("name", ["SIGINT", "SIGTERM", "SIGHUP"])
 def test_a_run_that_is_ended_leaves_good_files_and_nothing_else(blender, tmp_path, name):
@@ -111,6 +112,7 @@ def test_a_second_signal_is_not_waited_for():
         signals.reset()
 
 
+@pytest.mark.cases(1)
 @pytest.mark.parametrize("moment", [0, 300, 700])
 def test_a_stop_is_heard_while_many_objects_are_read(blender, moment, monkeypatch):
     """At once, not when all have been read: of the instances of each block only some are looked at."""

@@ -34,6 +34,7 @@ sys.exit(status)
 """
 
 
+@pytest.mark.cases(1)
 @pytest.mark.parametrize("command", ["cast", "verify"])
 def test_a_ray_half_a_pixel_off_is_status_1(scene, tmp_path, command):
     arguments = [str(scene), *(["--output", str(tmp_path / "out")] if command == "cast" else [])]
@@ -46,6 +47,7 @@ def test_a_ray_half_a_pixel_off_is_status_1(scene, tmp_path, command):
         assert json.loads((tmp_path / "out" / "report.json").read_text())["passed"] is False
 
 
+@pytest.mark.cases(1)
 @pytest.mark.parametrize("command", ["cast", "verify"])
 def test_help_has_an_example(command):
     done = script(command, "--help")
