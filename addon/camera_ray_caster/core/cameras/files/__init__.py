@@ -18,6 +18,7 @@ from . import (
     colmap,
     colmap_binary,
     ftheta,
+    generic,
     hesai,
     isaac,
     kalibr,
@@ -29,6 +30,7 @@ from . import (
     opensfm,
     ouster,
     ray_arrays,
+    ray_mesh,
     recorded,
     velodyne,
     woodscape,
@@ -37,9 +39,9 @@ from .document import Document, Lens
 from .nearest import unknown
 
 FORMATS = (
-    ray_arrays.read, colmap_binary.read, colmap.read, hesai.read, mrcal.read, ocam.read, velodyne.read, ouster.read,
-    recorded.read, aria.read, nerfstudio.read, ftheta.read, isaac.read, woodscape.read, opensfm.read, basalt.read,
-    camodocal.read, okvis.read, kalibr.read, opencv.read,
+    ray_arrays.read, ray_mesh.read, colmap_binary.read, colmap.read, hesai.read, mrcal.read, ocam.read, velodyne.read,
+    ouster.read, recorded.read, generic.read, aria.read, nerfstudio.read, ftheta.read, isaac.read, woodscape.read,
+    opensfm.read, basalt.read, camodocal.read, okvis.read, kalibr.read, opencv.read,
 )  # fmt: skip
 """Readers in the order in which they are tried."""
 

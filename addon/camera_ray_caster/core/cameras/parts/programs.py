@@ -127,7 +127,13 @@ PROGRAMS = (
         "json", "nothing",
     ),
     Program(
-        "ray tables", "this add-on's ray maps as .npz; .npy of directions, or of origins and directions",
+        "camera_calibration (Schöps)", "intrinsics .yaml",
+        "calibration_min_x calibration_max_x grid_width grid_height grid",
+        "CentralGenericModel, NoncentralGenericModel", "", "",
+    ),
+    Program(
+        "ray tables",
+        "ray maps as .npz; .npy of directions, or of origins and directions; .csv and .obj of a mesh of rays",
         reads="a ray for each pixel, or fewer", lost="pixel times",
     ),
     Program("NeRF", "transforms_train.json, _val and _test", export="nerf", lost="all lenses but centered pinholes"),
