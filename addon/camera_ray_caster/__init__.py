@@ -20,7 +20,7 @@ Cameras
 Shapes
     spheres, planes, mesh, join; Scene(camera, shapes) has both
 What is seen
-    cast, visible, explain; of rays given as arrays: cast_rays, occluded
+    cast, visible, explain; of rays given as arrays: cast_rays, occluded; as points: scan, save_points
 Files
     export
 In Blender only
@@ -46,8 +46,10 @@ if TYPE_CHECKING:
     from .core.cameras.parts.settings import Choice, Flag, Item, Number
     from .core.cast import cast
     from .core.casting.visibility import Visibility, visible
+    from .core.clouds.cloud import PointCloud, scan
     from .core.exports.camera_json import camera_from_json, camera_to_json
     from .core.library.cameras import camera, load_calibration
+    from .core.library.clouds import save_points
     from .core.library.explaining import explain
     from .core.library.files import export
     from .core.library.fitting import fit
@@ -70,6 +72,7 @@ _MODULES = {
     "Item": ".core.cameras.parts.settings",
     "Model": ".core.cameras.model",
     "Number": ".core.cameras.parts.settings",
+    "PointCloud": ".core.clouds.cloud",
     "Scene": ".core.scene",
     "Shapes": ".core.records",
     "Step": ".core.cameras.model",
@@ -94,6 +97,8 @@ _MODULES = {
     "read_camera": ".blender.read",
     "read_scene": ".blender.read",
     "read_shapes": ".blender.read",
+    "save_points": ".core.library.clouds",
+    "scan": ".core.clouds.cloud",
     "spheres": ".core.library.shapes",
     "verify": ".blender.verification.check:verify_camera",
     "visible": ".core.casting.visibility",
@@ -109,6 +114,7 @@ __all__ = [
     "Item",
     "Model",
     "Number",
+    "PointCloud",
     "Scene",
     "Shapes",
     "Step",
@@ -134,6 +140,8 @@ __all__ = [
     "read_shapes",
     "register",
     "register_model",
+    "save_points",
+    "scan",
     "spheres",
     "unregister",
     "verify",

@@ -46,6 +46,7 @@ MAY_IMPORT = {
     "core.any_rays": HITS | {"core.any_rays"},
     "core.scene": RAYS | {"core.motion"},
     "core.cast": HITS | {"core.any_rays", "core.scene"},
+    "core.clouds": HITS | {"core.cast", "core.clouds", "core.scene"},
     "core.annotations": HITS | {"core.cast", "core.version", "core.annotations"},
     "core.shaders": RAYS | {"core.shaders"},
     "core.motion": RAYS | {"core.motion"},

@@ -16,6 +16,7 @@ FOLDERS = (PACKAGE / "gallery", PACKAGE.parents[1] / "blend_scenes")
 NAMES = {
     "PERSP": "pinhole", "ORTHO": "isometric", "EQUIANGULAR_CUBEMAP_FACE": "cubemap_face",
     "FISHEYE_LENS_POLYNOMIAL": "fisheye_polynomial", "STEREOGRAPHIC_PANORAMA": "little_planet",
+    "SCANNER": "street_scanner",
 }  # fmt: skip
 """Scene names by model key. Any other model's scene is named after its key, in lower case."""
 
@@ -24,7 +25,10 @@ LECTURE = {
     "Fisheye": "fisheye_equidistant", "Omnimax": "omnimax", "Slit Scan": "slit_scan_rows",
 }  # fmt: skip
 """Scenes of an introduction to cameras, by label, in the order of the introduction."""
-TIMES = "slit_scan_rows", "slit_scan_columns", "time_displacement", "rolling_shutter", "twisted_monkey", "propeller"
+TIMES = (
+    "slit_scan_rows", "slit_scan_columns", "time_displacement", "rolling_shutter", "twisted_monkey", "propeller",
+    "street_scanner",
+)  # fmt: skip
 """Scenes in which each pixel has its own time."""
 PLACES = (
     "spheres_and_planes", "toys", "toys_cross_slit", "living_room", "living_room_equirectangular",

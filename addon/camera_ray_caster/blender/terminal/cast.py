@@ -12,6 +12,7 @@ import bpy
 from ...core.file_set import clear_up
 from ...core.report.notes import sentences
 from ..output.annotations import collect
+from ..output.points import KITTI, collect_sequences
 from . import dataset, farm, files
 from .options import add_frame, add_json, command_parser, show, warn
 from .pictures import Pictures, add_words, follow, parsed, summary
@@ -57,6 +58,8 @@ def run(arguments: Sequence[str], prog: str) -> int:
                 show(outcome.report, options.json, f"Wrote {', '.join(map(str, outcome.paths))}")
     if pictures.keypoints is not None and several and not options.shard:
         collect(options.output, [job.name for job in jobs])
+    if options.points == KITTI and not options.shard:
+        collect_sequences(pictures.scene, options.output, jobs)
     if options.dataset:
         dataset.end(options, first)
     if not options.json and (several or not made):

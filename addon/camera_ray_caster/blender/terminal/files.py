@@ -24,6 +24,7 @@ from ..cycles.renderer import changed
 from ..engine.engine import RenderCall
 from ..output import arrays, file_outputs
 from ..output.annotations import ENDING, annotated
+from ..output.points import PointFiles
 from ..output.saving import blender_writes, check_whole
 from ..output.stamps import made
 from ..process import signals
@@ -93,6 +94,7 @@ def rendering(
     picture: CyclesPicture | None = None,
     stamp: Mapping[str, Any] | None = None,
     keypoints: Sequence[str] | None = None,
+    points: PointFiles | None = None,
     beside: Iterable[Path] = (),
     spare: dict[tuple[str, str], Images] | None = None,
 ) -> Making[tuple[Report, list[Path]]]:
@@ -105,14 +107,15 @@ def rendering(
     NAME.png is written only if ``shown``. The compositor's File Output nodes write only with ``file_output``.
     ``picture`` replaces the combined pass. ``stamp`` is stored in the report, with the sizes of the files and of the
     files in ``beside``; see ``stamps``. If ``keypoints`` is not None, NAME_coco.json is written for the first view
-    layer; see ``annotations``. The passes take the memory of ``spare``, an earlier picture's images by layer and view,
-    and are left there for the next one. Raises InputError if Blender cannot render or the folder cannot be written,
-    and Cancelled if stopped; then no files are left behind.
+    layer; see ``annotations``. With ``points``, the points of that layer are written in their format. The passes take
+    the memory of ``spare``, an earlier picture's images by layer and view, and are left there for the next one. Raises
+    InputError if Blender cannot render or the folder cannot be written, and Cancelled if stopped; then no files are
+    left behind.
     """
     check(scene)
     if layers == NPZ:
         arrays.entry_names(layer.name for layer in scene.view_layers if layer.use)
-    keeps = layers == NPZ or keypoints is not None
+    keeps = layers == NPZ or keypoints is not None or points is not None
     call = RenderCall(picture, {} if keeps else None, spare or {})
     with atomic_folder(folder) as temporary:
         report = yield from _composited(scene, call, file_output)
@@ -131,6 +134,8 @@ def rendering(
             shows = f"{name}.png" if shown else f"{name}.{layers.lower()}"
             text = annotated(scene, next(iter(call.images.values())), shows, keypoints)
             (temporary / f"{name}{ENDING}").write_text(text, encoding="utf-8")
+        if points is not None:
+            points.write(temporary / name, next(iter(call.images.values())))
         if keeps and spare is not None:
             spare.update(call.images)
         report = report.with_seconds(files=perf_counter() - started)

@@ -22,6 +22,7 @@ from ..cycles.picture import CyclesPicture, picture_of
 from ..cycles.shader import check_cycles
 from ..engine.engine import CameraRayCaster
 from ..output.annotations import check_annotations
+from ..output.points import PointFiles, add_points, check_points
 from ..output.stamps import file_hash, finished, stamp_of
 from ..process import signals
 from ..properties.passes import tick, ticked
@@ -82,6 +83,7 @@ def add_words(parser) -> None:
                         help="write the boxes and masks of objects next to each picture, in COCO format")  # fmt: skip
     parser.add_argument("--keypoints", nargs="+", metavar="NAME", help=
         f"also annotate these key points: empties, meshes with vertex groups, or {ALL}")  # fmt: skip
+    add_points(parser)
     parser.add_argument("--output", type=Path, default=Path("out"), metavar="FOLDER", help="default: %(default)s")
 
 
@@ -113,6 +115,8 @@ class Pictures:
         self.spare: dict[tuple[str, str], Images] = {}
         self.scene = scene = scene or open_scene(options, self.warnings.append)
         scene.render.engine = CameraRayCaster.bl_idname
+        if PointFiles.of(options) is not None:
+            check_points(scene)
         if self.keypoints is not None:
             check_annotations(scene)
             check_key_points(scene, self.keypoints)
@@ -181,8 +185,9 @@ class Pictures:
         picture = self._by_cycles(prog) if self.options.engine == CYCLES else None
         of = _of(stamp, job, ray_map)
         report, paths = yield from self.rendering(
-            job, of, shown=self.options.pictures, picture=picture, beside=beside, keypoints=self.keypoints
-        )
+            job, of, shown=self.options.pictures, picture=picture, beside=beside, keypoints=self.keypoints,
+            points=PointFiles.of(self.options),
+        )  # fmt: skip
         return Outcome(report.passed, True, report.warnings, report.notes, report.exact, report, paths)
 
     def rendering(self, job: PictureJob, of: dict[str, Any], **more) -> files.Making[tuple[Report, list[Path]]]:

@@ -79,7 +79,7 @@ class Scanner(Model):
         rate, sweep = own.RATE.read(raw), own.SWEEP.read(raw)
         period, columns = MICRO * own.PERIOD.read(raw), int(own.COLUMNS.read(raw)) or raster.width
         if period:
-            columns = int(1 / (rate * period))
+            columns = int(1 / (rate * period) + 1e-9)  # what fits in but for rounding
             if not columns:
                 raise own.PERIOD.refusal(raw, "longer than a sweep", f"up to {1e6 / rate:.6g} microseconds")
         else:

@@ -1,0 +1,119 @@
+"""The points of pictures, as the files of scanners: a cloud for each picture, and KITTI's sequences of a whole run."""
+
+from __future__ import annotations
+
+import os
+import shutil
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import bpy
+
+from ...core.cast import Images
+from ...core.clouds.cloud import AXES, SENSOR, scan
+from ...core.clouds.formats import FORMATS, files_of
+from ...core.clouds.sequences import sequence
+from ...core.exports.camera_json import camera_from_json
+from ...core.file_set import atomic_folder
+from ...core.records import InputError
+from ..read.unique import find_unique
+from .annotations import CATEGORY
+
+KITTI = "kitti"
+SEQUENCES = "sequences"
+"""Folder of KITTI's sequences, one for each camera."""
+
+
+def add_points(parser) -> None:
+    """Add the options for points."""
+    parser.add_argument("--points", type=str.lower, choices=FORMATS, help=
+        "also write the points that are hit, as files of scanners: PLY, PCD, KITTI with SemanticKITTI's labels, "
+        "nuScenes, LAS or NPZ")  # fmt: skip
+    parser.add_argument("--points-axes", type=str.lower, choices=AXES, default=SENSOR, help=
+        "axes of points: x ahead, y left, z up where each beam fires, or the world's; default: %(default)s")
+    for name, text in (
+        ("noise", "standard deviation of the ranges of points, in Blender units"),
+        ("dropout", "range up to which points on surfaces square to the beam are never lost"),
+        ("quantum", "step of the ranges of points, as devices store them, in Blender units"),
+    ):
+        parser.add_argument(f"--{name}", type=float, default=0.0, metavar="LENGTH", help=f"{text}; default: none")
+    parser.add_argument("--seed", type=int, default=0, metavar="N", help="seed of noise and lost points; default: 0")
+
+
+@dataclass(frozen=True)
+class PointFiles:
+    """How points are made and written."""
+
+    format: str
+    axes: str = SENSOR
+    noise: float = 0.0
+    dropout: float = 0.0
+    quantum: float = 0.0
+    seed: int = 0
+
+    @classmethod
+    def of(cls, options) -> PointFiles | None:
+        """Return what a command line asks for; None for no points. Raises InputError for errors without points."""
+        if options.points is None:
+            if options.noise or options.dropout or options.quantum or options.seed:
+                raise InputError("--noise, --dropout, --quantum and --seed belong to points: add --points FORMAT")
+            return None
+        return cls(
+            options.points, options.points_axes, options.noise, options.dropout, options.quantum, options.seed
+        )  # fmt: skip
+
+    def write(self, stem: Path, images: Images) -> None:
+        """Write the points of a picture: files with this path and endings. The points are cast anew, in float64."""
+        how: dict[str, Any] = {name: getattr(self, name) for name in ("noise", "dropout", "quantum", "seed")}
+        cloud = scan(images.camera, images.shapes, categories=categories_of(images.shapes.names), **how)
+        for ending, content in files_of(cloud, self.format, self.axes):
+            stem.with_name(stem.name + ending).write_bytes(content)
+
+
+def check_points(scene) -> None:
+    """Raise InputError if a frame has several views: points belong to one picture."""
+    if scene.render.use_multiview:
+        raise InputError("--points supports a single view only: disable Stereoscopy (Output properties)")
+
+
+def categories_of(names: Sequence[str]) -> dict[str, int]:
+    """Return the numbers of the categories of objects by name: of those that have the custom property CATEGORY, a whole
+    number, or a word, which has its place among all words of the file, from 1 on.
+    """
+    words = sorted({given for item in bpy.data.objects if isinstance(given := item.get(CATEGORY), str) and given})
+    found = {}
+    for name in names:
+        item = find_unique(name, bpy.data.objects)
+        given = None if item is None else item.get(CATEGORY)
+        if isinstance(given, str) and given:
+            found[name] = words.index(given) + 1
+        elif isinstance(given, int):
+            found[name] = given
+    return found
+
+
+def collect_sequences(scene, folder: Path, jobs: Sequence[Any]) -> None:
+    """Make KITTI's sequences of the files of pictures: one for each camera, with its frames in order."""
+    rate = scene.render.fps / scene.render.fps_base
+    cameras = list(dict.fromkeys(job.camera for job in jobs))
+    for number, camera in enumerate(cameras):
+        own, place = [job for job in jobs if job.camera == camera], folder / SEQUENCES / f"{number:02}"
+        for kind, ending in (("velodyne", ".bin"), ("labels", ".label")):
+            with atomic_folder(place / kind) as temporary:
+                for k, job in enumerate(own):
+                    _linked(folder / f"{job.name}{ending}", temporary / f"{k:06}{ending}")
+        reports = [(folder / f"{job.report}.json").read_text(encoding="utf-8") for job in own]
+        seconds = [(scene.frame_current if job.frame is None else job.frame) / rate for job in own]
+        with atomic_folder(place) as temporary:
+            for name, text in sequence([camera_from_json(report) for report in reports], seconds):
+                (temporary / name).write_text(text, encoding="utf-8", newline="\n")
+
+
+def _linked(source: Path, target: Path) -> None:
+    """Make a second name of a file, or a copy where the file system has none."""
+    try:
+        os.link(source, target)
+    except OSError:
+        shutil.copyfile(source, target)

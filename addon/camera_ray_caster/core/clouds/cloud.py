@@ -1,0 +1,191 @@
+"""The points of a cast: of a scanner or of any other camera, with the errors of a device by choice.
+
+The sensor's axes are those of ROS: x ahead, y to the left, z up; a scanner that moves has them where each beam fired,
+as a real one's raw points. In the world points lie where they were hit.
+The strength of a return falls with the cosine of the incidence and the square of the range; returns are lost at random
+below the strength that a surface square to the beam has at a chosen range. Ranges have Gaussian noise; what is lost and
+what is noise depends on the seed, the frame and the number of the pixel alone. ``true_range`` is the range without
+noise.
+Reference: W. Wagner et al., Gaussian decomposition and calibration of a full-waveform airborne scanner (2006), the
+radar equation.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from .. import arguments
+from ..camera.camera import Camera
+from ..cameras.scanner import Scanner
+from ..cast import cast
+from ..casting.hits import NOTHING
+from ..records import InputError, Shapes
+from ..scene import Scene
+
+PASSES = ("distance", "position", "normal", "albedo", "shape_index", "object_index")
+"""What points are made of."""
+
+SENSOR, WORLD = "sensor", "world"
+AXES = SENSOR, WORLD
+"""Frames of points in files."""
+
+LARGEST = 1e12
+"""Largest noise, in Blender units."""
+
+FROM_CAMERA = np.array(((0.0, 0.0, -1.0), (-1.0, 0.0, 0.0), (0.0, 1.0, 0.0)))
+"""From the camera's axes, x right, y up, z back, to the sensor's."""
+
+
+@dataclass(frozen=True, eq=False)
+class PointCloud:
+    """Points in the order in which they are measured: column by column, from the lowest row up; (n,) arrays."""
+
+    name: str
+    """Name of the camera."""
+    pose: np.ndarray
+    """(4, 4): from the sensor's axes to the world, at the frame of the cloud."""
+    size: tuple[int, int]
+    """Columns and rows of the picture."""
+    sensor: np.ndarray
+    """(n, 3) in the sensor's axes, with noise; ``world`` in the world."""
+    world: np.ndarray
+    normal: np.ndarray
+    """(n, 3), world: the unit normals of surfaces, towards the sensor; in ``sensor_normal`` in its axes."""
+    sensor_normal: np.ndarray
+    range: np.ndarray
+    """Distance from the origin of the beam, with noise."""
+    true_range: np.ndarray
+    row: np.ndarray
+    """int32: the row of the picture, from the bottom, and in ``column`` its column."""
+    column: np.ndarray
+    ring: np.ndarray
+    """uint16: the number of the beam, as the device's own files count; of other cameras, the row."""
+    time: np.ndarray
+    """Seconds after the frame of the cloud; 0 where all is seen at once."""
+    instance: np.ndarray
+    """int32: the row of the shape in ``Shapes``, counted from 1."""
+    category: np.ndarray
+    """int32: by name of the object, or its pass index."""
+    incidence: np.ndarray
+    """Cosine of the angle between beam and normal."""
+    reflectance: np.ndarray
+    """incidence × albedo, the mean of its three channels: no intensity of a device."""
+
+    def __len__(self) -> int:
+        return len(self.range)
+
+
+def scan(
+    camera: Camera | Scene,
+    shapes: Shapes | None = None,
+    *,
+    noise: float = 0.0,
+    dropout: float = 0.0,
+    quantum: float = 0.0,
+    seed: int = 0,
+    categories: Mapping[str, int] | None = None,
+) -> PointCloud:
+    """Return the points that a camera's rays hit.
+
+    camera: as in ``cast``; each pixel's chief ray is a beam.
+    noise: standard deviation of the ranges, in Blender units.
+    dropout: range up to which surfaces square to the beam always return it; beyond, and at an angle, returns are lost
+        with the probability 1 - cos(incidence) (dropout / range)²; 0: none is lost.
+    quantum: step of the ranges, as a device stores them; 0: none.
+    seed: of what is random, 0 or more.
+    categories: numbers by names of objects; others have their pass index.
+
+    Raises InputError for numbers that are negative or not finite, and for what ``cast`` refuses.
+    """
+    if isinstance(camera, Scene) and shapes is None:
+        shapes, camera = camera.shapes, camera.camera
+    if not (isinstance(camera, Camera) and isinstance(shapes, Shapes)):
+        raise TypeError(f"scan takes a camera and shapes, or a scene, as they are read, not {type(camera)}")
+    noise, dropout, quantum = (
+        _not_negative(value, name) for value, name in ((noise, "noise"), (dropout, "dropout"), (quantum, "quantum"))
+    )
+    if isinstance(seed, bool) or not isinstance(seed, int | np.integer) or seed < 0:
+        raise InputError(f"seed is {arguments.shown(seed)}: it must be a whole number, 0 or more")
+    images, rays = cast(camera, shapes, PASSES, np.float64), camera.rays()
+    hit = (images["shape_index"] != NOTHING) & np.isfinite(images["distance"])
+    ahead, true = np.where(hit[..., None], rays.directions, 0.0), np.where(hit, images["distance"], 0.0)
+    incidence = np.clip(-(ahead * images["normal"]).sum(axis=-1), 0.0, 1.0)
+    frame = float(camera.record.settings.get("frame", 0.0))
+    rng = np.random.default_rng((int(seed), round(frame * 1000) % (1 << 32)))
+    away, chance = rng.normal(0.0, 1.0, hit.shape), rng.uniform(size=hit.shape)
+    if dropout:
+        hit &= chance * true**2 < incidence * dropout**2
+    measured = true + noise * away
+    if quantum:
+        measured = quantum * np.rint(measured / quantum)
+    hit &= measured > 0
+    column, row = np.nonzero(hit.T)
+    at = row, column
+    origin, beam = _in_camera(camera, row, column)
+    times = None if rays.time is None else rays.time[at]
+    rate = camera.record.settings.get("fps", 24) / camera.record.settings.get("fps_base", 1.0)
+    pose = np.eye(4)
+    pose[:3, :3], pose[:3, 3] = camera.pose.basis @ FROM_CAMERA.T, camera.pose.eye
+    normal = images["normal"][at]
+    return PointCloud(
+        name=camera.name,
+        pose=pose,
+        size=camera.raster.shape[::-1],
+        sensor=(origin + measured[at][:, None] * beam) @ FROM_CAMERA.T,
+        world=images["position"][at] + (measured - true)[at][:, None] * rays.directions[at],
+        normal=normal,
+        sensor_normal=np.einsum("nji,nj->ni", _bases(camera, times, len(row)), normal) @ FROM_CAMERA.T,
+        range=measured[at],
+        true_range=true[at],
+        row=row.astype(np.int32),
+        column=column.astype(np.int32),
+        ring=_rings(camera, row),
+        time=np.zeros(len(row)) if times is None else (times - frame) / rate,
+        instance=(images["shape_index"][at] + 1).astype(np.int32),
+        category=_categories(shapes, images["shape_index"][at], images["object_index"][at], categories or {}),
+        incidence=incidence[at],
+        reflectance=incidence[at] * images["albedo"][at].mean(axis=-1),
+    )
+
+
+def _not_negative(value, name: str) -> float:
+    number = arguments.number(value, name, LARGEST)
+    if number < 0:
+        raise InputError(f"{name} is {number:g}: it must be 0 or more")
+    return number
+
+
+def _in_camera(camera: Camera, row: np.ndarray, column: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return origins and unit directions of rays, (n, 3) each, in the camera's frame."""
+    x, y = camera.raster.x0 + column + 0.5, camera.raster.y0 + row + 0.5
+    origin, direction = (
+        np.stack(np.broadcast_arrays(*vector, x)[:3], axis=-1) for vector in camera.model.rays(x, y)
+    )
+    return origin, direction / np.linalg.norm(direction, axis=-1, keepdims=True)
+
+
+def _bases(camera: Camera, times: np.ndarray | None, count: int) -> np.ndarray:
+    """Return the axes of the camera at the time of each of the points, (n, 3, 3)."""
+    if times is None or camera.motion is None:
+        return np.broadcast_to(camera.pose.basis, (count, 3, 3))
+    frames, which = np.unique(times, return_inverse=True)
+    poses = camera.motion.poses_at(frames)
+    bases = np.array([camera.at(frame).pose.basis for frame in frames.tolist()]) if poses is None else poses[1]
+    return bases.reshape(-1, 3, 3)[which]
+
+
+def _rings(camera: Camera, row: np.ndarray) -> np.ndarray:
+    row = row + camera.raster.y0
+    if isinstance(camera.model, Scanner):
+        beams = camera.model.beams
+        row = beams.ring[(row * len(beams)) // camera.raster.height]
+    return row.astype(np.uint16)
+
+
+def _categories(shapes: Shapes, shape, index, categories: Mapping[str, int]) -> np.ndarray:
+    by_name = np.array([categories.get(name, NOTHING) for name in shapes.names] or [NOTHING])
+    found = by_name[shapes.name_index[shape]]
+    return np.where(found == NOTHING, index, found).astype(np.int32)

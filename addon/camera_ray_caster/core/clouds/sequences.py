@@ -1,0 +1,37 @@
+"""The frames of a scanner as a sequence of KITTI's odometry: poses.txt, calib.txt and times.txt beside the points.
+
+poses.txt has the poses of a camera at the scanner, x right, y down, z ahead, in that of the first frame; calib.txt has
+the way from the scanner to that camera, Tr, and no lenses.
+Reference: A. Geiger et al., Are we ready for Autonomous Driving? The KITTI Vision Benchmark Suite, CVPR 2012.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from ..camera.camera import Camera
+from .cloud import FROM_CAMERA
+
+TO_CAMERA = np.diag((1.0, -1.0, -1.0, 1.0))
+"""From Blender's camera axes to x right, y down, z ahead."""
+
+
+def sequence(cameras: Sequence[Camera], seconds: Sequence[float]) -> Iterator[tuple[str, str]]:
+    """Yield names and texts of the files of a sequence, given the camera and the time of each frame."""
+    from_sensor = TO_CAMERA.copy()
+    from_sensor[:3, :3] = from_sensor[:3, :3] @ FROM_CAMERA.T
+    poses = []
+    for camera in cameras:
+        pose = np.eye(4)
+        pose[:3, :3], pose[:3, 3] = camera.pose.basis, camera.pose.eye
+        poses.append(pose @ TO_CAMERA)
+    first = np.linalg.inv(poses[0])
+    yield "poses.txt", "".join(f"{_row(first @ pose)}\n" for pose in poses)
+    yield "calib.txt", "".join(f"P{k}: {_row(np.eye(4))}\n" for k in range(4)) + f"Tr: {_row(from_sensor)}\n"
+    yield "times.txt", "".join(f"{time - seconds[0]:.9e}\n" for time in seconds)
+
+
+def _row(matrix: np.ndarray) -> str:
+    return " ".join(f"{number:.12e}" for number in matrix[:3].ravel())

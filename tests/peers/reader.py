@@ -1,0 +1,61 @@
+"""Runs in an environment of its own, with the readers of other programs: KIND FILE OUTPUT.npz."""
+
+import sys
+
+import numpy as np
+
+
+def ouster(path):
+    """Points of two ranges, in millimeters from behind the beams' origins, in Ouster's sensor frame."""
+    from ouster.sdk.core import SensorInfo, XYZLut
+
+    with open(path) as file:
+        info = SensorInfo(file.read())
+    shape = info.format.pixels_per_column, info.format.columns_per_frame
+    lut, behind = XYZLut(info, use_extrinsics=False), float(np.hypot(*info.beam_to_lidar_transform[[0, 2], 3]))
+    near, far = (lut(np.full(shape, length, np.uint32)) for length in (10_000, 20_000))
+    return {"near": near, "far": far, "behind": behind / 1000}
+
+
+def velodyne(path):
+    """The points of the packets of a VLP-16, with their rings, columns and times."""
+    import velodyne_decoder as vd
+
+    with open(path, "rb") as file:
+        data = file.read()
+    packets = vd.PacketVector()
+    for first in range(0, len(data), 1206):
+        packets.append(vd.VelodynePacket(float(first) / 1206 * 24 * 55.296e-6, data[first : first + 1206]))
+    config = vd.Config(model=vd.Model.VLP16, min_range=0.0, max_range=200.0, timestamp_first_packet=True)
+    _, points = vd.ScanDecoder(config).decode(packets, as_pcl_structs=True)
+    return {name: points[name] for name in points.dtype.names}
+
+
+def ply(path):
+    """The columns of the vertices."""
+    from plyfile import PlyData
+
+    vertex = PlyData.read(path)["vertex"]
+    return {one.name: np.array(vertex[one.name]) for one in vertex.properties}
+
+
+def pcd(path):
+    """The fields."""
+    from pypcd4 import PointCloud
+
+    cloud = PointCloud.from_path(path)
+    return {name: cloud.pc_data[name] for name in cloud.fields}
+
+
+def las(path):
+    """The dimensions, in the file's scale."""
+    import laspy
+
+    cloud = laspy.read(path)
+    found = {name: np.array(cloud[name]) for name in cloud.point_format.dimension_names}
+    return found | {"x": np.array(cloud.x), "y": np.array(cloud.y), "z": np.array(cloud.z)}
+
+
+if __name__ == "__main__":
+    kind, path, output = sys.argv[1:]
+    np.savez(output, **{"ouster": ouster, "velodyne": velodyne, "ply": ply, "pcd": pcd, "las": las}[kind](path))
