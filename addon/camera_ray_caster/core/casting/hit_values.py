@@ -139,8 +139,11 @@ class HitValues:
                 continue
             pixels = self.pixels(where)
             direction = None if faces_eye else pixels.of(self.direction)
-            for component, own in zip(normal, normals(pixels, pixels.of(self.point), direction), strict=True):
-                component[where] = own
+            own = normals(pixels, pixels.of(self.point), direction)
+            if pixels.is_whole:
+                return np.reshape(own, normal.shape), ZERO
+            for component, part in zip(normal, own, strict=True):
+                component.reshape(-1)[pixels.places] = part
         return normal, ZERO
 
     @lazy

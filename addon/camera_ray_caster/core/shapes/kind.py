@@ -128,18 +128,28 @@ class HitPixels:
         return np.flatnonzero(self.where)
 
     @lazy
+    def is_whole(self) -> bool:
+        """Whether these are all pixels of the block."""
+        return bool(self.where.all())
+
+    @lazy
     def at(self) -> np.ndarray:
         """(m,) indices into ``Shapes``."""
-        return taken(self.hits[0].reshape(-1), self.places)
+        return self._own(self.hits[0])
 
     @lazy
     def t(self) -> np.ndarray:
         """(m,) t of the hits."""
-        return taken(self.hits[1].reshape(-1), self.places)
+        return self._own(self.hits[1])
 
     def of(self, vector: Any) -> tuple[np.ndarray, ...]:
-        """Return the components of a vector of the block, which broadcast, at these pixels, (m,) each."""
-        return tuple(taken(np.broadcast_to(part, self.where.shape).reshape(-1), self.places) for part in vector)
+        """Return the components of a vector of the block, which broadcast, at these pixels, (m,) each; they may be the
+        block's own, which are not to be written.
+        """
+        return tuple(self._own(np.broadcast_to(part, self.where.shape)) for part in vector)
+
+    def _own(self, values: np.ndarray) -> np.ndarray:
+        return values.reshape(-1) if self.is_whole else taken(values.reshape(-1), self.places)
 
     def in_tile(self, values: np.ndarray) -> np.ndarray:
         """Return the (m,) entries of these pixels in an array of the tile, (rows, columns)."""

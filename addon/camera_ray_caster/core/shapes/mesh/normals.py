@@ -22,10 +22,10 @@ NORMALS = "normals of triangles"
 
 @dataclass(frozen=True, eq=False)
 class TriangleNormals:
-    """Normals, of any length, of the k triangles that a tile sees: constant + slope . p at p relative to the eye."""
+    """Normals of the k triangles that a tile sees: constant + slope . p, of any length, at p relative to the eye."""
 
     constant: np.ndarray
-    """(3, k)."""
+    """(3, k); of unit length if all triangles are flat-shaded."""
     slope: np.ndarray | None
     """(3, 3, k): axis of p, component; None if all triangles are flat-shaded."""
     area: np.ndarray | None
@@ -56,6 +56,8 @@ class TriangleNormals:
                 constant[:, own] = turn * np.array(some.area)
                 continue
             constant[:, own], slope[..., own] = some.affine(turn * some.corner_normals)
+        if slope is None:
+            constant *= _over_length(constant)
         return cls(constant, slope, area)
 
     def at(self, pixels: HitPixels, point: Any, direction: Any) -> Any:
@@ -69,8 +71,12 @@ class TriangleNormals:
             normal = taken(self.constant, which)
         else:
             normal = affine_at(which, self.constant, self.slope, point)
-        scale = 1 / np.maximum(norm(normal), np.finfo(float).tiny)
+            normal *= _over_length(normal)
         if self.area is not None:
-            scale *= -np.sign(dot(taken(self.area, which), direction))
-        normal *= scale
+            normal *= -np.sign(dot(taken(self.area, which), direction))
         return normal
+
+
+def _over_length(vector: np.ndarray) -> np.ndarray:
+    """Return what makes a vector, (3, n), a unit vector, or 0 if it is that."""
+    return 1 / np.maximum(norm(vector), np.finfo(float).tiny)
