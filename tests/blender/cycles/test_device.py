@@ -17,7 +17,7 @@ def test_a_device_that_runs_no_shaders_of_cameras_is_named(osl, camera_scene, mo
     said = to_cycles(camera_scene)
     assert [line.partition(",")[0] for line in said] == ([] if works else [f"Cycles renders on {kind}"])
     camera_scene.cycles.device = "CPU"
-    assert device.said_of_device(camera_scene) == []
+    assert device.device_notes(camera_scene) == []
 
 
 def test_a_device_that_is_not_there_is_refused_with_those_that_are(camera_scene, monkeypatch):

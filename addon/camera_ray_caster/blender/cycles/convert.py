@@ -15,7 +15,7 @@ from ..read.evaluated import camera_at
 from ..read.frames import action_time, frame_of, go_to
 from ..read.scene import evaluated_camera
 from .animation import insert_keyframes, is_animated
-from .device import said_of_device
+from .device import device_notes
 from .rolling import check_time, set_up_time
 from .shader import check_cycles, check_enabled, clear_shader, set_inputs, set_shader, texture_folder
 
@@ -57,10 +57,10 @@ def to_cycles(scene, camera_object=None) -> list[str]:
         said = ["The formula of the camera changes over time: Cycles follows this change only if the add-on is enabled"]
     else:
         insert_keyframes(active.data, {action_time(scene, frame): each for frame, each in shaders.items()})
-        said = _said_of_keyframes(shaders)
+        said = _keyframe_notes(shaders)
     set_inputs(active.data, shader)
     said += [f"Cycles reads the rays from {path!r}, which has to stay there" for path in shader.textures]
-    return said + set_up_time(scene, raw, camera) + _engine_said(scene) + said_of_device(scene)
+    return said + set_up_time(scene, raw, camera) + _engine_notes(scene) + device_notes(scene)
 
 
 def from_cycles(camera_object) -> None:
@@ -101,7 +101,7 @@ def _may_move(scene, camera_object, raw: BlenderCamera) -> bool:
     return lines or focused or is_animated(camera_object.data) or is_animated(scene)
 
 
-def _said_of_keyframes(shaders) -> list[str]:
+def _keyframe_notes(shaders) -> list[str]:
     moves = len({tuple(shader.values.items()) for shader in shaders.values()}) > 1
     return [
         f"The shader's inputs have keyframes at frames {min(shaders):.9g} to {max(shaders):.9g}: Cycles follows other "
@@ -109,7 +109,7 @@ def _said_of_keyframes(shaders) -> list[str]:
     ] * moves
 
 
-def _engine_said(scene) -> list[str]:
+def _engine_notes(scene) -> list[str]:
     """Return a line on an engine that cannot show a custom camera; none for Cycles and the add-on's engine."""
     engine = scene.render.engine
     if engine in ("CYCLES", ENGINE):

@@ -41,7 +41,7 @@ def use_device(scene, kind: str) -> None:
             device.use = True
 
 
-def said_of_device(scene) -> list[str]:
+def device_notes(scene) -> list[str]:
     """Return a line on what the scene's device does with a custom camera; none if the camera works there."""
     device = device_of(scene)
     if device in WITH_OSL:

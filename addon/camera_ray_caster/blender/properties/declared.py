@@ -7,7 +7,7 @@ from ...core.camera import pixel_time
 from ...core.cameras import MODELS
 from ...core.cameras.model import GROUPS
 from ...core.cameras.parts.settings import OWN, Choice, Flag, Item, Setting, Whole
-from ...core.casting import passes as casting_passes
+from . import passes
 
 GROUP = "camera_ray_caster"
 """Name of the property groups ``camera.camera_ray_caster``, ``object.camera_ray_caster`` and
@@ -100,11 +100,7 @@ EXACT_SHAPES = Flag(
     "whose Cast As setting names a shape",
     True,
 )  # fmt: skip
-PASSES = tuple(
-    Flag(f"use_pass_{name}", one.label or name.replace("_", " ").title(), one.text, False)
-    for name, one in casting_passes.PASSES.items()
-    if not one.blender
-)
+PASSES = tuple(Flag(one.tick, one.label, one.text, False) for one in passes.PASSES if one.own)
 """Check boxes of the passes that Blender does not have."""
 
 SCENE = (SHADING, SAMPLES, PRECISION, EXACT_SHAPES, *PASSES)

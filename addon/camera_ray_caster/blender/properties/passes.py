@@ -22,7 +22,10 @@ class RenderPass:
     label: str
     channels: str
     kind: str
+    text: str
+    """Tooltip of the checkbox."""
     tick: str
+    """Name of the checkbox."""
     own: bool = False
     """Whether the checkbox is in the add-on's settings of the scene instead of in the view layer."""
 
@@ -37,7 +40,8 @@ def _of(key: str, declared: Pass) -> RenderPass:
     label = plain if FROM_5_0 else declared.label_before_5_0 or plain
     is_color = declared.letters.startswith("RGB")
     kind = "COLOR" if is_color else "VECTOR" if declared.channels else "VALUE"
-    return RenderPass(key, label, declared.letters, kind, declared.blender or f"use_pass_{key}", not declared.blender)
+    tick = declared.blender or f"use_pass_{key}"
+    return RenderPass(key, label, declared.letters, kind, declared.text, tick, not declared.blender)
 
 
 PASSES = tuple(sorted((_of(key, declared) for key, declared in CASTS.items()), key=lambda one: one.own))

@@ -17,7 +17,7 @@ from ...core.casting.request import PRECISIONS, SHADINGS
 from ...core.names import file_names, frame_digits
 from ...core.records import InputError
 from ...core.report.report import Report
-from ..cycles.device import said_of_device, use_device
+from ..cycles.device import device_notes, use_device
 from ..cycles.picture import CyclesPicture, picture_of
 from ..cycles.shader import check_cycles
 from ..engine.engine import CameraRayCaster
@@ -124,7 +124,7 @@ class Pictures:
             scene.cycles.samples = options.samples or scene.cycles.samples
             if options.device:
                 use_device(scene, options.device)
-            self.warnings += said_of_device(scene)
+            self.warnings += device_notes(scene)
         self.size = size_of(scene)
         # Blender keeps evaluated data for the next picture: 0.3 s less of 1.2 s for six subdivided monkeys
         scene.render.use_persistent_data = True
