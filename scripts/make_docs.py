@@ -1,4 +1,5 @@
-"""Write the pages of camera models and of files, from their declarations, and the picture of the house.
+"""Write the pages of camera models and of files, from their declarations, the picture of the house,
+and the lesson for a browser.
 
     python scripts/make_docs.py
     python scripts/make_docs.py --check    # writes nothing; exit status 1 if the page is not up to date
@@ -29,6 +30,7 @@ from camera_ray_caster.core.cameras.parts.programs import PROGRAMS, Program  # n
 from camera_ray_caster.core.cameras.parts.settings import OWN, Coefficients, Setting  # noqa: E402
 from camera_ray_caster.core.exports import FORMATS  # noqa: E402
 from camera_ray_caster.core.sets import SET_FORMATS  # noqa: E402
+from camera_ray_caster.core.web.page import lesson_page  # noqa: E402
 
 CAMERAS = ROOT / "addon" / "camera_ray_caster" / "core" / "cameras"
 
@@ -181,6 +183,11 @@ KINDS = {
 """Functions that return the unit, the range and the default in words, by kind of setting."""
 
 
+def rounded(text: str) -> str:
+    """Return a page with numbers of many digits rounded: versions of numpy differ in the last ones."""
+    return re.sub(r"\d+\.\d{9,}(e-?\d+)?", lambda found: f"{float(found[0]):.11g}", text)
+
+
 def main() -> int | str:
     """Write the pages, or with --check return an error message if one is not up to date."""
     from arguments import Parser  # in this folder
@@ -192,12 +199,15 @@ def main() -> int | str:
         CAMERAS / "README.md": page(),
         CAMERAS / "files" / "README.md": files(),
         ROOT / "docs" / "pictures" / "architecture.svg": architecture.picture(TABLE),
+        ROOT / "docs" / "lesson" / "index.html": lesson_page(),
     }
     if not parser.parse_args().check:
         for path, text in pages.items():
+            path.parent.mkdir(exist_ok=True)
             path.write_text(text, encoding="utf-8")
         return 0
-    old = [path for path, text in pages.items() if not path.exists() or path.read_text(encoding="utf-8") != text]
+    stored = {path: path.read_text(encoding="utf-8") if path.exists() else "" for path in pages}
+    old = [path for path, text in pages.items() if rounded(stored[path]) != rounded(text)]
     return f"{old[0].relative_to(ROOT)} is not up to date: run scripts/make_docs.py" if old else 0
 
 

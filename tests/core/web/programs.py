@@ -7,12 +7,11 @@ import numpy as np
 
 import camera_ray_caster as crc
 from camera_ray_caster.core.camera.build import camera_from
-from camera_ray_caster.core.cameras import MODELS
 from camera_ray_caster.core.records import InputError
-from camera_ray_caster.core.web.page import example
+from camera_ray_caster.core.web.page import example, page_models
 from camera_ray_caster.core.web.program import program_of, with_settings
 
-KEYS = [model.key for model in MODELS]
+KEYS = [model.key for model in page_models()]
 ROUNDS = 4
 """Settings that are tried for each choice."""
 
@@ -33,6 +32,6 @@ def settings(key):
             values = {knob.name: float(generator.uniform(knob.low, knob.high)) for knob in one.knobs}
             values = values | dict(zip(words, chosen, strict=True))
             try:
-                yield values, camera_from(with_settings(raw, one.model, values))
+                yield values, camera_from(with_settings(raw, type(one.lens), values))
             except InputError:
                 continue

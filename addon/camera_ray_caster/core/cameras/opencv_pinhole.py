@@ -17,6 +17,7 @@ import numpy as np
 
 from ..conventions import gamma
 from ..maths.panels import on_raster
+from ..maths.recording.scalars import plain
 from ..maths.vector import components
 from ..records import BlenderCamera, Raster
 from .model import Step, WindowModel
@@ -56,7 +57,7 @@ class OpencvPinhole(WindowModel):
 
     def formula_values(self, x, y):
         """See Model: the columns of the tilt's inverse, and the undistorted coordinates."""
-        X, up = map(float, self._undistorted(x, y))
+        X, up = map(plain, self._undistorted(x, y))
         return {f"t_{i}": column for i, column in enumerate(self.tilt.columns, 1)} | {"X": X, "Y": -up}
 
     @property

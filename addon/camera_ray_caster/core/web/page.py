@@ -1,10 +1,26 @@
-"""The page."""
+"""The lesson as a page: one HTML file, which needs no server, no other file and no other host.
+
+It holds the programs of all models and the files of ``page_files``.
+"""
 
 from __future__ import annotations
 
+import json
+from functools import cache
+from pathlib import Path
+from typing import Any
+
 from ..camera.camera import Camera
-from ..cameras.model import Model
+from ..cameras import MODELS
+from ..cameras.model import GROUPS, Model
 from ..library.cameras import camera
+from ..records import InputError
+from ..shaders.glsl import GlslWriter
+from ..shaders.javascript import RUNTIME
+from .figures import FIGURES
+from .program import Program, program_of
+from .room import SCENE
+from .split import functions, glsl
 
 FRAME = 640, 360
 """Width and height in pixels of the page's own cameras."""
@@ -16,8 +32,101 @@ LINES = {
 }
 """The objects of the page's own cameras, in their frames."""
 
+FILES = Path(__file__).with_name("page_files")
+SCRIPTS = "formula", "scene", "picture", "space", "state", "own", "main"
+TABLES = {"prepare": "PREPARE", "rays": "RAYS", "values": "VALUES"}
+"""Names of the lists of functions, by the functions that ``functions`` gives."""
+
+
+def lesson_page(camera: Camera | None = None, pixel: tuple[int, int] | None = None) -> str:
+    """Return the text of the page.
+
+    camera: a camera with which the page begins, with its own frame, settings and lines; default the page's pinhole.
+    pixel: column and row, from the bottom left, of that camera's pixel; default one of the page's.
+
+    Raises NotRecordable for a camera whose model cannot be recorded.
+    """
+    tables = _Tables()
+    models = [tables.entry(program) for program in own_programs()]
+    key = models[0]["key"]
+    if camera is not None:
+        mine = tables.entry(program_of(camera))
+        key = f"THIS_{mine['key']}"
+        models.insert(0, mine | {"key": key, "label": f"This camera ({mine['label']})", "group": "In Blender"})
+    place = "" if pixel is None else f", {{x: {pixel[0] + 0.5!r}, y: {pixel[1] + 0.5!r}}}"
+    parts = [
+        RUNTIME,
+        f"const HELPERS = {_data(''.join(GlslWriter.HELPERS.values()))};",
+        f"const SCENE = {_data(SCENE)}, FIGURES = {_data(FIGURES)};",
+        *("\n".join((f"const {name} = [", ",\n".join(tables.texts[name]), "];")) for name in TABLES.values()),
+        f"const GLSL = {_data(tables.texts['GLSL'])};",
+        f"const MODELS = {_data(models)};",
+        *((FILES / f"{name}.js").read_text(encoding="utf-8") for name in SCRIPTS[:-1]),
+        f"const START = Object.assign(freshState(MODELS.find((one) => one.key === {_data(key)})){place});",
+        (FILES / "main.js").read_text(encoding="utf-8"),
+    ]
+    page = (FILES / "index.html").read_text(encoding="utf-8")
+    style = (FILES / "page.css").read_text(encoding="utf-8")
+    return page.replace("/*STYLE*/", style.rstrip()).replace("/*SCRIPT*/", "\n".join(parts).rstrip())
+
+
+@cache
+def own_programs() -> tuple[Program, ...]:
+    """Return the programs of the package's models, by groups."""
+    own = [model for model in page_models() if model.__module__.startswith(Model.__module__.rpartition(".")[0])]
+    return tuple(program_of(example(model)) for group in GROUPS for model in own if model.group == group)
+
+
+def page_models() -> list[type[Model]]:
+    """Return the models that the page has: all but those that need a file, such as a table of rays."""
+    found = []
+    for model in MODELS:
+        try:
+            example(model)
+        except InputError:
+            continue
+        found.append(model)
+    return found
+
 
 def example(model: type[Model]) -> Camera:
     """Return the camera of a model with which the page begins."""
     lines = {setting.name: LINES[setting.name] for setting in model.SETTINGS if setting.name in LINES}
     return camera(model.key, FRAME, **lines)
+
+
+class _Tables:
+    """Lists of functions, each of which is written once."""
+
+    def __init__(self):
+        self.texts: dict[str, list[str]] = {name: [] for name in (*TABLES.values(), "GLSL")}
+
+    def place(self, name: str, text: str) -> int:
+        """Return the place of a text in a list, to which it is added if it is new."""
+        if text not in self.texts[name]:
+            self.texts[name].append(text)
+        return self.texts[name].index(text)
+
+    def entry(self, program: Program) -> dict[str, Any]:
+        """Return a program as the page has it."""
+        model = program.lens
+        variants = []
+        for variant in program.variants:
+            made = functions(variant.parts)
+            places = {name: self.place(table, made[name]) for name, table in TABLES.items()}
+            places["glsl"] = self.place("GLSL", glsl(variant.parts)[0])
+            variants.append({"choices": variant.choices, "names": variant.names, **places})
+        return {
+            "key": model.key, "label": model.label, "group": model.group, "description": model.description,
+            "frame": model.frame, "central": model.central, "planar": model.planar,
+            "knobs": [vars(knob) for knob in program.knobs], "choices": program.choices,
+            "options": program.options, "labels": {one.name: one.label for one in model.SETTINGS},
+            "fixed": [setting.label for setting in program.fixed],
+            "steps": [step._asdict() for step in model.steps], "variants": variants,
+        }  # fmt: skip
+
+
+def _data(value: Any) -> str:
+    """Return JSON that may stand in a script of a page."""
+    text = json.dumps(value, ensure_ascii=False, separators=(",", ":"))
+    return text.replace("<", "\\u003c").replace("\u2028", "\\u2028").replace("\u2029", "\\u2029")

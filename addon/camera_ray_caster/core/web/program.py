@@ -17,10 +17,13 @@ import numpy as np
 from ..camera.camera import Camera
 from ..cameras.model import Model
 from ..cameras.parts.parameters import parameters_of, with_parameters
-from ..cameras.parts.settings import RECORD_FIELDS, Number, Numbers, Setting, Whole
-from ..maths.recording import NUMPY, Record, needed, record_known
+from ..cameras.parts.settings import RECORD_FIELDS, Choice, Flag, Number, Numbers, Setting, Whole
+from ..maths.recording import NUMPY, NotRecordable, Record, needed, record_known
 from ..records import BlenderCamera, InputError
-from .split import Parts, split
+from .split import RAY, Parts, split
+from .values import values_of
+
+Names = tuple[tuple[str, int], ...]
 
 WIDEST = 100.0
 """Largest range of a setting that is a slider's, too."""
@@ -51,17 +54,21 @@ class Variant:
 
     choices: Mapping[str, Any]
     parts: Parts
+    names: Names
+    """Names of the values beside the ray, each with the number of its components."""
 
 
 @dataclass(frozen=True)
 class Program:
     """A camera's program."""
 
-    model: type[Model]
-    frame: tuple[int, int]
+    lens: Model
+    """The model at the camera's own settings."""
     knobs: tuple[Knob, ...]
     choices: Mapping[str, Any]
     """Values of the settings that are words or check boxes."""
+    options: Mapping[str, list[dict[str, Any]]]
+    """For each choice its words, as value and label."""
     fixed: tuple[Setting, ...]
     """Settings that are neither: objects of the scene, files and texts."""
     variants: tuple[Variant, ...]
@@ -70,18 +77,26 @@ class Program:
 def program_of(camera: Camera) -> Program:
     """Return the program of a camera whose knobs have the camera's own settings as values.
 
-    Raises NotRecordable for a model with operations that cannot be recorded.
+    A model whose ``from_blender`` cannot be recorded has no knobs: its numbers are fixed. Raises NotRecordable for a
+    model whose ``rays`` cannot be recorded.
     """
     model, raw = type(camera.model), camera.record
     knobs = tuple(knob for setting in model.SETTINGS for knob in knobs_of(setting, raw))
     options = {setting: _options(setting) for setting in model.SETTINGS if _options(setting)}
     given = {setting.name: setting.given(raw) for setting in options}
-    variants = []
-    for words in product(*options.values()):
-        chosen = dict(zip((setting.name for setting in options), words, strict=True))
-        variants += [Variant(chosen, parts) for parts in _variants(camera, chosen, knobs)]
-    fixed = tuple(one for one in model.SETTINGS if one not in options and not any(knobs_of(one, raw)))
-    return Program(model, camera.raster.size, knobs, given, fixed, tuple(variants))
+    choices = [dict(zip(given, words, strict=True)) for words in product(*options.values())]
+    try:
+        variants = [variant for chosen in choices for variant in _variants(camera, chosen, knobs)]
+    except NotRecordable:
+        knobs = ()
+        variants = [variant for chosen in choices for variant in _variants(camera, chosen, knobs)]
+    turned = {knob.name.partition("[")[0] for knob in knobs} | set(given)
+    fixed = tuple(setting for setting in model.SETTINGS if setting.name not in turned)
+    words_of = {
+        setting.name: [{"value": value, "label": label} for value, label in words.items()]
+        for setting, words in options.items()
+    }
+    return Program(camera.model, knobs, given, words_of, fixed, tuple(variants))
 
 
 def with_settings(raw: BlenderCamera, model: type[Model], values: Mapping[str, Any]) -> BlenderCamera:
@@ -121,29 +136,32 @@ def _range(setting: Number, value: float) -> tuple[float, float]:
     return min(low, value), max(high, value)
 
 
-def _options(setting: Setting) -> list[Any]:
-    if setting.kind == "BOOLEAN":
-        return [False, True]
-    return [item.key for item in setting.items] if setting.kind == "ENUM" else []  # type: ignore[attr-defined]
+def _options(setting: Setting) -> dict[Any, str]:
+    """Return the words of a choice with their labels; none for another setting."""
+    if isinstance(setting, Flag):
+        return {False: "Off", True: "On"}
+    return {item.key: item.label for item in setting.items} if isinstance(setting, Choice) else {}
 
 
-def _variants(camera: Camera, chosen: Mapping[str, Any], knobs: tuple[Knob, ...]) -> list[Parts]:
+def _variants(camera: Camera, chosen: Mapping[str, Any], knobs: tuple[Knob, ...]) -> list[Variant]:
     """Return the variants for some choices."""
     generator = np.random.default_rng(len(knobs))
-    found: list[Parts] = []
+    found: list[Variant] = []
     for sample in range(1 + SAMPLES):
         shares = generator.uniform(size=len(knobs))
         values = {
             knob.name: knob.value if sample == 0 else float(knob.low + share * (knob.high - knob.low))
             for knob, share in zip(knobs, shares, strict=True)
         }
-        if any(holds(parts, values) for parts in found) or len(found) == MOST_VARIANTS:
+        if any(holds(one.parts, values) for one in found) or len(found) == MOST_VARIANTS:
             continue
         try:
             _model(camera, {**chosen, **values})
         except InputError:  # no camera has these settings
             continue
-        found.append(split(record_settings(camera, chosen, values)))
+        record, names = record_settings(camera, chosen, values)
+        parts = split(record, RAY + sum(count for _, count in names))
+        found.append(Variant(chosen, parts, names))
     return found
 
 
@@ -156,13 +174,23 @@ def holds(parts: Parts, values: Mapping[str, float]) -> bool:
         return all(conditions.evaluate({**NUMPY, "parameter": lambda value, name: values[name]}, ()))
 
 
-def record_settings(camera: Camera, chosen: Mapping[str, Any], values: Mapping[str, float]) -> Record:
-    """Return the record of a camera's rays, its settings parameters: see ``record_known``."""
+def record_settings(camera: Camera, chosen: Mapping[str, Any], values: Mapping[str, float]) -> tuple[Record, Names]:
+    """Return the record of a camera's ray and of the values of its formula, its settings parameters (``record_known``);
+    and the names of the values, each with the number of its components.
+    """
+    names: list[tuple[str, int]] = []
+    model, raster = type(camera.model), camera.raster
 
     def ray(settings, x, y):
-        return [part for vector in _model(camera, {**chosen, **settings}).rays(x, y) for part in vector]
+        raw = with_settings(camera.record, model, {**chosen, **settings})
+        made = model.from_blender(raw, raster).posed(camera.pose)
+        found = [part for vector in made.rays(x, y) for part in vector]
+        for name, parts in values_of(made, raw, raster, x, y).items():
+            names.append((name, len(parts)))
+            found += parts
+        return found
 
-    return record_known(ray, values, 2)
+    return record_known(ray, values, 2), tuple(names)
 
 
 def _model(camera: Camera, values: Mapping[str, Any]) -> Model:

@@ -17,7 +17,9 @@ RAY = 6
 
 @dataclass(frozen=True)
 class Parts:
-    """Two records. ``first`` returns conditions and then ``kept`` numbers; ``rest`` takes x, y and these numbers."""
+    """Two records. ``first`` returns conditions and then the kept numbers; ``rest`` takes x, y and these, and returns
+    the RAY numbers of a ray, then others.
+    """
 
     first: Record
     rest: Record
@@ -27,13 +29,13 @@ class Parts:
     """Of each kept number, whether it is a truth value."""
 
 
-def split(record: Record) -> Parts:
-    """Return the parts of a record of RAY numbers and conditions, as ``record_known`` makes it."""
+def split(record: Record, count: int) -> Parts:
+    """Return the parts of a record of ``count`` numbers and conditions, as ``record_known`` makes it."""
     varying: set[int] = set()
     for place, step in enumerate(record.steps):
         if step.operation == "input" or not varying.isdisjoint(step.operands):
             varying.add(place)
-    rays, conditions = record.outputs[:RAY], record.outputs[RAY:]
+    values, conditions = record.outputs[:count], record.outputs[count:]
     steps: list[Operation] = [Operation("input", fixed=(place,)) for place in range(INPUTS)]
     places: dict[int, int] = {}
     kept: dict[int, None] = {}
@@ -54,7 +56,7 @@ def split(record: Record) -> Parts:
             steps.append(step)
         return places[old]
 
-    outputs = tuple(map(place_of, rays))
+    outputs = tuple(map(place_of, values))
     first = needed(record.steps, (*conditions, *kept))
     truths = tuple(record.steps[old].truth for old in kept)
     return Parts(first, needed(steps, outputs), len(conditions), truths)
@@ -75,32 +77,34 @@ class Constants:
         return f's["{name}"]'
 
 
-def javascript(parts: Parts) -> str:
-    """Return an object of two functions: ``prepare(s)`` gives the kept numbers of settings, null where a condition does
-    not hold; ``rays(k, x, y)`` the six numbers of a pixel's ray from these, NaN in the direction without a ray.
+def functions(parts: Parts) -> dict[str, str]:
+    """Return three functions: ``prepare(s)`` gives the kept numbers of settings, null where a condition does not hold;
+    from these ``rays(k, x, y)`` gives the six numbers of a pixel's ray, NaN in the direction without a ray, and
+    ``values(k, x, y)`` the other numbers.
     """
-    first, rest = JavaScriptWriter(Constants(JavaScriptWriter)), JavaScriptWriter(Constants(JavaScriptWriter))
+    first = JavaScriptWriter(Constants(JavaScriptWriter), _indent=" ")
     known = [term.text for term in first.write(parts.first, [])]
     conditions, kept = known[: parts.conditions], known[parts.conditions :]
-    ray = rest.write(parts.rest, [Term("x"), Term("y"), *(Term(f"k[{place}]") for place in range(len(kept)))])
     holds = " && ".join(conditions) or "true"
-    return "\n".join((
-        "{ prepare(s) {", *first.tables, *first.lines, f"    return {holds} ? [{', '.join(kept)}] : null; }},",
-        "  rays(k, x, y) {", *rest.tables, *rest.lines, f"    return [{', '.join(term.text for term in ray)}]; }} }}",
-    ))  # fmt: skip
+    made = {"prepare": ["(s) => {", *first.tables, *first.lines, f" return {holds} ? [{', '.join(kept)}] : null;", "}"]}
+    for name, outputs in (("rays", parts.rest.outputs[:RAY]), ("values", parts.rest.outputs[RAY:])):
+        rest = JavaScriptWriter(Constants(JavaScriptWriter), _indent=" ")
+        inputs = [Term("x"), Term("y"), *(Term(f"k[{place}]") for place in range(len(kept)))]
+        found = ", ".join(term.text for term in rest.write(needed(parts.rest.steps, outputs), inputs))
+        made[name] = ["(k, x, y) => {", *rest.tables, *rest.lines, f" return [{found}];", "}"]
+    return {name: "\n".join(lines) for name, lines in made.items()}
 
 
 def glsl(parts: Parts) -> tuple[str, set[str]]:
     """Return the function ``bool ray(float x, float y, out vec3 o, out vec3 d)`` in GLSL ES 3.0, and the helpers that
     it calls. It returns whether there is a ray; the kept numbers are its uniforms ``k``, 1 for true.
     """
-    writer = GlslWriter(Constants(GlslWriter))
+    writer = GlslWriter(Constants(GlslWriter), _indent=" ")
     kept = [Term(f"(k[{place}] != 0.0)" if truth else f"k[{place}]") for place, truth in enumerate(parts.truths)]
-    ray = writer.write(parts.rest, [Term("x"), Term("y"), *kept])
+    ray = writer.write(needed(parts.rest.steps, parts.rest.outputs[:RAY]), [Term("x"), Term("y"), *kept])
     none = writer.either(*(part.none for part in ray)) or writer.NO
     texts = [part.text for part in ray]
     return "\n".join((
         "bool ray(float x, float y, out vec3 o, out vec3 d) {", *writer.tables, *writer.lines,
-        f"    o = vec3({', '.join(texts[:3])});", f"    d = vec3({', '.join(texts[3:])});",
-        f"    return !({none});", "}",
+        f" o = vec3({', '.join(texts[:3])});", f" d = vec3({', '.join(texts[3:])});", f" return !({none});", "}",
     )), writer.helpers  # fmt: skip

@@ -16,6 +16,7 @@ from typing import Self
 import numpy as np
 
 from ...maths.panels import Disc, on_raster
+from ...maths.recording import is_recorded
 from ...maths.recording.scalars import least, plain
 from .film import FARTHEST_PIXELS
 from .radial import RIM_SLACK, Radial
@@ -79,7 +80,7 @@ class Calibrated(Radial):
 
     def undistorted(self, x: float, y: float) -> dict[str, float]:
         """Return a and b of a pixel on the undistorted plane, y up, as values for a formula."""
-        return dict(zip("ab", map(float, self._plane(x, y)), strict=True))
+        return dict(zip("ab", map(plain, self._plane(x, y)), strict=True))
 
     def _directions(self, x, y):
         a, b = self._plane(x, y)
@@ -98,7 +99,10 @@ class Calibrated(Radial):
     @cached_property
     def _farthest(self) -> float:
         """Return a radius in the distorted picture beyond which there is certainly no ray."""
-        return plain(self.distortion.farthest(self.rim)) * (1 + RIM_SLACK) if self.rim < np.inf else np.inf
+        if not self.rim < np.inf:
+            return np.inf
+        farthest = plain(self.distortion.farthest(self.rim)) * (1 + RIM_SLACK)
+        return plain(np.where(self.rim < np.inf, farthest, np.inf)) if is_recorded(self.rim) else farthest
 
     def _pixels(self, a, b):
         across, down = self.distortion.distort(a, -b)

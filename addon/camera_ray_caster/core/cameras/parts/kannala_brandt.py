@@ -17,8 +17,8 @@ import numpy as np
 
 from ...maths.inversion import Inverse
 from ...maths.polynomials import horner
-from ...maths.recording import least_root
-from ...maths.recording.scalars import least, sqrt
+from ...maths.recording import is_recorded, least_root
+from ...maths.recording.scalars import least, plain, sqrt
 from ...maths.speed import lazy
 from ...records import Raster
 from .calibrated import Calibrated
@@ -79,8 +79,8 @@ class KannalaBrandt(Calibrated):
 
     def formula_values(self, x, y):
         """See Model: the angle, unless it is beyond the rim."""
-        theta = float(self.angle(np.sqrt(self._r_squared(x, y))))
-        return {"theta": theta} if theta <= self.limit else {}
+        theta = plain(self.angle(np.sqrt(self._r_squared(x, y))))
+        return {"theta": theta} if is_recorded(theta) or theta <= self.limit else {}
 
     def factors(self, r_squared):
         """See Radial."""

@@ -1,0 +1,312 @@
+// The page: what is shown, and what it does when something is turned, dragged or typed.
+const $ = (id) => document.getElementById(id);
+const SOFTWARE_BUDGET = 33, LEAST_SHARE = 0.2;
+let model, state, camera, seen = null, own = null, share = 1, waiting = 0, settling = 0;
+const picture = new Picture($("picture")), space = new Space($("space"));
+
+function make(tag, text, settings = {}) {
+  const one = document.createElement(tag);
+  if (text !== undefined) one.textContent = text;
+  for (const [name, value] of Object.entries(settings)) one.setAttribute(name, value);
+  return one;
+}
+
+function say(text) {
+  $("message").textContent = text;
+  $("message").hidden = !text;
+}
+
+const DEGREES = 180 / Math.PI;
+function slider(parent, name, knob, get, set) {
+  const angle = knob.unit === "angle", factor = angle ? DEGREES : 1, unit = angle ? "°" : knob.unit ? ` (${knob.unit === "length" ? "m" : knob.unit})` : "";
+  const label = make("label", `${knob.label}${angle ? " (°)" : unit}`, { for: `${name}-range`, title: knob.text });
+  const range = make("input", undefined, { id: `${name}-range`, type: "range", min: knob.low, max: knob.high, step: knob.whole ? 1 : "any", title: knob.text });
+  const number = make("input", undefined, { type: "number", step: "any", "aria-label": `${knob.label}, as a number${angle ? ", degrees" : ""}`, min: shown(knob.low * factor), max: shown(knob.high * factor) });
+  range.addEventListener("input", () => { set(Number(range.value)); changed(); });
+  number.addEventListener("change", () => {
+    const value = Number(number.value) / factor;
+    if (number.value.trim() === "" || !Number.isFinite(value) || value < knob.low - 1e-9 || value > knob.high + 1e-9) say(`${knob.label} must be from ${shown(knob.low * factor)} to ${shown(knob.high * factor)}`);
+    else { set(value); changed(); }
+    refresh();
+  });
+  const refresh = () => { range.value = get(); range.setAttribute("aria-valuetext", `${shown(get() * factor, 5)}${angle ? " degrees" : ` ${knob.unit}`}`); number.value = shown(get() * factor, 6); };
+  parent.append(label, range, number);
+  refresh();
+  return refresh;
+}
+
+function choice(parent, name, label, options, get, set) {
+  const select = make("select", undefined, { id: `${name}-choice`, class: "wide" });
+  for (const { value, label: text } of options) select.append(make("option", text, { value: String(value) }));
+  select.addEventListener("change", () => { set(options[select.selectedIndex].value); changed(); });
+  parent.append(make("label", label, { for: `${name}-choice` }), select);
+  const refresh = () => { select.selectedIndex = options.findIndex((one) => one.value === get()); };
+  refresh();
+  return refresh;
+}
+
+let refreshers = [];
+function build() {
+  refreshers = [];
+  $("label").textContent = own ? "My camera" : model.label;
+  $("description").textContent = own ? "The lines that you wrote" : model.description;
+  $("model").value = own ? "OWN" : model.key;
+  for (const id of ["pixel", "knobs", "view"]) $(id).replaceChildren();
+  ["x", "y"].forEach((name, k) => refreshers.push(slider($("pixel"), name, { label: `Pixel ${name}`, text: k ? "From the bottom edge" : "From the left edge", low: 0, high: model.frame[k], unit: "" }, () => state[name], (value) => { state[name] = value; })));
+  if (!own) {
+    for (const [name, options] of Object.entries(model.options)) refreshers.push(choice($("knobs"), name, model.labels[name], options, () => state.values[name], (value) => { state.values[name] = value; }));
+    for (const knob of model.knobs) refreshers.push(slider($("knobs"), knob.name, knob, () => state.values[knob.name], (value) => { state.values[knob.name] = value; }));
+    if (model.fixed.length) $("knobs").append(make("p", `Given as they are here: ${model.fixed.join(", ")}.`, { class: "note" }));
+  } else $("knobs").append(make("p", "It has no settings: change its lines below.", { class: "note" }));
+  for (const name of ["turn", "tilt", "walk"]) refreshers.push(slider($("view"), name, VIEW[name], () => state[name], (value) => { state[name] = value; }));
+  refreshers.push(slider($("view"), "time", VIEW.time, () => state.time, (value) => { state.time = value; }));
+  refreshers.push(choice($("view"), "times", "Time of each pixel", TIMES.map((value) => ({ value, label: { none: "All at once", rows: "Row by row (slit scan)", columns: "Column by column (slit scan)", circles: "From the middle out (time displacement)" }[value] })), () => state.times, (value) => { state.times = value; }));
+  refreshers.push(slider($("view"), "spread", VIEW.spread, () => state.spread, (value) => { state.spread = value; }));
+}
+
+function row(name, ...parts) {
+  const value = make("dd");
+  parts.forEach((part, k) => value.append(make("span", part), k < parts.length - 1 ? " " : ""));
+  $("numbers").append(make("dt", name), value);
+}
+
+function numbers() {
+  const { x, y } = state, [width, height] = model.frame, ray = camera.ray(x, y);
+  $("numbers").replaceChildren();
+  row("pixel", `x = ${shown(x)}, y = ${shown(y)}`);
+  row("in [-1, 1]²", shown([2 * x / width - 1, 2 * y / height - 1].map((one) => Math.round(one * 1e6) / 1e6)));
+  if (Number.isNaN(ray[3])) {
+    seen = null;
+    row("ray", "none: the camera has no ray for this pixel");
+    return;
+  }
+  const time = timeOf(state, model.frame, x, y), at = worldRay(pose(state), ray), hit = cast(at.origin, at.direction, time);
+  seen = { ray: at, hit, time };
+  const digits = (vector) => vector.map((one, k) => `${k ? "" : "("}${shown(one, 15)}${k < 2 ? "," : ")"}`);
+  row("origin o", ...digits(ray.slice(0, 3)));
+  row("direction r", ...digits(ray.slice(3)));
+  row("from the axis", `${shown(Math.atan2(Math.hypot(ray[3], ray[4]), -ray[5]) * DEGREES)}°`);
+  row("meets", hit.index < 0 ? "nothing" : `${hit.name}, at t = ${shown(hit.t)}, point ${shown(hit.point)}`);
+  const back = pixelOf(camera, along(ray.slice(0, 3), Math.min(hit.t, 20) / size(ray.slice(3)), ray.slice(3)));
+  row("back to the pixel", back ? `(${shown(back[0])}, ${shown(back[1])}), ${shown(Math.hypot(back[0] - x, back[1] - y), 2)} pixels off` : "not found");
+  if (state.times !== "none") row("time of the pixel", shown(time));
+}
+
+function steps() {
+  const list = $("steps");
+  list.replaceChildren();
+  if (own) {
+    const known = { x: state.x, y: state.y, W: model.frame[0], H: model.frame[1], pi: Math.PI };
+    for (const { name, tree, text } of own.made) {
+      const value = evaluate(tree, known), item = make("li");
+      item.append(make("code", `${name} = ${text}`, { class: "symbols" }), result(name, putIn(text, known), value));
+      known[name] = value;
+      list.append(item);
+    }
+    return;
+  }
+  const { known, own: special } = knownOf(model, state.values, camera, state.x, state.y), found = workedOut(model.steps, known, special);
+  model.steps.forEach((step, k) => {
+    const item = make("li", step.words);
+    item.append(make("code", step.symbols, { class: "symbols" }), ...found[k].map((one) => result(one.name, one.numbers, one.value)));
+    list.append(item);
+  });
+}
+
+function result(name, numbers, value) {
+  const line = make("code", undefined, { class: "numbers" }), end = shown(value);
+  line.append(numbers === end ? `${name} = ` : `${name} = ${numbers} = `, make("b", end));
+  return line;
+}
+
+function cross_() {
+  $("cross").style.left = `${100 * state.x / model.frame[0]}%`;
+  $("cross").style.top = `${100 * (1 - state.y / model.frame[1])}%`;
+}
+
+// The picture is drawn at a share of its size that holds 30 frames a second while something moves, then once in full.
+function paint(full) {
+  if (!picture.gl) return;
+  const began = performance.now();
+  picture.draw(camera, state, full ? Math.min(2, window.devicePixelRatio || 1) : share);
+  picture.gl.finish();
+  const took = performance.now() - began;
+  if (!full) share = Math.min(1, Math.max(LEAST_SHARE, share * Math.sqrt(Math.min(Math.max(SOFTWARE_BUDGET / Math.max(took, 1), 0.25), 1.5))));
+  clearTimeout(settling);
+  if (!full) settling = setTimeout(() => paint(true), 180);
+}
+
+function show() {
+  waiting = 0;
+  try {
+    camera = own ? own.camera : cameraOf(model, state.values);
+    say("");
+    numbers();
+    steps();
+    cross_();
+    refreshers.forEach((refresh) => refresh());
+    space.draw(camera, state, seen);
+    paint(false);
+  } catch (error) {
+    if (!(error instanceof Refusal)) throw error;
+    say(error.message);
+  }
+}
+
+function changed() {
+  if (!waiting) waiting = requestAnimationFrame(show);
+  clearTimeout(changed.link);
+  changed.link = setTimeout(() => { if (!own) history.replaceState(null, "", `#${linkOf(state, model)}`); }, 250);
+}
+
+function choose(next) {
+  own = null;
+  model = MODELS.find((one) => one.key === next.model);
+  state = next;
+  build();
+  changed();
+}
+
+function openLink() {
+  try {
+    choose(location.hash.length > 1 ? stateOf(location.hash.slice(1), MODELS) : START);
+  } catch (error) {
+    if (!(error instanceof Refusal)) throw error;
+    choose(START);
+    show();
+    say(error.message);
+    cancelAnimationFrame(waiting);
+    waiting = 0;
+    clearTimeout(changed.link);
+  }
+}
+
+function pointAt(event) {
+  const box = $("picture").getBoundingClientRect();
+  state.x = Math.min(Math.max((event.clientX - box.left) / box.width, 0), 1) * model.frame[0];
+  state.y = Math.min(Math.max(1 - (event.clientY - box.top) / box.height, 0), 1) * model.frame[1];
+  changed();
+}
+
+function dragging(canvas, begin, move) {
+  canvas.addEventListener("pointerdown", (event) => { canvas.setPointerCapture(event.pointerId); canvas.dataset.down = "1"; begin(event); });
+  canvas.addEventListener("pointermove", (event) => { if (canvas.dataset.down) move(event); });
+  for (const end of ["pointerup", "pointercancel"]) canvas.addEventListener(end, () => { delete canvas.dataset.down; });
+}
+
+function arrows(canvas, apply) {
+  canvas.addEventListener("keydown", (event) => {
+    const step = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[event.key];
+    if (!step) return;
+    event.preventDefault();
+    apply(step[0] * (event.shiftKey ? 10 : 1), step[1] * (event.shiftKey ? 10 : 1));
+    changed();
+  });
+}
+
+function turnView(a, b) {
+  space.view.turn -= a;
+  space.view.tilt = Math.min(Math.max(space.view.tilt + b, -0.2), 1.5607);
+  document.querySelectorAll("[data-view]").forEach((one) => one.setAttribute("aria-pressed", "false"));
+}
+
+function setTheme(name) {
+  document.documentElement.dataset.theme = name;
+  if (camera) space.draw(camera, state, seen);
+}
+
+function readText() {
+  const made = readOwn($("own").value), lines = $("own").value.split("\n").map((line) => line.trim()).filter(Boolean);
+  made.forEach((one, k) => { one.text = lines[k].slice(lines[k].indexOf("=") + 1).trim(); });
+  return { made, camera: ownCamera(made, model.frame) };
+}
+
+function withOwn(then) {
+  return () => {
+    try { $("own-error").textContent = ""; then(readText()); } catch (error) {
+      if (!(error instanceof Refusal)) throw error;
+      $("own-error").textContent = error.message;
+    }
+  };
+}
+
+function drawMap(found) {
+  const columns = 48, rows = 27, errors = errorMap(found.camera, columns, rows), g = $("map").getContext("2d");
+  errors.forEach((error, n) => {
+    const share = Math.min(Math.max((Math.log10(Math.max(error, 1e-12)) + 12) / 12, 0), 1);
+    g.fillStyle = Number.isNaN(error) ? "#777" : error > 1e-3 ? "#c2410c" : `hsl(${210 - 160 * share} 70% ${34 + 30 * share}%)`;
+    g.fillRect(n % columns * 10, (rows - 1 - Math.floor(n / columns)) * 10, 10, 10);
+  });
+  const rays = errors.filter((one) => !Number.isNaN(one)), lost = rays.filter((one) => one > 1e-3).length, largest = Math.max(...rays.filter((one) => one <= 1e-3), 0);
+  $("map-text").textContent = `Pixel to ray to pixel: ${rays.length - lost} of ${rays.length} rays come back, at most ${shown(largest, 2)} pixels off; ${lost} do not (orange); ${errors.length - rays.length} pixels have no ray (gray).`;
+  $("map-figure").hidden = false;
+}
+
+function save(text) {
+  const link = make("a", "", { download: "my_camera.py", href: URL.createObjectURL(new Blob([text], { type: "text/x-python" })) });
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+}
+
+for (const group of [...new Set(MODELS.map((one) => one.group))]) {
+  const part = make("optgroup", undefined, { label: group });
+  MODELS.filter((one) => one.group === group).forEach((one) => part.append(make("option", one.label, { value: one.key })));
+  $("model").append(part);
+}
+$("model").append(make("option", "My camera (written below)", { value: "OWN" }));
+$("model").addEventListener("change", () => {
+  if ($("model").value === "OWN") { $("own-use").click(); return; }
+  const { x, y, time, times, spread, turn, tilt, walk } = state, next = freshState(MODELS.find((one) => one.key === $("model").value));
+  const moved = [x, y].map((one, k) => one / model.frame[k] * MODELS.find((m) => m.key === next.model).frame[k]);
+  choose({ ...next, x: moved[0], y: moved[1], time, times, spread, turn, tilt, walk });
+});
+for (const figure of FIGURES) {
+  const button = make("button", figure.label, { type: "button", title: figure.text });
+  button.addEventListener("click", () => {
+    const fresh = freshState(MODELS.find((one) => one.key === figure.model));
+    choose({ ...fresh, ...figure.state, values: { ...fresh.values, ...figure.values } });
+    space.view = { ...VIEWS[figure.view], ...figure.look };
+    document.querySelectorAll("[data-view]").forEach((one) => one.setAttribute("aria-pressed", String(one.dataset.view === figure.view)));
+    $("caption").textContent = figure.text;
+  });
+  $("figures").append(button);
+}
+document.querySelectorAll("[data-view]").forEach((button) => button.addEventListener("click", () => {
+  space.view = { ...VIEWS[button.dataset.view] };
+  document.querySelectorAll("[data-view]").forEach((one) => one.setAttribute("aria-pressed", String(one === button)));
+  changed();
+}));
+dragging($("picture"), pointAt, pointAt);
+dragging($("space"), () => {}, (event) => { turnView(event.movementX / 160, event.movementY / 160); changed(); });
+arrows($("picture"), (a, b) => { state.x = Math.min(Math.max(state.x + a, 0), model.frame[0]); state.y = Math.min(Math.max(state.y + b, 0), model.frame[1]); });
+arrows($("space"), (a, b) => turnView(-a / 20, b / 20));
+$("share").addEventListener("click", async () => {
+  history.replaceState(null, "", `#${linkOf(state, model)}`);
+  try { await navigator.clipboard.writeText(location.href); $("share").textContent = "Copied"; } catch { $("share").textContent = "In the address bar"; }
+  setTimeout(() => { $("share").textContent = "Copy link"; }, 1500);
+});
+$("reset").addEventListener("click", () => { $("caption").textContent = ""; choose(freshState(model)); });
+$("theme").addEventListener("click", () => setTheme(document.documentElement.dataset.theme === "dark" ? "light" : "dark"));
+$("own").value = OWN_TEXT;
+$("functions").textContent = Object.keys(FUNCTIONS).join(", ");
+$("own-use").addEventListener("click", withOwn((found) => {
+  if (picture.gl) picture.program(found.camera.glsl, found.camera.numbers.length);
+  own = found;
+  build();
+  changed();
+}));
+$("own-map").addEventListener("click", withOwn(drawMap));
+$("own-python").addEventListener("click", withOwn((found) => save(pythonOf(found.made))));
+$("blank").hidden = Boolean(picture.gl);
+window.addEventListener("hashchange", openLink);
+new ResizeObserver(() => { if (camera) space.draw(camera, state, seen); }).observe($("space"));
+setTheme(matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light");
+openLink();
+
+// For scripts and tests: the models, and the picture of shape indices and distances of a model.
+window.lesson = {
+  models: MODELS.map((one) => one.key),
+  state: () => JSON.parse(JSON.stringify(state)),
+  indices: (key) => { const next = freshState(MODELS.find((one) => one.key === key)); return picture.indices(cameraOf(MODELS.find((one) => one.key === key), next.values), next); },
+  speed: (key, width) => { const one = MODELS.find((other) => other.key === key), next = freshState(one), made = cameraOf(one, next.values); picture.indices(made, next); const began = performance.now(); for (let n = 0; n < 5; n++) picture.draw(made, next, width / one.frame[0]); const pixel = new Uint8Array(4); picture.gl.readPixels(0, 0, 1, 1, picture.gl.RGBA, picture.gl.UNSIGNED_BYTE, pixel); return (performance.now() - began) / 5; },
+};

@@ -1,0 +1,131 @@
+// The picture: one program of the graphics card for each formula.
+const VERTEX = "#version 300 es\nin vec2 corner; void main() { gl_Position = vec4(corner, 0.0, 1.0); }";
+const CASTER = `
+uniform vec2 resolution, frame;
+uniform vec3 eye, axis_u, axis_v, axis_w;
+uniform float time, spread;
+uniform int times, plain;
+uniform vec4 spheres[SPHERES];
+uniform vec3 colors[SHAPES], centers[FLATS], sides_u[FLATS], sides_v[FLATS];
+uniform vec2 turn;
+out vec4 color;
+void main() {
+  vec2 p = gl_FragCoord.xy * frame / resolution, a = p / frame - 0.5;
+  vec3 o, d;
+  if (!ray(p.x, p.y, o, d) || !(dot(d, d) > 0.0)) {
+    float line = mod(gl_FragCoord.x + gl_FragCoord.y, 12.0) < 1.5 ? 0.3 : 0.2;
+    color = plain > 0 ? vec4(1.0) : vec4(vec3(line), 1.0);
+    return;
+  }
+  o = eye + o.x * axis_u + o.y * axis_v - o.z * axis_w;
+  d = normalize(d.x * axis_u + d.y * axis_v - d.z * axis_w);
+  float t = time + spread * (times == 1 ? a.y : times == 2 ? a.x : times == 3 ? length(vec2(a.x * frame.x / frame.y, a.y)) - 0.5 : 0.0);
+  float c = cosine(6.28318531 * t), s = sine(6.28318531 * t);
+  float best = 1e30;
+  int index = -1;
+  vec3 normal = vec3(0.0), point = vec3(0.0);
+  for (int i = 0; i < SPHERES; i++) {
+    vec2 xz = spheres[i].xz - turn;
+    vec3 center = vec3(turn.x + c * xz.x + s * xz.y, spheres[i].y, turn.y - s * xz.x + c * xz.y), to = o - center;
+    float b = dot(to, d), r = spheres[i].w;
+    vec3 off = to - b * d;
+    float rest = r * r - dot(off, off);
+    if (rest < 0.0) continue;
+    float root = sqrt(rest), at = -b - root > NEAR ? -b - root : -b + root;
+    if (at > NEAR && at < best) { best = at; index = i; point = o + at * d; normal = (point - center) / r; }
+  }
+  for (int i = 0; i < FLATS; i++) {
+    vec3 n = cross(sides_u[i], sides_v[i]);
+    float slope = dot(n, d), at = dot(n, centers[i] - o) / slope;
+    vec3 q = o + at * d - centers[i];
+    if (slope == 0.0 || !(at > NEAR && at < best)) continue;
+    if (abs(dot(q, sides_u[i])) > dot(sides_u[i], sides_u[i]) || abs(dot(q, sides_v[i])) > dot(sides_v[i], sides_v[i])) continue;
+    best = at; index = SPHERES + i; point = o + at * d; normal = normalize(n) * (slope > 0.0 ? -1.0 : 1.0);
+  }
+  if (plain > 0) {
+    float far = clamp(best / 64.0, 0.0, 0.999999);
+    color = vec4(float(index < 0 ? 254 : index) / 255.0, floor(far * 256.0) / 255.0, floor(fract(far * 256.0) * 256.0) / 255.0, floor(fract(far * 65536.0) * 256.0) / 255.0);
+    return;
+  }
+  vec3 base = index < 0 ? vec3(0.05, 0.07, 0.1) : colors[index];
+  if (index >= SPHERES) {
+    vec3 g = abs(fract(point + 0.5) - 0.5), soft = vec3(0.012 + 0.0025 * best);
+    vec3 lines = (1.0 - smoothstep(0.5 * soft, soft, g)) * (1.0 - abs(normal));
+    base = mix(base, base * 0.45, max(lines.x, max(lines.y, lines.z)));
+  }
+  float light = 0.45 + 0.4 * max(dot(normal, normalize(vec3(0.4, 0.8, 0.55))), 0.0) + 0.25 * max(dot(normal, -d), 0.0);
+  color = vec4(pow(base * light, vec3(1.0 / 2.2)), 1.0);
+}`;
+
+class Picture {
+  constructor(canvas) {
+    this.canvas = canvas;
+    this.gl = canvas.getContext("webgl2", { antialias: false, preserveDrawingBuffer: true });
+    this.programs = new Map();
+    if (!this.gl) return;
+    const gl = this.gl;
+    gl.bindBuffer(gl.ARRAY_BUFFER, gl.createBuffer());
+    gl.bufferData(gl.ARRAY_BUFFER, new Float32Array([-1, -1, 3, -1, -1, 3]), gl.STATIC_DRAW);
+    gl.enableVertexAttribArray(0);
+    gl.vertexAttribPointer(0, 2, gl.FLOAT, false, 0, 0);
+  }
+
+  // The program of a formula; a Refusal with the compiler's words if there is none.
+  program(source, count) {
+    if (this.programs.has(source)) return this.programs.get(source);
+    const gl = this.gl, made = gl.createProgram();
+    const sizes = { SPHERES: SPHERES.length, FLATS: RECTANGLES.length, SHAPES: SPHERES.length + RECTANGLES.length, NEAR: SCENE.near.toFixed(6) };
+    const caster = CASTER.replace(/\b(SPHERES|FLATS|SHAPES|NEAR)\b/g, (name) => sizes[name]);
+    const text = `#version 300 es\nprecision highp float;\nprecision highp int;\nuniform float k[${Math.max(count, 1)}];\n${HELPERS}${source}${caster}`;
+    for (const [kind, own] of [[gl.VERTEX_SHADER, VERTEX], [gl.FRAGMENT_SHADER, text]]) {
+      const shader = gl.createShader(kind);
+      gl.shaderSource(shader, own);
+      gl.compileShader(shader);
+      if (!gl.getShaderParameter(shader, gl.COMPILE_STATUS)) throw new Refusal(`the graphics card refuses the formula: ${(gl.getShaderInfoLog(shader) || "").split("\n")[0]}`);
+      gl.attachShader(made, shader);
+    }
+    gl.bindAttribLocation(made, 0, "corner");
+    gl.linkProgram(made);
+    if (!gl.getProgramParameter(made, gl.LINK_STATUS)) throw new Refusal("the graphics card refuses the formula");
+    this.programs.set(source, made);
+    return made;
+  }
+
+  draw(camera, state, share, plain = false) {
+    const gl = this.gl;
+    if (!gl || gl.isContextLost()) return;
+    const made = this.program(camera.glsl, camera.numbers.length), [width, height] = camera.frame;
+    this.canvas.width = Math.max(16, Math.round(share * width));
+    this.canvas.height = Math.max(9, Math.round(share * height));
+    gl.viewport(0, 0, this.canvas.width, this.canvas.height);
+    gl.useProgram(made);
+    const place = (name) => gl.getUniformLocation(made, name), at = pose(state);
+    gl.uniform2f(place("resolution"), this.canvas.width, this.canvas.height);
+    gl.uniform2f(place("frame"), width, height);
+    gl.uniform3fv(place("eye"), at.eye);
+    gl.uniform3fv(place("axis_u"), at.u);
+    gl.uniform3fv(place("axis_v"), at.v);
+    gl.uniform3fv(place("axis_w"), at.w);
+    gl.uniform1f(place("time"), state.time);
+    gl.uniform1f(place("spread"), state.spread);
+    gl.uniform1i(place("times"), TIMES.indexOf(state.times));
+    gl.uniform1i(place("plain"), plain ? 1 : 0);
+    gl.uniform2fv(place("turn"), TURN);
+    gl.uniform4fv(place("spheres"), SPHERES.flatMap((one) => [...one.center, one.radius]));
+    gl.uniform3fv(place("colors"), [...SPHERES, ...RECTANGLES].flatMap((one) => one.color));
+    gl.uniform3fv(place("centers"), RECTANGLES.flatMap((one) => one.center));
+    gl.uniform3fv(place("sides_u"), RECTANGLES.flatMap((one) => one.u));
+    gl.uniform3fv(place("sides_v"), RECTANGLES.flatMap((one) => one.v));
+    const within = (value) => Number.isNaN(value) ? 0 : Math.min(Math.max(Number(value), -3e38), 3e38);
+    if (camera.numbers.length) gl.uniform1fv(place("k"), camera.numbers.map(within));
+    gl.drawArrays(gl.TRIANGLES, 0, 3);
+  }
+
+  // Reads the picture of indices and distances: [index, t] for each pixel, rows from the bottom.
+  indices(camera, state) {
+    this.draw(camera, state, 1, true);
+    const gl = this.gl, { width, height } = this.canvas, bytes = new Uint8Array(4 * width * height);
+    gl.readPixels(0, 0, width, height, gl.RGBA, gl.UNSIGNED_BYTE, bytes);
+    return Array.from({ length: width * height }, (_, k) => [bytes[4 * k], (bytes[4 * k + 1] / 256 + bytes[4 * k + 2] / 65536 + bytes[4 * k + 3] / 16777216) * 64]);
+  }
+}

@@ -1,0 +1,64 @@
+"""The values of the names in a model's formula, as recorded numbers: what a page puts into the steps of the formula.
+
+They are those that ``core.lesson`` puts in, except for the facts of reports that take no part in the rays.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from typing import Any
+
+import numpy as np
+
+from ..cameras.model import Model, WindowModel
+from ..cameras.parts.calibrated import Calibrated
+from ..cameras.parts.calibration import PRINCIPAL_POINT, Calibration
+from ..cameras.parts.film import Film
+from ..maths.recording import NotRecordable
+from ..records import BlenderCamera, InputError, Raster
+
+NORMALIZED = "view_x", "view_y"
+"""Names of x and y where a step takes them over [-1, 1]², moved by the shift."""
+
+
+def values_of(model: Model, raw: BlenderCamera, raster: Raster, x, y) -> dict[str, tuple[Any, ...]]:
+    """Return one number or three by name, at a pixel; without those that cannot be recorded."""
+    found: dict[str, tuple[Any, ...]] = {}
+    for part in (_film, _window, _calibration, _own):
+        try:
+            given = dict(part(model, raw, raster, x, y))
+        except (NotRecordable, InputError, ValueError):  # what cannot be recorded is shown without its number
+            continue
+        found |= {name: tuple(value) if np.ndim(value) else (value,) for name, value in given.items()}
+    return found
+
+
+Values = Iterator[tuple[str, Any]] | Mapping[str, Any]
+Part = Callable[..., Values]
+
+
+def _film(model: Model, raw: BlenderCamera, raster: Raster, x, y) -> Values:
+    film = Film.from_blender(raw, raster)
+    return {"sensor": film.size, "V": film.fitted_pixels}
+
+
+def _window(model: Model, raw: BlenderCamera, raster: Raster, x, y) -> Values:
+    if not isinstance(model, WindowModel):
+        return {}
+    window, (width, height) = model.window, model.frame
+    pitches = window.pitch_x, window.pitch_y
+    plane = window.plane_from_pixels(x, y)
+    moved = {name: 2 * X / (q * side) for name, X, q, side in zip(NORMALIZED, plane, pitches, model.frame, strict=True)}
+    half = width * window.pitch_x / 2
+    return moved | {"fov": 2 * np.arctan(half), "aspect": height * window.pitch_y / (2 * half)}
+
+
+def _calibration(model: Model, raw: BlenderCamera, raster: Raster, x, y) -> Values:
+    if not isinstance(model, Calibrated):
+        return {}
+    calibration = Calibration.from_blender(raw, raster, settings=PRINCIPAL_POINT)
+    return dict(zip(("x_0", "y_0", "s_x", "s_y"), calibration.center + calibration.scale, strict=True))
+
+
+def _own(model: Model, raw: BlenderCamera, raster: Raster, x, y) -> Values:
+    return model.formula_values(x, y)

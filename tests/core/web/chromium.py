@@ -1,0 +1,35 @@
+"""A headless Chromium with WebGL in software, which opens the page from the file system."""
+
+import shutil
+from contextlib import contextmanager
+
+import pytest
+
+ARGUMENTS = (
+    "--headless=new", "--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
+    "--hide-scrollbars",
+)  # fmt: skip
+
+
+@contextmanager
+def browser(width=1400, height=1000, *more, downloads=None):
+    """A browser with a window of this size; the console has to be empty of errors when it closes."""
+    webdriver = pytest.importorskip("selenium.webdriver", reason="needs selenium")
+    programs = shutil.which("chromium"), shutil.which("chromedriver")
+    if not all(programs):
+        pytest.skip("needs Chromium: apt-get install chromium chromium-driver")
+    options = webdriver.ChromeOptions()
+    options.binary_location = programs[0]
+    options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
+    for argument in (*ARGUMENTS, f"--window-size={width},{height}", *more):
+        options.add_argument(argument)
+    if downloads is not None:
+        options.add_experimental_option("prefs", {"download.default_directory": str(downloads)})
+    driver = webdriver.Chrome(options=options, service=webdriver.ChromeService(programs[1]))
+    try:
+        size = {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": False}
+        driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", size)
+        yield driver
+        assert [line["message"] for line in driver.get_log("browser") if line["level"] == "SEVERE"] == []
+    finally:
+        driver.quit()

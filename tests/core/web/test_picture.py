@@ -1,0 +1,45 @@
+"""The shader's picture: the shapes and distances of our cast, for every model, in a browser with WebGL in software."""
+
+import numpy as np
+import pytest
+
+import camera_ray_caster as crc
+from camera_ray_caster.core.web.page import FRAME, LINES
+from camera_ray_caster.core.web.room import EYE, room_shapes
+
+from .programs import KEYS
+
+NOTHING, NO_RAY = 254, 255
+NEAR, ROUNDING = 1e-4, 16 * 2**-24 * 8
+"""Of the distance: what float32 may change; and sixteen roundings of places eight units from the middle of the room."""
+SLOWEST = 200
+"""Milliseconds of a picture of 320 x 180 in software: five frames a second."""
+
+pytestmark = pytest.mark.full
+
+
+def even(index):
+    """Where all neighbors of a pixel have its index: it is at least half a pixel from an edge."""
+    around = np.pad(index, 1, mode="edge")
+    rows, columns = index.shape
+    views = [around[i : i + rows, k : k + columns] for i in range(3) for k in range(3)]
+    return np.all([view == index for view in views], axis=0)
+
+
+@pytest.mark.parametrize("key", KEYS)
+def test_the_shader_sees_what_our_cast_sees(opened, key):
+    lines = {one.name: LINES[one.name] for one in crc.models()[key].SETTINGS if one.name in LINES}
+    camera = crc.camera(key, FRAME, clip_start=1e-4, clip_end=1e4, **lines)
+    images = crc.cast(camera, room_shapes((0.0, EYE, 3.0)), passes=("shape_index", "distance", "valid"))
+    expected = np.where(images["valid"], np.where(images["shape_index"] < 0, NOTHING, images["shape_index"]), NO_RAY)
+    found = np.array(opened.execute_script("return window.lesson.indices(arguments[0])", key)).reshape(*FRAME[::-1], 2)
+    sure = even(expected)
+    assert sure.mean() > 0.5
+    assert np.array_equal(found[..., 0][sure], expected[sure])
+    hit = sure & (expected < NOTHING)
+    assert (np.abs(found[..., 1] - images["distance"])[hit] <= NEAR * images["distance"][hit] + ROUNDING).all()
+
+
+@pytest.mark.parametrize("key", KEYS)
+def test_software_draws_five_pictures_a_second(opened, key):
+    assert opened.execute_script("return window.lesson.speed(arguments[0], 320)", key) <= SLOWEST
