@@ -91,6 +91,7 @@ again.
 OUTSIDE = {
     "core": {"numpy"},
     "blender": {"numpy"} | BLENDER,
+    "blender.read.openexr": {"numpy", "OpenImageIO"} | BLENDER,
     "blender.cycles": {"numpy"} | BLENDER | CYCLES,
     "blender.terminal.farm": BLENDER | DASK,
     "": set(),

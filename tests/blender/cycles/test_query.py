@@ -29,7 +29,10 @@ crc.unregister()
 """
 
 
-@pytest.mark.parametrize(("before", "said"), [("", "made of True"), ("import OpenImageIO", "Cycles needs Blender's")])
+OTHER = "Blender's own OpenImageIO is needed"
+
+
+@pytest.mark.parametrize(("before", "said"), [("", "made of True"), ("import OpenImageIO", OTHER)])
 def test_another_openimageio_is_not_taken(osl, tmp_path, before, said):
     package = tmp_path / "OpenImageIO"
     package.mkdir()

@@ -14,6 +14,7 @@ from ...core.exports.exr import exr
 from ...core.records import InputError
 from ...core.shaders.camera_shader import CameraShader
 from ..read.camera import shader_mark
+from ..read.openexr import openimageio
 from .animation import remove_keyframes
 
 CUSTOM = "CUSTOM"
@@ -135,21 +136,10 @@ def _compile(camera) -> bool:
 
 
 def _let_cycles_query() -> None:
-    """Import oslquery, with which Cycles reads a shader's inputs, and its OpenImageIO from Blender's folder.
-
-    A Python that imports bpy does not search that folder, and may have another OpenImageIO. Raises InputError if the
-    other OpenImageIO was imported before.
-    """
+    """Import oslquery, with which Cycles reads a shader's inputs, and its OpenImageIO: see ``openimageio``."""
     before = list(sys.path)
-    folders = list(Path(bpy.utils.system_resource("PYTHON")).glob("lib/python*/site-packages"))
-    sys.path[:0] = map(str, folders)
+    sys.path[:0] = [str(Path(openimageio().__file__).parents[1])]
     try:
-        import OpenImageIO
         import oslquery  # noqa: F401
     finally:
         sys.path[:] = before
-    taken = Path(OpenImageIO.__file__)
-    if any((folder / "OpenImageIO").is_dir() and not taken.is_relative_to(folder) for folder in folders):
-        raise InputError(
-            f"Cycles needs Blender's own OpenImageIO, but {taken} is already imported: import it after this call"
-        )

@@ -30,6 +30,7 @@ from . import (
     opensfm,
     ouster,
     ray_arrays,
+    ray_exr,
     ray_mesh,
     recorded,
     velodyne,
@@ -39,9 +40,9 @@ from .document import Document, Lens
 from .nearest import unknown
 
 FORMATS = (
-    ray_arrays.read, ray_mesh.read, colmap_binary.read, colmap.read, hesai.read, mrcal.read, ocam.read, velodyne.read,
-    ouster.read, recorded.read, generic.read, aria.read, nerfstudio.read, ftheta.read, isaac.read, woodscape.read,
-    opensfm.read, basalt.read, camodocal.read, okvis.read, kalibr.read, opencv.read,
+    ray_arrays.read, ray_exr.read, ray_mesh.read, colmap_binary.read, colmap.read, hesai.read, mrcal.read, ocam.read,
+    velodyne.read, ouster.read, recorded.read, generic.read, aria.read, nerfstudio.read, ftheta.read, isaac.read,
+    woodscape.read, opensfm.read, basalt.read, camodocal.read, okvis.read, kalibr.read, opencv.read,
 )  # fmt: skip
 """Readers in the order in which they are tried."""
 

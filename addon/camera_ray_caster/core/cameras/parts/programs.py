@@ -133,7 +133,7 @@ PROGRAMS = (
     ),
     Program(
         "ray tables",
-        "ray maps as .npz; .npy of directions, or of origins and directions; .csv and .obj of a mesh of rays",
+        "ray maps as .npz; .npy or float32 .exr of directions, also with origins; .csv and .obj of a mesh of rays",
         reads="a ray for each pixel, or fewer", lost="pixel times",
     ),
     Program("NeRF", "transforms_train.json, _val and _test", export="nerf", lost="all lenses but centered pinholes"),
