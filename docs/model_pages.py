@@ -2,6 +2,7 @@
 
 import inspect
 import re
+from functools import cache
 from pathlib import Path
 
 import make_docs  # in scripts/, beside the table of models
@@ -43,6 +44,7 @@ With the models' defaults.
 | format | represents |
 |---|---|
 """
+LESSON = "[Try it in the browser](../lesson/index.html#v=1&model={key}): drag a pixel, turn the settings.\n\n"
 PAGE = """\
 # {label}
 
@@ -50,7 +52,7 @@ PAGE = """\
 
 ![A room seen by this camera]({picture})
 
-Key `{key}`; {rays}; [{file}](../../{path}). With its defaults, it is written by {writers}.
+{lesson}Key `{key}`; {rays}; [{file}](../../{path}). With its defaults, it is written by {writers}.
 
 ## In Python
 
@@ -112,6 +114,7 @@ def page(model: type[Model], root: Path, folder: Path) -> str:
         label=model.label,
         description=model.description,
         picture=picture(model, root, folder),
+        lesson=LESSON.format(key=model.key) if f'"key":"{model.key}"' in lesson_text(root) else "",
         key=model.key,
         rays="parallel rays" if model.parallel else "rays from one eye" if model.central else "rays from many eyes",
         writers=", ".join(f"`{one.key}`" for one in FORMATS if one.refusal(shot_of(model)) is None),
@@ -127,6 +130,13 @@ def page(model: type[Model], root: Path, folder: Path) -> str:
 def plain_camera(model: type[Model]) -> Camera:
     """Return a camera with the model's defaults at the origin."""
     return eval(f'crc.camera("{model.key}", {SIZE}{given(model)})', {"crc": crc})
+
+
+@cache
+def lesson_text(root: Path) -> str:
+    """Return the page of the lesson for browsers; "" if there is none."""
+    path = root / "docs" / "lesson" / "index.html"
+    return path.read_text(encoding="utf-8") if path.is_file() else ""
 
 
 def given(model: type[Model]) -> str:

@@ -4,6 +4,7 @@ The pages are docs/cameras/ and docs/api/; no version of them is kept.
 """
 
 import ast
+import html
 import re
 import shutil
 from pathlib import Path
@@ -37,6 +38,8 @@ CONTENTS = {
 """The pages in the sidebar, by caption, as the start page names them."""
 TABLE = re.compile(r"\(((?:\.\./)*)addon/camera_ray_caster/core/cameras/README\.md\)")
 """A link to the table of models: here the models have pages."""
+LESSON = re.compile(r"\[([^\]]+)\]\(((?:\.\./)*(?:docs/)?lesson/index\.html[^)]*)\)")
+"""A link to the lesson, which is no page of Sphinx: it stands in the site where it stands in docs/."""
 START = '<!DOCTYPE html><meta charset="utf-8"><meta http-equiv="refresh" content="0; url=docs/index.html">'
 START += '<title>Camera Ray Caster</title><a href="docs/index.html">Camera Ray Caster</a>\n'
 
@@ -63,6 +66,7 @@ def make_pages(app) -> None:
 def adapt(app, page: str, source: list[str]) -> None:
     """Add the contents to the start page, and lead links to the table of models to the models' pages."""
     source[0] = TABLE.sub(r"(\1docs/cameras/index.md)", source[0])
+    source[0] = LESSON.sub(lambda found: f'<a href="{html.escape(found[2])}">{found[1]}</a>', source[0])
     if page == "docs/index":
         for title, pages in CONTENTS.items():
             source[0] += "\n".join(("\n```{toctree}", ":hidden:", f":caption: {title}", *pages, "```\n"))
