@@ -102,7 +102,7 @@ def rendered(bpy, formula, a, b):
     scene.camera = bpy.data.objects.new("Functions", data)
     scene.collection.objects.link(scene.camera)
     scene.render.resolution_x = scene.render.resolution_y = SIDE
-    set_shader(data, CameraShader(text, {}, frozenset()))
+    set_shader(data, CameraShader(text, {}, frozenset(), {}))
     colors = cycles_colors(scene)
     assert (colors[..., 2] == 1).all()
     return colors[..., 0] - colors[..., 1]
