@@ -215,6 +215,14 @@ class HitValues:
             row[where] = material_rows(self.plan.shapes, row[where], slot)
         return row
 
+    def of_material(self, table: np.ndarray, out: str) -> np.ndarray:
+        """Return a table's entries, (n + s + 1,), for the hit materials, in the working array of the name ``out``."""
+        array = self.scratch(out, self.hits.t.shape, table.dtype.type)
+        if self.hits.shape is not None and self.plan.shapes.slots is None:
+            array.fill(table[self.hits.shape])
+            return array
+        return np.take(table, self.material, mode="wrap", out=array)
+
     @lazy
     def painted(self) -> list[tuple[Surface, np.ndarray, SurfacePlaces]]:
         """The surfaces that are hit and have no plain color: each with the flat indices of its pixels, (k,), and their

@@ -54,8 +54,9 @@ class Pass:
     """That of Blender before 5.0, for Blender's own passes that have another there."""
     blender: str = ""
     """Name of Blender's own check box in the view layer; "" if the check box is the add-on's."""
-    missed: float | None = None
-    """The number where nothing is hit, of a pass of the surfaces that are hit."""
+    missed: float | Callable[[HitValues, np.ndarray], None] | None = None
+    """Of a pass of the surfaces that are hit: the number where nothing is hit, or a function that writes these pixels.
+    """
     bounds: tuple[str, ...] = ()
     """Passes whose stored numbers this one bounds the errors of."""
     frames: tuple[str, ...] = ()
@@ -80,6 +81,11 @@ class Pass:
 def combined(values: HitValues, out):
     """Linear RGBA: the shaded color, the world's color where nothing is hit, transparent black without a ray."""
     shading.shade(values, out)
+
+
+def sky(values: HitValues, out):
+    """The world's color, and transparent black without a ray: what ``combined`` is where nothing is hit."""
+    shading.sky(values, out)
     write_where(out, 0, values.hits.lost)
 
 
@@ -124,7 +130,7 @@ def object_index(values: HitValues, out):
 
 def material_index(values: HitValues, out):
     """Blender's pass index of the material."""
-    _store(values, np.take(values.plan.material_index, values.material, mode="wrap"), out)
+    _store(values, values.of_material(values.plan.material_index, "indices"), out)
 
 
 def shape_index(values: HitValues, out):
@@ -235,9 +241,9 @@ def _write_ray(values: HitValues, vector, offset, out) -> None:
 
 PASSES = {
     "combined": Pass(combined, "Color of the surface in the light of the scene's lamps", "RGBA", shown=AS_IS,
-                     blender="use_pass_combined"),
+                     blender="use_pass_combined", missed=sky),
     "albedo": Pass(albedo, "Color of the material without light; of emission, without its strength", "RGB",
-                   shown=AS_IS),
+                   shown=AS_IS, missed=0),
     "depth": Pass(depth, "Blender's Z: along the viewing direction, or along the ray for panoramas", "Z",
                   blender="use_pass_z"),
     "distance": Pass(distance, "Distance along the ray. The Z pass has the planar depth",

@@ -27,7 +27,7 @@ SUN, POINT, SPOT, AREA_LIGHT, HEADLIGHT = "sun", "point light", "spot light", "a
 
 
 def shade(values: HitValues, out: np.ndarray) -> None:
-    """Write linear RGBA into ``out``, (rows, columns, 4): the color of the shape, or of the world where nothing is hit.
+    """Write linear RGBA into ``out``, (rows, columns, 4), where shapes are hit.
 
     Lambert's law without shadows: a sun of E W/m^2 gives color E cos / pi; a point light of P W at distance r gives
     color P cos / (4 pi^2 r^2), in Blender's units; a spot light the same times how it fades towards its edge, an area
@@ -46,8 +46,12 @@ def shade(values: HitValues, out: np.ndarray) -> None:
                 np.multiply(light, grid, out=light)
             np.multiply(surface, light, out=surface)
             paint(values, surface, lambda one: one.glow, channel, np.add)
-        out[..., channel] = surface
-    write_where(out, world_color, values.hits.missed)
+        np.copyto(out[..., channel], surface, where=values.hits.where, casting="same_kind")
+
+
+def sky(values: HitValues, out: np.ndarray) -> None:
+    """Write the world's linear RGBA into ``out``, (rows, columns, 4), where nothing is hit."""
+    write_where(out, values.plan.shapes.world_color, values.hits.missed)
     if values.plan.shapes.background is not None and values.hits.missed is not None:
         places = np.nonzero(values.hits.missed)
         direction = [np.broadcast_to(part, values.hits.missed.shape)[places] for part in values.direction]
@@ -57,17 +61,17 @@ def shade(values: HitValues, out: np.ndarray) -> None:
 
 def albedo(values: HitValues, out: np.ndarray) -> None:
     """Write linear RGB into ``out``, (rows, columns, 3): the color of the material, without light, and of emission
-    without its strength; 0 where nothing is hit.
+    without its strength, where shapes are hit.
     """
     for channel in range(3):
         surface = material_color(values, channel)
         paint(values, surface, lambda one: one.own, channel, np.add)
-        out[..., channel] = surface
+        np.copyto(out[..., channel], surface, where=values.hits.where, casting="same_kind")
 
 
 def material_color(values: HitValues, channel: int) -> np.ndarray:
     """Return a channel, of RGBA, of the color that the hit materials show in light, (rows, columns)."""
-    color = np.take(values.plan.colors[channel], values.material, mode="wrap", out=values.array("color"))
+    color = values.of_material(values.plan.colors[channel], "color")
     if channel < 3:
         paint(values, color, lambda one: one.lit, channel)
     return color

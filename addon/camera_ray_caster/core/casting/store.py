@@ -7,7 +7,7 @@ import numpy as np
 from ..maths.speed import whole_rows, write_where
 from .hit_values import HitValues
 from .hits import Hits
-from .passes import PASSES, combined
+from .passes import PASSES
 
 
 def store(hits: Hits, outs: dict[str, np.ndarray], where=None) -> None:
@@ -30,10 +30,14 @@ def write(values: HitValues, outs: dict[str, np.ndarray]) -> None:
         for name, out in outs.items():
             if name not in layered:
                 PASSES[name].write(values, out)
-                if (missed := PASSES[name].missed) is not None:
-                    write_where(out, missed, block.missed)
-            elif block.missed is not None:
-                out[...] = PASSES[name].missed
+            if (missed := PASSES[name].missed) is None or block.missed is None:
+                continue
+            if callable(missed):
+                missed(values, out)
+            elif name in layered:
+                out[...] = missed
+            else:
+                write_where(out, missed, block.missed)
     for window, layer in block.layers() if layered else ():
         own = HitValues(layer)
         with whole_rows(layer.t.shape[1]):
@@ -43,12 +47,11 @@ def write(values: HitValues, outs: dict[str, np.ndarray]) -> None:
 
 def add_combined(hits: Hits, total: np.ndarray) -> None:
     """Add the combined pass to a sum, (rows, columns, 4)."""
-    with whole_rows(hits.t.shape[1]):
-        for window, block in hits.blocks():
-            part = total[window]
-            once = hits.rays.scratch("once", part.shape, np.float64)
-            combined(HitValues(block), once)
-            part += once
+    for window, block in hits.blocks():
+        part = total[window]
+        once = hits.rays.scratch("once", part.shape, np.float64)
+        write(HitValues(block), {"combined": once})
+        part += once
 
 
 def put(image: np.ndarray, out: np.ndarray, where) -> None:
