@@ -1,0 +1,122 @@
+"""A scanner that moves while it sweeps, past what moves: each beam at its own time, each point on its surface then."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from mpmath import mp, mpf
+
+import camera_ray_caster as crc
+from camera_ray_caster.core.conventions import EPS
+from camera_ray_caster.core.motion.evaluations import resolve
+from camera_ray_caster.core.records import Pose
+
+WALL, BALL, GROUND = 0, 1, 2
+SPEED, WALL_SPEED = 1.5, 0.25
+"""Of the scanner and of the wall, in units a frame."""
+PASSES = "distance", "position", "normal", "shape_index", "position_bound", "ray_origin"
+
+
+def shapes_at(frame):
+    return crc.join(
+        crc.planes((5.0 + WALL_SPEED * frame, 0.0, 1.5), [[0, 0], [3, 0], [0, 4]], name="wall"),
+        crc.spheres([(-6.0, 2.0, 1.0)], 1.0, name="ball"),
+        crc.planes((0.0, 0.0, 0.0), infinite=True, name="ground"),
+    )
+
+
+def moving(size=(360, 16), **settings):
+    """A VLP-16 at 10 Hz and 100 frames a second, so that a sweep takes 10 frames; and what it sees."""
+    still = crc.camera("SCANNER", size, crc.look_at((0, 0, 1.5), (1, 0, 1.5)), scanner_device="VLP_16",
+                       time_mode="SWEEP", fps=100, frame=2.0, **settings)  # fmt: skip
+
+    def evaluate(frame):
+        eye = np.add(still.pose.eye, (0.0, SPEED * (frame - 2), 0.0))
+        return replace(still, pose=Pose(eye, still.pose.basis)), shapes_at(frame)
+
+    motion = resolve(evaluate, still.pixel_time.first, still.pixel_time.last, 0.1, 64)
+    return replace(still, motion=motion), replace(shapes_at(2.0), motion=motion)
+
+
+@pytest.fixture(scope="module")
+def sweep():
+    camera, shapes = moving()
+    return camera, shapes, crc.cast(camera, shapes, PASSES, np.float64)
+
+
+def test_each_beam_leaves_from_where_the_scanner_is_when_it_fires(sweep):
+    camera, _, images = sweep
+    rays, beams = camera.rays(), camera.model.beams
+    seconds = beams.delay[:, None] + 55.296e-6 * 1808 / 360 * np.arange(360)
+    np.testing.assert_allclose(rays.time, 2.0 + 100 * seconds, rtol=0, atol=1e-12)
+    np.testing.assert_allclose(rays.origins[..., 1], SPEED * 100 * seconds, rtol=0, atol=1e-12)
+    np.testing.assert_array_equal(images["ray_origin"], rays.origins)
+    alone = camera.at(rays.time[7, 100])
+    np.testing.assert_allclose(alone.rays_at(100.5, 7.5).directions, rays.directions[7, 100], rtol=0, atol=8 * EPS)
+
+
+def test_each_point_is_on_its_surface_at_its_time_to_the_stated_bound(sweep):
+    camera, _, images = sweep
+    rays, index = camera.rays(), images["shape_index"]
+    on = {name: np.argwhere(index == name) for name in (WALL, BALL, GROUND)}
+    assert all(len(places) > 50 for places in on.values())
+    rng = np.random.default_rng(1)
+    with mp.workdps(60):
+        for name, places in on.items():
+            for row, column in rng.permutation(places)[:334].tolist():
+                x, y, z = map(mpf, images["position"][row, column].tolist())
+                time, bound = mpf(float(rays.time[row, column])), images["position_bound"][row, column]
+                off = {
+                    WALL: x - (5 + WALL_SPEED * time),
+                    BALL: mp.sqrt((x + 6) ** 2 + (y - 2) ** 2 + (z - 1) ** 2) - 1,
+                    GROUND: z,
+                }[name]
+                assert abs(off) <= bound + 8 * EPS * 10 * (name == WALL)  # its place is interpolated
+
+
+def test_the_points_are_those_of_a_cast_at_each_time(sweep):
+    camera, shapes, images = sweep
+    rays = camera.rays()
+    for row, column in [(3, 10), (8, 90), (9, 95), (7, 200), (1, 350)]:
+        then = shapes.motion.shapes_at(float(rays.time[row, column]))
+        found = crc.cast_rays(rays.origins[row, column], rays.directions[row, column], then, PASSES, None, 0.5, 100.0)
+        for name in PASSES:
+            np.testing.assert_array_equal(found[name], images[name][row, column])
+
+
+def test_a_moving_wall_is_bent():
+    """A level beam meets it farther away, the later it fires; in a picture of one time it is a plane."""
+    camera, shapes = moving()
+    now = replace(camera, pixel_time=None, motion=None), replace(shapes, motion=None)
+    x = []
+    for both in ((camera, shapes), now):
+        images = crc.cast(*both, ("position", "shape_index"), np.float64)
+        x.append(images["position"][8, images["shape_index"][8] == WALL, 0])
+    assert (np.diff(x[0]) > 0).all()
+    assert np.ptp(x[0]) > 0.2
+    assert np.ptp(x[1]) < 1e-12
+
+
+@pytest.mark.parametrize("mode", ["SWEEP", "COLUMNS", "ROWS"])
+def test_where_nothing_moves_a_picture_with_times_is_cast_once(mode):
+    """To the same bits; ``moments`` would make a plan for each column."""
+    given = {} if mode == "SWEEP" else {"time_start": 1.0, "time_end": 9.0}
+    camera = crc.camera("SCANNER", (90, 16), scanner_device="VLP_16", time_mode=mode, **given)
+    shapes = shapes_at(1.0)
+    motion = resolve(lambda frame: (camera, shapes), 1.0, 9.0, 0.1, 16)
+    assert motion.is_still
+    timed = crc.cast(replace(camera, motion=motion), replace(shapes, motion=motion), PASSES, np.float64)
+    plain = crc.cast(crc.camera("SCANNER", (90, 16), scanner_device="VLP_16"), shapes, PASSES, np.float64)
+    for name in PASSES:
+        np.testing.assert_array_equal(timed[name], plain[name])
+    assert timed.camera.pixel_time is not None
+
+
+def test_settings_that_change_during_a_sweep_are_refused():
+    camera, _ = moving((90, 16))
+    other = crc.camera("SCANNER", (90, 16), scanner_device="HDL_32E")
+    states = dict(camera.motion.states)
+    last = max(states)
+    states[last] = replace(states[last][0], model=other.model), states[last][1]
+    with pytest.raises(crc.InputError, match="change during the sweep"):
+        replace(camera, motion=replace(camera.motion, states=states)).rays()
