@@ -21,6 +21,7 @@ from .ui import (
     cast_all,
     cast_operator,
     cast_panels,
+    cloud_operators,
     cycles_operators,
     export_operators,
     facts_panels,
@@ -46,7 +47,7 @@ from .ui import (
     show_result,
     verify_panels,
 )
-from .view3d import lesson, mouse_gizmo, notice, overlay
+from .view3d import lesson, mouse_gizmo, notice, overlay, points
 
 CLASSES = (
     *groups.CLASSES, *overlay.CLASSES, *engine.CLASSES, *operators.CLASSES, *cast_operator.CLASSES,
@@ -56,13 +57,14 @@ CLASSES = (
     *see_through.CLASSES, *select_seen.CLASSES, *camera_panels.CLASSES, *cast_all.CLASSES, *cameras_list.CLASSES,
     *show_result.CLASSES, *cast_panels.CLASSES, *verify_panels.CLASSES,
     *left_out_panels.CLASSES, *lesson_operators.CLASSES, *point_operators.CLASSES, *gallery_operators.CLASSES,
-    *lesson_panels.CLASSES, *facts_panels.CLASSES, *overlay_panels.CLASSES, *object_panels.CLASSES,
+    *lesson_panels.CLASSES, *facts_panels.CLASSES, *overlay_panels.CLASSES, *cloud_operators.CLASSES,
+    *object_panels.CLASSES,
 )  # fmt: skip
 """Blender types in registration order: a panel comes after its parent panel."""
 
 MODULES = (
-    groups, paths, kept, follow, reports, images, gallery, scene_cache, viewport, cast_operator, overlay, lesson,
-    notice, render_panels, menus, gallery_operators, lesson_operators, presets, export_operators, rig_operators,
+    groups, paths, kept, follow, reports, images, gallery, scene_cache, viewport, cast_operator, overlay, points,
+    lesson, notice, render_panels, menus, gallery_operators, lesson_operators, presets, export_operators, rig_operators,
     commands, other_engine, see_through, hide_overlays, select_seen, cast_all,
 )  # fmt: skip
 """Modules that register more than classes. Their ``register(undo)`` gives ``undo`` the callbacks that undo it."""

@@ -10,10 +10,11 @@ import blf
 import bpy
 import gpu
 import numpy as np
-from bpy.props import BoolProperty, IntProperty, PointerProperty
+from bpy.props import BoolProperty, EnumProperty, IntProperty, PointerProperty
 from bpy_extras.view3d_utils import location_3d_to_region_2d
 from gpu_extras.batch import batch_for_shader
 
+from ...core.clouds.colors import LABEL, RANGE, RING
 from ...core.lesson.diagram import Diagram, diagram
 from ...core.lesson.in_picture import lines_in_picture, points_in_picture
 from ..read.scene_cache import CachedScene, cached_scene
@@ -35,6 +36,18 @@ class OverlayProperties(bpy.types.PropertyGroup):
         name="Ray under Mouse",
         description="In camera view, draw the ray under the mouse and its hit point",
         default=True,
+    )
+    show_points: BoolProperty(name="Points", description="Draw all points that the rays hit, as a scanner's")
+    points_by: EnumProperty(
+        name="Color of Points",
+        items=[
+            (RING, "Ring", "From the lowest beam, blue, to the highest"),
+            (RANGE, "Range", "From the nearest, blue, to the farthest"),
+            (LABEL, "Label", "A color for each category"),
+        ],
+    )
+    show_sweep: BoolProperty(
+        name="Sweep by Timeline", description="Draw only what a scanner has swept by the current frame"
     )
     rays: IntProperty(
         name="Rays Across",

@@ -1,0 +1,116 @@
+"""Operators that make points of the active camera's rays: as a mesh in the scene, and as files."""
+
+from pathlib import Path
+
+import bpy
+import numpy as np
+from bpy.props import EnumProperty, FloatProperty, IntProperty
+from bpy_extras.io_utils import ExportHelper
+
+from ...core.clouds.cloud import AXES, PointCloud, scan
+from ...core.clouds.formats import FORMATS
+from ...core.library.clouds import save_points
+from ..output.points import categories_of
+from ..read.scene import read_scene
+from .drawing import Sidebar
+from .needs import OfScene, reporting, select_alone
+
+ATTRIBUTES = {
+    "range": "FLOAT", "true_range": "FLOAT", "time": "FLOAT", "incidence": "FLOAT", "reflectance": "FLOAT",
+    "ring": "INT", "column": "INT", "instance": "INT", "category": "INT", "normal": "FLOAT_VECTOR",
+}  # fmt: skip
+"""Attributes of the mesh's vertices, and their types; the vectors are normals in the world."""
+
+
+class OfPoints(OfScene):
+    """Base of the operators on points: their errors."""
+
+    noise: FloatProperty(name="Noise", description="Standard deviation of the ranges", min=0, unit="LENGTH")
+    dropout: FloatProperty(
+        name="Dropout", min=0, unit="LENGTH", description="Range up to which points on surfaces square to the beam are "
+        "never lost; farther, and at an angle, some are. 0: none is lost",
+    )  # fmt: skip
+    quantum: FloatProperty(name="Quantum", description="Step of the ranges; 0: none", min=0, unit="LENGTH", precision=4)
+    seed: IntProperty(name="Seed", description="Seed of noise and lost points", min=0)
+
+    def points(self, context) -> PointCloud:
+        """Return the points of the current frame. Raises InputError if the camera cannot be cast."""
+        scene = read_scene(context.scene)
+        how = {name: getattr(self, name) for name in ("noise", "dropout", "quantum", "seed")}
+        return scan(scene, categories=categories_of(scene.shapes.names), **how)
+
+
+class PointsToMesh(OfPoints, bpy.types.Operator):
+    """Add a mesh whose vertices are the points that the active camera's rays hit, with their ranges, rings, times and
+    labels as attributes"""
+
+    bl_idname = "camera_ray_caster.points_to_mesh"
+    bl_label = "Points to Mesh"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @reporting
+    def execute(self, context):
+        """Add the mesh and select it."""
+        cloud = self.points(context)
+        mesh = bpy.data.meshes.new(f"{cloud.name} Points")
+        mesh.vertices.add(len(cloud))
+        mesh.vertices.foreach_set("co", cloud.world.astype(np.float32).ravel())
+        for name, kind in ATTRIBUTES.items():
+            values = getattr(cloud, name)
+            data = mesh.attributes.new(name if kind != "FLOAT_VECTOR" else "surface_normal", kind, "POINT").data
+            is_whole = kind == "INT"
+            data.foreach_set("vector" if values.ndim == 2 else "value",
+                             values.astype(np.int32 if is_whole else np.float32).ravel())  # fmt: skip
+        mesh.update()
+        made = bpy.data.objects.new(mesh.name, mesh)
+        context.collection.objects.link(made)
+        select_alone(context, made)
+        self.report({"INFO"}, f"{len(cloud):,} points")
+        return {"FINISHED"}
+
+
+class SavePoints(OfPoints, ExportHelper, bpy.types.Operator):
+    """Write the points that the active camera's rays hit at the current frame, as files of scanners"""
+
+    bl_idname = "camera_ray_caster.save_points"
+    bl_label = "Save Points"
+    bl_options = {"REGISTER"}
+
+    format: EnumProperty(name="Format", items=[(key, key.upper(), f"Files of {key.upper()}") for key in FORMATS])
+    axes: EnumProperty(
+        name="Axes", items=[(key, key.title(), f"Points in the axes of the {key}") for key in AXES]
+    )  # fmt: skip
+    filename_ext = ""
+    check_extension = None
+
+    @reporting
+    def execute(self, context):
+        """Write the files and report the result."""
+        path = Path(bpy.path.abspath(self.filepath))
+        cloud = self.points(context)
+        paths = save_points(self.format, cloud, path.parent, path.stem, axes=self.axes)
+        self.report({"INFO"}, f"Wrote {len(cloud):,} points into {', '.join(one.name for one in paths)}")
+        return {"FINISHED"}
+
+
+class SidebarPoints(Sidebar, bpy.types.Panel):
+    """Points of the active camera: drawn, as a mesh, as files."""
+
+    bl_idname = "CAMERA_RAY_CASTER_PT_points"
+    bl_label = "Points"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context):
+        """Draw the settings of drawn points, and the buttons."""
+        layout, settings = self.layout, context.scene.camera_ray_caster_overlay
+        column = layout.column()
+        column.active = settings.show
+        column.prop(settings, "show_points")
+        column.prop(settings, "points_by", text="Color")
+        column.prop(settings, "show_sweep")
+        layout.operator(PointsToMesh.bl_idname, icon="POINTCLOUD_DATA")
+        layout.operator_context = "INVOKE_DEFAULT"
+        layout.operator(SavePoints.bl_idname, icon="EXPORT")
+
+
+CLASSES = (PointsToMesh, SavePoints, SidebarPoints)
