@@ -36,7 +36,7 @@ def nearest_hits(
         rays.direction,
         rays.corner, shape, scratch.part("kinds"), t if has_cutouts else None,
     )  # fmt: skip
-    nearest = Nearest(own, t, scratch("index", shape, plan.index_type))
+    nearest = NearestHits(own, t, scratch("index", shape, plan.index_type))
     if before is not None or has_cutouts:
         nearest.clear()
     if before is not None:
@@ -58,7 +58,7 @@ def nearest_hits(
 
 
 @dataclass
-class Nearest:
+class NearestHits:
     """The nearest hits of a tile so far."""
 
     rays: SearchRays

@@ -27,7 +27,7 @@ SLACK = 1e-6
 
 
 @dataclass(frozen=True)
-class Place:
+class Crossing:
     """One intersection of the ray with a shape."""
 
     t: float
@@ -47,7 +47,7 @@ class Meeting:
     name: str
     equation: tuple[str, ...]
     """Lines: the ray in the shape's own frame, the equation of t, its roots."""
-    places: tuple[Place, ...]
+    places: tuple[Crossing, ...]
     """Intersections in the order of t."""
 
 
@@ -71,7 +71,7 @@ def meetings(camera: Camera, shapes: Shapes, origin: np.ndarray, direction: np.n
     for k, (at, along) in zip(whole[near].tolist(), own[near].swapaxes(1, 2), strict=True):
         equation, roots = EQUATIONS[int(shapes.kind[k])](shapes, k, at, along)
         places = tuple(
-            Place(t, what, _clipped(camera, t, t * depth) or transparent(k, triangle, t, along_ray(t)))
+            Crossing(t, what, _clipped(camera, t, t * depth) or transparent(k, triangle, t, along_ray(t)))
             for t, what, triangle in sorted(roots)
         )
         if places:
@@ -80,7 +80,7 @@ def meetings(camera: Camera, shapes: Shapes, origin: np.ndarray, direction: np.n
     return sorted(found, key=lambda meeting: min((p.t for p in meeting.places if not p.objection), default=np.inf))
 
 
-def nearest(met: list[Meeting]) -> tuple[Meeting, Place] | None:
+def nearest(met: list[Meeting]) -> tuple[Meeting, Crossing] | None:
     """Return the visible intersection, the nearest that counts, with its shape; None if there is none."""
     counted = [(meeting, place) for meeting in met for place in meeting.places if not place.objection]
     return min(counted, key=lambda pair: pair[1].t, default=None)
