@@ -86,8 +86,13 @@ def table_of(test: Path) -> dict[str, set[str]]:
 def rooms_of(table: dict[str, set[str]], band: str) -> Arrows:
     """Return the rooms of a band, each with those that it may import, but for what follows."""
     inner = {name for name in table if name.startswith(f"{band}.") and name.count(".") == 1}
-    rest = {"core": "core.library", "blender": "blender.registration"}[band]
-    allowed = {name: {other for other in table[name] & inner if other != name} for name in inner} | {rest: inner}
+    allowed = {
+        name: set().union(*(below for part, below in table.items() if f"{part}.".startswith(f"{name}.")))
+        & inner - {name}
+        for name in inner
+    }
+    if band == "blender":
+        allowed["blender.registration"] = inner  # of all
 
     @cache
     def reach(name: str) -> frozenset[str]:

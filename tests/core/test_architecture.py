@@ -58,6 +58,10 @@ MAY_IMPORT = {
     "core.lesson": HITS | {"core.cast", "core.lesson"},
     "core.exports": RAYS | {"core.exports", "core.file_set", "core.motion", "core.names", "core.version"},
     "core.sets": HITS | {"core.annotations", "core.exports", "core.names", "core.sets"},
+    "core.library": HITS | {
+        "core.cast", "core.clouds", "core.exports", "core.lesson", "core.library", "core.names", "core.scene",
+    },
+    "core.web": RAYS | {"core.library", "core.shaders", "core.web"},
     "core": {"core"},
     "blender.verification.witness": LOW,
     # Blender's data are read at the bottom, rendered and written in the middle; the doors stand on top
