@@ -14,7 +14,7 @@ from .test_other_programs import EGO, ISAAC, MATRIX, OKVIS, K, basalt, flat, len
     [
         ('{"weights": [1, 2], "epoch": 3}', "of no format that is read: these are OpenCV, ROS.*or this add-on$"),
         ('{"rig_of": {"sensors": 1, "properties": "ftheta"}}', "the nearest is NVIDIA .f-theta, Isaac.*has no"),
-        (vins("SCARAMUZZA", {}, {}), "model_type is 'SCARAMUZZA': it must be one of PINHOLE"),
+        (vins("SPLINE", {}, {}), "model_type is 'SPLINE': it must be one of PINHOLE"),
         (basalt("spline"), "camera_type of cam0 is 'spline': it must be one of ds"),
         (basalt("ds", xi=0.1), "it has no alpha"),
         (OKVIS.replace("KIND", "spline"), "distortion_type of cam0, pinhole, is 'spline'"),

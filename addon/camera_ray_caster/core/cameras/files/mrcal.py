@@ -1,13 +1,15 @@
 """mrcal's .cameramodel: a Python dictionary with the lens model, its intrinsics and the imager's size.
 
 The center of the first pixel is (0, 0). mrcal's stereographic lens is the unified camera with xi = 1 and twice the
-focal length; its LONLAT is the equirectangular panorama. An entry that stands twice is refused.
+focal length; its LONLAT is the equirectangular panorama. An entry that stands twice is refused. Older files have the
+model as distortion_model, DISTORTION_OPENCV8, and words as byte strings.
 Reference: mrcal documentation, Lens models; The .cameramodel file format.
 """
 
 from __future__ import annotations
 
 import ast
+import re
 from math import pi
 from typing import Any
 from warnings import catch_warnings
@@ -24,13 +26,16 @@ MODELS = {
     STEREOGRAPHIC: ("UCM", ()),
 }
 
+MARK = re.compile("LENSMODEL_|DISTORTION_[A-Z]")
+"""What every file has; DISTORTION_ before mrcal 1.0."""
+
 LONGEST = 1 << 20
 """Characters of a file: Python's reader takes a second for them."""
 
 
 def read(document: Document, key: str) -> list[Lens] | None:
     """Return the lenses of a document; see the package."""
-    if "LENSMODEL_" not in document.text:
+    if not MARK.search(document.text):
         return None
     if len(document.text) > LONGEST:
         raise document.refusal(f"it names a lens model of mrcal, but is longer than {LONGEST:,} characters")
@@ -42,7 +47,7 @@ def read(document: Document, key: str) -> list[Lens] | None:
     except (ValueError, TypeError, SyntaxError, RecursionError, MemoryError) as error:
         raise document.refusal("it names a lens model of mrcal, but is not a cameramodel file of mrcal") from error
     entries = entries if isinstance(entries, dict) else {}
-    kind = document.one_of(entries.get("lensmodel"), "lensmodel", (*MODELS, LONLAT))
+    kind = document.one_of(_kind(entries), "lensmodel", (*MODELS, LONLAT))
     if kind == LONLAT:
         return [_panorama(document, entries)]
     model, terms = MODELS[kind]
@@ -52,6 +57,16 @@ def read(document: Document, key: str) -> list[Lens] | None:
         fx, fy, settings = 2 * fx, 2 * fy, {"unified_xi": 1.0}
     width, height = document.numbers(entries.get("imagersize"), "imagersize", 2)
     return [Lens("", model, document.size(width, height) | matrix(fx, fy, cx, cy) | settings)]
+
+
+def _kind(entries: dict) -> Any:
+    """Return the lens model, also of files before mrcal 1.0: by another name, or as a byte string."""
+    kind = next((entries[name] for name in ("lensmodel", "lens_model", "distortion_model") if name in entries), None)
+    kind = kind.decode("ascii", "replace") if isinstance(kind, bytes) else kind
+    if not isinstance(kind, str):
+        return kind
+    kind = kind.replace("DISTORTION_", "LENSMODEL_")
+    return "LENSMODEL_PINHOLE" if kind == "LENSMODEL_NONE" else kind
 
 
 def _once(tree: ast.expr, document: Document) -> Any:

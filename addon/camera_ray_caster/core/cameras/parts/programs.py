@@ -61,7 +61,7 @@ PROGRAMS = (
     Program(
         "VINS", "camodocal's .yaml, of VINS-Mono, VINS-Fusion and KITTI-360",
         "model_type projection_parameters distortion_parameters mirror_parameters",
-        "PINHOLE, PINHOLE_FULL, MEI, KANNALA_BRANDT", "", "SCARAMUZZA is refused",
+        "PINHOLE, PINHOLE_FULL, MEI, KANNALA_BRANDT, SCARAMUZZA", "", "",
     ),
     Program(
         "ORB-SLAM", "settings of ORB-SLAM2, ORB-SLAM3 and stella_vslam as .yaml",
@@ -101,6 +101,28 @@ PROGRAMS = (
     Program(
         "OpenSfM", "camera_models.json", "projection_type focal focal_x width height k1",
         "perspective, brown, radial, fisheye, fisheye_opencv, spherical", "", "poses; other projections are refused",
+    ),
+    Program(
+        "maplab", "ncamera .yaml of maplab and SVO", "cameras camera label image_height type T_B_C",
+        "pinhole, unified-projection, with radial-tangential, rational, equidistant or fisheye", "", "poses",
+    ),
+    Program(
+        "HOT3D", "cameras of its clips as .json",
+        "calibration projection_model_type projection_params T_device_from_camera",
+        "FISHEYE624, PINHOLE", "", "poses",
+    ),
+    Program(
+        "Metashape", "calibrations, and cameras of projects, as .xml",
+        "document chunk sensors sensor resolution adjusted",
+        "frame, fisheye", "", "poses; k4 of a frame camera, p3 and p4 are refused",
+    ),
+    Program(
+        "Meshroom", ".sfm of AliceVision", "intrinsicId pxFocalLength principalPoint distortionParams sensorWidth",
+        "pinhole, radial1, radial3, brown, fisheye4, fisheye1", "", "poses; anamorphic lenses are refused",
+    ),
+    Program(
+        "Gyroflow", "lens profiles as .json", "calib_dimension fisheye_params use_opencv_fisheye calibrator_version",
+        "opencv_fisheye, opencv_standard", "", "stretched pictures and other models are refused",
     ),
     Program(
         "OCamCalib", "calib_results.txt; the same as .json",

@@ -33,6 +33,7 @@ class Element:
     line: int
     children: list[Element] = field(default_factory=list)
     text: str = ""
+    attributes: dict[str, str] = field(default_factory=dict)
 
 
 def tree(text: str, check: Callable[[], None] = lambda: None) -> Element:
@@ -43,11 +44,11 @@ def tree(text: str, check: Callable[[], None] = lambda: None) -> Element:
     texts: list[list[str]] = []
     done: list[Element] = []
 
-    def begin(name, _):
+    def begin(name, attributes):
         check()
         if len(open_elements) >= DEEPEST:
             raise XmlError(f"line {parser.CurrentLineNumber} is nested deeper than {DEEPEST} levels")
-        element = Element(name, parser.CurrentLineNumber)
+        element = Element(name, parser.CurrentLineNumber, attributes=attributes)
         if open_elements:
             open_elements[-1].children.append(element)
         open_elements.append(element)
