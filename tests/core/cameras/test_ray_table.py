@@ -1,5 +1,6 @@
 """Tables of rays: what is between their entries, and files of them, against the cameras that they were sampled from."""
 
+import json
 from io import BytesIO
 
 import numpy as np
@@ -7,6 +8,8 @@ import pytest
 
 import camera_ray_caster as crc
 from camera_ray_caster.core.conventions import EPS
+from camera_ray_caster.core.report.accuracy import Accuracy
+from camera_ray_caster.core.report.report import as_json, as_lines, report_cast
 
 from .model_examples import camera
 from .table_examples import pinhole, stacked
@@ -201,3 +204,35 @@ def test_files_that_are_no_table_are_refused_in_one_line(name, tmp_path):
         crc.load_calibration(path)
     assert "\n" not in str(caught.value)
     assert str(path) in str(caught.value)
+
+
+def test_exports_take_a_table_as_it_is_or_refuse_it_by_name(tmp_path):
+    """STMaps only of rays with one eye."""
+    central = crc.camera("RAY_TABLE", (24, 18), ray_directions=pinhole())
+    apart = crc.camera("RAY_TABLE", (24, 18), ray_directions=pinhole(), ray_origins=pinhole() * (0.1, 0.1, 0))
+    for cam, able in ((central, "stmap, npz, json"), (apart, "npz, json")):
+        for name in ("colmap", "nerfstudio", "opencv", "ros", "kalibr", "mrcal", "bop"):
+            with pytest.raises(crc.InputError, match=f"Ray Table of camera 'Camera'.*choose one of .*{able}$"):
+                crc.export(name, cam, tmp_path)
+        (path,) = crc.export("json", cam, tmp_path).paths
+        again = crc.camera_from_json(path)
+        np.testing.assert_array_equal(again.rays().directions, cam.rays().directions)
+        np.testing.assert_array_equal(again.rays().origins, cam.rays().origins)
+    assert len(crc.export("stmap", central, tmp_path).paths) == 2
+    with pytest.raises(crc.InputError, match="no eye in common"):
+        crc.export("stmap", apart, tmp_path)
+
+
+def test_a_report_states_the_errors_and_holds_small_tables_only():
+    shapes = crc.spheres([(0, 0, -4)], 1.0)
+    for table, held in ((pinhole(), True), (pinhole(200, 126), False)):
+        cam = crc.camera("RAY_TABLE", (24, 18), ray_directions=table)
+        images = crc.cast(cam, shapes, passes="depth")
+        seconds = dict.fromkeys(("read", *images.seconds), 0.0)
+        report = report_cast(cam, shapes, images, seconds, (), 1.0, "", precision="", accuracy=Accuracy())
+        assert any(line.startswith("  interpolation error  ") for line in as_lines(report))
+        document = json.loads(as_json(report))
+        assert (document["record"] is not None) == held
+        if held:
+            again = crc.camera_from_json(as_json(report))
+            np.testing.assert_array_equal(again.rays().directions, cam.rays().directions)

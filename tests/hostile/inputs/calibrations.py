@@ -111,6 +111,14 @@ ORB_SLAM = "%YAML:1.0\nCamera.fx: 500.0\nCamera.fy: 501.0\nCamera.cx: 32.5\nCame
 BASALT = {"value0": {"intrinsics": [{"camera_type": "kb4", "intrinsics": {
     "fx": 500.0, "fy": 501.0, "cx": 320.5, "cy": 240.5, "k1": 0.1, "k2": 0.0, "k3": 0.0, "k4": 0.0,
 }}], "resolution": [[640, 480]]}}  # fmt: skip
+PLACES = [(i / 5, j / 4) for j in range(5) for i in range(6)]
+RAYS = [(round(x - 0.5, 3), round(0.8 * y - 0.4, 3), 1.0) for x, y in PLACES]
+GENERIC = (
+    "type: CentralGenericModel\nwidth: 640\nheight: 480\ncalibration_min_x: 0\ncalibration_min_y: 0\n"
+    "calibration_max_x: 639\ncalibration_max_y: 479\ngrid_width: 6\ngrid_height: 5\n"
+    f"grid: {[number for ray in RAYS for number in ray]}\n"
+)
+MESH = "u,v,dx,dy,dz\n" + "".join(f"{x},{y},{a},{b},{-c}\n" for (x, y), (a, b, c) in zip(PLACES, RAYS, strict=True))
 OPENCV = "OPENCV_PINHOLE", "OPENCV_FISHEYE"
 FILES = (
     ("lens.yml", YAML, OPENCV),
@@ -127,6 +135,8 @@ FILES = (
     ("vins.yaml", VINS, OPENCV),
     ("orb.yaml", ORB_SLAM, OPENCV),
     ("basalt.json", json.dumps(BASALT), OPENCV),
+    ("generic.yaml", GENERIC, ("RAY_TABLE",)),
+    ("mesh.csv", MESH, ("RAY_TABLE",)),
 )
 
 

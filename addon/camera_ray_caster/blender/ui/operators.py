@@ -87,7 +87,9 @@ class LoadCalibration(OfCamera, bpy.types.Operator):
     bl_options = {"REGISTER", "UNDO"}
 
     filepath: StringProperty(name="File", description="Path of the calibration file", subtype="FILE_PATH")
-    filter_glob: StringProperty(default="*.yml;*.yaml;*.json;*.txt;*.cameramodel", options={"HIDDEN", "SKIP_SAVE"})
+    filter_glob: StringProperty(
+        default="*.yml;*.yaml;*.json;*.txt;*.cameramodel;*.npz;*.npy;*.exr;*.csv;*.obj", options={"HIDDEN", "SKIP_SAVE"}
+    )
     camera: StringProperty(
         name="Camera in File",
         description="Name of the camera in a calibration file that has several cameras",

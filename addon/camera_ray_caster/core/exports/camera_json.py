@@ -106,7 +106,8 @@ def _of_report(report: Mapping[str, Any], frame: float | None, view: str | None)
         raise InputError(f"this report has no view {shown(view)}" + (f", only {', '.join(views)}" if views else ""))
     record = report["record"] if view is None else views[view]
     if record is None:
-        raise InputError("this report has no record of its camera, whose time is an image: export a camera.json")
+        what = "whose time is an image, or whose table of rays is large"
+        raise InputError(f"this report has no record of its camera, {what}: export a camera.json")
     if frame not in (None, report[FRAME]):
         raise InputError(f"this report is of frame {report[FRAME]:g}, not {shown(frame)}")
     return _camera(record)

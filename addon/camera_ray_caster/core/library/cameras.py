@@ -50,9 +50,10 @@ def camera(model: str, size, pose=None, **settings: Any) -> Camera:
         properties, angles in radians. What is not given has its declared default, with one exception: once any of the
         numbers in pixels is given (fx, cx, ...), the calibrated picture has the given size, and what is left out of
         focal lengths and center belongs to it. A slit is a point and a direction, (2, 3); a path is (n, 3) points; a
-        time image is (rows, columns). Every model also takes ``clip_start``, ``clip_end``, ``pixel_aspect_x``,
-        ``use_border``, ``border_min_x``, ...; depth of field ``use_dof``, ``focus_distance``, ``aperture_fstop``, ...;
-        and pixel times ``time_mode`` with its settings, and ``frame``.
+        time image is (rows, columns), a table of rays (rows, columns, 3), both from the bottom left. Every model also
+        takes ``clip_start``, ``clip_end``, ``pixel_aspect_x``, ``use_border``, ``border_min_x``, ...; depth of field
+        ``use_dof``, ``focus_distance``, ``aperture_fstop``, ...; and pixel times ``time_mode`` with its settings, and
+        ``frame``.
         ``name`` is the camera's name, by default "Camera".
 
     Raises InputError, in one line, for a model or a setting that does not exist (it names the nearest one that does),

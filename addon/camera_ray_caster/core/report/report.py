@@ -8,6 +8,8 @@ from dataclasses import asdict, dataclass, field, replace
 from textwrap import shorten, wrap
 from typing import Any
 
+import numpy as np
+
 from ..camera.camera import Camera
 from ..camera.facts import CONVENTIONS, camera_facts
 from ..camera.pixel_time import ImageTime
@@ -23,6 +25,8 @@ from .notes import sentences
 
 WIDTH = 100
 """Maximum width of the table in columns."""
+MOST_NUMBERS = 3 * 25_000
+"""Numbers of the largest table of rays in the record of a report: as text, of which each picture has one, some 4 MB."""
 MARGIN = 23
 """Column in which the values of a camera's facts begin."""
 
@@ -67,7 +71,9 @@ class Report:
     host: Mapping[str, Any] = field(default_factory=dict)
     """``blender``: Blender's version; ``meters``: length of a Blender unit in meters."""
     record: Mapping[str, Any] | None = None
-    """Record of the camera for ``camera_from_json``: see ``recorded``; None if its pixel times are an image."""
+    """Record of the camera for ``camera_from_json``: see ``recorded``; None if its pixel times are an image, or if its
+    table of rays has more than MOST_NUMBERS.
+    """
     views: Mapping[str, Any] = field(default_factory=dict)
     """The ``record`` of each view of a stereo scene, by the view's name; {} otherwise."""
     indices: Mapping[str, Any] = field(default_factory=dict)
@@ -146,9 +152,14 @@ def report_cast(
         precision=precision,
         accuracy=accuracy,
         host=host or {},
-        record=None if isinstance(camera.pixel_time, ImageTime) else recorded(camera),
+        record=recorded(camera) if _has_record(camera) else None,
         indices={layer: indices_of(shapes)},
     )
+
+
+def _has_record(camera: Camera) -> bool:
+    tables = (value for value in camera.record.settings.values() if isinstance(value, np.ndarray))
+    return not isinstance(camera.pixel_time, ImageTime) and all(table.size <= MOST_NUMBERS for table in tables)
 
 
 def _uncolored(shapes: Shapes, passes: Collection[str]) -> Iterator[tuple[str, str]]:
