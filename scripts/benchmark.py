@@ -6,6 +6,7 @@
     python scripts/benchmark.py --models        rays and pictures of every camera model
     python scripts/benchmark.py --dataset       a data set of meshes: cost against writing alone, and two processes
     python scripts/benchmark.py --against v0.1.0    this checkout against a commit: casts and the rays of each model
+    python scripts/benchmark.py --against v0.1.0 --same    whether the pictures of the example scenes are the same
     python scripts/benchmark.py --scaling --picture FILE.png    cost against pixels, shapes and triangles
 
 In each round all contenders run in turn, so that other load on the machine affects all of them. A pause before each run
@@ -54,6 +55,9 @@ def main() -> int:
     parser.add_argument(
         "--against", metavar="COMMIT", help="compare the processor time of this checkout with that of another commit"
     )
+    parser.add_argument(
+        "--same", action="store_true", help="with --against: compare all passes of all example scenes, not times"
+    )
     parser.add_argument("--picture", type=Path, metavar="FILE", help="draw a diagram; with --scaling only")
     parser.add_argument("--json", type=Path, metavar="FILE", help="write the measurements to this file")
     options = parser.parse_args()
@@ -61,13 +65,18 @@ def main() -> int:
     for path in filter(None, (options.json, options.picture)):
         if not path.absolute().parent.is_dir():
             parser.error(f"there is no folder for {str(path)!r}: create the folder or choose another folder")
+    if options.same and not options.against:
+        parser.error("--same compares two checkouts: add --against COMMIT")
     width, height = options.size
     rounds = options.rounds or (3 if options.quick else 9)
     if options.against:
-        from measure import against
+        from measure import against, same_pictures
 
         try:
-            figures = against.run(options.against, rounds, options.size)
+            if options.same:
+                figures = same_pictures.run(options.against)
+            else:
+                figures = against.run(options.against, rounds, options.size)
         except LookupError as error:
             parser.error(str(error))
     elif options.models:

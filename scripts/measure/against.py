@@ -36,6 +36,7 @@ def cases() -> dict[str, Callable]:
         for count in SPHERES
     }
     found |= {f"{name} triangles, 4 passes": partial(_mesh, side) for name, side in SIDES.items()}
+    found["F12, spheres and planes, 5 passes"] = _render
     return found | {f"rays, {model.key}": partial(_rays, model.key) for model in MODELS}
 
 
@@ -44,7 +45,7 @@ def run(commit: str, rounds: int, size: tuple[int, int]) -> list[dict]:
     there is no such commit.
     """
     rows = []
-    with _checked_out(commit) as there:
+    with checked_out(commit) as there:
         print(f"\nprocessor time, ms; {size[0]} x {size[1]}; least of {rounds} rounds of {CASTS}")
         print(f"  {'':34}{'there':>9}{'here':>9}{'here over there':>17}{'its rounds':>14}")
         for name in cases():
@@ -60,7 +61,7 @@ def run(commit: str, rounds: int, size: tuple[int, int]) -> list[dict]:
 
 
 @contextmanager
-def _checked_out(commit: str):
+def checked_out(commit: str):
     """Give a folder with the files of a commit of this repository."""
     with tempfile.TemporaryDirectory() as folder:
         packed = subprocess.run(["git", "-C", ROOT, "archive", commit], capture_output=True, check=False)
@@ -74,7 +75,7 @@ def _timed(root: Path, name: str, size: tuple[int, int]) -> float | None:
     """Return the milliseconds of a case with the add-on of a folder; None if it does not have it."""
     words = [sys.executable, "-c", "from measure import against; against.tell()", str(root), name, *map(str, size)]
     done = subprocess.run(words, cwd=ROOT / "scripts", capture_output=True, text=True, check=False)
-    return float(done.stdout) if done.returncode == 0 else None
+    return float(done.stdout.splitlines()[-1]) if done.returncode == 0 else None
 
 
 def _camera(size: tuple[int, int]):
@@ -133,6 +134,23 @@ def _mesh(side: int, size) -> Callable:
     )  # fmt: skip
 
 
+def _render(size) -> Callable:
+    """A render of an example scene in Blender, with all that the engine does."""
+    import bpy
+
+    import camera_ray_caster
+
+    camera_ray_caster.register()
+    bpy.ops.wm.open_mainfile(filepath=str(ROOT / "blend_scenes" / "spheres_and_planes.blend"))
+    scene = bpy.context.scene
+    scene.render.engine = "CAMERA_RAY_CASTER"
+    scene.render.resolution_x, scene.render.resolution_y = size
+    scene.render.resolution_percentage = 100
+    for name in ("z", *FOUR[1:]):
+        setattr(bpy.context.view_layer, f"use_pass_{name}", True)
+    return bpy.ops.render.render
+
+
 def _rays(key: str, size) -> Callable:
     """The rays of the first example of a model in the contract test."""
     from tests.core.cameras.model_examples import camera
@@ -151,4 +169,4 @@ def tell() -> None:
         began = process_time()
         timed()
         least = min(least, process_time() - began)
-    print(1e3 * least)
+    print(f"\n{1e3 * least}")
