@@ -35,6 +35,7 @@ from .ui import (
     menus,
     model_panels,
     object_panels,
+    open_lesson,
     operators,
     other_engine,
     overlay_panels,
@@ -57,8 +58,8 @@ CLASSES = (
     *see_through.CLASSES, *select_seen.CLASSES, *camera_panels.CLASSES, *cast_all.CLASSES, *cameras_list.CLASSES,
     *show_result.CLASSES, *cast_panels.CLASSES, *verify_panels.CLASSES,
     *left_out_panels.CLASSES, *lesson_operators.CLASSES, *point_operators.CLASSES, *gallery_operators.CLASSES,
-    *lesson_panels.CLASSES, *facts_panels.CLASSES, *overlay_panels.CLASSES, *cloud_operators.CLASSES,
-    *object_panels.CLASSES,
+    *open_lesson.CLASSES, *lesson_panels.CLASSES, *facts_panels.CLASSES, *overlay_panels.CLASSES,
+    *cloud_operators.CLASSES, *object_panels.CLASSES,
 )  # fmt: skip
 """Blender types in registration order: a panel comes after its parent panel."""
 

@@ -9,6 +9,7 @@ from ..view3d.camera_frame import is_picture
 from ..view3d.lesson import lessons
 from .drawing import Sidebar, draw_message
 from .lesson_operators import ClearSteps, CopySteps, StepThrough
+from .open_lesson import OpenLesson
 from .point_operators import EmptyAtHit, PixelOfPoint
 
 OPEN = ("Model", "Ray", "Ray in the world", "Seen", "Color")
@@ -28,6 +29,7 @@ class Steps:
         layout = self.layout
         layout.operator(StepThrough.bl_idname, icon="EYEDROPPER", text="Click a Pixel")
         layout.operator(PixelOfPoint.bl_idname, icon="PIVOT_CURSOR", text="Pixel of 3D Cursor")
+        layout.operator(OpenLesson.bl_idname, icon="URL")
         found = lessons(context)
         if not found:
             return

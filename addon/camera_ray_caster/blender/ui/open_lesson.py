@@ -1,0 +1,53 @@
+"""The lesson in a browser: a page about the scene's camera and the latest pixel, in a folder that the user sees."""
+
+from pathlib import Path
+
+import bpy
+
+from ...core.exports.writing import write
+from ...core.maths.recording import NotRecordable
+from ...core.names import file_name
+from ...core.records import InputError
+from ...core.web.page import lesson_page
+from ..read.scene_cache import cached_scene
+from ..view3d import lesson
+from .needs import OfScene, reporting
+
+
+class OpenLesson(OfScene, bpy.types.Operator):
+    """Open a page in the browser that shows this camera's formula, and the ray of the clicked pixel: all can be moved
+    there. The page is written beside the .blend file, or in the home folder, and needs no connection"""
+
+    bl_idname = "camera_ray_caster.open_lesson"
+    bl_label = "Open Lesson"
+    bl_options = {"REGISTER"}
+
+    @reporting
+    def execute(self, context):
+        """Write the page and open it."""
+        camera = cached_scene(context).camera
+        if camera is None:
+            raise InputError("the camera cannot be cast: see the reason in the sidebar")
+        path = write_lesson(camera, lesson.pixels[-1] if lesson.pixels else None)
+        bpy.ops.wm.url_open(url=path.as_uri())
+        self.report({"INFO"}, f"Wrote {path}")
+        return {"FINISHED"}
+
+
+def write_lesson(camera, pixel) -> Path:
+    """Write the page about a camera and a pixel; return its path.
+
+    Raises InputError for a folder that cannot be written, and for a model of one's own that is no plain arithmetic.
+    """
+    blend = Path(bpy.data.filepath)
+    folder = blend.parent if bpy.data.filepath else Path.home()
+    name = file_name(f"{blend.stem or 'untitled'}_{camera.name}_lesson.html")
+    try:
+        text = lesson_page(camera, pixel)
+    except NotRecordable as error:
+        raise InputError(f"{camera.model.label} has no lesson in a browser: {error}") from error
+    (path,) = write([(name, text)], folder)
+    return path
+
+
+CLASSES = (OpenLesson,)
