@@ -61,6 +61,18 @@ def test_a_lens_of_blenders_is_found_again():
     assert found.settings["fisheye_polynomial_k1"] == pytest.approx(-0.08, rel=1e-5)
 
 
+@pytest.mark.parametrize("fit", ["AUTO", "VERTICAL"])
+def test_parallel_rays_are_blenders_orthographic(fit):
+    """The rays of three corners, 6 by 3 units around (0.5, -0.25), on 96 x 54 pixels."""
+    three = {f"ray_{k}": (x, y, x, y) for k, (x, y) in enumerate(((-2.5, -1.75), (3.5, -1.75), (-2.5, 1.25)), 1)}
+    cam = camera("GENERAL_LINEAR", {"sensor_fit": fit} | three)
+    found = blender_lens(cam)
+    assert found.camera.model.key == "ORTHO"
+    assert found.worst < 1e-4  # settings of float32
+    assert found.camera.project([(3.5, 1.25, -7.0)])[0] == pytest.approx((96, 54), abs=1e-4)
+    assert "EEVEE and Workbench render it" in found.said
+
+
 @pytest.mark.parametrize(
     ("key", "says"),
     [("PUSHBROOM", "whose rays have no eye: use Use in Cycles"), ("EQUIRECTANGULAR", "no lens of Blender is like")],

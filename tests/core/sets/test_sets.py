@@ -9,6 +9,7 @@ import pytest
 from camera_ray_caster.core.annotations.coco import Sheet, document
 from camera_ray_caster.core.camera.facts import camera_facts
 from camera_ray_caster.core.cast import cast
+from camera_ray_caster.core.exports import export
 from camera_ray_caster.core.exports.camera_json import recorded
 from camera_ray_caster.core.exports.writing import write
 from camera_ray_caster.core.records import PLANE, SPHERE, InputError
@@ -68,6 +69,18 @@ def test_a_set_has_the_cameras_and_passes_that_were_cast(made):
         one.pixels("uv")
     with pytest.raises(InputError, match="has no pictures with reports"):
         read_set(folder / "none")
+
+
+def test_trajectories_have_the_set_s_own_time(made):
+    folder, _ = made
+    for rate, seconds in ((None, (1 / 24, 2 / 24)), (29.97, (1 / 29.97, 2 / 29.97))):
+        for path in folder.glob("PERSP_000?.json"):
+            report = json.loads(path.read_text())
+            report["host"] |= {} if rate is None else {"frame_rate": rate}
+            path.write_text(json.dumps(report))
+        files, _ = export("tum", [one.shot for one in read_set(folder)])
+        lines = [line for _, text in files for line in text.splitlines() if not line.startswith("#")]
+        assert [float(line.split()[0]) for line in lines] == pytest.approx(seconds, abs=1e-6)
 
 
 def test_pngs_are_what_opencv_reads(tmp_path):

@@ -21,7 +21,7 @@ from ...core.records import Finding, Shapes
 from ...core.report.accuracy import accuracy
 from ...core.report.report import Report, report_cast
 from ..read.evaluated import Eye, scene_at
-from ..read.frames import frame_of, go_to
+from ..read.frames import frame_of, frame_rate, go_to
 from ..read.motion import with_other_frames
 from ..verification.check import verify_evaluated
 
@@ -97,7 +97,11 @@ class Job:
             stored=raster.shape
             if not scene.render.use_border or scene.render.use_crop_to_border
             else raster.size[::-1],
-            host={"blender": bpy.app.version_string, "meters": scene.unit_settings.scale_length},
+            host={
+                "blender": bpy.app.version_string,
+                "meters": scene.unit_settings.scale_length,
+                "frame_rate": frame_rate(scene),
+            },
             several=several,
         )
 

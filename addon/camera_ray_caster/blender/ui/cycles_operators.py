@@ -57,8 +57,8 @@ class BackToBlender(OfCamera, bpy.types.Operator):
 
 
 class FitLens(OfCamera, bpy.types.Operator):
-    """Set Blender's own lens nearest to this camera's model, and report its error in pixels: a perspective, which EEVEE
-    and Workbench render, too, or the polynomial fisheye, which Cycles renders on any device"""
+    """Set Blender's own lens nearest to this camera's model, and report its error in pixels: a perspective or an
+    orthographic, which EEVEE and Workbench render, too, or the polynomial fisheye, which Cycles renders anywhere"""
 
     bl_idname = "camera_ray_caster.fit_lens"
     bl_label = "Fit Blender's Lens"

@@ -1,6 +1,7 @@
-"""Blender's own lens nearest to a camera's: a perspective, or the polynomial fisheye.
+"""Blender's own lens nearest to a camera's: a perspective, the polynomial fisheye, or an orthographic.
 
 Assumption: the rays leave one eye; the fisheye keeps the azimuth about the axis, through the pixel that looks ahead.
+Parallel rays look along the camera's axis; their pixels are linear in their places.
 Formula: least squares over pixels. Perspective: x = fx X + cx and y = fy Y + cy for rays (X, Y, -1), which is linear.
 Fisheye: theta = -(k1 r + ... + k4 r^4), linear in k; the ratio of the pixel's sides is that which keeps the azimuth.
 The settings are rounded to float32, as Blender stores them, before errors are measured.
@@ -16,6 +17,7 @@ from typing import Any
 import numpy as np
 
 from ..cameras.fisheye_polynomial import COEFFICIENTS, FisheyePolynomial
+from ..cameras.orthographic import Orthographic
 from ..cameras.parts.radial import FISHEYE_FOV
 from ..cameras.perspective import Perspective
 from ..records import BlenderCamera, InputError
@@ -31,8 +33,12 @@ GOOD = 0.05
 FAR = 0.05
 """Part of the frame: a lens that errs by more is no likeness."""
 
+PARALLEL = 1e-7
+"""Largest slope of rays that count as parallel: matrices of float32 turn them by as much."""
+
 ENGINES = {
     Perspective.key: "Cycles on any device, EEVEE and Workbench render it",
+    Orthographic.key: "Cycles on any device, EEVEE and Workbench render it",
     FisheyePolynomial.key: "Cycles on any device renders it, EEVEE and Workbench do not",
 }
 """What renders each lens."""
@@ -56,17 +62,25 @@ class BlenderLens:
 
 
 def blender_lens(camera: Camera) -> BlenderLens:
-    """Return Blender's lens nearest to a camera's. Raises InputError for rays without one eye, for pixels with times of
-    their own, and if neither lens has the camera's rays.
+    """Return Blender's lens nearest to a camera's. Raises InputError for rays that neither leave one eye nor all look
+    along the axis, for pixels with times of their own, and if no lens has the camera's rays.
     """
-    if camera.pixel_time is not None or not camera.model.central:
-        reason = "whose pixels have their own times" if camera.pixel_time is not None else "whose rays have no eye"
-        raise InputError(f"no lens of Blender is like that of camera {camera.name!r}, {reason}: use Use in Cycles")
     width, height = camera.raster.size
     x, y = (np.unique(np.linspace(0, side - 1, min(side, SAMPLED)).round()) + 0.5 for side in (width, height))
     x, y = (part.ravel() for part in np.meshgrid(x, y))
-    _, direction = camera.model.rays(x, y)
-    rays = np.stack(np.broadcast_arrays(*direction, x)[:3], axis=-1).astype(np.float64)
+    with np.errstate(all="ignore"):  # NaN means no ray
+        places, rays = (
+            np.stack(np.broadcast_arrays(*part, x)[:3], axis=-1).astype(np.float64) for part in camera.model.rays(x, y)
+        )
+    parallel = bool((np.abs(rays[:, :2]) <= PARALLEL * np.abs(rays[:, 2:])).all() and (rays[:, 2] < 0).all())
+    if camera.pixel_time is not None or not (camera.model.central or parallel):
+        reason = "whose pixels have their own times" if camera.pixel_time is not None else "whose rays have no eye"
+        raise InputError(f"no lens of Blender is like that of camera {camera.name!r}, {reason}: use Use in Cycles")
+    if parallel and not camera.model.central:
+        lens = _orthographic(camera, np.stack((x, y), axis=-1), places + rays)
+        if lens is not None and lens.worst <= FAR * max(width, height):
+            return lens
+        raise InputError(f"no lens of Blender is like that of camera {camera.name!r}: use Use in Cycles")
     there = np.isfinite(rays).all(axis=-1)
     if not there.any():
         raise InputError(f"camera {camera.name!r} has no ray in its frame: there is nothing to fit")
@@ -78,6 +92,20 @@ def blender_lens(camera: Camera) -> BlenderLens:
         raise InputError(f"no lens of Blender is like that of camera {camera.name!r}{error}: use Use in Cycles")
     straight = (lens for lens in found if lens.camera.model.key == Perspective.key and lens.worst <= GOOD)
     return next(straight, nearest)
+
+
+def _orthographic(camera: Camera, pixels, points) -> BlenderLens | None:
+    """Return the orthographic camera nearest to parallel rays through points in front of the camera."""
+    (fx, cx), (fy, cy) = (np.polyfit(points[:, axis], pixels[:, axis], 1) for axis in (0, 1))
+    if not min(fx, fy) > 0:
+        return None
+    width, height = camera.raster.size
+    fitted = _fitted(camera.record, fx / fy, width, height)
+    raw, settings = _record(camera.record, Orthographic.key, fx / fy, {
+        "ortho_scale": fitted / fx, "shift_x": (width / 2 - cx) / fitted,
+        "shift_y": (height / 2 - cy) * (fx / fy) / fitted,
+    })  # fmt: skip
+    return _judged(raw, settings, pixels, points)
 
 
 def _nearest(camera: Camera, pixels, rays) -> Iterator[tuple[BlenderCamera, dict[str, Any]]]:
@@ -129,8 +157,9 @@ def _record(raw: BlenderCamera, kind: str, aspect: float, given: dict[str, float
     settings = {name: float(np.float32(value)) for name, value in given.items()}
     fields: dict[str, Any] = {name: value for name, value in settings.items() if hasattr(raw, name)}
     others = {name: value for name, value in settings.items() if name not in fields}
-    panorama = {} if kind == "PERSP" else {"panorama_type": kind}
-    new = replace(raw, type=kind if kind == "PERSP" else "PANO", model="", **fields,
+    own = kind in (Perspective.key, Orthographic.key)
+    panorama = {} if own else {"panorama_type": kind}
+    new = replace(raw, type=kind if own else "PANO", model="", **fields,
                   settings={**raw.settings, **panorama, **others})  # fmt: skip
     return new, settings
 

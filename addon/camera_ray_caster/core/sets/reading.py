@@ -58,9 +58,15 @@ class View:
         return float(self.report.get("host", {}).get("meters", 1.0))
 
     @property
+    def frame_rate(self) -> float:
+        """Return the frames of a second; those of a new file of Blender if the set does not tell them."""
+        return float(self.report.get("host", {}).get("frame_rate", 24.0))
+
+    @property
     def shot(self) -> Shot:
         """Return the camera at its frame, as it is exported; its picture has the name of the view."""
-        return Shot(file_name(str(self.report["camera"]["name"])), self.frame, self.camera, self.meters)
+        name = file_name(str(self.report["camera"]["name"]))
+        return Shot(name, self.frame, self.camera, self.meters, rate=self.frame_rate)
 
     @cached_property
     def picture(self) -> bytes | None:
