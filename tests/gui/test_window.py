@@ -24,6 +24,8 @@ SCENARIOS = (
     "redraws_of_shapes", "redraws_of_monkeys", "redraws_all_around",
     "shown_camera", "set_frame", "other_engine", "marks", "click_seen", "drag_a_ray", "cast_all", "disable",
 )  # fmt: skip
+SEEDS = "1", "2", "3", "4"
+"""Of random acts, 250 each: see random_acts.py."""
 SIZE = "1400x900"
 LIMIT = 1200
 """Seconds for the whole walk: ten times what it takes on two idle cores without a graphics card."""
@@ -45,24 +47,29 @@ def program():
 @pytest.fixture(scope="module")
 def results():
     """How each scenario ended, by name: "ok" or a traceback."""
+    return walked(OUTPUT)
+
+
+def walked(folder, *names):
+    """Walk through scenarios of these names, or all; return how each ended. The screenshots are in a folder."""
     words, missing = program()
     if words is None:
         pytest.skip(missing)
-    shutil.rmtree(OUTPUT, ignore_errors=True)
-    OUTPUT.mkdir(parents=True)
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir(parents=True)
     walk = ["--factory-startup", "--python", "tests/gui/walk.py", "--", "blend_scenes"]
-    environment = {"BLENDER_USER_RESOURCES": str(OUTPUT / "profile"), "LIBGL_ALWAYS_SOFTWARE": "1"}
-    with (OUTPUT / "log.txt").open("w") as log:
+    environment = {"BLENDER_USER_RESOURCES": str(folder / "profile"), "LIBGL_ALWAYS_SOFTWARE": "1"}
+    with (folder / "log.txt").open("w") as log:
         subprocess.run(
-            [*words, *walk, str(OUTPUT)],
+            [*words, *walk, str(folder), *names],
             cwd=ROOT,
             env=os.environ | environment,
             stdout=log,
             stderr=subprocess.STDOUT,
             timeout=LIMIT,
         )
-    found = OUTPUT / "result.json"
-    said = (OUTPUT / "log.txt").read_text()
+    found = folder / "result.json"
+    said = (folder / "log.txt").read_text()
     assert found.is_file(), f"Blender ended before its time:\n{said}"
     assert "Traceback" not in said, said
     return json.loads(found.read_text())
@@ -75,3 +82,9 @@ def test_scenario(results, name):
 
 def test_every_scenario_is_named_here(results):
     assert set(results) == set(SCENARIOS)
+
+
+@pytest.mark.hostile
+@pytest.mark.parametrize("seed", SEEDS)
+def test_random_acts_end_in_no_traceback(seed):
+    assert walked(OUTPUT.with_name("gui_acts"), seed) == {seed: "ok"}

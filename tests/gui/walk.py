@@ -1,7 +1,7 @@
 """A user's walk through the add-on in a window: run by a Blender, told in scenarios. See test_window.py.
 
 Arguments: the folder of the example scenes, a folder for screenshots and for result.json; then
-the names of scenarios, all without.
+the names of scenarios, all without; a number is the seed of random acts.
 """
 
 import json
@@ -16,6 +16,7 @@ import bpy
 HERE = Path(__file__).resolve().parent
 sys.path += [str(HERE), str(HERE.parents[1] / "scripts")]
 import make_zip  # noqa: E402
+from random_acts import acts  # noqa: E402
 from scenarios import MODULE, SCENARIOS  # noqa: E402
 from user import TICK, User  # noqa: E402
 
@@ -46,7 +47,7 @@ def tell(user, scenes, results, wanted):
     """Yield through the scenarios, and note how each ended."""
     for name in wanted or SCENARIOS:
         try:
-            yield from SCENARIOS[name](user, scenes)
+            yield from (SCENARIOS[name] if name in SCENARIOS else acts(int(name)))(user, scenes)
             results[name] = "ok"
         except FAILURES:
             results[name] = traceback.format_exc()

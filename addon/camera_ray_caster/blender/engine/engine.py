@@ -12,6 +12,7 @@ from operator import add
 import bpy
 import numpy as np
 
+from ...core.camera.own_frame import own_frame
 from ...core.camera.stereo import eye_record
 from ...core.cast import Images
 from ...core.memory import exhausted
@@ -25,6 +26,7 @@ from ..properties.declared import ENGINE
 from ..properties.labels import in_labels
 from ..properties.passes import stored, ticked
 from ..read import physics
+from ..read.camera import camera_record
 from ..read.frames import frame_of
 from .after import warnings
 from .job import run
@@ -122,8 +124,15 @@ class CameraRayCaster(Viewport, bpy.types.RenderEngine):
         eyes = [self.render_eye(depsgraph, wanted, view.name) for view in self.get_result().views]
         report = reduce(add, eyes)
         after = warnings(depsgraph, report.camera["model"], wanted)
+        self.tell_stretched(depsgraph)
         jumped = physics.warning(depsgraph, frame_of(depsgraph.scene)) if bpy.app.background else ()
         return replace(report, warnings=(*after, *jumped))
+
+    def tell_stretched(self, depsgraph) -> None:
+        """Warn, in a window, of a frame in which the camera's picture is stretched: a terminal's user has given it."""
+        asked = None if bpy.app.background else own_frame(camera_record(self.camera_override, depsgraph))
+        if asked is not None:
+            self.report({"WARNING"}, f"{asked.sentence[:1].upper()}{asked.sentence[1:]}. Set Frame is in the sidebar")
 
     def render_eye(self, depsgraph, wanted, view: str) -> Report:
         """Cast and store one eye; the view's name is empty if the scene is not multi-view."""

@@ -61,7 +61,7 @@ class Scanner(Model):
         Step("Azimuth of the column and the row, clockwise", "a = start + (columns x/W - 1/2) step + azimuth"),
         Step("Elevation, linear between the beams", "e = elevation"),
         Step("Origin", "o = (ahead sin(a) + right cos(a), up, right sin(a) - ahead cos(a))"),
-        Step("Direction", "d = (cos(e) sin(a), sin(e), -cos(e) cos(a))"),
+        Step("Direction", "r = (cos(e) sin(a), sin(e), -cos(e) cos(a))"),
     )
 
     @classmethod
