@@ -4,6 +4,7 @@
     python scripts/benchmark.py --quick         the first two, fewer rounds
     python scripts/benchmark.py --meshes        triangle meshes, also against Open3D
     python scripts/benchmark.py --models        rays and pictures of every camera model
+    python scripts/benchmark.py --redraws       every camera model in scenes of triangles, by processor time
     python scripts/benchmark.py --dataset       a data set of meshes: cost against writing alone, and two processes
     python scripts/benchmark.py --against v0.1.0    this checkout against a commit: casts and the rays of each model
     python scripts/benchmark.py --against v0.1.0 --same    whether the pictures of the example scenes are the same
@@ -48,6 +49,9 @@ def main() -> int:
     parser.add_argument(
         "--models", action="store_true", help="measure ray generation and casting for every camera model"
     )
+    parser.add_argument(
+        "--redraws", action="store_true", help="measure the pictures of a viewport, 574x287, of every camera model"
+    )
     parser.add_argument("--scaling", action="store_true", help="measure the cost against pixels, shapes and triangles")
     parser.add_argument(
         "--dataset", action="store_true", help="measure pictures of a data set, with one process and with two"
@@ -83,6 +87,10 @@ def main() -> int:
         from measure import by_model
 
         figures = by_model.run(width, height, rounds, options.threads)
+    elif options.redraws:
+        from measure import redraws
+
+        figures = redraws.run(rounds, options.threads, (574, 287))
     elif options.meshes:
         from measure import mesh_contest
 

@@ -35,13 +35,30 @@ def shown_camera(user, scenes):
 
 
 def set_frame(user, scenes):
-    """A button sets the frame of a fisheye; the load dialog shows both sizes, and sets the frame of a file."""
+    """F12 warns of a stretched fisheye, and a button sets its frame; the load dialog shows both sizes, and sets the frame
+    of a file.
+    """
     yield from load(user, scenes, "toys")
     camera, render = bpy.context.scene.camera.data, bpy.context.scene.render
     camera.type, camera.panorama_type = "PANO", "FISHEYE_EQUIDISTANT"
+    render.engine, render.resolution_percentage = "CAMERA_RAY_CASTER", 5
     render.resolution_x, render.resolution_y = 1920, 1080
     yield from user.wait(0.7)
     user.picture("set_frame")
+    engine, said = addon("engine.engine"), []
+    own_frame = engine.own_frame
+    engine.own_frame = lambda raw: said.append(own_frame(raw)) or said[-1]
+    yield from user.point(*middle(user.region("WINDOW")))
+    yield from user.key("F12")
+    yield from user.until(lambda: said, "the render warns", 60)
+    engine.own_frame = own_frame
+    assert said[0].sentence.startswith("the picture is stretched: the frame has 96 × 54 pixels"), said
+    yield from user.until(lambda: any(area.type == "IMAGE_EDITOR" for area in user.window.screen.areas), "it is shown")
+    yield from user.wait(0.7)
+    yield from user.point(*middle(user.area("IMAGE_EDITOR")))
+    yield from user.key("Escape")
+    yield from user.until(lambda: any(area.type == "VIEW_3D" for area in user.window.screen.areas), "the view is back")
+    yield from user.wait(0.5)
     yield from user.press(f"{BUTTON}set_frame(")
     yield from user.until(lambda: render.resolution_x == 1080, "the frame is square")
     path = user.folder / "cameras.txt"
