@@ -35,8 +35,8 @@ def shown_camera(user, scenes):
 
 
 def set_frame(user, scenes):
-    """F12 warns of a stretched fisheye, and a button sets its frame; the load dialog shows both sizes, and sets the frame
-    of a file.
+    """F12 warns of a stretched fisheye, and a button sets its frame; the load dialog shows both sizes, and sets that of
+    a file.
     """
     yield from load(user, scenes, "toys")
     camera, render = bpy.context.scene.camera.data, bpy.context.scene.render
