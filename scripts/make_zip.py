@@ -30,6 +30,8 @@ def stage(folder: Path) -> Path:
     shutil.copy(ROOT / "LICENSE", folder)
     pictures = folder / "gallery" / "pictures"
     pictures.mkdir(parents=True)
+    for table in SCENES.glob("*.npz"):
+        shutil.copy(table, pictures.parent)
     for scene in SCENES.glob("*.blend"):
         shutil.copy(scene, pictures.parent)
         picture = SCENES / "pictures" / f"{scene.stem}.png"

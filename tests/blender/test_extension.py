@@ -41,6 +41,7 @@ def test_the_zip_holds_the_package_its_license_and_the_gallery(archive):
         "LICENSE",
         *(path.relative_to(SOURCE).as_posix() for path in files),
         *(f"gallery/{name}.blend" for name in scenes),
+        *(f"gallery/{path.name}" for path in SCENES.glob("*.npz")),
         *(f"gallery/pictures/{name}.png" for name in pictures),
     }
 

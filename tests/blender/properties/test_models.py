@@ -10,6 +10,7 @@ from camera_ray_caster.core.cameras import MODELS
 from camera_ray_caster.core.records import InputError
 
 from ...core.cameras.central_examples import FACTS
+from ...core.cameras.table_examples import pinhole
 
 BLENDERS = {
     "PERSP", "ORTHO", "EQUIRECTANGULAR", "EQUIANGULAR_CUBEMAP_FACE", "MIRRORBALL", "FISHEYE_EQUIDISTANT",
@@ -112,3 +113,19 @@ def test_what_was_read_is_said(scene, tmp_path):
     said = set_calibration(scene.camera.data, str(path), "2")
     assert said.startswith("Camera 2: OpenCV Fisheye, ")
     assert "fx 300, fy 301" in said
+
+
+def test_a_table_of_rays_is_chosen_as_a_calibration_and_its_choices_stay(scene, tmp_path):
+    path = tmp_path / "rays.npy"
+    np.save(path, pinhole(24, 14))
+    own = scene.camera.data.camera_ray_caster
+    own.ray_interpolation = "LINEAR"
+    said = set_calibration(scene.camera.data, str(path))
+    assert said.startswith("Camera without a name: Ray Table, ")
+    assert (own.model, own.calibration_file, own.ray_interpolation) == ("RAY_TABLE", str(path), "LINEAR")
+    model = read_camera(scene).model
+    assert (model.key, model.grid.kind, model.grid.shape) == ("RAY_TABLE", "LINEAR", (14, 24))
+    assert read_camera(scene).model.grid is model.grid, "the table is prepared once"
+    own.calibration_file = ""
+    with pytest.raises(InputError, match="no table of rays: choose its file"):
+        read_camera(scene)
