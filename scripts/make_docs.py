@@ -26,7 +26,7 @@ sys.path.insert(0, str(ROOT / "addon"))
 from camera_ray_caster.core.camera import pixel_time  # noqa: E402  (found by the line above)
 from camera_ray_caster.core.cameras import MODELS  # noqa: E402
 from camera_ray_caster.core.cameras.model import GROUPS, Model  # noqa: E402
-from camera_ray_caster.core.cameras.parts.programs import PROGRAMS, Program  # noqa: E402
+from camera_ray_caster.core.cameras.parts.programs import PROGRAMS, ProgramFiles  # noqa: E402
 from camera_ray_caster.core.cameras.parts.settings import OWN, Coefficients, Setting  # noqa: E402
 from camera_ray_caster.core.exports import FORMATS  # noqa: E402
 from camera_ray_caster.core.sets import SET_FORMATS  # noqa: E402
@@ -110,7 +110,7 @@ def files() -> str:
     return FILES + "".join(map(program_row, PROGRAMS)) + SETS + sets
 
 
-def program_row(program: Program) -> str:
+def program_row(program: ProgramFiles) -> str:
     """Return a program as a row of the table; it writes what its export's table of models says."""
     export = next((one for one in FORMATS if one.key == program.export), None)
     writes = "" if export is None else f"`{export.key}`: {export.description}".replace("<", "\\<")

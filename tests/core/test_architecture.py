@@ -88,6 +88,8 @@ BLENDER = {
 CYCLES = {"cycles", "_cycles", "oslquery", "OpenImageIO"}
 """Blender's Cycles, which is an add-on of its own."""
 DASK = {"dask", "distributed"}
+SHARED_NAMES = {"Constants", "Witness"}
+"""Protocols that core writes down, and the class of the same name that has it."""
 TESTS_OF_THEIR_OWN = {"core/truth", "blender/add_a_camera"}
 """Rooms of tests that no room of the package has: the exact rays of 60 digits, and a model that is added and taken away
 again.
@@ -209,6 +211,16 @@ def test_a_module_says_what_it_is_for_and_so_does_what_is_public_in_it():
         public = [node for node in TREES[path].body if isinstance(node, DEFINITIONS) and node.name[0] != "_"]
         found[path] = [node.name for node in public if not ast.get_docstring(node)]
     assert offenders(found) == {}
+
+
+def test_a_class_has_a_name_of_its_own():
+    """One word, one meaning."""
+    found = {}
+    for path in MODULES:
+        for node in TREES[path].body:
+            if isinstance(node, ast.ClassDef):
+                found.setdefault(node.name, []).append(name_of(path))
+    assert {name: where for name, where in found.items() if len(where) > 1 and name not in SHARED_NAMES} == {}
 
 
 def test_no_exception_is_swallowed():

@@ -8,7 +8,7 @@ import numpy as np
 from bpy.app.handlers import persistent
 
 from ...core import memory
-from ...core.materials.images import Image
+from ...core.materials.images import Texels
 from ...core.records import InputError
 
 MOST_TEXELS = 64 << 20
@@ -22,11 +22,11 @@ class Unreadable(Exception):
     """An image that is not read, with the reason."""
 
 
-_known: dict[int, tuple[tuple, Image | None]] = {}
+_known: dict[int, tuple[tuple, Texels | None]] = {}
 """Images and the state in which they were read, by their session_uid."""
 
 
-def image_of(image) -> Image | None:
+def image_of(image) -> Texels | None:
     """Return an image's texels; None if Blender cannot load it. Raises Unreadable for images that are not read."""
     if image.source not in {"FILE", "GENERATED"} or image.type not in {"IMAGE", "UV_TEST"}:
         raise Unreadable(f"its image {image.name!r} is a {_kind(image)}, which is not read")
@@ -62,7 +62,7 @@ def _state(image) -> tuple:
     )  # fmt: skip
 
 
-def _read(image) -> Image:
+def _read(image) -> Texels:
     (wide, high), channels, space = image.size, image.channels, image.colorspace_settings
     try:
         memory.require(20 * wide * high, f"the texels of image {image.name!r}", "use a smaller image")
@@ -82,15 +82,15 @@ def _read(image) -> Image:
         texels[..., 3] = 1
     is_data = space.is_data or image.alpha_mode in {"NONE", "CHANNEL_PACKED"}
     if image.is_float:
-        return Image(image.name, np.nan_to_num(texels, nan=0.0, posinf=0.0, neginf=0.0), False, is_data)
+        return Texels(image.name, np.nan_to_num(texels, nan=0.0, posinf=0.0, neginf=0.0), False, is_data)
     if not is_data:
         texels[..., :3] *= texels[..., 3:]  # as Cycles stores them
     texels *= 255
     stored = np.rint(np.nan_to_num(texels), out=texels).astype(np.uint8)
-    return Image(image.name, stored, space.name == "sRGB", is_data)
+    return Texels(image.name, stored, space.name == "sRGB", is_data)
 
 
-def _same(one: Image | None, other: Image | None) -> bool:
+def _same(one: Texels | None, other: Texels | None) -> bool:
     return one is other or (
         one is not None
         and other is not None

@@ -13,7 +13,7 @@ from ...core.materials.values import Constant, Value, constant, function_of
 from ...core.shapes.mesh.displaced import Displacement
 from .nodes import Unread
 from .outputs import displacement_of, has_bump, is_volume_alone
-from .shader_nodes import Parts, alpha_of, colors, material_nodes, transparency
+from .shader_nodes import ShaderParts, alpha_of, colors, material_nodes, transparency
 from .unique import unique_name
 
 ALWAYS_NODES = bpy.app.version >= (5, 0, 0)
@@ -219,7 +219,7 @@ def _as_made(material) -> bool:
     return base is not None and not base.is_linked and tuple(base.default_value)[:3] == UNCHANGED
 
 
-def _divided(parts: Parts, through: Value | None, alpha: Value | None) -> tuple[Value | None, ...]:
+def _divided(parts: ShaderParts, through: Value | None, alpha: Value | None) -> tuple[Value | None, ...]:
     """Return the parts over alpha: the hit surface is shown unblended."""
     if through is None or alpha is None:
         return parts

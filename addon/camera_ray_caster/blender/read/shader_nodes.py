@@ -32,7 +32,7 @@ SHADERS = {*COLORS, *EMISSIONS, PRINCIPLED, TRANSPARENT, HOLDOUT, MIX, ADD}
 """The nodes that give shaders and are read, by type."""
 
 
-class Parts(NamedTuple):
+class ShaderParts(NamedTuple):
     """Weighted sums of the parts of a shader; None for 0."""
 
     lit: Value | None = None
@@ -68,45 +68,45 @@ def _transparency(nodes: Nodes, node: Node) -> Value | None:
     return None
 
 
-def colors(nodes: Nodes, socket, groups: tuple, weighs: bool) -> Parts:
+def colors(nodes: Nodes, socket, groups: tuple, weighs: bool) -> ShaderParts:
     """Return the colors of the shader at a socket. ``weighs``: whether the alpha of Principled BSDFs weights theirs.
     Raises Unread.
     """
     found, _, groups = nodes.source(socket, groups)
     if found is None:
-        return Parts()
+        return ShaderParts()
     node = Node(nodes, found, groups)
     return nodes.once(node, f"colors {weighs}", lambda: _colors(nodes, node, weighs))
 
 
-def _colors(nodes: Nodes, node: Node, weighs: bool) -> Parts:
+def _colors(nodes: Nodes, node: Node, weighs: bool) -> ShaderParts:
     kind = node.bl_idname
     if kind in {TRANSPARENT, HOLDOUT}:
-        return Parts()
+        return ShaderParts()
     if kind == PRINCIPLED:
         return _principled(node, weighs)
     if kind in COLORS:
         if getattr(node.node, "fresnel_type", "F82") != "F82":
             raise node.unread("physical conductor")
-        return Parts(node.input(COLORS[kind]))
+        return ShaderParts(node.input(COLORS[kind]))
     if kind in EMISSIONS:
         color = node.input("Color")
-        return Parts(None, color, function_of(lambda a, b: a * b, color, node.input("Strength")))
+        return ShaderParts(None, color, function_of(lambda a, b: a * b, color, node.input("Strength")))
     if kind in {MIX, ADD}:
         first, second = (colors(nodes, node.inputs[k], node.groups, weighs) for k in shaders(kind))
-        return Parts(*(None if one is other is None else _combined(node, one, other)
+        return ShaderParts(*(None if one is other is None else _combined(node, one, other)
                        for one, other in zip(first, second, strict=True)))  # fmt: skip
     raise Unread(f"node {node.name!r} ({node.bl_rna.name})")
 
 
-def _principled(node: Node, weighs: bool) -> Parts:
+def _principled(node: Node, weighs: bool) -> ShaderParts:
     alpha, strength = node.input("Alpha") if weighs else constant(1), node.input("Emission Strength")
     parts = [node.input("Base Color"), None]
     if not (isinstance(strength, Constant) and not strength.values.any()):
         parts[1] = function_of(lambda a, b: a * b, node.input("Emission Color"), strength)
     if not (isinstance(alpha, Constant) and (alpha.values >= 1).all()):
         parts = [part and function_of(lambda a, b: a * saturated(b), part, alpha) for part in parts]
-    return Parts(parts[0], None, parts[1])
+    return ShaderParts(parts[0], None, parts[1])
 
 
 def shaders(kind: str) -> tuple[int, int]:

@@ -29,13 +29,13 @@ INTERVAL = 0.1
 STORING = 0.05
 """Seconds of each interval spent on storing images, at least one image; the rest is for drawing the window."""
 
-_running: list[Running] = []
+_running: list[RunningCast] = []
 _shown: list[str | None] = []
 """The latest text in the status bar; empty before the first."""
 
 
 @dataclass(frozen=True)
-class Running:
+class RunningCast:
     """The running cast, and the timer that polls it."""
 
     worker: Worker
@@ -92,7 +92,7 @@ class Cast(OfScene, bpy.types.Operator):
             self.report({"ERROR"}, in_labels(str(error)))
             return {"CANCELLED"}
         timer = context.window_manager.event_timer_add(INTERVAL, window=context.window)
-        _running.append(Running(Worker(partial(cast_views, jobs)), timer, source))
+        _running.append(RunningCast(Worker(partial(cast_views, jobs)), timer, source))
         context.window_manager.modal_handler_add(self)
         show_progress()
         return {"RUNNING_MODAL"}

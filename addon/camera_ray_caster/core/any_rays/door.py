@@ -16,7 +16,7 @@ from ..conventions import gamma
 from ..maths.vector import norm
 from ..records import InputError, Shapes
 from .moving import cast_apart, moving_of
-from .search import Search
+from .search import BodySearch
 from .written import t_errors, write
 
 WITHOUT_PIXEL = "solid_angle", "footprint", "flow_forward", "flow_backward", "flow_hidden"
@@ -122,13 +122,13 @@ def occluded(origins, targets, shapes: Shapes, times=None) -> np.ndarray:
     return hidden.reshape(shape)
 
 
-_searches: WeakKeyDictionary[Shapes, Search] = WeakKeyDictionary()
+_searches: WeakKeyDictionary[Shapes, BodySearch] = WeakKeyDictionary()
 
 
-def search_of(shapes: Shapes) -> Search:
+def search_of(shapes: Shapes) -> BodySearch:
     """Return the bodies of shapes with their tree, which is kept as long as the shapes are."""
     if shapes not in _searches:
-        _searches[shapes] = Search(shapes)
+        _searches[shapes] = BodySearch(shapes)
     return _searches[shapes]
 
 

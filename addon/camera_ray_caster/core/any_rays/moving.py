@@ -16,7 +16,7 @@ from ..motion.apart import centers_at, moving, of_rows, rows_of
 from ..motion.evaluations import Motion
 from ..records import Shapes
 from ..shapes.in_camera import in_camera
-from .search import WORLD, Search
+from .search import WORLD, BodySearch
 from .written import Span, write
 
 MARGIN = 1.25
@@ -65,14 +65,14 @@ def _radius(motion: Motion) -> np.ndarray:
     return radii.max(axis=0) * np.where(changes, MARGIN, 1 + 1e-6)
 
 
-def cast_apart(apart: Moving, search: Search, origin, direction, times: np.ndarray, span: Span, images) -> None:
+def cast_apart(apart: Moving, search: BodySearch, origin, direction, times: np.ndarray, span: Span, images) -> None:
     """Write the passes of rays (3, n) with times (n,) into images with one row; ``search``: of what stands still."""
     count = np.arange(origin.shape[1])
     t, body = search.nearest(origin, direction, *span)
     write(search, origin, direction, t, body, images, count, span)
     row = np.append(apart.still_rows, -1)[np.append(search.at, -1)[body]]
     for time, some in _near(apart, origin, direction, times):
-        own = Search(apart.motion.shapes_at(time))
+        own = BodySearch(apart.motion.shapes_at(time))
         rays = origin[:, some], direction[:, some]
         met, which = own.nearest(*rays, *span)
         rows = np.append(apart.rows, -1)[np.append(own.at, -1)[which]]

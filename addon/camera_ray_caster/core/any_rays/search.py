@@ -39,7 +39,7 @@ class RayHits:
     """Indices into the bodies of ``Search``."""
 
 
-class Search:
+class BodySearch:
     """The bodies of all shapes, ready for rays."""
 
     def __init__(self, shapes: Shapes):

@@ -19,7 +19,7 @@ MISSING = (1.0, 0.0, 1.0, 1.0)
 
 
 @dataclass(frozen=True, eq=False)
-class Image:
+class Texels:
     """The texels of an image, which all its textures share."""
 
     name: str
@@ -35,7 +35,7 @@ class Image:
 class Texture(Value):
     """An image at coordinates: its color, (3, m), or its alpha, (1, m)."""
 
-    image: Image
+    image: Texels
     vector: Value
     extension: str = REPEAT
     is_smooth: bool = True
