@@ -10,7 +10,7 @@ from time import perf_counter
 import numpy as np
 
 from . import arguments, memory, tuning
-from .any_rays.sweep import cast_sweep, check_passes
+from .any_rays.sweep import cast_apart, cast_sweep, check_passes
 from .camera.camera import Camera
 from .camera.times import SweepTime
 from .casting.images import Images, check_reusable
@@ -88,18 +88,18 @@ def cast(
     given = camera, shapes
     camera, shapes = without_times(camera, shapes)
     time = camera.pixel_time
-    if isinstance(time, SweepTime):
+    middle = (time.first + time.last) / 2 if time else None
+    if isinstance(time, SweepTime) or (samples == 1 and cast_apart(camera)):
         found = cast_sweep(camera, shapes, request, dtype, progress)
         images = Images(found) if into is None else into
         images.take(found)
-        images.camera, images.shapes = camera, shapes
-        images.plan = make_plan(*moment(camera, shapes, (time.first + time.last) / 2), request)
+        (images.camera, images.shapes), images.plan = given, make_plan(*moment(camera, shapes, middle), request)
         images.seconds = {"plan": 0.0, "rays": 0.0, "cast": perf_counter() - started, "passes": 0.0}
         if finished is not None:
             finished(images, slice(0, camera.raster.shape[0]))
             images.seconds["write"] = perf_counter() - started - images.seconds["cast"]
         return images
-    whole = make_plan(*moment(camera, shapes, (time.first + time.last) / 2 if time else None), request)
+    whole = make_plan(*moment(camera, shapes, middle), request)
     images = Images({name: PASSES[name].empty(shape, dtype) for name in passes}) if into is None else into
     images.keep(passes)
     (images.camera, images.shapes), images.plan = given, whole

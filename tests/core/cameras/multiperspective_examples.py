@@ -29,8 +29,8 @@ EXAMPLES = {
         BORDER | {"scanner_device": "TERRESTRIAL", "scanner_start": -2.0},
         {"scanner_device": "SOLID_STATE", "scanner_rate": 25.0},
         {"scanner_direction": "COUNTERCLOCKWISE", "scanner_elevations": "-60, -5, 2.5, 80", "matrix_world": TURNED,
-         "scanner_azimuths": "1 2 3 4", "scanner_ahead": "0.25, .2, .25, .2", "scanner_right": "-0.125",
-         "scanner_up": "0.5 .4 .3 .6", "scanner_delays": "1000"},
+         "scanner_azimuths": "1 2 3 4", "scanner_ahead": "0.25 .25 .249 .25", "scanner_right": "-0.125",
+         "scanner_up": "0.5 .5 .499 .498", "scanner_delays": "1000"},
     ],
 }
 

@@ -1,4 +1,4 @@
-"""The cast of a scanner that sweeps while it or the shapes move: each beam is a ray with a time of its own."""
+"""The cast of a scanner beam by beam: each is a ray, with a time of its own if it or the shapes move."""
 
 from __future__ import annotations
 
@@ -25,6 +25,14 @@ def check_passes(camera: Camera, passes: Collection[str]) -> None:
             f"{camera.model.label} of camera {camera.name!r} has no {', '.join(absent)}: its pixels are single beams, "
             "not parts of a picture"
         )
+
+
+def cast_apart(camera: Camera) -> bool:
+    """Whether a picture of one time is cast as single rays, too: of a scanner whose beams have origins of their own.
+    Its plan bounds what rays see by balls around all origins and azimuths of the beams. As single rays a street and a
+    room take 0.4 to 0.5 times the processor time, a table 0.5 to 1.2 times.
+    """
+    return not camera.model.differentiable and not camera.model.central
 
 
 def cast_sweep(

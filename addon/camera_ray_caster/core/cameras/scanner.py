@@ -4,7 +4,7 @@ The camera looks ahead, up is up: azimuths a grow clockwise, seen from above, 0 
 azimuth and an origin beside the head, and a time at which it fires; in the meantime the head turns on. Row 0 is the
 lowest beam. The ray at the middle of a pixel is that of the beam; from there to the next row all is linear.
 Formula: with the head's azimuth h of the column, a = h + azimuth of the beam + what the head turns until it fires,
-o = (ahead sin a + right cos a, up, right sin a - ahead cos a), d = (cos e sin a, sin e, -cos e cos a).
+o = (ahead sin a + right cos a, up, right sin a - ahead cos a), r = (cos e sin a, sin e, -cos e cos a).
 The frame's width and height are those of the device, or any others, to which its columns and rows are stretched.
 Singular: the axis, and the circle of the beams' origins. Near it beams whose origins differ may cross.
 No derivatives and no flow: pixels sample a scene by beams, not by areas.
