@@ -3,6 +3,7 @@
 import html
 import importlib
 import re
+import shutil
 import subprocess
 import sys
 from html.parser import HTMLParser
@@ -107,6 +108,24 @@ def test_every_model_has_its_page(key, site):
     names = {}
     exec(re.search(r"^```python\n(.*?)^```$", source, re.MULTILINE | re.DOTALL)[1], names)
     assert names["rays"].directions.shape == (480, 640, 3)
+
+
+def test_pages_of_models_open_the_lesson_with_the_model(site):
+    lesson = (site / "docs" / "lesson" / "index.html").read_text(encoding="utf-8")
+    pages = {
+        key: (site / "docs" / "cameras" / f"{key.lower()}.html").read_text(encoding="utf-8") for key in crc.models()
+    }
+    links = {key: re.findall(r'href="\.\./lesson/index\.html#(.*?)"', text) for key, text in pages.items()}
+    expected = {key: [f"v=1&amp;model={key}"] if f'"key":"{key}"' in lesson else [] for key in pages}
+    assert links == expected
+    assert sum(map(bool, links.values())) >= 34
+    chromium = shutil.which("chromium")
+    if chromium is None:
+        pytest.skip("needs Chromium: apt-get install chromium")
+    address = (site / "docs" / "lesson" / "index.html").as_uri() + "#" + html.unescape(links["PUSHBROOM"][0])
+    words = [chromium, "--headless=new", "--no-sandbox", f"--user-data-dir={site.parent / 'profile'}", "--dump-dom"]
+    shown = subprocess.run([*words, address], capture_output=True, text=True, timeout=120).stdout
+    assert '<span id="label">Pushbroom</span>' in shown
 
 
 def test_the_start_leads_to_three_paths(site):
