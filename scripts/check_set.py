@@ -1,11 +1,14 @@
-"""Check a data set of a static scene: re-project every pixel of each view into the next view.
+"""Check a data set: re-project every pixel of each view into another view.
 
     python scripts/check_set.py FOLDER
 
-Reads NAME_FRAME.npz and camera.json, as clevr_set.py writes them; needs numpy only. The cameras are made from
-camera.json. A pixel's ray and distance give a point, which the next view's camera projects. The projection must agree
-with ``flow_forward``, and the next view's distance there with the distance of the point, unless ``flow_hidden`` says
-that another surface hides the point. The exit status is 1 if a check fails.
+Reads what cast.py, dataset.py and clevr_set.py write as NPZ, with the passes shape_index and distance (or depth); needs
+numpy only. The cameras are made from the reports. A pixel's ray and distance give a point, which another view's camera
+projects: the next view of the same camera if the set has the pass flow_forward, which is for scenes that stand still;
+else each other camera's view of the same frame, or if there is none the next view, which has to show the same objects
+at the same places. The other view's distance there must agree with the distance of the point, and its shape with the
+point's, unless another surface hides the point, as ``flow_hidden`` or a smaller distance says. The projection must
+agree with ``flow_forward``, and stored rays with the camera's. The exit status is 1 if a check fails.
 """
 
 if __name__ == "__main__":
@@ -14,9 +17,9 @@ if __name__ == "__main__":
     ends.begin(__file__)
 
 import sys
-from itertools import pairwise
+from collections.abc import Iterator
+from itertools import groupby, pairwise
 from pathlib import Path
-from zipfile import BadZipFile
 
 import numpy as np
 from arguments import Parser
@@ -24,6 +27,7 @@ from arguments import Parser
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "addon"))
 
 import camera_ray_caster as crc
+from camera_ray_caster.core.sets import View, read_set
 
 FLOW = 1e-3
 """Maximum difference in pixels between stored flow and re-projection: distance and flow are float32."""
@@ -34,68 +38,90 @@ SAME = 0.97
 NEAR = 0.02
 """Maximum median of the relative difference of distances: the nearest pixel's center is up to 0.7 pixel away."""
 
-ROW = "{:>12} {:>10} {:>10} {:>12} {:>12} {:>12} {:>12}"
-HEAD = ROW.format("views", "pixels", "in next", "flow off", "same shape", "distance off", "hidden rightly")
+NEARER = 0.95
+"""Part of a point's distance below which what is seen there hides it, if no pass says so."""
+
+ROW = "{:>24} {:>10} {:>10} {:>12} {:>12} {:>12} {:>14}"
+HEAD = ROW.format("views", "pixels", "in other", "flow off", "same shape", "distance off", "hidden rightly")
 
 
-def views(folder: Path) -> list[tuple[int, Path]]:
-    """Return the frame and the file of each view, in order."""
-    found = [(path.stem.rpartition("_")[2], path) for path in folder.glob("*_*.npz")]
-    return sorted((int(digits), path) for digits, path in found if digits.isdecimal())
+def pairs(views: list[View]) -> Iterator[tuple[View, View]]:
+    """Yield the pairs of views that are compared."""
+    frames: dict[float, list[View]] = {}
+    for view in views:
+        frames.setdefault(view.frame, []).append(view)
+    flows = all(view.has("flow_forward") for view in views)
+    several = max(map(len, frames.values())) > 1
+    if flows or not several:
+        for _, own in groupby(views, key=lambda view: view.report["camera"]["name"]):
+            yield from pairwise(own)
+    else:
+        for there in frames.values():
+            yield from ((one, other) for one in there for other in there if one is not other)
 
 
-def check(folder: Path, first: tuple[int, Path], second: tuple[int, Path]) -> tuple[list[str], bool]:
+def distances(view: View, points: np.ndarray) -> np.ndarray:
+    """Return the distances of points (..., 3) from the eye, or from where the rays of their pixels begin."""
+    if view.camera.model.central:
+        return np.linalg.norm(points - view.camera.pose.eye, axis=-1)
+    pixels = view.camera.project(points)
+    return np.linalg.norm(points - view.camera.rays_at(pixels[..., 0], pixels[..., 1]).origins, axis=-1)
+
+
+def check(first: View, second: View) -> tuple[list[str], bool]:
     """Re-project a view into another view; return the row of the table, and whether all checks pass."""
-    camera, other = (crc.camera_from_json(folder / "camera.json", frame=frame) for frame, _ in (first, second))
-    here, there = (np.load(path) for _, path in (first, second))
-    rays = camera.rays()
-    hit = np.isfinite(here["distance"])
-    points = rays.origins[hit] + here["distance"][hit][:, None].astype(float) * rays.directions[hit]
-    stored = np.abs(rays.directions[hit] - here["ray_direction"][hit]).max()
-    pixels = other.project(points)
-    size = other.raster.size
+    points, hit = first.points()
+    points, own = points[hit], np.argwhere(hit)[:, ::-1] + 0.5
+    pixels = second.camera.project(points)
+    size = second.camera.raster.size
     with np.errstate(invalid="ignore"):
         inside = ((pixels >= 0) & (pixels <= size)).all(axis=1)
-    own = np.argwhere(hit)[:, ::-1] + 0.5
-    flow, hidden = here["flow_forward"][hit], here["flow_hidden"][hit][:, 0]
-    flow_off = np.abs(pixels - own - flow)[inside]
-    edge = np.abs(pixels - np.clip(pixels, 0, size)).max(axis=1) < FLOW  # rounding decides there
+    stored = 0.0
+    if first.has("ray_direction"):
+        stored = np.abs(first.camera.rays().directions[hit] - first.pixels("ray_direction")[hit]).max(initial=0.0)
     column, row = np.minimum(np.floor(pixels[inside]), np.array(size) - 1).astype(int).T
-    same = there["shape_index"][row, column] == here["shape_index"][hit][inside]
-    distance = np.linalg.norm(points[inside] - other.rays_at(*pixels[inside].T).origins, axis=1)
-    off = np.abs(there["distance"][row, column] / distance - 1)
-    seen, covered = ~hidden[inside], hidden[inside]
-    nearer = (there["distance"][row, column] < distance)[covered].mean() if covered.any() else 1.0
-    numbers = flow_off.max(initial=0.0), same[seen].mean(), np.median(off[seen]), nearer
-    passed = (
-        numbers[0] < FLOW and numbers[1] > SAME and numbers[2] < NEAR and nearer > 0.9 and stored < 1e-6
-        and bool((np.isnan(flow[:, 0]) == ~inside)[~edge | inside].all())
-    )  # fmt: skip
-    names = f"{first[0]} to {second[0]}", f"{hit.sum():,}", f"{inside.mean():.1%}"
-    values = f"{numbers[0]:.1e} px", f"{numbers[1]:.2%}", f"{numbers[2]:.1e}", f"{nearer:.1%}"
-    return [*names, *values], passed
+    same = second.pixels("shape_index")[row, column] == first.pixels("shape_index")[hit][inside]
+    theirs, ends = second.points()
+    with np.errstate(invalid="ignore"):
+        there = np.where(ends, np.linalg.norm(theirs - second.camera.rays().origins, axis=-1), np.inf)[row, column]
+    distance = distances(second, points[inside])
+    flow_off, right = np.zeros(0), True
+    if first.has("flow_forward"):
+        flow, hidden = first.pixels("flow_forward")[hit], first.pixels("flow_hidden")[hit][:, 0].astype(bool)[inside]
+        flow_off = np.abs(pixels - own - flow)[inside]
+        edge = np.abs(pixels - np.clip(pixels, 0, size)).max(axis=1) < FLOW  # rounding decides there
+        right = bool((np.isnan(flow[:, 0]) == ~inside)[~edge | inside].all())
+    else:
+        hidden = there < NEARER * distance
+    off = np.abs(there / distance - 1)
+    seen = ~hidden
+    nearer = (there < distance)[hidden].mean() if hidden.any() else 1.0
+    share, middle = (same[seen].mean(), np.median(off[seen])) if seen.any() else (1.0, 0.0)
+    passed = flow_off.max(initial=0.0) < FLOW and share > SAME and middle < NEAR and nearer > 0.9 and stored < 1e-6
+    names = f"{first.name} to {second.name}", f"{hit.sum():,}", f"{inside.mean() if inside.size else 0:.1%}"
+    worst = f"{flow_off.max(initial=0.0):.1e} px" if first.has("flow_forward") else "-"
+    return [*names, worst, f"{share:.2%}", f"{middle:.1e}", f"{nearer:.1%}"], bool(passed and right)
 
 
 def main(arguments: list[str] | None = None) -> int:
     """Check a folder and print a table; return the exit status."""
     parser = Parser(prog="check_set.py", description=__doc__.splitlines()[0])
-    parser.add_argument("folder", type=Path, metavar="FOLDER", help="folder made by clevr_set.py")
+    parser.add_argument("folder", type=Path, metavar="FOLDER", help="folder of a set")
     folder = parser.parse_args(arguments).folder
-    found = views(folder)
-    if len(found) < 2 or not (folder / "camera.json").is_file():
-        parser.error(f"{str(folder)!r} has no camera.json with two views NAME_FRAME.npz: make them with clevr_set.py")
-    print(HEAD)
     passed = True
-    for first, second in pairwise(found):
-        try:
-            row, right = check(folder, first, second)
-        except crc.InputError as error:
-            parser.error(str(error))
-        except (OSError, ValueError, KeyError, BadZipFile) as error:
-            names = " or ".join(repr(path.name) for _, path in (first, second))
-            parser.error(f"{names} is no view made by clevr_set.py: {str(error).splitlines()[0]}")
-        print(ROW.format(*row), flush=True)
-        passed &= right
+    try:
+        found = list(pairs(read_set(folder)))
+        if not found:
+            parser.error(f"{str(folder)!r} has one view: a set has two or more")
+        print(HEAD)
+        for first, second in found:
+            row, right = check(first, second)
+            print(ROW.format(*row), flush=True)
+            passed &= right
+    except crc.InputError as error:
+        parser.error(str(error))
+    except (OSError, ValueError, KeyError, IndexError) as error:
+        parser.error(f"the set in {str(folder)!r} is damaged: {str(error).splitlines()[0]}")
     print("all as it has to be" if passed else "the views do not fit together")
     return int(not passed)
 

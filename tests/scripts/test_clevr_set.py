@@ -58,9 +58,28 @@ def test_a_broken_view_is_refused_in_one_line(made, tmp_path, content):
             np.savez(folder / "clevr_0001.npz", distance=file["distance"])
     else:
         (folder / "clevr_0001.npz").write_bytes(content)
+    said = "clevr_0001.npz has no pass shape_index" if content is None else "clevr_0001.npz' cannot be read"
     done = script("check_set", folder)
     assert (done.returncode, done.stderr.count("\n")) == (2, 1)
-    assert "'clevr_0001.npz' or 'clevr_0002.npz' is no view made by clevr_set.py" in done.stderr
+    assert said in done.stderr
+
+
+def test_any_set_is_checked_and_a_camera_that_moved_is_found_out(tmp_path):
+    """A perspective and a fisheye of one frame, elsewhere; then with the place of the fisheye forged."""
+    from ..core.sets.test_sets import view
+
+    cameras = [view(tmp_path, 1)[0], view(tmp_path, 1, "FISHEYE_EQUIDISTANT", matrix_world=np.eye(4))[0]]
+    assert len(cameras) == 2
+    done = script("check_set", tmp_path)
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert "PERSP_0001 to FISHEYE_EQUIDISTANT_0001" in " ".join(done.stdout.split())
+    path = tmp_path / "FISHEYE_EQUIDISTANT_0001.json"
+    moved = path.read_text().replace('"matrix_world": [[1.0, 0.0, 0.0, 0.0]', '"matrix_world": [[1.0, 0.0, 0.0, 0.4]')
+    assert moved != path.read_text()
+    path.write_text(moved)
+    done = script("check_set", tmp_path)
+    assert (done.returncode, done.stderr) == (1, "")
+    assert "do not fit together" in done.stdout
 
 
 def test_what_is_no_set_is_refused_in_one_line(tmp_path):
