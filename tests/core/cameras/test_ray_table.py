@@ -152,6 +152,12 @@ def test_origins_that_jump_along_their_rays_may_be_slid():
     assert off[1] < 1e-4 < 1e-3 < off[0]
 
 
+def test_a_table_larger_than_the_memory_is_refused_before_it_is_copied():
+    huge = np.broadcast_to(np.zeros(3), (200_000, 100_000, 3))
+    with pytest.raises(crc.InputError, match=r"GiB of memory .*give a coarser table"):
+        crc.camera("RAY_TABLE", FRAME, ray_directions=huge)
+
+
 def saved(**arrays):
     content = BytesIO()
     np.savez(content, **arrays)

@@ -10,6 +10,7 @@ import numpy as np
 
 from ..arguments import flag, numbers, shape_of, shown, word
 from ..cameras.parts.settings import Coefficients, Line, Setting, Whole
+from ..memory import require
 from ..records import InputError
 
 
@@ -81,7 +82,11 @@ def _image(setting: Setting, value) -> np.ndarray:
 
 
 def _vectors(setting: Setting, value) -> np.ndarray | None:
-    return None if value is None else numbers(value, setting.name).copy()
+    if value is None:
+        return None
+    given = numbers(value, setting.name)
+    require(2 * given.size * given.itemsize, f"the numbers of {setting.name}", "give a coarser table")
+    return given.copy()  # so that it stays as it is
 
 
 KINDS: dict[str, Callable[[Any, Any], Any]] = {
