@@ -144,7 +144,7 @@ class RayTable(Model):
 
     @property
     def smooth(self) -> bool:  # type: ignore[override]
-        """See Model: straight lines have kinks, and a table with holes ends in corners."""
+        """See Model: straight lines have kinks."""
         return self.grid.kind != LINEAR
 
     def rays(self, x, y):
@@ -218,8 +218,8 @@ class RayTable(Model):
         return given | {"m": sums[:3], "n": float(norm(sums[:3]))} | ({} if self.central else {"q": sums[3:]})
 
     def facts(self) -> dict[str, object]:
-        """See Model: the size of the table, its entries without rays, and the estimated errors between them: of
-        directions in radians and in pixels, and of origins.
+        """See Model: the size of the table, the number of entries without rays, and the estimated errors between
+        entries: of directions, in radians, and of origins, a distance.
         """
         angle, distance = self.grid.errors
         rows, columns = self.grid.shape
