@@ -5,6 +5,7 @@
     python scripts/benchmark.py --meshes        triangle meshes, also against Open3D
     python scripts/benchmark.py --models        rays and pictures of every camera model
     python scripts/benchmark.py --redraws       every camera model in scenes of triangles, by processor time
+    python scripts/benchmark.py --passes        each pass beside writing its array alone
     python scripts/benchmark.py --dataset       a data set of meshes: cost against writing alone, and two processes
     python scripts/benchmark.py --against v0.1.0    this checkout against a commit: casts and the rays of each model
     python scripts/benchmark.py --against v0.1.0 --same    whether the pictures of the example scenes are the same
@@ -52,6 +53,7 @@ def main() -> int:
     parser.add_argument(
         "--redraws", action="store_true", help="measure the pictures of a viewport, 574x287, of every camera model"
     )
+    parser.add_argument("--passes", action="store_true", help="measure each pass beside writing its array alone")
     parser.add_argument("--scaling", action="store_true", help="measure the cost against pixels, shapes and triangles")
     parser.add_argument(
         "--dataset", action="store_true", help="measure pictures of a data set, with one process and with two"
@@ -83,6 +85,10 @@ def main() -> int:
                 figures = against.run(options.against, rounds, options.size)
         except LookupError as error:
             parser.error(str(error))
+    elif options.passes:
+        from measure import by_pass
+
+        figures = by_pass.run(options.size, rounds)
     elif options.models:
         from measure import by_model
 

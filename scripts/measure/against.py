@@ -31,11 +31,11 @@ def cases() -> dict[str, Callable]:
     from camera_ray_caster.core.cameras import MODELS
 
     found: dict[str, Callable] = {
-        f"{count:,} spheres, {len(passes)} passes": partial(_spheres, count, passes)
+        f"{count:,} spheres, {len(passes)} passes": partial(spheres, count, passes)
         for passes in (FOUR, TWO)
         for count in SPHERES
     }
-    found |= {f"{name} triangles, 4 passes": partial(_mesh, side) for name, side in SIDES.items()}
+    found |= {f"{name} triangles, 4 passes": partial(mesh, side) for name, side in SIDES.items()}
     found["F12, spheres and planes, 5 passes"] = _render
     return found | {f"rays, {model.key}": partial(_rays, model.key) for model in MODELS}
 
@@ -103,7 +103,7 @@ def _cast(size, passes, **fields) -> Callable:
     return lambda: cast(camera, shapes, passes, threads=2)
 
 
-def _spheres(count: int, passes, size) -> Callable:
+def spheres(count: int, passes, size) -> Callable:
     """Equal spheres without a wall, whose discs have 0.6 of the picture's area in sum."""
     from camera_ray_caster.core.records import SPHERE
 
@@ -117,7 +117,7 @@ def _spheres(count: int, passes, size) -> Callable:
     return _cast(size, passes, kind=np.full(count, SPHERE, np.uint8), center=center, axes=axes)
 
 
-def _mesh(side: int, size) -> Callable:
+def mesh(side: int, size, passes=FOUR) -> Callable:
     """A sheet of waves that fills the picture."""
     from camera_ray_caster.core.mesh import Mesh
     from camera_ray_caster.core.records import MESH
@@ -127,9 +127,9 @@ def _mesh(side: int, size) -> Callable:
     corner = (np.arange(side)[:, None] * (side + 1) + np.arange(side)).ravel()
     other = corner + side + 1
     triangles = np.concatenate(([corner, corner + 1, other + 1], [corner, other + 1, other]), axis=1).astype(np.int32)
-    mesh = Mesh(vertices, triangles, np.arange(2 * len(corner), dtype=np.int32))
+    own = Mesh(vertices, triangles, np.arange(2 * len(corner), dtype=np.int32))
     return _cast(
-        size, FOUR, kind=np.array([MESH], np.uint8), center=mesh.middle[None], axes=np.eye(3)[None], meshes=(mesh,),
+        size, passes, kind=np.array([MESH], np.uint8), center=own.middle[None], axes=np.eye(3)[None], meshes=(own,),
         mesh=np.zeros(1, np.int32), shared=np.zeros(1, bool),
     )  # fmt: skip
 

@@ -1,0 +1,51 @@
+"""The processor time of each pass beside that of allocating and filling its array."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from time import process_time
+
+import numpy as np
+
+from camera_ray_caster.core.casting.passes import PASSES
+
+from . import against
+
+SCENES = {"10 spheres": lambda passes, size: against.spheres(10, passes, size),
+          "63k triangles": lambda passes, size: against.mesh(against.SIDES["63k"], size, passes)}  # fmt: skip
+ARRAYS = 8
+"""Number of arrays that are kept while the limit is measured: freed memory would be filled again from the cache."""
+
+
+def run(size: tuple[int, int], rounds: int) -> list[dict]:
+    """Print and return the milliseconds that each pass adds to a cast of ``valid``, and those of writing it alone."""
+    names = [name for name in PASSES if not PASSES[name].frames and name != "valid"]
+    print(f"\nprocessor time, ms; {size[0]} x {size[1]}; least of {rounds} rounds")
+    print(f"  {'':16}{'writing alone':>15}" + "".join(f"{scene:>24}" for scene in SCENES))
+    alone = {scene: _least(make(("valid",), size), rounds) for scene, make in SCENES.items()}
+    rows = []
+    for name in names:
+        limit = _least(lambda name=name: _filled(name, size), rounds) / ARRAYS
+        row = {"name": name, "limit_ms": limit}
+        for scene, make in SCENES.items():
+            row[scene] = _least(make(("valid", name), size), rounds) - alone[scene]
+        rows.append(row)
+        print(f"  {name:16}{limit:15.1f}" + "".join(f"{row[one]:14.1f}{row[one] / limit:9.1f}x" for one in SCENES))
+    return rows
+
+
+def _filled(name: str, size: tuple[int, int]) -> list[np.ndarray]:
+    arrays = [PASSES[name].empty(size[::-1], np.float32) for _ in range(ARRAYS)]
+    for array in arrays:
+        array.fill(0)
+    return arrays
+
+
+def _least(timed: Callable, rounds: int) -> float:
+    """Return the least milliseconds of a function's runs."""
+    least = np.inf
+    for _ in range(rounds):
+        began = process_time()
+        timed()
+        least = min(least, process_time() - began)
+    return 1e3 * least
