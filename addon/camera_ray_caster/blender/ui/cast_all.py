@@ -201,10 +201,8 @@ class CastAll(bpy.types.Operator):
     def invoke(self, context, event):
         """Ask for the folder."""
         if not self.directory:
-            beside = Path(bpy.data.filepath)
-            self.directory = str(
-                beside.with_name(f"{beside.stem}_pictures") if beside.name else Path.home() / "pictures"
-            )
+            beside = Path(bpy.data.filepath or Path.home() / "untitled.blend")
+            self.directory = str(beside.with_name(f"{beside.stem}_pictures"))
         context.window_manager.fileselect_add(self)
         return {"RUNNING_MODAL"}
 
