@@ -23,12 +23,13 @@ def browser(width=1400, height=1000, *more, downloads=None):
     options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
     for argument in (*ARGUMENTS, f"--window-size={width},{height}", *more):
         options.add_argument(argument)
-    if downloads is not None:
-        options.add_experimental_option("prefs", {"download.default_directory": str(downloads)})
     driver = webdriver.Chrome(options=options, service=webdriver.ChromeService(programs[1]))
     try:
         size = {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": False}
         driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", size)
+        if downloads is not None:
+            given = {"behavior": "allow", "downloadPath": str(downloads)}
+            driver.execute_cdp_cmd("Browser.setDownloadBehavior", given)
         yield driver
         assert [line["message"] for line in driver.get_log("browser") if line["level"] == "SEVERE"] == []
     finally:

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import camera_ray_caster as crc
-from camera_ray_caster.core.web.page import FRAME, LINES
+from camera_ray_caster.core.web.page import example
 from camera_ray_caster.core.web.room import EYE, room_shapes
 
 from .programs import KEYS
@@ -28,11 +28,11 @@ def even(index):
 
 @pytest.mark.parametrize("key", KEYS)
 def test_the_shader_sees_what_our_cast_sees(opened, key):
-    lines = {one.name: LINES[one.name] for one in crc.models()[key].SETTINGS if one.name in LINES}
-    camera = crc.camera(key, FRAME, clip_start=1e-4, clip_end=1e4, **lines)
+    camera = example(crc.models()[key], clip_start=1e-4, clip_end=1e4)
     images = crc.cast(camera, room_shapes((0.0, EYE, 3.0)), passes=("shape_index", "distance", "valid"))
     expected = np.where(images["valid"], np.where(images["shape_index"] < 0, NOTHING, images["shape_index"]), NO_RAY)
-    found = np.array(opened.execute_script("return window.lesson.indices(arguments[0])", key)).reshape(*FRAME[::-1], 2)
+    read = opened.execute_script("return window.lesson.indices(arguments[0])", key)
+    found = np.array(read).reshape(*expected.shape, 2)
     sure = even(expected)
     assert sure.mean() > 0.5
     assert np.array_equal(found[..., 0][sure], expected[sure])

@@ -18,6 +18,7 @@ from math import pi
 
 import numpy as np
 
+from ..maths.recording.scalars import plain
 from ..maths.vector import components
 from ..records import BlenderCamera, InputError, Raster
 from .model import Step, WindowModel
@@ -74,7 +75,7 @@ class OmnidirectionalStereo(WindowModel):
 
     def formula_values(self, x, y):
         """See Model: the place in the eye's picture, the eye's side, and half the distance of the eyes."""
-        return dict(zip("XYs", map(float, self._one_eye(x, y)), strict=True)) | {"radius": self.radius}
+        return dict(zip("XYs", map(plain, self._one_eye(x, y)), strict=True)) | {"radius": self.radius}
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> OmnidirectionalStereo:

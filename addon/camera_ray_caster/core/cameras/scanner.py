@@ -19,6 +19,7 @@ from math import inf, pi
 import numpy as np
 
 from ..conventions import gamma
+from ..maths.recording.scalars import plain
 from ..maths.speed import lazy
 from ..maths.vector import components
 from ..records import BlenderCamera, Raster
@@ -123,7 +124,7 @@ class Scanner(Model):
     def formula_values(self, x, y):
         """See Model."""
         names = "elevation", "azimuth", "ahead", "right", "up"
-        rows = dict(zip(names, map(float, self.beams.between(y * self._down)), strict=True))
+        rows = dict(zip(names, map(plain, self.beams.between(y * self._down)), strict=True))
         return {"start": self.start, "step": self.step, "columns": self.columns, **rows}
 
     def rays(self, x, y):

@@ -13,6 +13,7 @@ from typing import Any
 from ..camera.camera import Camera
 from ..cameras import MODELS
 from ..cameras.model import GROUPS, Model
+from ..cameras.parts.parameters import parameters_of
 from ..library.cameras import camera
 from ..records import InputError
 from ..shaders.glsl import GlslWriter
@@ -24,6 +25,9 @@ from .split import functions, glsl
 
 FRAME = 640, 360
 """Width and height in pixels of the page's own cameras."""
+
+FRAMES = {"SCANNER": (512, 64)}
+"""Frames of models whose rows are few."""
 
 LINES = {
     "slit_1": ((-1.0, 0.0, 0.0), (1.0, 0.0, 0.0)),
@@ -89,10 +93,10 @@ def page_models() -> list[type[Model]]:
     return found
 
 
-def example(model: type[Model]) -> Camera:
-    """Return the camera of a model with which the page begins."""
+def example(model: type[Model], **settings: Any) -> Camera:
+    """Return the camera of a model with which the page begins; ``settings`` are further ones."""
     lines = {setting.name: LINES[setting.name] for setting in model.SETTINGS if setting.name in LINES}
-    return camera(model.key, FRAME, **lines)
+    return camera(model.key, FRAMES.get(model.key, FRAME), **lines, **settings)
 
 
 class _Tables:
@@ -122,6 +126,7 @@ class _Tables:
             "knobs": [vars(knob) for knob in program.knobs], "choices": program.choices,
             "options": program.options, "labels": {one.name: one.label for one in model.SETTINGS},
             "fixed": [setting.label for setting in program.fixed],
+            "constants": parameters_of(program.fixed, program.record),
             "steps": [step._asdict() for step in model.steps], "variants": variants,
         }  # fmt: skip
 

@@ -64,6 +64,7 @@ class Program:
 
     lens: Model
     """The model at the camera's own settings."""
+    record: BlenderCamera
     knobs: tuple[Knob, ...]
     choices: Mapping[str, Any]
     """Values of the settings that are words or check boxes."""
@@ -96,7 +97,7 @@ def program_of(camera: Camera) -> Program:
         setting.name: [{"value": value, "label": label} for value, label in words.items()]
         for setting, words in options.items()
     }
-    return Program(camera.model, knobs, given, words_of, fixed, tuple(variants))
+    return Program(camera.model, raw, knobs, given, words_of, fixed, tuple(variants))
 
 
 def with_settings(raw: BlenderCamera, model: type[Model], values: Mapping[str, Any]) -> BlenderCamera:

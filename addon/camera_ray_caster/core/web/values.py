@@ -5,6 +5,7 @@ They are those that ``core.lesson`` puts in, except for the facts of reports tha
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
@@ -22,7 +23,7 @@ NORMALIZED = "view_x", "view_y"
 
 
 def values_of(model: Model, raw: BlenderCamera, raster: Raster, x, y) -> dict[str, tuple[Any, ...]]:
-    """Return one number or three by name, at a pixel; without those that cannot be recorded."""
+    """Return one number or three by name, at a pixel: those that the steps name, and that can be recorded."""
     found: dict[str, tuple[Any, ...]] = {}
     for part in (_film, _window, _calibration, _own):
         try:
@@ -30,8 +31,14 @@ def values_of(model: Model, raw: BlenderCamera, raster: Raster, x, y) -> dict[st
         except (NotRecordable, InputError, ValueError):  # what cannot be recorded is shown without its number
             continue
         found |= {name: tuple(value) if np.ndim(value) else (value,) for name, value in given.items()}
-    return found
+    named = {name for step in model.steps for name in NAME.findall(step.symbols)}
+    named |= set(NORMALIZED) if any(OVER in step.words for step in model.steps) else set()
+    return {name: parts for name, parts in found.items() if name in named}
 
+
+OVER = "[-1, 1]²"
+"""What the words of a step say whose x and y are NORMALIZED."""
+NAME = re.compile(r"[A-Za-z_][A-Za-z_0-9]*'?")
 
 Values = Iterator[tuple[str, Any]] | Mapping[str, Any]
 Part = Callable[..., Values]

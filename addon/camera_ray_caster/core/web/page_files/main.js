@@ -51,6 +51,8 @@ function build() {
   $("label").textContent = own ? "My camera" : model.label;
   $("description").textContent = own ? "The lines that you wrote" : model.description;
   $("model").value = own ? "OWN" : model.key;
+  $("frame").style.aspectRatio = `${model.frame[0]} / ${model.frame[1]}`;
+  $("frame").style.width = `min(100%, ${62 * model.frame[0] / model.frame[1]}vh)`;
   for (const id of ["pixel", "knobs", "view"]) $(id).replaceChildren();
   ["x", "y"].forEach((name, k) => refreshers.push(slider($("pixel"), name, { label: `Pixel ${name}`, text: k ? "From the bottom edge" : "From the left edge", low: 0, high: model.frame[k], unit: "" }, () => state[name], (value) => { state[name] = value; })));
   if (!own) {
@@ -128,7 +130,8 @@ function cross_() {
 function paint(full) {
   if (!picture.gl) return;
   const began = performance.now();
-  picture.draw(camera, state, full ? Math.min(2, window.devicePixelRatio || 1) : share);
+  const wide = $("picture").getBoundingClientRect().width * (window.devicePixelRatio || 1) / model.frame[0];
+  picture.draw(camera, state, full ? wide : share * wide);
   picture.gl.finish();
   const took = performance.now() - began;
   if (!full) share = Math.min(1, Math.max(LEAST_SHARE, share * Math.sqrt(Math.min(Math.max(SOFTWARE_BUDGET / Math.max(took, 1), 0.25), 1.5))));
@@ -169,15 +172,14 @@ function choose(next) {
 
 function openLink() {
   try {
-    choose(location.hash.length > 1 ? stateOf(location.hash.slice(1), MODELS) : START);
+    choose(location.hash.length > 1 ? stateOf(location.hash.slice(1), MODELS) : structuredClone(START));
   } catch (error) {
     if (!(error instanceof Refusal)) throw error;
-    choose(START);
+    choose(structuredClone(START));
+    cancelAnimationFrame(waiting);
+    clearTimeout(changed.link);
     show();
     say(error.message);
-    cancelAnimationFrame(waiting);
-    waiting = 0;
-    clearTimeout(changed.link);
   }
 }
 

@@ -71,7 +71,7 @@ function cameraOf(model, values) {
 // The values of the names in a formula's steps, as the lesson of the add-on knows them.
 function knownOf(model, values, camera, x, y) {
   const known = { u: [1, 0, 0], v: [0, 1, 0], w: [0, 0, -1], e: [0, 0, 0], eye: [0, 0, 0] };
-  const numbers = Object.entries(values).filter(([, value]) => typeof value === "number");
+  const numbers = Object.entries({ ...model.constants, ...values }).filter(([, value]) => typeof value === "number");
   for (const [name, value] of [...numbers].reverse()) {
     const parts = name.split("_");
     for (let start = 1; start < parts.length; start++) known[parts.slice(start).join("_")] = value;

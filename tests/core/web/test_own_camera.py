@@ -1,0 +1,88 @@
+"""A camera written on the page: its grammar, its refusals, its error map and its file for Python."""
+
+import subprocess
+import sys
+import time
+
+import numpy as np
+import pytest
+
+from .chromium import browser
+from .test_page import by_id, fresh, numbers, settled, shown, state
+
+pytestmark = pytest.mark.full
+
+REFUSED = {
+    "": "give one to",
+    "d": "line 1: write: name = formula",
+    "d = (x, y)": "three numbers",
+    "d = (x, y, z)": "line 1: z is not known",
+    "d = x": "the last line must be the direction",
+    "d = (x, y, -": "line 1: the formula ends too early",
+    "d = (x, y, -1": 'line 1: ")" is missing at the end',
+    "d = (x, y, alert(1))": "line 1: alert is not known",
+    "x = 1\nd = (1, 2, 3)": "line 1: x is taken",
+    "d = (x; y; 1)": '";" is no part of a formula',
+    "d = (x, y, `1`)": "no part of a formula",
+    "d = (x.constructor, y, 1)": "no part of a formula",
+    "<script>alert(1)</script>": "write: name = formula",
+    "d = (sin(x, y), 0, 1)": "sin takes 1 number",
+    "a = " + "(" * 60 + "1" + ")" * 60 + "\nd = (1, 2, 3)": "too many parentheses",
+    "d = (1, 2, 3)\n" * 20: "give one to",
+    "a = 1" + "1" * 500 + "\nd = (1, 2, 3)": "at most 400 letters",
+}
+
+FISHEYE = "a = (2 x - W) / H\nb = (2 y - H) / H\nr = max(sqrt(a² + b²), 0.000001)\nd = (a, b, -1 / tan(r)) / r"
+MOVED = "a = x / W\no = (3 a, 0, 0)\nd = (0.1, y / H - 0.5, -1) + 0.2 (0, 0, 1) × (1, a, 0)"
+
+
+def written(driver, text):
+    """Write a text into the editor by keys."""
+    box = by_id(driver, "own")
+    driver.execute_script("arguments[0].value = ''; arguments[0].scrollIntoView({block: 'center'})", box)
+    box.send_keys(text)
+
+
+@pytest.mark.parametrize("text", REFUSED)
+def test_what_is_no_formula_is_refused_in_a_line(opened, page, text):
+    fresh(opened, page)
+    written(opened, text)
+    by_id(opened, "own-use").click()
+    error = by_id(opened, "own-error").text
+    assert REFUSED[text] in error
+    assert "\n" not in error
+    assert len(error) < 160
+
+
+@pytest.mark.parametrize("text", [FISHEYE, MOVED])
+def test_a_camera_is_cast_mapped_and_written_for_python(page, tmp_path, text):
+    with browser(downloads=tmp_path) as driver:
+        driver.get(page)
+        written(driver, text)
+        by_id(driver, "own-use").click()
+        settled(driver, lambda one: by_id(one, "label").text == "My camera")
+        assert by_id(driver, "own-error").text == ""
+        at, origin = state(driver), numbers(shown(driver, "origin o"))
+        direction = numbers(shown(driver, "direction r"))
+        assert numbers(shown(driver, "back to the pixel"))[2] < 1e-6
+        by_id(driver, "own-map").click()
+        told = by_id(driver, "map-text").text
+        assert "0 do not" in told
+        by_id(driver, "own-python").click()
+        file = tmp_path / "my_camera.py"
+        settled(driver, lambda _: file.exists())
+        time.sleep(0.5)
+    program = (
+        "import sys, numpy as np; sys.path.insert(0, sys.argv[1]); import my_camera, camera_ray_caster as crc\n"
+        "camera = crc.camera('MY_CAMERA', (640, 360))\n"
+        f"print(*[float(part) for vector in camera.model.rays({at['x']!r}, {at['y']!r}) for part in vector])\n"
+        "pixels = np.array([[100.0, 80.0], [500.0, 300.0]])\n"
+        "origins, directions = camera.model.rays(*pixels.T)\n"
+        "points = np.stack([np.broadcast_to(o + 3 * d, 2) for o, d in zip(origins, directions)], axis=-1)\n"
+        "print(*camera.model.project(points).ravel())\n"
+    )
+    run = subprocess.run([sys.executable, "-c", program, str(tmp_path)], capture_output=True, text=True, check=False)
+    assert run.returncode == 0, run.stderr
+    ray, pixels = (np.array(line.split(), float) for line in run.stdout.splitlines())
+    assert ray == pytest.approx([*origin, *direction], abs=1e-13)
+    assert pixels == pytest.approx([100, 80, 500, 300], abs=1e-6)

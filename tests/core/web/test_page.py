@@ -1,0 +1,254 @@
+"""The page by real mouse and keyboard events: drag, knob, link, figures, screens, bad links, without WebGL."""
+
+import json
+import re
+
+import numpy as np
+import pytest
+
+import camera_ray_caster as crc
+from camera_ray_caster.core.web.figures import FIGURES
+from camera_ray_caster.core.web.page import FRAME, lesson_page
+
+from .chromium import browser
+
+pytestmark = pytest.mark.full
+
+LIMIT = 1_000_000
+"""Bytes of the page."""
+SCREENS = {"phone": (390, 844), "tablet": (820, 1180), "projector": (1280, 720), "large": (1920, 1080)}
+
+BAD = {
+    "v=1&model=%3Cscript%3Ealert(1)%3C/script%3E": "does not have",
+    "v=1&model=PERSP&lens=NaN": "must be a number",
+    "v=1&model=PERSP&lens=1e999": "must be a number",
+    "v=1&model=PERSP&lens=-5": "must be from",
+    "v=1&model=PERSP&x=641": "must be from",
+    "v=1&model=PERSP&sensor_fit=ROUND": "must be one of AUTO, HORIZONTAL, VERTICAL",
+    "v=1&model=PERSP&lens": "must be a number",
+    "v=1&model=PERSP&constructor=1": "does not have",
+    "v=1&model=__proto__": "does not have",
+    "v=99&model=PERSP": "version",
+    "model=PERSP": "version",
+    "nothing": "version",
+    "v=1&model=PERSP&own=" + "x" * 1_000_000: "too long",
+}
+
+
+def shown(driver, name):
+    """A row of the numbers."""
+    script = "return [...document.querySelectorAll('#numbers dt')].find((one) => one.textContent === arguments[0])"
+    return driver.execute_script(f"{script}?.nextSibling.textContent", name)
+
+
+def numbers(text):
+    """The numbers in a text."""
+    return [float(one) for one in re.findall(r"-?\d+\.?\d*(?:e[-+]?\d+)?", text)]
+
+
+def settled(driver, condition):
+    """Wait until a condition holds."""
+    from selenium.webdriver.support.ui import WebDriverWait
+
+    return WebDriverWait(driver, 20, 0.1).until(condition)
+
+
+def state(driver):
+    """The page's state."""
+    return driver.execute_script("return window.lesson.state()")
+
+
+def mouse(driver):
+    """A chain of mouse events."""
+    from selenium.webdriver import ActionChains
+
+    return ActionChains(driver, duration=40)
+
+
+def fresh(driver, page, link=""):
+    """Open the page anew with a link."""
+    driver.get("about:blank")
+    driver.get(page + link)
+
+
+def by_id(driver, name):
+    """An element."""
+    return driver.find_element("id", name)
+
+
+def test_the_page_is_one_file_of_less_than_a_megabyte():
+    text = lesson_page()
+    assert len(text.encode()) < LIMIT
+    assert not re.search(r"\beval\(|innerHTML|outerHTML|document\.write|new Function|\bimport\b.*from|fetch\(", text)
+    assert not re.search(r'(src|href)="', text)
+
+
+def test_a_drag_in_the_picture_moves_the_ray(opened, page):
+    fresh(opened, page)
+    canvas = by_id(opened, "picture")
+    mouse(opened).move_to_element(canvas).click_and_hold().move_by_offset(80, -40).release().perform()
+    settled(opened, lambda one: shown(one, "pixel") != "x = 448, y = 198")
+    at = state(opened)
+    assert (at["x"], at["y"]) != (448, 198)
+    direction = numbers(shown(opened, "direction r"))
+    expected = crc.camera("PERSP", FRAME).model.rays(at["x"], at["y"])[1]
+    assert direction == pytest.approx(list(expected), rel=1e-14)
+    assert numbers(shown(opened, "back to the pixel"))[:2] == pytest.approx([at["x"], at["y"]], rel=1e-5)
+
+
+@pytest.mark.parametrize("key", ["FISHEYE_EQUIDISTANT", "OPENCV_FISHEYE", "PUSHBROOM"])
+def test_three_cameras_answer_the_exercise(opened, page, key):
+    """Given (x, y) on the screen, what is the ray?"""
+    fresh(opened, page, f"#v=1&model={key}&x=400.5&y=120.25")
+    settled(opened, lambda one: state(one)["model"] == key and shown(one, "direction r"))
+    lines = {"slit_1": [(-1, 0, 0), (1, 0, 0)]} if key == "PUSHBROOM" else {}
+    origin, direction = crc.camera(key, FRAME, **lines).model.rays(400.5, 120.25)
+    assert numbers(shown(opened, "origin o")) == pytest.approx([float(one) for one in origin], abs=1e-13)
+    assert numbers(shown(opened, "direction r")) == pytest.approx([float(one) for one in direction], abs=1e-13)
+    values = opened.execute_script("return document.querySelectorAll('#steps .numbers').length")
+    assert values >= 2
+
+
+def test_a_knob_changes_the_numbers_and_the_picture(opened, page):
+    fresh(opened, page)
+    before = by_id(opened, "steps").text
+    knob = by_id(opened, "lens-range")
+    opened.execute_script("arguments[0].scrollIntoView({block: 'center'})", knob)
+    mouse(opened).move_to_element(knob).click_and_hold().move_by_offset(60, 0).release().perform()
+    settled(opened, lambda one: by_id(one, "steps").text != before)
+    lens = state(opened)["values"]["lens"]
+    assert lens != 50
+    x, y = state(opened)["x"], state(opened)["y"]
+    expected = crc.camera("PERSP", FRAME, lens=lens).model.rays(x, y)[1]
+    assert numbers(shown(opened, "direction r")) == pytest.approx(list(expected), rel=1e-13)
+
+
+def test_a_link_holds_the_state(opened, page):
+    fresh(opened, page, "#v=1&model=FISHEYE_EQUIDISTANT&fisheye_fov=2.5&x=300&y=100&times=rows&turn=0.5")
+    settled(opened, lambda one: state(one)["model"] == "FISHEYE_EQUIDISTANT")
+    from selenium.webdriver.common.keys import Keys
+
+    by_id(opened, "picture").send_keys(Keys.ARROW_RIGHT, Keys.SHIFT, Keys.ARROW_UP)
+    by_id(opened, "share").click()
+    first, link = state(opened), opened.execute_script("return location.hash")
+    assert (first["x"], first["y"]) == (301, 110)
+    fresh(opened, page, link)
+    settled(opened, lambda one: state(one)["model"] == "FISHEYE_EQUIDISTANT")
+    assert state(opened) == first
+
+
+@pytest.mark.parametrize("link", BAD)
+def test_a_bad_link_gets_one_line(opened, page, link):
+    fresh(opened, page)
+    opened.execute_script("location.hash = arguments[0]", link)
+    settled(opened, lambda one: by_id(one, "message").text)
+    text = by_id(opened, "message").text
+    assert BAD[link] in text
+    assert len(text) < 200
+    assert "\n" not in text
+    assert state(opened)["model"] == "PERSP"
+    assert not opened.execute_script("return document.querySelectorAll('#message *').length")
+
+
+def test_figures_are_states_of_the_page(opened, page):
+    fresh(opened, page)
+    for place, figure in enumerate(FIGURES):
+        button = opened.find_elements("css selector", "#figures button")[place]
+        opened.execute_script("arguments[0].scrollIntoView()", button)
+        button.click()
+        settled(opened, lambda one, figure=figure: state(one)["model"] == figure["model"] and shown(one, "pixel"))
+        assert by_id(opened, "caption").text == figure["text"]
+        assert by_id(opened, "message").text == ""
+
+
+def test_every_model_can_be_chosen_and_its_steps_have_numbers(opened, page):
+    fresh(opened, page)
+    without = []
+    for key in opened.execute_script("return window.lesson.models"):
+        fresh(opened, page, f"#v=1&model={key}")
+        settled(opened, lambda one, key=key: state(one)["model"] == key and shown(one, "pixel"))
+        assert by_id(opened, "message").text == ""
+        if not opened.execute_script("return document.querySelectorAll('#steps .numbers').length"):
+            without.append(key)
+    assert without == []
+
+
+@pytest.mark.parametrize("screen", SCREENS)
+def test_it_fits_screens(page, screen):
+    width, height = SCREENS[screen]
+    with browser(width, height) as driver:
+        driver.get(page)
+        settled(driver, lambda one: shown(one, "pixel"))
+        assert driver.execute_script("return document.documentElement.scrollWidth <= window.innerWidth")
+        wide = driver.execute_script(
+            "return [...document.querySelectorAll('main *')].filter((one) => one.getBoundingClientRect().right"
+            " > window.innerWidth + 1).map((one) => one.id || one.tagName)"
+        )
+        assert wide == []
+        canvas = by_id(driver, "picture")
+        mouse(driver).move_to_element(canvas).click().perform()
+        settled(driver, lambda one: abs(state(one)["x"] - FRAME[0] / 2) < 3)
+
+
+def test_inputs_have_names_and_contrast_is_high(opened, page):
+    fresh(opened, page)
+    unnamed = opened.execute_script(
+        "return [...document.querySelectorAll('input, select, textarea, canvas, button')].filter((one) =>"
+        " !(one.labels?.length || one.getAttribute('aria-label') || one.textContent.trim())).map((one) => one.id)"
+    )
+    assert [one for one in unnamed if one != "map"] == []
+    for theme in ("light", "dark"):
+        opened.execute_script("document.documentElement.dataset.theme = arguments[0]", theme)
+        colors = opened.execute_script(
+            "const style = getComputedStyle(document.documentElement);"
+            "return ['--card', '--ink', '--muted', '--bad', '--ray', '--accent']"
+            ".map((name) => style.getPropertyValue(name).trim())"
+        )
+        card, *others = map(luminance, colors)
+        for other in others:
+            assert (max(card, other) + 0.05) / (min(card, other) + 0.05) >= 4.5  # WCAG 2.2, AA
+
+
+def luminance(color):
+    """Relative luminance of a color #rrggbb: WCAG 2.2."""
+    parts = np.array([int(color[k : k + 2], 16) / 255 for k in (1, 3, 5)])
+    linear = np.where(parts <= 0.04045, parts / 12.92, ((parts + 0.055) / 1.055) ** 2.4)
+    return linear @ (0.2126, 0.7152, 0.0722)
+
+
+def test_without_webgl_the_numbers_are_there(page):
+    with browser(1200, 900, "--disable-3d-apis") as driver:
+        driver.get(page)
+        assert "no WebGL" in by_id(driver, "blank").text
+        mouse(driver).move_to_element(by_id(driver, "picture")).click().perform()
+        settled(driver, lambda one: abs(state(one)["x"] - FRAME[0] / 2) < 3)
+        assert numbers(shown(driver, "direction r"))[2] == -1
+        by_id(driver, "own-use").click()
+        assert by_id(driver, "own-error").text == ""
+
+
+def test_nothing_is_asked_of_a_network(page):
+    with browser() as driver:
+        driver.get(page)
+        settled(driver, lambda one: shown(one, "pixel"))
+        for button in ("own-map", "own-use", "theme", "reset"):
+            driver.execute_script("document.getElementById(arguments[0]).click()", button)
+        events = [json.loads(line["message"])["message"] for line in driver.get_log("performance")]
+        asked = {
+            one["params"]["request"]["url"].partition(":")[0]
+            for one in events if one["method"] == "Network.requestWillBeSent"
+        }  # fmt: skip
+        assert asked <= {"file", "data", "blob"}
+
+
+def test_a_camera_of_blender_has_a_page_of_its_own(tmp_path):
+    slits = {"slit_1": [(0, 0, 0), (1, 0, 0)], "slit_2": [(0, -1, 2), (0, 1, 2)]}
+    camera = crc.camera("CROSS_SLIT", (96, 54), lens=20.0, **slits)
+    path = tmp_path / "lesson.html"
+    path.write_text(lesson_page(camera, (70, 12)), encoding="utf-8")
+    with browser() as driver:
+        driver.get(path.as_uri())
+        settled(driver, lambda one: shown(one, "pixel") == "x = 70.5, y = 12.5")
+        origin, direction = camera.model.rays(70.5, 12.5)
+        assert numbers(shown(driver, "origin o")) == pytest.approx([float(one) for one in origin], abs=1e-13)
+        assert numbers(shown(driver, "direction r")) == pytest.approx([float(one) for one in direction], abs=1e-13)
