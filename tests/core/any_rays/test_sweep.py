@@ -120,3 +120,33 @@ def test_settings_that_change_during_a_sweep_are_refused():
     states[last] = replace(states[last][0], model=other.model), states[last][1]
     with pytest.raises(crc.InputError, match="change during the sweep"):
         replace(camera, motion=replace(camera.motion, states=states)).rays()
+
+
+def test_rays_near_what_moves_are_found_whatever_it_is():
+    """A box that turns and grows, a ball, a rectangle and an endless plane: beside a cast at the time of each ray."""
+    corners = np.array([(a, b, c) for a in (-1, 1) for b in (-1, 1) for c in (-1, 1)], float)
+    faces = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+
+    def at(frame):
+        turn = np.array([[np.cos(frame), -np.sin(frame), 0], [np.sin(frame), np.cos(frame), 0], [0, 0, 1 + frame / 4]])
+        return crc.join(
+            crc.mesh(corners * (1, 0.3, 0.5) @ turn.T + (3 + frame, 0, 0.2), faces),
+            crc.spheres([(-3, frame, 0.5), (0, -4, 0)], [0.7 + 0.1 * frame, 1.0]),
+            crc.planes((0, 4, frame), [[1, 0], [0, 0.5], [0.2, 1]]),
+            crc.planes((0, 0, -1 - 0.1 * frame), infinite=True),
+        )
+
+    first = at(0.0)
+    state = crc.camera("PERSP", (8, 8))
+    motion = resolve(lambda frame: (state, replace(at(frame), meshes=at(frame).meshes)), 0.0, 1.0, 0.1, 64)
+    shapes = replace(first, motion=motion)
+    rng = np.random.default_rng(5)
+    times = np.round(rng.uniform(0, 1, 600), 2)
+    rays = rng.normal(size=(600, 3)), rng.normal(size=(600, 3))
+    found = crc.cast_rays(*rays, shapes, PASSES, times)
+    assert set(found["shape_index"].tolist()) == {-1, 0, 1, 2, 3, 4}
+    for time in np.unique(times).tolist():
+        some = times == time
+        expected = crc.cast_rays(rays[0][some], rays[1][some], motion.shapes_at(time), PASSES)
+        for name in PASSES:
+            np.testing.assert_array_equal(found[name][some], expected[name])

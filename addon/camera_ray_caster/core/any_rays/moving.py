@@ -1,8 +1,8 @@
 """Rays with times of their own: shapes that stand still are searched once for all rays, others for the rays near them.
 
-A ray is near a shape if it meets the ball around the shape's center, at the ray's time, that holds the shape. Only
-these rays are grouped by their times, and each group meets the shapes where they are then: the hits are those of a cast
-at that time.
+A ray is near a shape if it meets the ball around the shape's center, at the ray's time, that holds the shape, and the
+box around it in its own axes. Only these rays are grouped by their times, and each group meets the shapes where they
+are then: the hits are those of a cast at that time.
 """
 
 from __future__ import annotations
@@ -12,9 +12,9 @@ from weakref import WeakKeyDictionary
 
 import numpy as np
 
-from ..motion.apart import centers_at, moving, of_rows, rows_of
+from ..motion.apart import axes_at, centers_at, moving, of_rows, rows_of
 from ..motion.evaluations import Motion
-from ..records import Shapes
+from ..records import MESH, PLANE, SPHERE, Shapes
 from ..shapes.in_camera import in_camera
 from .search import WORLD, BodySearch
 from .written import Span, write
@@ -22,6 +22,13 @@ from .written import Span, write
 MARGIN = 1.25
 """Factor by which balls are enlarged around shapes that change in size or form: between evaluations they may be larger.
 """
+
+
+SLACK = 1e-6
+"""Fraction by which boxes are enlarged: far more than rounding."""
+
+FLAT_OR_ROUND = {SPHERE: ((-1.0, -1.0, -1.0), (1.0, 1.0, 1.0)), PLANE: ((-1.0, -1.0, 0.0), (1.0, 1.0, 0.0))}
+"""Corners of the boxes of exact shapes in their own axes."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,6 +42,8 @@ class Moving:
     motion: Motion
     radius: np.ndarray
     """(m,): the radii of the balls around their centers."""
+    boxes: dict[int, np.ndarray]
+    """(2, 3): the lowest and the highest corner in its own axes, of each that has one and does not deform."""
 
 
 _known: WeakKeyDictionary[Shapes, Moving | None] = WeakKeyDictionary()
@@ -51,7 +60,7 @@ def moving_of(shapes: Shapes) -> Moving | None:
             first = next(iter(motion.states.values()))[1]
             still, rows = np.flatnonzero(~moves), np.flatnonzero(moves)
             own = of_rows(motion, rows)
-            _known[shapes] = Moving(rows_of(first, still), still, rows, own, _radius(own))
+            _known[shapes] = Moving(rows_of(first, still), still, rows, own, _radius(own), _boxes(own))
     return _known[shapes]
 
 
@@ -61,8 +70,34 @@ def _radius(motion: Motion) -> np.ndarray:
         placed = in_camera(shapes, WORLD)
         every.append(np.linalg.norm(placed.center - shapes.center, axis=1) + placed.radius)
     radii = np.array(every)
-    changes = np.ptp(radii, axis=0) > 1e-6 * radii.max(axis=0)
+    changes = radii.min(axis=0) < (1 - 1e-6) * radii.max(axis=0)
     return radii.max(axis=0) * np.where(changes, MARGIN, 1 + 1e-6)
+
+
+def _boxes(motion: Motion) -> dict[int, np.ndarray]:
+    every = [shapes for _, shapes in motion.states.values()]
+    first, found = every[0], {}
+    for row, kind in enumerate(first.kind.tolist()):
+        if kind in FLAT_OR_ROUND:
+            found[row] = np.array(FLAT_OR_ROUND[kind])
+        elif kind == MESH and all(other.meshes[first.mesh[row]] is first.meshes[first.mesh[row]] for other in every):
+            mesh = first.meshes[first.mesh[row]]
+            found[row] = np.array((mesh.vertices.min(axis=1), mesh.vertices.max(axis=1))) - mesh.middle
+    for corners in found.values():
+        corners += np.array((-1, 1))[:, None] * SLACK * np.abs(corners).max()
+    return found
+
+
+def _meets_box(axes: np.ndarray, to: np.ndarray, ahead: np.ndarray, corners: np.ndarray) -> np.ndarray:
+    """Return whether rays, given the ways to the middles of boxes and directions, (3, n), meet the boxes ahead."""
+    size = np.linalg.norm(axes, axis=(1, 2))
+    if not (np.abs(np.linalg.det(axes)) > SLACK * size**3).all():
+        return np.ones(len(axes), bool)  # a flat mesh
+    inwards = np.linalg.inv(axes)
+    start, way = (np.einsum("nij,jn->in", inwards, vector) for vector in (-to, ahead))
+    ends = (corners[:, :, None] - start) / way
+    enter, leave = np.fmin(*ends).max(axis=0), np.fmax(*ends).min(axis=0)
+    return ~((enter > leave) | (leave < 0))
 
 
 def cast_apart(apart: Moving, search: BodySearch, origin, direction, times: np.ndarray, span: Span, images) -> None:
@@ -89,10 +124,14 @@ def _near(apart: Moving, origin, direction, times: np.ndarray):
     near = np.zeros(len(times), bool)
     with np.errstate(all="ignore"):  # NaN is no ray
         ahead = direction / np.sqrt((direction * direction).sum(axis=0))
-        for center, radius in zip(centers_at(apart.motion, times), apart.radius, strict=True):
+        for row, (center, radius) in enumerate(zip(centers_at(apart.motion, times), apart.radius, strict=True)):
             to = center.T - origin
             along = np.maximum((to * ahead).sum(axis=0), 0.0)
-            near |= ~(((to - along * ahead) ** 2).sum(axis=0) > radius * radius)
+            some = np.flatnonzero(~(((to - along * ahead) ** 2).sum(axis=0) > radius * radius))
+            if row in apart.boxes and some.size:
+                axes = axes_at(apart.motion, row, times[some])
+                some = some[_meets_box(axes, to[:, some], ahead[:, some], apart.boxes[row])]
+            near[some] = True
         near &= ~np.isnan(direction[0])
     some = np.flatnonzero(near)
     some = some[np.argsort(times[some], kind="stable")]

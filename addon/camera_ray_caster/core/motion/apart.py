@@ -57,6 +57,14 @@ def of_rows(motion: Motion, some: np.ndarray) -> Motion:
     return replace(motion, states=states, intervals=intervals)
 
 
+def axes_at(motion: Motion, row: int, frames: np.ndarray) -> np.ndarray:
+    """Return the axes of one shape at frames (n,), (n, 3, 3); all evaluations have to have the same shapes."""
+    axes = np.empty((len(frames), 3, 3))
+    for interval, some in motion.parts(frames):
+        axes[some] = interval.axes_at(row, frames[some])
+    return axes
+
+
 def centers_at(motion: Motion, frames: np.ndarray) -> np.ndarray:
     """Return the centers of the shapes at frames (n,), (shapes, n, 3); all evaluations have to have the same."""
     centers = np.empty((len(next(iter(motion.states.values()))[1]), len(frames), 3))

@@ -58,6 +58,12 @@ class TimeInterval:
         found = mean([shapes.center[:, None] for _, shapes in self.states], weights)
         return np.broadcast_to(found, (len(found), len(frames), 3))
 
+    def axes_at(self, row: int, frames: np.ndarray) -> np.ndarray:
+        """Return the axes of one shape at frames (n,), (n, 3, 3)."""
+        weights = [np.broadcast_to(weight, frames.shape)[:, None] for weight in self._weights(frames)]
+        found = Turning.of([shapes.axes[row : row + 1] for _, shapes in self.states]).at(weights)
+        return np.broadcast_to(found, (len(frames), 3, 3))
+
     def shapes_at(self, frame: float) -> Shapes:
         """Return the shapes at a frame. What is not interpolated (indices, and all if shapes appear or disappear) is
         that of the last evaluation before it.
