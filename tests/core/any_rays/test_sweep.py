@@ -150,3 +150,16 @@ def test_rays_near_what_moves_are_found_whatever_it_is():
         expected = crc.cast_rays(rays[0][some], rays[1][some], motion.shapes_at(time), PASSES)
         for name in PASSES:
             np.testing.assert_array_equal(found[name][some], expected[name])
+
+
+def test_a_sweep_is_written_into_the_images_of_an_earlier_cast(sweep):
+    camera, shapes = sweep[:2]
+    passes = ("distance", "shape_index")
+    images = crc.cast(camera, shapes, passes)
+    before = {name: images[name].copy() for name in passes}
+    for name in passes:
+        images[name].fill(7)
+    again = crc.cast(camera, shapes, passes, into=images)
+    assert again is images
+    for name in passes:
+        np.testing.assert_array_equal(again[name], before[name])
