@@ -6,7 +6,7 @@ import bpy
 from parts import BUTTON, addon, load
 from window_scenarios import dialog, middle
 
-LIST = 58
+LIST = 110
 """Pixels from the button Use in Cycles down to the title of the list of cameras."""
 
 
@@ -77,7 +77,7 @@ def check_whole(folder):
 
 
 def open_list(user):
-    """Unfold the list of cameras, two rows below the button Use in Cycles."""
+    """Unfold the list of cameras, below the button Use in Cycles and the notes."""
     button, region = f"{BUTTON}use_in_cycles(", user.region()
     yield from user.find(button)
     yield from user.click(region.x + region.width // 4, user.known[button] - LIST)

@@ -3,10 +3,13 @@
 import bpy
 import numpy as np
 from lesson_scenarios import place_of
-from parts import BUTTON, addon
+from parts import BUTTON, addon, load
+from window_scenarios import middle
 
 ROW = 26
 """Pixels from a row of the sidebar to the next."""
+BELOW, SCROLLED = 270, 40
+"""Pixels from the button Cast down to the camera's numbers, and width of the scroll bar and the tabs beside them."""
 
 
 def default_scene(user):
@@ -147,4 +150,38 @@ def export_colmap(user, scenes):
     user.picture("stranger_exported")
 
 
-STRANGER_SCENARIOS = (cast_a_cube, see_through, ray_of_a_pixel, export_colmap)
+def notes_stay(user, scenes):
+    """A note that comes, and one that goes, moves nothing in the sidebar; a popover has all of them in whole sentences.
+    """
+    yield from load(user, scenes, "toys")
+    scene, button, region = bpy.context.scene, f"{BUTTON}cast(", user.region()
+    camera = scene.camera.data
+    scene.render.engine = "CAMERA_RAY_CASTER"
+    yield from user.wait(0.7)
+    yield from user.find(button)
+    top = user.known[button] - region.y
+
+    def below(name):
+        yield from user.point(*middle(user.region("WINDOW")))
+        yield from user.wait(0.7)
+        return user.cut(user.picture(name), region)[top - BELOW : top, :-SCROLLED]
+
+    plain = yield from below("notes_none")
+    camera.type, camera.panorama_type = "PANO", "FISHEYE_EQUIDISTANT"
+    stretched = yield from below("notes_frame")
+    scene.render.engine = "BLENDER_WORKBENCH"
+    two = yield from below("notes_two")
+    assert np.array_equal(plain, stretched)
+    assert np.array_equal(plain, two)
+    set_frame_button = f"{BUTTON}set_frame("
+    yield from user.find(set_frame_button)
+    yield from user.click(region.x + region.width // 3, user.known[set_frame_button] + ROW)
+    yield from user.wait(1)
+    user.picture("notes_popover")
+    yield from user.key("Escape")
+    yield from user.press(set_frame_button)
+    yield from user.until(lambda: scene.render.resolution_x == scene.render.resolution_y, "the frame is square")
+    assert np.array_equal(plain, (yield from below("notes_one_left")))
+
+
+STRANGER_SCENARIOS = (cast_a_cube, see_through, ray_of_a_pixel, export_colmap, notes_stay)

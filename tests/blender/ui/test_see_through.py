@@ -4,7 +4,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from camera_ray_caster.blender.ui.camera_panels import missing
+from camera_ray_caster.blender.ui.camera_notes import missing
 from camera_ray_caster.blender.view3d import notice
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+from functools import partial
 
 import bpy
 
@@ -14,8 +15,8 @@ from ...core.records import InputError
 from ..properties.declared import CAMERA as OWN_SETTINGS
 from ..properties.declared import GROUP
 from ..read.camera import camera_record
-from .drawing import draw_message
 from .needs import OfCamera, camera_object_of, reporting
+from .notes import Note
 
 SET_FRAME = Flag(
     "set_frame", "Set Frame",
@@ -91,19 +92,20 @@ def _value(value):
     return tuple(value) if isinstance(value, bpy.types.bpy_prop_array) else value
 
 
-def draw_frame(layout, context, item, is_refused: bool = False) -> None:
-    """Draw both sizes and the button Set Frame if a camera object asks for another frame; the button alone if the panel
-    says that the camera ``is_refused`` for it.
-    """
+def frame_note(context, item) -> Note | None:
+    """Return both sizes and the button Set Frame if a camera object asks for another frame, or None."""
     try:
         wanted = frame_of(context, item)
     except InputError:
-        return  # the panel shows the reason, also if there is no camera
+        return None  # the panel shows the reason, also if there is no camera
     if wanted is None:
-        return
-    if not is_refused:
-        draw_message(layout, context, wanted.sentence, "ERROR")
-    layout.operator(SetFrame.bl_idname, text=f"Set Frame to {wanted.width} × {wanted.height}", icon="FULLSCREEN_ENTER")
+        return None
+    text = f"Set Frame to {wanted.width} × {wanted.height}"
+    return Note(wanted.sentence, partial(_draw_button, text=text))
+
+
+def _draw_button(row, text: str) -> None:
+    row.operator(SetFrame.bl_idname, text=text, icon="FULLSCREEN_ENTER")
 
 
 CLASSES = (SetFrame,)

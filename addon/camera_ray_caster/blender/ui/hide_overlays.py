@@ -12,7 +12,7 @@ from collections.abc import Iterator
 import bpy
 from bpy.app.handlers import persistent
 
-from .camera_panels import drawn_alike
+from .camera_notes import drawn_alike
 from .see_through import shows_picture
 
 LYING = (

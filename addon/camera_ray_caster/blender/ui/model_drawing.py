@@ -58,12 +58,12 @@ def draw_lens(layout, context, camera) -> None:
 
 def draw_cycles(layout, camera) -> None:
     """Draw the button that makes a custom camera of Cycles, or the buttons that revert and update such a camera."""
-    if shader_mark(camera) is None:
-        layout.operator(UseInCycles.bl_idname, icon="SHADING_RENDERED")
-        if getattr(camera, GROUP).model != BLENDERS_OWN:
-            layout.operator(FitLens.bl_idname, icon="CAMERA_DATA")
-        return
     row = layout.row(align=True)
+    if shader_mark(camera) is None:
+        row.operator(UseInCycles.bl_idname, icon="SHADING_RENDERED")
+        if getattr(camera, GROUP).model != BLENDERS_OWN:
+            row.operator(FitLens.bl_idname)
+        return
     row.operator(BackToBlender.bl_idname, icon="LOOP_BACK")
     row.operator(UseInCycles.bl_idname, text="", icon="FILE_REFRESH")
 
@@ -106,8 +106,18 @@ def _draw_object(layout, context, owner, setting) -> None:
     if not is_missing(context, owner, setting):
         row.operator(SelectLine.bl_idname, text="", icon="RESTRICT_SELECT_OFF").setting = setting.name
     else:
-        draw_message(layout, context, f"Missing: {setting.text[:1].lower()}{setting.text[1:]}", "ERROR")
-        layout.operator(AddLine.bl_idname, text=f"Add {setting.label}", icon="ADD").setting = setting.name
+        draw_message(layout, context, lacks(setting), "ERROR")
+        draw_add(layout, setting)
+
+
+def lacks(setting: Setting) -> str:
+    """Return a line that says that the object of a setting is missing."""
+    return f"Missing: {setting.text[:1].lower()}{setting.text[1:]}"
+
+
+def draw_add(layout, setting: Setting) -> None:
+    """Draw the button that adds the object of a setting."""
+    layout.operator(AddLine.bl_idname, text=f"Add {setting.label}", icon="ADD").setting = setting.name
 
 
 def is_missing(context, owner, setting: Setting) -> bool:

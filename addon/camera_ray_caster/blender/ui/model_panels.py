@@ -5,13 +5,14 @@ import bpy
 from ...core.cameras.parts.film import SENSOR_FIT, SHIFT
 from ..properties.declared import ENGINE
 from .drawing import draw_field, put_labels
-from .frame import draw_frame
+from .frame import frame_note
 from .gallery_panels import draw_model
 from .model_drawing import PRESETS, draw_cycles, draw_lens, draw_model_settings, draw_times
 from .model_settings import read_settings
 from .needs import camera_object_of
 from .operators import LoadCalibration
-from .other_engine import draw_ignored
+from .notes import draw_notes
+from .other_engine import engine_note
 
 
 class CameraPanel:
@@ -46,8 +47,8 @@ class ModelPanel(CameraPanel, bpy.types.Panel):
         row.operator(LoadCalibration.bl_idname, text="", icon="FILEBROWSER")
         put_labels(layout, context)
         draw_model_settings(layout, context, camera)
-        draw_frame(layout, context, camera_object_of(context))
-        draw_ignored(layout, context, camera_object_of(context))
+        item = camera_object_of(context)
+        draw_notes(layout, context, filter(None, (frame_note(context, item), engine_note(context.scene, item))))
         draw_cycles(layout, camera)
 
 

@@ -11,9 +11,9 @@ from ..properties.declared import BLENDERS_OWN, ENGINE, GROUP
 from ..properties.labels import label_of
 from ..read.camera import shader_mark
 from .cycles_operators import UseInCycles
-from .drawing import draw_message
 from .model_settings import blender_type
 from .needs import OfScene
+from .notes import Note
 
 CYCLES = "CYCLES"
 SHOWN = 10.0
@@ -60,13 +60,13 @@ def engine_label(engine: str) -> str:
     return getattr(known, "bl_label", None) or (plain if plain == "EEVEE" else plain.replace("_", " ").title())
 
 
-def draw_ignored(layout, context, camera) -> None:
-    """Draw what the scene's engine does not know of a camera object, with buttons for what would work."""
-    said = ignored(context.scene, camera)
-    if not said:
-        return
-    draw_message(layout, context, said, "ERROR")
-    row = layout.row(align=True)
+def engine_note(scene, camera) -> Note | None:
+    """Return what the scene's engine does not know of a camera object, with buttons for what would work, or None."""
+    said = ignored(scene, camera)
+    return Note(said, _draw_buttons) if said else None
+
+
+def _draw_buttons(row) -> None:
     row.operator(UseThisEngine.bl_idname, text="Ray Caster")
     row.operator(UseInCycles.bl_idname).set_engine = True
 

@@ -7,9 +7,10 @@ import bpy
 from ..engine.engine import CameraRayCaster
 from ..output import reports
 from ..properties.passes import PASSES
-from .camera_panels import draw_samples
+from .camera_notes import sample_note
 from .drawing import draw_message
 from .facts_panels import camera_of
+from .notes import draw_notes
 
 ENGINE = CameraRayCaster.bl_idname
 
@@ -40,7 +41,8 @@ class RenderPanel(EnginePanel, bpy.types.Panel):
         layout.use_property_decorate = False
         for setting in ("shading", "samples", "exact_shapes"):
             layout.prop(context.scene.camera_ray_caster, setting)
-        draw_samples(layout, context, camera_of(context, context.scene.camera)[0])
+        note = sample_note(context.scene, camera_of(context, context.scene.camera)[0])
+        draw_notes(layout, context, [] if note is None else [note])
         layout.prop(context.scene.render, "film_transparent")
         report = reports.latest(context.scene)
         if report is not None:

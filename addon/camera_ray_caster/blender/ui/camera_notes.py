@@ -1,0 +1,63 @@
+"""What the panels note of a camera's picture: missing objects, a stretched frame, an engine that does not know it."""
+
+from __future__ import annotations
+
+from functools import partial
+
+from ...core.cameras.parts.settings import Setting
+from ..properties.declared import BLENDERS_OWN, GROUP
+from ..properties.owners import owner_of
+from .facts_panels import camera_of
+from .frame import frame_note
+from .model_drawing import draw_add, is_missing, lacks
+from .model_settings import read_settings
+from .notes import Note
+from .other_engine import engine_note
+from .see_through import is_seen_through
+
+
+def notes(context) -> list[Note]:
+    """Return the notes on the scene's camera: first why it cannot be cast."""
+    scene, camera = context.scene, context.scene.camera
+    found, reason = camera_of(context, camera)
+    lacking = missing(context, camera) if reason else []
+    frame = frame_note(context, camera)
+    every = [Note(lacks(setting), partial(_draw_missing, camera.data, scene, setting)) for setting in lacking]
+    if reason and not lacking:
+        every.append(Note(reason, frame and frame.mend))  # of a calibrated camera the reason is its frame
+        frame = None
+    every += filter(None, (frame, engine_note(scene, camera), sample_note(scene, found)))
+    if context.space_data is not None and is_seen_through(context) and not drawn_alike(camera):
+        said = "A click selects what is seen; Blender draws its gizmos in perspective"
+        every.append(Note(said, icon="INFO"))
+    return every
+
+
+def sample_note(scene, camera) -> Note | None:
+    """Return a note with the number of samples if a camera with an opening is rendered with one ray per pixel."""
+    settings = scene.camera_ray_caster
+    if camera is None or camera.aperture is None or settings.samples != 1:
+        return None
+    said = "With 1 sample nothing is blurred: rays pass the middle of the opening only"
+    return Note(said, lambda row: row.prop(settings, "samples"), "INFO")
+
+
+def _draw_missing(camera, scene, setting: Setting, row) -> None:
+    """Draw the button that adds an object, and a list from which it is chosen."""
+    draw_add(row, setting)
+    row.prop(owner_of(setting, camera, scene), setting.name, text="")
+
+
+def drawn_alike(camera) -> bool:
+    """Return whether Blender's overlays match the picture of a camera object's model."""
+    if camera is None or camera.type != "CAMERA":
+        return True
+    return getattr(camera.data, GROUP).model == BLENDERS_OWN and camera.data.type in {"PERSP", "ORTHO"}
+
+
+def missing(context, camera) -> list[Setting]:
+    """Return the object settings of a camera object's model whose objects are not there."""
+    if camera is None or camera.type != "CAMERA":
+        return []
+    own = getattr(camera.data, GROUP)
+    return [it for it in read_settings(camera.data) if it.kind == "OBJECT" and is_missing(context, own, it)]

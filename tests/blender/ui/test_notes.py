@@ -1,0 +1,92 @@
+"""The notes of the sidebar: all are in the popover, and the panel has as many rows with any of them as without."""
+
+from unittest.mock import MagicMock
+
+import pytest
+
+from camera_ray_caster.blender.ui.camera_notes import notes
+from camera_ray_caster.blender.ui.camera_panels import CameraNotes, SidebarCamera
+
+from .test_panels import drawn
+
+DRAWN = {"label", "menu", "operator", "popover", "prop", "row"}
+
+
+def stretched(scene, data):
+    data.type, data.panorama_type = "PANO", "EQUIRECTANGULAR"
+    return "Set Frame to 24 × 12"
+
+
+def missing(scene, data):
+    data.camera_ray_caster.model = "CROSS_SLIT"
+    return "Add Slit camera_ray_caster.add_line slit_1"
+
+
+def unknown(scene, data):
+    data.camera_ray_caster.model, scene.render.engine = "OMNIMAX", "BLENDER_WORKBENCH"
+    return "camera_ray_caster.use_this_engine"
+
+
+def sharp(scene, data):
+    data.dof.use_dof, data.dof.focus_distance, data.dof.aperture_fstop = True, 5.0, 1.0
+    return "With 1 sample nothing is blurred: rays pass the middle of the opening only samples"
+
+
+def all_at_once(scene, data):
+    data.dof.use_dof = True
+    stretched(scene, data)
+    scene.render.engine = "BLENDER_WORKBENCH"
+    return "3 notes: The picture is stretched"
+
+
+def no_camera(scene, data):
+    scene.camera = None
+    return "no active camera"
+
+
+def rows(blender):
+    """How many rows the panel has, each of one line."""
+    layout = MagicMock()
+    drawn(blender, SidebarCamera, layout)
+    called = [name for name, *_ in layout.method_calls if name != "context_pointer_set" and "." not in name]
+    assert set(called) <= DRAWN, "nothing is wrapped"
+    return len(called)
+
+
+@pytest.mark.parametrize("what", [stretched, missing, unknown, sharp, all_at_once])
+def test_a_note_moves_nothing_below_it(blender, scene, what):
+    scene.render.engine = "CAMERA_RAY_CASTER"
+    assert "No notes" in drawn(blender, SidebarCamera)
+    before = rows(blender)
+    said = what(scene, scene.camera.data)
+    blender.context.view_layer.update()
+    assert said in drawn(blender, SidebarCamera)
+    assert rows(blender) == before
+
+
+def test_every_note_is_in_the_popover_with_its_buttons(blender, scene):
+    all_at_once(scene, scene.camera.data)
+    blender.context.view_layer.update()
+    found = drawn(blender, CameraNotes)
+    assert len(notes(blender.context)) == 3
+    for said in ("set_frame", "use_this_engine", "use_in_cycles", "nothing is blurred", "samples"):
+        assert said in found
+
+
+def test_of_two_missing_slits_each_is_added_by_the_same_button(blender, scene):
+    missing(scene, scene.camera.data)
+    for name in ("slit_1", "slit_2"):
+        assert f"camera_ray_caster.add_line {name}" in drawn(blender, SidebarCamera)
+        blender.ops.camera_ray_caster.add_line(setting=name)
+    assert "add_line" not in drawn(blender, SidebarCamera)
+
+
+def test_the_frame_of_a_calibrated_camera_is_one_note(blender, scene, tmp_path):
+    path = tmp_path / "cameras.txt"
+    path.write_text("1 PINHOLE 1241 376 700 700 620 188\n")
+    blender.ops.camera_ray_caster.load_calibration(filepath=str(path))
+    scene.render.engine, scene.render.resolution_x = "CAMERA_RAY_CASTER", 1920
+    blender.context.view_layer.update()
+    (note,) = notes(blender.context)
+    assert "1241" in note.text
+    assert "Set Frame to 1241 × 376" in drawn(blender, SidebarCamera)
