@@ -10,8 +10,8 @@ from .gallery_panels import draw_model
 from .model_drawing import PRESETS, draw_cycles, draw_lens, draw_model_settings, draw_times
 from .model_settings import read_settings
 from .needs import camera_object_of
-from .operators import LoadCalibration
 from .notes import draw_notes
+from .operators import LoadCalibration
 from .other_engine import engine_note
 
 
