@@ -2,8 +2,8 @@
 
     python scripts/check_set.py FOLDER
 
-Reads what cast.py, dataset.py and clevr_set.py write as NPZ, with the passes shape_index and distance (or depth); needs
-numpy only. The cameras are made from the reports. A pixel's ray and distance give a point, which another view's camera
+Reads what cast.py, dataset.py and clevr_set.py write, with the passes shape_index and distance (or depth); needs numpy
+only, but bpy for EXR files. The cameras are made from the reports. A pixel's ray and distance give a point, which another view's camera
 projects: the next view of the same camera if the set has the pass flow_forward, which is for scenes that stand still;
 else each other camera's view of the same frame, or if there is none the next view, which has to show the same objects
 at the same places. The other view's distance there must agree with the distance of the point, and its shape with the
@@ -18,6 +18,7 @@ if __name__ == "__main__":
 
 import sys
 from collections.abc import Iterator
+from contextlib import suppress
 from itertools import groupby, pairwise
 from pathlib import Path
 
@@ -110,7 +111,11 @@ def main(arguments: list[str] | None = None) -> int:
     folder = parser.parse_args(arguments).folder
     passed = True
     try:
-        found = list(pairs(read_set(folder)))
+        views = read_set(folder)
+        if any(view.file.suffix == ".exr" for view in views):
+            with suppress(ImportError):  # without bpy; reading refuses the files
+                from camera_ray_caster.blender.read import openexr  # noqa: F401
+        found = list(pairs(views))
         if not found:
             parser.error(f"{str(folder)!r} has one view: a set has two or more")
         print(HEAD)

@@ -32,7 +32,7 @@ def test_boxes_masks_and_key_points_stand_beside_the_pictures_and_in_one_file(sc
     assert (done.returncode, done.stderr) == (0, "")
     names = [f"{name}_000{k}{end}" for k in (1, 2) for name, end in (("report", ".json"), ("small", ".exr"),
              ("small", ".png"), ("small", "_coco.json"))]  # fmt: skip
-    assert left(tmp_path) == sorted(["annotations.json", *names])
+    assert left(tmp_path) == sorted(["annotations.json", "preview.png", "reader.py", *names])
     whole = json.loads((tmp_path / "annotations.json").read_text())
     assert [(image["file_name"], image["camera"], image["frame"]) for image in whole["images"]] == [
         ("small_0001.png", "Top", 1.0), ("small_0002.png", "Top", 2.0),

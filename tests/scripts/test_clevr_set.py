@@ -22,7 +22,7 @@ def made(tmp_path_factory):
 def test_a_set_has_pictures_passes_cameras_and_annotations_and_fits_together(made):
     ends = ".npz", ".png", "_coco.json"
     names = [f"clevr_000{k}{end}" for k in (1, 2) for end in ends] + ["report_0001.json", "report_0002.json"]
-    assert left(made) == sorted(["annotations.json", "camera.json", "clevr.blend", *names])
+    assert left(made) == sorted(["annotations.json", "camera.json", "clevr.blend", "preview.png", "reader.py", *names])
     with np.load(made / "clevr_0001.npz") as passes:
         assert passes["combined"].shape == (48, 64, 4)
         assert set(np.unique(passes["object_index"])) == set(range(6))

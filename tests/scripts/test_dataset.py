@@ -67,7 +67,8 @@ def test_cameras_and_frames_are_the_file_s_where_none_are_named(command, blender
     blender.ops.wm.save_as_mainfile(filepath=str(scene))
     assert command("dataset", scene, "--format", "exr", "--output", out).returncode == 0
     stems = [f"Top_{frame}" for frame in ("0002", "0004", "0006")]
-    assert left(out) == [*(f"{stem}.{kind}" for stem in stems for kind in ("exr", "json", "png")), "dataset.json"]
+    assert left(out) == [*(f"{stem}.{kind}" for stem in stems for kind in ("exr", "json", "png")), "dataset.json",
+                         "preview.png", "reader.py"]  # fmt: skip
 
 
 @pytest.mark.parametrize("case", ["passes", "sha256", "a word", "a list"])

@@ -71,6 +71,23 @@ def test_a_set_has_the_cameras_and_passes_that_were_cast(made):
         read_set(folder / "none")
 
 
+def test_a_set_may_have_more_views_than_files_can_be_open(made):
+    resource = pytest.importorskip("resource")
+    folder, _ = made
+    for number in range(3, 103):
+        for end in (".npz", ".json"):
+            text = (folder / f"PERSP_0001{end}").read_bytes()
+            (folder / f"PERSP_{number:04}{end}").write_bytes(text.replace(b"PERSP_0001", b"PERSP_%04d" % number))
+    before = resource.getrlimit(resource.RLIMIT_NOFILE)
+    resource.setrlimit(resource.RLIMIT_NOFILE, (80, before[1]))
+    try:
+        views = read_set(folder)
+        assert len(views) == 102
+        assert all(one.has("depth") for one in views)
+    finally:
+        resource.setrlimit(resource.RLIMIT_NOFILE, before)
+
+
 def test_trajectories_have_the_set_s_own_time(made):
     folder, _ = made
     for rate, seconds in ((None, (1 / 24, 2 / 24)), (29.97, (1 / 29.97, 2 / 29.97))):

@@ -32,7 +32,7 @@ def openimageio():
 
 
 def channels_of(path: str) -> dict[str, np.ndarray]:
-    """Return the channels of a file by name, (rows, columns) float32 from the top; see ``ray_exr.decoder``."""
+    """Return the channels of a file by name, (rows, columns) from the top; see ``ray_exr.decoder``."""
     library = openimageio()
     file = library.ImageInput.open(path)
     if file is None:
@@ -41,15 +41,14 @@ def channels_of(path: str) -> dict[str, np.ndarray]:
     part = 0
     while file.seek_subimage(part, 0):
         spec = file.spec()
-        kinds = {str(kind) for kind in spec.channelformats} or {str(spec.format)}
-        if "half" in kinds:
-            raise ValueError("its numbers are half floats, which turn rays by up to 2.4e-4 radians: save it as float32")
+        kinds = spec.channelformats or [spec.format] * spec.nchannels
         size = 8 * spec.width * spec.height * spec.nchannels
-        memory.require(size, f"the channels of {path!r}", "give a smaller table")
+        memory.require(size, f"the channels of {path!r}", "give a smaller file")
         pixels = file.read_image(part, 0, 0, spec.nchannels, "float")
         if pixels is None:
             raise ValueError(f"it is damaged: {_line(file.geterror())}")
-        channels |= {name: pixels[..., k] for k, name in enumerate(spec.channelnames)}
+        for k, (name, kind) in enumerate(zip(spec.channelnames, kinds, strict=True)):
+            channels[name] = pixels[..., k].astype(np.float16 if str(kind) == "half" else np.float32, copy=False)
         part += 1
     file.close()
     return channels

@@ -56,11 +56,12 @@ def run(arguments: Sequence[str], prog: str) -> int:
             exact |= dict.fromkeys(outcome.exact)
             if outcome.report is not None and (options.json or not several):
                 show(outcome.report, options.json, f"Wrote {', '.join(map(str, outcome.paths))}")
-    if pictures.keypoints is not None and several and not options.shard:
+    annotated = pictures.keypoints is not None and several and not options.shard
+    if annotated:
         collect(options.output, [job.name for job in jobs])
     if options.points == KITTI and not options.shard:
         collect_sequences(pictures.scene, options.output, jobs)
-    if options.dataset:
+    if options.dataset or annotated:
         dataset.end(options, first)
     if not options.json and (several or not made):
         print(summary(made, len(jobs), options.output), *sentences([*notes], [*exact]), sep="\n", flush=True)

@@ -1,4 +1,4 @@
-"""Data sets: pictures of cameras and frames in one folder, ``cast --dataset``.
+"""Data sets: pictures of cameras and frames in one folder, ``cast --dataset``; and what else lies in every set.
 
 Each camera and frame has the passes CAMERA_FRAME.npz (or .exr), the report CAMERA_FRAME.json, from which
 ``camera_from_json`` makes the camera, and CAMERA_FRAME.png if the combined pass is requested. The ray passes of a
@@ -25,7 +25,6 @@ from ...core.sets import companions
 from ..output.stamps import differing
 from ..read.camera import check_camera, check_markers
 from ..read.unique import unique_name
-from . import files
 from .jobs import PictureJob, RayMap
 from .pictures import Pictures
 from .ray_maps import made_map
@@ -54,9 +53,8 @@ def begin(
 
 
 def end(options: Namespace, first: Mapping[str | None, PictureJob]) -> None:
-    """Write the reader and the preview."""
-    if options.format == files.NPZ:
-        write(companions(options.output, [job.name for job in first.values()]), options.output)
+    """Write the reader and the preview of a set, also of one that is none of ``--dataset``."""
+    write(companions(options.output, [job.report for job in first.values()]), options.output)
 
 
 def _claim(folder: Path, stamp: dict[str, Any]) -> None:

@@ -1,7 +1,8 @@
 """Finished data sets, read back and written for other programs: one module per format.
 
-A set is a folder that ``cast.py --cameras`` or ``dataset.py`` made, with passes as NPZ. A format is a function that
-takes the views of a set and yields names and contents of files, which may lie in folders; it needs numpy only.
+A set is a folder that ``cast.py`` or ``dataset.py`` made, with passes as NPZ, or as EXR, which Blender reads. A format is
+a function that takes the views of a set and yields names and contents of files, which may lie in folders; it needs
+numpy only.
 """
 
 from __future__ import annotations
@@ -37,13 +38,18 @@ SET_FORMATS = {
 """Formats of finished sets, by their keys."""
 
 
-def companions(folder: Path, names: Iterable[str]) -> Files:
-    """Yield what lies in every set: reader.py, which reads it in 20 lines, and preview.png of the named pictures, if
-    they have a pass that previews show.
+READER = "reader.py"
+
+
+def companions(folder: Path, reports: Iterable[str]) -> Files:
+    """Yield what lies in every set: reader.py, which reads it in 20 lines, unless another program's is there; and
+    preview.png of the pictures whose reports have these names, if they have a pass that previews show.
     """
-    yield "reader.py", Path(__file__).with_name("set_reader.py").read_text(encoding="utf-8")
-    views = [view_of(folder / f"{name}.json") for name in names if (folder / f"{name}.npz").is_file()]
-    shown = [view for view in views if any(view.has(key) for key in maps.SHOWN)]
+    reader, there = Path(__file__).with_name("set_reader.py").read_text(encoding="utf-8"), folder / READER
+    if not there.is_file() or there.read_bytes().startswith(reader.partition(":")[0].encode()):
+        yield READER, reader
+    views = [view_of(folder / f"{name}.json") for name in reports]
+    shown = [view for view in views if view and view.file.is_file() and any(view.has(key) for key in maps.SHOWN)]
     if shown:
         yield from maps.preview(shown)
 

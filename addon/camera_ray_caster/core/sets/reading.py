@@ -9,7 +9,7 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 from pathlib import Path
 from typing import Any
 from zipfile import BadZipFile
@@ -21,6 +21,7 @@ from ..exports.camera_json import camera_from_json
 from ..exports.format import Shot
 from ..names import file_name
 from ..records import InputError
+from . import channels
 
 COCO = "_coco.json"
 
@@ -33,6 +34,12 @@ class View:
     name: str
     """Name of its files without an ending."""
     report: Mapping[str, Any]
+
+    @property
+    def file(self) -> Path:
+        """Return the path of its file of passes, NPZ or EXR."""
+        exr = f"{self.name}.exr"
+        return self.folder / (exr if exr in self.report["made"]["files"] else f"{self.name}.npz")
 
     @cached_property
     def camera(self) -> Camera:
@@ -90,16 +97,12 @@ class View:
     def pixels(self, key: str) -> np.ndarray:
         """Return a pass, row 0 at the bottom: (rows, columns[, channels]). Raises InputError if it was not cast."""
         if key not in self._passes:
-            raise InputError(f"{self.name}.npz has no pass {key}: cast the set with --passes {key},...")
+            raise InputError(f"{self.file.name} has no pass {key}: cast the set with --passes {key},...")
         return self._passes[key]
 
-    @cached_property
+    @property
     def _passes(self) -> Mapping[str, np.ndarray]:
-        path = self.folder / f"{self.name}.npz"
-        try:
-            return np.load(path)
-        except (OSError, ValueError, BadZipFile) as error:
-            raise InputError(f"{str(path)!r} cannot be read: make the set with --format NPZ") from error
+        return _opened(self)
 
     def points(self) -> tuple[np.ndarray, np.ndarray]:
         """Return where each pixel's ray ends in the world, (rows, columns, 3) float64, and whether it hits something.
@@ -124,25 +127,36 @@ class View:
         return np.where(hit, depth, 0.0)
 
 
-def view_of(path: Path) -> View:
-    """Return the view of a report that has the name of its files."""
-    return View(path.parent, path.stem, json.loads(path.read_text(encoding="utf-8")))
+@lru_cache(maxsize=2)
+def _opened(view: View) -> Mapping[str, np.ndarray]:
+    """Return the passes of a view. Two are held, for pairs: an EXR is read whole, and an NPZ stays open."""
+    path = view.file
+    try:
+        return channels.passes_of(path, view.report["camera"]) if path.suffix == ".exr" else np.load(path)
+    except InputError:
+        raise
+    except (OSError, ValueError, BadZipFile) as error:
+        raise InputError(f"{str(path)!r} cannot be read: make the set with --format NPZ or EXR") from error
+
+
+def view_of(path: Path) -> View | None:
+    """Return the view of a report; None if it is no report, or lists no file of passes. Its camera may be unrecorded.
+    """
+    try:
+        report = json.loads(path.read_text(encoding="utf-8"))
+        names = list(report["made"]["files"]) if "record" in report else []
+    except (OSError, ValueError, KeyError, TypeError, AttributeError):
+        return None
+    name = path.stem if any(one.startswith(path.stem) for one in names) else next(
+        (one.rsplit(".", 1)[0] for one in names if one.endswith((".npz", ".exr"))), None
+    )
+    return None if name is None else View(path.parent, name, report)
 
 
 def read_set(folder: Path) -> list[View]:
     """Return the views of a set, by camera and frame. Raises InputError, in one line, for a folder without any."""
-    views = []
-    for path in sorted(folder.glob("*.json")):
-        try:
-            report = json.loads(path.read_text(encoding="utf-8"))
-            names = list(report["made"]["files"]) if "record" in report else []
-        except (OSError, ValueError, KeyError, TypeError, AttributeError):
-            continue
-        name = path.stem if any(one.startswith(path.stem) for one in names) else next(
-            (one.rsplit(".", 1)[0] for one in names if one.endswith((".npz", ".exr"))), None
-        )
-        if name is not None and report["record"] is not None:
-            views.append(View(folder, name, report))
+    found = map(view_of, sorted(folder.glob("*.json")))
+    views = [view for view in found if view is not None and view.report["record"] is not None]
     if not views:
         raise InputError(f"{str(folder)!r} has no pictures with reports: make a set with cast.py or dataset.py")
     return sorted(views, key=lambda view: (view.report["camera"]["name"], view.frame))

@@ -1,4 +1,4 @@
-"""Reads the data set in whose folder this file lies: python reader.py, or ``views()``. Needs numpy only.
+"""Reads the data set in whose folder this file lies: python reader.py, or ``views()``. Needs numpy; OpenImageIO for EXR.
 
 Row 0 of the arrays is the bottom row. camera_ray_caster's ``camera_from_json`` makes the rays from a report.
 """
@@ -9,12 +9,23 @@ from pathlib import Path
 import numpy as np
 
 
+def passes_in(path):
+    """Return the arrays of a file by name: passes of an NPZ, channels of an EXR."""
+    if path.suffix == ".npz":
+        return np.load(path)
+    import OpenImageIO  # pip install OpenImageIO; Blender's Python has it
+
+    image = OpenImageIO.ImageBuf(str(path))
+    pixels = image.get_pixels("float")[::-1]
+    return {name: pixels[..., k] for k, name in enumerate(image.spec().channelnames)}
+
+
 def views(folder=Path(__file__).parent):
     """Yield the name, the report and the passes by name of each picture; ``report["camera"]`` has K and the pose."""
-    for path in sorted(folder.glob("*.npz")):
-        report = path.with_suffix(".json")
-        if report.is_file():
-            yield path.stem, json.loads(report.read_text(encoding="utf-8")), np.load(path)
+    for path in sorted((*folder.glob("*.npz"), *folder.glob("*.exr"))):
+        reports = path.with_suffix(".json"), folder / f"report_{path.stem.rpartition('_')[2]}.json"
+        for report in [one for one in reports if one.is_file()][:1]:
+            yield path.stem, json.loads(report.read_text(encoding="utf-8")), passes_in(path)
 
 
 if __name__ == "__main__":

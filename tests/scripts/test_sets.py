@@ -1,0 +1,159 @@
+"""Sets of cast.py without --dataset: what lies in them, and that EXR and NPZ say the same."""
+
+import json
+import subprocess
+import sys
+
+import cv2
+import numpy as np
+import pytest
+
+from camera_ray_caster.core.cameras.files import ray_exr
+from camera_ray_caster.core.records import InputError
+from camera_ray_caster.core.sets import read_set
+
+from .running import ROOT, left, refused
+
+PASSES = "combined,depth,distance,normal,uv,object_index,shape_index,valid"
+WORDS = "--frames", "1:2", "--passes", PASSES, "--annotations"
+
+
+@pytest.fixture
+def sets(command, blender, scene, tmp_path):
+    """A function that casts a set of each format, after ``change``, and returns their folders."""
+
+    def cast(change=lambda bpy: None, words=WORDS):
+        change(blender)
+        blender.ops.wm.save_as_mainfile(filepath=str(scene))
+        for kind in ("exr", "npz"):
+            done = command("cast", scene, *words, "--format", kind, "--output", tmp_path / kind)
+            assert (done.returncode, done.stderr) == (0, "")
+        return tmp_path / "exr", tmp_path / "npz"
+
+    return cast
+
+
+def border(bpy):
+    render = bpy.context.scene.render
+    render.use_border, render.border_min_x, render.border_max_y = True, 0.25, 0.5
+
+
+def cropped(bpy):
+    border(bpy)
+    bpy.context.scene.render.use_crop_to_border = True
+
+
+def layers(bpy):
+    bpy.context.scene.view_layers.new("The.other")
+
+
+def composited(bpy):
+    scene = bpy.context.scene
+    if hasattr(scene, "compositing_node_group"):
+        tree = scene.compositing_node_group = bpy.data.node_groups.new("Tree", "CompositorNodeTree")
+        tree.interface.new_socket("Image", in_out="OUTPUT", socket_type="NodeSocketColor")
+        output = tree.nodes.new("NodeGroupOutput")
+    else:
+        scene.use_nodes = True
+        tree = scene.node_tree
+        output = tree.nodes.get("Composite") or tree.nodes.new("CompositorNodeComposite")
+    picture = tree.nodes.new("CompositorNodeRLayers")
+    tree.links.new(picture.outputs["Image"], output.inputs[0])
+
+
+CHANGES = [lambda bpy: None, border, cropped, layers, composited]
+
+
+@pytest.mark.cases(1)
+@pytest.mark.parametrize("change", CHANGES)
+def test_exr_files_say_what_npz_files_say(sets, change):
+    pairs = list(zip(*map(read_set, sets(change)), strict=True))
+    assert len(pairs) == 2
+    keys = {f"{layer}{key}" for key in PASSES.split(",") for layer in (("ViewLayer.", "The.other.")
+            if change is layers else ("",))}  # fmt: skip
+    for exr, npz in pairs:
+        for key in keys:
+            assert exr.pixels(key).dtype == npz.pixels(key).dtype, key
+            np.testing.assert_array_equal(exr.pixels(key), npz.pixels(key), key)
+
+
+def test_a_run_with_annotations_is_a_set_with_a_reader_and_a_preview(sets):
+    for folder in sets():
+        assert {"annotations.json", "preview.png", "reader.py"} <= set(left(folder))
+        picture = cv2.imread(str(folder / "preview.png"))
+        assert picture.shape == (24, 4 * 32, 3)
+        words = [sys.executable, folder / "reader.py"]
+        said = subprocess.run(words, capture_output=True, text=True, check=True).stdout
+        assert [line.split()[:3] for line in said.splitlines()] == [
+            [f"small_000{k}", "Perspective", f"{k}.0"] for k in (1, 2)
+        ]
+
+
+def test_a_reader_of_somebody_else_is_left_alone(command, scene, tmp_path):
+    (tmp_path / "out").mkdir()
+    (tmp_path / "out" / "reader.py").write_text("mine = 1")
+    for words in (WORDS[:4], WORDS):
+        done = command("cast", scene, *words, "--output", tmp_path / "out")
+        assert (done.returncode, done.stderr) == (0, "")
+        assert ("preview.png" in left(tmp_path / "out")) is (words == WORDS)
+    assert (tmp_path / "out" / "reader.py").read_text() == "mine = 1"
+
+
+@pytest.mark.full
+@pytest.mark.parametrize("key", ["depth16", "normals", "colmap-scene", "bop-scenes", "opencv"])
+def test_an_exported_exr_set_is_an_exported_npz_set(command, sets, tmp_path, key):
+    outs = []
+    for folder in sets():
+        outs.append(tmp_path / f"{folder.name}_out")
+        done = command("export", folder, "--format", key, "--output", outs[-1])
+        assert (done.returncode, done.stderr) == (0, "")
+    exr, npz = ({path.relative_to(out): path for path in out.rglob("*") if path.is_file()} for out in outs)
+    assert exr.keys() == npz.keys() != set()
+    for name, path in exr.items():
+        if name.suffix == ".png":  # Blender writes the time into its own
+            assert (cv2.imread(str(path), -1) == cv2.imread(str(npz[name]), -1)).all()
+        else:
+            assert path.read_bytes() == npz[name].read_bytes()
+
+
+@pytest.mark.full
+def test_an_exr_set_is_checked_as_an_npz_set(sets):
+    said = []
+    for folder in sets(words=("--cameras", "ALL", *WORDS)):
+        words = [sys.executable, ROOT / "scripts" / "check_set.py", folder]
+        done = subprocess.run(words, capture_output=True, text=True, check=False)
+        assert done.stderr == ""
+        said.append((done.returncode, done.stdout))
+    assert said[0] == said[1]
+    assert "Side_0001 to Top_0001" in said[0][1]
+
+
+@pytest.mark.cases(1)
+@pytest.mark.parametrize("case", ["damaged", "missing", "no Blender"])
+def test_an_exr_file_that_cannot_be_read_is_refused_in_one_line(command, sets, tmp_path, monkeypatch, case):
+    folder, _ = sets()
+    path = folder / "small_0001.exr"
+    if case == "damaged":
+        path.write_bytes(path.read_bytes()[:1500])
+    elif case == "missing":
+        path.unlink()
+    else:
+        monkeypatch.setattr(ray_exr, "decoder", None)
+        with pytest.raises(InputError, match="which Blender reads: use a Python with bpy, or make the set with"):
+            read_set(folder)[0].pixels("depth")
+        return
+    line = refused(command("export", folder, "--format", "depth16", "--output", tmp_path / "out"))
+    assert "small_0001.exr' cannot be read: make the set with --format" in line
+    assert not (tmp_path / "out").exists()
+
+
+def test_an_exr_set_of_a_camera_whose_time_is_an_image_has_a_preview(sets):
+    """A report has no record of it."""
+
+    def change(bpy):
+        settings = bpy.data.objects["Top"].data.camera_ray_caster
+        settings.time_mode, settings.time_image = "IMAGE", bpy.data.images.new("Time", 2, 2)
+
+    exr, npz = sets(change)
+    assert json.loads((exr / "report_0001.json").read_text())["record"] is None
+    assert (exr / "preview.png").read_bytes() == (npz / "preview.png").read_bytes()
