@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import camera_ray_caster as crc
+from camera_ray_caster.core.sets import read_set
 
 from .running import complaints, left, refused, script
 
@@ -38,6 +39,7 @@ def test_rays_of_a_camera_that_stands_still_are_written_once(command, scene, out
                          "preview.png", "reader.py"]  # fmt: skip
     said = subprocess.run([sys.executable, out / "reader.py"], capture_output=True, text=True, check=True).stdout
     assert [line.split()[0] for line in said.splitlines()] == stems
+    assert [view.name for view in read_set(out)] == [stem for stem in stems if "rays" not in stem]
     has_rays = {stem: "ray_origin" in np.load(out / f"{stem}.npz") for stem in stems}
     assert [stem for stem in stems if has_rays[stem]] == ["Side_rays", "Top_0002", "Top_rays"]
     rays = crc.camera_from_json(out / "Side_0002.json").rays()

@@ -140,11 +140,14 @@ def _opened(view: View) -> Mapping[str, np.ndarray]:
 
 
 def view_of(path: Path) -> View | None:
-    """Return the view of a report; None if it is no report, or lists no file of passes. Its camera may be unrecorded.
+    """Return the view of a report; None if it is no report, that of a ray map, or lists no file of passes. Its camera
+    may be unrecorded.
     """
     try:
         report = json.loads(path.read_text(encoding="utf-8"))
-        names = list(report["made"]["files"]) if "record" in report else []
+        of = report["made"].get("of", {})
+        is_map = of.get("rays") is not None and of.get("frame") is None
+        names = list(report["made"]["files"]) if "record" in report and not is_map else []
     except (OSError, ValueError, KeyError, TypeError, AttributeError):
         return None
     name = path.stem if any(one.startswith(path.stem) for one in names) else next(
