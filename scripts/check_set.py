@@ -3,12 +3,13 @@
     python scripts/check_set.py FOLDER
 
 Reads what cast.py, dataset.py and clevr_set.py write, with the passes shape_index and distance (or depth); needs numpy
-only, but bpy for EXR files. The cameras are made from the reports. A pixel's ray and distance give a point, which another view's camera
-projects: the next view of the same camera if the set has the pass flow_forward, which is for scenes that stand still;
-else each other camera's view of the same frame, or if there is none the next view, which has to show the same objects
-at the same places. The other view's distance there must agree with the distance of the point, and its shape with the
-point's, unless another surface hides the point, as ``flow_hidden`` or a smaller distance says. The projection must
-agree with ``flow_forward``, and stored rays with the camera's. The exit status is 1 if a check fails.
+only, but bpy for EXR files. The cameras are made from the reports. A pixel's ray and distance give a point, which
+another view's camera projects: the next view of the same camera if the set has the pass flow_forward, which is for
+scenes that stand still; else each other camera's view of the same frame, or if there is none the next view, which has
+to show the same objects at the same places. The other view's distance there must agree with the distance of the point,
+and its shape with the point's, unless another surface hides the point, as ``flow_hidden`` or a smaller distance says.
+The projection must agree with ``flow_forward``, and stored rays with the camera's. The exit status is 1 if a check
+fails.
 """
 
 if __name__ == "__main__":

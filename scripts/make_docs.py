@@ -81,8 +81,8 @@ SETS = """
 ## Finished data sets
 
 `export.py FOLDER --format KEY --output OUT` exports the set that `cast.py` or `dataset.py` made in a folder, with its
-sizes and frames: its cameras in each of the formats above, and these. They read the passes of NPZ and EXR files (depth or
-distance; combined, shape_index or normal where the format has them) and the annotations of `--annotations`, in which
+sizes and frames: its cameras in each of the formats above, and these. They read the passes of NPZ and EXR files (depth
+or distance; combined, shape_index or normal where the format has them) and the annotations of `--annotations`, in which
 each object has its visible and its whole (amodal) mask, its category, and the pose and size of a box in its own axes.
 
 | key | |
