@@ -27,7 +27,8 @@ LABELS = {label.lower(): key for key, one in PASSES.items()
 
 def passes_of(path: Path, camera: Mapping[str, Any]) -> dict[str, np.ndarray]:
     """Return the passes of a file, row 0 at the bottom: the pixels of the camera's window, as its report has it. With
-    several view layers a key is LAYER.PASS. Raises InputError without Blender, and ValueError for a file that cannot be read.
+    several view layers a key is LAYER.PASS. Raises InputError without Blender, and ValueError for a file that cannot be
+    read.
     """
     if ray_exr.decoder is None:
         raise InputError(

@@ -1,4 +1,4 @@
-"""Reads the data set in whose folder this file lies: python reader.py, or ``views()``. Needs numpy; OpenImageIO for EXR.
+"""Reads the data set in whose folder this file lies: python reader.py, or ``views()``. Needs numpy; EXR: OpenImageIO.
 
 Row 0 of the arrays is the bottom row. camera_ray_caster's ``camera_from_json`` makes the rays from a report.
 """
