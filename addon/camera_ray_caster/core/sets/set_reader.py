@@ -16,7 +16,7 @@ def passes_in(path):
     import OpenImageIO  # pip install OpenImageIO; Blender's Python has it
 
     image = OpenImageIO.ImageBuf(str(path))
-    pixels = image.get_pixels("float")[::-1]
+    pixels = np.asarray(image.get_pixels("float"))[::-1]
     return {name: pixels[..., k] for k, name in enumerate(image.spec().channelnames)}
 
 
