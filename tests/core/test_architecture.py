@@ -96,6 +96,7 @@ again.
 """
 OUTSIDE = {
     "core": {"numpy"},
+    "core.sets.set_reader": {"numpy", "OpenImageIO"},  # a program of its own, which is copied into sets
     "blender": {"numpy"} | BLENDER,
     "blender.read.openexr": {"numpy", "OpenImageIO"} | BLENDER,
     "blender.cycles": {"numpy"} | BLENDER | CYCLES,
