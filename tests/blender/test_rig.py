@@ -88,6 +88,39 @@ def test_a_zoom_is_keyed(blender, camera_scene, tmp_path):
         assert item.matrix_world.translation.x == pytest.approx(frame, abs=1e-6)
 
 
+@pytest.mark.full
+@pytest.mark.parametrize("told", [False, True])
+def test_images_with_cameras_of_their_own_are_marked_cast_and_exported_once(blender, camera_scene, tmp_path, told):
+    model = tmp_path / "model"
+    model.mkdir()
+    (model / "cameras.txt").write_text("1 PINHOLE 8 6 9 9 4 3\n2 OPENCV_FISHEYE 6 6 3 3 3 3 0 0 0 0\n")
+    names = ("x_0001.png", "x_0002.png") if told else ("b.png", "a.png")
+    lines = (f"{k} 1 0 0 0 {-k} 0 0 {k} {name}\n\n" for k, name in enumerate(names, 1))
+    (model / "images.txt").write_text("".join(lines))
+    file, out = tmp_path / "file.blend", tmp_path / "out"
+    blender.ops.wm.save_as_mainfile(filepath=str(file))
+    cameras = ("x-1", "x-2") if told else ("b", "a")
+    rig = ["--rig", str(model)]
+    assert commands.main("cast", [str(file), *rig, "--format", "NPZ", "--passes", "ray_origin", "--output", str(out)],
+                         "it") == 0  # fmt: skip
+    eyes = {path.stem: np.load(path)["ray_origin"] for path in out.glob("*.npz")}
+    assert {name: (*eye[0, 0], eye.shape) for name, eye in eyes.items()} == {
+        f"{cameras[0]}_0001": (1, 0, 0, (6, 8, 3)),
+        f"{cameras[1]}_0002": (2, 0, 0, (6, 6, 3)),
+    }
+    assert commands.main("export", [str(file), *rig, "--format", "colmap", "--output", str(tmp_path / "c")], "it") == 0
+    images = (tmp_path / "c" / "images.txt").read_text()
+    assert images.count(".png") == 2
+    scene = blender.context.scene
+    add_rig(scene, [str(model)])
+    seen = []
+    for frame in (1, 2):
+        go_to(scene, frame)
+        scene.frame_set(frame)
+        seen.append((scene.camera.name.rpartition(".")[0] or scene.camera.name, scene.camera.matrix_world[0][3]))
+    assert seen == [(cameras[0], 1), (cameras[1], 2)]
+
+
 def test_a_rig_below_a_camera_sees_what_it_sees(blender, camera_scene, chain):
     camera_scene.camera.location = (1, 2, 3)
     left, _ = add_rig(camera_scene, [chain], camera_scene.camera)

@@ -32,9 +32,9 @@ def add_rig(scene, paths: Iterable[str], parent=None, model: str = "") -> list:
     """Add the cameras of files to a scene, below an empty; return their objects, in the order of the files.
 
     A trajectory moves the empty, and so all cameras of the other files; without any, it moves a camera like a new one.
-    ``parent``: an object below which the empty is put; below a camera, the file's frame is the camera's with y down and
-    z ahead, as in OpenCV. ``model`` is the key of the model for files that do not name theirs. Nothing is added if a
-    file cannot be read: InputError.
+    ``parent``: an object below which the empty is put; below a camera, the file's frame is the camera's with y down
+    and z ahead, as in OpenCV. Where each frame has one of several cameras, markers bind it. ``model`` is the key of
+    the model for files that do not name theirs. Nothing is added if a file cannot be read: InputError.
     """
     paths, rate = list(paths), frame_rate(scene)
     found = [one for path in paths for one in mounted(path, model, size_of(scene), rate)]
@@ -53,6 +53,7 @@ def add_rig(scene, paths: Iterable[str], parent=None, model: str = "") -> list:
         objects = [_camera(scene, one, empty) for one in cameras or trajectories]
     if scene.camera is None and objects:
         scene.camera = objects[0]
+    _mark(scene, cameras, objects)
     return objects
 
 
@@ -68,6 +69,12 @@ def frames_of(objects: Iterable) -> list[float]:
     for item in moved:
         found.update(item.get(KEYED, ()))
     return sorted(found)
+
+
+def shows(item, frame: float) -> bool:
+    """Whether a camera of a rig has a pose in a frame; one that stands still has it in all."""
+    own = frames_of([item])
+    return not own or frame in own
 
 
 KEYED = "frames_of_poses"
@@ -101,9 +108,6 @@ def _link(data, lens: Lens, one: Mounted) -> None:
 
 def _key_lens(data, one: Mounted) -> None:
     """Key the settings of a lens that changes from frame to frame."""
-    kinds = {lens.model for lens in one.lenses}
-    if len(kinds) > 1:
-        raise InputError(f"camera {one.name!r} has several models ({', '.join(sorted(kinds))}): rename its pictures")
     for lens, frame in zip(one.lenses, one.frames, strict=True):
         set_lens(data, lens)
         for owner, name in settings_in(data, lens):
@@ -124,6 +128,16 @@ def _place(item, one: Mounted) -> None:
             item.keyframe_insert("rotation_quaternion", frame=frame)
     if None not in one.frames:
         item[KEYED] = one.frames
+
+
+def _mark(scene, cameras: list[Mounted], objects: list) -> None:
+    """Bind cameras to the frames by markers of the timeline, if there are several and each frame is that of one."""
+    shown = [(frame, item) for one, item in zip(cameras, objects, strict=True) for frame in one.frames]
+    frames = {frame for frame, _ in shown}
+    if len(cameras) < 2 or len(frames) < len(shown) or not all(frame == int(frame or 0) for frame in frames):
+        return
+    for frame, item in shown:
+        scene.timeline_markers.new(item.name, frame=int(frame)).camera = item
 
 
 @contextmanager

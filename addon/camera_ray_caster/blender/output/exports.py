@@ -1,7 +1,8 @@
 """Export of cameras, by frame, to files of other programs; see ``core.exports``. All files appear, or none."""
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
+from typing import Any
 
 import bpy
 import numpy as np
@@ -18,22 +19,25 @@ from ..read.size import own_size, sized
 from ..read.unique import unique_name
 from .saving import blender_writes
 
+Shown = Callable[[Any, float], bool]
+"""Whether a camera is wanted in a frame."""
+
 
 def write(
     scene, key: str, cameras: Sequence, frames: Iterable[float], folder: Path, target=None, own_sizes: bool = True,
-    fit: float | None = None,
+    fit: float | None = None, shown: Shown = lambda *_: True,
 ):  # fmt: skip
     """Export camera objects of a scene at some frames, in the format ``key``, into ``folder``; return lines of messages
     and the paths of the files.
 
     In a stereo scene each rendered view of a camera is exported, with its suffix. ``target`` is the camera object to
-    which maps lead; ``fit``: see ``core.exports.export``. The scene is restored afterwards. Raises InputError if a
-    camera cannot be read or represented or the folder cannot be written, and Cancelled if stopped; then no files are
-    left behind.
+    which maps lead; ``fit``: see ``core.exports.export``; ``shown`` tells whether a camera is exported at a frame. The
+    scene is restored afterwards. Raises InputError if a camera cannot be read or represented or the folder cannot be
+    written, and Cancelled if stopped; then no files are left behind.
     """
     if target is not None and not find_format(key).takes_target:
         raise InputError(f"format {key} has no target camera: only maps have a target")
-    files, said = export(key, shots(scene, cameras, frames, target, own_sizes), fit)
+    files, said = export(key, shots(scene, cameras, frames, target, own_sizes, shown), fit)
     return said, writing.write(_until_stopped(files), folder, _write_image)
 
 
@@ -44,7 +48,10 @@ def _until_stopped(files: Iterable) -> Iterator:
         yield file
 
 
-def shots(scene, cameras: Sequence, frames: Iterable[float], target=None, own_sizes: bool = True) -> list[Shot]:
+def shots(
+    scene, cameras: Sequence, frames: Iterable[float], target=None, own_sizes: bool = True,
+    shown: Shown = lambda *_: True,
+) -> list[Shot]:  # fmt: skip
     """Return the cameras, or their eyes, at each frame, in the order of the frames; see ``write``.
 
     own_sizes: whether a camera with a size of its own has it, in place of the scene's; see ``read.size``.
@@ -63,7 +70,7 @@ def shots(scene, cameras: Sequence, frames: Iterable[float], target=None, own_si
                 go_to(scene, frame)
                 to = read_camera(scene, target) if target is not None else None
                 for camera, suffix, view in eyes:
-                    if sizes[camera] == size:
+                    if sizes[camera] == size and shown(camera, frame):
                         read = read_camera(scene, eye_object(scene, view, camera), view=view)
                         name, end = file_name(names[camera]), file_name(suffix) if suffix else ""
                         found.append(Shot(name, frame, read, scene.unit_settings.scale_length, to, end, rate))

@@ -1,6 +1,7 @@
 """The command that exports cameras, by frame, to files of other programs."""
 
 from collections.abc import Sequence
+from functools import partial
 from math import pi
 from pathlib import Path
 
@@ -12,7 +13,7 @@ from ..output import exports
 from ..process.opening import not_run
 from ..read.camera import check_camera, check_markers, find_camera, find_cameras
 from ..read.frames import frame_of
-from .options import command_parser, go_to, open_scene, warn
+from .options import command_parser, go_to, open_scene, shown_at, warn
 from .words import add_cameras, add_frames, check_cameras, count, degrees
 
 OF_SCENES = "camera", "cameras", "frames", "calibration", "rig", "resolution", "to"
@@ -61,7 +62,7 @@ def run(arguments: Sequence[str], prog: str) -> int:
     frames = options.frames or [frame_of(scene)]
     go_to(scene, None, max(frames))
     said, paths = exports.write(scene, options.format, cameras, frames, options.output, target, not options.resolution,
-                               options.fit)  # fmt: skip
+                               options.fit, partial(shown_at, options))  # fmt: skip
     for line in not_run():
         warn(prog, line)
     print("\n".join((*said, f"Wrote {', '.join(map(str, paths))}")), flush=True)

@@ -24,7 +24,7 @@ from ..read.evaluated import camera_at
 from ..read.frames import frame_of, layer_of
 from ..read.physics import simulate
 from ..read.size import size_of
-from ..rig import add_rig, frames_of
+from ..rig import add_rig, frames_of, shows
 from .words import Parser, frame_number, picture_size
 
 ENDS = "exit status: 0 done; 1 done, but a reference check of the camera's rays failed; 2 bad input; 130 interrupted."
@@ -107,14 +107,21 @@ def open_scene(options, say: Callable[[str], object] | None = None):
 
 
 def _mount(scene, options, paths: Sequence[str]) -> None:
-    """Add the cameras of files, and let the options name them and the frames of their poses if they name none."""
+    """Add the cameras of files, and let the options name them and the frames of their poses if they name none; then
+    ``own_frames`` tells that each camera is asked for in its own frames only, and not in those of the others.
+    """
     parent = options.rig_parent
     if parent is not None and parent not in scene.objects:
         raise InputError(f"scene {scene.name!r} has no object {parent!r}, below which --rig-parent puts the cameras")
     found = add_rig(scene, paths, parent and scene.objects[parent], options.model or "")
     options.cameras = options.cameras or [item.name for item in found]
     if options.frames is None and getattr(options, "frame", None) is None:
-        options.frames = frames_of(found) or None
+        options.frames, options.own_frames = frames_of(found) or None, True
+
+
+def shown_at(options, camera, frame: float) -> bool:
+    """Whether a camera is asked for in one of the frames."""
+    return not getattr(options, "own_frames", False) or shows(camera, frame)
 
 
 def _calibrate(scene, options, say: Callable[[str], object]) -> None:

@@ -35,7 +35,7 @@ from ..read.unique import unique_name
 from ..rig import files_of
 from . import files, ray_maps
 from .jobs import Outcome, PictureJob, RayMap
-from .options import go_to, open_scene, stem, use_camera, warn
+from .options import go_to, open_scene, shown_at, stem, use_camera, warn
 from .progress import Progress
 from .words import Parser, add_cameras, check_cameras, pass_names, sample_count
 
@@ -47,7 +47,7 @@ DEFAULT_PASSES = ("combined", "depth", "normal", "position", "object_index")
 
 WHICH = (
     "prog", "file", "camera", "cameras", "frame", "frames", "shard", "calibration", "rig", "output", "pictures", "json",
-    "skip_existing", "dataset", "workers", "scheduler",
+    "skip_existing", "dataset", "workers", "scheduler", "own_frames",
 )  # fmt: skip
 """Options that say which pictures are made, where and by whom, and files, whose content a stamp holds. All others are
 settings of the pictures.
@@ -162,6 +162,7 @@ class Pictures:
             PictureJob(camera, frame, *2 * (f"{name}_{frame_digits(frame)}",))
             for frame in ([own] if frames is None else frames)
             for camera, name in names.items()
+            if shown_at(asked, find_camera(scene, camera), frame)
         ]
 
     def make(self, *what) -> Outcome:

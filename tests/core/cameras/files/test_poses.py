@@ -113,6 +113,30 @@ def test_a_lens_may_change_from_frame_to_frame(tmp_path):
     assert (camera.name, camera.size) == ("zoom", (640, 480))
 
 
+LENSES = "1 PINHOLE 64 48 30 30 32 24\n2 OPENCV_FISHEYE 64 64 20 20 32 32 0 0 0 0\n3 PINHOLE 64 48 40 40 32 24\n"
+
+
+@pytest.mark.cases(2)
+@pytest.mark.parametrize(
+    ("images", "expected"),
+    [
+        ({"b.jpg": 1, "a.jpg": 2, "d/c.jpg": 3}, {"b": [1], "a": [2], "c": [3]}),
+        ({"x_0004.png": 1, "x_0005.png": 2, "x_0006.png": 3, "x_0007.png": 2}, {"x-1": [4], "x-2": [5, 7], "x-3": [6]}),
+        ({"x_0004.png": 1, "x_0005.png": 3}, {"x": [4, 5]}),
+        ({"left/x_0004.png": 1, "right/x_0004.png": 3}, {"x-1": [4], "x-2": [4]}),
+        ({"a/x.jpg": 1, "b/x.jpg": 2}, {"Camera 1": [1], "Camera 2": [1]}),
+    ],
+)
+def test_an_image_may_have_a_camera_of_its_own(tmp_path, images, expected):
+    (tmp_path / "cameras.txt").write_text(LENSES)
+    lines = [f"{k} 1 0 0 0 {-k} 0 0 {camera} {name}\n\n" for k, (name, camera) in enumerate(images.items(), 1)]
+    (tmp_path / "images.txt").write_text("".join(lines))
+    cameras = read(tmp_path)
+    assert {one.name: one.frames for one in cameras} == expected
+    places = {pose[0, 3]: lens.name for one in cameras for pose, lens in zip(one.poses, one.lenses, strict=True)}
+    assert places == {k: str(camera) for k, camera in enumerate(images.values(), 1)}
+
+
 @pytest.mark.parametrize(
     ("text", "says"),
     [

@@ -48,7 +48,8 @@ def mounted(path: str, key: str, frame: tuple[int, int], rate: float) -> list[Mo
     """Return the cameras of a file, or of COLMAP's files in a folder, in the file's order; or one trajectory.
 
     ``key`` and ``frame`` are those of ``lenses_of``; ``rate`` is the number of frames in a second, for files with
-    times, the first of which is frame 1. Images without a frame in their names have the frames 1, 2, 3, ...
+    times, the first of which is frame 1. Images without a frame in their names have the frames 1, 2, 3, ... Images of
+    one name are of several cameras, numbered -1, -2, ..., if their lenses are of several models, or two in one frame.
     Raises InputError, in one line.
     """
     lens_file, pose_file = beside(path)
@@ -61,11 +62,14 @@ def mounted(path: str, key: str, frame: tuple[int, int], rate: float) -> list[Mo
         frames: list[float | None] = [1 + (time - times[0]) * rate for time in times]
         return [Mounted(path, lens_file, True, [], frames, [one.pose for one in placed])]
     lenses = {lens.name: lens for lens in lenses_of(lens_file, key, frame)}
-    cameras: dict[str, Mounted] = {}
+    found: list[tuple[Placed, str, float | None, Lens]] = []
     for one, name, number in _named(placed):
         lens = next(iter(lenses.values())) if len(lenses) == 1 else _lens(document, lenses, one, number)
         if lens.refusal is not None:
             raise lens.refusal
+        found.append((one, name, number, lens))
+    cameras: dict[str, Mounted] = {}
+    for one, name, number, lens in _told_apart(found):
         camera = cameras.setdefault(name, Mounted(name, lens_file, len(lenses) == 1))
         camera.lenses.append(lens)
         camera.frames.append(number)
@@ -74,6 +78,24 @@ def mounted(path: str, key: str, frame: tuple[int, int], rate: float) -> list[Mo
         if len(set(camera.frames)) < len(camera.frames):
             raise document.refusal(f"camera {camera.name!r} has two poses of one frame: rename its pictures")
     return list(cameras.values())
+
+
+def _told_apart(found: list[tuple[Placed, str, float | None, Lens]]) -> list[tuple[Placed, str, float | None, Lens]]:
+    """Return poses with names that are of one camera each; see ``mounted``."""
+    numbers: dict[str, dict[str, int]] = {}
+    models: dict[str, str] = {}
+    frames, several = set(), set()
+    for _, name, frame, lens in found:
+        own = numbers.setdefault(name, {})
+        own.setdefault(lens.name, len(own) + 1)
+        if (name, frame) in frames or lens.model != models.setdefault(name, lens.model):
+            several.add(name)
+        frames.add((name, frame))
+    several -= {name for name, own in numbers.items() if len(own) == 1}
+    return [
+        (one, f"{name}-{numbers[name][lens.name]}" if name in several else name, frame, lens)
+        for one, name, frame, lens in found
+    ]
 
 
 def _lens(document: Document, lenses: dict[str, Lens], one: Placed, number: float | None) -> Lens:
@@ -85,8 +107,8 @@ def _lens(document: Document, lenses: dict[str, Lens], one: Placed, number: floa
 
 
 def _named(placed: list[Placed]) -> list[tuple[Placed, str, float | None]]:
-    """Return each pose with its camera's name and its frame: by the names of pictures if all tell a frame, else one
-    camera for each lens, with the frames in the order of the file.
+    """Return each pose with its camera's name and its frame: by the names of pictures if all tell a frame, or if each
+    has a lens of its own; else one camera for each lens. Frames that are not told are in the order of the file.
     """
     told = [(one, *object_and_frame(one.image)) for one in placed]
     if any(one.frame is not None for one in placed):
@@ -95,6 +117,9 @@ def _named(placed: list[Placed]) -> list[tuple[Placed, str, float | None]]:
         return told
     if not any(one.image for one in placed):
         return [(one, one.camera or "Camera", None) for one in placed]
+    names = {name for _, name, _ in told}
+    if len({one.camera for one in placed}) == len(names) == len(placed) > 1:
+        return [(one, name, float(frame)) for frame, (one, name, _) in enumerate(told, 1)]
     counts: dict[str, int] = {}
     found: list[tuple[Placed, str, float | None]] = []
     for one in placed:
