@@ -8,6 +8,7 @@ from camera_scenarios import CAMERA_SCENARIOS
 from cast_scenarios import CAST_SCENARIOS
 from lesson_scenarios import LESSON_SCENARIOS
 from parts import BUTTON, MODULE, addon, load, timed
+from points_scenarios import POINTS_SCENARIOS
 from redraw_scenarios import REDRAW_SCENARIOS
 from stranger_scenarios import STRANGER_SCENARIOS
 from user import pixels_of
@@ -249,7 +250,7 @@ SCENARIOS = {
     for scenario in (
         panel, no_camera, left_out, *CAST_SCENARIOS, overlay, ray_under_mouse, viewport,
         cycles, *CAMERA_SCENARIOS, *LESSON_SCENARIOS, *STRANGER_SCENARIOS, *REDRAW_SCENARIOS, *WINDOW_SCENARIOS,
-        *ALL_SCENARIOS,
+        *ALL_SCENARIOS, *POINTS_SCENARIOS,
         disable,
     )
 }  # fmt: skip

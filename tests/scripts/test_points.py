@@ -54,6 +54,8 @@ def test_a_data_set_by_workers_has_the_points_of_one_process(scene, tmp_path):
     [
         (("--noise", "0.1"), "add --points"),
         (("--points", "ply", "--noise", "-1"), "noise"),
+        (("--points", "ply", "--quantum", "devices"), "give a number, or DEVICE"),
+        (("--points", "ply", "--quantum", "device"), "is not known: give a length"),
         (("--points", "e57"), "choose from"),
     ],
 )

@@ -46,6 +46,17 @@ def test_points_are_saved(blender, scanned, tmp_path):
     assert sorted(path.name for path in tmp_path.iterdir()) == ["scan.bin", "scan.label"]
 
 
+def test_points_have_the_steps_of_their_device(blender, scanned):
+    assert blender.ops.camera_ray_caster.points_to_mesh(as_device=True) == {"FINISHED"}
+    data = blender.context.object.data
+    ranges = np.empty(len(data.vertices), np.float32)
+    data.attributes["range"].data.foreach_get("value", ranges)
+    assert np.abs(ranges / 0.002 - np.rint(ranges / 0.002)).max() < 1e-7 * ranges.max() / 0.002
+    scanned.camera.data.camera_ray_caster.scanner_device = "TERRESTRIAL"
+    with pytest.raises(RuntimeError, match="is not known"):
+        blender.ops.camera_ray_caster.points_to_mesh(as_device=True)
+
+
 def test_the_timeline_shows_how_far_a_sweep_is(blender, scanned):
     from camera_ray_caster.blender.read.scene import read_scene
 
@@ -64,10 +75,11 @@ def test_the_timeline_shows_how_far_a_sweep_is(blender, scanned):
 def test_points_have_the_colors_of_what_they_are_shown_by(blender, scanned, by):
     from camera_ray_caster.blender.read.scene import read_scene
 
+    scanned.camera.data.camera_ray_caster.scanner_device = "OS1_64"  # which counts its rings from the highest beam
     cloud = scan(read_scene(scanned))
     colors = colors_of(cloud, by)
     assert colors.shape == (len(cloud), 4)
-    values = {RING: cloud.ring, RANGE: cloud.range, LABEL: cloud.category}[by]
+    values = {RING: cloud.row, RANGE: cloud.range, LABEL: cloud.category}[by]
     assert len(np.unique(colors, axis=0)) == len(np.unique(values)) or by == RANGE
     if by != LABEL:
         np.testing.assert_allclose(colors[values.argmin()], (0, 0, 1, 1), atol=1e-6)

@@ -19,8 +19,8 @@ SHAPES = crc.join(
 POSE = crc.look_at((0.0, 0.0, 1.0), (1.0, 0.0, 1.0))
 
 
-def scanner(**settings):
-    return crc.camera("SCANNER", (360, 16), POSE, scanner_device="VLP_16", **settings)
+def scanner(device="VLP_16", **settings):
+    return crc.camera("SCANNER", (360, 16), POSE, scanner_device=device, **settings)
 
 
 def test_points_lie_on_what_was_hit_and_say_what_it_is():
@@ -69,6 +69,26 @@ def test_ranges_have_the_steps_of_a_device():
     cloud = crc.scan(scanner(), SHAPES, quantum=0.002)
     assert np.abs(cloud.range / 0.002 - np.rint(cloud.range / 0.002)).max() < 1e-9
     assert 0 < np.abs(cloud.range - cloud.true_range).max() <= 0.001 + 1e-12
+
+
+@pytest.mark.parametrize(("device", "step", "behind"), [("VLP_16", 2, 0), ("VLP_32C", 4, 0), ("OS1_64", 1, 12.163)])
+def test_ranges_are_rounded_as_the_device_stores_them(device, step, behind):
+    """An Ouster's millimeters count from behind the origins of its beams, 12.163 mm from the axis."""
+    cloud = crc.scan(scanner(device), SHAPES, quantum="device")
+    stored = (1000 * cloud.range + behind) / step
+    assert np.abs(stored - np.rint(stored)).max() < 1e-7
+    off = 1000 * np.abs(cloud.range - cloud.true_range).max()
+    assert 0.4 * step < off <= 0.5 * step + 1e-9
+    reach = np.linalg.norm(cloud.sensor, axis=1)
+    assert np.abs(reach - cloud.range).max() < 0.1  # origins beside the center
+
+
+@pytest.mark.parametrize(
+    "cam", [scanner("TERRESTRIAL"), scanner("CUSTOM"), crc.camera("FISHEYE_EQUIDISTANT", (32, 24), POSE)]
+)
+def test_a_quantum_that_is_not_known_is_refused(cam):
+    with pytest.raises(crc.InputError, match="is not known: give a length"):
+        crc.scan(cam, SHAPES, quantum="DEVICE")
 
 
 def test_any_camera_has_points():

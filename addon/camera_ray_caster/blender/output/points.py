@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import shutil
+from argparse import ArgumentTypeError
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -12,7 +13,7 @@ from typing import Any
 import bpy
 
 from ...core.cast import Images
-from ...core.clouds.cloud import AXES, SENSOR, scan
+from ...core.clouds.cloud import AXES, OF_DEVICE, SENSOR, scan
 from ...core.clouds.formats import FORMATS, files_of
 from ...core.clouds.sequences import sequence
 from ...core.exports.camera_json import camera_from_json
@@ -36,10 +37,20 @@ def add_points(parser) -> None:
     for name, text in (
         ("noise", "standard deviation of the ranges of points, in Blender units"),
         ("dropout", "range up to which points on surfaces square to the beam are never lost"),
-        ("quantum", "step of the ranges of points, as devices store them, in Blender units"),
     ):
         parser.add_argument(f"--{name}", type=float, default=0.0, metavar="LENGTH", help=f"{text}; default: none")
+    parser.add_argument("--quantum", type=_length_or_device, default=0.0, metavar="LENGTH", help=
+        "step of the ranges of points, in Blender units, or DEVICE: as the scanner's device stores them; default: none")
     parser.add_argument("--seed", type=int, default=0, metavar="N", help="seed of noise and lost points; default: 0")
+
+
+def _length_or_device(text: str) -> float | str:
+    if text.upper() == OF_DEVICE:
+        return OF_DEVICE
+    try:
+        return float(text)
+    except ValueError as error:
+        raise ArgumentTypeError(f"{text!r} is no length: give a number, or {OF_DEVICE}") from error
 
 
 @dataclass(frozen=True)
@@ -50,7 +61,7 @@ class PointFiles:
     axes: str = SENSOR
     noise: float = 0.0
     dropout: float = 0.0
-    quantum: float = 0.0
+    quantum: float | str = 0.0
     seed: int = 0
 
     @classmethod

@@ -4,10 +4,10 @@ from pathlib import Path
 
 import bpy
 import numpy as np
-from bpy.props import EnumProperty, FloatProperty, IntProperty
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
 from bpy_extras.io_utils import ExportHelper
 
-from ...core.clouds.cloud import AXES, PointCloud, scan
+from ...core.clouds.cloud import AXES, OF_DEVICE, PointCloud, scan
 from ...core.clouds.formats import FORMATS
 from ...core.library.clouds import save_points
 from ..output.points import categories_of
@@ -31,12 +31,17 @@ class OfPoints(OfScene):
         "never lost; farther, and at an angle, some are. 0: none is lost",
     )  # fmt: skip
     quantum: FloatProperty(name="Quantum", description="Step of the ranges; 0: none", min=0, unit="LENGTH", precision=4)
+    as_device: BoolProperty(
+        name="Quantum of Device", description="The step of the ranges is that which the scanner's device stores"
+    )
     seed: IntProperty(name="Seed", description="Seed of noise and lost points", min=0)
 
     def points(self, context) -> PointCloud:
         """Return the points of the current frame. Raises InputError if the camera cannot be cast."""
         scene = read_scene(context.scene)
         how = {name: getattr(self, name) for name in ("noise", "dropout", "quantum", "seed")}
+        if self.as_device:
+            how["quantum"] = OF_DEVICE
         return scan(scene, categories=categories_of(scene.shapes.names), **how)
 
 

@@ -41,8 +41,8 @@ class OverlayProperties(bpy.types.PropertyGroup):
     points_by: EnumProperty(
         name="Color of Points",
         items=[
-            (RING, "Ring", "From the lowest beam, blue, to the highest"),
-            (RANGE, "Range", "From the nearest, blue, to the farthest"),
+            (RING, "Ring", "From the lowest beam, blue, to the highest, red"),
+            (RANGE, "Range", "From the nearest, blue, to the farthest, red"),
             (LABEL, "Label", "A color for each category"),
         ],
     )

@@ -27,7 +27,7 @@ from .model import Firing, Model, Step
 from .parts import scanners as own
 from .parts.beams import MICRO, Beams
 from .parts.calibration import FROM_FILE
-from .parts.devices import CUSTOM, DEVICE, DEVICES
+from .parts.devices import DEVICE, DEVICES, Device
 from .parts.settings import FULL_TURN
 from .parts.silhouette import MARGIN, longitude_latitude, turned
 
@@ -47,6 +47,8 @@ class Scanner(Model):
     """Seconds from column to column."""
     span: tuple[float, float]
     """The least and the largest range that is measured."""
+    device: Device | None = None
+    """None of one by the settings, or by a file."""
 
     key = "SCANNER"
     label = "Lidar Scanner"
@@ -70,9 +72,9 @@ class Scanner(Model):
         """Build the scanner from its device's or its own tables. Raises InputError for tables of unequal length,
         elevations that are all the same, and sweeps without a column.
         """
-        device = DEVICE.read(raw)
-        if device != CUSTOM:
-            given = {one.name: one.default for one in own.OF_DEVICE} | DEVICES[device].settings
+        device = DEVICES.get(DEVICE.read(raw))
+        if device is not None:
+            given = {one.name: one.default for one in own.OF_DEVICE} | device.settings
             raw = replace(raw, settings={**raw.settings, **given})
         elevations = np.radians(own.ELEVATIONS.read(raw))
         if not len(elevations):
@@ -91,7 +93,7 @@ class Scanner(Model):
         if np.abs(beams.delay).max() * rate > 1:
             raise own.DELAYS.refusal(raw, "longer than a sweep", f"up to {1e6 / rate:.6g} microseconds")
         limits = own.NEAREST.read(raw), own.FARTHEST.read(raw) or inf
-        return cls(raster.size, beams, own.START.read(raw), speed * period, columns, period, limits)
+        return cls(raster.size, beams, own.START.read(raw), speed * period, columns, period, limits, device)
 
     @property
     def central(self) -> bool:  # type: ignore[override]

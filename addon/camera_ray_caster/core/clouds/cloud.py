@@ -35,6 +35,9 @@ AXES = SENSOR, WORLD
 LARGEST = 1e12
 """Largest noise, in Blender units."""
 
+OF_DEVICE = "DEVICE"
+"""The quantum of the scanner's device."""
+
 FROM_CAMERA = np.array(((0.0, 0.0, -1.0), (-1.0, 0.0, 0.0), (0.0, 1.0, 0.0)))
 """From the camera's axes, x right, y up, z back, to the sensor's."""
 
@@ -84,7 +87,7 @@ def scan(
     *,
     noise: float = 0.0,
     dropout: float = 0.0,
-    quantum: float = 0.0,
+    quantum: float | str = 0.0,
     seed: int = 0,
     categories: Mapping[str, int] | None = None,
 ) -> PointCloud:
@@ -94,19 +97,20 @@ def scan(
     noise: standard deviation of the ranges, in Blender units.
     dropout: range up to which surfaces square to the beam always return it; beyond, and at an angle, returns are lost
         with the probability 1 - cos(incidence) (dropout / range)²; 0: none is lost.
-    quantum: step of the ranges, as a device stores them; 0: none.
+    quantum: step of the ranges, as a device stores them; 0: none. "DEVICE" is that of a scanner by name; an Ouster's
+        ranges count from behind the origins of its beams, and so do the steps.
     seed: of what is random, 0 or more.
     categories: numbers by names of objects; others have their pass index.
 
-    Raises InputError for numbers that are negative or not finite, and for what ``cast`` refuses.
+    Raises InputError for numbers that are negative or not finite, for a device whose quantum is not known, and for what
+    ``cast`` refuses.
     """
     if isinstance(camera, Scene) and shapes is None:
         shapes, camera = camera.shapes, camera.camera
     if not (isinstance(camera, Camera) and isinstance(shapes, Shapes)):
         raise TypeError(f"scan takes a camera and shapes, or a scene, as they are read, not {type(camera)}")
-    noise, dropout, quantum = (
-        _not_negative(value, name) for value, name in ((noise, "noise"), (dropout, "dropout"), (quantum, "quantum"))
-    )
+    noise, dropout = _not_negative(noise, "noise"), _not_negative(dropout, "dropout")
+    step, behind = _steps(camera, quantum)
     if isinstance(seed, bool) or not isinstance(seed, int | np.integer) or seed < 0:
         raise InputError(f"seed is {arguments.shown(seed)}: it must be a whole number, 0 or more")
     images, rays = cast(camera, shapes, PASSES, np.float64), camera.rays()
@@ -119,8 +123,8 @@ def scan(
     if dropout:
         hit &= chance * true**2 < incidence * dropout**2
     measured = true + noise * away
-    if quantum:
-        measured = quantum * np.rint(measured / quantum)
+    if step:
+        measured = step * np.rint((measured + behind) / step) - behind
     hit &= measured > 0
     column, row = np.nonzero(hit.T)
     at = row, column
@@ -156,6 +160,20 @@ def _not_negative(value, name: str) -> float:
     if number < 0:
         raise InputError(f"{name} is {number:g}: it must be 0 or more")
     return number
+
+
+def _steps(camera: Camera, quantum) -> tuple[float, float]:
+    """Return the step of ranges, and how far behind the origins of beams these begin."""
+    if not (isinstance(quantum, str) and quantum.upper() == OF_DEVICE):
+        return _not_negative(quantum, "quantum"), 0.0
+    device = camera.model.device if isinstance(camera.model, Scanner) else None
+    if device is None or not device.quantum:
+        kind = camera.model.label if device is None else device.label
+        raise InputError(
+            f"the quantum of camera {camera.name!r}, a {kind}, is not known: give a length, or choose a scanner_device "
+            "of Velodyne or Ouster"
+        )
+    return device.quantum, device.behind
 
 
 def _in_camera(camera: Camera, row: np.ndarray, column: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -12,12 +12,12 @@ GOLDEN = 0.6180339887498949
 
 
 def colors_of(cloud: PointCloud, by: str) -> np.ndarray:
-    """Return the colors of the points, (n, 4) float32: from blue for the least ring or range to red for the largest, or
-    a color for each category.
+    """Return the colors of the points, (n, 4) float32: from blue for the lowest beam or the least range to red for the
+    highest or the largest, or a color for each category. Ranges are shown by their logarithms: most are near.
     """
     if by == LABEL:
         return _hues(cloud.category * GOLDEN % 1.0)
-    values = (cloud.ring if by == RING else cloud.range).astype(float)
+    values = cloud.row.astype(float) if by == RING else np.log(cloud.range)
     span = np.ptp(values) if len(values) else 0.0
     return _hues((1 - (values - values.min(initial=np.inf)) / (span or 1.0)) * 2 / 3)
 

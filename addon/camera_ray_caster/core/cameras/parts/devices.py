@@ -39,6 +39,10 @@ class Device(NamedTuple):
     settings: dict[str, Any]
     rows: int = 0
     """Of a device without a table of beams; its table tells it otherwise."""
+    quantum: float = 0.0
+    """Step of the ranges that it stores, meters; 0: not known."""
+    behind: float = 0.0
+    """Distance by which these ranges begin behind the origins of beams, meters."""
 
 
 def numbers_as_text(values: Sequence[float]) -> str:
@@ -93,6 +97,10 @@ VLP_32C = {
 }  # fmt: skip
 
 
+RADIUS_64, RADIUS_128 = 0.012163, 0.015806
+"""Distances of the beams' origins from the axis, by which an Ouster's ranges begin behind them."""
+
+
 def _os1(beams: int, highest: float, azimuth: float, radius: float, farthest: float) -> dict[str, Any]:
     even = [highest * (1 - 2 * row / (beams - 1)) for row in range(beams)]
     four = [azimuth, azimuth / 3, -azimuth / 3, -azimuth]
@@ -101,12 +109,16 @@ def _os1(beams: int, highest: float, azimuth: float, radius: float, farthest: fl
 
 
 DEVICES = {
-    "VLP_16": Device("VLP-16", "Velodyne Puck, 16 beams", VLP_16),
-    "PUCK_HI_RES": Device("Puck Hi-Res", "Velodyne Puck Hi-Res, 16 beams", VLP_16 | HI_RES),
-    "HDL_32E": Device("HDL-32E", "Velodyne, 32 beams", HDL_32E),
-    "VLP_32C": Device("VLP-32C", "Velodyne Ultra Puck, 32 beams", VLP_32C),
-    "OS1_64": Device("OS1-64", "Ouster, 64 even beams", _os1(64, 16.6, 3.164, 0.012163, 120.0)),
-    "OS1_128": Device("OS1-128", "Ouster, 128 even beams", _os1(128, 21.2, 4.2, 0.015806, 200.0)),
+    "VLP_16": Device("VLP-16", "Velodyne Puck, 16 beams", VLP_16, quantum=0.002),
+    "PUCK_HI_RES": Device("Puck Hi-Res", "Velodyne Puck Hi-Res, 16 beams", VLP_16 | HI_RES, quantum=0.002),
+    "HDL_32E": Device("HDL-32E", "Velodyne, 32 beams", HDL_32E, quantum=0.002),
+    "VLP_32C": Device("VLP-32C", "Velodyne Ultra Puck, 32 beams", VLP_32C, quantum=0.004),
+    "OS1_64": Device(
+        "OS1-64", "Ouster, 64 even beams", _os1(64, 16.6, 3.164, RADIUS_64, 120.0), quantum=0.001, behind=RADIUS_64
+    ),
+    "OS1_128": Device(
+        "OS1-128", "Ouster, 128 even beams", _os1(128, 21.2, 4.2, RADIUS_128, 200.0), quantum=0.001, behind=RADIUS_128
+    ),
     "TERRESTRIAL": Device(
         "Terrestrial", "A head that turns slowly under a mirror: rows are mirror steps, one after the other",
         {LOW.name: radians(-40), HIGH.name: radians(60), ROW_SHARE.name: 1.0, COLUMNS.name: 3600, FARTHEST.name: 600.0},
