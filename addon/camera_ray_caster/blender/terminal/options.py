@@ -107,8 +107,8 @@ def open_scene(options, say: Callable[[str], object] | None = None):
 
 
 def _mount(scene, options, paths: Sequence[str]) -> None:
-    """Add the cameras of files, and let the options name them and the frames of their poses if they name none; then
-    ``own_frames`` tells that each camera is asked for in its own frames only, and not in those of the others.
+    """Add the cameras of files, and let the options name them and the frames of their poses if they name none; see
+    ``shown_at``.
     """
     parent = options.rig_parent
     if parent is not None and parent not in scene.objects:
@@ -120,8 +120,8 @@ def _mount(scene, options, paths: Sequence[str]) -> None:
 
 
 def shown_at(options, camera, frame: float) -> bool:
-    """Whether a camera is asked for in one of the frames."""
-    return not getattr(options, "own_frames", False) or shows(camera, frame)
+    """Whether a camera is asked for in one of the frames: with ``own_frames``, in those of its poses only."""
+    return not options.own_frames or shows(camera, frame)
 
 
 def _calibrate(scene, options, say: Callable[[str], object]) -> None:

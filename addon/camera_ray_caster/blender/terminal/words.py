@@ -91,7 +91,7 @@ def add_frames(parser) -> None:
 
 
 def add_cameras(parser) -> None:
-    """Add --cameras NAME ...; see ``find_cameras``."""
+    """Add --cameras NAME ...; see ``find_cameras``. Files of --rig may set ``own_frames``; see ``shown_at``."""
     parser.add_argument(
         "--cameras", nargs="+", metavar="NAME", help=f"names of several of the scene's cameras, or {ALL}"
     )
@@ -101,6 +101,7 @@ def add_cameras(parser) -> None:
     parser.add_argument(
         "--rig-parent", metavar="NAME", help="object below which the cameras of --rig are put; default: none"
     )
+    parser.set_defaults(own_frames=False)
 
 
 def check_cameras(options: argparse.Namespace) -> None:
