@@ -39,6 +39,16 @@ def ply(path):
     return {one.name: np.array(vertex[one.name]) for one in vertex.properties}
 
 
+def open3d(path):
+    """The attributes of the points."""
+    import open3d as o3d
+
+    found = {name: values.numpy() for name, values in o3d.t.io.read_point_cloud(path).point.items()}
+    places, normals = (found.pop(name) for name in ("positions", "normals"))
+    columns = {name: values[:, 0] for name, values in found.items()}
+    return columns | {name: places[:, k] for k, name in enumerate("xyz")} | {"normals": normals}
+
+
 def pcd(path):
     """The fields."""
     from pypcd4 import PointCloud
@@ -58,4 +68,5 @@ def las(path):
 
 if __name__ == "__main__":
     kind, path, output = sys.argv[1:]
-    np.savez(output, **{"ouster": ouster, "velodyne": velodyne, "ply": ply, "pcd": pcd, "las": las}[kind](path))
+    kinds = {"ouster": ouster, "velodyne": velodyne, "ply": ply, "open3d": open3d, "pcd": pcd, "las": las}
+    np.savez(output, **kinds[kind](path))

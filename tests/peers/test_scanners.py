@@ -86,11 +86,15 @@ COLUMNS = "range", "true_range", "time", "ring", "column", "instance", "category
 
 
 @pytest.mark.parametrize(
-    ("key", "axes", "digits"), [("ply", "sensor", "f4"), ("ply", "world", "f8"), ("pcd", "sensor", "f4")]
-)
-def test_other_programs_read_the_fields_of_points(read, tmp_path, key, axes, digits):
+    ("key", "kind", "axes", "digits"),
+    [
+        ("ply", "ply", "sensor", "f4"), ("ply", "ply", "world", "f8"), ("pcd", "pcd", "sensor", "f4"),
+        ("ply", "open3d", "sensor", "f4"), ("ply", "open3d", "world", "f8"),
+    ],
+)  # fmt: skip
+def test_other_programs_read_the_fields_of_points(read, tmp_path, key, kind, axes, digits):
     (path,) = crc.save_points(key, CLOUD, tmp_path / "points", axes=axes)
-    found = read(key, path)
+    found = read(kind, path)
     seen = np.isfinite(found["x"])
     order: object = slice(None)
     if key == "pcd":  # by rows from the top
@@ -100,8 +104,11 @@ def test_other_programs_read_the_fields_of_points(read, tmp_path, key, axes, dig
     for k, name in enumerate("xyz"):
         np.testing.assert_array_equal(found[name][seen][order], points[:, k].astype(digits))
     for name in COLUMNS:
-        kind = found[name].dtype
-        np.testing.assert_array_equal(found[name][seen][order], getattr(CLOUD, name).astype(kind), err_msg=name)
+        stored = found[name].dtype
+        np.testing.assert_array_equal(found[name][seen][order], getattr(CLOUD, name).astype(stored), err_msg=name)
+    if kind == "open3d":
+        normals = CLOUD.sensor_normal if axes == "sensor" else CLOUD.normal
+        np.testing.assert_array_equal(found["normals"], normals.astype("f4"))
 
 
 def test_laspy_reads_the_points_and_their_extra_dimensions(read, tmp_path):

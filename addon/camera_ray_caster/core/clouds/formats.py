@@ -19,7 +19,8 @@ from ..records import InputError
 from .cloud import SENSOR, PointCloud
 from .las import las
 
-PLY_TYPES = {"<f4": "float", "<f8": "double", "<u2": "ushort", "<i4": "int"}
+PLY_TYPES = {"<f4": "float", "<f8": "double", "<i4": "int"}
+"""The ring is an int, too: Open3D leaves out what is a ushort."""
 NUSCENES_FROM_SENSOR = np.array(((0.0, -1.0, 0.0), (1.0, 0.0, 0.0), (0.0, 0.0, 1.0)))
 """From the sensor's axes to x right, y ahead, z up."""
 
@@ -31,7 +32,7 @@ def _placed(cloud: PointCloud, axes: str) -> tuple[np.ndarray, np.ndarray]:
     return (cloud.sensor, cloud.sensor_normal) if axes == SENSOR else (cloud.world, cloud.normal)
 
 
-def _table(cloud: PointCloud, axes: str) -> np.ndarray:
+def _table(cloud: PointCloud, axes: str, ring: str = "<u2") -> np.ndarray:
     """Return the fields of the points, (n,) records. Places in the world have 64 bits: they may be far from 0."""
     points, normals = _placed(cloud, axes)
     real = "<f4" if axes == SENSOR else "<f8"
@@ -40,7 +41,7 @@ def _table(cloud: PointCloud, axes: str) -> np.ndarray:
     for name in ("reflectance", "incidence", "range", "true_range"):
         columns[name] = getattr(cloud, name), "<f4"
     columns["time"] = cloud.time, "<f8"
-    columns["ring"] = cloud.ring, "<u2"
+    columns["ring"] = cloud.ring, ring
     for name in ("column", "instance", "category"):
         columns[name] = getattr(cloud, name), "<i4"
     table = np.zeros(len(cloud), [(name, kind) for name, (_, kind) in columns.items()])
@@ -50,7 +51,7 @@ def _table(cloud: PointCloud, axes: str) -> np.ndarray:
 
 
 def _ply(cloud: PointCloud, axes: str) -> Files:
-    table = _table(cloud, axes)
+    table = _table(cloud, axes, ring="<i4")
     kinds = [(name, PLY_TYPES[table.dtype[name].str]) for name in table.dtype.names or ()]
     head = "".join(f"property {kind} {name}\n" for name, kind in kinds)
     text = f"ply\nformat binary_little_endian 1.0\nelement vertex {len(table)}\n{head}end_header\n"
