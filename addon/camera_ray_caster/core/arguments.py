@@ -7,6 +7,7 @@ from difflib import get_close_matches
 from itertools import islice
 from math import inf
 from operator import index
+from pathlib import Path
 from reprlib import repr as shortened
 from typing import Any
 
@@ -37,12 +38,24 @@ def count(value, name: str, most: float = inf) -> int:
     return number
 
 
-def number(value, name: str, most: float) -> float:
-    """Return a Python or numpy number from -most to most as a float."""
+def number(value, name: str, most: float, least: float | None = None) -> float:
+    """Return a Python or numpy number from ``least``, by default -most, to most as a float."""
+    least = -most if least is None else least
     is_number = isinstance(value, int | float | np.integer | np.floating) and not isinstance(value, bool)
-    if not is_number or not abs(value) <= most:  # refuses NaN, too
-        raise _refusal(name, value, f"a number from -{most} to {most}")
+    if not is_number or not least <= value <= most:  # refuses NaN, too
+        raise _refusal(name, value, f"a number from {least:.12g} to {most:.12g}")
     return float(value)
+
+
+def folder(value) -> Path:
+    """Return the path of a folder, which need not exist."""
+    try:
+        path = Path(value)
+    except TypeError as error:
+        raise _refusal("folder", value, "a path") from error
+    if "\0" in str(path):
+        raise _refusal("folder", value, "a path, which has no null characters")
+    return path
 
 
 def flag(value, name: str) -> bool:

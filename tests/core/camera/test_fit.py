@@ -139,6 +139,7 @@ def test_regions():
         (("UCM", np.zeros((48, 64), bool), None), "no ray in the region: there is nothing to fit"),
         (("UCM", None, ("f",)), "unknown parameter of UCM 'f'"),
         (("UCM", None, ()), "has no parameter to fit"),
+        (("UCM", None, 3), "free is 3: it must be names of parameters of UCM"),
         (("STRIP", None, None), "the rays of Strip have no eye in common"),
         (("FOV", (32, 24, 33, 25), None), "sees 1 of 1 rays, too few to fit"),
     ],
@@ -165,3 +166,5 @@ def test_cameras_that_cannot_be_fitted_to_are_refused_in_one_line():
         assert "\n" not in str(caught.value)
     with pytest.raises(InputError, match="unknown setting of UCM 'xi': choose from calibration_file"):
         crc.fit(crc.camera("PERSP", (64, 48)), "UCM", xi=1.0)
+    with pytest.raises(InputError, match=r"^fx of camera 'Camera' is nan: it must be"):
+        crc.fit(crc.camera("PERSP", (64, 48)), "UCM", fx=np.nan)

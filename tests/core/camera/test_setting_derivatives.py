@@ -97,7 +97,7 @@ def test_what_has_no_pixel_has_no_derivatives_and_what_cannot_be_asked_is_refuse
     assert np.isfinite(found[2]).all()
     between = replace(cam, model=replace(cam.model, window=replace(cam.model.window, pitch_x=0.01)))
     for one, given, words in (
-        (cam, "setting", "jacobian is 'setting': it must be one of settings"),
+        (cam, "setting", "jacobian is 'setting': it must be True, False or 'settings'"),
         (between, "settings", "lies between two that were read"),
     ):
         with pytest.raises(InputError, match=words) as caught:

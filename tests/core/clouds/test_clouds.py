@@ -100,8 +100,10 @@ def test_any_camera_has_points():
 
 
 @pytest.mark.parametrize(
-    "settings", [{"noise": -1.0}, {"noise": np.nan}, {"dropout": -2}, {"quantum": "x"}, {"seed": -1}, {"seed": 1.5}]
-)
+    "settings",
+    [{"categories": {"ball": np.nan}}, {"noise": -1.0}, {"noise": np.nan}, {"dropout": -2}, {"quantum": "x"},
+     {"seed": -1}, {"seed": 1.5}, {"categories": "x"}, {"categories": {"x": -1}}, {"categories": {"x": 1 << 31}}],
+)  # fmt: skip
 def test_numbers_without_meaning_are_refused_by_name(settings):
     with pytest.raises(crc.InputError, match=next(iter(settings))):
         crc.scan(scanner(), SHAPES, **settings)
@@ -158,6 +160,8 @@ def test_numbers_that_a_format_cannot_store_are_refused():
     for key in ("las", "nuscenes"):
         with pytest.raises(crc.InputError, match="307"):
             written(key, classes)
+    with pytest.raises(crc.InputError, match=r"unknown format of points \['ply'\]"):
+        files_of(CLOUD, ["ply"])
     with pytest.raises(crc.InputError, match="did you mean pcd"):
         written("pdc")
 

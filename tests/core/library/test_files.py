@@ -89,6 +89,11 @@ def test_what_is_no_camera_and_no_folder(tmp_path):
         crc.export("json", "Camera", tmp_path)
     with pytest.raises(crc.InputError, match="folder is 3"):
         crc.export("json", perspectives(), 3)
+    with pytest.raises(crc.InputError, match=r"folder is .*no null characters"):
+        crc.export("json", perspectives(), f"{tmp_path}\0")
+    for fit in ("yes", -1.0, np.nan, None):
+        with pytest.raises(crc.InputError, match=r"^fit is .*: it must be True, False or an angle above 0, up to pi"):
+            crc.export("colmap", perspectives(), tmp_path, fit=fit)
     with pytest.raises(crc.InputError, match="only maps have a target"):
         crc.export("json", perspectives(), tmp_path, target=perspectives()[0])
     (tmp_path / "file").write_text("")

@@ -9,7 +9,7 @@ from typing import Any, Literal, overload
 
 import numpy as np
 
-from ..arguments import flag, numbers, word
+from ..arguments import numbers, shown
 from ..cameras import find_model
 from ..cameras.model import Model
 from ..cameras.parts.aperture import Aperture
@@ -260,8 +260,10 @@ class Camera:
         if points.shape[-1:] != (3,):
             raise InputError(f"points of shape {points.shape} cannot be projected: give x, y, z, shape (..., 3)")
         each = points.reshape(-1, 3)
-        by_settings = isinstance(jacobian, str) and bool(word(jacobian, "jacobian", ("settings",)))
-        if by_settings or flag(jacobian, "jacobian"):
+        by_settings = isinstance(jacobian, str) and jacobian == "settings"
+        if not by_settings and not isinstance(jacobian, bool | np.bool_):
+            raise InputError(f"jacobian is {shown(jacobian)}: it must be True, False or 'settings'")
+        if jacobian:
             self._check_differentiable()
             if self._moves:
                 raise InputError(

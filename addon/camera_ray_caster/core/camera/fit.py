@@ -97,6 +97,9 @@ def fit_model(
     some = np.zeros_like(there)
     some[np.ix_(rows, columns)] = there[np.ix_(rows, columns)]
     starts = guesses(camera, kind, given)
+    for setting in kind.SETTINGS:
+        if setting.name in given:
+            setting.read(starts[0])  # refuses a value out of its range, by name
     searches = [Search.of(kind, start, camera.raster, _pixels(some), rays[some], free, held) for start in starts]
     search, values, converged = _best(searches)
     fitted = camera_from(search.record(values))

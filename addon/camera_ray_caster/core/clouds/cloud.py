@@ -28,6 +28,8 @@ from ..scene import Scene
 PASSES = ("distance", "position", "normal", "albedo", "shape_index", "object_index")
 """What points are made of."""
 
+MOST_CATEGORY = np.iinfo(np.int32).max
+
 SENSOR, WORLD = "sensor", "world"
 AXES = SENSOR, WORLD
 """Frames of points in files."""
@@ -102,17 +104,25 @@ def scan(
     seed: of what is random, 0 or more.
     categories: numbers by names of objects; others have their pass index.
 
-    Raises InputError for numbers that are negative or not finite, for a device whose quantum is not known, and for what
-    ``cast`` refuses.
+    Raises InputError for numbers that are negative or not finite, for categories that are not whole numbers, for a
+    device whose quantum is not known, and for what ``cast`` refuses.
     """
     if isinstance(camera, Scene) and shapes is None:
         shapes, camera = camera.shapes, camera.camera
     if not (isinstance(camera, Camera) and isinstance(shapes, Shapes)):
         raise TypeError(f"scan takes a camera and shapes, or a scene, as they are read, not {type(camera)}")
-    noise, dropout = _not_negative(noise, "noise"), _not_negative(dropout, "dropout")
+    noise, dropout = (
+        arguments.number(value, name, LARGEST, 0.0) for value, name in ((noise, "noise"), (dropout, "dropout"))
+    )
     step, behind = _steps(camera, quantum)
     if isinstance(seed, bool) or not isinstance(seed, int | np.integer) or seed < 0:
         raise InputError(f"seed is {arguments.shown(seed)}: it must be a whole number, 0 or more")
+    categories = {} if categories is None else categories
+    if not (isinstance(categories, Mapping) and all(map(_is_category, categories.values()))):
+        raise InputError(
+            f"categories is {arguments.shown(categories)}: it must map names of objects to whole numbers from 0 to "
+            f"{MOST_CATEGORY}"
+        )
     images, rays = cast(camera, shapes, PASSES, np.float64), camera.rays()
     hit = (images["shape_index"] != NOTHING) & np.isfinite(images["distance"])
     ahead, true = np.where(hit[..., None], rays.directions, 0.0), np.where(hit, images["distance"], 0.0)
@@ -149,23 +159,16 @@ def scan(
         ring=_rings(camera, row),
         time=np.zeros(len(row)) if times is None else (times - frame) / rate,
         instance=(images["shape_index"][at] + 1).astype(np.int32),
-        category=_categories(shapes, images["shape_index"][at], images["object_index"][at], categories or {}),
+        category=_categories(shapes, images["shape_index"][at], images["object_index"][at], categories),
         incidence=incidence[at],
         reflectance=incidence[at] * images["albedo"][at].mean(axis=-1),
     )
 
 
-def _not_negative(value, name: str) -> float:
-    number = arguments.number(value, name, LARGEST)
-    if number < 0:
-        raise InputError(f"{name} is {number:g}: it must be 0 or more")
-    return number
-
-
 def _steps(camera: Camera, quantum) -> tuple[float, float]:
     """Return the step of ranges, and how far behind the origins of beams these begin."""
     if not (isinstance(quantum, str) and quantum.upper() == OF_DEVICE):
-        return _not_negative(quantum, "quantum"), 0.0
+        return arguments.number(quantum, "quantum", LARGEST, 0.0), 0.0
     device = camera.model.device if isinstance(camera.model, Scanner) else None
     if device is None or not device.quantum:
         kind = camera.model.label if device is None else device.label
@@ -201,6 +204,10 @@ def _rings(camera: Camera, row: np.ndarray) -> np.ndarray:
         beams = camera.model.beams
         row = beams.ring[(row * len(beams)) // camera.raster.height]
     return row.astype(np.uint16)
+
+
+def _is_category(value) -> bool:
+    return isinstance(value, int | np.integer) and not isinstance(value, bool) and 0 <= value <= MOST_CATEGORY
 
 
 def _categories(shapes: Shapes, shape, index, categories: Mapping[str, int]) -> np.ndarray:

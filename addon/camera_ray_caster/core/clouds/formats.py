@@ -132,6 +132,6 @@ def files_of(cloud: PointCloud, key: str, axes: str = SENSOR) -> Files:
     """Return the endings and contents of a cloud's files in a format. Raises InputError for an unknown format, and for
     numbers that it cannot store.
     """
-    if key not in FORMATS:
+    if not isinstance(key, str) or key not in FORMATS:
         raise unknown("format of points", key, FORMATS)
     return FORMATS[key](cloud, axes)

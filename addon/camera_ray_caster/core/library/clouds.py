@@ -5,12 +5,11 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
-from ..arguments import shown, word
+from .. import arguments
 from ..clouds.cloud import AXES, SENSOR, PointCloud
 from ..clouds.formats import files_of
 from ..exports.writing import write
 from ..names import file_name
-from ..records import InputError
 
 
 def save_points(
@@ -28,9 +27,6 @@ def save_points(
     """
     if not isinstance(cloud, PointCloud):
         raise TypeError(f"save_points takes the points of scan, not {type(cloud)}")
-    chosen, stem = word(axes, "axes", AXES), file_name(word(name, "name") or cloud.name)
-    try:
-        path = Path(folder)
-    except TypeError as error:
-        raise InputError(f"folder is {shown(folder)}: it must be a path") from error
-    return write(((stem + ending, content) for ending, content in files_of(cloud, format, chosen)), path)
+    chosen, stem = arguments.word(axes, "axes", AXES), file_name(arguments.word(name, "name") or cloud.name)
+    files = ((stem + ending, content) for ending, content in files_of(cloud, format, chosen))
+    return write(files, arguments.folder(folder))

@@ -8,6 +8,9 @@ from math import pi
 from pathlib import Path
 from typing import Any, NamedTuple
 
+import numpy as np
+
+from ..arguments import folder as a_folder
 from ..arguments import number, shown
 from ..camera.camera import Camera
 from ..exports import FORMATS
@@ -64,7 +67,8 @@ def export(
     unit = number(meters, "meters", 1e12)
     if unit <= 0:
         raise InputError(f"meters is {shown(meters)}: it must be above 0, the length of a unit")
-    if not isinstance(fit, bool) and not 0 < number(fit, "fit", 10) <= pi:
+    is_angle = isinstance(fit, int | float | np.integer | np.floating) and 0 < fit <= pi
+    if not isinstance(fit, bool) and not is_angle:
         raise InputError(f"fit is {shown(fit)}: it must be True, False or an angle above 0, up to pi")
     angle = (pi if fit else None) if isinstance(fit, bool) else float(fit)
     names = file_names(one.name for one in given)
@@ -72,11 +76,7 @@ def export(
     if len({shot.stem for shot in shots}) < len(shots):
         raise InputError("two cameras have one name and one frame: give them names (name=) or frames (frame=)")
     files, remarks = files_of(format, sorted(shots, key=lambda shot: shot.frame), angle)
-    try:
-        path = Path(folder)
-    except TypeError as error:
-        raise InputError(f"folder is {shown(folder)}: it must be a path") from error
-    return Exported(write(files, path), remarks)
+    return Exported(write(files, a_folder(folder)), remarks)
 
 
 def _frame(camera: Camera) -> float:

@@ -44,7 +44,10 @@ def fit(camera: Camera, model: str, region=None, free: Collection[str] | None = 
         if name not in declared:
             raise unknown(f"setting of {model}", name, declared)
     given = {name: plain(declared[name], value) for name, value in settings.items()}
-    names = {free} if isinstance(free, str) else None if free is None else set(free)
+    try:
+        names = {free} if isinstance(free, str) else None if free is None else set(free)
+    except TypeError as error:
+        raise InputError(f"free is {shown(free)}: it must be names of parameters of {model}") from error
     return fit_model(camera, known[model], _region(camera, region), names, given)
 
 

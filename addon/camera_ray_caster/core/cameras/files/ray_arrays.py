@@ -42,7 +42,7 @@ def read(document: Document, key: str) -> list[Lens] | None:
             "its pixels have their own times, which a table of rays has not: export a camera without pixel times"
         )
     if "directions" not in arrays:
-        raise document.refusal(f"it has no directions, only {', '.join(sorted(arrays)) or 'nothing'}")
+        raise document.refusal("it has no directions: no array has this name")
     directions, origins = arrays["directions"], arrays.get("origins")
     if directions.ndim != 3 or directions.shape[2] != 3:
         raise document.refusal(f"directions are of shape {directions.shape}: they must be (rows, columns, 3)")
