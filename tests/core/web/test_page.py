@@ -163,14 +163,23 @@ def test_figures_are_states_of_the_page(opened, page):
 
 def test_every_model_can_be_chosen_and_its_steps_have_numbers(opened, page):
     fresh(opened, page)
-    without = []
+    without, worked_out = [], set()
     for key in opened.execute_script("return window.lesson.models"):
         fresh(opened, page, f"#v=1&model={key}")
         settled(opened, lambda one, key=key: state(one)["model"] == key and shown(one, "pixel"))
         assert by_id(opened, "message").text == ""
-        if not opened.execute_script("return document.querySelectorAll('#steps .numbers').length"):
+        found = [line.text for line in opened.find_elements("css selector", "#steps .numbers")]
+        if not found:
             without.append(key)
+        direction = np.array(numbers(shown(opened, "direction r")))
+        for line in found:  # the formula with its numbers ends at the ray that the picture has
+            r = numbers(line.rpartition("= (")[2]) if line.startswith("r = ") else []
+            if len(r) == 3:
+                assert np.cross(r, direction) / np.linalg.norm(r) == pytest.approx([0, 0, 0], abs=2e-5), (key, line)
+                assert np.dot(r, direction) > 0, (key, line)
+                worked_out.add(key)
     assert without == []
+    assert {"PERSP", "OPENCV_FISHEYE", "EQUIRECTANGULAR"} < worked_out
 
 
 @pytest.mark.parametrize("screen", SCREENS)

@@ -5,11 +5,13 @@ import json
 import numpy as np
 import pytest
 
+import camera_ray_caster as crc
 from camera_ray_caster.core.errors.rays import world_rays
 from camera_ray_caster.core.maths.recording import NUMPY
 from camera_ray_caster.core.shaders.javascript import RUNTIME
 from camera_ray_caster.core.web.program import holds
 from camera_ray_caster.core.web.split import RAY, functions
+from camera_ray_caster.core.web.values import values_of
 
 from ..shaders.javascript import NUMBERS, node
 from .programs import KEYS, program, settings
@@ -71,3 +73,16 @@ def test_javascript_gives_the_same_rays(key):
     found = node(f"{RUNTIME}\n{run}\nconsole.log(JSON.stringify([{calls}], {NUMBERS}));")
     for (_, camera), rays in zip(cases, found, strict=True):
         check(camera, *pixels(camera), np.array([[float(str(value)) for value in ray] for ray in rays]).T)
+
+
+def test_the_matrix_in_a_formula_is_of_the_frame_s_pixels_not_of_the_calibrated_picture_s():
+    size = {"calibration_width": 1920, "calibration_height": 1080}
+    camera = crc.camera("OPENCV_FISHEYE", (640, 360), fx=1500.0, fy=1200.0, cx=929.5, cy=539.5, **size)
+    found = values_of(camera.model, camera.record, camera.raster, 100.0, 300.0)
+    assert [found[name][0] for name in ("fx", "fy", "cx", "cy")] == pytest.approx([500, 400, 309.5, 179.5])
+
+
+def test_the_angle_in_a_fisheye_s_formula_is_its_own():
+    lens, fisheye = crc.camera("PERSP", (64, 48)), crc.camera("FISHEYE_EQUIDISTANT", (64, 48), fisheye_fov=2.0)
+    assert values_of(lens.model, lens.record, lens.raster, 1.0, 2.0)["fov"][0] == pytest.approx(2 * np.arctan(18 / 50))
+    assert "fov" not in values_of(fisheye.model, fisheye.record, fisheye.raster, 1.0, 2.0)

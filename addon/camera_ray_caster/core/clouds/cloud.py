@@ -207,7 +207,7 @@ def _rings(camera: Camera, row: np.ndarray) -> np.ndarray:
 
 
 def _is_category(value) -> bool:
-    return isinstance(value, int | np.integer) and not isinstance(value, bool) and 0 <= value <= MOST_CATEGORY
+    return isinstance(value, int | np.integer) and not isinstance(value, bool) and 0 <= int(value) <= MOST_CATEGORY
 
 
 def _categories(shapes: Shapes, shape, index, categories: Mapping[str, int]) -> np.ndarray:

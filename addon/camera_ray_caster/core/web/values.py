@@ -25,7 +25,7 @@ NORMALIZED = "view_x", "view_y"
 def values_of(model: Model, raw: BlenderCamera, raster: Raster, x, y) -> dict[str, tuple[Any, ...]]:
     """Return one number or three by name, at a pixel: those that the steps name, and that can be recorded."""
     found: dict[str, tuple[Any, ...]] = {}
-    for part in (_film, _window, _calibration, _own):
+    for part in (_film, _window, _matrix, _calibration, _own):
         try:
             given = dict(part(model, raw, raster, x, y))
         except (NotRecordable, InputError, ValueError):  # what cannot be recorded is shown without its number
@@ -57,7 +57,16 @@ def _window(model: Model, raw: BlenderCamera, raster: Raster, x, y) -> Values:
     plane = window.plane_from_pixels(x, y)
     moved = {name: 2 * X / (q * side) for name, X, q, side in zip(NORMALIZED, plane, pitches, model.frame, strict=True)}
     half = width * window.pitch_x / 2
-    return moved | {"fov": 2 * np.arctan(half), "aspect": height * window.pitch_y / (2 * half)}
+    fov = {"fov": 2 * np.arctan(half)} if model.planar else {}  # others have a setting of this name
+    return moved | fov | {"aspect": height * window.pitch_y / (2 * half)}
+
+
+def _matrix(model: Model, raw: BlenderCamera, raster: Raster, x, y) -> Values:
+    """Of the frame's pixels, as the formula's x and y; the settings are of the calibrated picture's."""
+    if model.K is None:
+        return {}
+    (fx, skew, cx), (_, fy, cy), _ = model.K
+    return {"fx": fx, "skew": skew, "cx": cx, "fy": fy, "cy": cy}
 
 
 def _calibration(model: Model, raw: BlenderCamera, raster: Raster, x, y) -> Values:

@@ -88,7 +88,7 @@ function numbers() {
   row("origin o", ...digits(ray.slice(0, 3)));
   row("direction r", ...digits(ray.slice(3)));
   row("from the axis", `${shown(Math.atan2(Math.hypot(ray[3], ray[4]), -ray[5]) * DEGREES)}°`);
-  row("meets", hit.index < 0 ? "nothing" : `${hit.name}, at t = ${shown(hit.t)}, point ${shown(hit.point)}`);
+  row("meets", hit.index < 0 ? "nothing" : `${hit.name}, at distance t = ${shown(hit.t)}, at ${shown(hit.point)} in the room`);
   const back = pixelOf(camera, along(ray.slice(0, 3), Math.min(hit.t, 20) / size(ray.slice(3)), ray.slice(3)));
   row("back to the pixel", back ? `(${shown(back[0])}, ${shown(back[1])}), ${shown(Math.hypot(back[0] - x, back[1] - y), 2)} pixels off` : "not found");
   if (state.times !== "none") row("time of the pixel", shown(time));

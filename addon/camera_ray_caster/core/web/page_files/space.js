@@ -131,8 +131,9 @@ class Space {
     g.textBaseline = "middle";
     g.lineWidth = 3 * this.unit;
     g.strokeStyle = getComputedStyle(document.documentElement).getPropertyValue("--space").trim();
-    g.strokeText(text, to[0], to[1]);
+    const half = g.measureText(text).width / 2 + g.lineWidth, x = Math.min(Math.max(to[0], half), g.canvas.width - half);
+    g.strokeText(text, x, to[1]);
     g.fillStyle = color;
-    g.fillText(text, to[0], to[1]);
+    g.fillText(text, x, to[1]);
   }
 }
