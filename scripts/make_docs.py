@@ -85,8 +85,11 @@ SETS = """
 
 `export.py FOLDER --format KEY --output OUT` exports the set that `cast.py` or `dataset.py` made in a folder, with its
 sizes and frames: its cameras in each of the formats above, and these. They read the passes of NPZ and EXR files (depth
-or distance; combined, shape_index or normal where the format has them) and the annotations of `--annotations`, in which
-each object has its visible and its whole (amodal) mask, its category, and the pose and size of a box in its own axes.
+or distance; combined, shape_index or normal where the format has them) and the annotations of `--annotations`, in
+which each object has its visible and its whole (amodal) mask, its category, and the pose and size of a box in its own
+axes. `--models FILE.blend`, the file of the set, adds the models of `bop-scenes`: a PLY in millimeters for each
+category, as the viewport evaluates its last object at its last frame, and diameters of the models in place of those of
+boxes.
 
 | key | |
 |---|---|

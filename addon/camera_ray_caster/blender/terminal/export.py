@@ -1,18 +1,22 @@
 """The command that exports cameras, by frame, to files of other programs."""
 
-from collections.abc import Sequence
-from functools import partial
+from collections.abc import Callable, Sequence
+from functools import lru_cache, partial
 from math import pi
 from pathlib import Path
+from typing import Any
+
+import bpy
 
 from ...core.exports import FORMATS, export
 from ...core.exports.writing import write
-from ...core.records import InputError
+from ...core.records import InputError, Shapes
 from ...core.sets import SET_FORMATS, read_set, sparse
 from ..output import exports
-from ..process.opening import not_run
+from ..process.opening import not_run, open_file
 from ..read.camera import check_camera, check_markers, find_camera, find_cameras
 from ..read.frames import frame_of
+from ..read.scene import read_shapes
 from .options import command_parser, go_to, open_scene, shown_at, warn
 from .words import add_cameras, add_frames, check_cameras, count, degrees
 
@@ -35,6 +39,8 @@ def run(arguments: Sequence[str], prog: str) -> int:
         + f". Of a folder with a finished set only: {', '.join(SET_FORMATS)}")  # fmt: skip
     parser.add_argument("--points", type=count, metavar="N", help=
         f"number of seed points, for colmap-scene only; default: {sparse.COUNT}")  # fmt: skip
+    parser.add_argument("--models", type=Path, metavar="FILE.blend", help=
+        "file of the set, from which the models of its objects are written, for bop-scenes only")  # fmt: skip
     add_cameras(parser)
     add_frames(parser)
     parser.add_argument("--to", metavar="NAME", help="target camera of the maps, for stmap only; "
@@ -47,6 +53,8 @@ def run(arguments: Sequence[str], prog: str) -> int:
     check_cameras(options)
     if options.points and options.format != "colmap-scene":
         raise InputError("--points applies to --format colmap-scene only")
+    if options.models and options.format != "bop-scenes":
+        raise InputError("--models applies to --format bop-scenes only")
     if options.file is not None and options.file.is_dir():
         return _of_set(options)
     if options.format in SET_FORMATS:
@@ -78,10 +86,25 @@ def _of_set(options) -> int:
     if options.format in SET_FORMATS:
         if options.fit:
             raise InputError(f"--fit does not apply to --format {options.format}: choose a format of cameras")
-        given = {"count": options.points} if options.points else {}
+        given: dict[str, Any] = {"count": options.points} if options.points else {}
+        if options.models:
+            given["shapes_at"] = _shapes_of(options, max(view.frame for view in views))
         files, said = SET_FORMATS[options.format].files(views, **given), []
     else:
         files, said = export(options.format, [view.shot for view in views], options.fit)
     paths = write(files, options.output)
     print("\n".join((*said, f"Wrote {', '.join(map(str, paths))}")), flush=True)
     return 0
+
+
+def _shapes_of(options, last: float) -> Callable[[float], Shapes]:
+    """Open the file of the models; return a function that gives the shapes of its scene at a frame, up to ``last``."""
+    open_file(options.models, options.enable_autoexec)
+    scene = bpy.context.scene
+
+    @lru_cache(maxsize=1)
+    def shapes_at(frame: float) -> Shapes:
+        go_to(scene, frame, last)
+        return read_shapes(scene)
+
+    return shapes_at

@@ -1,21 +1,23 @@
 """BOP scenes: one per camera, with pictures, depth, masks and the poses of objects.
 
 Objects are the categories, numbered by name in models_info.json; the frame of an object is the middle of its box, in
-its axes. Lengths are in millimeters; depth in 16 bits is along the viewing direction, in steps of depth_scale.
+its axes. With the .blend of the set, each has a model, models/obj_OBJECT.ply; without, diameters are those of boxes.
+Lengths are in millimeters; depth in 16 bits is along the viewing direction, in steps of depth_scale.
 Reference: BOP toolkit documentation, BOP dataset format.
 """
 
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import Any
 
 import numpy as np
 
 from ..annotations.coco import unpacked
 from ..exports.bop import Bop
-from ..records import InputError
+from ..records import InputError, Shapes
+from .bop_models import diameter, model_of, ply
 from .png import png
 from .reading import View
 
@@ -24,13 +26,17 @@ STEP = 0.1
 """Millimeters of a step of depth, if the farthest hit is then within 16 bits; else as coarse as needed."""
 
 
-def files(views: list[View]) -> Iterator[tuple[str, str | bytes]]:
-    """Yield the files of a set; see the package. Raises InputError for cameras that are no pinholes."""
+def files(
+    views: list[View], shapes_at: Callable[[float], Shapes] | None = None
+) -> Iterator[tuple[str, str | bytes]]:
+    """Yield the files of a set; see the package. ``shapes_at`` returns the shapes of a frame, of which models are made.
+    Raises InputError for cameras that are no pinholes.
+    """
     for view in views:
         reason = Bop().refusal(view.shot)
         if reason is not None:
             raise InputError(f"BOP has pinholes only, and camera {view.camera.name!r} is none {reason}".strip())
-    named = {one["category"]: one for view in views for one in view.annotations["objects"]}
+    named = {one["category"]: (one, view.frame) for view in views for one in view.annotations["objects"]}
     numbers = {name: number for number, name in enumerate(sorted(named), 1)}
     cameras = list(dict.fromkeys(view.camera.name for view in views))
     for scene, name in enumerate(cameras):
@@ -38,9 +44,16 @@ def files(views: list[View]) -> Iterator[tuple[str, str | bytes]]:
         yield from _scene(f"test/{scene:06}", own, numbers)
     models = {}
     for name, number in numbers.items():
-        size = np.array(named[name]["size"]) * 1000 * views[0].meters
+        one, frame = named[name]
+        millimeters = 1000 * views[0].meters
+        size = np.array(one["size"]) * millimeters
+        across = float(np.linalg.norm(size))
+        if shapes_at is not None:
+            vertices, triangles = model_of(shapes_at(frame), one)
+            across = diameter(vertices * millimeters)
+            yield f"models/obj_{number:06}.ply", ply(vertices * millimeters, triangles)
         models[str(number)] = {
-            "name": name, "diameter": float(np.linalg.norm(size)),
+            "name": name, "diameter": across,
             **{f"min_{axis}": -side / 2 for axis, side in zip("xyz", size.tolist(), strict=True)},
             **{f"size_{axis}": side for axis, side in zip("xyz", size.tolist(), strict=True)},
         }  # fmt: skip

@@ -1,0 +1,91 @@
+"""Models of BOP's objects, from the file of a set."""
+
+import json
+
+import numpy as np
+import pytest
+
+from .running import left, refused
+
+WORDS = "--frames", "1:2", "--passes", "depth,shape_index", "--annotations", "--format", "npz"
+
+
+@pytest.fixture
+def made(command, blender, scene, tmp_path):
+    """A set of a sphere, a wedge without symmetry and a square."""
+    mesh = blender.data.meshes.new("wedge")
+    mesh.from_pydata([(0, 0, 0), (1, 0, 0), (0, 2, 0), (0, 0, 3)], [], [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)])
+    wedge = blender.data.objects.new("Wedge", mesh)
+    blender.context.scene.collection.objects.link(wedge)
+    wedge.location, wedge.rotation_euler, wedge.scale = (1, 0.5, 0), (0.3, -0.2, 0.7), (0.5, 0.4, 0.3)
+    blender.ops.mesh.primitive_plane_add(size=4, location=(0, 0, -2))
+    blender.ops.wm.save_as_mainfile(filepath=str(scene))
+    assert command("cast", scene, *WORDS, "--output", tmp_path / "set").returncode == 0
+    return tmp_path / "set"
+
+
+def exported(command, made, *words):
+    return command("export", made, "--format", "bop-scenes", *words, "--output", made.parent / "bop")
+
+
+def read(path):
+    """Vertices and triangles of a binary PLY."""
+    head, _, body = path.read_bytes().partition(b"end_header\n")
+    counts = [int(line.split()[-1]) for line in head.decode().splitlines() if line.startswith("element")]
+    vertices = np.frombuffer(body, "<f4", 3 * counts[0]).reshape(-1, 3).astype(np.float64)
+    faces = np.frombuffer(body, np.dtype([("n", "u1"), ("v", "<i4", 3)]), counts[1], 12 * counts[0])
+    assert (faces["n"] == 3).all()
+    assert len(body) == 12 * counts[0] + 13 * counts[1]
+    return vertices, faces["v"]
+
+
+def test_models_stand_where_blender_has_their_objects(command, blender, scene, made):
+    done = exported(command, made, "--models", scene)
+    assert (done.returncode, done.stderr) == (0, "")
+    models = made.parent / "bop" / "models"
+    assert left(models) == ["models_info.json", *(f"obj_00000{k}.ply" for k in (1, 2, 3))]
+    info = json.loads((models / "models_info.json").read_text())
+    numbers = {one["name"]: int(key) for key, one in info.items()}
+    truth = json.loads((made.parent / "bop" / "test" / "000000" / "scene_gt.json").read_text())["2"]
+    camera = json.loads((made.parent / "bop" / "test" / "000000" / "scene_camera.json").read_text())["2"]
+    to_camera = np.eye(4)
+    to_camera[:3, :3], to_camera[:3, 3] = np.reshape(camera["cam_R_w2c"], (3, 3)), camera["cam_t_w2c"]
+    for item in (blender.data.objects[name] for name in ("Wedge", "Sphere")):
+        number = numbers[item.data.name]
+        vertices, triangles = read(models / f"obj_{number:06}.ply")
+        (one,) = (one for one in truth if one["obj_id"] == number)
+        seen = vertices @ np.reshape(one["cam_R_m2c"], (3, 3)).T + one["cam_t_m2c"]
+        a, b, c = np.moveaxis(vertices[triangles], 1, 0)
+        volume = np.einsum("ij,ij->i", a, np.cross(b, c)).sum() / 6e9
+        if item.name == "Wedge":
+            world = np.array([(*(item.matrix_world @ one.co), 1) for one in item.data.vertices]) * (1e3, 1e3, 1e3, 1)
+            assert np.abs(seen - (world @ to_camera.T)[:, :3]).max() < 1e-3  # millimeters: float32
+            assert volume == pytest.approx(0.06)
+            far = max(np.linalg.norm(p - q) for p in vertices for q in vertices)
+        else:
+            assert np.abs(np.linalg.norm(vertices, axis=1) - 1000).max() < 1e-3
+            assert volume == pytest.approx(4 / 3 * np.pi, rel=3e-3)
+            assert 2 * len(vertices) - 4 == len(triangles)  # closed
+            far = 2000
+        assert far * (1 - 1e-3) <= info[str(number)]["diameter"] <= far * (1 + 1e-6)
+
+
+@pytest.mark.cases(1)
+@pytest.mark.parametrize("case", ["gone", "size", "no file", "format"])
+def test_another_file_than_that_of_the_set_is_refused(command, blender, scene, made, case):
+    words, said = ("--models", scene), "has no shape of 'Wedge': give the file that the set is of"
+    if case == "gone":
+        blender.data.objects.remove(blender.data.objects["Wedge"])
+    elif case == "size":
+        blender.data.objects["Wedge"].scale *= 2
+        said = "'Wedge' is of another size in the file of --models"
+    elif case == "no file":
+        words, said = ("--models", made / "none.blend"), "none.blend"
+    blender.ops.wm.save_as_mainfile(filepath=str(scene))
+    if case == "format":
+        said = "--models applies to --format bop-scenes only"
+        done = command("export", made, "--format", "masks", *words, "--output", made.parent / "bop")
+    else:
+        done = exported(command, made, *words)
+    assert said in refused(done)
+    assert not (made.parent / "bop").exists()
