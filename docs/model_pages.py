@@ -17,7 +17,9 @@ from camera_ray_caster.core.sets.png import png, srgb
 
 PICTURES = Path("blend_scenes", "pictures")
 """The gallery, which has a picture of each model, named as the model's file but for those of SHOWN_BY."""
-SHOWN_BY = {"PERSP": "pinhole", "ORTHO": "isometric", "STEREOGRAPHIC_PANORAMA": "little_planet"}
+SHOWN_BY = {
+    "PERSP": "pinhole", "ORTHO": "isometric", "STEREOGRAPHIC_PANORAMA": "little_planet", "SCANNER": "street_scanner",
+}  # fmt: skip
 SIZE = 480, 320
 NEEDED = {
     "slit_1": "[(0.0, 0.0, 0.0), (1.0, 0.0, 0.0)]",
@@ -45,12 +47,13 @@ With the models' defaults.
 |---|---|
 """
 LESSON = "[Try it in the browser](../lesson/index.html#v=1&model={key}): drag a pixel, turn the settings.\n\n"
+ANGLES = "Angles are given in degrees here, and in radians in Python.\n\n"
 PAGE = """\
 # {label}
 
 {description}.
 
-![A room seen by this camera]({picture})
+![What this camera sees]({picture})
 
 {lesson}Key `{key}`; {rays}; [{file}](../../{path}). With its defaults, it is written by {writers}.
 
@@ -72,7 +75,7 @@ width and height in pixels.
 
 ## Settings
 
-{settings}
+{units}{settings}
 
 ## What it assumes
 
@@ -122,6 +125,7 @@ def page(model: type[Model], root: Path, folder: Path) -> str:
         path=file.relative_to(root).as_posix(),
         given=given(model),
         steps="\n".join(f"1. {step.words}:\n\n       {step.symbols}\n" for step in model.FORMULA),
+        units=ANGLES if any(getattr(one, "unit", "") == "angle" for one in model.SETTINGS) else "",
         settings=make_docs.table(model.SETTINGS).strip() or "It has none.",
         text=as_markdown(inspect.getdoc(inspect.getmodule(model))),
     )

@@ -100,7 +100,7 @@ def test_every_public_name_is_documented(pages, site):
 def test_every_model_has_its_page(key, site):
     """With its picture, all of its settings, its formula, and code that runs."""
     text = (site / "docs" / "cameras" / f"{key.lower()}.html").read_text(encoding="utf-8")
-    assert re.search(r'<img alt="A room seen by this camera"[^>]* src="\.\./\.\./_images/\w+\.png"', text)
+    assert re.search(r'<img alt="What this camera sees"[^>]* src="\.\./\.\./_images/\w+\.png"', text)
     assert [one.name for one in crc.models()[key].SETTINGS if f">{one.name}<" not in text] == []
     said = html.unescape(text)
     assert [step for step in crc.models()[key].FORMULA if step.words not in said or step.symbols not in said] == []

@@ -257,7 +257,7 @@ def test_nothing_is_seen_of_what_lies_outside_the_field_of_view():
         (
             "FISHEYE_EQUIDISTANT",
             {"fisheye_fov": 0.0},
-            "fisheye_fov of camera 'Camera' is 0 degrees: it must be above 0",
+            "fisheye_fov of camera 'Camera' is 0 degrees .0 radians.: it must be above 0",
         ),
         ("FISHEYE_EQUIDISTANT", {"fisheye_fov": 40.0}, "up to 1800 degrees"),
         ("FISHEYE_EQUISOLID", {"fisheye_lens": -1.0}, "fisheye_lens"),

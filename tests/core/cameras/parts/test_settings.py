@@ -31,8 +31,8 @@ def raw(**settings):
 @pytest.mark.parametrize(
     ("setting", "value", "message"),
     [
-        (ANGLE, 2.0, "tilt of camera 'Eye' is 114.592 degrees: it must be from 0 degrees to 90 degrees"),
-        (ANGLE, math.nan, "tilt of camera 'Eye' is nan degrees: it must be"),
+        (ANGLE, 2.0, "tilt of camera 'Eye' is 114.592 degrees (2 radians): it must be from 0 degrees to 90 degrees"),
+        (ANGLE, math.nan, "tilt of camera 'Eye' is nan degrees (nan radians): it must be"),
         (ANGLE, "up", "tilt of camera 'Eye' is 'up': it must be"),
         (SIZE, 0.0, "size of camera 'Eye' is 0: it must be above 0"),
         (SIZE, math.inf, "size of camera 'Eye' is inf: it must be above 0"),

@@ -104,13 +104,13 @@ class Number(Setting):
             not isinstance(value, int | float)
             or not low - LIMIT_ROUNDING * abs(low) <= value <= high + LIMIT_ROUNDING * abs(high)  # NaN is not
         ):
-            raise self.refusal(raw, self.in_words(value), self.range_in_words(low, high))
+            raise self.refusal(raw, self.in_words(value, " ({:g} radians)"), self.range_in_words(low, high))
         return value if isinstance(value, Varied) or is_recorded(value) else float(value)
 
-    def in_words(self, value) -> str:
-        """Return a value with its unit."""
+    def in_words(self, value, radians: str = "") -> str:
+        """Return a value with its unit; ``radians``: the format of an angle as it is stored, which follows it."""
         if self.unit == "angle" and isinstance(value, int | float):
-            return f"{math.degrees(value):.6g} degrees"
+            return f"{math.degrees(value):.6g} degrees" + radians.format(value)
         return f"{value:.6g}" if isinstance(value, float) else f"{value!r}"
 
     def limits(self, low: float, high: float) -> tuple[float, float]:
