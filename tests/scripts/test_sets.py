@@ -12,7 +12,7 @@ from camera_ray_caster.core.cameras.files import ray_exr
 from camera_ray_caster.core.records import InputError
 from camera_ray_caster.core.sets import read_set
 
-from .running import ROOT, left, refused
+from .running import left, refused, script
 
 PASSES = "combined,depth,distance,normal,uv,object_index,shape_index,valid"
 WORDS = "--frames", "1:2", "--passes", PASSES, "--annotations"
@@ -120,8 +120,7 @@ def test_an_exported_exr_set_is_an_exported_npz_set(command, sets, tmp_path, key
 def test_an_exr_set_is_checked_as_an_npz_set(sets):
     said = []
     for folder in sets(words=("--cameras", "ALL", *WORDS)):
-        words = [sys.executable, ROOT / "scripts" / "check_set.py", folder]
-        done = subprocess.run(words, capture_output=True, text=True, check=False)
+        done = script("check_set", folder)
         assert done.stderr == ""
         said.append((done.returncode, done.stdout))
     assert said[0] == said[1]
