@@ -13,7 +13,7 @@ LIST = 110
 def cast_all(user, scenes):
     """The list of cameras casts them all at all frames into a folder, as the terminal does; Esc leaves whole frames."""
     yield from load(user, scenes, "toys")
-    scene, run = bpy.context.scene, addon("ui.cast_all")
+    scene, run = bpy.context.scene, addon("ui.in_steps")
     second = bpy.data.objects.new("Dome", bpy.data.cameras.new("Dome"))
     second.data.camera_ray_caster.model, second.matrix_world = "OMNIMAX", scene.camera.matrix_world.copy()
     scene.collection.objects.link(second)
@@ -56,6 +56,46 @@ def cast_all(user, scenes):
     assert kept(scene) == before
 
 
+def export_all(user, scenes):
+    """The list of cameras exports them all at all frames, while the window stays responsive; Esc leaves nothing."""
+    yield from load(user, scenes, "toys")
+    scene, run = bpy.context.scene, addon("ui.in_steps")
+    second = bpy.data.objects.new("Dome", bpy.data.cameras.new("Dome"))
+    scene.collection.objects.link(second)
+    scene.frame_start, scene.frame_end, scene.frame_current = 1, 200, 7
+    before = kept(scene)
+    yield from user.wait(0.7)
+    yield from open_list(user)
+    folder = user.folder / "exported"
+    folder.mkdir(exist_ok=True)
+    yield from user.press(f"{BUTTON}export(")
+    yield from into(user, folder)
+    yield from user.until(lambda: run.running() and run.running().progress, "it is exporting")
+    yield from user.until(lambda: run.running() is None, "it has exported", 60)
+    folder /= "toys_json"
+    assert run.latest() == f"Wrote 1 file into {folder}", run.latest()
+    cameras = json.loads((folder / "camera.json").read_text())["cameras"]
+    assert [len(one["frames"]) for one in cameras] == [200, 200]
+    assert kept(scene) == before
+    yield from user.wait(0.5)
+    user.picture("export_all")
+
+    scene.frame_end, stopped = 100000, user.folder / "export_stopped"
+    stopped.mkdir(exist_ok=True)
+    yield from user.press(f"{BUTTON}export(")
+    yield from into(user, stopped)
+    yield from user.until(lambda: run.running() and run.running().progress, "it is exporting")
+    yield from user.wait(1)
+    user.picture("exporting_all")
+    yield from user.point(*middle(user.region("WINDOW")))
+    yield from user.key("Escape")
+    yield from user.until(lambda: run.running() is None, "it has ended", 20)
+    assert run.latest() == f"Stopped: nothing was written into {stopped / 'toys_json'}", run.latest()
+    assert not list(stopped.iterdir())
+    scene.frame_end = 200
+    assert kept(scene) == before
+
+
 def kept(scene):
     """What a run must leave as it was."""
     render = scene.render
@@ -77,7 +117,12 @@ def check_whole(folder):
 
 
 def open_list(user):
-    """Unfold the list of cameras, below the button Use in Cycles and the notes."""
+    """Unfold the list of cameras, below the button Use in Cycles and the notes, unless it is unfolded."""
+    try:
+        yield from user.find(f"{BUTTON}cast_all(")
+        return
+    except AssertionError:
+        pass
     button, region = f"{BUTTON}use_in_cycles(", user.region()
     yield from user.find(button)
     yield from user.click(region.x + region.width // 4, user.known[button] - LIST)
@@ -94,4 +139,4 @@ def into(user, folder):
     yield from user.key("Return")
 
 
-ALL_SCENARIOS = (cast_all,)
+ALL_SCENARIOS = (cast_all, export_all)

@@ -29,6 +29,7 @@ from .ui import (
     gallery_operators,
     gallery_panels,
     hide_overlays,
+    in_steps,
     left_out_panels,
     lesson_operators,
     lesson_panels,
@@ -55,8 +56,8 @@ CLASSES = (
     *cycles_operators.CLASSES, *frame.CLASSES, *other_engine.CLASSES, *add_line.CLASSES, *export_operators.CLASSES,
     *rig_operators.CLASSES, *mouse_gizmo.CLASSES, *render_panels.CLASSES, *gallery_panels.CLASSES,
     *menus.CLASSES, *presets.CLASSES, *model_panels.CLASSES,
-    *see_through.CLASSES, *select_seen.CLASSES, *camera_panels.CLASSES, *cast_all.CLASSES, *cameras_list.CLASSES,
-    *show_result.CLASSES, *cast_panels.CLASSES, *verify_panels.CLASSES,
+    *see_through.CLASSES, *select_seen.CLASSES, *camera_panels.CLASSES, *in_steps.CLASSES, *cast_all.CLASSES,
+    *cameras_list.CLASSES, *show_result.CLASSES, *cast_panels.CLASSES, *verify_panels.CLASSES,
     *left_out_panels.CLASSES, *lesson_operators.CLASSES, *point_operators.CLASSES, *gallery_operators.CLASSES,
     *open_lesson.CLASSES, *lesson_panels.CLASSES, *facts_panels.CLASSES, *overlay_panels.CLASSES,
     *cloud_operators.CLASSES, *object_panels.CLASSES,
@@ -66,7 +67,7 @@ CLASSES = (
 MODULES = (
     groups, paths, kept, follow, reports, images, gallery, scene_cache, viewport, cast_operator, overlay, points,
     lesson, notice, render_panels, menus, gallery_operators, lesson_operators, presets, export_operators, rig_operators,
-    commands, other_engine, see_through, hide_overlays, select_seen, cast_all,
+    commands, other_engine, see_through, hide_overlays, select_seen, in_steps,
 )  # fmt: skip
 """Modules that register more than classes. Their ``register(undo)`` gives ``undo`` the callbacks that undo it."""
 

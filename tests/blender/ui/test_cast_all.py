@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from camera_ray_caster.blender.terminal import files
-from camera_ray_caster.blender.ui import cast_all
+from camera_ray_caster.blender.ui import in_steps
 from camera_ray_caster.core.casting.passes import PASSES
 
 KEPT = "engine", "use_sequencer", "use_lock_interface", "use_persistent_data", "resolution_x", "resolution_percentage"
@@ -27,9 +27,9 @@ def scene(blender, camera_scene):
 def run(blender, folder, **options):
     """Cast all, to the end; return how it ended."""
     assert blender.ops.camera_ray_caster.cast_all(directory=str(folder), **options) == {"FINISHED"}
-    while cast_all.tick() is not None:
+    while in_steps.tick() is not None:
         pass
-    return cast_all.latest()
+    return in_steps.latest()
 
 
 def state(blender, scene):
@@ -72,11 +72,11 @@ def test_stopped_between_two_pictures_it_leaves_whole_ones(blender, scene, tmp_p
     before = state(blender, scene)
     assert blender.ops.camera_ray_caster.cast_all(directory=str(tmp_path)) == {"FINISHED"}
     assert not blender.ops.camera_ray_caster.cast_all.poll()
-    while not cast_all.running().made:
-        cast_all.tick()
+    while not in_steps.running().made:
+        in_steps.tick()
     blender.ops.camera_ray_caster.stop_all()
-    assert cast_all.tick() is None
-    assert cast_all.latest().startswith("Stopped: 1 of 4 pictures")
+    assert in_steps.tick() is None
+    assert in_steps.latest().startswith("Stopped: 1 of 4 pictures")
     assert state(blender, scene) == before
     assert len(list(tmp_path.iterdir())) == 3
     assert blender.ops.camera_ray_caster.cast_all.poll()

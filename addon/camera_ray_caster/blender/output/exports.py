@@ -1,6 +1,6 @@
 """Export of cameras, by frame, to files of other programs; see ``core.exports``. All files appear, or none."""
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -26,7 +26,7 @@ Shown = Callable[[Any, float], bool]
 def write(
     scene, key: str, cameras: Sequence, frames: Iterable[float], folder: Path, target=None, own_sizes: bool = True,
     fit: float | None = None, shown: Shown = lambda *_: True,
-):  # fmt: skip
+) -> tuple[list[str], list[Path]]:  # fmt: skip
     """Export camera objects of a scene at some frames, in the format ``key``, into ``folder``; return lines of messages
     and the paths of the files.
 
@@ -35,10 +35,20 @@ def write(
     scene is restored afterwards. Raises InputError if a camera cannot be read or represented or the folder cannot be
     written, and Cancelled if stopped; then no files are left behind.
     """
+    return writing.whole(steps(scene, key, cameras, frames, folder, target, own_sizes, fit, shown))
+
+
+def steps(
+    scene, key: str, cameras: Sequence, frames: Iterable[float], folder: Path, target=None, own_sizes: bool = True,
+    fit: float | None = None, shown: Shown = lambda *_: True,
+) -> Generator[str, None, tuple[list[str], list[Path]]]:  # fmt: skip
+    """Do what ``write`` does in steps, one for each frame and each file; yield what a step does, in words. If it is
+    closed before its end, the scene is restored and no files are left behind.
+    """
     if target is not None and not find_format(key).takes_target:
         raise InputError(f"format {key} has no target camera: only maps have a target")
-    files, said = export(key, shots(scene, cameras, frames, target, own_sizes, shown), fit)
-    return said, writing.write(_until_stopped(files), folder, _write_image)
+    files, said = export(key, (yield from reading(scene, cameras, frames, target, own_sizes, shown)), fit)
+    return said, (yield from writing.steps(_until_stopped(files), folder, _write_image))
 
 
 def _until_stopped(files: Iterable) -> Iterator:
@@ -56,26 +66,37 @@ def shots(
 
     own_sizes: whether a camera with a size of its own has it, in place of the scene's; see ``read.size``.
     """
+    return writing.whole(reading(scene, cameras, frames, target, own_sizes, shown))
+
+
+def reading(
+    scene, cameras: Sequence, frames: Iterable[float], target=None, own_sizes: bool = True,
+    shown: Shown = lambda *_: True,
+) -> Generator[str, None, list[Shot]]:  # fmt: skip
+    """Do what ``shots`` does in steps, one for each frame and size of pictures."""
     views = [(view.file_suffix, view.name) for view in views_of(scene)] or [("", "")]
-    eyes = [(camera, suffix, view) for camera in cameras for suffix, view in views]
-    names = {camera: unique_name(camera, bpy.data.objects) for camera in cameras}
-    file_names(f"{names[camera]}{suffix}" for camera, suffix, _ in eyes)  # raises if two names are equal
+    names = [unique_name(camera, bpy.data.objects) for camera in cameras]
+    file_names(f"{name}{suffix}" for name in names for suffix, _ in views)  # raises if two names are equal
     found, rate = [], frame_rate(scene)
-    sizes = {camera: own_size(camera) if own_sizes else None for camera in cameras}
-    frames = list(frames)
-    for size in dict.fromkeys(sizes.values()):
+    sizes = [own_size(camera) if own_sizes else None for camera in cameras]
+    frames, of_sizes = list(frames), dict.fromkeys(sizes)
+    count, done = len(frames) * len(of_sizes), 0
+    for size in of_sizes:
+        ours = [named for named, own in zip(zip(cameras, names, strict=True), sizes, strict=True) if own == size]
         with sized(scene, size), evaluated(scene):
             for frame in frames:
                 signals.raise_if_stopping()
+                done += 1
+                yield f"Frame {frame:g}, {done} of {count}"
                 go_to(scene, frame)
                 to = read_camera(scene, target) if target is not None else None
-                for camera, suffix, view in eyes:
-                    if sizes[camera] == size and shown(camera, frame):
+                for camera, name in ours:
+                    for suffix, view in views if shown(camera, frame) else ():
                         read = read_camera(scene, eye_object(scene, view, camera), view=view)
-                        name, end = file_name(names[camera]), file_name(suffix) if suffix else ""
-                        found.append(Shot(name, frame, read, scene.unit_settings.scale_length, to, end, rate))
-    if len(set(sizes.values())) > 1:
-        order = {file_name(name): number for number, name in enumerate(names.values())}
+                        own, end = file_name(name), file_name(suffix) if suffix else ""
+                        found.append(Shot(own, frame, read, scene.unit_settings.scale_length, to, end, rate))
+    if len(of_sizes) > 1:
+        order = {file_name(name): number for number, name in enumerate(names)}
         found.sort(key=lambda shot: (frames.index(shot.frame), order[shot.camera_name]))
     return found
 

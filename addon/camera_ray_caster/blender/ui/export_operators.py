@@ -1,9 +1,10 @@
 """Operators that export cameras to files and copy matrices to the clipboard, and the export menu."""
 
 from pathlib import Path
+from time import perf_counter
 
 import bpy
-from bpy.props import EnumProperty, StringProperty
+from bpy.props import BoolProperty, EnumProperty, StringProperty
 from bpy_extras.io_utils import ExportHelper
 
 from ...core.exports import FORMATS, find_format
@@ -12,14 +13,47 @@ from ..output import exports
 from ..read.camera import ALL, find_camera, find_cameras
 from ..read.frames import frame_of
 from ..read.scene import read_camera
-from .needs import OfScene, reporting
+from . import in_steps
+from .needs import OfScene, can_use, reporting
 
+WORK = 0.1
+"""Seconds of a step: the window is redrawn between two of them."""
 CHOSEN = {
     "ACTIVE": lambda context: [context.scene.camera],
     "SELECTED": lambda context: [item for item in context.selected_objects if item.type == "CAMERA"],
     "ALL": lambda context: find_cameras(context.scene, [ALL]),
 }
 """Functions that return the camera objects, by item of ``Export.cameras``."""
+
+
+class Exporting(in_steps.Running):
+    """The cameras that are being exported: as many frames and files at each step as fit into it."""
+
+    interval = 0.01
+
+    def __init__(self, scene, window, folder: Path, steps):
+        super().__init__(scene, window, steps)
+        self.folder, self.is_heard = folder, False
+        self.stopped = f"Stopped: nothing was written into {folder}"
+
+    def step(self) -> None:
+        """Read frames and write files for a while; first of all, hear Esc."""
+        if not self.is_heard and not bpy.app.background:
+            bpy.ops.camera_ray_caster.hear_esc("INVOKE_DEFAULT")
+        self.is_heard, until = True, perf_counter() + WORK
+        self.progress = next(self.steps)
+        while perf_counter() < until:
+            self.progress = next(self.steps)
+        self.show()
+
+    def lines(self, result) -> list[str]:
+        """Return the remarks on the files, and their number."""
+        return said_of(*result, self.folder)
+
+
+def said_of(said: list[str], paths: list[Path], folder: Path) -> list[str]:
+    """Return the remarks of an export, and the number of its files."""
+    return [*said, f"Wrote {len(paths)} {'file' if len(paths) == 1 else 'files'} into {folder}"]
 
 
 class Export(OfScene, ExportHelper, bpy.types.Operator):
@@ -52,6 +86,11 @@ class Export(OfScene, ExportHelper, bpy.types.Operator):
         description="Name of the target camera of the maps. If empty, a perspective camera with the same lens",
     )
 
+    in_steps: BoolProperty(
+        name="In Steps", description="Write from a timer, so that the window stays responsive and Esc stops it",
+        options={"HIDDEN", "SKIP_SAVE"},
+    )  # fmt: skip
+
     check_extension = None
     """None: the name in the file dialog is a folder name, without an extension."""
 
@@ -65,6 +104,16 @@ class Export(OfScene, ExportHelper, bpy.types.Operator):
         """Return the tooltip: the description of the format."""
         return find_format(properties.format).description
 
+    @classmethod
+    def poll(cls, context):
+        """Gray out the operator without a camera, and while other work is done."""
+        return super().poll(context) and can_use(cls, in_steps.BUSY if in_steps.is_busy() else "")
+
+    def invoke(self, context, event):
+        """Ask for the folder."""
+        self.in_steps = True
+        return super().invoke(context, event)
+
     def draw(self, context):
         """Draw the options in the file dialog."""
         layout = self.layout
@@ -77,7 +126,7 @@ class Export(OfScene, ExportHelper, bpy.types.Operator):
 
     @reporting
     def execute(self, context):
-        """Write the files and report the result."""
+        """Write the files and report the result, or begin and let a timer do the rest."""
         scene = context.scene
         cameras = CHOSEN[self.cameras](context)
         if not cameras:
@@ -86,10 +135,12 @@ class Export(OfScene, ExportHelper, bpy.types.Operator):
         every = range(scene.frame_start, scene.frame_end + 1, scene.frame_step)
         frames = [frame_of(scene)] if self.frames == "CURRENT" else every
         folder = Path(bpy.path.abspath(self.filepath))
-        said, paths = exports.write(scene, self.format, cameras, frames, folder, target)
-        for line in said:
+        what = scene, self.format, cameras, frames, folder, target
+        if self.in_steps:
+            in_steps.begin(Exporting(scene, context.window, folder, exports.steps(*what)))
+            return {"FINISHED"}
+        for line in said_of(*exports.write(*what), folder):
             self.report({"INFO"}, line)
-        self.report({"INFO"}, f"Wrote {len(paths)} {'file' if len(paths) == 1 else 'files'} into {folder}")
         return {"FINISHED"}
 
 

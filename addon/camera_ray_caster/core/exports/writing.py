@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Generator, Iterable
 from pathlib import Path
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -13,6 +14,8 @@ from ..names import folded
 from ..records import InputError
 from .exr import exr
 from .format import Content
+
+T = TypeVar("T")
 
 
 def exr_file(path: Path, pixels: np.ndarray) -> None:
@@ -28,6 +31,15 @@ def write(
 
     Raises InputError if two files have one name, or the folder cannot be written; then no file is left behind.
     """
+    return whole(steps(files, folder, image))
+
+
+def steps(
+    files: Iterable[tuple[str, Content]], folder: Path, image: Callable[[Path, np.ndarray], None]
+) -> Generator[str, None, list[Path]]:
+    """Do what ``write`` does in steps: yield the name of each file that is written. If it is closed before its end, no
+    file is left behind.
+    """
     written: set[str] = set()
     with atomic_folder(folder) as temporary:
         for name, content in files:
@@ -42,5 +54,15 @@ def write(
                 path.write_bytes(content)
             else:
                 path.write_text(content, encoding="utf-8", newline="\n")
+            yield name
         names = sorted(os.listdir(temporary))
     return [folder / name for name in names]
+
+
+def whole(steps: Generator[Any, None, T]) -> T:
+    """Run steps to their end, and return their result."""
+    while True:
+        try:
+            next(steps)
+        except StopIteration as end:
+            return end.value
