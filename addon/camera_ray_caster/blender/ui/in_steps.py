@@ -46,11 +46,16 @@ class Running:
 
     def show(self) -> None:
         """Show the progress in the status bar and the sidebars."""
-        show(f"{self.progress}      Esc: Stop")
-        for window in bpy.context.window_manager.windows:
-            for area in window.screen.areas:
-                if area.type == "VIEW_3D":
-                    area.tag_redraw()
+        tell(f"{self.progress}      Esc: Stop")
+
+
+def tell(text: str) -> None:
+    """Show a text in the status bar, and draw the sidebars again."""
+    show(text)
+    for window in bpy.context.window_manager.windows:
+        for area in window.screen.areas:
+            if area.type == "VIEW_3D":
+                area.tag_redraw()
 
 
 _running: list[Running] = []
@@ -119,7 +124,7 @@ def end(*said: str, kind: str = "INFO") -> None:
         _running.pop().steps.close()
     signals.reset()
     _said[:] = [(kind, line) for line in said]
-    show(latest())
+    tell(latest())
     show_later(None, SHOWN)
 
 
