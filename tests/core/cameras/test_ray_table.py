@@ -158,6 +158,13 @@ def test_a_table_larger_than_the_memory_is_refused_before_it_is_copied():
         crc.camera("RAY_TABLE", FRAME, ray_directions=huge)
 
 
+def test_rays_that_are_the_same_or_cross_are_named_as_the_cause():
+    same, random = np.broadcast_to((0.0, 0.0, -1.0), (12, 16, 3)), np.random.default_rng(0).normal(size=(12, 16, 3))
+    for given in ({"ray_directions": same}, {"ray_directions": pinhole(16, 12), "ray_origins": random}):
+        with pytest.raises(crc.InputError, match="its rays are the same or cross each other"):
+            crc.camera("RAY_TABLE", FRAME, **given)
+
+
 def saved(**arrays):
     content = BytesIO()
     np.savez(content, **arrays)

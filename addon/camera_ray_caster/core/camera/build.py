@@ -89,8 +89,7 @@ def _check_apart(raw: BlenderCamera, model: Model, pose: Pose) -> None:
     if not np.all(same):
         return
     raise InputError(
-        f"rays of neighboring pixels of camera {raw.name!r} cannot be distinguished: {_farthest(raw, model, pose)}, "
-        "too large or too small for the rest"
+        f"rays of neighboring pixels of camera {raw.name!r} cannot be distinguished: {_cause(raw, model, pose)}"
     )
 
 
@@ -101,8 +100,7 @@ def _check_inverse(raw: BlenderCamera, model: Model, pose: Pose) -> None:
     window = getattr(model, "window", None)
     if window is not None and not model.parallel and not np.abs(window.extent(model.frame)).max() <= FARTHEST_PLANE:
         raise InputError(
-            f"the frame of camera {raw.name!r} reaches too far on its image plane: {_farthest(raw, model, pose)}, too "
-            "large or too small for the rest"
+            f"the frame of camera {raw.name!r} reaches too far on its image plane: {_cause(raw, model, pose)}"
         )
     if not model.smooth:
         return
@@ -120,12 +118,15 @@ def _check_inverse(raw: BlenderCamera, model: Model, pose: Pose) -> None:
     if lost.size:
         raise InputError(
             f"a point on the ray of pixel ({x[lost[0]]:g}, {y[lost[0]]:g}) of camera {raw.name!r} does not project "
-            f"back to it: {_farthest(raw, model, pose)}, too large or too small for the rest"
+            f"back to it: {_cause(raw, model, pose)}"
         )
 
 
-def _farthest(raw: BlenderCamera, model: Model, pose: Pose) -> str:
-    """Return the words for the number of a camera that is farthest from 1."""
+def _cause(raw: BlenderCamera, model: Model, pose: Pose) -> str:
+    """Return the words for the number of a camera that is farthest from 1; if it has none, for its rays."""
     numbers = {one.name: one.given(raw) for one in model.SETTINGS if isinstance(one, Number)}
+    if not numbers:
+        return "its rays are the same or cross each other, or it is too far from the world's origin"
     numbers["its distance from the world's origin"] = float(np.abs(pose.eye).max())
-    return farthest_from_one({name: number for name, number in numbers.items() if np.isfinite(number)})
+    said = farthest_from_one({name: number for name, number in numbers.items() if np.isfinite(number)})
+    return f"{said}, too large or too small for the rest"
