@@ -7,6 +7,7 @@ import pytest
 from mpmath import mp, mpf
 
 import camera_ray_caster as crc
+from camera_ray_caster.core.any_rays.search import BodySearch
 from camera_ray_caster.core.conventions import EPS
 from camera_ray_caster.core.motion.evaluations import resolve
 from camera_ray_caster.core.records import Pose
@@ -150,6 +151,20 @@ def test_rays_near_what_moves_are_found_whatever_it_is():
         expected = crc.cast_rays(rays[0][some], rays[1][some], motion.shapes_at(time), PASSES)
         for name in PASSES:
             np.testing.assert_array_equal(found[name][some], expected[name])
+
+
+def test_few_rays_without_a_tree_hit_what_many_hit_with_it():
+    places = np.array([(x, y, np.sin(x + y)) for y in range(20) for x in range(20)], float)
+    corner = np.array([20 * y + x for y in range(19) for x in range(19)])
+    shapes = crc.mesh(places, np.stack((corner, corner + 1, corner + 21, corner + 20), axis=1))
+    rng = np.random.default_rng(7)
+    origin, direction = rng.uniform(0, 19, (3, 200)), rng.normal(size=(3, 200))
+    few, many = BodySearch(shapes, 1), BodySearch(shapes)
+    t, body = many.nearest(origin, direction, 0.0, np.inf)
+    assert 20 < np.count_nonzero(body >= 0) < 180
+    for ray in range(200):
+        found = few.nearest(origin[:, [ray]], direction[:, [ray]], 0.0, np.inf)
+        assert (found[0].tolist(), found[1].tolist()) == ([t[ray]], [body[ray]])
 
 
 def test_a_sweep_is_written_into_the_images_of_an_earlier_cast(sweep):

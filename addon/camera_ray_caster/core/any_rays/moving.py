@@ -107,7 +107,7 @@ def cast_apart(apart: Moving, search: BodySearch, origin, direction, times: np.n
     write(search, origin, direction, t, body, images, count, span)
     row = np.append(apart.still_rows, -1)[np.append(search.at, -1)[body]]
     for time, some in _near(apart, origin, direction, times):
-        own = BodySearch(apart.motion.shapes_at(time))
+        own = BodySearch(apart.motion.shapes_at(time), len(some))
         rays = origin[:, some], direction[:, some]
         met, which = own.nearest(*rays, *span)
         rows = np.append(apart.rows, -1)[np.append(own.at, -1)[which]]
