@@ -25,7 +25,8 @@ CONTRACTS = {
 """Modules of core with what a model, a kind of shape or a format of one's own has to give."""
 CONTENTS = {
     "Tutorials": (
-        "tutorials/data_set", "tutorials/lesson", "tutorials/camera_of_your_own", "tutorials/strange_camera_in_cycles",
+        "tutorials/walks", "tutorials/data_set", "tutorials/lesson", "tutorials/camera_of_your_own",
+        "tutorials/strange_camera_in_cycles",
     ),
     "Look up": (
         "cameras/index", "conventions", "python", "terminal", "api/index", "formats",

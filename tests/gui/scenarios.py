@@ -12,6 +12,7 @@ from points_scenarios import POINTS_SCENARIOS
 from redraw_scenarios import REDRAW_SCENARIOS
 from stranger_scenarios import STRANGER_SCENARIOS
 from user import pixels_of
+from walk_scenarios import WALK_SCENARIOS
 from window_scenarios import WINDOW_SCENARIOS
 
 DRAWN = 0.002
@@ -250,7 +251,7 @@ SCENARIOS = {
     for scenario in (
         panel, no_camera, left_out, *CAST_SCENARIOS, overlay, ray_under_mouse, viewport,
         cycles, *CAMERA_SCENARIOS, *LESSON_SCENARIOS, *STRANGER_SCENARIOS, *REDRAW_SCENARIOS, *WINDOW_SCENARIOS,
-        *ALL_SCENARIOS, *POINTS_SCENARIOS,
+        *ALL_SCENARIOS, *WALK_SCENARIOS, *POINTS_SCENARIOS,
         disable,
     )
 }  # fmt: skip

@@ -23,7 +23,8 @@ SCENARIOS = (
     "step_through_image", "examples", "cast_a_cube", "see_through", "ray_of_a_pixel", "export_colmap", "notes_stay",
     "redraws_of_shapes", "redraws_of_monkeys", "redraws_all_around",
     "shown_camera", "set_frame", "other_engine", "marks", "click_seen", "drag_a_ray", "cast_all",
-    "export_all", "scanned_points", "disable",
+    "export_all", "scanned_points", "slit_scan_movie",
+    "drag_x_before_a_class", "disable",
 )  # fmt: skip
 SEEDS = "1", "2", "3", "4"
 """Of random acts, 250 each: see random_acts.py."""

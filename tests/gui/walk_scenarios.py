@@ -1,0 +1,98 @@
+"""The walks of docs/tutorials/walks.md in a window, one scenario a function: see scenarios.py."""
+
+import bpy
+from lesson_scenarios import place_of
+from parts import BUTTON, addon
+from stranger_scenarios import default_scene
+from window_scenarios import middle
+
+MOVIE = 4
+"""Frames of the movie: enough to be one."""
+
+
+def slit_scan_movie(user, scenes):
+    """An artist: from the default cube to a movie in which each row of a frame has its own time."""
+    yield from default_scene(user)
+    scene, view = bpy.context.scene, user.region("WINDOW")
+    cube, own = bpy.data.objects["Cube"], scene.camera.data.camera_ray_caster
+    yield from user.point(*middle(view))
+    yield from user.key("i")
+    scene.frame_set(25)
+    user.send("key", "r", "z", "3", "6", "0", "Return")
+    yield from user.wait(0.5)
+    yield from user.key("i")
+    yield from user.until(lambda: cube.animation_data and cube.animation_data.action, "the cube turns")
+    assert tuple(cube.animation_data.action.frame_range) == (1, 25)
+    scene.frame_set(1)
+    yield from user.key("F3")
+    user.send("type", "slit scan, rows")
+    yield from user.wait(1)
+    user.picture("walk_search")
+    yield from user.key("Return")
+    yield from user.until(lambda: own.time_mode == "ROWS", "each row has its own time")
+    yield from user.wait(0.7)
+    user.picture("walk_engine")
+    yield from user.press(f"{BUTTON}use_this_engine(")
+    yield from user.until(lambda: scene.render.engine == "CAMERA_RAY_CASTER", "the engine is set")
+    for name, text in (("time_start", "frame"), ("time_end", "frame + 24")):  # "#frame" in the field makes it
+        own.driver_add(name).driver.expression = text
+    scene.frame_end, scene.render.resolution_percentage = MOVIE, 10
+    scene.render.filepath, form = str(user.folder / "movie_"), scene.render.image_settings
+    if hasattr(form, "media_type"):
+        form.media_type = "VIDEO"
+    form.file_format = "FFMPEG"
+    yield from user.point(*middle(view))
+    user.send("key", "ctrl+96")  # F12
+    yield from user.until(lambda: list(user.folder.glob("movie_*")), "the movie is begun", 60)
+    yield from user.until(lambda: not bpy.app.is_job_running("RENDER"), "the movie is made", 120)
+    yield from user.wait(1)
+    user.picture("walk_movie")
+    (path,) = user.folder.glob("movie_*")
+    clip = bpy.data.movieclips.load(str(path))
+    assert clip.frame_duration == MOVIE
+    report = addon("output.reports").latest(scene)
+    assert report is not None
+    yield from user.point(*middle(user.area("IMAGE_EDITOR")))
+    yield from user.key("Escape")
+    yield from user.until(lambda: any(area.type == "VIEW_3D" for area in user.window.screen.areas), "the view is back")
+
+
+def drag_x_before_a_class(user, scenes):
+    """A teacher: an example, a pixel that is clicked and dragged to the right, and the numbers that follow."""
+    yield from default_scene(user)
+    bpy.ops.wm.open_mainfile(filepath=str(scenes / "spheres_and_planes.blend"), load_ui=False)
+    user.area().spaces.active.shading.type = "SOLID"
+    yield from user.wait(0.7)
+    lesson, context = addon("view3d.lesson"), bpy.context
+    yield from user.press(f"{BUTTON}see_through(")
+    yield from user.wait(1.5)
+    yield from user.press(f"{BUTTON}step_through(")
+    raster = addon("read.scene_cache").cached_scene(context).camera.raster
+    start, end = (place_of(user, raster.width * part, raster.height / 2) for part in (0.35, 0.6))
+    yield from user.point(*start)
+    user.send("mousedown", 1)
+    yield from user.wait(0.3)
+    (first,) = lesson.pixels
+    before = lesson.lessons(context)[first].steps
+    for part in range(1, 11):
+        x = round(start[0] + (end[0] - start[0]) * part / 10)
+        user.send("mousemove", x, user.window.height - 1 - round(start[1]))
+        yield from user.wait(0.1)
+    user.send("mouseup", 1)
+    yield from user.wait(0.7)
+    user.picture("walk_dragged")
+    (last,) = lesson.pixels
+    assert last[0] > first[0] + raster.width / 5
+    assert lesson.lessons(context)[last].steps != before
+    yield from user.key("Escape")
+    place = context.window_manager.camera_ray_caster_place
+    place.x = -0.5
+    yield from user.wait(0.7)
+    user.picture("walk_slider")
+    assert lesson.pixels[0][0] == round(raster.width / 4)
+    yield from user.press(f"{BUTTON}copy_steps(")
+    assert f"({lesson.pixels[0][0]}, " in context.window_manager.clipboard
+    bpy.ops.camera_ray_caster.clear_steps()
+
+
+WALK_SCENARIOS = (slit_scan_movie, drag_x_before_a_class)
