@@ -34,7 +34,7 @@ ERRORS = {
 
 
 @pytest.mark.parametrize("what", ERRORS)
-@pytest.mark.parametrize("place", ["engine.engine.run", "terminal.pictures.files.render"])
+@pytest.mark.parametrize("place", ["engine.engine.run", "terminal.pictures.files.rendering"])
 def test_what_a_cast_has_run_out_of_is_said_in_one_line(command, scene, tmp_path, monkeypatch, what, place):
     def fail(*words, **more):
         raise ERRORS[what]
@@ -49,7 +49,7 @@ def test_an_error_of_another_kind_is_none_of_these(command, scene, tmp_path, mon
     def fail(*words, **more):
         raise RuntimeError("another")
 
-    monkeypatch.setattr("camera_ray_caster.blender.terminal.pictures.files.render", fail)
+    monkeypatch.setattr("camera_ray_caster.blender.terminal.pictures.files.rendering", fail)
     with pytest.raises(RuntimeError, match="another"):
         command("cast", scene, "--output", tmp_path / "out")
 

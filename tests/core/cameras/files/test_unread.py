@@ -12,7 +12,7 @@ from .test_other_programs import EGO, ISAAC, MATRIX, OKVIS, K, basalt, flat, len
 @pytest.mark.parametrize(
     ("text", "says"),
     [
-        ('{"weights": [1, 2], "epoch": 3}', "of no format that is read: these are OpenCV, ROS.*or this add-on$"),
+        ('{"weights": [1, 2], "epoch": 3}', "of no format that is read: these are OpenCV.* or ray tables$"),
         ('{"rig_of": {"sensors": 1, "properties": "ftheta"}}', "the nearest is NVIDIA .f-theta, Isaac.*has no"),
         (vins("SPLINE", {}, {}), "model_type is 'SPLINE': it must be one of PINHOLE"),
         (basalt("spline"), "camera_type of cam0 is 'spline': it must be one of ds"),
