@@ -45,7 +45,7 @@ test-blender: .venv/pure/ready  ## run tests/blender inside a real Blender, and 
 		echo "test-blender: skipped, no program $(BLENDER); run make BLENDER=/path/to/blender test-blender"; \
 	fi
 
-.venv/peers/ready: pyproject.toml  # other programs' readers of scanners, which Python 3.11 can install
+.venv/peers/ready: pyproject.toml  # other programs' readers, which Python 3.11 can install
 	$(PYTHON) -m venv .venv/peers
 	.venv/peers/bin/pip install --quiet --upgrade pip
 	.venv/peers/bin/pip install --quiet ".[peers]"

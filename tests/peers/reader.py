@@ -66,7 +66,56 @@ def las(path):
     return found | {"x": np.array(cloud.x), "y": np.array(cloud.y), "z": np.array(cloud.z)}
 
 
+def colmap(path):
+    """Of each image of a sparse model: name, pose, and how far its points are from where its camera sees them."""
+    import pycolmap
+
+    model = pycolmap.Reconstruction(path)
+    images = list(model.images.values())
+    apart = []
+    for image in images:
+        seen = [one for one in image.points2D if one.has_point3D()]
+        places = image.cam_from_world() * np.array([model.points3D[one.point3D_id].xyz for one in seen])
+        pixels = image.camera.img_from_cam(places)
+        apart.append(np.abs(pixels - [one.xy for one in seen]).max())
+    return {
+        "name": [image.name for image in images], "lens": [image.camera.model.name for image in images],
+        "pose": [image.cam_from_world().matrix() for image in images], "apart": apart,
+    }  # fmt: skip
+
+
+def coco(path):
+    """Of each image, by its name: the shape that each pixel shows, by its mask; -1 for none."""
+    from pycocotools.coco import COCO
+
+    known, found = COCO(path), {}
+    for image in known.loadImgs(known.getImgIds()):
+        shapes = np.full((image["height"], image["width"]), -1)
+        for one in known.loadAnns(known.getAnnIds(image["id"])):
+            shapes[known.annToMask(one) == 1] = one["shape_index"]
+        found[image["file_name"]] = shapes
+    return found
+
+
+def fisheyes(path):
+    """The points that the depths of a fisheye stand for, in the frame of another, and where that one sees them."""
+    import cv2
+
+    with np.load(path) as given:
+        depth, K, D, turn, shift, other_K, other_D = (given[name] for name in given)
+    rows, columns = np.indices(depth.shape)
+    pixels = np.stack((columns, rows), axis=-1).reshape(-1, 1, 2).astype(float)
+    until = cv2.TERM_CRITERIA_COUNT + cv2.TERM_CRITERIA_EPS, 100, 1e-15
+    x, y = cv2.fisheye.undistortPoints(pixels, K, D, criteria=until)[:, 0].T
+    rays = np.stack((x, y, np.ones_like(x)), axis=-1)
+    rays /= np.linalg.norm(rays, axis=-1, keepdims=True)  # a fisheye's depths are distances
+    points = rays * depth.reshape(-1, 1) @ turn.T + shift
+    seen, _ = cv2.fisheye.projectPoints(points[:, None], np.zeros(3), np.zeros(3), other_K, other_D)
+    return {"points": points, "pixels": seen[:, 0]}
+
+
 if __name__ == "__main__":
     kind, path, output = sys.argv[1:]
-    kinds = {"ouster": ouster, "velodyne": velodyne, "ply": ply, "open3d": open3d, "pcd": pcd, "las": las}
+    kinds = {"ouster": ouster, "velodyne": velodyne, "ply": ply, "open3d": open3d, "pcd": pcd, "las": las,
+             "colmap": colmap, "coco": coco, "fisheyes": fisheyes}  # fmt: skip
     np.savez(output, **kinds[kind](path))
