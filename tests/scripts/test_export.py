@@ -39,6 +39,7 @@ def test_the_active_camera_at_the_files_frame_is_the_default(command, scene, tmp
     assert wrote.startswith("Wrote ")
 
 
+@pytest.mark.full
 def test_a_lens_that_the_format_does_not_have_is_fitted_and_its_error_stated(command, tmp_path):
     out = tmp_path / "out"
     words = ["export", ROOT / "blend_scenes" / "division.blend", "--format", "opencv"]

@@ -39,6 +39,7 @@ def everywhere(cam, count=3000):
     return (np.random.default_rng(4).uniform(0, 1, (count, 2)) * cam.raster.size).T
 
 
+@pytest.mark.cases(1)
 @each_sampled
 @pytest.mark.parametrize("kind", ["CUBIC", "LINEAR"])
 def test_the_error_between_entries_is_what_the_report_estimates(key, settings, kind):
@@ -58,6 +59,7 @@ def test_the_error_between_entries_is_what_the_report_estimates(key, settings, k
         assert estimate / 10 - 32 * EPS <= off <= 2 * estimate + 32 * EPS
 
 
+@pytest.mark.cases(1)
 @each_sampled
 def test_finer_tables_are_nearer_to_their_camera(key, settings):
     """By 2^3 at least with twice the entries, and the entries themselves are rays of the table."""
@@ -81,6 +83,7 @@ def test_finer_tables_are_nearer_to_their_camera(key, settings):
     assert errors[2] < errors[1] / 8
 
 
+@pytest.mark.cases(1)
 @each_sampled
 def test_the_inverse_finds_the_pixel_of_every_ray(key, settings):
     table = sampled(camera(key, settings))
@@ -91,6 +94,7 @@ def test_the_inverse_finds_the_pixel_of_every_ray(key, settings):
     assert off.max() <= 1e-9
 
 
+@pytest.mark.cases(1)
 @each_sampled
 def test_ray_maps_are_tables_of_the_same_rays(key, settings, tmp_path):
     """In the camera's place and in another, also of a part of the picture."""

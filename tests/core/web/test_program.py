@@ -44,6 +44,7 @@ def check(camera, x, y, found):
         assert not (np.linalg.norm(found[part] - expected[part], axis=0) > 2 * error).any()
 
 
+@pytest.mark.cases(1)
 @pytest.mark.parametrize("key", KEYS)
 def test_rays_of_any_settings_are_the_cameras(key):
     count = 0

@@ -216,7 +216,6 @@ FILES = {
 """Content, and the formula from points to pixels whose first has its center at (0, 0)."""
 
 
-@pytest.mark.one_for_each("name")
 @pytest.mark.parametrize("name", FILES)
 def test_points_are_where_the_formula_has_them(name, tmp_path):
     text, formula = FILES[name]
