@@ -11,7 +11,7 @@ import pytest
 import camera_ray_caster as crc
 from camera_ray_caster.core.sets import read_set
 
-from .running import complaints, left, refused, script
+from .running import ROOT, complaints, left, refused, script
 
 WORDS = "--cameras", "ALL", "--frames", "1:2", "--passes", "depth,ray_origin,ray_direction"
 
@@ -274,3 +274,11 @@ def test_cameras_whose_time_is_an_image_have_a_preview_too(blender, command, sce
     done = command("dataset", scene, "--cameras", "Side", "--frames", "1:1", "--passes", "normal", "--output", out)
     assert (done.returncode, done.stderr) == (0, "")
     assert (out / "preview.png").is_file()
+
+
+def test_flow_of_a_scanner_is_refused_before_anything_is_made(command, tmp_path):
+    scene = ROOT / "blend_scenes" / "street_scanner.blend"
+    words = ["--frames", "1:1", "--passes", "depth,flow_hidden", "--output", tmp_path / "out"]
+    line = refused(command("dataset", scene, *words))
+    assert "has no flow_hidden: its pixels are single beams" in line
+    assert not (tmp_path / "out").exists()

@@ -10,6 +10,7 @@ from typing import Any
 
 import bpy
 
+from ...core.any_rays.sweep import check_passes
 from ...core.camera.camera import Camera
 from ...core.cast import Images
 from ...core.casting.passes import PASSES
@@ -208,13 +209,17 @@ class Pictures:
         return None if found is None else Outcome(found["passed"])
 
     def camera_at(self, job: PictureJob) -> Camera:
-        """Set the scene to a job's camera and frame, and return the camera. Raises InputError if it cannot be cast."""
+        """Set the scene to a job's camera and frame, and return the camera. Raises InputError if it cannot be cast, or
+        has not all passes.
+        """
         if job.camera is not None:
             camera = find_camera(self.scene, job.camera)
             use_camera(self.scene, camera)
             set_size(self.scene, self.options.resolution or own_size(camera) or self.size)
         go_to(self.scene, job.frame, max(self.options.frames or [-math.inf]))
-        return read_camera(self.scene)
+        camera = read_camera(self.scene)
+        check_passes(camera, sorted(set().union(*self.passes.values())))
+        return camera
 
     def tick(self, wanted: Callable[[str], bool]) -> None:
         """Enable those requested passes for which ``wanted`` is true, in every view layer."""
