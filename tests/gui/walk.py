@@ -20,7 +20,10 @@ from random_acts import acts  # noqa: E402
 from scenarios import MODULE, SCENARIOS  # noqa: E402
 from user import TICK, User  # noqa: E402
 
-FAILURES = (AssertionError, ArithmeticError, AttributeError, LookupError, OSError, RuntimeError, TypeError, ValueError)
+FAILURES = (
+    AssertionError, ArithmeticError, AttributeError, LookupError, OSError, RuntimeError, TypeError, ValueError,
+    subprocess.SubprocessError,
+)  # fmt: skip
 """What ends a scenario, but not the walk."""
 
 

@@ -166,7 +166,8 @@ def click_seen(user, scenes):
     own, asked = addon("ui.select_seen"), []
     object_at = own.object_at
     own.object_at = lambda *given: (asked.append(given), object_at(*given))[1]
-    yield from user.click(*np.add(place_of(user, 0, height / 2), (-20, 0)))
+    sides = np.add(place_of(user, 0, height / 2), (-20, 0)), np.add(place_of(user, width / 3, 0), (0, -20))
+    yield from user.click(*next(side for side in sides if side[0] > view.x + 100))
     user.send("keydown", "shift")
     yield from user.click(*place_of(user, *pixel))
     user.send("keyup", "shift")
