@@ -11,7 +11,8 @@ def scanned_points(user, scenes):
     scene, space, view = bpy.context.scene, user.area().spaces.active, user.region("WINDOW")
     overlay = scene.camera_ray_caster_overlay
     overlay.show_frustum = overlay.show_rays = overlay.show_hits = overlay.show_normals = False
-    space.region_3d.view_distance = 40
+    seen = space.region_3d
+    seen.view_rotation, seen.view_location, seen.view_distance = (0.716, 0.4391, 0.2899, 0.4592), (0, 0, 0), 40
     yield from user.wait(1)
     off = user.cut(user.picture("points_off"), view)
     overlay.show = overlay.show_points = True
