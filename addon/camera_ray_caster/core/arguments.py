@@ -10,10 +10,15 @@ from operator import index
 from pathlib import Path
 from reprlib import repr as shortened
 from typing import Any
+from zipfile import BadZipFile
+from zlib import error as ZlibError
 
 import numpy as np
 
 from .records import InputError
+
+DAMAGED = (BadZipFile, ZlibError, ValueError, EOFError, OSError, KeyError, TypeError, RuntimeError)
+"""What ``np.load`` and its arrays raise for a file that is cut off, damaged or encrypted, or holds no numbers."""
 
 
 def shown(value) -> str:

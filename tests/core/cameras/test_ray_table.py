@@ -1,6 +1,7 @@
 """Tables of rays: what is between their entries, and files of them, against the cameras that they were sampled from."""
 
 import json
+import re
 from io import BytesIO
 
 import numpy as np
@@ -196,7 +197,16 @@ def test_arrays_of_numpy_are_tables(tmp_path):
     assert both.model.grid.kind == "LINEAR"
 
 
+def encrypted(data):
+    """The file with the marks of encrypted entries."""
+    for mark, place in ((b"PK\x03\x04", 6), (b"PK\x01\x02", 8)):
+        for part in re.finditer(re.escape(mark), bytes(data)):
+            data = data[: part.start() + place] + b"\x01" + data[part.start() + place + 1 :]
+    return data
+
+
 BAD = {
+    "encrypted": (encrypted(saved(directions=pinhole())), "encrypted"),
     "truncated": (saved(directions=pinhole())[:900], "damaged"),
     "no directions": (saved(origins=pinhole()), "no directions"),
     "shape": (saved(directions=pinhole()[0]), r"of shape \(24, 3\)"),

@@ -88,6 +88,17 @@ def test_a_set_may_have_more_views_than_files_can_be_open(made):
         resource.setrlimit(resource.RLIMIT_NOFILE, before)
 
 
+@pytest.mark.parametrize("part", ["arrays", "directory"])
+def test_a_damaged_file_is_refused_in_one_line(made, part):
+    folder, _ = made
+    path = folder / "PERSP_0001.npz"
+    data = path.read_bytes()
+    path.write_bytes(data[:5000] + bytes(40) + data[5040:] if part == "arrays" else data[:-500])
+    first = read_set(folder)[0]
+    with pytest.raises(InputError, match=r"PERSP_0001.npz' (is damaged: delete it|cannot be read: make the set)"):
+        [first.pixels(key) for key in PASSES]
+
+
 def test_trajectories_have_the_set_s_own_time(made):
     folder, _ = made
     for rate, seconds in ((None, (1 / 24, 2 / 24)), (29.97, (1 / 29.97, 2 / 29.97))):

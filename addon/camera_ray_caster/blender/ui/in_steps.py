@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Generator
 
 import bpy
@@ -20,7 +21,7 @@ SHOWN = 10.0
 BUSY = "Let the running work end first, or stop it"
 
 
-class Running:
+class Running(ABC):
     """Work that is being done in ``steps``; a subclass has its words."""
 
     interval = INTERVAL
@@ -36,13 +37,13 @@ class Running:
         self.scene, self.window, self.steps = scene, window, steps
         self.is_cancelled = False
 
+    @abstractmethod
     def step(self) -> None:
         """Go on. Raises StopIteration at the end."""
-        raise NotImplementedError
 
+    @abstractmethod
     def lines(self, result) -> list[str]:
         """Return what is said at the end, from the result of the steps."""
-        raise NotImplementedError
 
     def show(self) -> None:
         """Show the progress in the status bar and the sidebars."""

@@ -12,10 +12,10 @@ from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from pathlib import Path
 from typing import Any
-from zipfile import BadZipFile
 
 import numpy as np
 
+from ..arguments import DAMAGED
 from ..camera.camera import Camera
 from ..exports.camera_json import camera_from_json
 from ..exports.format import Shot
@@ -95,10 +95,15 @@ class View:
         return key in self._passes
 
     def pixels(self, key: str) -> np.ndarray:
-        """Return a pass, row 0 at the bottom: (rows, columns[, channels]). Raises InputError if it was not cast."""
+        """Return a pass, row 0 at the bottom: (rows, columns[, channels]). Raises InputError if it was not cast, and
+        for a damaged file.
+        """
         if key not in self._passes:
             raise InputError(f"{self.file.name} has no pass {key}: cast the set with --passes {key},...")
-        return self._passes[key]
+        try:
+            return self._passes[key]
+        except DAMAGED as error:
+            raise InputError(f"{str(self.file)!r} is damaged: delete it, and run the same command again") from error
 
     @property
     def _passes(self) -> Mapping[str, np.ndarray]:
@@ -135,7 +140,7 @@ def _opened(view: View) -> Mapping[str, np.ndarray]:
         return channels.passes_of(path, view.report["camera"]) if path.suffix == ".exr" else np.load(path)
     except InputError:
         raise
-    except (OSError, ValueError, BadZipFile) as error:
+    except DAMAGED as error:
         raise InputError(f"{str(path)!r} cannot be read: make the set with --format NPZ or EXR") from error
 
 

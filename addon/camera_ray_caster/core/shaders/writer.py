@@ -7,6 +7,7 @@ If it has no NaN, each value is accompanied by a truth value that tells whether 
 from __future__ import annotations
 
 import math
+from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, ClassVar, NamedTuple, Protocol
@@ -91,7 +92,7 @@ class Constants(Protocol):
 
 
 @dataclass
-class Writer:
+class Writer(ABC):
     """Writer of the statements of one function."""
 
     constants: Constants
@@ -161,9 +162,9 @@ class Writer:
             self.tables.append(self.table_text(name, entries))
         return self._tables[entries]
 
+    @abstractmethod
     def table_text(self, name: str, entries: Sequence[float]) -> str:
         """Return the statement that defines a table."""
-        raise NotImplementedError
 
     def either(self, *conditions: str) -> str:
         """Return the condition that at least one of these conditions holds."""

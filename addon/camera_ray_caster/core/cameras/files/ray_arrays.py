@@ -9,7 +9,6 @@ NPY holds directions, or (rows, columns, 6): origins, then directions.
 from __future__ import annotations
 
 import zipfile
-import zlib
 from collections.abc import Mapping
 from io import BytesIO
 from typing import Any
@@ -17,15 +16,13 @@ from typing import Any
 import numpy as np
 
 from ... import memory
-from ...arguments import numbers
+from ...arguments import DAMAGED, numbers
 from ...maths.vector import inverse
 from ...records import InputError
 from .document import Document, Lens
 
 ZIP, NPY = b"PK\x03\x04", b"\x93NUMPY"
 KEY = "RAY_TABLE"
-DAMAGED = (zipfile.BadZipFile, zlib.error, ValueError, EOFError, OSError, KeyError, TypeError, NotImplementedError)
-"""What numpy raises for files that are cut off or damaged, or hold anything but numbers."""
 
 
 def read(document: Document, key: str) -> list[Lens] | None:

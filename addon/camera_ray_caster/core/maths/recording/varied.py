@@ -68,7 +68,8 @@ def _apply(name: str, *operands: Any) -> Any:
     duals = [Dual(float(one), one.slopes if isinstance(one, Varied) else zero) for one in operands]
     known = dual_arithmetic(count)
     if name not in known:
-        raise NotImplementedError(f"{name} of a setting has no derivative: write it by numpy's functions that record")
+        others = ", ".join(sorted(known))
+        raise NotImplementedError(f"np.{name} of a setting has no derivative here: write it by {others}")
     found = known[name](*duals)
     return Varied(found.value, tuple(None if one is None else float(one) for one in found.partials))
 
