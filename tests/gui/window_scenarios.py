@@ -140,7 +140,7 @@ def click_seen(user, scenes):
     """A click in a dome's picture selects what is seen there; Blender's outlines are hidden as long as they lie."""
     yield from load(user, scenes, "living_room_omnimax")
     space, view, context = user.area().spaces.active, user.region("WINDOW"), bpy.context
-    hidden = addon("ui.hide_overlays").LYING
+    hidden = addon("ui.hide_overlays").MISLEADING
     space.overlay.show_bones = False
 
     def overlays():

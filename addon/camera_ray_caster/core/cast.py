@@ -10,7 +10,7 @@ from time import perf_counter
 import numpy as np
 
 from . import arguments, memory, tuning
-from .any_rays.sweep import cast_apart, cast_sweep, check_passes
+from .any_rays.sweep import cast_sweep, check_passes, is_cast_by_rays
 from .camera.camera import Camera
 from .camera.times import SweepTime
 from .casting.images import Images, check_reusable
@@ -89,7 +89,7 @@ def cast(
     camera, shapes = without_times(camera, shapes)
     time = camera.pixel_time
     middle = (time.first + time.last) / 2 if time else None
-    if isinstance(time, SweepTime) or (samples == 1 and cast_apart(camera)):
+    if isinstance(time, SweepTime) or (samples == 1 and is_cast_by_rays(camera)):
         found = cast_sweep(camera, shapes, request, dtype, progress)
         images = Images(found) if into is None else into
         images.take(found)

@@ -15,7 +15,7 @@ from bpy.app.handlers import persistent
 from .camera_notes import drawn_alike
 from .see_through import shows_picture
 
-LYING = (
+MISLEADING = (
     "show_outline_selected", "show_floor", "show_axis_x", "show_axis_y", "show_axis_z", "show_ortho_grid",
     "show_object_origins", "show_relationship_lines", "show_extras", "show_bones", "show_motion_paths",
     "show_wireframes", "show_face_orientation", "show_cursor",
@@ -26,7 +26,7 @@ _before: dict[int, dict[str, bool]] = {}
 """What a view's overlays were before they were hidden, by the pointer of the 3D View."""
 
 
-def lies(space, scene) -> bool:
+def misleads(space, scene) -> bool:
     """Return whether a 3D View shows the picture of a camera whose model Blender does not draw."""
     return shows_picture(space, scene) and not drawn_alike(scene.camera)
 
@@ -35,11 +35,11 @@ def hide(space) -> None:
     """Hide Blender's outlines and grid in a 3D View. One that was split off has nothing left to hide: it keeps what the
     other one had.
     """
-    before = {name: getattr(space.overlay, name) for name in LYING}
+    before = {name: getattr(space.overlay, name) for name in MISLEADING}
     if not any(before.values()) and _before:
         before = next(reversed(_before.values()))
     _before[space.as_pointer()] = before
-    for name in LYING:
+    for name in MISLEADING:
         setattr(space.overlay, name, False)
 
 
@@ -54,14 +54,14 @@ def update() -> None:
     for window in bpy.context.window_manager.windows:
         for area in window.screen.areas:
             space = area.spaces.active
-            if area.type == "VIEW_3D" and lies(space, window.scene) != (space.as_pointer() in _before):
+            if area.type == "VIEW_3D" and misleads(space, window.scene) != (space.as_pointer() in _before):
                 (restore if space.as_pointer() in _before else hide)(space)
 
 
 def draw() -> None:
     """Have the overlays updated after this drawing if the view has changed; called by Blender for each 3D View."""
     space = bpy.context.space_data
-    is_stale = lies(space, bpy.context.scene) != (space.as_pointer() in _before)
+    is_stale = misleads(space, bpy.context.scene) != (space.as_pointer() in _before)
     if is_stale and not bpy.app.timers.is_registered(update):
         bpy.app.timers.register(update, first_interval=0.0)
 

@@ -5,7 +5,7 @@ import bpy
 from ...core.lesson.diagram import probe
 from ..read.scene_cache import cached_scene
 from ..read.unique import named
-from .hide_overlays import lies
+from .hide_overlays import misleads
 from .lesson_operators import pixel_at
 
 TOOLS = "builtin.select", "builtin.select_box", "builtin.select_circle", "builtin.select_lasso"
@@ -31,7 +31,7 @@ class SelectSeen(bpy.types.Operator):
         if area is None or area.type != "VIEW_3D" or context.mode != "OBJECT":
             return False
         tool = context.workspace.tools.from_space_view3d_mode("OBJECT", create=False)
-        return tool is not None and tool.idname in TOOLS and lies(context.space_data, context.scene)
+        return tool is not None and tool.idname in TOOLS and misleads(context.space_data, context.scene)
 
     def invoke(self, context, event):
         """Select; after a press, wait whether the mouse is dragged. Outside of the frame Blender selects."""

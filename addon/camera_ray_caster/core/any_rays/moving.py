@@ -22,8 +22,6 @@ from .written import Span, write
 MARGIN = 1.25
 """Factor by which balls are enlarged around shapes that change in size or form: between evaluations they may be larger.
 """
-
-
 SLACK = 1e-6
 """Fraction by which boxes are enlarged: far more than rounding."""
 

@@ -27,7 +27,7 @@ def check_passes(camera: Camera, passes: Collection[str]) -> None:
         )
 
 
-def cast_apart(camera: Camera) -> bool:
+def is_cast_by_rays(camera: Camera) -> bool:
     """Whether a picture of one time is cast as single rays, too: of a scanner whose beams have origins of their own.
     Its plan bounds what rays see by balls around all origins and azimuths of the beams. As single rays a street and a
     room take 0.4 to 0.5 times the processor time, a table 0.5 to 1.2 times.
