@@ -38,6 +38,7 @@ def test_the_contest_times_all_that_is_installed(tmp_path):
     assert loop["over_ours_depth"] == pytest.approx(loop["median_ms"] / base["median_ms"])
 
 
+@pytest.mark.full
 def test_every_model_is_timed_and_eyes_of_spherical_stereo(tmp_path):
     text, rows = figures(tmp_path, "--models", "--size", "48x32", "--rounds", "1")
     names = [row["model"] for row in rows]

@@ -24,7 +24,7 @@ def files(key, name, fit, frames=(1, 12)):
     return dict(made), said
 
 
-@pytest.mark.cases(1)
+@pytest.mark.full
 @pytest.mark.parametrize(("name", "kind"), [("division", "FISHEYE624"), ("eucm", "FISHEYE624")])
 def test_opencv_reads_the_nearest_lens_and_errs_as_it_says(name, kind, tmp_path):
     """Each pixel's ray, projected by OpenCV with the written numbers."""
