@@ -145,6 +145,14 @@ def test_a_pencil_that_does_not_slide_is_the_pinhole_at_the_point():
     assert_same_rays(camera("PENCIL", LEANING | {"pencil_slide": 0.0, "matrix_world": TURNED}).rays(), pinhole, 10)
 
 
+@pytest.mark.parametrize("slide", [0.0, 1.0])
+def test_a_pencil_sees_no_point_in_the_plane_of_its_slit_and_the_direction_across(slide):
+    """There m is infinite: no ray, and no warning about it."""
+    model = camera("PENCIL", {"slit_1": ((0, 0, 0), (1, 0, 0)), "pencil_slide": slide}).model
+    with np.errstate(all="raise"):
+        assert np.isnan(model.project([(0.0, 2.0, 0.0), (0.5, -1.0, 0.0), (3.0, 0.0, 0.0)])).all()
+
+
 def test_slits_that_cross_make_the_pinhole_where_they_do():
     slits = {"slit_1": ((-1, 0, 0), (1, 0, 0)), "slit_2": ((0, -1, 0), (0, 1, 0))}
     assert_same_rays(camera("CROSS_SLIT", slits).rays(), camera("PERSP").rays())

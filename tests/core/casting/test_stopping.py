@@ -54,21 +54,26 @@ def steps_of(monkeypatch, *scene, **request):
     return steps
 
 
+def assert_heard(monkeypatch, *scene, **request):
+    """The longest step is short enough, in one of three casts: what else the machine does can only lengthen it."""
+    longest = []
+    while not longest or (min(longest) + tiles.LISTEN >= HEARD and len(longest) < 3):
+        with monkeypatch.context() as patch:
+            longest.append(max(steps_of(patch, *scene, **request)))
+    assert min(longest) + tiles.LISTEN < HEARD, longest
+
+
 @pytest.mark.parametrize("case", CASTS)
 def test_a_stop_is_heard_within_the_steps_of_a_cast(case, monkeypatch):
     size, count, request = CASTS[case]
-    steps = steps_of(monkeypatch, camera_at(resolution_x=size, resolution_y=size), many_spheres(count), **request)
-    assert max(steps) + tiles.LISTEN < HEARD, max(steps)
+    assert_heard(monkeypatch, camera_at(resolution_x=size, resolution_y=size), many_spheres(count), **request)
 
 
 def test_a_stop_is_heard_between_triangles(monkeypatch):
     """Of a camera whose rays have an origin each, so that every triangle takes long."""
     size = {"resolution_x": 512, "resolution_y": 256}
     shapes = meshes.shapes_of((meshes.ball(100, 400, 3.0), (0, 0, -4), 1.0))
-    steps = steps_of(
-        monkeypatch, camera_of("STRIP", EXAMPLES["STRIP"][0] | size), shapes, passes="combined", samples=64
-    )
-    assert max(steps) + tiles.LISTEN < HEARD, max(steps)
+    assert_heard(monkeypatch, camera_of("STRIP", EXAMPLES["STRIP"][0] | size), shapes, passes="combined", samples=64)
 
 
 def test_a_stop_is_heard_while_the_tiles_of_pixel_times_are_found(monkeypatch):

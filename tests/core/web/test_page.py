@@ -150,6 +150,15 @@ def test_a_bad_link_gets_one_line(opened, page, link):
     assert not opened.execute_script("return document.querySelectorAll('#message *').length")
 
 
+def test_a_link_is_read_though_the_page_writes_its_own_before_it(opened, page):
+    """The address is written a quarter of a second after a change, which may lie between a link and its event."""
+    fresh(opened, page)
+    script = "location.hash = arguments[0]; history.replaceState(null, '', '#v=1&model=PERSP&lens=40')"
+    opened.execute_script(script, "v=1&model=FISHEYE_EQUIDISTANT&x=300")
+    settled(opened, lambda one: state(one)["model"] == "FISHEYE_EQUIDISTANT")
+    assert state(opened)["x"] == 300
+
+
 def test_figures_are_states_of_the_page(opened, page):
     fresh(opened, page)
     for place, figure in enumerate(FIGURES):

@@ -14,7 +14,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from math import inf
 
 import numpy as np
 
@@ -108,12 +107,12 @@ class Pencil(WindowModel):
         return bounds
 
     @cached_property
-    def _steepest(self) -> float:
-        """Return the largest |m| of a ray; endless for a pinhole."""
-        return cbrt(CLEAR / self.slide / self.slide) if self.slide else inf
+    def _flattest(self) -> float:
+        """Return the smallest 1 / |m| of a ray; 0 for a pinhole."""
+        return cbrt(self.slide / CLEAR * self.slide)
 
     def _eye(self, direction):
         """Return the eye of rays in a direction, or in the plane of a place relative to ``point``; and if it exists."""
         rise, ahead = dot(self.axes[1], direction), dot(self.axes[2], direction)
-        known = np.abs(rise) <= np.abs(ahead) * self._steepest
-        return along(self.point, self.axes[0], self.slide * rise / np.where(known & (ahead != 0), ahead, 1.0)), known
+        known = (ahead != 0) & (np.abs(rise) * self._flattest <= np.abs(ahead))
+        return along(self.point, self.axes[0], self.slide * rise / np.where(known, ahead, 1.0)), known

@@ -23,7 +23,7 @@ def _scalar(name: str, function) -> Any:
 
 
 def cbrt(number):
-    """Return the cube root of a number above 0."""
+    """Return the cube root of a number of at least 0."""
     return np.power(number, 1 / 3) if is_recorded(number) else math.cbrt(number)
 
 

@@ -170,9 +170,9 @@ function choose(next) {
   changed();
 }
 
-function openLink() {
+function openLink(hash) {
   try {
-    choose(location.hash.length > 1 ? stateOf(location.hash.slice(1), MODELS) : structuredClone(START));
+    choose(hash.length > 1 ? stateOf(hash.slice(1), MODELS) : structuredClone(START));
   } catch (error) {
     if (!(error instanceof Refusal)) throw error;
     choose(structuredClone(START));
@@ -300,10 +300,11 @@ $("own-use").addEventListener("click", withOwn((found) => {
 $("own-map").addEventListener("click", withOwn(drawMap));
 $("own-python").addEventListener("click", withOwn((found) => save(pythonOf(found.made))));
 $("blank").hidden = Boolean(picture.gl);
-window.addEventListener("hashchange", openLink);
+// The address may have been written anew, by changed(), since the event: what was asked for is in the event.
+window.addEventListener("hashchange", (event) => openLink(new URL(event.newURL).hash));
 new ResizeObserver(() => { if (camera) space.draw(camera, state, seen); }).observe($("space"));
 setTheme(matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light");
-openLink();
+openLink(location.hash);
 
 // For scripts and tests: the models, and the picture of shape indices and distances of a model.
 window.lesson = {
