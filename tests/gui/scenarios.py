@@ -16,7 +16,7 @@ from walk_scenarios import WALK_SCENARIOS
 from window_scenarios import WINDOW_SCENARIOS
 
 DRAWN = 0.002
-"""Seconds that the drawing of a panel may take: a redraw must not be felt."""
+"""Seconds of the processor that the drawing of a panel may take: a redraw must not be felt."""
 
 
 def panel(user, scenes):
