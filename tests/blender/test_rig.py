@@ -79,6 +79,20 @@ def test_what_was_exported_is_read_into_blender_again(blender, camera_scene, tmp
     assert np.allclose(after.K, before.K, rtol=1e-14)
 
 
+def test_a_folder_of_pictures_is_one_camera_with_keyframes(blender, camera_scene, tmp_path):
+    """Of Polycam: the files' numbers are times; equal lenses stay linked to the first file."""
+    matrix = {f"t_{i}{j}": float(i == j) for i in range(3) for j in range(4)}
+    for time, x in ((500, 1.5), (90, 0.5)):
+        lens = {"fx": 30.0, "fy": 30.0, "cx": 15.5, "cy": 7.5, "width": 32, "height": 16}
+        (tmp_path / f"{time}.json").write_text(json.dumps(lens | matrix | {"t_03": x}))
+    (item,) = add_rig(camera_scene, [str(tmp_path)])
+    assert item.data.camera_ray_caster.calibration_file == str(tmp_path / "90.json")
+    assert frames_of([item]) == [1, 2]
+    for frame, x in ((1, 0.5), (2, 1.5)):
+        go_to(camera_scene, frame)
+        assert np.allclose(np.array(item.matrix_world)[:3, 3], (x, 0, 0), atol=1e-7)
+
+
 def test_a_zoom_is_keyed(blender, camera_scene, tmp_path):
     (item,) = add_rig(camera_scene, [transforms(tmp_path, fl_x=30.0)])
     camera_scene.render.resolution_x, camera_scene.render.resolution_y = 32, 16

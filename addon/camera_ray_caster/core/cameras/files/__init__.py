@@ -13,6 +13,7 @@ from collections.abc import Iterator
 from ...records import InputError
 from . import (
     aria,
+    arkit,
     basalt,
     camodocal,
     colmap,
@@ -45,10 +46,10 @@ from .document import Document, Lens
 from .nearest import unknown
 
 FORMATS = (
-    ray_arrays.read, ray_exr.read, ray_mesh.read, colmap_binary.read, metashape.read, colmap.read, hesai.read,
-    mrcal.read, ocam.read, velodyne.read, ouster.read, recorded.read, generic.read, aria.read, nerfstudio.read,
-    ftheta.read, isaac.read, woodscape.read, opensfm.read, meshroom.read, gyroflow.read, hot3d.read, basalt.read,
-    camodocal.read, maplab.read, okvis.read, kalibr.read, opencv.read,
+    ray_arrays.read, ray_exr.read, ray_mesh.read, colmap_binary.read, metashape.read, colmap.read, arkit.read,
+    hesai.read, mrcal.read, ocam.read, velodyne.read, ouster.read, recorded.read, generic.read, aria.read,
+    nerfstudio.read, ftheta.read, isaac.read, woodscape.read, opensfm.read, meshroom.read, gyroflow.read, hot3d.read,
+    basalt.read, camodocal.read, maplab.read, okvis.read, kalibr.read, opencv.read,
 )  # fmt: skip
 """Readers in the order in which they are tried."""
 

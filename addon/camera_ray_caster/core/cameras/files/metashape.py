@@ -2,10 +2,13 @@
 
 f is in pixels, cx and cy are measured from the middle of the picture; b1 and b2 are affinity and skew. With p1 and p2
 swapped its distortion is OpenCV's; a fisheye's is the same of the angle, which is COLMAP's THIN_PRISM_FISHEYE.
+A sensor of a label that others have is named LABEL 1, LABEL 2, ...; metashape_poses reads where the cameras are.
 Reference: Agisoft Metashape manual, appendix Camera models.
 """
 
 from __future__ import annotations
+
+from collections import Counter
 
 from ..parts.xml_subset import Element, XmlError, tree
 from .document import Document, Lens, one_of_several
@@ -17,31 +20,46 @@ TERMS = {"k1": "k1", "k2": "k2", "k3": "k3", "k4": "k4", "p1": "p2", "p2": "p1"}
 
 def read(document: Document, key: str) -> list[Lens] | None:
     """Return the lenses of a document; see the package."""
+    root = root_of(document)
+    if root is None:
+        return None
+    if root.name == "calibration":
+        return [_lens(document, "", root)]
+    return [one_of_several(name, _of_sensor, document, one, name) for name, one in named_sensors(root)] or None
+
+
+def root_of(document: Document) -> Element | None:
+    """Return the outermost element of a file with a calibration; None of any other file. Raises InputError."""
     if not document.text.lstrip().startswith("<") or "<calibration" not in document.text:
         return None
     try:
-        root = tree(document.text, document.check)
+        return tree(document.text, document.check)
     except XmlError as error:
         raise document.refusal(f"it is not XML: {error}") from error
-    if root.name == "calibration":
-        return [_lens(document, "", root)]
-    sensors = [one for one in _all(root, "sensor") if any(child.name == "calibration" for child in one.children)]
-    return [one_of_several(_label(one), _of_sensor, document, one) for one in sensors] or None
 
 
-def _all(element: Element, name: str) -> list[Element]:
+def all_of(element: Element, name: str) -> list[Element]:
+    """Return the elements of a name, in any depth."""
     found = [element] if element.name == name else []
-    return found + [one for child in element.children for one in _all(child, name)]
+    return found + [one for child in element.children for one in all_of(child, name)]
 
 
-def _label(sensor: Element) -> str:
-    return sensor.attributes.get("label") or sensor.attributes.get("id", "")
+def named_sensors(root: Element) -> list[tuple[str, Element]]:
+    """Return the sensors that have a calibration, with names of their own."""
+    sensors = [one for one in all_of(root, "sensor") if any(child.name == "calibration" for child in one.children)]
+    labels = [one.attributes.get("label") or one.attributes.get("id", "") for one in sensors]
+    total, count = Counter(labels), Counter[str]()
+    named = []
+    for label, sensor in zip(labels, sensors, strict=True):
+        count[label] += 1
+        named.append((label if total[label] == 1 else f"{label} {count[label]}", sensor))
+    return named
 
 
-def _of_sensor(document: Document, sensor: Element) -> Lens:
+def _of_sensor(document: Document, sensor: Element, name: str) -> Lens:
     own = [child for child in sensor.children if child.name == "calibration"]
     adjusted = [one for one in own if one.attributes.get("class") == "adjusted"]
-    return _lens(document, _label(sensor), (adjusted or own)[0])
+    return _lens(document, name, (adjusted or own)[0])
 
 
 def _lens(document: Document, name: str, calibration: Element) -> Lens:

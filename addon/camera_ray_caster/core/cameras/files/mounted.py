@@ -3,13 +3,19 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from pathlib import Path
 
 import numpy as np
 
+from ...records import InputError
 from . import lenses_of
 from .document import Document, Lens
+from .folders import CLIP, TRAJECTORY, nearest, number_of
 from .placed import FROM_BLENDER, Placed
 from .rigs import beside, object_and_frame, placed_in
+
+COLMAP = ".bin", ".txt"
+"""Kinds of the files of a folder that is a COLMAP model."""
 
 MOST = 100_000
 """Poses that are read from a file."""
@@ -50,8 +56,10 @@ def mounted(path: str, key: str, frame: tuple[int, int], rate: float) -> list[Mo
     ``key`` and ``frame`` are those of ``lenses_of``; ``rate`` is the number of frames in a second, for files with
     times, the first of which is frame 1. Images without a frame in their names have the frames 1, 2, 3, ... Images of
     one name are of several cameras, numbered -1, -2, ..., if their lenses are of several models, or two in one frame.
-    Raises InputError, in one line.
+    The files of a folder of pictures are its frames. Raises InputError, in one line.
     """
+    if Path(path).is_dir() and Path(beside(path)[0]).suffix not in COLMAP:
+        return _of_folder(path, key, frame, rate)
     lens_file, pose_file = beside(path)
     document = Document(pose_file, frame)
     placed = placed_in(document)
@@ -77,6 +85,29 @@ def mounted(path: str, key: str, frame: tuple[int, int], rate: float) -> list[Mo
     for camera in cameras.values():
         if len(set(camera.frames)) < len(camera.frames):
             raise document.refusal(f"camera {camera.name!r} has two poses of one frame: rename its pictures")
+    return list(cameras.values())
+
+
+def _of_folder(path: str, key: str, frame: tuple[int, int], rate: float) -> list[Mounted]:
+    """Return the cameras of a folder with a file for each picture; equal lenses are one."""
+    files = list(map(Path, beside(path)))
+    moves = placed_in(Document(str(files.pop()), frame)) if files[-1].suffix == TRAJECTORY else []
+    times = np.array([one.time or 0.0 for one in moves])
+    cameras: dict[str, Mounted] = {}
+    lenses: dict[str, Lens] = {}
+    for order, file in enumerate(files, 1):
+        move = nearest(times, number_of(file)) if moves else None
+        if moves and move is None:
+            continue
+        for one in mounted(str(file), key, frame, rate):
+            if one.lens is None:
+                raise InputError(f"file {str(file)!r} of a folder of pictures has no lens: take it out")
+            camera = cameras.setdefault(one.name, Mounted(one.name, one.file, one.alone))
+            camera.lenses.append(lenses.setdefault(repr(one.lens), one.lens))
+            camera.frames.append(number_of(file) if file.name.endswith(CLIP) else float(order))
+            camera.poses.append(one.poses[0] if move is None else moves[move].pose @ one.poses[0])
+    if not cameras:
+        raise InputError(f"folder {path!r} has no picture at a time of its trajectory: give both of one recording")
     return list(cameras.values())
 
 

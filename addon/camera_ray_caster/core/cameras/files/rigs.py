@@ -1,8 +1,9 @@
 """The poses of the cameras of a file, or of one beside it, by format; see ``placed``.
 
-COLMAP's and nerfstudio's are of images, BOP's of frames; this add-on's camera.json has frames; those of Kalibr, EuRoC,
-OKVIS, Basalt and Project Aria are of cameras in a body. Kalibr's cameras are placed in the IMU's frame if each has a
-T_cam_imu, else in that of the first camera. BOP's lengths are read as meters.
+COLMAP's, nerfstudio's, Metashape's and Meshroom's are of images, BOP's of frames; this add-on's camera.json has
+frames; those of Kalibr, EuRoC, OKVIS, maplab, Basalt and Project Aria are of cameras in a body, HOT3D's and Polycam's
+of cameras at one time. Kalibr's cameras are placed in the IMU's frame if each has a T_cam_imu, else in that of the
+first camera. BOP's lengths are read as meters.
 References: those of the formats' modules.
 """
 
@@ -15,8 +16,9 @@ from pathlib import Path, PurePath
 import numpy as np
 
 from ...records import InputError
-from . import basalt, colmap_images, nerfstudio, okvis, trajectory
+from . import arkit, basalt, colmap_images, hot3d, maplab, meshroom, metashape_poses, nerfstudio, okvis, trajectory
 from .document import Document, mapping
+from .folders import files_in
 from .kalibr import read as of_kalibr
 from .placed import FROM_BLENDER, Placed, checked, inverted, of_quaternion, pose_of
 from .recorded import FORMAT, RECORD
@@ -25,16 +27,20 @@ ENDING = re.compile(r"(.*?)_(-?\d{4,}(?:\.\d+)?)")
 """The name of a picture of this add-on: CAMERA_FRAME."""
 
 
-def beside(path: str) -> tuple[str, str]:
+def beside(path: str) -> tuple[str, ...]:
     """Return the file of lenses and the file of poses that belong to a path: COLMAP has one of each, others have both
-    in one. A folder stands for the COLMAP model in it, or its sparse/0. Raises InputError for a folder without one.
+    in one. A folder stands for the COLMAP model in it, or its sparse/0; else for its files of pictures, with the
+    trajectory of ARKitScenes last. Raises InputError for a folder without any.
     """
     file = Path(path)
     if file.is_dir():
         folders = file, file / "sparse" / "0", file / "sparse"
         found = [one for folder in folders for one in (folder / "images.bin", folder / "images.txt") if one.is_file()]
+        if not found and (several := files_in(file)):
+            return tuple(map(str, several))
         if not found:
-            raise InputError(f"folder {path!r} has no images.bin or images.txt, nor its sparse/0: give a file")
+            raise InputError(f"folder {path!r} has no images.bin or images.txt, nor its sparse/0, nor a file for each "
+                             "picture as of Polycam, HOT3D or ARKitScenes: give a file")  # fmt: skip
         file = found[0]
     stem, kind = file.stem, file.suffix
     if stem not in ("images", "cameras") or kind not in (".bin", ".txt"):
@@ -51,7 +57,8 @@ def placed_in(document: Document) -> list[Placed]:
         if found is not None:
             return found
     raise document.refusal("it has no poses that are read: give a file of COLMAP, nerfstudio, Kalibr, EuRoC, OKVIS, "
-                           "Basalt, BOP, Project Aria, this add-on, or a trajectory")  # fmt: skip
+                           "Basalt, BOP, Project Aria, HOT3D, maplab, Metashape, Meshroom, Polycam, ARKitScenes, this "
+                           "add-on, or a trajectory")  # fmt: skip
 
 
 def _of_transforms(document: Document) -> list[Placed] | None:
@@ -159,7 +166,8 @@ def _flat(rows) -> list:
 
 
 READERS: tuple[Callable[[Document], list[Placed] | None], ...] = (
-    trajectory.poses, _of_record, _of_aria, _of_transforms, _of_basalt, _of_okvis, _of_camchain, _of_bop,
+    trajectory.poses, metashape_poses.poses, arkit.poses, _of_record, _of_aria, _of_transforms, meshroom.poses,
+    _of_basalt, maplab.poses, _of_okvis, _of_camchain, _of_bop, hot3d.poses,
 )  # fmt: skip
 
 

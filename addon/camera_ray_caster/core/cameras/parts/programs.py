@@ -77,7 +77,7 @@ PROGRAMS = (
         "the size of the pictures, distortion, skew",
     ),
     ProgramFiles(
-        "RealSense", "intrinsics as .json; Open3D's, Polycam's and NICE-SLAM's: fx, fy, cx, cy by names",
+        "RealSense", "intrinsics as .json; Open3D's and NICE-SLAM's: fx, fy, cx, cy by names",
         "width height ppx ppy coeffs intrinsic_matrix", "pinhole, Brown-Conrady", "",
         "the inverse Brown-Conrady with coefficients is refused",
     ),
@@ -104,22 +104,26 @@ PROGRAMS = (
     ),
     ProgramFiles(
         "maplab", "ncamera .yaml of maplab and SVO", "cameras camera label image_height type T_B_C",
-        "pinhole, unified-projection, with radial-tangential, rational, equidistant or fisheye", "", "poses",
+        "pinhole, unified-projection, with radial-tangential, rational, equidistant or fisheye", "", "",
     ),
     ProgramFiles(
         "HOT3D", "cameras of its clips as .json",
         "calibration projection_model_type projection_params T_device_from_camera",
-        "FISHEYE624, PINHOLE", "", "poses",
+        "FISHEYE624, PINHOLE", "", "",
     ),
     ProgramFiles(
         "Metashape", "calibrations, and cameras of projects, as .xml",
         "document chunk sensors sensor resolution adjusted",
-        "frame, fisheye", "", "poses; k4 of a frame camera, p3 and p4 are refused",
+        "frame, fisheye", "",
+        "cameras that are not aligned, or are moved by a master; k4 of a frame camera, p3 and p4 are refused",
     ),
     ProgramFiles(
         "Meshroom", ".sfm of AliceVision", "intrinsicId pxFocalLength principalPoint distortionParams sensorWidth",
-        "pinhole, radial1, radial3, brown, fisheye4, fisheye1", "", "poses; anamorphic lenses are refused",
+        "pinhole, radial1, radial3, brown, fisheye4, fisheye1", "",
+        "views without a pose; anamorphic lenses are refused",
     ),
+    ProgramFiles("Polycam", "keyframes' cameras as .json", "fx fy t_00 t_01 t_23 blur_score", "pinhole"),
+    ProgramFiles("ARKitScenes", ".pincam; .traj", reads="pinhole"),
     ProgramFiles(
         "Gyroflow", "lens profiles as .json", "calib_dimension fisheye_params use_opencv_fisheye calibrator_version",
         "opencv_fisheye, opencv_standard", "", "stretched pictures and other models are refused",
