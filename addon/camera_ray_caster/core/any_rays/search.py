@@ -16,6 +16,7 @@ from ..shapes.bodies import Bodies
 from ..shapes.frames import InCamera
 from ..shapes.in_camera import in_camera
 from ..shapes.kinds import by_kind
+from .balls import may_meet, unit_directions
 from .packets import coherent_order, packets_of
 from .traversal import Traversal
 from .tree import Tree, tree_of
@@ -122,18 +123,23 @@ class BodySearch:
             for first in range(0, len(rays), RAYS):
                 part = rays[first : first + RAYS]
                 some = origin[:, part], direction[:, part]
-                for ray, body in self._candidates(some, near, partial(limit, part)):
+                for ray, body in self._candidates(some, near, partial(limit, part), scratch):
                     for hits in self._met(ray, body, some, near, far, scratch, twice):
                         keep(part, hits)
 
-    def _candidates(self, some, near: float, limit: Callable) -> Iterator[tuple[Any, Any]]:
-        """Yield rays and bodies that may meet: (m,) each, or all rays and one body."""
+    def _candidates(self, some, near: float, limit: Callable, scratch: Scratch) -> Iterator[tuple[Any, Any]]:
+        """Yield rays and bodies that may meet: (m,) each, or rays and one body."""
         rays, bodies = np.arange(some[0].shape[1]), self._one_by_one
         if 0 < len(rays) * len(bodies) <= PAIRS:
             yield np.repeat(rays, len(bodies)), np.tile(bodies, len(rays))
-        else:
-            for body in bodies.tolist():
-                yield rays, body
+        elif len(rays):
+            origin, ahead = some[0], unit_directions(some[1])
+            eye = origin[:, 0] if (origin == origin[:, :1]).all() else origin
+            for shape in np.unique(self.at[bodies]).tolist():
+                middle, radius = self.placed.center[shape], self.placed.radius[shape]
+                close = np.flatnonzero(may_meet(middle, radius, eye, ahead, scratch)) if radius < inf else rays
+                for body in bodies[self.at[bodies] == shape].tolist():
+                    yield close, body
         if self._tree is not None:
             packets = packets_of(*some)
             yield from Traversal(self._tree, packets, near, lambda: packets.farthest(limit())).pairs()
@@ -141,12 +147,16 @@ class BodySearch:
     def _met(self, ray, body, some, near: float, far: float, scratch: Scratch, twice: bool) -> Iterator[RayHits]:
         """Yield the hits among candidates, kind by kind."""
         origin, direction = some
-        if np.ndim(body):
+        if len(ray) != origin.shape[1] or np.ndim(body):
             origin, direction = taken(origin, ray), taken(direction, ray)
         for k in range(len(self._kinds)):
-            own = np.flatnonzero(np.broadcast_to(self._kind[body] == k, ray.shape))
-            which = self._own[body][own] if np.ndim(body) else self._own[body]
-            bodies, rays, left, ahead = self._kinds[k], ray[own], origin[:, own], direction[:, own]
+            of_kind = self._kind[body] == k
+            if not np.any(of_kind):
+                continue
+            which, bodies, rays, left, ahead = self._own[body], self._kinds[k], ray, origin, direction
+            if not np.all(of_kind):
+                own = np.flatnonzero(of_kind)
+                which, rays, left, ahead = which[own], ray[own], origin[:, own], direction[:, own]
             start: Any = near
             while len(rays):
                 t = bodies.meet(which, left, ahead, start, scratch)
