@@ -5,8 +5,8 @@ import re
 from functools import cache
 from pathlib import Path
 
-import make_docs  # in scripts/, beside the table of models
 import numpy as np
+from make import pages  # in scripts/, beside the table of models
 
 import camera_ray_caster as crc
 from camera_ray_caster.core.camera.camera import Camera
@@ -126,7 +126,7 @@ def page(model: type[Model], root: Path, folder: Path) -> str:
         given=given(model),
         steps="\n".join(f"1. {step.words}:\n\n       {step.symbols}\n" for step in model.FORMULA),
         units=ANGLES if any(getattr(one, "unit", "") == "angle" for one in model.SETTINGS) else "",
-        settings=make_docs.table(model.SETTINGS).strip() or "It has none.",
+        settings=pages.table(model.SETTINGS).strip() or "It has none.",
         text=as_markdown(inspect.getdoc(inspect.getmodule(model))),
     )
 

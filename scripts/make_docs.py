@@ -1,8 +1,7 @@
-"""Write the pages of camera models and of files, from their declarations, the picture of the house,
-and the lesson for a browser.
+"""Write the pages of camera models and of files, the picture of the house, and the lesson for a browser.
 
     python scripts/make_docs.py
-    python scripts/make_docs.py --check    # writes nothing; exit status 1 if the page is not up to date
+    python scripts/make_docs.py --check    # writes nothing; exit status 1 if one is not up to date
 
 Needs numpy only.
 """
@@ -14,181 +13,15 @@ if __name__ == "__main__":
 
     ends.begin(__file__)
 
-import inspect
-import math
 import re
 import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
-sys.path.insert(0, str(ROOT / "addon"))
-
-from camera_ray_caster.core.camera import pixel_time  # noqa: E402  (found by the line above)
-from camera_ray_caster.core.cameras import MODELS  # noqa: E402
-from camera_ray_caster.core.cameras.model import GROUPS, Model  # noqa: E402
-from camera_ray_caster.core.cameras.parts.programs import PROGRAMS, ProgramFiles  # noqa: E402
-from camera_ray_caster.core.cameras.parts.settings import OWN, Coefficients, Setting  # noqa: E402
-from camera_ray_caster.core.exports import FORMATS  # noqa: E402
-from camera_ray_caster.core.sets import SET_FORMATS  # noqa: E402
-from camera_ray_caster.core.web.page import lesson_page  # noqa: E402
-
 CAMERAS = ROOT / "addon" / "camera_ray_caster" / "core" / "cameras"
 
 TABLE = ROOT / "tests" / "core" / "test_architecture.py"
 """The test that says who may import whom."""
-
-HEAD = """\
-# Camera models
-
-Made by `python scripts/make_docs.py` from what each model declares in its file. The camera's axes u, v and w are right,
-up and ahead; W and H are the frame's width and height in pixels, (x, y) the pixel coordinates, y up. A star marks
-Blender's own settings. Angles are stored in radians and given in degrees here.
-"""
-
-TIMES = """
-## The time of each pixel
-
-With any model each pixel may have its own time: `time_mode` is one of these.
-"""
-
-FILES = """\
-# Files of cameras
-
-Made by `python scripts/make_docs.py` from [programs.py](../parts/programs.py). Calibrations are read by the button next
-to the model and by `--calibration FILE`, by their content, whatever their names are; exports are written by
-`scripts/export.py --format` and File > Export. "Lost" is what the files do not tell, and what is refused in one line.
-
-A file that does not tell the size of its pictures is of the frame's size, and a line says so. If OpenCV's four
-coefficients stand without the name of their model, the chosen model decides (`--model`). Files may be compressed by
-gzip, and hold several cameras, by name, in a list or in lines of JSON; Camera in File (`--calibration-camera`) chooses
-one.
-
-File > Import > Cameras, and `--rig FILE ...` of `cast.py`, `dataset.py` and `export.py`, which does not change the
-.blend, add the cameras of files with their lenses, names and poses, below one empty that stands for the frame of the
-file: the world of COLMAP (a folder, images.txt or images.bin), nerfstudio, Metashape (with the scale of the chunk; of
-a georeferenced project east, north and up about the middle of its cameras), Meshroom, Polycam (y up), BOP (millimeters
-become meters) and this add-on, with a keyframe for each image; the body of Kalibr (the IMU, or the first camera),
-EuRoC, OKVIS, maplab, Basalt and Project Aria; the world of HOT3D, or the headset. A trajectory of TUM, EuRoC or
-ARKitScenes moves the empty. A folder of Polycam, of a clip of HOT3D or of ARKitScenes (its .pincam files and .traj)
-has a keyframe for each file. The frame is in the picture's name, CAMERA_FRAME, or the number of the image; of times,
-the first is frame 1. Images of one name whose lenses are of several models, or two in one frame, become cameras
-NAME-1, NAME-2, ... Where each frame has one of several cameras, markers bind it. `--rig FILE` without `--frames` casts
-and exports each camera in the frames of its own poses. `--rig-parent NAME` puts the empty below an object; below a
-camera, the file's frame is that of its picture, y down and z ahead. Lenses stay linked to the file, with all digits; a
-lens that changes is keyed. Blender rounds places to 6e-8 of themselves and turns to 1e-7 rad. A camera has pictures of
-its own size by its object's custom property `resolution`, in all commands but with `--resolution`.
-
-| program | files | reads | writes | lost |
-|---|---|---|---|---|
-"""
-
-SETS = """
-## Finished data sets
-
-`export.py FOLDER --format KEY --output OUT` exports the set that `cast.py` or `dataset.py` made in a folder, with its
-sizes and frames: its cameras in each of the formats above, and these. They read the passes of NPZ and EXR files (depth
-or distance; combined, shape_index or normal where the format has them) and the annotations of `--annotations`, in
-which each object has its visible and its whole (amodal) mask, its category, and the pose and size of a box in its own
-axes. `--models FILE.blend`, the file of the set, adds the models of `bop-scenes`: a PLY in millimeters for each
-category, as the viewport evaluates its last object at its last frame, and diameters of the models in place of those of
-boxes.
-
-| key | |
-|---|---|
-"""
-
-COLUMNS = "| setting | unit | range | default | |\n|---|---|---|---|---|\n"
-
-
-def page() -> str:
-    """Return the page: a section for each group of models, and a section for pixel times."""
-    groups = {group: [model for model in MODELS if model.group == group] for group in GROUPS}
-    sections = [f"\n## {group}\n" + "".join(map(section, models)) for group, models in groups.items() if models]
-    items = {item.key: item for item in pixel_time.MODE.items}
-    modes = [
-        f"\n### {items[key].label}\n\n`{key}`: {items[key].text}.\n" + table(settings)
-        for key, settings in pixel_time.SETTINGS.items()
-    ]
-    return "".join((HEAD, *sections, TIMES, *modes))
-
-
-def files() -> str:
-    """Return the page of files: a row for each program."""
-    sets = "".join(f"| `{key}` | {one.description} |\n" for key, one in SET_FORMATS.items())
-    return FILES + "".join(map(program_row, PROGRAMS)) + SETS + sets
-
-
-def program_row(program: ProgramFiles) -> str:
-    """Return a program as a row of the table; it writes what its export's table of models says."""
-    export = next((one for one in FORMATS if one.key == program.export), None)
-    writes = "" if export is None else f"`{export.key}`: {export.description}".replace("<", "\\<")
-    return f"| {program.name} | {program.files} | {program.reads} | {writes} | {program.lost} |\n"
-
-
-def section(model: type[Model]) -> str:
-    """Return the section of a model: its description, assumption, settings and formula."""
-    steps = "\n".join(f"* {step.words}: `{step.symbols}`" for step in model.FORMULA)
-    file = Path(inspect.getfile(model)).name
-    return f"""
-### {model.label}
-
-`{model.key}` in [{file}]({file}): {model.description}.{assumption(model)}
-{table(model.SETTINGS)}
-{steps}
-"""
-
-
-def assumption(model: type[Model]) -> str:
-    """Return the assumption stated in the docstring of the model's file, in one line, or "" if there is none."""
-    text = inspect.getdoc(inspect.getmodule(model)) or ""
-    found = re.search(r"^Assumption: (.+?)(?=^\w+: |^\s*$|\Z)", text, re.MULTILINE | re.DOTALL)
-    return f" Assumption: {' '.join(found[1].split())}".replace("``", "`") if found else ""
-
-
-def table(settings: tuple[Setting, ...]) -> str:
-    """Return the table of the settings, or "" without settings."""
-    return "\n" + COLUMNS + "".join(map(row, settings)) if settings else ""
-
-
-def row(setting: Setting) -> str:
-    """Return a setting as a row of the table."""
-    name = f"`{setting.name}`" + ("" if setting.owner == OWN else " *")
-    unit, span, default = KINDS[setting.kind](setting)
-    return f"| {name} | {unit} | {span} | {default} | {setting.label}: {setting.text} |\n"
-
-
-def number(setting) -> tuple[str, str, str]:
-    """Return the unit, the range and the default of a number; degrees are named in the unit only."""
-    ends = setting.low, setting.high
-    span = "" if ends == (-math.inf, math.inf) else setting.range_in_words(*setting.limits(*ends))
-    words = span, setting.in_words(float(setting.default))
-    return "degrees" if setting.unit == "angle" else setting.unit, *(word.replace(" degrees", "") for word in words)
-
-
-def choice(setting) -> tuple[str, str, str]:
-    """Return the unit, the range and the default of a choice."""
-    return "", ", ".join(f"`{item.key}`" for item in setting.items), f"`{setting.default}`"
-
-
-def text(setting) -> tuple[str, str, str]:
-    """Return the unit, the range and the default of a text, which may have the numbers of a polynomial."""
-    kind = "numbers" if isinstance(setting, Coefficients) else "text"
-    return "", kind, f"`{setting.default}`" if setting.default else "none"
-
-
-KINDS = {
-    "FLOAT": number,
-    "INT": number,
-    "ENUM": choice,
-    "BOOLEAN": lambda setting: ("", "on or off", "on" if setting.default else "off"),
-    "VECTOR": lambda setting: ("", f"{len(setting.default)} numbers", str(setting.default)),
-    "TEXT": text,
-    "FILE": lambda setting: ("", "a file or none", "none"),
-    "OBJECT": lambda setting: ("", " or ".join(setting.types).lower(), "none"),
-    "IMAGE": lambda setting: ("", "an image", "none"),
-    "VECTORS": lambda setting: ("", "(rows, columns, 3)", "none"),
-}
-"""Functions that return the unit, the range and the default in words, by kind of setting."""
 
 
 def rounded(text: str) -> str:
@@ -198,24 +31,27 @@ def rounded(text: str) -> str:
 
 def main() -> int | str:
     """Write the pages, or with --check return an error message if one is not up to date."""
+    sys.path.insert(0, str(ROOT / "addon"))
     from arguments import Parser  # in this folder
-    from make import architecture
+    from make import architecture, pages
+
+    from camera_ray_caster.core.web.page import lesson_page
 
     parser = Parser(prog="make_docs.py", description=__doc__.splitlines()[0])
     parser.add_argument("--check", action="store_true", help="write nothing; exit status 1 if it is not up to date")
-    pages = {
-        CAMERAS / "README.md": page(),
-        CAMERAS / "files" / "README.md": files(),
+    texts = {
+        CAMERAS / "README.md": pages.models(),
+        CAMERAS / "files" / "README.md": pages.files(),
         ROOT / "docs" / "pictures" / "architecture.svg": architecture.picture(TABLE),
         ROOT / "docs" / "lesson" / "index.html": lesson_page(),
     }
     if not parser.parse_args().check:
-        for path, text in pages.items():
+        for path, text in texts.items():
             path.parent.mkdir(exist_ok=True)
             path.write_text(text, encoding="utf-8")
         return 0
-    stored = {path: path.read_text(encoding="utf-8") if path.exists() else "" for path in pages}
-    old = [path for path, text in pages.items() if rounded(stored[path]) != rounded(text)]
+    stored = {path: path.read_text(encoding="utf-8") if path.exists() else "" for path in texts}
+    old = [path for path, text in texts.items() if rounded(stored[path]) != rounded(text)]
     return f"{old[0].relative_to(ROOT)} is not up to date: run scripts/make_docs.py" if old else 0
 
 

@@ -17,13 +17,13 @@ FAR = "radius over distance 1e-9, turned"
 @pytest.fixture(scope="module")
 def work_precision(precision, tmp_path_factory):
     """A function that runs the script here with some words; it returns its tables' cells, its JSON and its folder."""
-    import work_precision
+    from measure.precision.run import main
 
     def run(*words):
         folder, printed = tmp_path_factory.mktemp("out"), io.StringIO()
         with pytest.MonkeyPatch.context() as patch, redirect_stdout(printed):
             patch.setattr(sys, "argv", ["work_precision.py", *words, "--output", str(folder)])
-            assert work_precision.main() == 0
+            assert main("") == 0
         rows = [line.strip("| ").split(" | ") for line in printed.getvalue().splitlines() if line.startswith("|")]
         return rows, json.loads((folder / "work_precision.json").read_text()), folder
 

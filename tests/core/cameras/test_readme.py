@@ -8,11 +8,11 @@ from camera_ray_caster.core.cameras import MODELS
 from camera_ray_caster.core.cameras.parts.programs import FILE_WRITERS, PROGRAMS
 from camera_ray_caster.core.exports import FORMATS
 
-MAKE_DOCS = runpy.run_path(str(Path(__file__).parents[3] / "scripts" / "make_docs.py"))
+PAGES = runpy.run_path(str(Path(__file__).parents[3] / "scripts" / "make" / "pages.py"))
 
 
 def test_every_model_and_every_setting_is_on_the_page():
-    page = MAKE_DOCS["page"]()
+    page = PAGES["models"]()
     for model in MODELS:
         start = page.index(f"### {model.label}\n")
         section = page[start : page.index("\n##", start)]
@@ -25,7 +25,7 @@ def test_every_model_and_every_setting_is_on_the_page():
 
 
 def test_every_export_and_every_program_is_on_the_page_of_files():
-    page = MAKE_DOCS["files"]()
+    page = PAGES["files"]()
     assert {program.export for program in PROGRAMS} - {""} == {one.key for one in FORMATS}
     for program in PROGRAMS:
         assert f"| {program.name} | {program.files} | {program.reads} |" in page
