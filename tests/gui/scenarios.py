@@ -1,5 +1,7 @@
 """What a user does in the window, one scenario a function: steps, and what must then hold."""
 
+from types import SimpleNamespace
+
 import _cycles
 import bpy
 import numpy as np
@@ -10,11 +12,13 @@ from lesson_scenarios import LESSON_SCENARIOS
 from parts import BUTTON, MODULE, addon, load, timed
 from points_scenarios import POINTS_SCENARIOS
 from redraw_scenarios import REDRAW_SCENARIOS
-from stranger_scenarios import STRANGER_SCENARIOS
+from stranger_scenarios import ROW, STRANGER_SCENARIOS, open_menu
 from user import pixels_of
 from walk_scenarios import WALK_SCENARIOS
 from window_scenarios import WINDOW_SCENARIOS
 
+LEFT_OUT = 3.4
+"""Rows from the button Cast down to the row of what is left out."""
 DRAWN = 0.002
 """Seconds of the processor that the drawing of a panel may take: a redraw must not be felt."""
 
@@ -82,14 +86,18 @@ def no_camera(user, scenes):
 
 
 def left_out(user, scenes):
-    """What is left out is named in the sidebar by reason, with a button that selects it."""
+    """What is left out is counted in the sidebar, and named by reason in a popover, with a button that selects it."""
     yield from load(user, scenes, "left_out")
     yield from user.press(f"{BUTTON}cast(")
     yield from user.until(addon("output.reports").latest, "the cast has ended")
     names = addon("output.reports").by_reason(addon("output.reports").latest())
     yield from user.wait(0.5)
     user.picture("left_out")
-    yield from user.press(f"{BUTTON}select(")
+    yield from open_menu(user, f"{BUTTON}cast(", LEFT_OUT, 0.4)
+    user.picture("left_out_popover")
+    region, top = user.region(), round(user.known[f"{BUTTON}cast("] - LEFT_OUT * ROW)
+    popover = SimpleNamespace(x=region.x, width=region.width, y=top + 20, height=250)  # it opens above
+    yield from user.press(f"{BUTTON}select(", popover)
     chosen = {item.name for item in bpy.context.view_layer.objects if item.select_get()}
     assert chosen in [set(group) for group in names.values()], (names, chosen)
 

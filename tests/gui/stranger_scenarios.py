@@ -2,6 +2,7 @@
 
 import bpy
 import numpy as np
+from all_scenarios import open_list
 from lesson_scenarios import place_of
 from parts import BUTTON, addon, load
 from window_scenarios import middle
@@ -184,4 +185,36 @@ def notes_stay(user, scenes):
     assert np.array_equal(plain, (yield from below("notes_one_left")))
 
 
-STRANGER_SCENARIOS = (cast_a_cube, see_through, ray_of_a_pixel, export_colmap, notes_stay)
+def results_stay(user, scenes):
+    """A cast, a verification and a cast of all cameras move no button, whatever they say: each is where it was."""
+    yield from load(user, scenes, "left_out")
+    scene, run = bpy.context.scene, addon("ui.in_steps")
+    second = bpy.data.objects.new("Second", scene.camera.data)
+    scene.collection.objects.link(second)
+    scene.render.resolution_percentage = 10
+    yield from user.wait(0.7)
+    yield from open_list(user)
+    buttons = [f"{BUTTON}{name}(" for name in ("cast_all", "export", "cast", "verify")]
+
+    def places():
+        yield from user.scroll(60, down=False)
+        user.known.clear()
+        for button in buttons:
+            yield from user.find(button)
+        return dict(user.known)
+
+    before = yield from places()
+    yield from user.press(buttons[2])
+    yield from user.until(addon("output.reports").latest, "the cast has ended")
+    assert addon("output.reports").latest().left_out
+    yield from user.press(buttons[3])
+    yield from user.until(lambda: addon("output.reports").verified().findings, "the camera is verified")
+    bpy.ops.camera_ray_caster.cast_all(directory=str(user.folder / "stay"), frames="CURRENT")
+    yield from user.until(lambda: run.running() is None and run.latest(), "the pictures are made", 60)
+    yield from user.wait(0.7)
+    after = yield from places()
+    user.picture("results_stay")
+    assert after == before
+
+
+STRANGER_SCENARIOS = (cast_a_cube, see_through, ray_of_a_pixel, export_colmap, notes_stay, results_stay)

@@ -44,7 +44,8 @@ def test_the_panels_say_what_the_camera_is_and_why_it_is_none(blender, scene):
     )
 
     verify = verify_panels.SidebarVerify
-    sidebar = [camera_panels.SidebarCamera, verify, *cast_panels.CLASSES[:3], overlay_panels.SidebarOverlay]
+    sidebar = [camera_panels.SidebarCamera, verify, *cast_panels.CLASSES[1:], overlay_panels.SidebarOverlay]
+    popovers = cast_panels.CastReport, verify_panels.VerifyErrors
     assert "camera_ray_caster.see_through" not in drawn(blender, camera_panels.SidebarCamera)  # there is no view
     said = drawn(blender, facts_panels.SidebarFacts)
     eye, copy = "Eye X 0 m Y 0 m Z 6 m", "camera_ray_caster.copy_k"
@@ -60,10 +61,10 @@ def test_the_panels_say_what_the_camera_is_and_why_it_is_none(blender, scene):
     assert "slit_1" in drawn(blender, camera_panels.SidebarSettings)
     own.model = "BLENDER"
     blender.ops.camera_ray_caster.cast()
-    for panel in (*sidebar, camera_panels.SidebarSettings, *cast_panels.CLASSES[3:]):
+    for panel in (*sidebar, camera_panels.SidebarSettings, *popovers):
         drawn(blender, panel)
-    assert "Suzanne" in drawn(blender, left_out_panels.SidebarLeftOut)
-    assert "'Sphere': the exact shape is up to 0.96% of" in drawn(blender, cast_panels.SidebarNotes)
+    assert "Suzanne" in drawn(blender, left_out_panels.LeftOut)
+    assert "'Sphere': the exact shape is up to 0.96% of" in drawn(blender, cast_panels.CastReport)
     assert "All reference checks passed" in drawn(blender, verify)
     scene.camera.location.x = 1
     assert "has changed since" in drawn(blender, verify)
@@ -77,11 +78,11 @@ def test_cast_as_stands_in_the_objects_properties_and_beside_what_was_left_out(b
     from camera_ray_caster.blender.ui import left_out_panels, object_panels
 
     blender.ops.camera_ray_caster.cast()
-    assert drawn(blender, left_out_panels.SidebarLeftOut).split()[-6:] == [
+    assert drawn(blender, left_out_panels.LeftOut).split()[-6:] == [
         "Select", "1", "Object", "camera_ray_caster.select", "Suzanne", "primitive",
     ]  # fmt: skip
     blender.data.objects["Suzanne"].name = "Renamed"
-    assert "primitive" not in drawn(blender, left_out_panels.SidebarLeftOut)
+    assert "primitive" not in drawn(blender, left_out_panels.LeftOut)
     assert not object_panels.ObjectPanel.poll(blender.context)  # the camera is active
     blender.context.view_layer.objects.active = blender.data.objects["Renamed"]
     assert object_panels.ObjectPanel.poll(blender.context)
@@ -102,12 +103,12 @@ def test_the_panels_say_how_right_the_hits_are(blender, scene):
     assert found.hits > 0
     assert 0 < reports.latest().seconds["accuracy"] < sum(reports.latest().seconds.values())
     median, worst = (f"≤ {getattr(found, name)('relative_distance'):.0e}" for name in ("median", "worst"))
-    assert f"Median {median} Worst {worst}" in drawn(blender, cast_panels.SidebarReport)
+    assert f"Median {median} Worst {worst}" in drawn(blender, cast_panels.CastReport)
     assert "384 rays at 1 shape in" in drawn(blender, cast_panels.SidebarCast)
     assert f"Worst distance error: {worst}" in drawn(blender, render_panels.RenderPanel)
     scene.camera.location.z = -6  # it looks away from all there is
     blender.ops.camera_ray_caster.cast()
-    assert "Worst nothing hit" in drawn(blender, cast_panels.SidebarReport)
+    assert "Worst nothing hit" in drawn(blender, cast_panels.CastReport)
 
 
 def test_the_render_panel_leads_to_cycles_and_the_passes_have_the_alpha_threshold(blender, scene):
@@ -174,7 +175,7 @@ def test_results_are_shown_in_their_own_scene_only(blender, scene, how):
     from camera_ray_caster.blender.ui import cast_panels, left_out_panels, render_panels, verify_panels
 
     def shown():
-        panels = left_out_panels.SidebarLeftOut, cast_panels.SidebarReport
+        panels = left_out_panels.LeftOut, cast_panels.CastReport
         said = (cast_panels.SidebarCast, render_panels.RenderPanel, verify_panels.SidebarVerify)
         texts = " ".join(drawn(blender, panel) for panel in said)
         ops = blender.ops.camera_ray_caster.select, blender.ops.camera_ray_caster.write_report

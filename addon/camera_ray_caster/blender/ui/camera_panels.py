@@ -9,7 +9,7 @@ from .export_operators import ExportMenu
 from .gallery_operators import ExamplesMenu
 from .gallery_panels import draw_model
 from .model_drawing import PRESETS, draw_cycles, draw_lens, draw_model_settings, draw_times
-from .notes import draw_first, draw_notes, widen
+from .notes import Popover, draw_first, draw_notes, widen
 from .operators import LoadCalibration
 from .see_through import SeeThrough, is_seen_through
 
@@ -45,14 +45,11 @@ class SidebarCamera(Sidebar, bpy.types.Panel):
         draw_first(layout, notes(context), CameraNotes.bl_idname)
 
 
-class CameraNotes(bpy.types.Panel):
+class CameraNotes(Popover, bpy.types.Panel):
     """All notes on the camera's picture in whole sentences, each with what mends it"""
 
     bl_idname = "CAMERA_RAY_CASTER_PT_camera_notes"
     bl_label = "Notes"
-    bl_space_type = "VIEW_3D"
-    bl_region_type = "HEADER"
-    bl_options = {"INSTANCED"}
 
     def draw(self, context):
         """Draw the notes."""

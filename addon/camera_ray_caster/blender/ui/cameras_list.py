@@ -8,11 +8,13 @@ from bpy.props import BoolProperty, StringProperty
 from ...core.records import InputError
 from ..properties.labels import label_of
 from ..read.camera import ALL, find_camera, find_cameras
-from .cast_all import draw_all
+from . import in_steps
+from .cast_all import LatestRun, draw_all
 from .drawing import Sidebar
 from .export_operators import Export
 from .gallery_panels import key_of
 from .needs import reporting
+from .notes import draw_line
 from .see_through import is_seen_through
 
 
@@ -56,7 +58,7 @@ class SidebarCameras(Sidebar, bpy.types.Panel):
         return sum(item.type == "CAMERA" for item in context.scene.objects) > 1
 
     def draw(self, context):
-        """Draw a row for each camera, and the cast and the export of all."""
+        """Draw a row for each camera, the cast and the export of all, and how the latest of these ended."""
         layout, active = self.layout, context.scene.camera
         column = layout.column(align=True)
         try:
@@ -71,9 +73,10 @@ class SidebarCameras(Sidebar, bpy.types.Panel):
             through = row.operator(UseCamera.bl_idname, text="", icon="CAMERA_DATA")
             through.name, through.see_through = item.name, True
         layout.operator_context = "INVOKE_DEFAULT"
-        draw_all(layout, context)
+        draw_all(layout)
         export = layout.operator(Export.bl_idname, text="Export All", icon="EXPORT")
         export.format, export.cameras, export.frames = "json", "ALL", "RANGE"
+        draw_line(layout, in_steps.latest(), LatestRun.bl_idname)
 
 
 CLASSES = (UseCamera, SidebarCameras)

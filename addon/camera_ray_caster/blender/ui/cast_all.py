@@ -26,6 +26,7 @@ from ..terminal.restored import restored
 from . import in_steps
 from .drawing import draw_message
 from .needs import can_use, reporting
+from .notes import Popover, widen
 
 
 class Casting(in_steps.Running):
@@ -148,13 +149,11 @@ class CastAll(bpy.types.Operator):
         return {"FINISHED"}
 
 
-def draw_all(layout, context) -> None:
-    """Draw the button Cast All, or the progress and the button that stops; and how the latest run ended."""
+def draw_all(layout) -> None:
+    """Draw the button Cast All, or the progress and the button that stops."""
     now = in_steps.running()
     if now is None:
         layout.operator(CastAll.bl_idname, icon="RENDER_ANIMATION")
-        if in_steps.latest():
-            draw_message(layout, context, in_steps.latest())
         return
     row = layout.row(align=True)
     if now.fraction is None:
@@ -164,4 +163,16 @@ def draw_all(layout, context) -> None:
     row.operator(in_steps.StopAll.bl_idname, text="", icon="X")
 
 
-CLASSES = (CastAll,)
+class LatestRun(Popover, bpy.types.Panel):
+    """How the latest run ended"""
+
+    bl_idname = "CAMERA_RAY_CASTER_PT_latest_run"
+    bl_label = "Latest Run"
+
+    def draw(self, context):
+        """Draw it in whole sentences."""
+        widen(self.layout, context)
+        draw_message(self.layout, context, in_steps.latest())
+
+
+CLASSES = (CastAll, LatestRun)

@@ -9,6 +9,8 @@ from ..output import images, reports
 from ..properties.passes import PASSES, ticked
 from . import cast_operator
 from .drawing import Sidebar, draw_message, draw_row
+from .left_out_panels import LeftOut
+from .notes import Popover, draw_line, widen
 from .show_result import ResultsMenu
 
 
@@ -19,7 +21,9 @@ class SidebarCast(Sidebar, bpy.types.Panel):
     bl_label = "Cast"
 
     def draw(self, context):
-        """Draw the button or the progress; below it a menu of the images and one line about the latest cast."""
+        """Draw the button or the progress, a menu of the images, a row about the latest cast, and one of what it left
+        out.
+        """
         layout, fraction = self.layout, cast_operator.fraction()
         row = layout.row()
         row.scale_y = 1.4
@@ -29,13 +33,19 @@ class SidebarCast(Sidebar, bpy.types.Panel):
                          icon="RENDER_STILL")  # fmt: skip
         else:
             row.progress(factor=fraction, text=f"{fraction:.0%}, Esc: stop")
-        if images.results():
-            layout.menu(ResultsMenu.bl_idname, icon="IMAGE_DATA")
+        row = layout.row()
+        row.enabled = bool(images.results())
+        row.menu(ResultsMenu.bl_idname, icon="IMAGE_DATA")
         report = reports.latest(context.scene)
-        if report is not None:
-            seconds = f"{sum(report.seconds.values()):.3g}\N{NO-BREAK SPACE}s"
-            shapes = f"{report.shapes:,} {'shape' if report.shapes == 1 else 'shapes'}"
-            draw_message(layout, context, f"{report.pixels:,} rays at {shapes} in {seconds}", "TIME")
+        said, left_out = ("", ()) if report is None else (summary(report), report.left_out)
+        draw_line(layout, said, CastReport.bl_idname, "TIME", "No cast yet")
+        draw_line(layout, reports.left_out_count(left_out), LeftOut.bl_idname, "ERROR", "Nothing left out" if said else "")
+
+
+def summary(report) -> str:
+    """Return the number of rays and shapes of a cast, and its time."""
+    shapes = f"{report.shapes:,} {'shape' if report.shapes == 1 else 'shapes'}"
+    return f"{report.pixels:,} rays at {shapes} in {sum(report.seconds.values()):.3g} s"
 
 
 class SidebarPasses(Sidebar, bpy.types.Panel):
@@ -69,25 +79,20 @@ class SidebarQuality(Sidebar, bpy.types.Panel):
             layout.prop(settings, name)
 
 
-class SidebarReport(Sidebar, bpy.types.Panel):
-    """Times and error bounds of the latest cast or render."""
+class CastReport(Popover, bpy.types.Panel):
+    """Times, error bounds and notes of the latest cast or render"""
 
     bl_idname = "CAMERA_RAY_CASTER_PT_report"
     bl_label = "Report"
-    bl_parent_id = SidebarCast.bl_idname
-    bl_options = {"DEFAULT_CLOSED"}
 
     @classmethod
     def poll(cls, context):
-        """Show the panel if there is a report."""
+        """Open the popover if there is a report."""
         return reports.latest(context.scene) is not None
 
-    def draw_header_preset(self, context):
-        """Draw a button that writes the whole report into a text datablock."""
-        self.layout.operator("camera_ray_caster.write_report", text="", icon="TEXT", emboss=False)
-
     def draw(self, context):
-        """Draw the seconds per step, the rays per second and the relative error bounds of the distances."""
+        """Draw the seconds per step, the rays per second, the relative error bounds of the distances, and the notes."""
+        widen(self.layout, context)
         report = reports.latest(context.scene)
         box = self.layout.box().column(align=True)
         for step, seconds in report.seconds.items():
@@ -97,44 +102,14 @@ class SidebarReport(Sidebar, bpy.types.Panel):
         box.label(text="Relative error of the distances")
         for name in ("median", "worst"):
             draw_row(box, name.capitalize(), [reports.relative_error(report, name)], 0.5)
+        noted = [*report.warnings, *sentences(report.notes, report.exact)]
+        not_done = [line.replace("_", " ") for line in report.not_done]
+        for title, lines in (("Noted", noted), ("Not Needed", not_done)):
+            if lines:
+                self.layout.label(text=title)
+            for line in lines:
+                draw_message(self.layout, context, line, "DOT")
+        self.layout.operator("camera_ray_caster.write_report", icon="TEXT")
 
 
-class SidebarNotes(Sidebar, bpy.types.Panel):
-    """Warnings of the latest render, and what its passes show otherwise than expected."""
-
-    bl_idname = "CAMERA_RAY_CASTER_PT_notes"
-    bl_label = "Noted"
-    bl_parent_id = SidebarReport.bl_idname
-    bl_options = {"DEFAULT_CLOSED"}
-
-    @classmethod
-    def poll(cls, context):
-        """Show the panel if there is a note."""
-        return bool(_notes(context))
-
-    def draw(self, context):
-        """Draw a message for each note."""
-        for line in _notes(context):
-            draw_message(self.layout, context, line, "DOT")
-
-
-def _notes(context) -> list[str]:
-    report = reports.latest(context.scene)
-    return [] if report is None else [*report.warnings, *sentences(report.notes, report.exact)]
-
-
-class SidebarNotDone(Sidebar, bpy.types.Panel):
-    """Steps that the latest cast did not need, and why."""
-
-    bl_idname = "CAMERA_RAY_CASTER_PT_not_done"
-    bl_label = "Not Needed"
-    bl_parent_id = SidebarReport.bl_idname
-    bl_options = {"DEFAULT_CLOSED"}
-
-    def draw(self, context):
-        """Draw a message for each step."""
-        for line in reports.latest(context.scene).not_done:
-            draw_message(self.layout, context, line.replace("_", " "), "DOT")
-
-
-CLASSES = (SidebarCast, SidebarPasses, SidebarQuality, SidebarReport, SidebarNotes, SidebarNotDone)
+CLASSES = (CastReport, SidebarCast, SidebarPasses, SidebarQuality)

@@ -47,11 +47,16 @@ def draw_field(layout, context, owner, name: str):
 
 def draw_message(layout, context, text: str, icon: str = "INFO") -> None:
     """Draw a sentence, wrapped to the panel's width, with a capital first letter; leave a formula as it is."""
-    text = text if text[1:4] == " = " else text[:1].upper() + text[1:]
+    text = capital(text)
     column = layout.column(align=True)
     column.scale_y = 0.85
     for i, line in enumerate(wrap(text, max(16, int((width_of(context) - 65) / LETTER)))):
         column.label(text=line, icon="BLANK1" if i else icon)
+
+
+def capital(text: str) -> str:
+    """Return a sentence with a capital first letter; a formula as it is."""
+    return text if text[1:4] == " = " else text[:1].upper() + text[1:]
 
 
 def draw_row(layout, name: str, cells, factor: float) -> None:

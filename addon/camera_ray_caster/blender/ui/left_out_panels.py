@@ -1,33 +1,31 @@
-"""The sidebar panel of the objects that the latest cast left out."""
+"""The popover of the objects that the latest cast left out."""
 
 import bpy
 
 from ..output import reports
-from .drawing import Sidebar, draw_message
+from .drawing import draw_message
+from .notes import Popover, widen
 from .object_panels import draw_cast_as
 
 LISTED = 6
 """Maximum number of objects that the panel names for each reason; the report has all of them."""
 
 
-class SidebarLeftOut(Sidebar, bpy.types.Panel):
-    """Objects that the latest cast left out, by reason."""
+class LeftOut(Popover, bpy.types.Panel):
+    """Objects that the latest cast left out, by reason, each with its Cast As setting"""
 
     bl_idname = "CAMERA_RAY_CASTER_PT_left_out"
     bl_label = "Left Out"
 
     @classmethod
     def poll(cls, context):
-        """Show the panel if something was left out."""
+        """Open the popover if something was left out."""
         report = reports.latest(context.scene)
         return report is not None and len(report.left_out) > 0
 
-    def draw_header_preset(self, context):
-        """Draw the number of objects."""
-        self.layout.label(text=str(len(reports.latest(context.scene).left_out)))
-
     def draw(self, context):
         """Draw each reason with a button that selects its objects; below it each object's name and Cast As setting."""
+        widen(self.layout, context)
         for reason, names in reports.by_reason(reports.latest(context.scene)).items():
             column = self.layout.column(align=True)
             draw_message(column, context, reason, "DOT")
@@ -43,4 +41,4 @@ class SidebarLeftOut(Sidebar, bpy.types.Panel):
                 draw_message(column, context, f"and {len(names) - LISTED} more", "BLANK1")
 
 
-CLASSES = (SidebarLeftOut,)
+CLASSES = (LeftOut,)

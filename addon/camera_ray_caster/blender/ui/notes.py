@@ -1,6 +1,6 @@
-"""Notes in panels: what is wrong with the camera's picture, each with what mends it.
+"""Notes and results in panels: what is wrong with the camera's picture, with what mends it; how an operator ended.
 
-In the sidebar they have a place of constant height, so that none of them moves a button under the mouse.
+In the sidebar they have rows of a constant number, which open popovers with all of it: no button moves under the mouse.
 """
 
 from __future__ import annotations
@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from typing import Any, NamedTuple
 
-from .drawing import draw_message, width_of
+from .drawing import capital, draw_message, width_of
 
 UNIT = 20.0
 """Pixels of an interface unit at interface scale 1."""
@@ -36,12 +36,28 @@ def draw_first(layout, notes: list[Note], panel: str) -> None:
         layout.label(text="No notes", icon="CHECKMARK")
         layout.label(text="")
         return
-    first, text = notes[0], notes[0].text[:1].upper() + notes[0].text[1:]
-    layout.popover(panel, text=text if len(notes) == 1 else f"{len(notes)} notes: {text}", icon=first.icon)
+    first, text = notes[0], capital(notes[0].text)
+    draw_line(layout, text if len(notes) == 1 else f"{len(notes)} notes: {text}", panel, first.icon)
     if first.mend is None:
         layout.label(text="")
     else:
         first.mend(layout.row(align=True))
+
+
+def draw_line(layout, text: str, panel: str, icon: str = "INFO", otherwise: str = "") -> None:
+    """Draw one row, whatever there is: a text, which opens ``panel``, or without one what is said ``otherwise``."""
+    if text:
+        layout.popover(panel, text=text, icon=icon)
+    else:
+        layout.label(text=otherwise, icon="BLANK1")
+
+
+class Popover:
+    """Base of the panels that rows of the sidebar open."""
+
+    bl_space_type = "VIEW_3D"
+    bl_region_type = "HEADER"
+    bl_options = {"INSTANCED"}
 
 
 def widen(layout, context) -> None:

@@ -5,6 +5,7 @@ import bpy
 from ..output import reports
 from .drawing import Sidebar, draw_message, draw_row
 from .facts_panels import facts_of
+from .notes import Popover, draw_line, widen
 
 WITNESSES = {
     "view_frame": "View Frame",
@@ -23,28 +24,36 @@ class SidebarVerify(Sidebar, bpy.types.Panel):
     bl_label = "Verification"
 
     def draw(self, context):
-        """Draw the buttons and the verdict; in a folded panel, the worst error and the bound of each reference."""
+        """Draw the buttons and the verdict, which opens the errors."""
         layout = self.layout
         row = layout.row(align=True)
         row.operator("camera_ray_caster.verify", icon="CHECKMARK")
         row.operator("camera_ray_caster.verify", text="With Cycles").with_cycles = True
         report = reports.verified(context.scene)
-        if report is None:
-            return
-        if report.camera != facts_of(context, context.scene.camera)[0]:
-            draw_message(layout, context, "The camera has changed since the last verification")
-            layout = layout.column()
-            layout.active = False
-        said = (
-            "All reference checks passed"
-            if report.passed
-            else "A reference check failed: the rays differ by more than its error bound"
-        )
-        draw_message(layout, context, said, "CHECKMARK" if report.passed else "ERROR")
-        header, body = layout.panel("camera_ray_caster errors", default_closed=True)
-        header.label(text="Errors in Pixels")
-        if body:
-            draw_findings(body, report.findings)
+        text, icon = ("", "NONE") if report is None else verdict(context, report)
+        draw_line(layout, text, VerifyErrors.bl_idname, icon, "Not verified yet")
+
+
+def verdict(context, report) -> tuple[str, str]:
+    """Return what a verification found, in words, and an icon."""
+    if report.camera != facts_of(context, context.scene.camera)[0]:
+        return "Camera has changed since", "INFO"
+    return ("All reference checks passed", "CHECKMARK") if report.passed else ("A reference check failed", "ERROR")
+
+
+class VerifyErrors(Popover, bpy.types.Panel):
+    """The worst error of the latest verification, and its bound, for each reference"""
+
+    bl_idname = "CAMERA_RAY_CASTER_PT_verify_errors"
+    bl_label = "Errors in Pixels"
+
+    def draw(self, context):
+        """Draw the table."""
+        widen(self.layout, context)
+        report = reports.verified(context.scene)
+        if not report.passed:
+            draw_message(self.layout, context, "The rays differ by more than their error bound", "ERROR")
+        draw_findings(self.layout, report.findings)
 
 
 def draw_findings(layout, findings) -> None:
@@ -60,4 +69,4 @@ def draw_findings(layout, findings) -> None:
         draw_row(row, WITNESSES.get(finding.witness, finding.witness), errors, 0.46)
 
 
-CLASSES = (SidebarVerify,)
+CLASSES = (SidebarVerify, VerifyErrors)
