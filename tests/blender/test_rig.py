@@ -10,6 +10,7 @@ from camera_ray_caster.blender.read.frames import go_to
 from camera_ray_caster.blender.read.scene import read_camera
 from camera_ray_caster.blender.rig import add_rig, frames_of
 from camera_ray_caster.blender.terminal import commands
+from camera_ray_caster.blender.ui import chosen_frames, in_steps
 from camera_ray_caster.core.records import InputError
 
 CHAIN = """cam0:
@@ -133,6 +134,31 @@ def test_images_with_cameras_of_their_own_are_marked_cast_and_exported_once(blen
         scene.frame_set(frame)
         seen.append((scene.camera.name.rpartition(".")[0] or scene.camera.name, scene.camera.matrix_world[0][3]))
     assert seen == [(cameras[0], 1), (cameras[1], 2)]
+
+
+def test_cast_all_and_exports_take_each_camera_in_the_frames_of_its_poses(blender, camera_scene, tmp_path):
+    model = tmp_path / "model"
+    model.mkdir()
+    (model / "cameras.txt").write_text("1 PINHOLE 8 6 9 9 4 3\n2 OPENCV_FISHEYE 6 6 3 3 3 3 0 0 0 0\n")
+    (model / "images.txt").write_text("".join(f"{k} 1 0 0 0 {-k} 0 0 {k} x_000{k}.png\n\n" for k in (1, 2)))
+    scene = blender.context.scene
+    blender.data.objects.remove(scene.camera)
+    scene.frame_set(7)
+    cast, export = blender.ops.camera_ray_caster.cast_all, blender.ops.camera_ray_caster.export
+    add_rig(scene, [model])
+    assert chosen_frames.usual(scene) == "POSES"
+    assert cast(directory=str(tmp_path / "all"), frames="POSES", format="NPZ") == {"FINISHED"}
+    while in_steps.tick() is not None:
+        pass
+    assert {path.stem for path in (tmp_path / "all").glob("*.npz")} == {"x-1_0001", "x-2_0002"}
+    assert export(filepath=str(tmp_path / "e"), format="colmap", cameras="ALL", frames="POSES") == {"FINISHED"}
+    assert (tmp_path / "e" / "images.txt").read_text().count(".png") == 2
+    assert scene.frame_current == 7
+    for item in scene.objects:
+        item.pop("frames_of_poses", None)
+    assert chosen_frames.usual(scene) == "RANGE"
+    with pytest.raises(RuntimeError, match="No camera has poses of a file: choose Range or Current"):
+        cast(directory=str(tmp_path / "none"), frames="POSES")
 
 
 def test_a_rig_below_a_camera_sees_what_it_sees(blender, camera_scene, chain):

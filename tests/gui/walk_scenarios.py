@@ -34,8 +34,13 @@ def slit_scan_movie(user, scenes):
     user.picture("walk_engine")
     yield from user.press(f"{BUTTON}use_this_engine(")
     yield from user.until(lambda: scene.render.engine == "CAMERA_RAY_CASTER", "the engine is set")
-    for name, text in (("time_start", "frame"), ("time_end", "frame + 24")):  # "#frame" in the field makes it
-        own.driver_add(name).driver.expression = text
+    yield from user.wait(0.7)
+    user.picture("walk_follow")
+    yield from user.press(f"{BUTTON}follow_timeline(")
+    yield from user.until(lambda: scene.camera.data.animation_data, "the times go with the timeline")
+    scene.frame_set(3)
+    assert (own.time_start, own.time_end) == (3, 27)
+    scene.frame_set(1)
     scene.frame_end, scene.render.resolution_percentage = MOVIE, 10
     scene.render.filepath, form = str(user.folder / "movie_"), scene.render.image_settings
     if hasattr(form, "media_type"):

@@ -25,6 +25,7 @@ from .ui import (
     cycles_operators,
     export_operators,
     facts_panels,
+    follow_timeline,
     frame,
     gallery_operators,
     gallery_panels,
@@ -53,9 +54,9 @@ from .view3d import lesson, mouse_gizmo, notice, overlay, points
 
 CLASSES = (
     *groups.CLASSES, *overlay.CLASSES, *engine.CLASSES, *operators.CLASSES, *cast_operator.CLASSES,
-    *cycles_operators.CLASSES, *frame.CLASSES, *other_engine.CLASSES, *add_line.CLASSES, *export_operators.CLASSES,
-    *rig_operators.CLASSES, *mouse_gizmo.CLASSES, *render_panels.CLASSES, *gallery_panels.CLASSES,
-    *menus.CLASSES, *presets.CLASSES, *model_panels.CLASSES,
+    *cycles_operators.CLASSES, *frame.CLASSES, *follow_timeline.CLASSES, *other_engine.CLASSES, *add_line.CLASSES,
+    *export_operators.CLASSES, *rig_operators.CLASSES, *mouse_gizmo.CLASSES, *render_panels.CLASSES,
+    *gallery_panels.CLASSES, *menus.CLASSES, *presets.CLASSES, *model_panels.CLASSES,
     *see_through.CLASSES, *select_seen.CLASSES, *camera_panels.CLASSES, *in_steps.CLASSES, *cast_all.CLASSES,
     *cameras_list.CLASSES, *show_result.CLASSES, *cast_panels.CLASSES, *verify_panels.CLASSES,
     *left_out_panels.CLASSES, *lesson_operators.CLASSES, *point_operators.CLASSES, *gallery_operators.CLASSES,

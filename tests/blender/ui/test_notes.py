@@ -39,6 +39,11 @@ def all_at_once(scene, data):
     return "3 notes: The picture is stretched"
 
 
+def still(scene, data):
+    data.camera_ray_caster.time_mode, scene.frame_end = "ROWS", 9
+    return "Start and End stand still camera_ray_caster.follow_timeline"
+
+
 def no_camera(scene, data):
     scene.camera = None
     return "no active camera"
@@ -53,7 +58,7 @@ def rows(blender):
     return len(called)
 
 
-@pytest.mark.parametrize("what", [stretched, missing, unknown, sharp, all_at_once])
+@pytest.mark.parametrize("what", [stretched, missing, unknown, sharp, still, all_at_once])
 def test_a_note_moves_nothing_below_it(blender, scene, what):
     scene.render.engine = "CAMERA_RAY_CASTER"
     assert "No notes" in drawn(blender, SidebarCamera)
@@ -79,6 +84,23 @@ def test_of_two_missing_slits_each_is_added_by_the_same_button(blender, scene):
         assert f"camera_ray_caster.add_line {name}" in drawn(blender, SidebarCamera)
         blender.ops.camera_ray_caster.add_line(setting=name)
     assert "add_line" not in drawn(blender, SidebarCamera)
+
+
+def test_the_times_of_a_slit_scan_go_with_the_timeline(blender, scene):
+    scene.render.engine, scene.frame_end = "CAMERA_RAY_CASTER", 9
+    follow, own = blender.ops.camera_ray_caster.follow_timeline, scene.camera.data.camera_ray_caster
+    assert not follow.poll()
+    still(scene, scene.camera.data)
+    scene.frame_set(4)
+    own.time_start, own.time_end = 3.1, 25
+    assert follow() == {"FINISHED"}
+    start = own.time_start
+    blender.context.view_layer.update()
+    assert (own.time_start, own.time_end) == (start, 25), "the current frame is as it was"
+    scene.frame_set(6)
+    assert own.time_start == pytest.approx(5.1, abs=1e-6)
+    assert own.time_end == 27
+    assert not notes(blender.context)
 
 
 def test_the_frame_of_a_calibrated_camera_is_one_note(blender, scene, tmp_path):

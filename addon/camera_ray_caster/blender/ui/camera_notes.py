@@ -8,6 +8,7 @@ from ...core.cameras.parts.settings import Setting
 from ..properties.declared import BLENDERS_OWN, GROUP
 from ..properties.owners import owner_of
 from .facts_panels import camera_of
+from .follow_timeline import timeline_note
 from .frame import frame_note
 from .model_drawing import draw_add, is_missing, lacks
 from .model_settings import read_settings
@@ -26,7 +27,8 @@ def notes(context) -> list[Note]:
     if reason and not lacking:
         every.append(Note(reason, frame and frame.mend))  # of a calibrated camera the reason is its frame
         frame = None
-    every += filter(None, (frame, engine_note(scene, camera), sample_note(scene, found)))
+    others = engine_note(scene, camera), timeline_note(scene, camera), sample_note(scene, found)
+    every += filter(None, (frame, *others))
     if context.space_data is not None and is_seen_through(context) and not drawn_alike(camera):
         said = "A click selects what is seen; Blender draws its gizmos in perspective"
         every.append(Note(said, icon="INFO"))

@@ -10,6 +10,7 @@ from ..properties.labels import label_of
 from ..read.camera import ALL, find_camera, find_cameras
 from . import in_steps
 from .cast_all import LatestRun, draw_all
+from .chosen_frames import usual
 from .drawing import Sidebar
 from .export_operators import Export
 from .gallery_panels import key_of
@@ -75,7 +76,7 @@ class SidebarCameras(Sidebar, bpy.types.Panel):
         layout.operator_context = "INVOKE_DEFAULT"
         draw_all(layout)
         export = layout.operator(Export.bl_idname, text="Export All", icon="EXPORT")
-        export.format, export.cameras, export.frames = "json", "ALL", "RANGE"
+        export.format, export.cameras, export.frames = "json", "ALL", usual(context.scene)
         draw_line(layout, in_steps.latest(), LatestRun.bl_idname)
 
 

@@ -17,13 +17,12 @@ from ...core.file_set import clear_up
 from ...core.records import InputError
 from ..cycles.renderer import changed
 from ..properties.declared import ENGINE
-from ..read.camera import ALL
-from ..read.frames import frame_of
+from ..read.camera import ALL, find_cameras
 from ..terminal import files
 from ..terminal.cast import options_of
 from ..terminal.pictures import Pictures
 from ..terminal.restored import restored
-from . import in_steps
+from . import chosen_frames, in_steps
 from .drawing import draw_message
 from .needs import can_use, reporting
 from .notes import Popover, widen
@@ -90,11 +89,7 @@ class CastAll(bpy.types.Operator):
 
     directory: StringProperty(name="Folder", description="Folder of the files", subtype="DIR_PATH")
     frames: EnumProperty(
-        name="Frames",
-        items=[
-            ("RANGE", "Range", "The scene's frame range, with its frame step"),
-            ("CURRENT", "Current", "The current frame"),
-        ],
+        name="Frames", items=[chosen_frames.RANGE, chosen_frames.CURRENT, chosen_frames.POSES], options={"SKIP_SAVE"}
     )
     format: EnumProperty(
         name="Passes",
@@ -123,6 +118,8 @@ class CastAll(bpy.types.Operator):
 
     def invoke(self, context, event):
         """Ask for the folder."""
+        if not self.properties.is_property_set("frames"):
+            self.frames = chosen_frames.usual(context.scene)
         if not self.directory:
             beside = Path(bpy.data.filepath or Path.home() / "untitled.blend")
             self.directory = str(beside.with_name(f"{beside.stem}_pictures"))
@@ -141,11 +138,12 @@ class CastAll(bpy.types.Operator):
         if self.skip_existing and bpy.data.is_dirty:
             raise InputError("pictures of the file cannot be told from those of your changes: save it, or do not skip")
         scene = context.scene
-        every = f"{scene.frame_start}:{scene.frame_end}:{scene.frame_step}"
-        at = ["--frames", every] if self.frames == "RANGE" else ["--frame", str(frame_of(scene))]
-        words = ["--cameras", ALL, *at, "--output", bpy.path.abspath(self.directory), "--format", self.format]
+        words = ["--cameras", ALL, "--output", bpy.path.abspath(self.directory), "--format", self.format]
         words += ["--engine", self.engine, "--enable-autoexec", *["--skip-existing"] * self.skip_existing]
-        in_steps.begin(Casting(options_of(words, self.bl_label), scene, context.window))
+        options = options_of(words, self.bl_label)
+        options.frames, _ = chosen_frames.chosen(scene, self.frames, find_cameras(scene, [ALL]))
+        options.own_frames = self.frames == chosen_frames.POSES[0]
+        in_steps.begin(Casting(options, scene, context.window))
         return {"FINISHED"}
 
 

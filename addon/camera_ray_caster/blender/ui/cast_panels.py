@@ -39,7 +39,7 @@ class SidebarCast(Sidebar, bpy.types.Panel):
         report = reports.latest(context.scene)
         said, left_out = ("", ()) if report is None else (summary(report), report.left_out)
         draw_line(layout, said, CastReport.bl_idname, "TIME", "No cast yet")
-        draw_line(layout, reports.left_out_count(left_out), LeftOut.bl_idname, "ERROR", "Nothing left out" if said else "")
+        draw_line(layout, reports.left_out_count(left_out), LeftOut.bl_idname, "ERROR", said and "Nothing left out")
 
 
 def summary(report) -> str:

@@ -11,9 +11,8 @@ from ...core.exports import FORMATS, find_format
 from ...core.records import InputError
 from ..output import exports
 from ..read.camera import ALL, find_camera, find_cameras
-from ..read.frames import frame_of
 from ..read.scene import read_camera
-from . import in_steps
+from . import chosen_frames, in_steps
 from .needs import OfScene, can_use, reporting
 
 WORK = 0.1
@@ -75,11 +74,7 @@ class Export(OfScene, ExportHelper, bpy.types.Operator):
         ],
     )
     frames: EnumProperty(
-        name="Frames",
-        items=[
-            ("CURRENT", "Current", "The current frame"),
-            ("RANGE", "Range", "The scene's frame range, with its frame step"),
-        ],
+        name="Frames", items=[chosen_frames.CURRENT, chosen_frames.RANGE, chosen_frames.POSES]
     )
     target: StringProperty(
         name="Target Camera",
@@ -132,14 +127,13 @@ class Export(OfScene, ExportHelper, bpy.types.Operator):
         if not cameras:
             raise InputError("no camera is selected: select some, or export the active one")
         target = find_camera(scene, self.target) if self.target else None
-        every = range(scene.frame_start, scene.frame_end + 1, scene.frame_step)
-        frames = [frame_of(scene)] if self.frames == "CURRENT" else every
+        frames, shown = chosen_frames.chosen(scene, self.frames, cameras)
         folder = Path(bpy.path.abspath(self.filepath))
-        what = scene, self.format, cameras, frames, folder, target
+        what, shown = (scene, self.format, cameras, frames, folder, target), {"shown": shown}
         if self.in_steps:
-            in_steps.begin(Exporting(scene, context.window, folder, exports.steps(*what)))
+            in_steps.begin(Exporting(scene, context.window, folder, exports.steps(*what, **shown)))
             return {"FINISHED"}
-        for line in said_of(*exports.write(*what), folder):
+        for line in said_of(*exports.write(*what, **shown), folder):
             self.report({"INFO"}, line)
         return {"FINISHED"}
 

@@ -6,6 +6,7 @@ from .add_line import SETTINGS, AddGradient, AddLine
 from .cast_operator import Cast
 from .cycles_operators import BackToBlender, FitLens, UseInCycles
 from .export_operators import CopyK, CopyWorldToCamera, ExportMenu
+from .follow_timeline import FollowTimeline
 from .frame import SetFrame
 from .gallery_operators import CamerasMenu, ExamplesMenu
 from .gallery_panels import ModelMenu, TimeMenu
@@ -19,8 +20,8 @@ from .show_result import ResultsMenu
 
 LISTED = (
     SeeThrough, Cast, Verify, StepThrough, PixelOfPoint, EmptyAtHit, CopySteps, ClearSteps, SetFrame, LoadCalibration,
-    AddCameras, AddGradient, UseThisEngine, UseInCycles, FitLens, BackToBlender, CopyFacts, CopyK, CopyWorldToCamera,
-    WriteReport,
+    AddCameras, AddGradient, FollowTimeline, UseThisEngine, UseInCycles, FitLens, BackToBlender, CopyFacts, CopyK,
+    CopyWorldToCamera, WriteReport,
 )  # fmt: skip
 MENUS = (ModelMenu, TimeMenu, ResultsMenu, ExportMenu, ExamplesMenu, CamerasMenu)
 

@@ -1,0 +1,56 @@
+"""The operator that lets the times of the pixels go with the timeline, and the note that offers it."""
+
+from __future__ import annotations
+
+import bpy
+
+from ...core.camera.pixel_time import END, SETTINGS, START
+from ..properties.declared import GROUP
+from ..read.frames import frame_of
+from .needs import OfCamera, camera_object_of
+from .notes import Note
+
+
+class FollowTimeline(OfCamera, bpy.types.Operator):
+    """Let Start and End, the times of the pixels, go with the timeline, by drivers. The current frame shows what it
+    did, and each frame of a movie another picture
+    """
+
+    bl_idname = "camera_ray_caster.follow_timeline"
+    bl_label = "Follow Timeline"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context):
+        """Gray out the operator for cameras whose pixels have no Start and End."""
+        if not super().poll(context):
+            return False
+        cls.poll_message_set("For a slit scan or a time displacement")
+        return has_range(camera_object_of(context).data)
+
+    def execute(self, context):
+        """Drive both by the frame."""
+        own = getattr(camera_object_of(context).data, GROUP)
+        for setting in (START, END):
+            offset = getattr(own, setting.name) - frame_of(context.scene)
+            own.driver_add(setting.name).driver.expression = f"frame {offset:+.9g}"
+        return {"FINISHED"}
+
+
+def has_range(camera) -> bool:
+    """Return whether a camera's pixels have times between Start and End."""
+    return START in SETTINGS[getattr(camera, GROUP).time_mode]
+
+
+def timeline_note(scene, camera) -> Note | None:
+    """Return a note with the operator if a camera object's pixels have the same times in all frames of a movie."""
+    if camera is None or camera.type != "CAMERA" or not has_range(camera.data) or scene.frame_start == scene.frame_end:
+        return None
+    moves = camera.data.animation_data
+    if moves is not None and (moves.action or any(START.name in one.data_path for one in moves.drivers)):
+        return None
+    said = "All frames of a movie are the same: Start and End stand still"
+    return Note(said, lambda row: row.operator(FollowTimeline.bl_idname, icon="DRIVER"), "INFO")
+
+
+CLASSES = (FollowTimeline,)
