@@ -1,12 +1,13 @@
 """Exports and matrices by Blender's operators."""
 
 import json
+import re
 
 import numpy as np
 import pytest
 
 from camera_ray_caster.blender.read.scene import read_camera
-from camera_ray_caster.blender.ui import export_operators
+from camera_ray_caster.blender.ui import export_operators, in_steps
 from camera_ray_caster.core.exports import FORMATS
 from camera_ray_caster.core.exports.camera_json import camera_from_json
 
@@ -55,6 +56,23 @@ def test_what_cannot_be_written_is_an_error_in_one_line(blender, two, tmp_path):
     with pytest.raises(RuntimeError, match="no camera 'Third'"):
         blender.ops.camera_ray_caster.export(filepath=str(tmp_path), format="stmap", target="Third")
     assert names(tmp_path) == []
+
+
+@pytest.mark.full
+def test_the_nearest_lens_is_written_and_its_error_said_last(blender, two, tmp_path):
+    two.render.resolution_x, two.render.resolution_y = 64, 48
+    own = two.camera.data.camera_ray_caster
+    own.model, own.fx, own.fy, own.cx, own.cy = "DOUBLE_SPHERE", 30, 30, 31.5, 23.5
+    own.calibration_width, own.calibration_height = 64, 48
+    given = {"filepath": str(tmp_path), "format": "opencv"}
+    with pytest.raises(RuntimeError, match=r"cannot represent the Double Sphere .*, or Fit the Nearest Lens"):
+        blender.ops.camera_ray_caster.export(**given)
+    blender.ops.camera_ray_caster.export(**given, fit=True, fit_within=1.0, in_steps=True)
+    while in_steps.tick() is not None:
+        pass
+    said = r"First: fitted to its Double Sphere, within 57.3 degrees of the viewing direction: .* mean [\d.e-]+ pixels"
+    assert re.match(said, in_steps.latest())
+    assert in_steps.latest() in (tmp_path / "First.yml").read_text()
 
 
 def test_every_format_can_be_chosen_and_says_what_it_is(blender):

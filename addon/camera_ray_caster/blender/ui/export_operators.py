@@ -1,13 +1,16 @@
 """Operators that export cameras to files and copy matrices to the clipboard, and the export menu."""
 
+from math import pi
 from pathlib import Path
 from time import perf_counter
 
 import bpy
-from bpy.props import BoolProperty, EnumProperty, StringProperty
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, StringProperty
 from bpy_extras.io_utils import ExportHelper
 
 from ...core.exports import FORMATS, find_format
+from ...core.exports.fitted import FIT, FIT_WITHIN
+from ...core.exports.lenses import LensFormat
 from ...core.records import InputError
 from ..output import exports
 from ..read.camera import ALL, find_camera, find_cameras
@@ -30,9 +33,9 @@ class Exporting(in_steps.Running):
 
     interval = 0.01
 
-    def __init__(self, scene, window, folder: Path, steps):
+    def __init__(self, scene, window, folder: Path, fits: bool, steps):
         super().__init__(scene, window, steps)
-        self.folder, self.is_heard = folder, False
+        self.folder, self.fits, self.is_heard = folder, fits, False
         self.stopped = f"Stopped: nothing was written into {folder}"
 
     def step(self) -> None:
@@ -47,12 +50,15 @@ class Exporting(in_steps.Running):
 
     def lines(self, result) -> list[str]:
         """Return the remarks on the files, and their number."""
-        return said_of(*result, self.folder)
+        return said_of(*result, self.folder, self.fits)
 
 
-def said_of(said: list[str], paths: list[Path], folder: Path) -> list[str]:
-    """Return the remarks of an export, and the number of its files."""
-    return [*said, f"Wrote {len(paths)} {'file' if len(paths) == 1 else 'files'} into {folder}"]
+def said_of(said: list[str], paths: list[Path], folder: Path, fits: bool) -> list[str]:
+    """Return the remarks of an export, and the number of its files. The last one stays in sight: the number, or the
+    error of a fit.
+    """
+    wrote = f"Wrote {len(paths)} {'file' if len(paths) == 1 else 'files'} into {folder}"
+    return [wrote, *said] if fits else [*said, wrote]
 
 
 class Export(OfScene, ExportHelper, bpy.types.Operator):
@@ -81,6 +87,17 @@ class Export(OfScene, ExportHelper, bpy.types.Operator):
         description="Name of the target camera of the maps. If empty, a perspective camera with the same lens",
     )
 
+    fit: BoolProperty(
+        name=FIT,
+        description="In place of a lens that the format does not have, write the nearest one that it has, and tell how "
+                    "many pixels it is away",
+    )  # fmt: skip
+    fit_within: FloatProperty(
+        name=FIT_WITHIN,
+        description="Only pixels within this angle of the viewing direction count: a pinhole is like the middle of a "
+                    "fisheye at best",
+        subtype="ANGLE", min=pi / 180, max=pi, default=pi,
+    )  # fmt: skip
     in_steps: BoolProperty(
         name="In Steps", description="Write from a timer, so that the window stays responsive and Esc stops it",
         options={"HIDDEN", "SKIP_SAVE"},
@@ -118,6 +135,11 @@ class Export(OfScene, ExportHelper, bpy.types.Operator):
         layout.prop(self, "frames")
         if find_format(self.format).takes_target:
             layout.prop_search(self, "target", context.scene, "objects", icon="CAMERA_DATA")
+        if isinstance(find_format(self.format), LensFormat):
+            layout.prop(self, "fit")
+            row = layout.row()
+            row.active = self.fit
+            row.prop(self, "fit_within")
 
     @reporting
     def execute(self, context):
@@ -129,11 +151,12 @@ class Export(OfScene, ExportHelper, bpy.types.Operator):
         target = find_camera(scene, self.target) if self.target else None
         frames, shown = chosen_frames.chosen(scene, self.frames, cameras)
         folder = Path(bpy.path.abspath(self.filepath))
-        what, shown = (scene, self.format, cameras, frames, folder, target), {"shown": shown}
+        what = scene, self.format, cameras, frames, folder, target
+        how = {"fit": self.fit_within if self.fit else None, "shown": shown}
         if self.in_steps:
-            in_steps.begin(Exporting(scene, context.window, folder, exports.steps(*what, **shown)))
+            in_steps.begin(Exporting(scene, context.window, folder, self.fit, exports.steps(*what, **how)))
             return {"FINISHED"}
-        for line in said_of(*exports.write(*what, **shown), folder):
+        for line in said_of(*exports.write(*what, **how), folder, self.fit):
             self.report({"INFO"}, line)
         return {"FINISHED"}
 

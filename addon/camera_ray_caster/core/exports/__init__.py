@@ -14,7 +14,7 @@ from . import rigid
 from .bop import Bop
 from .camera_json import CameraJson
 from .colmap import Colmap
-from .fitted import with_fits, with_heads
+from .fitted import FIT, can_fit, with_fits, with_heads
 from .format import Content, Format, Shot
 from .kalibr import Kalibr
 from .mrcal import Mrcal
@@ -59,10 +59,12 @@ def export(
         if reason is not None:
             able = ", ".join(one.key for one in FORMATS if _refusal(one, shot) is None)
             what = f"{shot.camera.model.label} of camera {shot.camera.name!r}"
+            of_lens = fit is None and can_fit(chosen, shot.camera) and rigid.refusal(shot.camera) is None
+            near = f", or {FIT} (--fit)" if of_lens else ""
             raise InputError(
-                f"{chosen.label} cannot represent the {what}{reason and ', '}{reason}: choose one of {able}"
+                f"{chosen.label} cannot represent the {what}{reason and ', '}{reason}: choose one of {able}{near}"
             )
-    said = [*fits, *dict.fromkeys(line for shot in shots for line in chosen.omissions(shot))]
+    said = [*dict.fromkeys(line for shot in shots for line in chosen.omissions(shot)), *fits]
     if not chosen.rigid:
         return with_heads(chosen.files(shots), fits), said
     cameras, moves = zip(*(rigid.with_rotation(shot.camera) for shot in shots), strict=True)

@@ -21,6 +21,9 @@ from .lenses import MATRIX, LensFormat
 FAR = 0.05
 """Part of the frame: a lens that errs by more is no likeness."""
 
+FIT, FIT_WITHIN = "Fit the Nearest Lens", "Within"
+"""The labels of the options in the window."""
+
 Refusal = Callable[[Format, Shot], str | None]
 
 
@@ -34,8 +37,7 @@ def with_fits(chosen: Format, shots: Sequence[Shot], angle: float, refusal: Refu
     found = []
     for shot in shots:
         camera = shot.camera
-        fits = isinstance(chosen, LensFormat) and camera.pixel_time is None and camera.model.central
-        if refusal(chosen, shot) is None or not fits:
+        if refusal(chosen, shot) is None or not can_fit(chosen, camera):
             found.append(shot)
             continue
         key = repr((type(camera.model), camera.settings, camera.raster))
@@ -45,6 +47,11 @@ def with_fits(chosen: Format, shots: Sequence[Shot], angle: float, refusal: Refu
         fitted, remark = known[key]
         found.append(replace(shot, camera=_lent(camera, fitted), fit=remark))
     return found, list(dict.fromkeys(shot.fit for shot in found if shot.fit))
+
+
+def can_fit(chosen: Format, camera: Camera) -> bool:
+    """Whether lenses of a format may be fitted to a camera, near or not."""
+    return isinstance(chosen, LensFormat) and camera.pixel_time is None and camera.model.central
 
 
 def _lent(camera: Camera, fitted: Camera) -> Camera:
@@ -75,7 +82,7 @@ def _nearest(chosen: Format, shot: Shot, angle: float, refusal: Refusal) -> Fit:
     if best.worst > FAR * max(camera.raster.size):
         raise InputError(
             f"no lens of {chosen.label} is like the {what}: the nearest one, {best.summary}; fit less of the picture "
-            "(--fit DEGREES), or choose another format"
+            f"({FIT_WITHIN}, --fit DEGREES), or choose another format"
         )
     return best
 
