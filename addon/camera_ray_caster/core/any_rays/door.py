@@ -84,6 +84,8 @@ def cast_rays(
     images = RayImages({name: PASSES[name].empty((1, count), dtype) for name in passes})
     images.shapes = shapes
     moving = None if each is None else moving_of(shapes)
+    if moving is not None and moving.light and "combined" in passes:
+        moving = None
     if moving is not None and each is not None:
         cast_apart(moving, search_of(moving.still), origin, direction, each, (near, far), images)
     for then, some in _by_time(shapes, each) if moving is None else ():

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from ..maths.speed import Scratch, taken
+from ..maths.speed import Scratch, lazy, taken
 from ..records import MESH, Pose, Shapes
 from ..shapes.bodies import Bodies
 from ..shapes.frames import InCamera
@@ -46,13 +46,30 @@ class RayHits:
     """Indices into the bodies of ``Search``."""
 
 
-class BodySearch:
-    """The bodies of all shapes, ready for rays."""
+class Found:
+    """Bodies of shapes, on which rays have hits."""
+
+    at: np.ndarray
+    """(b,): the shape of each body."""
+    number: np.ndarray
+    """(b,): its triangle."""
+
+    def __init__(self, shapes: Shapes):
+        self.shapes = shapes
+        self.placed: InCamera = in_camera(shapes, WORLD)
+
+    @lazy
+    def is_triangle(self) -> np.ndarray:
+        """(b + 1,) bool: whether a body is a triangle of a mesh; False at the end, for no body."""
+        return np.append(self.shapes.kind[self.at] == MESH, False)
+
+
+class BodySearch(Found):
+    """The bodies of all shapes, ready for rays; in the order of shapes and their triangles."""
 
     def __init__(self, shapes: Shapes, rays: float = inf):
         """rays: how many will be searched; of few, a tree would take longer than it saves."""
-        self.shapes = shapes
-        self.placed: InCamera = in_camera(shapes, WORLD)
+        super().__init__(shapes)
         self._kinds: list[Bodies] = [
             kind.bodies(self.placed, np.flatnonzero(some)) for kind, some in by_kind(shapes.kind)
         ]
@@ -63,11 +80,8 @@ class BodySearch:
         )
         order = np.lexsort((number, at)) if len(counts) > 1 else slice(None)
         self.at, self.number = at[order], number[order]
-        """(b,): the shape and the triangle of each body; bodies are in the order of both."""
         self._kind = np.repeat(np.arange(len(counts)), counts)[order]
         self._own = np.concatenate([np.arange(count) for count in counts] or [np.zeros(0, np.intp)])[order]
-        self.is_triangle = np.append(shapes.kind[self.at] == MESH, False)
-        """(b + 1,) bool: whether a body is a triangle of a mesh; False at the end, for no body."""
         self._place = [np.flatnonzero(self._kind == k) for k in range(len(counts))]
         self._one_by_one, self._tree = self._divided(order, rays)
 
@@ -91,7 +105,7 @@ class BodySearch:
         t, body = np.full(origin.shape[1], np.inf), np.full(origin.shape[1], -1)
 
         def keep(part: np.ndarray, found: RayHits) -> None:
-            _keep(found, t, body, part)
+            keep_nearest(found, t, body, part)
 
         self._search(origin, direction, near, far, lambda part: np.minimum(t[part], far), keep)
         return t, body
@@ -157,23 +171,34 @@ class BodySearch:
             if not np.all(of_kind):
                 own = np.flatnonzero(of_kind)
                 which, rays, left, ahead = which[own], ray[own], origin[:, own], direction[:, own]
-            start: Any = near
-            while len(rays):
-                t = bodies.meet(which, left, ahead, start, scratch)
-                hit = np.flatnonzero((t <= far) & (t < np.inf))
-                rays, left, ahead, t = rays[hit], left[:, hit], ahead[:, hit], t[hit]
-                which = np.broadcast_to(which, (len(hit),)) if np.ndim(which) == 0 else which[hit]
-                seen = bodies.is_hit(which, left, ahead, t, scratch)
-                some = np.flatnonzero(np.broadcast_to(seen, t.shape))
-                yield RayHits(rays[some], t[some], self._place[k][which[some]])
-                again = np.arange(len(t)) if twice else np.flatnonzero(~np.broadcast_to(seen, t.shape))
-                if not bodies.twice:
-                    break
-                rays, left, ahead, which = rays[again], left[:, again], ahead[:, again], which[again]
-                start = np.nextafter(t[again], np.inf)
+            for hits in met(bodies, which, rays, (left, ahead), near, far, scratch, twice):
+                yield RayHits(hits.ray, hits.t, self._place[k][hits.body])
 
 
-def _keep(found: RayHits, t: np.ndarray, body: np.ndarray, rays: np.ndarray) -> None:
+def met(
+    bodies: Bodies, which: Any, ray: np.ndarray, rays: Any, near: float, far: float, scratch: Scratch, twice: bool
+) -> Iterator[RayHits]:
+    """Yield the hits of rays, origins and directions (3, m) each, on bodies, (m,) or one for all: the nearest from
+    ``near`` to ``far``, or ``twice``. ``ray`` are the numbers of the rays, (m,).
+    """
+    origin, direction = rays
+    start: Any = near
+    while len(ray):
+        t = bodies.meet(which, origin, direction, start, scratch)
+        hit = np.flatnonzero((t <= far) & (t < np.inf))
+        ray, origin, direction, t = ray[hit], origin[:, hit], direction[:, hit], t[hit]
+        which = np.broadcast_to(which, (len(hit),)) if np.ndim(which) == 0 else which[hit]
+        seen = bodies.is_hit(which, origin, direction, t, scratch)
+        some = np.flatnonzero(np.broadcast_to(seen, t.shape))
+        yield RayHits(ray[some], t[some], which[some])
+        if not bodies.twice:
+            break
+        again = np.arange(len(t)) if twice else np.flatnonzero(~np.broadcast_to(seen, t.shape))
+        ray, origin, direction, which = ray[again], origin[:, again], direction[:, again], which[again]
+        start = np.nextafter(t[again], np.inf)
+
+
+def keep_nearest(found: RayHits, t: np.ndarray, body: np.ndarray, rays: np.ndarray) -> None:
     """Keep the hits that are the nearest so far; a ray may have several."""
     ray, own_t, own = rays[found.ray], found.t, found.body
     while ray.size:

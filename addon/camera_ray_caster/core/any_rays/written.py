@@ -16,7 +16,7 @@ from ..maths.speed import Scratch
 from ..records import MESH
 from ..shapes.mesh.nearest import SeenTriangles
 from .given import camera_of
-from .search import BodySearch, RayHits
+from .search import Found, RayHits
 
 Span = tuple[float, float]
 """The least and the largest t of hits."""
@@ -25,7 +25,7 @@ CHUNK = 1 << 15
 """Number of rays whose passes are written at once."""
 
 
-def write(search: BodySearch, origin, direction, t, body, images: dict[str, np.ndarray], rays, span: Span) -> None:
+def write(search: Found, origin, direction, t, body, images: dict[str, np.ndarray], rays, span: Span) -> None:
     """Write the passes of hits, one for each ray (3, n), at the places ``rays``, (n,), of images with one row."""
     plan, scratch = _plan(search, origin, direction, span, tuple(images)), Scratch()
     with np.errstate(all="ignore"):  # NaN and inf mean no ray and no hit
@@ -38,7 +38,7 @@ def write(search: BodySearch, origin, direction, t, body, images: dict[str, np.n
                 images[name][:, rays[part]] = out
 
 
-def t_errors(search: BodySearch, origin, direction, hits: RayHits) -> np.ndarray:
+def t_errors(search: Found, origin, direction, hits: RayHits) -> np.ndarray:
     """Return the error bounds of the t of hits, one for each ray (3, n)."""
     plan, scratch = _plan(search, origin, direction, (0.0, 1.0), ()), Scratch()
     error = np.full(hits.t.shape, np.inf)
@@ -49,7 +49,7 @@ def t_errors(search: BodySearch, origin, direction, hits: RayHits) -> np.ndarray
     return error
 
 
-def _plan(search: BodySearch, origin, direction, span: Span, passes: tuple[str, ...]) -> Plan:
+def _plan(search: Found, origin, direction, span: Span, passes: tuple[str, ...]) -> Plan:
     """Return the plan for the passes of rays (3, n): that of a picture in which every shape may be seen."""
     camera, shapes = camera_of(origin, direction, *span), search.shapes
     request = Request(passes, tuple(PASSES), cull=False)
@@ -59,7 +59,7 @@ def _plan(search: BodySearch, origin, direction, span: Span, passes: tuple[str, 
     return Plan(camera, shapes, request, search.placed, pixels, np.arange(len(shapes)), bounds, near, clips=False)
 
 
-def _values(plan: Plan, search: BodySearch, part: slice, t, body, scratch: Scratch) -> HitValues:
+def _values(plan: Plan, search: Found, part: slice, t, body, scratch: Scratch) -> HitValues:
     """Return the values of the hits of some rays, given t and bodies of all, -1 for none."""
     x = np.arange(len(t))[None, part] + 0.5
     origin, direction = plan.camera.model.rays(x, 0.5)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import replace
 
 import numpy as np
@@ -17,9 +18,15 @@ BY_SHAPE = (
 )  # fmt: skip
 """The arrays of ``Shapes`` with a row for each shape, or empty."""
 
+OF_ALL = "slots", "surfaces", "uv"
+"""What several shapes show."""
+
+LIGHT = "lights", "world_color", "background"
+"""What lights all shapes and stands behind them: in the combined pass alone."""
+
 
 def rows_of(shapes: Shapes, some: np.ndarray) -> Shapes:
-    """Return some of the shapes, by ascending index, without their motion and the neighboring frames."""
+    """Return some of the shapes, by index, without their motion and the neighboring frames."""
     each = {name: getattr(shapes, name) for name in BY_SHAPE}
     kept = {name: values[some] if len(values) else values for name, values in each.items()}
     slots = None if shapes.slots is None else replace(shapes.slots, first=shapes.slots.first[some])
@@ -29,9 +36,9 @@ def rows_of(shapes: Shapes, some: np.ndarray) -> Shapes:
     return replace(shapes, meshes=meshes, slots=slots, motion=None, next=None, previous=None, **kept)
 
 
-def moving(motion: Motion) -> np.ndarray | None:
+def moving(motion: Motion, but: Collection[str] = ()) -> np.ndarray | None:
     """Return which shapes differ between evaluations, in place or in looks, (n,) bool; None if there are not the same
-    shapes in all.
+    shapes in all. ``but`` are arrays whose differences do not count.
     """
     first, *others = (shapes for _, shapes in motion.states.values())
     moves = np.zeros(len(first), bool)
@@ -40,14 +47,20 @@ def moving(motion: Motion) -> np.ndarray | None:
     for other in others:
         for name in BY_SHAPE:
             values = getattr(first, name)
-            if len(values):
+            if len(values) and name not in but:
                 moves |= (values != getattr(other, name)).reshape(len(values), -1).any(axis=1)
         changed = [not same(*meshes) for meshes in zip(first.meshes, other.meshes, strict=True)]
         if any(changed):
             moves |= np.append(changed, False)[first.mesh]
-        if not (same(first.slots, other.slots) and same(first.surfaces, other.surfaces)):
+        if not all(same(getattr(first, name), getattr(other, name)) for name in OF_ALL):
             moves[:] = True
     return moves
+
+
+def light_changes(motion: Motion) -> bool:
+    """Whether lights or the background differ between evaluations."""
+    first, *others = (shapes for _, shapes in motion.states.values())
+    return not all(same(getattr(first, name), getattr(other, name)) for other in others for name in LIGHT)
 
 
 def of_rows(motion: Motion, some: np.ndarray) -> Motion:
@@ -57,17 +70,21 @@ def of_rows(motion: Motion, some: np.ndarray) -> Motion:
     return replace(motion, states=states, intervals=intervals)
 
 
-def axes_at(motion: Motion, row: int, frames: np.ndarray) -> np.ndarray:
-    """Return the axes of one shape at frames (n,), (n, 3, 3); all evaluations have to have the same shapes."""
-    axes = np.empty((len(frames), 3, 3))
+def place_at(motion: Motion, row: int, frames: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return the centers (n, 3) and the axes (n, 3, 3) of one shape at frames (n,); all evaluations have to have the
+    same shapes.
+    """
+    center, axes = np.empty((len(frames), 3)), np.empty((len(frames), 3, 3))
     for interval, some in motion.parts(frames):
-        axes[some] = interval.axes_at(row, frames[some])
-    return axes
+        center[some], axes[some] = interval.place_at(row, frames[some])
+    return center, axes
 
 
-def centers_at(motion: Motion, frames: np.ndarray) -> np.ndarray:
-    """Return the centers of the shapes at frames (n,), (shapes, n, 3); all evaluations have to have the same."""
-    centers = np.empty((len(next(iter(motion.states.values()))[1]), len(frames), 3))
+def centers_at(motion: Motion, rows: slice, frames: np.ndarray) -> np.ndarray:
+    """Return the centers of some shapes at frames (n,), (shapes, n, 3); all evaluations have to have the same shapes.
+    """
+    count = len(next(iter(motion.states.values()))[1].center[rows])
+    centers = np.empty((count, len(frames), 3))
     for interval, some in motion.parts(frames):
-        centers[:, some] = interval.centers_at(frames[some])
+        centers[:, some] = interval.centers_at(rows, frames[some])
     return centers

@@ -16,6 +16,9 @@ from .appearance import appearance
 from .deformation import alike, deformed
 from .means import mean, mixed
 
+PLACE = "center", "axes"
+"""Fields of ``Shapes`` that say where a shape is."""
+
 State = tuple[Camera, Shapes]
 """A scene as it was evaluated at one frame."""
 
@@ -52,17 +55,21 @@ class TimeInterval:
         bases = self._camera_axes.at(weights)
         return np.broadcast_to(eyes, (len(frames), 3)), bases / np.linalg.norm(bases, axis=1, keepdims=True)
 
-    def centers_at(self, frames: np.ndarray) -> np.ndarray:
-        """Return the centers of the shapes at frames (n,), (shapes, n, 3)."""
+    def centers_at(self, rows: slice, frames: np.ndarray) -> np.ndarray:
+        """Return the centers of some shapes at frames (n,), (shapes, n, 3), but for rounding at evaluations."""
         weights = [np.broadcast_to(weight, frames.shape)[:, None] for weight in self._weights(frames)]
-        found = mean([shapes.center[:, None] for _, shapes in self.states], weights)
+        found = mean([shapes.center[rows, None] for _, shapes in self.states], weights)
         return np.broadcast_to(found, (len(found), len(frames), 3))
 
-    def axes_at(self, row: int, frames: np.ndarray) -> np.ndarray:
-        """Return the axes of one shape at frames (n,), (n, 3, 3)."""
+    def place_at(self, row: int, frames: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return the centers (n, 3) and the axes (n, 3, 3) of one shape at frames (n,), those of ``shapes_at``."""
         weights = [np.broadcast_to(weight, frames.shape)[:, None] for weight in self._weights(frames)]
-        found = Turning.of([shapes.axes[row : row + 1] for _, shapes in self.states]).at(weights)
-        return np.broadcast_to(found, (len(frames), 3, 3))
+        centers, axes = ([getattr(shapes, name)[row : row + 1] for _, shapes in self.states] for name in PLACE)
+        center, turned = np.empty((len(frames), 3)), np.empty((len(frames), 3, 3))
+        center[...], turned[...] = mean(centers, weights), Turning.of(axes).at(weights)
+        for frame, *known in zip(self.frames, centers, axes, strict=True):
+            center[frames == frame], turned[frames == frame] = known
+        return center, turned
 
     def shapes_at(self, frame: float) -> Shapes:
         """Return the shapes at a frame. What is not interpolated (indices, and all if shapes appear or disappear) is

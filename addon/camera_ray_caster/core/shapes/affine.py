@@ -84,7 +84,7 @@ class AffineKind(Kind):
         """
         return np.inf
 
-    def bodies(self, shapes: InCamera, at: np.ndarray) -> AffineBodies:
+    def bodies(self, shapes: InCamera, at: np.ndarray, parts: np.ndarray | None = None) -> AffineBodies:
         """See ``Kind``: each shape is one body."""
         return AffineBodies(self, shapes, at)
 

@@ -21,7 +21,7 @@ class Bodies(ABC):
     """The bodies of the shapes of one kind, as seen from the world's origin."""
 
     at: np.ndarray
-    """(n,) indices into ``Shapes``, ascending."""
+    """(n,) indices into ``Shapes``, ascending unless parts were asked for."""
     number: np.ndarray
     """(n,) int32: the triangle of the mesh, ascending within a shape; 0 for other shapes."""
     low: np.ndarray

@@ -226,8 +226,9 @@ class Kind(ABC):
     def shape_set(self, shapes: InCamera, visible: Visible) -> ShapeSet:
         """Return the shapes that some pixel may see, ready to be searched."""
 
-    def bodies(self, shapes: InCamera, at: np.ndarray) -> Bodies:
-        """Return the bodies of some shapes, by index, (k,): what rays that no camera makes are tested against.
+    def bodies(self, shapes: InCamera, at: np.ndarray, parts: np.ndarray | None = None) -> Bodies:
+        """Return the bodies of some shapes, by index, (k,): what rays that no camera makes are tested against. With
+        ``parts``, (k,), they are one body of each of the shapes only, by its number there.
 
         The default raises InputError: ``cast_rays`` needs this method.
         """

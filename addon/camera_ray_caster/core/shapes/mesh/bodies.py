@@ -26,8 +26,18 @@ class TriangleBodies(Bodies):
 
     twice = False
 
-    def __init__(self, shapes: InCamera, at: np.ndarray, cutouts: Cutouts | None):
+    def __init__(self, shapes: InCamera, at: np.ndarray, parts: np.ndarray | None, cutouts: Cutouts | None):
+        """Take all triangles of the shapes, or one of each by its number, in ``parts``."""
         self._shapes, self._cutouts = shapes, cutouts
+        if parts is None:
+            self._take_all(at)
+        else:
+            self._take_parts(at, parts)
+        ends = [self._places[:, corner] for corner in self._corners]
+        self.low, self.high = np.minimum.reduce(ends), np.maximum.reduce(ends)
+
+    def _take_all(self, at: np.ndarray) -> None:
+        shapes = self._shapes
         meshes = [shapes.shapes.meshes[k] for k in shapes.shapes.mesh[at].tolist()]
         count = np.array([len(mesh) for mesh in meshes])
         require(BYTES * int(count.sum()), f"{int(count.sum()):,} triangles", FEWER)
@@ -37,13 +47,16 @@ class TriangleBodies(Bodies):
         self._places = np.empty((3, start[-1]))
         corners = []
         for row, mesh, first in zip(at.tolist(), meshes, start.tolist(), strict=False):
-            axes, q = shapes.shapes.axes[row], mesh.vertices - mesh.middle[:, None]
-            for i, place in enumerate(self._places[:, first : first + q.shape[1]]):
-                place[...] = axes[i, 0] * q[0] + (axes[i, 1] * q[1] + axes[i, 2] * q[2]) + shapes.center[row, i]
+            q = mesh.vertices - mesh.middle[:, None]
+            self._places[:, first : first + q.shape[1]] = _placed(shapes, row, q)
             corners.append(mesh.triangles + np.intp(first))
         self._corners = np.concatenate(corners, axis=1)
-        ends = [self._places[:, corner] for corner in self._corners]
-        self.low, self.high = np.minimum.reduce(ends), np.maximum.reduce(ends)
+
+    def _take_parts(self, at: np.ndarray, parts: np.ndarray) -> None:
+        self.at, self.number = at, parts
+        triangles = HitTriangles(self._shapes, np.arange(len(at)), at, parts, from_eye=False)
+        self._places = np.concatenate([np.array(_placed(self._shapes, at, q)) for q in triangles.local], axis=1)
+        self._corners = np.arange(3 * len(at)).reshape(3, -1)
 
     def meet(self, body: Any, origin: Any, direction: Any, start: Any, scratch: Scratch) -> np.ndarray:
         """See ``Bodies``: the signs of three volumes decide, exact where rounding could decide."""
@@ -67,6 +80,14 @@ class TriangleBodies(Bodies):
         point = along(tuple(part[some] for part in origin), tuple(part[some] for part in direction), own_t)
         found[some] = self._cutouts.hit(crossings(at, own_t, False, **{TRIANGLES: triangles}), point)
         return found
+
+
+def _placed(shapes: InCamera, at: Any, q: np.ndarray) -> list[np.ndarray]:
+    """Return places of meshes in the world, three components, given vectors from their middles, (3, m), and the shape,
+    or one for each.
+    """
+    axes, center = shapes.shapes.axes[at].T, shapes.center[at].T
+    return [axes[0, i] * q[0] + (axes[1, i] * q[1] + axes[2, i] * q[2]) + center[i] for i in range(3)]
 
 
 def _met(corners: np.ndarray, direction: Any) -> np.ndarray:

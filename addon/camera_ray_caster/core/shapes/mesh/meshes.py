@@ -41,9 +41,9 @@ class Meshes(Kind):
         cutouts = Cutouts.of(self, shapes, visible.at)
         return MeshSet(MeshesInView(shapes, visible), visible.clip_start, cutouts)
 
-    def bodies(self, shapes: InCamera, at: np.ndarray) -> TriangleBodies:
+    def bodies(self, shapes: InCamera, at: np.ndarray, parts: np.ndarray | None = None) -> TriangleBodies:
         """See ``Kind``: each triangle is a body."""
-        return TriangleBodies(shapes, at, Cutouts.of(self, shapes, at))
+        return TriangleBodies(shapes, at, parts, Cutouts.of(self, shapes, at))
 
     def normals(self, shapes: InCamera, at: np.ndarray) -> tuple[np.ndarray, PixelNormals | None]:
         """See ``Kind``; each pixel's normal comes from its triangle."""
