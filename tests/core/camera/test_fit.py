@@ -1,5 +1,7 @@
 """Fits of one model to another: the least squares of scipy, and lenses that two models share."""
 
+import re
+
 import numpy as np
 import pytest
 
@@ -128,6 +130,16 @@ def test_regions():
     np.testing.assert_array_equal(np.isfinite(one.residual[..., 0]), mask)
     wide = crc.fit(crc.camera("EQUIRECTANGULAR", (64, 32)), "OPENCV_FISHEYE", free=("k1",))
     assert wide.unseen == 0
+
+
+@pytest.mark.full
+def test_a_wide_fisheye_is_no_pinhole_but_in_its_middle():
+    """The region that is proposed can be fitted; what a pinhole shows beyond it is farther away than the picture."""
+    cam = crc.camera("OPENCV_FISHEYE", (160, 120), fx=40.0, fy=40.0, k1=0.02, k2=-0.004)
+    with pytest.raises(InputError, match=r"OpenCV Pinhole sees fewer than half of the rays: .*region=1.3") as caught:
+        crc.fit(cam, "OPENCV_PINHOLE")
+    region = float(re.search(r"region=([\d.]+)", str(caught.value))[1])
+    assert crc.fit(cam, "OPENCV_PINHOLE", region).mean < 0.5
 
 
 @pytest.mark.parametrize(

@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
+from math import degrees, floor
 from typing import Any
 
 import numpy as np
@@ -21,7 +22,7 @@ from ..memory import of_pixels, require
 from ..records import InputError
 from .build import camera_from
 from .camera import Camera
-from .fit_search import Search
+from .fit_search import LEFT, Search
 from .fit_start import guesses
 
 SAMPLED = 61
@@ -77,7 +78,7 @@ def fit_model(
     all but HELD and those that are given. given: values in records of settings, from which the search starts.
 
     Raises InputError, in one line, if there is nothing to fit, for a parameter that does not exist, and if the model
-    sees too few of the rays.
+    sees fewer than LEFT of the rays; it then names a smaller region.
     """
     if camera.pixel_time is not None:
         raise InputError(f"pixels of camera {camera.name!r} have their own times: fit that of one frame, at(frame)")
@@ -101,7 +102,14 @@ def fit_model(
         if setting.name in given:
             setting.read(starts[0])  # refuses a value out of its range, by name
     searches = [Search.of(kind, start, camera.raster, _pixels(some), rays[some], free, held) for start in starts]
-    search, values, converged = _best(searches)
+    search, values, converged, counted = _best(searches)
+    if counted < LEFT:
+        angles, near = _angles(rays[some]), search.near()
+        edge = angles.max() if near.all() else angles[~near].min()
+        raise InputError(
+            f"{kind.label} sees fewer than half of the rays: fit those within {floor(degrees(edge))} degrees of the "
+            f"viewing direction (region={floor(10 * edge) / 10:g}), or fewer"
+        )
     fitted = camera_from(search.record(values))
     residual = np.full((height, width, 2), np.nan)
     with np.errstate(all="ignore"):  # NaN means not seen
@@ -119,14 +127,19 @@ def within(camera: Camera, angle: float) -> np.ndarray:
     """Return which pixels have a ray within an angle from the viewing direction, bool, (rows, columns)."""
     rays = _rays(camera)
     with np.errstate(invalid="ignore"):  # NaN means no ray
-        return np.arctan2(np.hypot(rays[..., 0], rays[..., 1]), -rays[..., 2]) <= angle
+        return _angles(rays) <= angle
 
 
-def _best(searches: list[Search]) -> tuple[Search, np.ndarray, bool]:
-    """Return the search that sees most rays, and among those the one with the least sum; its parameters and its end."""
+def _angles(rays: np.ndarray) -> np.ndarray:
+    """Return the angles (...) of rays (..., 3) from the viewing direction."""
+    return np.arctan2(np.hypot(rays[..., 0], rays[..., 1]), -rays[..., 2])
+
+
+def _best(searches: list[Search]) -> tuple[Search, np.ndarray, bool, float]:
+    """Return the search that sees most rays, and among those the one with the least sum, and what it returned."""
     found = [(search, *search.run()) for search in searches]
-    offs = [search.residual(values) for search, values, _ in found]
-    best = min(range(len(found)), key=lambda k: (np.isnan(offs[k]).sum(), np.nansum(offs[k] ** 2)))
+    offs = [search.residual(values) for search, values, *_ in found]
+    best = min(range(len(found)), key=lambda k: (found[k][3] < LEFT, np.isnan(offs[k]).sum(), np.nansum(offs[k] ** 2)))
     return found[best]
 
 

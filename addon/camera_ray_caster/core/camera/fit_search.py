@@ -32,8 +32,8 @@ SETTLED, EXACT = 1e-10, 1e-12
 """A step ends the search if it is expected to change the residual by no more than this part of it, or by this part of
 the largest pixel coordinate."""
 
-KEPT = 0.99
-"""Least part of the rays that a step must keep in view."""
+KEPT, LEFT = 0.99, 0.5
+"""Least part of the rays that a step must keep in view, of those that it had; and of all, or the search gives up."""
 
 PROBE, BENT = 0.1, 0.4
 """Part of a step after which the residuals tell how they bend; and the largest length of the bend over the step's."""
@@ -116,17 +116,28 @@ class Search:
         found = of_settings(model, len(self.names), STILL, self.rays[seen], pixels)
         return np.nan_to_num(found.reshape(-1, len(self.names)), nan=0.0, posinf=0.0, neginf=0.0)
 
-    def run(self) -> tuple[np.ndarray, bool]:
-        """Return the parameters of the least sum of squares, and whether the search ended at a minimum."""
-        values, converged = self.values, False
-        seen = self.seen(values)
+    def near(self) -> np.ndarray:
+        """Return which rays are seen at the start, and no farther from their pixels than the picture is large."""
+        with np.errstate(invalid="ignore"):  # NaN means not seen
+            return np.abs(self.residual(self.values)).max(axis=1) <= max(self.raster.size)
+
+    def run(self) -> tuple[np.ndarray, bool, float]:
+        """Return the parameters of the least sum of squares, whether the search ended at a minimum, and the part of the
+        rays that counted; below LEFT it has given up.
+
+        Rays that are not near at the start count once the others have brought the lens nearer to them.
+        """
+        values, converged, seen = self.values, False, self.near()
+        seen = seen if seen.mean() >= LEFT else self.seen(values)
         for _ in range(ROUNDS):
-            values, converged = self._descended(values, seen)
+            values, converged, counted = self._descended(values, seen)
+            if counted < LEFT:
+                return values, False, counted
             more = self.seen(values)
             if not (more & ~seen).any():
                 break
             seen = more
-        return values, converged
+        return values, converged, counted
 
     def covariance(self, values: np.ndarray) -> np.ndarray:
         """Return the covariance of the parameters if each coordinate errs by itself with the residuals' variance."""
@@ -139,12 +150,14 @@ class Search:
         left = max(slopes.shape[0] - slopes.shape[1], 1)
         return back @ back.T * float((self.residual(values)[seen] ** 2).sum()) / left
 
-    def _descended(self, values: np.ndarray, seen: np.ndarray) -> tuple[np.ndarray, bool]:
+    def _descended(self, values: np.ndarray, seen: np.ndarray) -> tuple[np.ndarray, bool, float]:
         """See ``run``; of the rays that are seen at first, each counts until a step loses it."""
         damping, largest = DAMPED, np.zeros(len(values))
         off = self.residual(values)[seen].ravel()
         exact = EXACT * max(self.raster.size) * np.sqrt(len(off))
         for _ in range(STEPS):
+            if seen.mean() < LEFT:
+                break
             slopes = self.derivatives(values, seen)
             largest = np.maximum(largest, np.linalg.norm(slopes, axis=0))
             size = np.where(largest > 0, largest, 1.0)
@@ -153,7 +166,7 @@ class Search:
                 step = solve(-off)
                 moved = slopes / size @ step
                 if np.linalg.norm(moved) <= max(SETTLED * np.linalg.norm(off), exact):
-                    return values, bool(damping <= 1)
+                    return values, bool(damping <= 1), seen.mean()
                 probe = self.residual(values + PROBE * step / size)[seen].ravel()
                 bend = solve(np.nan_to_num((moved - (probe - off) / PROBE) / PROBE))
                 if np.linalg.norm(bend) <= BENT * np.linalg.norm(step):
@@ -167,8 +180,8 @@ class Search:
                     break
                 damping *= 10
                 if damping > MOST:
-                    return values, False
-        return values, False
+                    return values, False, seen.mean()
+        return values, False, seen.mean()
 
 
 def _damped(slopes: np.ndarray, damping: float) -> Callable[[np.ndarray], np.ndarray]:

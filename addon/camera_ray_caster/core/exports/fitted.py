@@ -77,7 +77,10 @@ def _nearest(chosen: Format, shot: Shot, angle: float, refusal: Refusal) -> Fit:
             found.append(fitted)
     what = f"{camera.model.label} of camera {camera.name!r}"
     if not found:
-        raise InputError(f"no lens of {chosen.label} can be fitted to the {what}: choose another format")
+        raise InputError(
+            f"no lens of {chosen.label} can be fitted to the {what}: fit less of the picture "
+            f"({FIT_WITHIN}, --fit DEGREES), or choose another format"
+        )
     best = min(found, key=lambda fit: (fit.unseen, fit.mean))
     if best.worst > FAR * max(camera.raster.size):
         raise InputError(
