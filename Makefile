@@ -13,6 +13,9 @@ VENV := .venv/none
 .venv/none/ready: ; $(error $(BPY); run make PYTHON=/path/to/python3.13 $(MAKECMDGOALS))
 endif
 
+# Python keeps what it has compiled, also where the system says that it shall not: the tests start many processes.
+export PYTHONDONTWRITEBYTECODE :=
+
 SCENE := blend_scenes/spheres_and_planes.blend
 
 .PHONY: cast test test-full test-hostile test-all test-blender lint check-model docs zip dist clean help

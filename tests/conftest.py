@@ -60,6 +60,7 @@ def pytest_addoption(parser):
 def pytest_configure(config):
     """Begin to count seconds; add the camera model that is asked for, before tests ask for all models."""
     config.stash[_BEGAN] = monotonic()
+    tiers.is_full = "not full" not in config.option.markexpr
     config.stash[_MODELS] = tiers.added_models(config.getoption("--model"))
 
 

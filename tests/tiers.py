@@ -25,8 +25,17 @@ FULL = (
     "tests/scripts/test_side_by_side.py", "tests/scripts/test_work_precision.py",
 )  # fmt: skip
 """Rooms and files that need a window, other programs or hostile inputs: full as a whole."""
+SHARE = 4
+"""The default tier tries one of so many generated examples."""
+is_full = True
+"""Whether this run has the full tier, too."""
 KEPT = pytest.StashKey[int]()
 """The number of cases that are kept of those that are collected."""
+
+
+def examples(count):
+    """How many examples of ``count`` a test generates in this run."""
+    return count if is_full else count // SHARE
 
 
 def mark_the_rest(items):

@@ -59,6 +59,7 @@ def test_nothing_is_imported_before_it_is_asked_for():
     assert not any(name == "bpy" or ".blender" in name for name in loaded)
 
 
+@pytest.mark.full
 @pytest.mark.skipif(bool(bpy.app.binary_path), reason="needs pip's bpy; Blender disables add-ons before it ends")
 def test_a_python_that_leaves_it_registered_ends_well():
     assert python("import bpy, camera_ray_caster as crc", "crc.register()", "print('done')") == ["done"]

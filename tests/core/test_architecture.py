@@ -112,15 +112,28 @@ def name_of(path):
 
 
 NAMES = {name_of(path) for path in MODULES}
-TREES = {path: ast.parse(path.read_text()) for path in SOURCES}
 DEFINITIONS = ast.FunctionDef | ast.ClassDef
+
+
+@cache
+def trees():
+    """The parsed files, by path."""
+    return {path: ast.parse(path.read_text()) for path in SOURCES}
+
+
+def statements(node):
+    """The statements in a node, at any depth; walking through expressions, too, takes ten times as long."""
+    for name in ("body", "orelse", "finalbody", "handlers", "cases"):
+        for one in getattr(node, name, ()):
+            yield one
+            yield from statements(one)
 
 
 def imports(path):
     """(inside, outside): the package's modules that a file imports, and the top names of all others."""
     inside, outside = set(), set()
     folder = path.relative_to(PACKAGE).parts[:-1]
-    for node in ast.walk(TREES[path]):
+    for node in statements(trees()[path]):
         if isinstance(node, ast.Import):
             outside |= {alias.name.split(".")[0] for alias in node.names}
         elif isinstance(node, ast.ImportFrom) and node.level == 0:
@@ -134,7 +147,10 @@ def imports(path):
     return inside, outside
 
 
-IMPORTS = {name_of(path): imports(path) for path in MODULES}
+@cache
+def all_imports():
+    """What each module imports, by name: see ``imports``."""
+    return {name_of(path): imports(path) for path in MODULES}
 
 
 def offenders(found):
@@ -154,14 +170,14 @@ def longest(name, table):
 
 def test_only_blender_imports_blender_and_nobody_the_package_by_name():
     found = {}
-    for name, (_, outside) in IMPORTS.items():
+    for name, (_, outside) in all_imports().items():
         found[name] = outside - longest(name, OUTSIDE) - sys.stdlib_module_names
     assert offenders(found) == {}
 
 
 def test_arrows_point_down():
     found = {}
-    for name, (inside, _) in IMPORTS.items():
+    for name, (inside, _) in all_imports().items():
         found[name] = {other for other in inside if not any(fits(other, part) for part in longest(name, MAY_IMPORT))}
     assert offenders(found) == {}
 
@@ -169,7 +185,7 @@ def test_arrows_point_down():
 def test_a_name_from_core_exists():
     """Scripts import while they run, some of them rarely: a name that was changed would be found late."""
     found = {}
-    for path, tree in TREES.items():
+    for path, tree in trees().items():
         names = {
             (node.module, alias.name)
             for node in ast.walk(tree)
@@ -187,7 +203,7 @@ def exists(module, name):
 
 
 def test_no_arrow_comes_back():
-    graphlib.TopologicalSorter({name: inside for name, (inside, _) in IMPORTS.items()}).prepare()
+    graphlib.TopologicalSorter({name: inside for name, (inside, _) in all_imports().items()}).prepare()
 
 
 def test_the_table_names_what_exists():
@@ -206,10 +222,10 @@ def test_a_file_is_one_room():
 
 
 def test_a_module_says_what_it_is_for_and_so_does_what_is_public_in_it():
-    assert [path for path, tree in TREES.items() if not ast.get_docstring(tree)] == []
+    assert [path for path, tree in trees().items() if not ast.get_docstring(tree)] == []
     found = {}
     for path in MODULES:
-        public = [node for node in TREES[path].body if isinstance(node, DEFINITIONS) and node.name[0] != "_"]
+        public = [node for node in trees()[path].body if isinstance(node, DEFINITIONS) and node.name[0] != "_"]
         found[path] = [node.name for node in public if not ast.get_docstring(node)]
     assert offenders(found) == {}
 
@@ -218,7 +234,7 @@ def test_a_class_has_a_name_of_its_own():
     """One word, one meaning."""
     found = {}
     for path in MODULES:
-        for node in TREES[path].body:
+        for node in trees()[path].body:
             if isinstance(node, ast.ClassDef):
                 found.setdefault(node.name, []).append(name_of(path))
     assert {name: where for name, where in found.items() if len(where) > 1 and name not in SHARED_NAMES} == {}
@@ -227,7 +243,7 @@ def test_a_class_has_a_name_of_its_own():
 def test_no_exception_is_swallowed():
     """By a bare except, nor by one that catches everything and goes on."""
     found = {}
-    for path, tree in TREES.items():
+    for path, tree in trees().items():
         handlers = [node for node in ast.walk(tree) if isinstance(node, ast.ExceptHandler)]
         found[path] = [node.lineno for node in handlers if node.type is None or (is_wide(node) and not raises(node))]
     assert offenders(found) == {}

@@ -183,6 +183,7 @@ def test_strip_unrolls_the_figure_from_all_sides(blender):
     assert head.any(axis=0).all()
 
 
+@pytest.mark.full
 def test_slit_scan_stretches_what_flies_with_it(blender):
     """A ball that moves u pixels a frame is met by columns that come at 20 a frame: 1 / (1 - u / 20) times as wide."""
     widths = [mask.any(axis=0).sum() for mask in masks_at_their_times(blender, 30, 31, 32, 33)]

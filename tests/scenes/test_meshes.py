@@ -84,6 +84,7 @@ def test_toys_are_triangles_but_the_balls(blender):
     assert len(shapes) == 12
 
 
+@pytest.mark.full
 def test_the_pushbroom_shows_fronts_as_wide_as_they_are(blender):
     _, shapes, images = look(opened(blender, "street_pushbroom"))
     named = np.array(shapes.names)[shapes.name_index]

@@ -153,6 +153,7 @@ def test_cast_takes_the_precision_and_the_report_has_the_bounds_of_the_hits(comm
     assert "precision ROBUST, which FAST means" in done.stdout
 
 
+@pytest.mark.full
 @pytest.mark.skipif(sys.platform != "linux", reason="elsewhere names of files are text")
 def test_a_file_whose_name_is_no_text_is_cast(scene, tmp_path):
     path = scene.rename(scene.with_name("\udcff.blend"))

@@ -88,6 +88,7 @@ def test_closed_standard_output_is_refused_before_anything_is_made(name, closed,
         assert done.stderr == f"{name}.py: standard output is closed: send it to a file, or to /dev/null\n"
 
 
+@pytest.mark.full
 def test_what_blender_says_on_closed_standard_error_reaches_no_file(tmp_path):
     words = ["sh", "-c", 'exec "$@" <&- 2>&-', "sh", sys.executable, str(ROOT / "scripts" / "cast.py"), *WORDS["cast"]]
     assert subprocess.run(words, capture_output=True, cwd=tmp_path, timeout=60).returncode == 0
@@ -121,6 +122,7 @@ def test_a_stop_during_the_imports_is_one_line(name, tmp_path):
     assert name != "cast" or list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.full
 def test_what_is_told_to_ignore_a_hangup_goes_on(tmp_path):
     with start("cast", tmp_path, action=signal.SIG_IGN) as run:
         time.sleep(0.3)
@@ -147,6 +149,7 @@ bpy.ops.wm.save_as_mainfile(filepath=sys.argv[1])
 """Blender's fluids abort a process at its exit."""
 
 
+@pytest.mark.full
 def test_the_status_is_the_script_s_own_after_fluids(tmp_path):
     path, temporary = tmp_path / "fluid.blend", tmp_path / "temporary"
     temporary.mkdir()

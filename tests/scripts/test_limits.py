@@ -12,6 +12,7 @@ from .running import ROOT, refused, start
 LIMIT = "resource.setrlimit(resource.{}, ({}, {})); os.execv(sys.executable, [sys.executable, *sys.argv[1:]])"
 
 
+@pytest.mark.full
 @pytest.mark.cases(1)
 @pytest.mark.skipif(sys.platform == "win32", reason="Windows has no such limits")
 @pytest.mark.parametrize("files", [36, pytest.param(44, marks=pytest.mark.full)])

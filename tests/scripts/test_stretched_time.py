@@ -14,6 +14,7 @@ def file(blender, request, tmp_path):
     """A ball that moves past a camera with a rolling shutter, in stretched time."""
     scene = empty(blender)
     scene.render.frame_map_old, scene.render.frame_map_new = request.param
+    scene.render.resolution_x, scene.render.resolution_y = 16, 12
     scene.camera.data.camera_ray_caster.time_mode = "ROLLING_SHUTTER"
     blender.ops.mesh.primitive_uv_sphere_add(segments=32, ring_count=16, radius=1.5, location=(-3, 0, 1))
     ball = blender.context.object
@@ -27,14 +28,14 @@ def file(blender, request, tmp_path):
 
 def test_single_frames_and_shares_are_those_of_a_whole_run(command, file, tmp_path):
     run = lambda *words, out: command("cast", file, *WORDS, *words, "--output", tmp_path / out)  # noqa: E731
-    assert run("--frames", "1:7", out="whole").returncode == 0
+    assert run("--frames", "1:5", out="whole").returncode == 0
     picture = "stretched_{:04}.npz".format
     assert not same(tmp_path / "whole" / picture(3), tmp_path / "whole" / picture(4))
     assert run("--frame", "4", out="single").returncode == 0
     assert same(tmp_path / "whole" / picture(4), tmp_path / "single" / "stretched.npz")
-    assert run("--frames", "1:7:3", out="some").returncode == 0
-    assert run("--frames", "1:7", "--shard", "2/3", out="share").returncode == 0
-    for folder, frames in (("some", (1, 4, 7)), ("share", (2, 5))):
+    assert run("--frames", "1:5:4", out="some").returncode == 0
+    assert run("--frames", "1:5", "--shard", "2/3", out="share").returncode == 0
+    for folder, frames in (("some", (1, 5)), ("share", (2, 5))):
         assert all(same(tmp_path / "whole" / picture(frame), tmp_path / folder / picture(frame)) for frame in frames)
 
 

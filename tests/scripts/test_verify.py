@@ -10,7 +10,7 @@ from .running import ROOT, script
 
 
 def test_verify_prints_its_verdict(command, scene):
-    done = script("verify", scene, "--frame", "1.25")
+    done = command("verify", scene, "--frame", "1.25")
     assert (done.returncode, done.stderr) == (0, "")
     assert done.stdout.splitlines()[0] == "Camera 'Top', Perspective, frame 1.25"
     assert done.stdout.splitlines()[-1] == "All reference checks passed"

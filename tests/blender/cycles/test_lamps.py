@@ -107,6 +107,7 @@ def environment(scene, **settings):  # noqa: F811
     links.new(back.outputs[0], output.inputs[0])
 
 
+@pytest.mark.full
 def test_an_environment_image_is_seen_as_in_cycles(scene):  # noqa: F811
     """In all directions; and a surface has the mean of its light from all sides."""
     environment(scene)

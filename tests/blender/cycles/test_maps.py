@@ -57,6 +57,7 @@ def test_planes_have_the_map_of_the_mesh_or_none(scene):
     assert ours["uv"][..., 1].min() < -1.5
 
 
+@pytest.mark.full
 def test_spheres_have_longitude_and_latitude_or_no_map(scene):
     """The map of Blender's UV sphere is longitude and latitude, that of its ico sphere is named."""
     known = added("uv_sphere", "Known", segments=256, ring_count=128, location=(-2.2, 0, 1))

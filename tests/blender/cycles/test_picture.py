@@ -182,6 +182,7 @@ CLOCKS = [
 ]
 
 
+@pytest.mark.cases(1)
 @pytest.mark.parametrize("border", [False, True])
 @pytest.mark.parametrize(("mode", "start", "end"), CLOCKS)
 def test_what_moves_is_seen_at_each_pixels_time(scene, mode, start, end, border):

@@ -32,6 +32,7 @@ crc.unregister()
 OTHER = "Blender's own OpenImageIO is needed"
 
 
+@pytest.mark.cases(1)
 @pytest.mark.parametrize(("before", "said"), [("", "made of True"), ("import OpenImageIO", OTHER)])
 def test_another_openimageio_is_not_taken(osl, tmp_path, before, said):
     package = tmp_path / "OpenImageIO"

@@ -41,6 +41,7 @@ def test_a_result_of_another_size_is_left_alone(scene, monkeypatch, ended, more)
     ended()
 
 
+@pytest.mark.cases(1)
 @pytest.mark.parametrize("method", ["render_eye", "store", "keep"])
 def test_an_engine_that_blender_has_freed_is_not_touched_again(scene, slow, monkeypatch, ended, method):
     """Blender raises that of every method then; threads end before the render does."""

@@ -2,6 +2,8 @@
 
 from pathlib import Path
 
+import pytest
+
 from ..processes import SOURCE, blender_command, run
 
 USE = """
@@ -26,6 +28,7 @@ print("without:", crc.read_camera(scene).model.key)
 """
 
 
+@pytest.mark.full
 def test_it_is_in_the_menu_and_is_read_with_its_setting(tmp_path):
     script = tmp_path / "use.py"
     folder = Path(__file__).parents[2] / "core" / "library"

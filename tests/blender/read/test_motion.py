@@ -12,6 +12,7 @@ from .scene_parts import geometry_nodes, new_object
 from .time_scene import PASSES, SIZE, coordinates, disc, drive, fan, gray, key, same, still, walked
 
 
+@pytest.mark.cases(1)
 @pytest.mark.parametrize("mode", ["ROWS", "COLUMNS", "ROLLING_SHUTTER", "IMAGE"])
 def test_of_a_still_scene_it_is_the_plain_picture_bit_for_bit(blender, scene, sphere, mode):
     sphere.location, sphere.scale = (0.3, -0.2, 1.0), (1.5, 1.0, 2.0)
@@ -43,6 +44,7 @@ def test_a_sphere_at_constant_speed_is_a_sheared_ellipse_in_f12_too(blender, sce
     assert "evaluations" in blender.data.texts["Camera Ray Caster Report"].as_string()
 
 
+@pytest.mark.full
 def test_parents_drivers_and_the_camera_itself_move(blender, scene, sphere):
     """The parent carries the sphere along y, a driver along x by the frame, and the camera follows half of that."""
     parent = new_object("Parent")
@@ -88,6 +90,7 @@ def test_shapes_that_are_switched_on_come_at_their_frame(scene, sphere):
     same(walked(scene)["shape_index"] == 0, hit & (frame >= 13), unsure)
 
 
+@pytest.mark.full
 def test_what_is_hidden_for_a_few_of_a_hundred_frames_is_hidden_then(scene, sphere):
     """The keys are evaluated, since whole frames are too many and the first probes miss them."""
     for frame, hidden in ((1, False), (42, True), (56, False)):

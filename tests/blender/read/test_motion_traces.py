@@ -37,6 +37,7 @@ def test_evaluations_that_are_counted_are_those_that_were_made(blender, scene, s
     assert 3 <= stated <= len(set(seen)) <= stated + 6  # beside: the checks, the frame before and after
 
 
+@pytest.mark.cases(1)
 @pytest.mark.parametrize("subframe", [0.0, 0.25])
 def test_the_frame_is_put_back(blender, scene, sphere, subframe, monkeypatch):
     from camera_ray_caster.blender.read import evaluated
@@ -82,6 +83,7 @@ def test_markers_that_bind_cameras_neither_change_the_eye_nor_stay(blender, scen
     assert scene.camera == first
 
 
+@pytest.mark.cases(1)
 @pytest.mark.parametrize("hide", ["hide_viewport", "hide_render", "not active"])
 def test_a_camera_that_is_hidden_or_not_the_active_one(blender, scene, sphere, hide):
     key(scene.camera, "location", (1, -3.0), (25, 3.0), index=0)
@@ -120,6 +122,7 @@ def test_bad_settings_are_one_line_and_change_nothing(blender, scene, sphere, se
     assert scene.frame_current == 7
 
 
+@pytest.mark.full
 def test_the_round_trip_holds_for_a_camera_that_moves(blender, scene, sphere):
     from camera_ray_caster.blender.verification.check import verify_camera
 

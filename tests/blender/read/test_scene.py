@@ -78,6 +78,7 @@ def test_shapes_are_read_where_there_is_no_camera_or_one_that_cannot_be_cast(ble
             read_scene(scene)
 
 
+@pytest.mark.full
 def test_the_shapes_of_an_eye_are_read_for_that_eye(scene, sphere):
     key(sphere, "location", (1, -3.0), (25, 3.0), index=0)
     scene.render.use_multiview = True

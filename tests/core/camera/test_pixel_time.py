@@ -163,6 +163,7 @@ def test_curved_motion_is_evaluated_until_the_tolerance_holds_and_the_estimate_i
     assert counts[2] < 8 * counts[0]  # third order: a hundred times as exact for some five times as many
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("turns", [1, 7, 24, 100])
 def test_a_fan_at_many_turns_a_frame_does_not_alias(turns):
     """Whole turns a frame look like rest at every frame; they are resolved, or said not to be."""

@@ -13,6 +13,7 @@ from camera_ray_caster.core.conventions import EPS
 from camera_ray_caster.core.records import INFINITE_PLANE, PLANE, SPHERE, BlenderCamera
 from camera_ray_caster.core.shapes.in_camera import FLAT, invert
 
+from ...tiers import examples
 from ..errors.extreme_cases import camera_from, pose, shapes_of
 from ..truth import truth
 
@@ -65,7 +66,8 @@ def pictures(raw, shapes):
     return cast(camera_from(raw), shapes, PASSES, np.float64)
 
 
-few = settings(max_examples=100, deadline=None, derandomize=True)  # the same for everyone: a failure is a change's
+# the same for everyone: a failure is a change's
+few = settings(max_examples=examples(100), deadline=None, derandomize=True)
 
 
 @few

@@ -63,6 +63,7 @@ def assert_heard(monkeypatch, *scene, **request):
     assert min(longest) + tiles.LISTEN < HEARD, longest
 
 
+@pytest.mark.cases(1)
 @pytest.mark.parametrize("case", CASTS)
 def test_a_stop_is_heard_within_the_steps_of_a_cast(case, monkeypatch):
     size, count, request = CASTS[case]

@@ -49,6 +49,7 @@ def test_every_ray_has_bounds(key):
                 assert np.isfinite(images[name][images["valid"]]).all()
 
 
+@pytest.mark.full
 def test_bounds_hold_where_a_cross_slits_rays_meet_in_a_small_place():
     """Slits near each other, nearly parallel, or far away; against rays with 60 digits."""
     rng = np.random.default_rng(6)

@@ -49,6 +49,7 @@ def warp(picture, st_map, folder):
     return np.load(paths[-1])[..., 0]
 
 
+@pytest.mark.cases(1)
 @pytest.mark.parametrize("pair", PAIRS)
 def test_a_warped_picture_is_the_other_cameras(pair, tmp_path):
     one, other = PAIRS[pair]

@@ -59,6 +59,7 @@ def test_the_ball_straight_ahead_is_met_at_4_and_at_6():
     assert "(20, 15) of 41 × 31, from the bottom left" in text
 
 
+@pytest.mark.cases(1)
 @pytest.mark.parametrize(
     "changed",
     [{}, {"type": "ORTHO"}, {"type": "PANO", "settings": {"panorama_type": "FISHEYE_EQUIDISTANT", "fisheye_fov": 3.0}}],

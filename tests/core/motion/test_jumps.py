@@ -23,6 +23,7 @@ def place_in(motion, frame):
     return motion.camera_at(frame).pose.eye[0]
 
 
+@pytest.mark.cases(1)
 @pytest.mark.parametrize("drift", [0.0, 0.02], ids=["rest", "drift"])
 @pytest.mark.parametrize("keyed", [False, True])
 def test_a_jump_is_found_to_its_accuracy_and_takes_few_evaluations(keyed, drift):

@@ -198,6 +198,7 @@ def test_a_pixel_whose_ray_bends_so_much_that_no_other_has_one_is_rounded_as_all
     assert off > 0
 
 
+@pytest.mark.full
 def test_slits_that_are_far_away_are_rounded_as_far_points_are():
     """A cross-slit camera's, whose ends lie anywhere up to 1e5 from it."""
     rng = np.random.default_rng(1)
