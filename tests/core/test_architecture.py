@@ -18,11 +18,11 @@ SOURCES = [*MODULES, *sorted((ROOT / "scripts").rglob("*.py")), *sorted((ROOT / 
 
 # What a part of the package may import of the package: the longest name that fits counts. The lowest layer comes first.
 LOW = {
-    "core.conventions", "core.tuning", "core.materials", "core.mesh", "core.records", "core.arguments", "core.memory",
-    "core.maths",
+    "core.conventions", "core.tuning", "core.materials", "core.mesh", "core.timeline", "core.records", "core.arguments",
+    "core.memory", "core.maths",
 }  # fmt: skip
 RAYS = LOW | {"core.cameras", "core.camera"}
-HITS = RAYS | {"core.motion", "core.shapes", "core.errors", "core.casting"}
+HITS = RAYS | {"core.scene", "core.motion", "core.shapes", "core.errors", "core.casting"}
 READ = {"core", "blender.properties", "blender.process", "blender.read"}
 RENDER = READ | {"blender.cycles", "blender.verification", "blender.output"}
 DOOR = RENDER | {"blender.engine", "blender.rig"}
@@ -31,7 +31,8 @@ MAY_IMPORT = {
     "core.tuning": set(),
     "core.mesh": {"core.tuning"},
     "core.materials": {"core.materials"},
-    "core.records": {"core.conventions", "core.materials", "core.mesh"},
+    "core.timeline": set(),
+    "core.records": {"core.conventions", "core.materials", "core.mesh", "core.timeline"},
     "core.arguments": {"core.records"},
     "core.memory": {"core.records"},
     "core.names": {"core.records"},
@@ -44,9 +45,9 @@ MAY_IMPORT = {
     "core.errors": RAYS | {"core.shapes", "core.errors"},
     "core.casting": HITS,
     "core.any_rays": HITS | {"core.any_rays"},
-    "core.scene": RAYS | {"core.motion"},
-    "core.cast": HITS | {"core.any_rays", "core.scene"},
-    "core.clouds": HITS | {"core.cast", "core.clouds", "core.scene"},
+    "core.scene": RAYS,
+    "core.cast": HITS | {"core.any_rays"},
+    "core.clouds": HITS | {"core.cast", "core.clouds"},
     "core.annotations": HITS | {"core.cast", "core.version", "core.annotations"},
     "core.shaders": RAYS | {"core.shaders"},
     "core.motion": RAYS | {"core.motion"},
@@ -58,9 +59,7 @@ MAY_IMPORT = {
     "core.lesson": HITS | {"core.cast", "core.lesson"},
     "core.exports": RAYS | {"core.exports", "core.file_set", "core.motion", "core.names", "core.version"},
     "core.sets": HITS | {"core.annotations", "core.exports", "core.names", "core.sets"},
-    "core.library": HITS | {
-        "core.cast", "core.clouds", "core.exports", "core.lesson", "core.library", "core.names", "core.scene",
-    },
+    "core.library": HITS | {"core.cast", "core.clouds", "core.exports", "core.lesson", "core.library", "core.names"},
     "core.web": RAYS | {"core.library", "core.shaders", "core.web"},
     "core": {"core"},
     "blender.verification.witness": LOW,

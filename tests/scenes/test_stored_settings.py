@@ -129,7 +129,7 @@ def is_registered(request, unregister):
 def test_a_file_opens_with_its_settings(blender, name):
     model, expected = STORED.get(name, ("PERSP", {}))
     found = record(blender, name)
-    settings = {**found.raw.settings, **found.camera.settings}
+    settings = {**found.camera.record.settings, **found.camera.settings}
     assert found.camera.model.key == model
     assert (settings["time_mode"] != "NONE") == ("time_mode" in expected)
     for setting, value in expected.items():

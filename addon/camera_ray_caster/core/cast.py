@@ -64,11 +64,8 @@ def cast(
     that were not read, for passes that need more memory than is available, and, before anything is written, for
     ``into`` that does not fit.
     """
-    if isinstance(camera, Scene) and shapes is None:
-        shapes, camera = camera.shapes, camera.camera
-    if not (isinstance(camera, Camera) and isinstance(shapes, Shapes)):
-        said = f"{type(camera)} and {type(shapes)}"
-        raise TypeError(f"cast takes a camera and shapes, or a scene and passes=, as they are read, not {said}")
+    scene = Scene.given(camera, shapes, "cast")
+    camera, shapes = scene.camera, scene.shapes
     started = perf_counter()
     threads = processors() if threads is None else arguments.count(threads, "threads")
     samples = arguments.count(samples, "samples", MOST_SAMPLES)
@@ -84,16 +81,16 @@ def cast(
     else:
         check_reusable(into, passes, shape, dtype)
     check_passes(camera, passes)
-    request = replace(request, others=pictures(camera, shapes, passes))
-    given = camera, shapes
-    camera, shapes = without_times(camera, shapes)
+    request = replace(request, others=pictures(scene, passes))
+    camera = without_times(scene)
     time = camera.pixel_time
     middle = (time.first + time.last) / 2 if time else None
     if isinstance(time, SweepTime) or (samples == 1 and is_cast_by_rays(camera)):
         found = cast_sweep(camera, shapes, request, dtype, progress)
         images = Images(found) if into is None else into
         images.take(found)
-        (images.camera, images.shapes), images.plan = given, make_plan(*moment(camera, shapes, middle), request)
+        images.camera, images.shapes = scene.camera, shapes
+        images.plan = make_plan(*moment(camera, shapes, middle), request)
         images.seconds = {"plan": 0.0, "rays": 0.0, "cast": perf_counter() - started, "passes": 0.0}
         if finished is not None:
             finished(images, slice(0, camera.raster.shape[0]))
@@ -102,7 +99,7 @@ def cast(
     whole = make_plan(*moment(camera, shapes, middle), request)
     images = Images({name: PASSES[name].empty(shape, dtype) for name in passes}) if into is None else into
     images.keep(passes)
-    (images.camera, images.shapes), images.plan = given, whole
+    images.camera, images.shapes, images.plan = scene.camera, shapes, whole
     sampled = ("combined",) if samples > 1 and "combined" in passes else ()
     parts = [(replace(request, passes=tuple(name for name in passes if name not in sampled)), 1)]
     parts += [(replace(request, passes=sampled, sampled=True), samples)] if sampled else []
@@ -153,14 +150,12 @@ def cast(
 
 def moment(camera: Camera, shapes: Shapes, frame: float | None) -> tuple[Camera, Shapes]:
     """Return camera and shapes at a frame, or as they are if ``frame`` is None: the picture has one time."""
-    if frame is None:
-        return camera, shapes
-    return camera.at(frame), shapes if shapes.motion is None else shapes.motion.shapes_at(frame)
+    return (camera, shapes) if frame is None else (camera.at(frame), shapes.at(frame))
 
 
-def without_times(camera: Camera, shapes: Shapes) -> tuple[Camera, Shapes]:
-    """Return camera and shapes without the pixels' times if nothing moves meanwhile; else as they are."""
-    motions = [motion for motion in (camera.motion, shapes.motion) if motion is not None]
-    if camera.pixel_time is None or not all(motion.is_still for motion in motions):
-        return camera, shapes
-    return replace(camera, pixel_time=None, motion=None), replace(shapes, motion=None)
+def without_times(scene: Scene) -> Camera:
+    """Return the camera of a scene, without the times of its pixels if nothing moves meanwhile."""
+    camera, motions = scene.camera, (scene.camera.timeline.motion, scene.shapes.timeline.motion)
+    if camera.pixel_time is None or not all(motion is None or motion.is_still for motion in motions):
+        return camera
+    return replace(camera, pixel_time=None)

@@ -7,13 +7,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 
 from .materials.surface import Surface
 from .materials.values import Value
 from .mesh import Mesh
+from .timeline import ONE_TIME, Timeline
 
 
 class InputError(ValueError):
@@ -171,17 +172,6 @@ class Lights:
     """Lights that are not used, each with the reason in one line."""
 
 
-class MovingShapes(Protocol):
-    """An object that returns the shapes at any frame, such as ``Motion``."""
-
-    @property
-    def is_still(self) -> bool:
-        """Whether neither the shapes nor the camera move."""
-
-    def shapes_at(self, frame: float) -> Shapes:
-        """Return the shapes at a frame."""
-
-
 @dataclass(frozen=True, eq=False)
 class Shapes:
     """The spheres, planes and meshes of a scene, one row per shape; ``shape_index`` of a pixel is the row.
@@ -217,8 +207,6 @@ class Shapes:
     """RGBA of the background, and of the light from all directions: the mean of a background that changes."""
     background: Value | None = None
     """The color of the background by ``DIRECTION``, three channels; None if it is the world's color."""
-    motion: MovingShapes | None = None
-    """The shapes at other frames, for cameras whose pixels have times of their own; else None."""
     left_out: tuple[tuple[str, str], ...] = ()
     """Objects that are not cast, each with the reason in one line."""
     meshes: tuple[Mesh, ...] = ()
@@ -252,13 +240,16 @@ class Shapes:
     notes: tuple[tuple[str, str], ...] = ()
     """Objects and materials that passes show otherwise than their settings or Cycles' passes, each with what differs.
     """
-
-    next: Shapes | None = None
-    """The shapes at the next frame, and in ``previous`` at the previous one: see ``casting.flow``. None if not read."""
-    previous: Shapes | None = None
+    timeline: Timeline = ONE_TIME
+    """The shapes, and the camera that sees them, at other times."""
 
     def __len__(self) -> int:
         return len(self.kind)
+
+    def at(self, frame: float) -> Shapes:
+        """Return the shapes at a frame: themselves if they do not move."""
+        motion = self.timeline.motion
+        return self if motion is None else motion.shapes_at(frame)
 
 
 def no_shapes() -> Shapes:

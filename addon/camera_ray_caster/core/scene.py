@@ -1,30 +1,56 @@
-"""What a cast reads of a scene, as one record: camera and shapes, with their motion and neighboring frames."""
+"""What a cast reads of a scene, as one record: camera and shapes, with their motion and the neighboring frames."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
 from .camera.camera import Camera
-from .motion.evaluations import Motion
-from .records import BlenderCamera, Shapes
+from .records import Shapes
+from .timeline import MovingScene, Timeline
 
 
 @dataclass(frozen=True, eq=False)
 class Scene:
-    """A camera and the shapes that it sees, at one time. Camera and shapes of a scene that moves refer to its motion,
-    and with flow to the next and the previous frame.
-    """
+    """A camera and the shapes that it sees, at one time, and through their timelines at others."""
 
     camera: Camera
     shapes: Shapes
-    record: BlenderCamera | None = None
-    """The record of Blender's camera, without the numbers of a calibration file; None for a camera made without it."""
+
+    @classmethod
+    def given(cls, camera: Camera | Scene, shapes: Shapes | None, to: str) -> Scene:
+        """Return the scene that is given to a function as camera and shapes, or as one record. Raises TypeError, which
+        names the function, for anything else.
+        """
+        if isinstance(camera, Scene) and shapes is None:
+            return camera
+        if not (isinstance(camera, Camera) and isinstance(shapes, Shapes)):
+            both = f"{type(camera)} and {type(shapes)}"
+            raise TypeError(f"{to} takes a camera and shapes, or a scene and all else by name, not {both}")
+        return cls(camera, shapes)
 
     @property
-    def raw(self) -> BlenderCamera:
-        """The record that the camera was made from."""
-        return self.camera.record if self.record is None else self.record
+    def motion(self) -> MovingScene | None:
+        """The scene over the times of the camera's pixels; None if they have one time, or nothing moves."""
+        return self.camera.timeline.motion
 
-    def with_motion(self, motion: Motion | None) -> Scene:
-        """Return the scene with a motion."""
-        return replace(self, camera=replace(self.camera, motion=motion), shapes=replace(self.shapes, motion=motion))
+    @property
+    def next(self) -> Scene | None:
+        """The scene at the next frame, and in ``previous`` at the previous one. None if it was not read."""
+        return self._other("next")
+
+    @property
+    def previous(self) -> Scene | None:
+        """The scene at the previous frame. None if it was not read."""
+        return self._other("previous")
+
+    def with_timeline(
+        self, motion: MovingScene | None = None, next: Scene | None = None, previous: Scene | None = None
+    ) -> Scene:
+        """Return the scene with its motion and its neighboring frames, to which camera and shapes refer."""
+        timeline = Timeline(motion, next, previous)
+        return Scene(replace(self.camera, timeline=timeline), replace(self.shapes, timeline=timeline))
+
+    def _other(self, name: str) -> Scene | None:
+        """Return a neighboring frame: the camera and the shapes may have been read one by one."""
+        ours, theirs = getattr(self.camera.timeline, name), getattr(self.shapes.timeline, name)
+        return None if None in (ours, theirs) else Scene(ours.camera, theirs.shapes)

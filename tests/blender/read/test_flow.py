@@ -10,6 +10,7 @@ from camera_ray_caster.blender.read import evaluated, read_scene
 from camera_ray_caster.blender.read.scene import evaluated_camera
 from camera_ray_caster.core.cast import cast
 from camera_ray_caster.core.records import InputError
+from camera_ray_caster.core.scene import Scene
 
 from .scene_parts import ball, new_object
 from .time_scene import key
@@ -43,11 +44,11 @@ def test_neighbors_are_read_only_for_flow_and_the_scene_is_as_it_was(scene, monk
     )
     found = read_scene(scene, passes=("depth",))
     assert frames == [5]
-    assert found.camera.next is found.shapes.previous is None
+    assert found.next is found.previous is None
     found = read_scene(scene, frame=3.5, passes=("flow_forward",))
     assert frames[1:] == [3, 4]
-    assert found.camera.previous is None
-    np.testing.assert_array_equal(found.camera.next.pose.eye, read_scene(scene, frame=4.5).camera.pose.eye)
+    assert found.previous is None
+    np.testing.assert_array_equal(found.next.camera.pose.eye, read_scene(scene, frame=4.5).camera.pose.eye)
     frames.clear()
     found = read_scene(scene, passes=("flow_hidden",))
     assert sorted(frames) == [4, 5, 6]
@@ -94,8 +95,8 @@ def test_a_deforming_mesh_is_followed_and_a_new_topology_is_not(scene):
     images = cast(found.camera, found.shapes, ("flow_forward", "shape_index"), float)
     here = images["shape_index"] == row
     assert not np.isnan(images["flow_forward"][here]).any()
-    still = replace(found.shapes, next=replace(found.shapes.next, meshes=found.shapes.meshes))
-    rigid = cast(found.camera, still, ("flow_forward",), float)["flow_forward"]
+    still = Scene(found.next.camera, replace(found.next.shapes, meshes=found.shapes.meshes))
+    rigid = cast(found.with_timeline(next=still), passes=("flow_forward",), dtype=float)["flow_forward"]
     assert 0.05 < np.abs(rigid - images["flow_forward"])[here].max() < 5
     build = monkey.modifiers.new("Build", "BUILD")
     build.frame_start, build.frame_duration = 1, 10
@@ -109,8 +110,10 @@ def test_a_deforming_mesh_is_followed_and_a_new_topology_is_not(scene):
 def test_a_rolling_shutter_comes_with_the_motion_of_its_neighbors(scene):
     scene.camera.data.camera_ray_caster.time_mode = "ROLLING_SHUTTER"
     found = read_scene(scene, passes=BOTH)
-    assert found.camera.next.motion is found.shapes.next.motion is not None
+    assert None not in (found.next.motion, found.previous.motion)
     images = cast(found.camera, found.shapes, (*BOTH, "shape_index"), float)
+    for name, image in cast(found, passes=BOTH, dtype=float).items():
+        np.testing.assert_array_equal(images[name], image)
     hit = images["shape_index"] >= 0
     assert 5 < np.nanmax(images["flow_forward"][hit]) < 50
     assert np.isnan(images["flow_forward"][hit]).mean() < 0.3

@@ -28,8 +28,8 @@ def stretched(scene, sphere):
 
 def test_flow_is_that_of_the_neighboring_frames(stretched):
     found = read_scene(stretched, passes=("flow_forward", "flow_backward"))
-    assert found.raw.settings["frame"] == 10
-    assert [found.shapes.center[0, 0], found.shapes.next.center[0, 0]] == pytest.approx([0, 0.1], abs=1e-6)
+    assert found.camera.record.settings["frame"] == 10
+    assert [found.shapes.center[0, 0], found.next.shapes.center[0, 0]] == pytest.approx([0, 0.1], abs=1e-6)
     assert read_shapes(stretched, frame=12.5).center[0, 0] == pytest.approx(0.25)
     images = cast(found.camera, found.shapes, ("flow_forward", "shape_index"), float)
     seen = images["shape_index"] == 0
@@ -42,7 +42,7 @@ def test_a_rolling_shutter_is_around_its_frame(stretched):
     stretched.frame_set(12, subframe=0.5)
     time = read_camera(stretched).pixel_time
     assert (time.first + time.last) / 2 == pytest.approx(12.5, abs=0.01)
-    middle = read_scene(stretched).shapes.motion.shapes_at(12.5)
+    middle = read_scene(stretched).shapes.at(12.5)
     assert middle.center[0, 0] == pytest.approx(0.25)
     assert keyed_frames(stretched).tolist() == [10, 20, 30], "keys lie at frames, too"
 

@@ -23,8 +23,8 @@ def scene(camera_scene):
 
 def moves(found):
     """How far each shape moves to the next frame; NaN where it goes."""
-    rows = rows_in(found.shapes, found.shapes.next)
-    there = np.where((rows >= 0)[:, None], found.shapes.next.center[rows], np.nan)
+    rows = rows_in(found.shapes, found.next.shapes)
+    there = np.where((rows >= 0)[:, None], found.next.shapes.center[rows], np.nan)
     return there - found.shapes.center
 
 
@@ -62,7 +62,7 @@ def test_points_with_an_id_are_the_points_of_that_id(scene, kind):
     away = moves(found)
     np.testing.assert_array_equal(away[here & ~gone], 0)
     assert np.isnan(away[gone]).all()
-    assert not matched(found.shapes, found.shapes.next), "between the frames they are other shapes"
+    assert not matched(found.shapes, found.next.shapes), "between the frames they are other shapes"
     flow = cast(found.camera, found.shapes, ("flow_forward", "shape_index"), float)
     row = flow["shape_index"]
     np.testing.assert_allclose(flow["flow_forward"][(row >= 0) & ~gone[row]], 0, atol=1e-9)

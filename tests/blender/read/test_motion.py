@@ -112,7 +112,7 @@ def test_a_keyed_color_changes_from_row_to_row(blender, scene, sphere):
     shapes = read_shapes(scene)
     for frame in (1.0, 7.3, 24.9):
         share = (frame - 1) / 24
-        np.testing.assert_allclose(shapes.motion.shapes_at(frame).color, [[share, share / 2, 0, 1]], atol=1e-6)
+        np.testing.assert_allclose(shapes.at(frame).color, [[share, share / 2, 0, 1]], atol=1e-6)
 
 
 def test_an_image_displaces_time(blender, scene, sphere):
@@ -132,8 +132,8 @@ def test_a_fan_of_whole_turns_a_frame_is_resolved(blender, scene):
     own = scene.camera.data.camera_ray_caster
     own.time_start, own.time_end = 7.0, 7.5
     camera, found = read_camera(scene), walked(scene)
-    assert not camera.motion.unresolved
-    assert len(camera.motion.states) > 6
+    assert not camera.timeline.motion.unresolved
+    assert len(camera.timeline.motion.states) > 6
     x, y, frame = coordinates()
     angle = 2 * np.pi * 3 * (7 + (frame - 1) / 48)
     along, across = x * np.cos(angle) + y * np.sin(angle), y * np.cos(angle) - x * np.sin(angle)

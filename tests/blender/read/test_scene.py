@@ -6,6 +6,7 @@ import pytest
 from camera_ray_caster.blender.read import evaluated, read_camera, read_scene, read_shapes
 from camera_ray_caster.core.cast import cast
 from camera_ray_caster.core.records import InputError
+from camera_ray_caster.core.timeline import Timeline
 
 from .scene_parts import new_object
 from .time_scene import PASSES, coordinates, disc, key, same
@@ -30,17 +31,18 @@ def test_camera_and_shapes_are_what_the_doors_give(scene, sphere):
         camera, shapes = read_camera(scene, **arguments), read_shapes(scene, **arguments)
         np.testing.assert_array_equal(found.camera.rays().origins, camera.rays().origins)
         np.testing.assert_array_equal(found.shapes.center, shapes.center)
-        assert found.raw.name == camera.name == "Camera"
-        assert found.shapes.motion is camera.motion is None
+        assert found.camera.name == camera.name == "Camera"
+        assert found.shapes.timeline == camera.timeline == Timeline()
 
 
 def test_motion_is_evaluated_once_for_camera_and_shapes(scene, sphere, counted):
     key(sphere, "location", (1, -3.0), (25, 3.0), index=0)
     scene.frame_set(7)
     found = read_scene(scene)
-    assert found.camera.motion is found.shapes.motion is not None
+    assert found.camera.timeline is found.shapes.timeline
+    assert found.motion is not None
     once = len(counted)
-    assert once == len(found.camera.motion.states) + 4 + 1  # beside: the checks, and the frame itself
+    assert once == len(found.motion.states) + 4 + 1  # beside: the checks, and the frame itself
     read_camera(scene), read_shapes(scene)
     assert len(counted) == 3 * once - 1  # a camera alone needs no shapes at the frame itself
     x, y, frame = coordinates()
@@ -58,7 +60,7 @@ def test_shapes_move_for_a_camera_that_is_not_the_active_one(blender, scene, sph
     key(sphere, "location", (1, -3.0), (25, 3.0), index=0)
     scene.frame_set(7)
     scanning, scene.camera = scene.camera, new_object("Other", blender.data.cameras.new("Other"))
-    assert read_shapes(scene).motion is None
+    assert read_shapes(scene).timeline.motion is None
     camera, shapes = read_camera(scene, scanning), read_shapes(scene, camera_object=scanning)
     x, y, frame = coordinates()
     same(cast(camera, shapes, PASSES)["shape_index"] == 0, *disc(x, y, (frame - 13) / 4))
@@ -84,7 +86,8 @@ def test_the_shapes_of_an_eye_are_read_for_that_eye(scene, sphere):
     scene.render.use_multiview = True
     found = read_scene(scene, view="right")
     np.testing.assert_array_equal(found.camera.pose.eye, read_camera(scene, view="right").pose.eye)
-    assert read_shapes(scene, view="right").motion.camera_at(3.0).pose.eye[0] == found.camera.at(3.0).pose.eye[0]
+    motion = read_shapes(scene, view="right").timeline.motion
+    assert motion.camera_at(3.0).pose.eye[0] == found.camera.at(3.0).pose.eye[0]
     assert found.camera.pose.eye[0] != read_camera(scene).pose.eye[0]
     with pytest.raises(InputError, match="'middle' is not an eye"):
         read_shapes(scene, view="middle")

@@ -12,12 +12,15 @@ from camera_ray_caster.core.annotations.silhouettes import silhouettes
 from camera_ray_caster.core.camera.build import camera_from
 from camera_ray_caster.core.cast import cast
 from camera_ray_caster.core.casting.visibility import Visibility
+from camera_ray_caster.core.materials.surface import Surface
+from camera_ray_caster.core.materials.values import UV, Coordinates, constant, function_of
 from camera_ray_caster.core.motion.evaluations import resolve
 from camera_ray_caster.core.records import PLANE, SPHERE, InputError
 
 from ..camera.test_pixel_time import SHUTTER
 from ..camera.test_pixel_time import camera as timed_camera
 from ..cameras.model_examples import raw_of
+from ..casting.neighbors import with_motion
 from ..casting.test_cast import random_shapes, shapes_of
 
 CAMERA = timed_camera({})
@@ -107,13 +110,22 @@ def test_silhouettes_are_those_of_casts_without_the_others(key):
         assert (one.visible is None) == (not seen.any())
 
 
+def test_a_shape_alone_has_the_holes_of_its_own_material():
+    """The second square's left half is transparent; the first square has no holes."""
+    right = function_of(lambda uv: (uv[:1] >= 0.5) * 1.0, Coordinates(UV))
+    holed = Surface(constant(1, 1, 1), alpha=right)
+    shapes = replace(WALLS, surfaces=(holed,), surface=np.array([-1, 0, -1], np.int32))
+    behind, before, _ = silhouettes(CAMERA, shapes)[0]
+    assert (behind.whole_pixels, before.whole_pixels) == (256, 128)
+
+
 def test_a_shape_that_moves_while_rows_are_read_has_the_box_of_its_picture():
     def evaluate(frame):
         return timed_camera(SHUTTER), shapes_of((PLANE, (2 * (frame - 5), 0, -3), 0.5))
 
     camera, shapes = evaluate(5.0)
     motion = resolve(evaluate, 4.75, 5.25, 0.01, 64)
-    (one,), index = silhouettes(replace(camera, motion=motion), replace(shapes, motion=motion))
+    (one,), index = silhouettes(*with_motion(camera, shapes, motion))
     assert one.whole == one.visible
     assert one.whole[1] - one.whole[0] > 16
     assert one.whole_pixels == (index == 0).sum()
@@ -122,7 +134,7 @@ def test_a_shape_that_moves_while_rows_are_read_has_the_box_of_its_picture():
 def timed(evaluate, first=4.75, last=5.25):
     camera, shapes = evaluate(first)
     motion = resolve(evaluate, first, last, 0.01, 64)
-    return replace(camera, motion=motion), replace(shapes, motion=motion)
+    return with_motion(camera, shapes, motion)
 
 
 def test_shapes_that_are_others_at_the_times_of_other_pixels_are_refused():

@@ -8,6 +8,7 @@ import pytest
 import camera_ray_caster as crc
 from camera_ray_caster.core.any_rays.moving import moving_of
 from camera_ray_caster.core.motion.evaluations import resolve
+from camera_ray_caster.core.timeline import Timeline
 
 PASSES = "depth", "position", "normal", "uv", "shape_index", "face_index", "position_bound", "normal_bound"
 CORNER = (np.arange(6)[:, None] * 7 + np.arange(6)).ravel()
@@ -50,7 +51,7 @@ def test_each_ray_meets_what_moves_as_a_cast_at_its_time_does(name):
 
     meshes = at(0.0).meshes
     motion = resolve(lambda frame: (camera, replace(at(frame), meshes=meshes)), 0.0, 1.0, 0.1, 64)
-    shapes = replace(at(0.0), motion=motion)
+    shapes = replace(at(0.0), timeline=Timeline(motion))
     apart = moving_of(shapes)
     assert apart.rigid.all()
     assert len(apart.rows) in (len(shapes) - 1, len(shapes) - 2)
@@ -74,6 +75,6 @@ def test_a_world_that_brightens_is_seen_by_each_ray_at_its_time():
         return replace(ball, world_color=(frame, frame, frame, 1.0))
 
     motion = resolve(lambda frame: (camera, at(frame)), 0.0, 1.0, 0.1, 16)
-    shapes, times = replace(at(0.0), motion=motion), np.array([0.0, 0.25, 1.0])
+    shapes, times = replace(at(0.0), timeline=Timeline(motion)), np.array([0.0, 0.25, 1.0])
     colors = crc.cast_rays([0, 0, 0], [[0, 0, 1.0]] * 3, shapes, "combined", times)["combined"]
     np.testing.assert_allclose(colors[:, 0], times, atol=1 / 255)

@@ -11,6 +11,9 @@ from camera_ray_caster.core.any_rays.search import BodySearch
 from camera_ray_caster.core.conventions import EPS
 from camera_ray_caster.core.motion.evaluations import resolve
 from camera_ray_caster.core.records import Pose
+from camera_ray_caster.core.timeline import Timeline
+
+from ..casting.neighbors import with_motion
 
 WALL, BALL, GROUND = 0, 1, 2
 SPEED, WALL_SPEED = 1.5, 0.25
@@ -36,7 +39,7 @@ def moving(size=(360, 16), **settings):
         return replace(still, pose=Pose(eye, still.pose.basis)), shapes_at(frame)
 
     motion = resolve(evaluate, still.pixel_time.first, still.pixel_time.last, 0.1, 64)
-    return replace(still, motion=motion), replace(shapes_at(2.0), motion=motion)
+    return with_motion(still, shapes_at(2.0), motion)
 
 
 @pytest.fixture(scope="module")
@@ -79,7 +82,7 @@ def test_the_points_are_those_of_a_cast_at_each_time(sweep):
     camera, shapes, images = sweep
     rays = camera.rays()
     for row, column in [(3, 10), (8, 90), (9, 95), (7, 200), (1, 350)]:
-        then = shapes.motion.shapes_at(float(rays.time[row, column]))
+        then = shapes.at(float(rays.time[row, column]))
         found = crc.cast_rays(rays.origins[row, column], rays.directions[row, column], then, PASSES, None, 0.5, 100.0)
         for name in PASSES:
             np.testing.assert_array_equal(found[name], images[name][row, column])
@@ -88,7 +91,7 @@ def test_the_points_are_those_of_a_cast_at_each_time(sweep):
 def test_a_moving_wall_is_bent():
     """A level beam meets it farther away, the later it fires; in a picture of one time it is a plane."""
     camera, shapes = moving()
-    now = replace(camera, pixel_time=None, motion=None), replace(shapes, motion=None)
+    now = replace(camera, pixel_time=None), shapes
     x = []
     for both in ((camera, shapes), now):
         images = crc.cast(*both, ("position", "shape_index"), np.float64)
@@ -106,7 +109,7 @@ def test_where_nothing_moves_a_picture_with_times_is_cast_once(mode):
     shapes = shapes_at(1.0)
     motion = resolve(lambda frame: (camera, shapes), 1.0, 9.0, 0.1, 16)
     assert motion.is_still
-    timed = crc.cast(replace(camera, motion=motion), replace(shapes, motion=motion), PASSES, np.float64)
+    timed = crc.cast(*with_motion(camera, shapes, motion), PASSES, np.float64)
     plain = crc.cast(crc.camera("SCANNER", (90, 16), scanner_device="VLP_16"), shapes, PASSES, np.float64)
     for name in PASSES:
         np.testing.assert_array_equal(timed[name], plain[name])
@@ -116,11 +119,11 @@ def test_where_nothing_moves_a_picture_with_times_is_cast_once(mode):
 def test_settings_that_change_during_a_sweep_are_refused():
     camera, _ = moving((90, 16))
     other = crc.camera("SCANNER", (90, 16), scanner_device="HDL_32E")
-    states = dict(camera.motion.states)
+    states = dict(camera.timeline.motion.states)
     last = max(states)
     states[last] = replace(states[last][0], model=other.model), states[last][1]
     with pytest.raises(crc.InputError, match="change during the sweep"):
-        replace(camera, motion=replace(camera.motion, states=states)).rays()
+        replace(camera, timeline=Timeline(replace(camera.timeline.motion, states=states))).rays()
 
 
 def test_rays_near_what_moves_are_found_whatever_it_is():
@@ -140,7 +143,7 @@ def test_rays_near_what_moves_are_found_whatever_it_is():
     first = at(0.0)
     state = crc.camera("PERSP", (8, 8))
     motion = resolve(lambda frame: (state, replace(at(frame), meshes=at(frame).meshes)), 0.0, 1.0, 0.1, 64)
-    shapes = replace(first, motion=motion)
+    shapes = replace(first, timeline=Timeline(motion))
     rng = np.random.default_rng(5)
     times = np.round(rng.uniform(0, 1, 600), 2)
     rays = rng.normal(size=(600, 3)), rng.normal(size=(600, 3))

@@ -10,6 +10,9 @@ from camera_ray_caster.core.camera.build import camera_from
 from camera_ray_caster.core.cast import cast
 from camera_ray_caster.core.motion.evaluations import measured, resolve
 from camera_ray_caster.core.records import PLANE, SPHERE, BlenderCamera, InputError, Shapes
+from camera_ray_caster.core.timeline import Timeline
+
+from ..casting.neighbors import with_motion
 
 EFFORT = {"time_tolerance": 0.1, "time_evaluations": 256}
 ROWS = EFFORT | {"time_mode": "ROWS", "time_start": 10.0, "time_end": 20.0}
@@ -88,7 +91,7 @@ def moving(evaluate, first, last, tolerance=0.05, most=400):
     """Camera and shapes that know their motion."""
     motion = resolve(evaluate, first, last, tolerance, most)
     cam, still = evaluate(first)
-    return replace(cam, motion=motion), replace(still, motion=motion), motion
+    return *with_motion(cam, still, motion), motion
 
 
 def test_each_pixel_shows_the_time_that_an_image_gives_it(monkeypatch):
@@ -142,7 +145,7 @@ def test_turning_things_turn_and_are_not_squeezed():
     _, scene, motion = moving(evaluate, 10, 20)
     assert len(motion.states) <= 40
     for frame in (10.0, 13.3, 17.77):
-        assert scene.motion.shapes_at(frame).axes[0] == pytest.approx(turn(0.2 * frame) @ bar, abs=1e-9)
+        assert scene.at(frame).axes[0] == pytest.approx(turn(0.2 * frame) @ bar, abs=1e-9)
 
 
 def test_curved_motion_is_evaluated_until_the_tolerance_holds_and_the_estimate_is_honest():
@@ -175,7 +178,7 @@ def test_a_fan_at_many_turns_a_frame_does_not_alias(turns):
         return
     assert len(motion.states) > 3 * turns
     assert measured(motion, evaluate, np.random.default_rng(2).uniform(4.75, 5.25, 50)).measured <= 0.15
-    hit = cast(replace(camera(SHUTTER), motion=motion), scene, ("shape_index",))["shape_index"]
+    hit = cast(replace(camera(SHUTTER), timeline=Timeline(motion)), scene, ("shape_index",))["shape_index"]
     time = camera(SHUTTER).rays().time
     x, y = (np.arange(64) + 0.5 - 32)[None] / 16, (np.arange(48) + 0.5 - 24)[:, None] / 16
     angle = 2 * np.pi * turns * time
@@ -199,7 +202,7 @@ def test_shapes_that_come_and_go_are_never_mixed():
     _, scene, motion = moving(evaluate, 10, 20, most=100)
     assert not motion.unresolved
     for frame, count in ((12.0, 1), (15.3 - 2**-10, 1), (15.3 + 2**-10, 2), (18.0, 2)):
-        assert len(scene.motion.shapes_at(frame)) == count
+        assert len(scene.at(frame)) == count
 
 
 @pytest.mark.parametrize(

@@ -21,7 +21,7 @@ from ..camera.test_pixel_time import camera as timed_camera
 from ..cameras.model_examples import TURNED, raw_of
 from ..shapes import meshes
 from ..truth import differences, truth
-from .neighbors import at_rest, with_others
+from .neighbors import at_rest, with_motion, with_others
 from .test_cast import camera_at, random_rows, random_shapes, shapes_of
 
 SIZE = {"resolution_x": 64, "resolution_y": 48}
@@ -89,7 +89,7 @@ def test_each_point_is_where_60_digits_see_it_and_hidden_where_they_hide_it(mode
             assert not hidden
             continue
         point = exactly_moved(shapes, after, hit.shape, hit.position)
-        place, jacobian = camera.next.project(np.array(point, float), jacobian=True)
+        place, jacobian = camera.timeline.next.camera.project(np.array(point, float), jacobian=True)
         if np.isnan(flow).any():
             assert not ((place > 0) & (place < (64, 48))).all()
             assert not hidden
@@ -171,8 +171,7 @@ def test_a_picture_warped_by_its_flow_is_the_next_one():
         finite = same & (now["shape_index"][seen] < 30)  # the uv of the infinite plane has no end
         apart = np.abs(then["uv"][row, column] - now["uv"][seen])[finite].max(axis=1, initial=0.0)
         assert np.median(apart) < 0.02
-        back = replace(later, next=camera, previous=camera), replace(after, next=shapes, previous=shapes)
-        returned = cast(*back, ("flow_backward",), float)["flow_backward"]
+        returned = cast(*with_others(later, after, camera, shapes), ("flow_backward",), float)["flow_backward"]
         assert np.nanmedian(np.abs(returned[row, column] + now["flow_forward"][seen])) < 0.2
 
 
@@ -238,7 +237,7 @@ def test_a_rolling_shutter_sees_a_point_at_the_time_of_its_row():
 
         camera, shapes = evaluate(frame)
         motion = resolve(evaluate, camera.pixel_time.first, camera.pixel_time.last, 0.01, 64)
-        return replace(camera, motion=motion), replace(shapes, motion=motion)
+        return with_motion(camera, shapes, motion)
 
     camera, shapes = with_others(*at(5.0), *at(6.0))
     images = cast(camera, shapes, ("flow_forward", "flow_hidden"), float)

@@ -1,6 +1,5 @@
 """Whether points are seen: by hand, behind what pixels see, and on surfaces that must not hide themselves."""
 
-from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -18,6 +17,7 @@ from ..camera.test_pixel_time import SHUTTER
 from ..camera.test_pixel_time import camera as timed_camera
 from ..cameras.model_examples import raw_of
 from ..shapes import meshes
+from .neighbors import with_motion
 from .test_cast import camera_at, pose, random_shapes, shapes_of
 
 OUTSIDE, HIDDEN, SEEN = Visibility
@@ -94,7 +94,7 @@ def test_a_rolling_shutter_is_asked_at_the_time_of_the_row():
 
     camera, shapes = evaluate(5.0)
     motion = resolve(evaluate, 4.75, 5.25, 0.01, 64)
-    camera, shapes = replace(camera, motion=motion), replace(shapes, motion=motion)
+    camera, shapes = with_motion(camera, shapes, motion)
     y = (np.arange(48) + 0.5 - 24) / 16
     points = np.stack((0 * y, y, np.full(48, -5.0)), axis=1)
     time = camera.rays().time[:, 0]

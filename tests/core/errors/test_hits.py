@@ -12,6 +12,7 @@ from camera_ray_caster.core.cast import cast
 from camera_ray_caster.core.records import SPHERE, Raster
 from camera_ray_caster.core.report.accuracy import MOMENTS, PIXELS, QUANTITIES, Accuracy, accuracy, sample
 
+from ..casting.neighbors import with_motion
 from ..truth import truth
 from .extreme_cases import Case, around, pose, shapes_of
 
@@ -139,7 +140,7 @@ class Passing:
         return shapes_of([(SPHERE, (8 * (frame - 0.5), 0, -7.0), 4.0)])
 
     def camera_at(self, frame):
-        return replace(self.camera, pixel_time=None, motion=None)
+        return replace(self.camera, pixel_time=None)
 
     def at(self, frame):
         return self.camera_at(frame), self.shapes_at(frame)
@@ -149,7 +150,7 @@ def timed(pixel_time):
     """A camera with this pixel_time, and shapes that pass."""
     still = Case("", "", [], TIMED).camera
     motion = Passing(still)
-    return replace(still, pixel_time=pixel_time, motion=motion), replace(motion.shapes_at(0.0), motion=motion)
+    return with_motion(replace(still, pixel_time=pixel_time), motion.shapes_at(0.0), motion)
 
 
 @pytest.mark.parametrize("pixel_time", [
@@ -161,7 +162,7 @@ def test_each_pixel_is_asked_at_its_own_moment(pixel_time):
     """In the middle of all times nothing is to be seen."""
     camera, shapes = timed(pixel_time)
     images = cast(camera, shapes, (*BOUNDS, "shape_index", "distance", "position"), np.float64)
-    assert cast(camera.at(-2.0), camera.motion.shapes_at(-2.0), ("shape_index",))["shape_index"].max() == -1
+    assert cast(camera.at(-2.0), shapes.at(-2.0), ("shape_index",))["shape_index"].max() == -1
     found = accuracy(camera, shapes, images.plan)
     x, y = sample(camera.raster)
     x, y = (places.ravel() for places in np.broadcast_arrays(x, y))

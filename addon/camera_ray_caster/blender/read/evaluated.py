@@ -25,5 +25,5 @@ def camera_at(camera_object, depsgraph, eye: Eye | None = None) -> tuple[Blender
 
 def scene_at(camera_object, depsgraph, eye: Eye | None = None) -> Scene:
     """Return camera and shapes at the depsgraph's frame, without motion. Raises the errors of ``camera_at``."""
-    raw, camera = camera_at(camera_object, depsgraph, eye)
-    return Scene(camera, shapes_record(depsgraph), raw)
+    _, camera = camera_at(camera_object, depsgraph, eye)
+    return Scene(camera, shapes_record(depsgraph))

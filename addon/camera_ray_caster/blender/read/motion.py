@@ -41,16 +41,12 @@ def with_other_frames(
     neighbors = {name: frame + STEPS[name] for name in frames_of(passes)}
     if neighbors:
         prepare(depsgraph, neighbors.values())
-    found = found.with_motion(motion_of(found.camera, depsgraph, camera_object, visit, eye))
+    motion = motion_of(found.camera, depsgraph, camera_object, visit, eye)
+    others = {}
     for name, other in neighbors.items():
         there = scene_at(camera_object, visit(other), eye)
-        there = there.with_motion(motion_of(there.camera, depsgraph, camera_object, visit, eye))
-        found = replace(
-            found,
-            camera=replace(found.camera, **{name: there.camera}),
-            shapes=replace(found.shapes, **{name: there.shapes}),
-        )
-    return found
+        others[name] = there.with_timeline(motion_of(there.camera, depsgraph, camera_object, visit, eye))
+    return found.with_timeline(motion, **others)
 
 
 def motion_of(camera: Camera, depsgraph, camera_object, visit: Callable, eye: Eye | None = None) -> Motion | None:

@@ -14,6 +14,7 @@ from ...core.casting.needs import frames_of
 from ...core.casting.passes import PASSES
 from ...core.records import InputError, Shapes
 from ...core.scene import Scene
+from ...core.timeline import Timeline
 from .camera import check_camera, eye_object, has_pixel_times, is_removed
 from .evaluated import camera_at, scene_at
 from .frames import frame_of, go_to, layer_of
@@ -25,10 +26,10 @@ from .shapes import shapes_record
 def read_scene(scene, frame=None, camera_object=None, view="", passes=()) -> Scene:
     """Return camera and shapes in one reading, as one record that ``cast`` takes: ``cast(scene, passes=...)``.
 
-    Camera and shapes are those of ``read_camera`` and ``read_shapes`` for the same arguments. If ``passes`` include
-    flow, ``next`` and ``previous`` of camera and shapes are set to those of the neighboring frames that these passes
-    need. Raises the errors of ``read_camera``, and InputError for an unknown pass, and for physics that are not baked
-    if other frames than the current one are needed.
+    Camera and shapes are those of ``read_camera`` and ``read_shapes`` for the same arguments. ``next`` and ``previous``
+    are the scenes of those neighboring frames that flow among ``passes`` needs, else None. Raises the errors of
+    ``read_camera``, and InputError for an unknown pass, and for physics that are not baked if other frames than the
+    current one are needed.
     """
     passes = words(passes, "passes", PASSES)
     with evaluated_camera(scene, camera_object, frame, view, bool(frames_of(passes)), True) as (active, depsgraph):
@@ -47,7 +48,8 @@ def read_camera(scene, camera_object=None, frame=None, view="") -> Camera:
     with evaluated_camera(scene, camera_object, frame, view) as (active, depsgraph):
         eye = partial(eye_record, view=view)
         _, camera = camera_at(active, depsgraph, eye)
-        return replace(camera, motion=motion_of(camera, depsgraph, active, partial(go_to, scene), eye))
+        motion = motion_of(camera, depsgraph, active, partial(go_to, scene), eye)
+        return replace(camera, timeline=Timeline(motion))
 
 
 def read_shapes(scene, frame=None, camera_object=None, view="") -> Shapes:

@@ -9,6 +9,7 @@ from ...core.camera.stereo import eye_record
 from ...core.records import Finding
 from ...core.report.report import Report
 from ...core.report.verification import verify
+from ...core.timeline import Timeline
 from ..read.evaluated import camera_at
 from ..read.frames import frame_of, go_to
 from ..read.motion import motion_of
@@ -42,8 +43,9 @@ def _read_and_verified(scene, camera_object=None, frame=None, view="") -> tuple[
     with evaluated_camera(scene, camera_object, frame, view) as (active, depsgraph):
         _, camera = camera_at(active, depsgraph, eye)
         findings = verify_evaluated(camera, active, depsgraph, view)
-        camera = replace(camera, motion=motion_of(camera, depsgraph, active, partial(go_to, scene), eye))
-    if camera.motion is not None:
+        motion = motion_of(camera, depsgraph, active, partial(go_to, scene), eye)
+    if motion is not None:
+        camera = replace(camera, timeline=Timeline(motion))
         findings[-1:] = verify(camera, grid=MOVING_GRID)
     return camera, findings
 

@@ -47,7 +47,7 @@ def cycles_finding(camera: Camera) -> Finding:
     one of camera and Cycles has a ray. If pixels exceed their own bounds, only the worst pixel is reported. Raises
     InputError if this Blender has no Cycles or no OSL.
     """
-    camera = replace(camera, pixel_time=None, motion=None, aperture=None)
+    camera = replace(camera, pixel_time=None, aperture=None)
     shift = tuple(float(camera.settings.get(name, 0.0)) for name in ("shift_x", "shift_y"))
     shader = camera_shader(camera, "PERSP", shift, folder=texture_folder())
     shader = replace(shader, source=shader.source.partition("\n")[2])  # without a mark it does not follow settings

@@ -8,7 +8,10 @@ import numpy as np
 
 from ..camera.camera import Camera
 from ..cast import cast
-from ..records import MovingShapes, Shapes
+from ..motion.apart import of_rows, rows_of
+from ..motion.evaluations import Motion
+from ..records import Shapes
+from ..timeline import ONE_TIME, Timeline
 
 Box = tuple[int, int, int, int]
 """x0, x1, y0, y1 in the pixels of the render window, row 0 at the bottom, x1 and y1 not included."""
@@ -49,7 +52,7 @@ def silhouettes(camera: Camera, shapes: Shapes) -> tuple[list[Silhouette], np.nd
     for row, (x0, x1, y0, y1) in bounds.items():
         raster = camera.raster
         window = replace(raster, x0=raster.x0 + x0, x1=raster.x0 + x1, y0=raster.y0 + y0, y1=raster.y0 + y1)
-        alone = cast(replace(camera, raster=window), _only(shapes, row), ("shape_index",), threads=1)["shape_index"]
+        alone = cast(replace(camera, raster=window), _alone(shapes, row), ("shape_index",), threads=1)["shape_index"]
         own_rows, own_columns = np.nonzero(alone >= 0)
         for whole, count in _boxes(alone[own_rows, own_columns], own_columns + x0, own_rows + y0)[1]:
             own = alone[whole[2] - y0 : whole[3] - y0, whole[0] - x0 : whole[1] - x0] >= 0
@@ -71,24 +74,8 @@ def _boxes(index: np.ndarray, columns: np.ndarray, rows: np.ndarray) -> tuple[li
     return which.tolist(), list(zip(boxes, counts.tolist(), strict=True))
 
 
-@dataclass(frozen=True)
-class _MovingAlone:
-    """Motion of a single shape."""
-
-    motion: MovingShapes
-    row: int
-
-    @property
-    def is_still(self) -> bool:
-        return self.motion.is_still
-
-    def shapes_at(self, frame: float) -> Shapes:
-        return _only(self.motion.shapes_at(frame), self.row)
-
-
-def _only(shapes: Shapes, row: int) -> Shapes:
-    """Return the record of a single shape."""
-    one = slice(row, row + 1)
-    columns = "kind", "center", "axes", "object_index", "material_index", "color", "name_index", "mesh", "shared"
-    motion = None if shapes.motion is None else _MovingAlone(shapes.motion, row)
-    return replace(shapes, motion=motion, slots=None, **{name: getattr(shapes, name)[one] for name in columns})
+def _alone(shapes: Shapes, row: int) -> Shapes:
+    """Return a single shape, with its motion."""
+    motion, only = shapes.timeline.motion, np.array([row])
+    timeline = Timeline(of_rows(motion, only)) if isinstance(motion, Motion) else ONE_TIME
+    return replace(rows_of(shapes, only), timeline=timeline)

@@ -202,16 +202,16 @@ def _times(shapes: Shapes, times, shape: tuple[int, ...]) -> np.ndarray | None:
         raise InputError(f"times of shape {given.shape} do not broadcast to rays of shape {shape}") from error
     if not np.isfinite(each).all():
         raise InputError("times hold NaN or infinite numbers: give each ray the frame at which it is cast")
-    return None if shapes.motion is None else each
+    return None if shapes.timeline.motion is None else each
 
 
 def _by_time(shapes: Shapes, each: np.ndarray | None) -> Iterator[tuple[Shapes, Any]]:
     """Yield the shapes at each time, and the indices of the rays of that time."""
-    if each is None or shapes.motion is None:
+    if each is None:
         yield shapes, slice(None)
         return
     for time in np.unique(each).tolist():
-        yield shapes.motion.shapes_at(time), np.flatnonzero(each == time)
+        yield shapes.at(time), np.flatnonzero(each == time)
 
 
 def _all(shapes, parts, origin, direction, shape, passes, near: float, far: float, dtype) -> RayImages:

@@ -64,7 +64,8 @@ _known: WeakKeyDictionary[Shapes, Moving | None] = WeakKeyDictionary()
 def moving_of(shapes: Shapes) -> Moving | None:
     """Return the shapes that move apart; None if their motion does not tell."""
     if shapes not in _known:
-        _known[shapes] = _divided(shapes.motion) if isinstance(shapes.motion, Motion) else None
+        motion = shapes.timeline.motion
+        _known[shapes] = _divided(motion) if isinstance(motion, Motion) else None
     return _known[shapes]
 
 

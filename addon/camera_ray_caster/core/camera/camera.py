@@ -19,15 +19,15 @@ from ..maths.speed import lazy
 from ..maths.vector import inverse, matvec, norm
 from ..memory import of_pixels, require
 from ..records import BlenderCamera, InputError, Pose, Raster, Rays, RaysJacobian
+from ..timeline import ONE_TIME, Timeline
 from .evaluation import pixels_of, rays_through
 from .jacobian import of_projection, of_rays, of_settings
 from .meeting import meeting
-from .pixel_time import CameraMotion, PixelTime
 from .pixels import by_time, given
 from .sampling import in_opening, sub_pixel
 from .spherical_stereo import with_eye
 from .sweep import rays_in_sweep
-from .times import SweepTime
+from .times import PixelTime, SweepTime
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,11 +51,8 @@ class Camera:
     """The opening that admits rays other than the chief ray; None for a pinhole."""
     pixel_time: PixelTime | None = None
     """The frame of each pixel; None if the picture has one time."""
-    motion: CameraMotion | None = None
-    """With pixel times, the camera at other frames; None for a camera that stands still."""
-    next: Camera | None = None
-    """The camera at the next frame, and in ``previous`` at the previous one: see ``casting.flow``. None if not read."""
-    previous: Camera | None = None
+    timeline: Timeline = ONE_TIME
+    """The camera, and the shapes that it sees, at other times."""
 
     def __post_init__(self) -> None:
         if self.model.frame != self.raster.size:
@@ -116,7 +113,8 @@ class Camera:
 
     def at(self, frame: float) -> Camera:
         """Return the camera at a frame, without its pixel_time."""
-        return replace(self, pixel_time=None, motion=None) if self.motion is None else self.motion.camera_at(frame)
+        motion = self.timeline.motion
+        return replace(self, pixel_time=None) if motion is None else motion.camera_at(frame)
 
     def from_eye(self, sampled: bool) -> bool:
         """Whether all rays leave the eye: the chief rays, or if ``sampled`` those through the whole aperture."""
@@ -193,7 +191,7 @@ class Camera:
     @property
     def _moves(self) -> bool:
         """Whether pixels have cameras of their own."""
-        return self.pixel_time is not None and self.motion is not None
+        return self.pixel_time is not None and self.timeline.motion is not None
 
     def _timed(self, ask: Callable, x, y, axes: tuple[int, ...]) -> tuple[np.ndarray, Any]:
         """Return the times of pixels, and the origins and directions, (2, ..., *axes), that ``ask(camera, x, y)``
@@ -278,7 +276,7 @@ class Camera:
             return pixels, found.reshape(*points.shape[:-1], 2, count)
         if self._moves:
             time: Any = self.pixel_time
-            motion: Any = self.motion
+            motion: Any = self.timeline.motion
             sought = meeting(time, lambda frame, some: self.at(frame).project(each[some]), len(each), motion.cuts)
             return sought.reshape(*points.shape[:-1], 2)
         return pixels_of(self, each).reshape(*points.shape[:-1], 2)

@@ -12,7 +12,6 @@ Source: G. Levin, An Informal Catalogue of Slit-Scan Video Artworks (2005).
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, Protocol
 
 import numpy as np
 
@@ -102,27 +101,6 @@ WHOLE_FRAME = "use fewer pixels: an image gives a time to all pixels of the fram
 
 LEVELS = 256
 """Number of times to which a gray image is rounded, from black to white: the values of an 8 bit image."""
-
-
-class CameraMotion(Protocol):
-    """An object that returns a camera at any frame."""
-
-    def camera_at(self, frame: float) -> Any:
-        """Return the ``Camera`` at a frame, without its pixel times."""
-
-    def poses_at(self, frames: np.ndarray) -> tuple[np.ndarray, np.ndarray] | None:
-        """Return the eyes (n, 3) and bases (n, 3, 3) at frames (n,); None if the model changes in between."""
-
-    @property
-    def is_still(self) -> bool:
-        """Whether neither the camera nor the shapes move."""
-
-    @property
-    def cuts(self) -> tuple[float, ...]:
-        """The frames at which motion may change abruptly."""
-
-    def in_words(self) -> list[str]:
-        """Return lines for the report on the accuracy of the motion."""
 
 
 def groups(pixel_time: PixelTime, x, y):

@@ -22,13 +22,14 @@ def rays_in_sweep(camera: Any, time: SweepTime, x, y, shape: tuple[int, ...]) ->
     ``Camera.rays_at``. Raises InputError for a scanner whose settings change during the sweep.
     """
     frames = np.clip(time.frame_at(x, y), *time.span)
-    if camera.motion is None:
+    motion = camera.timeline.motion
+    if motion is None:
         return replace(rays_through(camera, x, y, shape), time=np.broadcast_to(frames, shape))
     x, y, each = (np.broadcast_to(part, shape).reshape(-1) for part in (x, y, frames))
     origins, directions = np.empty((2, len(each), 3))
 
     def put(some: slice) -> None:
-        poses = camera.motion.poses_at(np.nan_to_num(each[some]))
+        poses = motion.poses_at(np.nan_to_num(each[some]))
         if poses is None:
             raise InputError(f"settings of camera {camera.name!r} change during the sweep: remove their keyframes")
         with np.errstate(all="ignore"):  # NaN means no ray

@@ -9,8 +9,8 @@ more than once, such as from a path or with both eyes in one picture, the flow l
 own pixel finds.
 Blender's Vector pass, which only Blender's own cameras have, is the backward flow in X and Y and the negative forward
 flow in Z and W; its background is 0.
-The other frames are in ``next`` and ``previous`` of camera and shapes: the scene's neighbors from ``read_scene``, or
-anything else that is assigned, such as the other eye of a stereo pair.
+The other frames are ``next`` and ``previous`` of the scene: its neighbors from ``read_scene``, or any other scene that
+``Scene.with_timeline`` sets, such as the other eye of a stereo pair.
 
 The error of the flow is at most ``Flow.error``, that of the point in the world, times the derivative of the projection,
 plus that of the model's inverse, at most 1e-9 pixels. With pixel times the point is that of the shapes at the pixel's
@@ -32,7 +32,7 @@ from .hit_values import HitValues
 from .pictures import Picture
 
 NEXT, PREVIOUS = "next", "previous"
-"""The names of the neighboring frames, as of the attributes of camera and shapes that hold them."""
+"""The names of the neighboring frames: those of the attributes of ``Scene``."""
 
 
 def flow_of(values: HitValues, name: str) -> Flow:

@@ -6,8 +6,8 @@ from collections.abc import Collection, Iterable
 
 import numpy as np
 
-from ..camera.camera import Camera
-from ..records import InputError, Shapes
+from ..records import InputError
+from ..scene import Scene
 from .passes import PASSES
 from .pictures import Picture
 
@@ -23,18 +23,18 @@ def frames_of(passes: Collection[str]) -> set[str]:
     return {frame for name in passes for frame in PASSES[name].frames}
 
 
-def pictures(camera: Camera, shapes: Shapes, passes: Collection[str]) -> dict[str, Picture]:
+def pictures(scene: Scene, passes: Collection[str]) -> dict[str, Picture]:
     """Return the pictures of other frames that passes need, by name. Raises InputError for one that was not read."""
     found = {}
     for frame in sorted(frames_of(passes)):
         looking = [name for name in passes if frame in PASSES[name].frames]
-        there = getattr(camera, frame), getattr(shapes, frame)
-        if None in there:
+        there: Scene | None = getattr(scene, frame)
+        if there is None:
             raise InputError(
                 f"passes {', '.join(looking)} look into the {frame} frame, which was not read: read camera and shapes "
                 "with read_scene(scene, passes=...)"
             )
-        found[frame] = Picture(*there)
+        found[frame] = Picture(there.camera, there.shapes)
         if any(PASSES[name].casts for name in looking):
             found[frame].prepare()
     return found

@@ -51,7 +51,7 @@ class Picture:
         points not seen in the full frame. ``beside``: pixels (count, 2); with pixel times the search begins near their
         mean time, so that of several pixels that see a point one near that time is found.
         """
-        clock, motion = self.camera.pixel_time, self.camera.motion
+        clock, motion = self.camera.pixel_time, self.camera.timeline.motion
         if clock is None:
             found = self._project(points, None, np.arange(count))
         else:
@@ -104,9 +104,8 @@ class Picture:
         """Return camera and shapes at a frame; ``frame`` is None for a picture with one time."""
         if frame is None:
             return self.camera, self.shapes
-        shapes, motion = self.shapes, self.shapes.motion
-        return _kept(self._states, frame, max(16, SHAPES // max(len(shapes), 1)), lambda: (
-            self.camera.at(frame), shapes if motion is None else motion.shapes_at(frame)))  # fmt: skip
+        most = max(16, SHAPES // max(len(self.shapes), 1))
+        return _kept(self._states, frame, most, lambda: (self.camera.at(frame), self.shapes.at(frame)))
 
     def _plan(self, frame: float | None) -> Plan:
         return _kept(self._plans, frame, PLANS, lambda: aiming_plan(*self._moment(frame)))

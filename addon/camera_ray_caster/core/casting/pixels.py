@@ -10,6 +10,7 @@ import numpy as np
 from ..camera.camera import Camera
 from ..maths.speed import Scratch
 from ..records import Shapes
+from ..scene import Scene
 from .hits import Hits
 from .needs import pictures
 from .passes import PASSES
@@ -39,7 +40,7 @@ def passes_at(
     ``options`` are those of ``Request``.
     """
     still = window_of(camera, columns, rows)
-    request = Request(tuple(passes), tuple(PASSES), others=pictures(camera, shapes, passes), **options)
+    request = Request(tuple(passes), tuple(PASSES), others=pictures(Scene(camera, shapes), passes), **options)
     return stored(hits_at(make_plan(still, shapes, request), columns, rows))
 
 
@@ -48,7 +49,7 @@ def window_of(camera: Camera, columns: np.ndarray, rows: np.ndarray) -> Camera:
     columns (k,) and rows (l,) of the full frame, ascending.
     """
     ends = {"x0": columns[0], "x1": columns[-1] + 1, "y0": rows[0], "y1": rows[-1] + 1}
-    return replace(camera, raster=replace(camera.raster, **ends), pixel_time=None, motion=None)
+    return replace(camera, raster=replace(camera.raster, **ends), pixel_time=None)
 
 
 def stored(hits: Hits) -> dict[str, np.ndarray]:

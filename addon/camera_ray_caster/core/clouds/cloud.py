@@ -107,10 +107,8 @@ def scan(
     Raises InputError for numbers that are negative or not finite, for categories that are not whole numbers, for a
     device whose quantum is not known, and for what ``cast`` refuses.
     """
-    if isinstance(camera, Scene) and shapes is None:
-        shapes, camera = camera.shapes, camera.camera
-    if not (isinstance(camera, Camera) and isinstance(shapes, Shapes)):
-        raise TypeError(f"scan takes a camera and shapes, or a scene, as they are read, not {type(camera)}")
+    scene = Scene.given(camera, shapes, "scan")
+    camera, shapes = scene.camera, scene.shapes
     noise, dropout = (
         arguments.number(value, name, LARGEST, 0.0) for value, name in ((noise, "noise"), (dropout, "dropout"))
     )
@@ -190,10 +188,11 @@ def _in_camera(camera: Camera, row: np.ndarray, column: np.ndarray) -> tuple[np.
 
 def _bases(camera: Camera, times: np.ndarray | None, count: int) -> np.ndarray:
     """Return the axes of the camera at the time of each of the points, (n, 3, 3)."""
-    if times is None or camera.motion is None:
+    motion = camera.timeline.motion
+    if times is None or motion is None:
         return np.broadcast_to(camera.pose.basis, (count, 3, 3))
     frames, which = np.unique(times, return_inverse=True)
-    poses = camera.motion.poses_at(frames)
+    poses = motion.poses_at(frames)
     bases = np.array([camera.at(frame).pose.basis for frame in frames.tolist()]) if poses is None else poses[1]
     return bases.reshape(-1, 3, 3)[which]
 

@@ -24,6 +24,7 @@ from ..cameras.parts.calibration import FILE
 from ..motion.evaluations import Motion
 from ..motion.interpolation import TimeInterval
 from ..records import BlenderCamera, InputError, no_shapes
+from ..timeline import Timeline
 from ..version import VERSION
 from .format import Format, Shot
 from .plain import as_text, merged, plain, restored, shared, without
@@ -137,7 +138,7 @@ def recorded(camera: Camera) -> dict[str, Any]:
     ``motion``.
     """
     said: dict[str, Any] = {"record": plain(_record(camera))}
-    motion = camera.motion
+    motion = camera.timeline.motion
     if isinstance(motion, Motion):
         said["evaluations"] = [
             {FRAME: frame, "record": without(plain(_record(_of_one_time(state))), said["record"])}
@@ -171,16 +172,12 @@ def _camera(said: Mapping[str, Any]) -> Camera:
     for evaluation in said["evaluations"]:
         record = _restored_record(merged(said["record"], evaluation["record"]))
         states[evaluation[FRAME]] = replace(camera_from(record), pixel_time=camera.pixel_time), no_shapes()
-    motion = said["motion"]
-    return replace(
-        camera,
-        motion=Motion(
-            tuple(TimeInterval.of(states, tuple(frames)) for frames in said["intervals"]),
-            states,
-            **motion
-            | {"unresolved": tuple(map(tuple, motion["unresolved"])), "appearance": tuple(motion["appearance"])},
-        ),
-    )
+    accuracy: dict[str, Any] = {
+        name: tuple(value) if isinstance(value, list) else value for name, value in said["motion"].items()
+    }
+    accuracy["unresolved"] = tuple(map(tuple, accuracy["unresolved"]))
+    intervals = tuple(TimeInterval.of(states, tuple(frames)) for frames in said["intervals"])
+    return replace(camera, timeline=Timeline(Motion(intervals, states, **accuracy)))
 
 
 def _restored_record(record: Mapping[str, Any]) -> BlenderCamera:

@@ -29,7 +29,7 @@ def join(*shapes: Shapes) -> Shapes:
     for one in shapes:
         if not isinstance(one, Shapes):
             raise TypeError(f"join takes shapes, not {type(one)}")
-        if one.motion is not None or one.next is not None or one.previous is not None:
+        if any(one.timeline):
             raise InputError("shapes that move cannot be joined: join those of one frame")
     if len(shapes) < 2:
         return shapes[0] if shapes else no_shapes()

@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from ..records import Shapes
+from ..timeline import ONE_TIME
 from .evaluations import Motion
 from .interpolation import TimeInterval, matched
 from .means import same
@@ -26,14 +27,14 @@ LIGHT = "lights", "world_color", "background"
 
 
 def rows_of(shapes: Shapes, some: np.ndarray) -> Shapes:
-    """Return some of the shapes, by index, without their motion and the neighboring frames."""
+    """Return some of the shapes, by index, without their timeline."""
     each = {name: getattr(shapes, name) for name in BY_SHAPE}
     kept = {name: values[some] if len(values) else values for name, values in each.items()}
     slots = None if shapes.slots is None else replace(shapes.slots, first=shapes.slots.first[some])
     used, place = np.unique(kept["mesh"], return_inverse=True)
     first = np.count_nonzero(used < 0)
     meshes, kept["mesh"] = tuple(shapes.meshes[k] for k in used[first:]), (place - first).astype(np.int32)
-    return replace(shapes, meshes=meshes, slots=slots, motion=None, next=None, previous=None, **kept)
+    return replace(shapes, meshes=meshes, slots=slots, timeline=ONE_TIME, **kept)
 
 
 def moving(motion: Motion, but: Collection[str] = ()) -> np.ndarray | None:

@@ -68,7 +68,7 @@ class Motion:
 
     def camera_at(self, frame: float) -> Camera:
         """Return the camera at a frame, without its pixel_time."""
-        return replace(self._interval(frame).camera_at(frame), pixel_time=None, motion=None)
+        return replace(self._interval(frame).camera_at(frame), pixel_time=None)
 
     @cached_property
     def is_still(self) -> bool:

@@ -37,7 +37,7 @@ def apart(state: State, truth: State) -> float:
     shapes, true_shapes = state[1], truth[1]
     if len(shapes) != len(true_shapes):
         return np.inf
-    camera, true_camera = (replace(one[0], pixel_time=None, motion=None) for one in (state, truth))
+    camera, true_camera = (replace(one[0], pixel_time=None) for one in (state, truth))
     deforming = changed(shapes, true_shapes) if alike(shapes.meshes, true_shapes.meshes) else np.zeros(0, int)
     size = np.array(true_camera.raster.size)
     with np.errstate(all="ignore"):
@@ -59,7 +59,7 @@ def lit(state: State) -> np.ndarray:
     """Return points of the shapes at which light may fall, (n, 3): landmarks other than centers, at most LIT."""
     camera, shapes = state
     with np.errstate(all="ignore"):
-        local = _landmarks(shapes, *_rays(replace(camera, pixel_time=None, motion=None)))
+        local = _landmarks(shapes, *_rays(replace(camera, pixel_time=None)))
         points = _places(shapes, local[:, 1:]).reshape(-1, 3)
     points = points[np.isfinite(points).all(axis=1)]
     return points[:: -(-len(points) // LIT) or 1]

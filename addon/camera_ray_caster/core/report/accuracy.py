@@ -87,8 +87,7 @@ def accuracy(camera: Camera, shapes: Shapes, plan: Plan) -> Accuracy:
     found = Accuracy()
     moments = list(groups(camera.pixel_time, x, y))
     for frame, rows, columns, where in moments[:: -(-len(moments) // MOMENTS)]:
-        there = shapes if shapes.motion is None else shapes.motion.shapes_at(frame)
-        own = make_plan(camera.at(frame), there, plan.request)
+        own = make_plan(camera.at(frame), shapes.at(frame), plan.request)
         found += Accuracy(int(np.count_nonzero(where)), _bounds(own, x[:, columns], y[rows], where))
     return found
 

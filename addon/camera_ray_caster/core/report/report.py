@@ -135,6 +135,7 @@ def report_cast(
     host: Mapping[str, Any] | None = None,
 ) -> Report:
     """Return the report of one cast of a view layer; if ``several``, ``not_done`` has the layer's name."""
+    motion = camera.timeline.motion
     return Report(
         camera=camera_facts(camera),
         frame=frame,
@@ -148,7 +149,7 @@ def report_cast(
         left_out=(*shapes.left_out, *_uncolored(shapes, images.plan.request.passes)),
         notes=shapes.notes,
         exact=_union(shapes.exact, ()),
-        motion=tuple(camera.motion.in_words()) if camera.motion is not None else (),
+        motion=tuple(motion.in_words()) if motion is not None else (),
         precision=precision,
         accuracy=accuracy,
         host=host or {},
