@@ -68,8 +68,9 @@ sizes and frames: its cameras in each of the formats above, and these. They read
 or distance; combined, shape_index or normal where the format has them) and the annotations of `--annotations`, in
 which each object has its visible and its whole (amodal) mask, its category, and the pose and size of a box in its own
 axes. `--models FILE.blend`, the file of the set, adds the models of `bop-scenes`: a PLY in millimeters for each
-category, as the viewport evaluates its last object at its last frame, and diameters of the models in place of those of
-boxes.
+category, as the viewport evaluates its last object at its last frame, with normals and the colors of materials;
+diameters of the models in place of those of boxes; and the symmetries that bring vertices, normals and colors of a
+model upon themselves: rotations about its axes, and those of a cube.
 
 | key | |
 |---|---|

@@ -28,15 +28,18 @@ def exported(command, made, *words):
     return command("export", made, "--format", "bop-scenes", *words, "--output", made.parent / "bop")
 
 
+VERTEX = np.dtype([("place", "<f4", 3), ("normal", "<f4", 3), ("color", "u1", 3)])
+
+
 def read(path):
-    """Vertices and triangles of a binary PLY."""
+    """Vertices, triangles and normals of a binary PLY."""
     head, _, body = path.read_bytes().partition(b"end_header\n")
     counts = [int(line.split()[-1]) for line in head.decode().splitlines() if line.startswith("element")]
-    vertices = np.frombuffer(body, "<f4", 3 * counts[0]).reshape(-1, 3).astype(np.float64)
-    faces = np.frombuffer(body, np.dtype([("n", "u1"), ("v", "<i4", 3)]), counts[1], 12 * counts[0])
+    vertices = np.frombuffer(body, VERTEX, counts[0])
+    faces = np.frombuffer(body, np.dtype([("n", "u1"), ("v", "<i4", 3)]), counts[1], VERTEX.itemsize * counts[0])
     assert (faces["n"] == 3).all()
-    assert len(body) == 12 * counts[0] + 13 * counts[1]
-    return vertices, faces["v"]
+    assert len(body) == VERTEX.itemsize * counts[0] + 13 * counts[1]
+    return vertices["place"].astype(np.float64), faces["v"], vertices["normal"].astype(np.float64)
 
 
 def test_models_stand_where_blender_has_their_objects(command, blender, scene, made):
@@ -52,7 +55,7 @@ def test_models_stand_where_blender_has_their_objects(command, blender, scene, m
     to_camera[:3, :3], to_camera[:3, 3] = np.reshape(camera["cam_R_w2c"], (3, 3)), camera["cam_t_w2c"]
     for item in (blender.data.objects[name] for name in ("Wedge", "Sphere")):
         number = numbers[item.data.name]
-        vertices, triangles = read(models / f"obj_{number:06}.ply")
+        vertices, triangles, normals = read(models / f"obj_{number:06}.ply")
         (one,) = (one for one in truth if one["obj_id"] == number)
         seen = vertices @ np.reshape(one["cam_R_m2c"], (3, 3)).T + one["cam_t_m2c"]
         a, b, c = np.moveaxis(vertices[triangles], 1, 0)
@@ -62,10 +65,13 @@ def test_models_stand_where_blender_has_their_objects(command, blender, scene, m
             assert np.abs(seen - (world @ to_camera.T)[:, :3]).max() < 1e-3  # millimeters: float32
             assert volume == pytest.approx(0.06)
             far = max(np.linalg.norm(p - q) for p in vertices for q in vertices)
+            assert not [key for key in info[str(number)] if "symmetries" in key]
         else:
             assert np.abs(np.linalg.norm(vertices, axis=1) - 1000).max() < 1e-3
             assert volume == pytest.approx(4 / 3 * np.pi, rel=3e-3)
             assert 2 * len(vertices) - 4 == len(triangles)  # closed
+            assert np.abs(normals - vertices / 1000).max() < 1e-3
+            assert len(info[str(number)]["symmetries_continuous"]) == 3
             far = 2000
         assert far * (1 - 1e-3) <= info[str(number)]["diameter"] <= far * (1 + 1e-6)
 

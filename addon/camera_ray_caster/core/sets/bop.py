@@ -1,7 +1,8 @@
 """BOP scenes: one per camera, with pictures, depth, masks and the poses of objects.
 
 Objects are the categories, numbered by name in models_info.json; the frame of an object is the middle of its box, in
-its axes. With the .blend of the set, each has a model, models/obj_OBJECT.ply; without, diameters are those of boxes.
+its axes. With the .blend of the set, each has a model, models/obj_OBJECT.ply, and its symmetries; without, diameters
+are those of boxes.
 Lengths are in millimeters; depth in 16 bits is along the viewing direction, in steps of depth_scale.
 Reference: BOP toolkit documentation, BOP dataset format.
 """
@@ -47,15 +48,15 @@ def files(
         one, frame = named[name]
         millimeters = 1000 * views[0].meters
         size = np.array(one["size"]) * millimeters
-        across = float(np.linalg.norm(size))
+        across, same = float(np.linalg.norm(size)), dict[str, list[Any]]()
         if shapes_at is not None:
-            vertices, triangles = model_of(shapes_at(frame), one)
-            across = diameter(vertices * millimeters)
-            yield f"models/obj_{number:06}.ply", ply(vertices * millimeters, triangles)
+            model = model_of(shapes_at(frame), one)
+            across, same = diameter(model.vertices * millimeters), model.symmetries(millimeters)
+            yield f"models/obj_{number:06}.ply", ply(model, millimeters)
         models[str(number)] = {
             "name": name, "diameter": across,
             **{f"min_{axis}": -side / 2 for axis, side in zip("xyz", size.tolist(), strict=True)},
-            **{f"size_{axis}": side for axis, side in zip("xyz", size.tolist(), strict=True)},
+            **{f"size_{axis}": side for axis, side in zip("xyz", size.tolist(), strict=True)}, **same,
         }  # fmt: skip
     yield "models/models_info.json", json.dumps(models, indent=1)
 

@@ -1,16 +1,23 @@
 """The models of BOP's objects: triangles in millimeters in the frame of each object, as PLY.
 
 Spheres, which are cast exactly, have vertices on the surface, and triangles inside of it by up to 0.12 % of the radius.
-Reference: BOP toolkit documentation, BOP dataset format.
+Normals of vertices are those of the faces about them, weighted by their angles. A vertex has the color of its material,
+or the mean of those of its triangles; a model whose color changes over a surface has none, and no symmetries.
+References: BOP toolkit documentation, BOP dataset format; G. Thürmer and C. Wüthrich, Computing Vertex Normals from
+Polygonal Facets (1998).
 """
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 
-from ..records import MESH, PLANE, InputError, Shapes
+from ..records import MESH, PLANE, SPHERE, InputError, Shapes
+from .png import srgb
+from .symmetries import of_ellipsoid, symmetries
 
 RINGS = 64
 DIRECTIONS = 3000
@@ -19,17 +26,57 @@ degrees, so that a diameter is up to 0.1 % below the largest distance of two ver
 """
 
 
-def model_of(shapes: Shapes, one: dict[str, Any]) -> tuple[np.ndarray, np.ndarray]:
-    """Return the vertices (n, 3) float64 and triangles (k, 3) of an object, an entry of ``object_poses``: in the frame
-    of its box, in Blender units. Raises InputError if the shapes do not have it, or of another size.
+@dataclass(frozen=True, eq=False)
+class ObjectModel:
+    """The triangles of an object in the frame of its box."""
+
+    vertices: np.ndarray
+    """(n, 3) float64"""
+    triangles: np.ndarray
+    """(k, 3), counterclockwise as seen from outside."""
+    colors: np.ndarray | None
+    """(n, 3) float64, linear; None if they change over a surface."""
+    kind: int
+    """That of the shape."""
+
+    @cached_property
+    def normals(self) -> np.ndarray:
+        """(n, 3) float64: of unit length, or 0 for vertices without a face."""
+        sides = [np.roll(self.triangles, -k, axis=1) for k in range(3)]
+        a, b, c = self.vertices[self.triangles.T]
+        face = np.cross(b - a, c - a)
+        total = np.zeros_like(self.vertices)
+        with np.errstate(invalid="ignore"):  # a triangle without an area has no normal
+            face /= np.linalg.norm(face, axis=1)[:, None]
+            for corner in sides:
+                here, one, other = self.vertices[corner.T]
+                across = np.linalg.norm(np.cross(one - here, other - here), axis=1)
+                angle = np.arctan2(across, np.einsum("ij,ij->i", one - here, other - here))
+                np.add.at(total, corner[:, 0], np.nan_to_num(face * angle[:, None]))
+            return np.nan_to_num(total / np.linalg.norm(total, axis=1)[:, None])
+
+    def symmetries(self, scale: float) -> dict[str, list[Any]]:
+        """Return the entries of models_info.json for lengths times ``scale``; see ``symmetries``."""
+        if self.colors is None:
+            return {}
+        if self.kind == SPHERE:
+            return of_ellipsoid(np.ptp(self.vertices, axis=0))
+        normals = np.zeros_like(self.normals) if self.kind == PLANE else self.normals  # a plane is seen from both sides
+        return symmetries(scale * self.vertices, normals, self.colors)
+
+
+def model_of(shapes: Shapes, one: dict[str, Any]) -> ObjectModel:
+    """Return the model of an object, an entry of ``object_poses``, in Blender units. Raises InputError if the shapes do
+    not have it, or of another size.
     """
     rows = [row for row in range(len(shapes)) if shapes.names[shapes.name_index[row]] == one["object"]]
     if len(rows) <= one["instance"]:
         raise InputError(f"the file of --models has no shape of {one['object']!r}: give the file that the set is of")
     row = rows[one["instance"]]
+    slot = None
     if shapes.kind[row] == MESH:
         mesh = shapes.meshes[shapes.mesh[row]]
-        vertices, triangles = mesh.vertices.T.astype(np.float64), mesh.triangles.T
+        vertices, triangles, slot = mesh.vertices.T.astype(np.float64), mesh.triangles.T, mesh.slot
         vertices = vertices - (vertices.min(0) + vertices.max(0)) / 2
     else:
         vertices, triangles = _square() if shapes.kind[row] == PLANE else _sphere()
@@ -38,17 +85,49 @@ def model_of(shapes: Shapes, one: dict[str, Any]) -> tuple[np.ndarray, np.ndarra
         raise InputError(
             f"{one['object']!r} is of another size in the file of --models: give the file that the set is of"
         )
-    return vertices, triangles
+    colors = _colors(shapes, row, slot, triangles, len(vertices))
+    return ObjectModel(vertices, triangles, colors, int(shapes.kind[row]))
 
 
-def ply(vertices: np.ndarray, triangles: np.ndarray) -> bytes:
-    """Return the binary PLY of a mesh."""
-    head = "ply\nformat binary_little_endian 1.0\n" + f"element vertex {len(vertices)}\n"
-    head += "".join(f"property float {axis}\n" for axis in "xyz")
-    head += f"element face {len(triangles)}\nproperty list uchar int vertex_indices\nend_header\n"
-    faces = np.empty(len(triangles), np.dtype([("count", "u1"), ("vertices", "<i4", 3)]))
-    faces["count"], faces["vertices"] = 3, triangles
-    return head.encode() + vertices.astype("<f4").tobytes() + faces.tobytes()
+def _colors(
+    shapes: Shapes, row: int, slot: np.ndarray | None, triangles: np.ndarray, count: int
+) -> np.ndarray | None:
+    """Return the linear colors of the vertices of a shape, (count, 3); None if materials change over the surface."""
+    slots = shapes.slots
+    if slots is None or slots.first[row] < 0:
+        changes = len(shapes.surface) and shapes.surface[row] >= 0
+        return None if changes else np.tile(shapes.color[row, :3].astype(np.float64), (count, 1))
+    used = slots.first[row] + (np.zeros(len(triangles), int) if slot is None else slot)
+    if len(slots.surface) and (slots.surface[used] >= 0).any():
+        return None
+    total, number = np.zeros((count, 3)), np.zeros(count)
+    np.add.at(total, triangles, slots.color[used, None, :3])
+    np.add.at(number, triangles, 1.0)
+    return total / np.maximum(number, 1.0)[:, None]
+
+
+def ply(model: ObjectModel, scale: float) -> bytes:
+    """Return the binary PLY of a model whose lengths are multiplied by ``scale``, with normals, and its colors as
+    sRGB.
+    """
+    names = [("x", "y", "z"), ("nx", "ny", "nz")]
+    arrays = [scale * model.vertices, model.normals]
+    head = "ply\nformat binary_little_endian 1.0\n" + f"element vertex {len(model.vertices)}\n"
+    head += "".join(f"property float {name}\n" for part in names for name in part)
+    fields: list[tuple] = [(name, "<f4") for part in names for name in part]
+    if model.colors is not None:
+        names.append(("red", "green", "blue"))
+        arrays.append(srgb(model.colors))
+        fields += [(name, "u1") for name in names[-1]]
+        head += "".join(f"property uchar {name}\n" for name in names[-1])
+    head += f"element face {len(model.triangles)}\nproperty list uchar int vertex_indices\nend_header\n"
+    points = np.empty(len(model.vertices), np.dtype(fields))
+    for part, array in zip(names, arrays, strict=True):
+        for name, values in zip(part, array.T, strict=True):
+            points[name] = values
+    faces = np.empty(len(model.triangles), np.dtype([("count", "u1"), ("vertices", "<i4", 3)]))
+    faces["count"], faces["vertices"] = 3, model.triangles
+    return head.encode() + points.tobytes() + faces.tobytes()
 
 
 def diameter(vertices: np.ndarray) -> float:
