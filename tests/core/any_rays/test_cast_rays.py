@@ -92,6 +92,21 @@ def test_a_ray_is_the_same_in_any_company():
         assert whole[name][:7].tobytes() == few[name].tobytes(), name
 
 
+def test_many_rays_from_one_point_are_those_from_many_points():
+    """Triangles are prepared for many rays from one point, also for rays through vertices and along edges."""
+    shapes, eye = scene(), np.array([0.3, -0.2, 0.1])
+    places = shapes.meshes[0].vertices.T
+    random = np.random.default_rng(9)
+    along = places[random.integers(0, len(places), 500)] * [1, 0, 1] + [0, eye[1], 0]
+    directions = np.concatenate([places - eye, along - eye, random.normal(size=(2000, 3))])
+    one = crc.cast_rays(eye, directions, shapes, PASSES)
+    other = np.concatenate([directions, [[0, 0, 1.0]]])
+    many = crc.cast_rays(np.concatenate([np.tile(eye, (len(directions), 1)), [[9.0, 9, 9]]]), other, shapes, PASSES)
+    assert (one["face_index"] >= 0).sum() > 1000
+    for name in PASSES:
+        assert one[name].tobytes() == many[name][:-1].tobytes(), name
+
+
 def test_directions_of_any_length_and_shapes_that_broadcast():
     shapes = crc.spheres([[0.0, 0.0, -5.0]], 1.0)
     directions = [[[0, 0, -2.0]], [[0, 0, 1.0]], [[np.nan, 0, 1]]]

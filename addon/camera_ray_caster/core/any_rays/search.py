@@ -80,7 +80,7 @@ class BodySearch(Found):
         )
         order = np.lexsort((number, at)) if len(counts) > 1 else slice(None)
         self.at, self.number = at[order], number[order]
-        self._kind = np.repeat(np.arange(len(counts)), counts)[order]
+        self._kind = np.repeat(np.arange(len(counts), dtype=np.int8), counts)[order]
         self._own = np.concatenate([np.arange(count) for count in counts] or [np.zeros(0, np.intp)])[order]
         self._place = [np.flatnonzero(self._kind == k) for k in range(len(counts))]
         self._one_by_one, self._tree = self._divided(order, rays)
@@ -132,13 +132,17 @@ class BodySearch(Found):
         rays = np.flatnonzero(np.isfinite(origin).all(axis=0) & np.isfinite(direction).all(axis=0))
         if self._tree is not None and len(rays):
             rays = rays[coherent_order(origin[:, rays], direction[:, rays])]
-        scratch = Scratch()
+        from_one = len(rays) > 0 and bool((origin[:, rays] == origin[:, rays[:1]]).all())
+        kinds, scratch = self._kinds, Scratch()
         with np.errstate(all="ignore"):  # NaN and inf mean no hit
+            if from_one:
+                origin = np.broadcast_to(origin[:, rays[:1]], origin.shape)
+                kinds = [bodies.seen_from(origin[:, 0], len(rays)) for bodies in kinds]
             for first in range(0, len(rays), RAYS):
                 part = rays[first : first + RAYS]
-                some = origin[:, part], direction[:, part]
+                some = _of(origin, part), direction[:, part]
                 for ray, body in self._candidates(some, near, partial(limit, part), scratch):
-                    for hits in self._met(ray, body, some, near, far, scratch, twice):
+                    for hits in self._met(kinds, ray, body, some, near, far, scratch, twice):
                         keep(part, hits)
 
     def _candidates(self, some, near: float, limit: Callable, scratch: Scratch) -> Iterator[tuple[Any, Any]]:
@@ -148,7 +152,7 @@ class BodySearch(Found):
             yield np.repeat(rays, len(bodies)), np.tile(bodies, len(rays))
         elif len(rays):
             origin, ahead = some[0], unit_directions(some[1])
-            eye = origin[:, 0] if (origin == origin[:, :1]).all() else origin
+            eye = origin if origin.strides[1] else origin[:, 0]
             for shape in np.unique(self.at[bodies]).tolist():
                 middle, radius = self.placed.center[shape], self.placed.radius[shape]
                 close = np.flatnonzero(may_meet(middle, radius, eye, ahead, scratch)) if radius < inf else rays
@@ -158,19 +162,20 @@ class BodySearch(Found):
             packets = packets_of(*some)
             yield from Traversal(self._tree, packets, near, lambda: packets.farthest(limit())).pairs()
 
-    def _met(self, ray, body, some, near: float, far: float, scratch: Scratch, twice: bool) -> Iterator[RayHits]:
+    def _met(self, kinds, ray, body, some, near: float, far: float, scratch: Scratch, twice: bool) -> Iterator[RayHits]:
         """Yield the hits among candidates, kind by kind."""
         origin, direction = some
         if len(ray) != origin.shape[1] or np.ndim(body):
-            origin, direction = taken(origin, ray), taken(direction, ray)
-        for k in range(len(self._kinds)):
-            of_kind = self._kind[body] == k
+            origin, direction = _of(origin, ray), taken(direction, ray)
+        kind, numbers = self._kind[body], self._own[body]
+        for k, bodies in enumerate(kinds):
+            of_kind = kind == k
             if not np.any(of_kind):
                 continue
-            which, bodies, rays, left, ahead = self._own[body], self._kinds[k], ray, origin, direction
+            which, rays, left, ahead = numbers, ray, origin, direction
             if not np.all(of_kind):
                 own = np.flatnonzero(of_kind)
-                which, rays, left, ahead = which[own], ray[own], origin[:, own], direction[:, own]
+                which, rays, left, ahead = which[own], ray[own], _of(origin, own), taken(direction, own)
             for hits in met(bodies, which, rays, (left, ahead), near, far, scratch, twice):
                 yield RayHits(hits.ray, hits.t, self._place[k][hits.body])
 
@@ -186,7 +191,7 @@ def met(
     while len(ray):
         t = bodies.meet(which, origin, direction, start, scratch)
         hit = np.flatnonzero((t <= far) & (t < np.inf))
-        ray, origin, direction, t = ray[hit], origin[:, hit], direction[:, hit], t[hit]
+        ray, origin, direction, t = ray[hit], _of(origin, hit), direction[:, hit], t[hit]
         which = np.broadcast_to(which, (len(hit),)) if np.ndim(which) == 0 else which[hit]
         seen = bodies.is_hit(which, origin, direction, t, scratch)
         some = np.flatnonzero(np.broadcast_to(seen, t.shape))
@@ -194,8 +199,13 @@ def met(
         if not bodies.twice:
             break
         again = np.arange(len(t)) if twice else np.flatnonzero(~np.broadcast_to(seen, t.shape))
-        ray, origin, direction, which = ray[again], origin[:, again], direction[:, again], which[again]
+        ray, origin, direction, which = ray[again], _of(origin, again), direction[:, again], which[again]
         start = np.nextafter(t[again], np.inf)
+
+
+def _of(origin: np.ndarray, rays: np.ndarray) -> np.ndarray:
+    """Return the origins of some rays, by index; if all are one, without a copy."""
+    return taken(origin, rays) if origin.strides[1] else np.broadcast_to(origin[:, :1], (3, len(rays)))
 
 
 def keep_nearest(found: RayHits, t: np.ndarray, body: np.ndarray, rays: np.ndarray) -> None:

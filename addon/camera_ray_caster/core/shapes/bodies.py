@@ -38,6 +38,10 @@ class Bodies(ABC):
         ``body`` has one index for each ray, or is one number for all of them.
         """
 
+    def seen_from(self, eye: np.ndarray, rays: int) -> Bodies:
+        """Return the bodies for this number of rays that all leave one point, (3,): they meet the same to the bit."""
+        return self
+
     @abstractmethod
     def is_hit(self, body: np.ndarray, origin: Vectors, direction: Vectors, t: np.ndarray, scratch: Scratch) -> Any:
         """Return which crossings, (m,), are hits, where their surfaces are not transparent; True for all."""

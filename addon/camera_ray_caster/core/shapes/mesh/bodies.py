@@ -7,16 +7,19 @@ from typing import Any
 import numpy as np
 
 from ...maths.speed import Scratch
-from ...maths.vector import along, difference, norm
+from ...maths.vector import along, difference, dot, norm
 from ...memory import require
 from ..bodies import Bodies, places_of
 from ..cutouts import Cutouts, crossings
 from ..frames import InCamera
 from .surface import TRIANGLES, HitTriangles
-from .triangles import VOLUME_ROUNDING, crossing, signs, volumes
+from .triangles import VOLUME_ROUNDING, crossing, edge_vectors, signs, volumes
 
 BYTES = 144
 """Upper bound of the memory of each triangle, with its box and its share of the tree."""
+
+PREPARED = 0.25
+"""Number of rays from one point, for each triangle, from which the triangles are prepared for them. Not tuned."""
 
 FEWER = "cast at fewer instances, or reduce the subdivision"
 
@@ -60,14 +63,20 @@ class TriangleBodies(Bodies):
 
     def meet(self, body: Any, origin: Any, direction: Any, start: Any, scratch: Scratch) -> np.ndarray:
         """See ``Bodies``: the signs of three volumes decide, exact where rounding could decide."""
-        corners = np.array([
-            difference(places_of(self._places, vertices), origin) for vertices in places_of(self._corners, body)
-        ])  # fmt: skip
-        some = _met(corners, direction)
-        t = np.full(corners.shape[2], np.nan)
-        t[some] = crossing(corners[:, :, some], None, tuple(part[some] for part in direction))
-        t[~(t >= start)] = np.nan
-        return t
+        corners = self.corners(body, origin)
+        longest = np.maximum.reduce([norm(corner) for corner in corners])
+        met, open_ = _inside(volumes(corners, direction), VOLUME_ROUNDING * longest**2 * norm(direction))
+        met[open_] = _is_met(corners[:, :, open_], [part[open_] for part in direction])
+        some = np.flatnonzero(met)
+        return _crossings(len(met), some, corners[:, :, some], direction, start)
+
+    def seen_from(self, eye: np.ndarray, rays: int) -> Bodies:
+        """See ``Bodies``."""
+        return TrianglesFromEye(self, eye) if rays > PREPARED * len(self.at) else self
+
+    def corners(self, body: np.ndarray, origin: Any) -> np.ndarray:
+        """Return the corners of triangles relative to origins, (3, 3, m): corner, component."""
+        return np.array([difference(places_of(self._places, k), origin) for k in places_of(self._corners, body)])
 
     def is_hit(self, body: np.ndarray, origin: Any, direction: Any, t: np.ndarray, scratch: Scratch) -> Any:
         """See ``Bodies``."""
@@ -90,16 +99,50 @@ def _placed(shapes: InCamera, at: Any, q: np.ndarray) -> list[np.ndarray]:
     return [axes[0, i] * q[0] + (axes[1, i] * q[1] + axes[2, i] * q[2]) + center[i] for i in range(3)]
 
 
-def _met(corners: np.ndarray, direction: Any) -> np.ndarray:
-    """Return which rays hit triangles with corners relative to the rays' origins, (3, 3, m), by index."""
-    first, second, third = volumes(corners, direction)
+class TrianglesFromEye(Bodies):
+    """Triangles for many rays from one point: what a volume takes of the triangle is computed once for all rays."""
+
+    twice = False
+
+    def __init__(self, triangles: TriangleBodies, eye: np.ndarray):
+        self._triangles = triangles
+        self.at, self.number, self.low, self.high = triangles.at, triangles.number, triangles.low, triangles.high
+        corners = triangles.corners(np.arange(len(self.at)), eye[:, None])
+        self._edges = edge_vectors(corners, True)
+        self._rounding = VOLUME_ROUNDING * np.maximum.reduce([norm(corner) for corner in corners]) ** 2
+
+    def meet(self, body: Any, origin: Any, direction: Any, start: Any, scratch: Scratch) -> np.ndarray:
+        """See ``Bodies``."""
+        found = tuple(dot(direction, places_of(edge, body)) for edge in self._edges)
+        met, open_ = _inside(found, places_of(self._rounding, body) * norm(direction))
+        body = np.broadcast_to(body, len(met))
+        corners = self._triangles.corners(body[open_], origin[:, open_])
+        met[open_] = _is_met(corners, [part[open_] for part in direction])
+        some = np.flatnonzero(met)
+        return _crossings(len(met), some, self._triangles.corners(body[some], origin[:, some]), direction, start)
+
+    def is_hit(self, body: np.ndarray, origin: Any, direction: Any, t: np.ndarray, scratch: Scratch) -> Any:
+        """See ``Bodies``."""
+        return self._triangles.is_hit(body, origin, direction, t, scratch)
+
+
+def _inside(volumes: Any, doubt: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return whether three volumes have one sign, and the indices of those within their rounding of 0."""
+    first, second, third = volumes
     inner = np.minimum(np.minimum(first, second), third)
     np.maximum(inner, -np.maximum(np.maximum(first, second), third), out=inner)
-    longest = np.maximum.reduce([norm(corner) for corner in corners])
-    doubt = VOLUME_ROUNDING * longest**2 * norm(direction)
-    met = inner > doubt
-    open_ = np.flatnonzero(np.abs(inner) <= doubt)
-    if open_.size:
-        exact = signs(corners[:, :, open_], np.array([part[open_] for part in direction]))
-        met[open_] = ((exact >= 0).all(axis=0) | (exact <= 0).all(axis=0)) & exact.any(axis=0)
-    return np.flatnonzero(met)
+    return inner > doubt, np.flatnonzero(np.abs(inner) <= doubt)
+
+
+def _is_met(corners: np.ndarray, direction: Any) -> np.ndarray:
+    """Return whether rays hit triangles with corners relative to the rays' origins, (3, 3, m), exactly."""
+    exact = signs(corners, np.array(direction))
+    return ((exact >= 0).all(axis=0) | (exact <= 0).all(axis=0)) & exact.any(axis=0)
+
+
+def _crossings(count: int, some: np.ndarray, corners: np.ndarray, direction: Any, start: Any) -> np.ndarray:
+    """Return t of the rays that hit, by index, from ``start`` on, NaN of the others; the corners are those of hits."""
+    t = np.full(count, np.nan)
+    t[some] = crossing(corners, None, tuple(part[some] for part in direction))
+    t[~(t >= start)] = np.nan
+    return t
