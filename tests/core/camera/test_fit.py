@@ -152,6 +152,8 @@ def test_a_wide_fisheye_is_no_pinhole_but_in_its_middle():
         (("UCM", None, ("f",)), "unknown parameter of UCM 'f'"),
         (("UCM", None, ()), "has no parameter to fit"),
         (("UCM", None, 3), "free is 3: it must be names of parameters of UCM"),
+        (("RAY_TABLE", None, None), "Ray Table lists its rays and has no formula to fit: choose another model"),
+        (("SCANNER", None, None), "Scanner lists its beams and has no formula to fit"),
         (("STRIP", None, None), "the rays of Strip have no eye in common"),
         (("FOV", (32, 24, 33, 25), None), "sees 1 of 1 rays, too few to fit"),
     ],

@@ -34,6 +34,9 @@ HELD = {"skew", "sensor_width", "sensor_height", "ftheta_d", "ftheta_e", "ocam_d
 HELD_OF = {"OPENCV_PINHOLE": {"k4", "k5", "k6", "s1", "s2", "s3", "s4", "tau_x", "tau_y"}}
 """Further ones of a model: those that OpenCV's calibration holds by default as well."""
 
+LISTS = {"RAY_TABLE": "rays", "SCANNER": "beams"}
+"""Models that are lists, not formulas, and of what."""
+
 
 @dataclass(frozen=True, eq=False)
 class Fit:
@@ -82,6 +85,8 @@ def fit_model(
     """
     if camera.pixel_time is not None:
         raise InputError(f"pixels of camera {camera.name!r} have their own times: fit that of one frame, at(frame)")
+    if kind.key in LISTS:
+        raise InputError(f"{kind.label} lists its {LISTS[kind.key]} and has no formula to fit: choose another model")
     for model, what in ((camera.model, f"camera {camera.name!r}"), (kind, kind.label)):
         if not model.central:
             raise InputError(f"the rays of {what} have no eye in common: only cameras with one eye can be fitted")
@@ -105,11 +110,10 @@ def fit_model(
     search, values, converged, counted = _best(searches)
     if counted < LEFT:
         angles, near = _angles(rays[some]), search.near()
-        edge = angles.max() if near.all() else angles[~near].min()
-        raise InputError(
-            f"{kind.label} sees fewer than half of the rays: fit those within {floor(degrees(edge))} degrees of the "
-            f"viewing direction (region={floor(10 * edge) / 10:g}), or fewer"
-        )
+        edge = floor(10 * (angles.max() if near.all() else angles[~near].min())) / 10
+        remedy = f"fit those within {degrees(edge):.0f} degrees of the viewing direction (region={edge:g}), or fewer"
+        said = f"{kind.label} sees fewer than half of the rays"
+        raise InputError(f"{said}: {remedy if edge else 'choose another region, or another model'}")
     fitted = camera_from(search.record(values))
     residual = np.full((height, width, 2), np.nan)
     with np.errstate(all="ignore"):  # NaN means not seen

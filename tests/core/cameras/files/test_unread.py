@@ -4,6 +4,7 @@ import json
 
 import pytest
 
+import camera_ray_caster as crc
 from camera_ray_caster.core.records import InputError
 
 from .test_other_programs import EGO, ISAAC, MATRIX, OKVIS, K, basalt, flat, lens_of, sensor, vins
@@ -40,3 +41,31 @@ def test_what_is_wrong_is_said_in_one_line(tmp_path, text, says):
         lens_of(tmp_path, text)
     assert "\n" not in str(refusal.value)
     assert str(tmp_path / "lens") in str(refusal.value)
+
+
+OBJ = "v 0 0 0\nv 1 0 0\nvt 0 0\nvn 0 0 1\nf 1/1/1\n"
+
+
+@pytest.mark.cases(2)
+@pytest.mark.parametrize(
+    ("name", "content", "words"),
+    [
+        ("a.npy", b"\x93NUM", "by its name it is an array of numpy, but it does not begin as one: it is damaged"),
+        ("a.npz", b"XK\x03\x04" + bytes(90), "by its name it is a file of numpy's arrays, but"),
+        ("a.exr", b"hello world", "by its name it is an EXR image, but it does not begin as one"),
+        ("a.obj", OBJ.replace("vn ", "vx ").encode(), "it is no mesh of rays: it has no lines vn"),
+        ("a.csv", b"x,y,z\n1,2,3\n", "its first line must name x, y, dx, dy, dz, of a mesh of rays, or channel"),
+        ("b.csv", b"x,y,dx,dy,dz\n0,0,1,1\n", "line 2"),
+        ("b.npy", b" ", "is empty"),
+    ],
+)  # fmt: skip
+def test_a_damaged_file_is_called_what_its_name_says(tmp_path, name, content, words):
+    (tmp_path / name).write_bytes(content)
+    with pytest.raises(InputError, match=words) as caught:
+        crc.load_calibration(tmp_path / name, size=(64, 48))
+    assert "\n" not in str(caught.value)
+
+
+def test_entries_are_read_whatever_the_name(tmp_path):
+    (tmp_path / "a.obj").write_text('{"fx": 30, "fy": 30, "cx": 31.5, "cy": 23.5}')
+    assert crc.load_calibration(tmp_path / "a.obj", size=(64, 48)).K[0, 0] == 30

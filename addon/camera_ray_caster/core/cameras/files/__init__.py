@@ -43,7 +43,7 @@ from . import (
     woodscape,
 )
 from .document import Document, Lens
-from .nearest import unknown
+from .nearest import by_name, unknown
 
 FORMATS = (
     ray_arrays.read, ray_exr.read, ray_mesh.read, colmap_binary.read, metashape.read, colmap.read, arkit.read,
@@ -73,7 +73,10 @@ def lenses_of(path: str, key: str = "", frame: tuple[int, int] | None = None) ->
     document = Document(path, frame)
     asked = (path, key, frame, document.digest)
     if asked not in _latest:
-        lenses = _known(document, key)
+        try:
+            lenses = _known(document, key)
+        except InputError as refusal:
+            raise by_name(document) or refusal from refusal
         if lenses is None:
             inside = list(_inside(document, key, DEEPEST, ""))
             if not inside:

@@ -17,6 +17,8 @@ from .ray_arrays import table
 
 DIRECTION, ORIGIN = ("dx", "dy", "dz"), ("ox", "oy", "oz")
 PLACES = ("x", "y"), ("u", "v")
+LINES = b"\nv ", b"\nvt ", b"\nvn ", b"\nf "
+"""Begins of the lines that an .obj has."""
 
 EVEN = 1e-4
 """Part of a step by which places may be off their rows and columns: files have some six digits."""
@@ -34,7 +36,7 @@ def read(document: Document, key: str) -> list[Lens] | None:
     places = next((pair for pair in PLACES if set(pair) <= set(names)), None)
     if places is not None and set(DIRECTION) <= set(names):
         return [_lattice(document, *_of_columns(document, names, places))]
-    is_mesh = all(line in b"\n" + document.data for line in (b"\nv ", b"\nvt ", b"\nvn ", b"\nf "))
+    is_mesh = all(line in b"\n" + document.data for line in LINES)
     return [_lattice(document, *_of_mesh(document))] if is_mesh else None
 
 

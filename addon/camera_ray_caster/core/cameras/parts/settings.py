@@ -104,7 +104,10 @@ class Number(Setting):
             not isinstance(value, int | float)
             or not low - LIMIT_ROUNDING * abs(low) <= value <= high + LIMIT_ROUNDING * abs(high)  # NaN is not
         ):
-            raise self.refusal(raw, self.in_words(value, " ({:g} radians)"), self.range_in_words(low, high))
+            allowed = self.range_in_words(low, high)
+            if isinstance(value, int | float) and high == LARGEST < abs(value) < math.inf:
+                allowed += f", up to {LARGEST:g}"
+            raise self.refusal(raw, self.in_words(value, " ({:g} radians)"), allowed)
         return value if isinstance(value, Varied) or is_recorded(value) else float(value)
 
     def in_words(self, value, radians: str = "") -> str:
