@@ -7,7 +7,7 @@ import pytest
 from camera_ray_caster.blender.read.scene import read_shapes
 from camera_ray_caster.core.records import AREA, EVERYWHERE, MESH, PLANE, SPHERE
 
-from .scene_parts import ball, new_object
+from .scene_parts import ball, geometry_nodes, new_object
 
 ULP = float(np.finfo(np.float32).eps)
 
@@ -56,6 +56,25 @@ def test_a_ball_or_floor_of_several_materials_is_cast_as_its_mesh(scene):
         for polygon in item.data.polygons:
             polygon.material_index = 1 + polygon.index
     assert set(read_shapes(scene).kind) == {PLANE, SPHERE}
+
+
+def test_a_ball_that_nodes_make_has_the_slots_that_cycles_counts(scene):
+    """In Blender 5.2 those of the mesh that is seen, of which it has none; in earlier versions those of the object."""
+    source, item = ball("Source"), ball("Nodes")
+    for polygon in source.data.polygons:
+        polygon.material_index = polygon.index % 2
+    for _ in range(2):
+        item.data.materials.append(bpy.data.materials.new("Material"))
+
+    def build(new, link, mesh):
+        info = new("GeometryNodeObjectInfo")
+        info.inputs["Object"].default_value = source
+        return info.outputs["Geometry"]
+
+    geometry_nodes(item, build)
+    shapes = read_shapes(scene)
+    kinds = {shapes.names[name]: kind for name, kind in zip(shapes.name_index, shapes.kind, strict=True)}
+    assert kinds == {"Source": SPHERE, "Nodes": MESH if bpy.app.version < (5, 2, 0) else SPHERE}
 
 
 def principled(color=None):

@@ -14,6 +14,7 @@ from ...core.shapes.recognize import NOT_FINITE, MeshArrays, defect, exclude, re
 from ...core.shapes.uv_maps import with_map
 from .kept import Found
 from .layers import with_layers
+from .materials import slot_count
 from .meshes import fetched, is_smooth, mesh_arrays, mesh_record, normals_before, uv_map, vertices
 
 FORCED = {"SPHERE": SPHERE, "PLANE": PLANE, "INFINITE_PLANE": INFINITE_PLANE}
@@ -49,7 +50,7 @@ def shapes_of(
         return None, f"it is of type {data.bl_rna.name.lower()}, but only surfaces and point clouds are cast"
     try:  # a mesh in Edit Mode has its faces only there
         mesh = item.to_mesh()
-        found, reason = mesh_shapes(mesh, setting)
+        found, reason = mesh_shapes(mesh, setting, slot_count(item))
         if found is not None and layers:
             found = with_layers(found, mesh, item.original.data, layers)
         if found is not None and found.mesh is not None and any(moves):
@@ -59,8 +60,8 @@ def shapes_of(
         item.to_mesh_clear()
 
 
-def mesh_shapes(mesh, setting: str) -> Found:
-    """Return the shapes of an evaluated mesh, or the reason why it cannot be cast."""
+def mesh_shapes(mesh, setting: str, slots: int) -> Found:
+    """Return the shapes of an evaluated mesh, whose object has some slots, or the reason why it cannot be cast."""
     if not len(mesh.vertices):
         return NOTHING
     kind = FORCED.get(setting)
@@ -74,7 +75,7 @@ def mesh_shapes(mesh, setting: str) -> Found:
             return _mapped(replace(found, kind=kind), mesh, arrays), ""
         forced, reason = _enclosing(kind, arrays.vertices)
         return (forced, reason) if forced is None or wrong else (_mapped(forced, mesh, arrays), "")
-    if isinstance(found, Primitive) and not _is_solid(found, mesh) and not _is_colorful(mesh):
+    if isinstance(found, Primitive) and not _is_solid(found, mesh) and not _is_colorful(mesh, slots):
         exact = _mapped(found, mesh, arrays)
         if exact.kind == SPHERE or not exact.note:
             return exact, ""
@@ -100,12 +101,12 @@ def _is_solid(found: Primitive, mesh) -> bool:
     return found.kind == SPHERE and found.apart > COARSE and not is_smooth(mesh)
 
 
-def _is_colorful(mesh) -> bool:
-    """Return whether faces have different materials: an exact shape has one."""
+def _is_colorful(mesh, count: int) -> bool:
+    """Return whether faces have different ones of ``count`` slots: an exact shape has one."""
     slot = mesh.attributes.get("material_index")
-    if slot is None or len(mesh.materials) < 2:
+    if slot is None or count < 2:
         return False
-    slots = np.clip(fetched(slot.data, "value", np.int32), 0, len(mesh.materials) - 1)
+    slots = np.clip(fetched(slot.data, "value", np.int32), 0, count - 1)
     return bool((slots != slots[0]).any())
 
 

@@ -103,12 +103,12 @@ class Looks:
 
     def of_item(self, item) -> tuple[Look, ...]:
         """Return the looks of all slots of an evaluated object."""
-        return self.of_slots(item, range(max(1, _slot_count(item))))
+        return self.of_slots(item, range(max(1, slot_count(item))))
 
     def _of_slot(self, item, slot: int) -> Look:
         """Return the look of a slot, or of the last one for slots after it; the object's color without a material."""
         slots, own = item.material_slots, item.original.material_slots
-        place = min(slot, _slot_count(item) - 1)
+        place = min(slot, slot_count(item) - 1)
         material = slots[place].material if place >= 0 else None
         if OWN_IS_EMPTY and 0 <= place < len(own) and own[place].link == "OBJECT" and own[place].material is None:
             material = None
@@ -120,7 +120,7 @@ class Looks:
         return self._known[material]
 
 
-def _slot_count(item) -> int:
+def slot_count(item) -> int:
     """Return the number of an evaluated object's material slots, as Cycles counts them."""
     return len(item.data.materials) if MESH_HAS_SLOTS else len(item.material_slots)
 

@@ -99,14 +99,12 @@ class Number(Setting):
         Raises InputError, which names the setting, its value and the range.
         """
         low, high = self.limits(self.low if low is None else low, self.high if high is None else high)
-        value = self.given(raw)
-        if not is_recorded(value) and (
-            not isinstance(value, int | float)
-            or not low - LIMIT_ROUNDING * abs(low) <= value <= high + LIMIT_ROUNDING * abs(high)  # NaN is not
-        ):
-            allowed = self.range_in_words(low, high)
-            if isinstance(value, int | float) and high == LARGEST < abs(value) < math.inf:
-                allowed += f", up to {LARGEST:g}"
+        value, near = self.given(raw), LIMIT_ROUNDING
+        is_number = isinstance(value, int | float)
+        within = is_number and low - near * abs(low) <= value <= high + near * abs(high)  # NaN is not
+        if not (is_recorded(value) or within):
+            too_large = is_number and high == LARGEST < abs(value) < math.inf
+            allowed = self.range_in_words(low, high) + f", up to {high:g}" * too_large
             raise self.refusal(raw, self.in_words(value, " ({:g} radians)"), allowed)
         return value if isinstance(value, Varied) or is_recorded(value) else float(value)
 
@@ -125,11 +123,10 @@ class Number(Setting):
         """Return the words for a range in a message."""
         if (low, high) == (-LARGEST, LARGEST):
             return "a finite number"
+        least, most = self.in_words(low), self.in_words(high)
         if low == ABOVE_ZERO:
-            return "above 0" if high == LARGEST else f"above 0, up to {self.in_words(high)}"
-        if high == LARGEST:
-            return f"{self.in_words(low)} or more"
-        return f"from {self.in_words(low)} to {self.in_words(high)}"
+            return "above 0" + f", up to {most}" * (high != LARGEST)
+        return f"{least} or more" if high == LARGEST else f"from {least} to {most}"
 
 
 @dataclass(frozen=True)
