@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 
+from ..cameras.model import NOWHERE
 from ..maths.panels import ROWS, is_raster, on_raster
 from ..maths.speed import whole_rows
 from ..maths.vector import ALL, components, cut, dot, inverse, is_grid, matvec, norm
@@ -85,7 +86,7 @@ def pixels_of(camera: Any, points: np.ndarray) -> np.ndarray:
 
 
 def _by_polynomials(camera: Any, x, y) -> bool:
-    return camera.model.by_polynomials and is_raster(x, y)
+    return camera.model.polynomials != NOWHERE and is_raster(x, y)
 
 
 def _write(camera: Any, x, y, origins, directions) -> None:

@@ -25,7 +25,7 @@ import numpy as np
 
 from ..cameras.central_cylindrical import CentralCylindrical
 from ..cameras.mirrorball import Mirrorball
-from ..cameras.model import Model, Step
+from ..cameras.model import IN_RAYS, NOWHERE, Model, Step
 from ..cameras.parts.aperture import Aperture
 from ..cameras.parts.settings import Number
 from ..cameras.perspective import Perspective
@@ -175,9 +175,9 @@ class SphericalStereo(Model):
         return self.lens.disc
 
     @property
-    def by_polynomials(self) -> bool:  # type: ignore[override]
+    def polynomials(self) -> int:  # type: ignore[override]
         """See Model: not for the mirror ball: most panels lie at rim or poles; 1.9 times the time with polynomials."""
-        return not isinstance(self.lens, Mirrorball)
+        return NOWHERE if isinstance(self.lens, Mirrorball) else IN_RAYS
 
     @property
     def endless(self) -> Model:

@@ -23,7 +23,7 @@ from ..conventions import gamma
 from ..maths.intervals import Interval
 from ..maths.vector import components, cross, difference, dot, norm
 from ..records import BlenderCamera, InputError, Raster
-from .model import Step, WindowModel
+from .model import IN_RAYS, Step, WindowModel
 from .parts.lines import LINE_ROUNDING, SECOND_SLIT, SLIT, slit_from
 from .parts.silhouette import pinhole_interval, pixel_bounds
 from .perspective import Perspective
@@ -46,7 +46,7 @@ class CrossSlit(WindowModel):
     group = "Multiperspective"
     number = 11
     central = False
-    by_polynomials = True
+    polynomials = IN_RAYS
     ray_rounding = gamma(4)
     SETTINGS = (SLIT, SECOND_SLIT, *Perspective.SETTINGS)
     FORMULA = (

@@ -18,7 +18,7 @@ import numpy as np
 
 from ..maths.vector import components
 from ..records import BlenderCamera, Raster
-from .model import Step, WindowModel
+from .model import IN_RAYS, Step, WindowModel
 from .parts.film import SHIFT, Window
 from .parts.silhouette import pinhole_interval, pixel_bounds, turned
 
@@ -34,7 +34,7 @@ class CubemapFace(WindowModel):
     label = "Equiangular Cubemap Face"
     description = "90 degrees across and up, with columns and rows at equal angles"
     group = "Blender's Own"
-    by_polynomials = True
+    polynomials = IN_RAYS
     SETTINGS = SHIFT
     FORMULA = (
         Step("Angles across and up", "alpha = (x/W - 1/2 + shift_x) pi/2, beta = (y/H - 1/2 + shift_y) pi/2"),

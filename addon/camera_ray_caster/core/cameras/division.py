@@ -41,7 +41,6 @@ class Division(Calibrated):
     label = "Division"
     description = "A calibrated lens or fisheye with a single distortion coefficient"
     number = 23
-    by_polynomials = True
     SETTINGS = (*CALIBRATION, LAMBDA)
     FORMULA = (
         COORDINATES,

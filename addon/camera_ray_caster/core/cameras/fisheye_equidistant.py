@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from ..records import BlenderCamera, Raster
-from .model import Step
+from .model import IN_CASTS, Step
 from .parts.film import SHIFT, Window
 from .parts.radial import FISHEYE_FOV, RADIUS, RAY, WHOLE_PLANE, Radial, factors_of, radii_of
 from .parts.settings import Setting
@@ -30,8 +30,7 @@ class FisheyeEquidistant(Radial):
     label = "Fisheye Equidistant"
     description = "The angle from the axis is proportional to the radius"
     group = "Blender's Own"
-    factors_by_polynomials = True
-    by_polynomials = True
+    polynomials = IN_CASTS
     SETTINGS: ClassVar[tuple[Setting, ...]] = (FISHEYE_FOV, *SHIFT)
     FORMULA: ClassVar[tuple[Step, ...]] = (WHOLE_PLANE, RADIUS, Step("Angle from the axis", "theta = rho fov / 2"), RAY)
 

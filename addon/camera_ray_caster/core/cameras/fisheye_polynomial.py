@@ -24,7 +24,7 @@ from ..maths.polynomials import positive_roots
 from ..maths.recording import is_recorded
 from ..maths.speed import lazy
 from ..records import BlenderCamera, InputError, Raster
-from .model import Step
+from .model import IN_CASTS, Step
 from .parts.film import FILM, Film, Window
 from .parts.radial import FISHEYE_FOV, RADIUS, RAY, SENSOR_PLANE, TINY, Radial, factors_of, radii_of, up_to
 from .parts.settings import CAMERA, FULL_TURN, Number
@@ -54,8 +54,7 @@ class FisheyePolynomial(Radial):
     label = "Fisheye Lens Polynomial"
     description = "A measured lens: the angle is a polynomial of the radius on the sensor"
     group = "Blender's Own"
-    factors_by_polynomials = True
-    by_polynomials = True
+    polynomials = IN_CASTS
     SETTINGS = (*COEFFICIENTS, FISHEYE_FOV, *FILM)
     FORMULA = (
         SENSOR_PLANE, RADIUS, Step("Angle from the axis", "theta = -(k0 + k1 rho + k2 rho² + k3 rho³ + k4 rho⁴)"), RAY,

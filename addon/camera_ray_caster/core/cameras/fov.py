@@ -40,7 +40,6 @@ class FieldOfView(Calibrated):
     description = "A calibrated wide-angle lens whose distortion is given by a single angle"
     number = 22
     guarded = False
-    by_polynomials = True
     SETTINGS = (*CALIBRATION, OMEGA)
     FORMULA = (
         COORDINATES,

@@ -23,7 +23,7 @@ from ..maths.recording import least_root
 from ..maths.recording.scalars import least
 from ..maths.speed import lazy
 from ..records import BlenderCamera, Raster
-from .model import Step
+from .model import IN_CASTS, Step
 from .parts.calibrated import Calibrated, in_words
 from .parts.calibration import PRINCIPAL_POINT, Calibration
 from .parts.radial import RAY, factors_of, radii_of
@@ -90,9 +90,8 @@ class FTheta(Calibrated):
     label = "F-Theta"
     description = "A calibrated fisheye of NVIDIA: a polynomial of any degree between angle and radius"
     number = 24
-    factors_by_polynomials = True
+    polynomials = IN_CASTS
     guarded = False
-    by_polynomials = True
     SETTINGS = (*PRINCIPAL_POINT, REFERENCE, *POLYNOMIALS.values(), C, D, E, MAX_ANGLE)
     FORMULA = (
         Step(

@@ -24,7 +24,7 @@ from ..maths.intervals import Interval
 from ..maths.recording import array, is_recorded
 from ..maths.vector import components
 from ..records import BlenderCamera, InputError, Raster
-from .model import Model, Step
+from .model import IN_RAYS, Model, Step
 from .parts.settings import Numbers, Setting
 from .parts.silhouette import MARGIN
 
@@ -58,7 +58,7 @@ class GeneralLinear(Model):
     group = "Multiperspective"
     number = 10
     central = False
-    by_polynomials = True
+    polynomials = IN_RAYS
     SETTINGS: ClassVar[tuple[Setting, ...]] = RAYS
     FORMULA: ClassVar[tuple[Step, ...]] = (
         Step("Place in the frame", "alpha = x/W, beta = y/H"),

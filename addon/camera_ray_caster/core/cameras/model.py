@@ -40,6 +40,8 @@ from .parts.outline import outline_of
 from .parts.settings import Setting
 from .parts.silhouette import everywhere
 
+NOWHERE, IN_RAYS, IN_CASTS = 0, 1, 2
+"""Values of ``Model.polynomials``: nowhere, in ``Camera.rays``, or in casts, too."""
 GROUPS = ("Blender's Own", "Calibrated", "Fisheye", "Dome", "Panorama", "Multiperspective", "Historical")
 """Values of ``Model.group``, in the order of menus and of the table of models."""
 
@@ -94,11 +96,11 @@ class Model(ABC):
     """
     differentiable: ClassVar[bool] = True
     """Whether pixels are parts of one picture. Otherwise there are no derivatives, no solid angles and no flow."""
-    by_polynomials: ClassVar[bool] = False
-    """Whether ``Camera.rays`` approximates a whole picture by polynomials (see ``maths.panels``). It is set for models
-    whose rays take 1.4 to 17 times as long without them, and fill most of the picture, or a disc beyond which
-    ``endless`` may continue them. A cast evaluates the formula instead: it needs the components apart, in the camera's
-    frame, and takes as long with polynomials as without (0.8 to 1.2).
+    polynomials: ClassVar[int] = NOWHERE
+    """Where polynomials give a whole picture (see ``maths.panels``). IN_RAYS is set for models whose rays take 1.4 to
+    17 times as long without them, and fill most of the picture, or a disc beyond which ``endless`` may continue them.
+    In their casts, which need the components apart, nothing is gained (0.8 to 1.2). IN_CASTS is set if ``rays`` ask
+    for them, too: for parts of the formula that take sines or iterate, and are smooth a little beyond the disc.
     """
     SETTINGS: ClassVar[tuple[Setting, ...]] = ()
     """All settings that ``from_blender`` reads, in the order of the panel. Blender's properties, the panel, the copying

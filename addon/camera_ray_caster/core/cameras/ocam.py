@@ -59,7 +59,6 @@ class OCam(Calibrated):
     label = "OCam (Scaramuzza)"
     description = "A calibrated mirror lens or fisheye: a polynomial of the radius"
     number = 25
-    by_polynomials = True
     SETTINGS = (*PRINCIPAL_POINT, POLYNOMIAL, C, D, E)
     FORMULA = (
         Step(

@@ -21,7 +21,7 @@ from ..conventions import gamma
 from ..maths.inversion import Inverse
 from ..maths.vector import components
 from ..records import BlenderCamera, Raster
-from .model import Step
+from .model import IN_CASTS, Step
 from .parts.film import SHIFT, Window
 from .parts.pitched import LENS_RAY, PITCH, TILT, Pitched
 from .parts.radial import RADIUS, Radial, factors_of, radii_of
@@ -84,8 +84,7 @@ class Omnimax(Pitched, OmnimaxLens):
     description = "The film of IMAX Dome theaters"
     group = "Dome"
     number = 6
-    factors_by_polynomials = True
-    by_polynomials = True
+    polynomials = IN_CASTS
     SETTINGS = (TILT, *SHIFT)
     FORMULA = (
         Step(

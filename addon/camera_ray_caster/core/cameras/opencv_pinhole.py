@@ -20,7 +20,7 @@ from ..maths.panels import on_raster
 from ..maths.recording.scalars import plain
 from ..maths.vector import components
 from ..records import BlenderCamera, Raster
-from .model import Step, WindowModel
+from .model import IN_CASTS, NOWHERE, Step, WindowModel
 from .parts.calibration import CALIBRATION, PINHOLE, Calibration
 from .parts.film import OFF_AXIS
 from .parts.radial import DISTORTED, up_to
@@ -66,9 +66,9 @@ class OpencvPinhole(WindowModel):
         return not self._bends
 
     @property
-    def by_polynomials(self) -> bool:  # type: ignore[override]
-        """See Model: true if there is distortion or tilt."""
-        return self._bends
+    def polynomials(self) -> int:  # type: ignore[override]
+        """See Model: if there is distortion or tilt."""
+        return IN_CASTS if self._bends else NOWHERE
 
     @property
     def ray_rounding(self) -> float:

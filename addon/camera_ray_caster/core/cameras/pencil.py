@@ -21,7 +21,7 @@ from ..maths.intervals import Interval
 from ..maths.recording.scalars import cbrt
 from ..maths.vector import along, components, difference, dot, norm
 from ..records import BlenderCamera, Raster
-from .model import Step, WindowModel
+from .model import IN_RAYS, Step, WindowModel
 from .parts.lines import SLIT, image_axes, slit_from
 from .parts.settings import Number
 from .parts.silhouette import pinhole_interval, pixel_bounds
@@ -51,7 +51,7 @@ class Pencil(WindowModel):
     group = "Multiperspective"
     number = 13
     central = False
-    by_polynomials = True
+    polynomials = IN_RAYS
     SETTINGS = (SLIT, SLIDE, *Perspective.SETTINGS)
     FORMULA = (
         *PLANE,

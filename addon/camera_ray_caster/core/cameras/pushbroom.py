@@ -21,7 +21,7 @@ from ..maths.intervals import Interval
 from ..maths.vector import along as point_along
 from ..maths.vector import components, difference, dot
 from ..records import BlenderCamera, Raster
-from .model import Step, WindowModel
+from .model import IN_RAYS, Step, WindowModel
 from .orthographic import Orthographic
 from .parts.film import ORTHO_SCALE
 from .parts.lines import SLIT, image_axes, slit_from
@@ -46,7 +46,7 @@ class Pushbroom(WindowModel):
     group = "Multiperspective"
     number = 12
     central = False
-    by_polynomials = True
+    polynomials = IN_RAYS
     SETTINGS = (SLIT, ORTHO_SCALE, *Perspective.SETTINGS)
     FORMULA = (
         *PLANE,

@@ -16,7 +16,7 @@ from math import inf, pi
 from ..maths.recording import tan
 from ..records import BlenderCamera, Raster
 from .fisheye_stereographic import WIDEST, FisheyeStereographic
-from .model import Step
+from .model import IN_RAYS, Step
 from .parts.film import SHIFT, Window
 from .parts.pitched import LENS_RAY, PITCH, Pitched
 from .parts.radial import FOV, ROUND_PLANE
@@ -37,7 +37,7 @@ class StereographicPanorama(Pitched, FisheyeStereographic):
     description = "All directions; looking down, it shows a little planet"
     group = "Panorama"
     number = 9
-    by_polynomials = True
+    polynomials = IN_RAYS
     SETTINGS = (FOV, ELEVATION, *SHIFT)
     FORMULA = (
         ROUND_PLANE,

@@ -18,7 +18,7 @@ from ..maths.recording import array
 from ..maths.recording.scalars import largest
 from ..records import BlenderCamera, Raster
 from .general_linear import STEEPEST, GeneralLinear
-from .model import Step
+from .model import IN_RAYS, Step
 from .orthographic import PLANE, Orthographic
 from .parts.film import ORTHO_SCALE, check_slope
 from .parts.lines import SLIT, image_axes, slit_from
@@ -43,7 +43,7 @@ class TwistedOrthographic(GeneralLinear):
     label = "Twisted Orthographic"
     description = "Parallel rays whose direction turns along an axis"
     number = 14
-    by_polynomials = True
+    polynomials = IN_RAYS
     SETTINGS = (SLIT, TWIST, *Orthographic.SETTINGS)
     FORMULA = (
         *PLANE,

@@ -1,8 +1,8 @@
 """A function of the pixel for whole pictures, panel by panel of the raster: by polynomials wherever these are accurate.
 
 If they are not accurate in a panel, its quarters are tried; where these fail, too, the function is evaluated at each
-pixel. For fisheyes that compute sines or iterate, whole casts take 0.6 to 0.9 of the time. For models with
-``by_polynomials`` the result of ``Camera.rays`` takes 0.1 to 0.8 of the time.
+pixel. For fisheyes that compute sines or iterate, whole casts take 0.6 to 0.9 of the time. The
+result of ``Camera.rays`` takes 0.1 to 0.8 of the time. Models say where it pays: see ``Model.polynomials``.
 """
 
 from __future__ import annotations

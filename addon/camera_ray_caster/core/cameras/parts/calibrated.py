@@ -18,6 +18,7 @@ import numpy as np
 from ...maths.panels import Disc, on_raster
 from ...maths.recording import is_recorded
 from ...maths.recording.scalars import least, plain
+from ..model import IN_RAYS
 from .film import FARTHEST_PIXELS
 from .radial import RIM_SLACK, Radial
 from .radial_tangential import RadialTangential
@@ -39,6 +40,7 @@ class Calibrated(Radial):
     distortion: RadialTangential = field(default=RadialTangential(), kw_only=True)
 
     group = "Calibrated"
+    polynomials = IN_RAYS  # and in casts where there is distortion: see ``rays``
 
     @property
     def guarded(self) -> bool:  # type: ignore[override]

@@ -21,6 +21,7 @@ from ...maths.recording import is_recorded, least_root
 from ...maths.recording.scalars import least, plain, sqrt
 from ...maths.speed import lazy
 from ...records import Raster
+from ..model import IN_CASTS
 from .calibrated import Calibrated
 from .calibration import Calibration
 from .radial import factors_of, radii_of
@@ -35,8 +36,7 @@ class KannalaBrandt(Calibrated):
     """Coefficients k1, k2, ..."""
 
     guarded = False
-    factors_by_polynomials = True
-    by_polynomials = True
+    polynomials = IN_CASTS
 
     @classmethod
     def of(

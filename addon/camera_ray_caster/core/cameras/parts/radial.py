@@ -11,14 +11,13 @@ from __future__ import annotations
 from abc import abstractmethod
 from dataclasses import dataclass, replace
 from math import inf, pi, radians
-from typing import ClassVar
 
 import numpy as np
 
 from ...maths.panels import Disc, is_raster, on_raster
 from ...maths.speed import lazy
 from ...maths.vector import components
-from ..model import Step, WindowModel
+from ..model import IN_CASTS, Step, WindowModel
 from .affine import AffineWindow
 from .settings import ABOVE_ZERO, CAMERA, Number
 from .silhouette import pixel_bounds, radial_intervals
@@ -73,10 +72,6 @@ class Radial(WindowModel):
     """Radius r beyond which there is no ray; inf if only the factors or the frame limit the picture."""
 
     group = "Fisheye"
-    factors_by_polynomials: ClassVar[bool] = False
-    """Whether polynomials give the factors of a whole picture (see ``maths.panels``). It is set if the factors take
-    sines or iterate, which costs more, and are smooth a little beyond the rim.
-    """
 
     @abstractmethod
     def factors(self, r_squared):
@@ -130,7 +125,7 @@ class Radial(WindowModel):
         return self._r_squared(x, y) <= self.rim * self.rim
 
     def _factors_at(self, x, y):
-        if not (self.factors_by_polynomials and is_raster(x, y)):
+        if not (self.polynomials == IN_CASTS and is_raster(x, y)):
             return self._factors_within(self._r_squared(x, y))
         factors = self._factors_within if self.disc is None else self.factors
         return on_raster(lambda x, y: factors(self._r_squared(x, y)), x, y, self.disc)

@@ -48,7 +48,6 @@ class Unified(Calibrated):
     alpha: float = 0.0
     beta: float = 1.0
 
-    by_polynomials = True
 
     @classmethod
     def of(cls, raw: BlenderCamera, raster: Raster, calibration: Calibration, **shape: float) -> Self:
