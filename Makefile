@@ -18,7 +18,7 @@ export PYTHONDONTWRITEBYTECODE :=
 
 SCENE := blend_scenes/spheres_and_planes.blend
 
-.PHONY: cast test test-full test-hostile test-all test-blender lint check-model docs zip dist clean help
+.PHONY: cast test test-full test-hostile test-all test-blender test-in-blender test-window lint check-model docs zip dist clean help
 
 cast: $(VENV)/ready  ## render the example scene into out/ and print the report
 	$(VENV)/bin/python scripts/cast.py $(SCENE) --output out
@@ -39,14 +39,17 @@ test-hostile: $(VENV)/ready  ## try all hostile inputs, kills and full disks, so
 test-all:  ## run the tests on each supported bpy for which a Python is found, all but those in a window on the newest
 	@$(PYTHON) scripts/environment.py test-all
 
-test-blender: .venv/pure/ready  ## run tests/blender inside a real Blender, and tests/gui in its window: BLENDER=/path
-	@if command -v "$(BLENDER)" >/dev/null; then \
-		"$(BLENDER)" --background --factory-startup --python-exit-code 1 \
-			--python tests/run_in_blender.py -- .venv/pure tests/blender && \
-		BLENDER="$(BLENDER)" PYTHONPATH=.venv/pure $(PYTHON) -m pytest tests/gui -m "not hostile"; \
-	else \
-		echo "test-blender: skipped, no program $(BLENDER); run make BLENDER=/path/to/blender test-blender"; \
-	fi
+test-blender: test-in-blender test-window  ## run tests/blender inside a real Blender, and tests/gui in its window: BLENDER=/path
+
+IF_BLENDER := command -v "$(BLENDER)" >/dev/null || { \
+	echo "$$t: skipped, no program $(BLENDER); run make BLENDER=/path/to/blender $$t"; exit 0; };
+
+test-in-blender: .venv/pure/ready  ## the first half of test-blender
+	@t=$@; $(IF_BLENDER) "$(BLENDER)" --background --factory-startup --python-exit-code 1 \
+		--python tests/run_in_blender.py -- .venv/pure tests/blender
+
+test-window: .venv/pure/ready  ## the other half
+	@t=$@; $(IF_BLENDER) BLENDER="$(BLENDER)" PYTHONPATH=.venv/pure $(PYTHON) -m pytest tests/gui -m "not hostile"
 
 .venv/peers/ready: pyproject.toml  # other programs' readers, which Python 3.11 can install
 	$(PYTHON) -m venv .venv/peers

@@ -1,7 +1,9 @@
 """Find the bpy that fits this Python, or run the tests with every supported bpy that this machine has a Python for.
 
     python scripts/environment.py             print the newest bpy for this Python, or the reason why there is none
-    python scripts/environment.py test-all    run the tests with each bpy, all of them with the newest; print results
+    python scripts/environment.py test-all      run the tests with each bpy, all of them with the newest; print results
+    python scripts/environment.py test-tiers    the same without hostile inputs
+    python scripts/environment.py test-hostile  hostile inputs alone
 
 Standard library only, and no syntax newer than Python 3.6, so that it can report that a Python is too old.
 """
@@ -47,9 +49,15 @@ def find_python(version):
     return None
 
 
-def test_all():
-    """Run the tests for each supported bpy in turn, since each run uses all cores: `make test`, and for the newest
-    `make test-full` and `make test-hostile`. Return the exit status: 0 if at least one bpy passed and none failed.
+PARTS = {"test-all": {"tiers", "hostile"}, "test-tiers": {"tiers"}, "test-hostile": {"hostile"}}
+"""What is run, by command."""
+
+
+def test_all(parts):
+    """Run parts of the tests for each supported bpy in turn, since each run uses all cores.
+
+    "tiers" is `make test`, and for the newest `make test-full`; "hostile" is `make test-hostile` for the newest. Return
+    the exit status: 0 if at least one bpy passed and none failed.
     """
     results, pythons = {}, {}
     for bpy, version in PYTHON_OF_BPY.items():
@@ -61,8 +69,9 @@ def test_all():
     for bpy, python in pythons.items():
         print(f"== bpy {bpy} on {python}", flush=True)
         is_newest = bpy == list(pythons)[-1]
-        results[bpy] = in_words(make("test-full" if is_newest else "test", bpy, python))
-        if is_newest:
+        if "tiers" in parts:
+            results[bpy] = in_words(make("test-full" if is_newest else "test", bpy, python))
+        if is_newest and "hostile" in parts:
             results[f"{bpy}, hostile inputs"] = in_words(make("test-hostile", bpy, python))
     for bpy, result in results.items():
         print(f"bpy {bpy}: {result}")
@@ -83,9 +92,9 @@ def make(target, bpy, python):
 
 
 def main():
-    """Print the fitting bpy, or with test-all run the tests; return the exit status."""
-    if sys.argv[1:] == ["test-all"]:
-        return test_all()
+    """Print the fitting bpy, or run the tests that a command of PARTS names; return the exit status."""
+    if len(sys.argv) == 2 and sys.argv[1] in PARTS:
+        return test_all(PARTS[sys.argv[1]])
     bpy = bpy_for(sys.version_info[:2])
     is_ready = os.path.exists(os.path.join(os.path.dirname(__file__), "..", ".venv", "bpy-" + bpy, "ready"))
     print(bpy if is_ready or importlib.util.find_spec("pip") else f"needs pip: {sys.executable} has none")

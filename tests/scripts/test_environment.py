@@ -28,9 +28,14 @@ def test_each_bpy_is_tested_and_the_newest_by_all_tests_and_hostile_inputs(monke
     ran = []
     monkeypatch.setattr(environment, "find_python", lambda version: "python" if version == (3, 11) else None)
     monkeypatch.setattr(environment, "make", lambda target, bpy, _: ran.append((target, bpy)) or "test-" in target)
-    assert environment.test_all() == 1
+    assert environment.test_all(environment.PARTS["test-all"]) == 1
     assert ran == [("test", "4.5"), ("test-full", "5.0"), ("test-hostile", "5.0")]
     assert "bpy 5.0, hostile inputs: FAILED" in capsys.readouterr().out
+    for command, targets in (("test-tiers", ["test", "test-full"]), ("test-hostile", ["test-hostile"])):
+        ran.clear()
+        monkeypatch.setattr("sys.argv", ["environment.py", command])
+        assert environment.main() == 1
+        assert [target for target, _ in ran] == targets
 
 
 @pytest.mark.parametrize("target", ["cast", "test"])

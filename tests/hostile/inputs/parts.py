@@ -24,6 +24,8 @@ class Hostile:
     """One of the terminal's, which is given the file and is to refuse the words, in place of cast and verify."""
     scripts: Path | None = None
     """The file that scripts in the .blend make if they run."""
+    camera_alone: bool = False
+    """Whether it differs from the others of its kind in the camera only."""
 
 
 def small_scene():

@@ -79,7 +79,7 @@ def make(chance, number, folder):
     else:
         owner = {"camera": data, "stereo": data.stereo, "render": scene.render}.get(setting.owner)
         what += "; " + (put(owner, setting.name, value) if owner else "not Blender's without Cycles")
-    return Hostile(what)
+    return Hostile(what, camera_alone=True)
 
 
 def _line(name):
