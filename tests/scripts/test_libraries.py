@@ -101,5 +101,5 @@ def test_a_slit_of_a_library_is_read(blender, file):
     own.model = "PUSHBROOM"
     for library, place in ((None, 1), (blender.data.libraries[0].filepath, 3)):
         own.slit_1 = blender.data.objects["Slit", library]
-        _, matrix = read_scene(scene).raw.settings["slit_1"]
+        _, matrix = read_scene(scene).camera.record.settings["slit_1"]
         assert matrix[0, 3] == place
