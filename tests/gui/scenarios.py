@@ -14,6 +14,7 @@ from points_scenarios import POINTS_SCENARIOS
 from redraw_scenarios import REDRAW_SCENARIOS
 from stranger_scenarios import ROW, STRANGER_SCENARIOS, open_menu
 from user import pixels_of
+from views_scenarios import VIEWS_SCENARIOS
 from walk_scenarios import WALK_SCENARIOS
 from window_scenarios import WINDOW_SCENARIOS
 
@@ -259,7 +260,7 @@ SCENARIOS = {
     for scenario in (
         panel, no_camera, left_out, *CAST_SCENARIOS, overlay, ray_under_mouse, viewport,
         cycles, *CAMERA_SCENARIOS, *LESSON_SCENARIOS, *STRANGER_SCENARIOS, *REDRAW_SCENARIOS, *WINDOW_SCENARIOS,
-        *ALL_SCENARIOS, *WALK_SCENARIOS, *POINTS_SCENARIOS,
+        *ALL_SCENARIOS, *WALK_SCENARIOS, *POINTS_SCENARIOS, *VIEWS_SCENARIOS,
         disable,
     )
 }  # fmt: skip

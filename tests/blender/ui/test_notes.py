@@ -41,7 +41,7 @@ def all_at_once(scene, data):
 
 def still(scene, data):
     data.camera_ray_caster.time_mode, scene.frame_end = "ROWS", 9
-    return "Start and End stand still camera_ray_caster.follow_timeline"
+    return "All frames show the same times camera_ray_caster.follow_timeline"
 
 
 def no_camera(scene, data):

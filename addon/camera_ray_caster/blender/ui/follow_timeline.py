@@ -49,7 +49,7 @@ def timeline_note(scene, camera) -> Note | None:
     moves = camera.data.animation_data
     if moves is not None and (moves.action or any(START.name in one.data_path for one in moves.drivers)):
         return None
-    said = "All frames of a movie are the same: Start and End stand still"
+    said = "All frames show the same times"
     return Note(said, lambda row: row.operator(FollowTimeline.bl_idname, icon="DRIVER"), "INFO")
 
 

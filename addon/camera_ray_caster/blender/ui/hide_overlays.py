@@ -2,7 +2,8 @@
 
 Blender draws them in its own perspective, where the picture has nothing of the kind. They come back when the view shows
 something else, before the file is saved, and before another one is loaded. The choice is made after a view is drawn:
-each change that matters redraws it.
+each change that matters redraws it. Blender saves by itself, from time to time and when it quits, without a word to
+add-ons: a screen with hidden overlays has a mark, by which they come back when such a file is opened.
 """
 
 from __future__ import annotations
@@ -21,6 +22,9 @@ MISLEADING = (
     "show_wireframes", "show_face_orientation", "show_cursor",
 )  # fmt: skip
 """Properties of a view's overlays that are drawn in Blender's perspective."""
+
+MARK = "camera_ray_caster_overlays"
+"""Custom property of a screen with hidden overlays: the names of those that were shown."""
 
 _before: dict[int, dict[str, bool]] = {}
 """What a view's overlays were before they were hidden, by the pointer of the 3D View."""
@@ -50,12 +54,16 @@ def restore(space) -> None:
 
 
 def update() -> None:
-    """Hide or restore what has to be in each window."""
+    """Hide or restore what has to be in each window, and mark its screen."""
     for window in bpy.context.window_manager.windows:
         for area in window.screen.areas:
             space = area.spaces.active
             if area.type == "VIEW_3D" and misleads(space, window.scene) != (space.as_pointer() in _before):
                 (restore if space.as_pointer() in _before else hide)(space)
+        hidden = [_before[space.as_pointer()] for space in _views(window.screen) if space.as_pointer() in _before]
+        window.screen.pop(MARK, None)
+        if hidden:
+            window.screen[MARK] = [name for name, was_shown in hidden[-1].items() if was_shown]
 
 
 def draw() -> None:
@@ -66,19 +74,31 @@ def draw() -> None:
         bpy.app.timers.register(update, first_interval=0.0)
 
 
-def _views() -> Iterator[bpy.types.SpaceView3D]:
-    """Yield the 3D Views of all workspaces, also those that another editor covers."""
-    for screen in bpy.data.screens:
-        for area in screen.areas:
-            yield from (space for space in area.spaces if space.type == "VIEW_3D")
+def _views(screen) -> Iterator[bpy.types.SpaceView3D]:
+    """Yield the 3D Views of a screen, also those that another editor covers."""
+    for area in screen.areas:
+        yield from (space for space in area.spaces if space.type == "VIEW_3D")
 
 
 @persistent
 def restore_all(*_) -> None:
     """Restore the overlays of every view: the file is saved, or another one is loaded. The next drawing hides them."""
-    for space in _views():
-        restore(space)
+    for screen in bpy.data.screens:
+        for space in _views(screen):
+            restore(space)
+        screen.pop(MARK, None)
     _before.clear()
+
+
+@persistent
+def restore_marked(*_) -> None:
+    """Restore the overlays of the views that were hidden when Blender saved the file by itself: those with none."""
+    for screen in bpy.data.screens:
+        shown = screen.pop(MARK, ())
+        for space in _views(screen):
+            if not any(getattr(space.overlay, name) for name in MISLEADING):
+                for name in set(shown).intersection(MISLEADING):
+                    setattr(space.overlay, name, True)
 
 
 def stop() -> None:
@@ -91,6 +111,6 @@ def stop() -> None:
 def register(undo) -> None:
     """Register this module; see ``registration``."""
     undo.callback(stop)
-    undo.add_handlers([("save_pre", restore_all), ("load_pre", restore_all)])
+    undo.add_handlers([("save_pre", restore_all), ("load_pre", restore_all), ("load_post", restore_marked)])
     handle = bpy.types.SpaceView3D.draw_handler_add(draw, (), "WINDOW", "POST_PIXEL")
     undo.callback(bpy.types.SpaceView3D.draw_handler_remove, handle, "WINDOW")
