@@ -52,6 +52,16 @@ class User:
             self.send("mousemove", round(x) - off, self.window.height - 1 - round(y) - off)
             yield
 
+    def drag(self, start, end, steps, pause):
+        """Move the mouse from a place to another in steps, with pauses in seconds, while Blender handles events."""
+        words = ["xdotool"]
+        for step in range(1, steps + 1):
+            x, y = (round(a + (b - a) * step / steps) for a, b in zip(start, end, strict=True))
+            words += ["mousemove", str(x), str(self.window.height - 1 - y), "sleep", str(pause)]
+        with subprocess.Popen(words) as moving:
+            while moving.poll() is None:
+                yield
+
     def click(self, x, y):
         yield from self.point(x, y)
         self.send("click", 1)

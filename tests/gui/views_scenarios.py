@@ -1,4 +1,4 @@
-"""What a user sees in several views, scenes and windows, and in files that Blender saves by itself: see scenarios.py."""
+"""What a user sees in several views and windows, and in files that Blender saves by itself: see scenarios.py."""
 
 import bpy
 from parts import BUTTON, addon, load

@@ -233,17 +233,25 @@ def drag_a_ray(user, scenes):
     user.send("mousedown", 1)
     yield from user.wait(0.2)
     drawn.clear()
-    for step in range(1, 31):
-        user.send("mousemove", round(start[0] + 4 * step), user.window.height - 1 - round(start[1] + step))
-        yield
+    began = time.process_time()
+    yield from user.drag(start, np.add(start, (120, 30)), 60, 0.05)
     yield from user.until(lambda: lesson.pixels[0][0] > first[0] + 60, "the mark has followed")
+    moved = len({pixel for _, pixel in drawn})
+    spent = 1e3 * (time.process_time() - began) / moved
+    rate = moved / (drawn[-1][0] - drawn[0][0])
+    print(f"dragged: {moved} updates, {rate:.1f} a second, {spent:.0f} ms of processor time each")
+    assert moved > 3, drawn
+    yield from user.wait(0.5)
+    assert lesson.held, "the view is not drawn while its mark moves"
+    places = [place_of(user, *pixel) for pixel in (lesson.pixels[0], first)]
+    shown = user.picture("dragging")
+    assert [near(shown, *map(round, place), lesson.RAY) <= 8 for place in places] == [True, False]
     user.send("mouseup", 1)
     yield from user.wait(0.5)
-    user.picture("dragged")
+    assert not lesson.held
+    shown = user.picture("dragged")
+    assert [near(shown, *map(round, place), lesson.RAY) <= 8 for place in places] == [True, False]
     assert len(lesson.pixels) == 1
-    moved = len({pixel for _, pixel in drawn})
-    print(f"dragged: {moved / (drawn[-1][0] - drawn[0][0]):.1f} updates a second")
-    assert moved > 3, drawn
     held = lesson.pixels[0]
     yield from user.point(*place_of(user, 600, 400))
     yield from user.wait(0.3)

@@ -66,9 +66,9 @@ CLASSES = (
 """Blender types in registration order: a panel comes after its parent panel."""
 
 MODULES = (
-    groups, paths, kept, follow, reports, images, gallery, scene_cache, viewport, cast_operator, overlay, points,
-    lesson, notice, render_panels, menus, gallery_operators, lesson_operators, presets, export_operators, rig_operators,
-    commands, other_engine, see_through, hide_overlays, select_seen, in_steps,
+    groups, paths, kept, follow, reports, images, gallery, scene_cache, engine, viewport, cast_operator, overlay,
+    points, lesson, notice, render_panels, menus, gallery_operators, lesson_operators, presets, export_operators,
+    rig_operators, commands, other_engine, see_through, hide_overlays, select_seen, in_steps,
 )  # fmt: skip
 """Modules that register more than classes. Their ``register(undo)`` gives ``undo`` the callbacks that undo it."""
 

@@ -7,6 +7,7 @@ import bpy
 import numpy as np
 import pytest
 
+from camera_ray_caster.blender.engine import engine
 from camera_ray_caster.blender.engine.engine import CameraRayCaster, RenderCall
 from camera_ray_caster.blender.output import reports
 
@@ -69,3 +70,31 @@ def test_progress_of_an_engine_that_blender_has_freed_stops_the_cast(method):
         assert CameraRayCaster.has_ended(stand_in) is True
     else:
         assert CameraRayCaster.advance(stand_in, 0.5) is False
+
+
+def test_an_engine_that_blender_has_freed_has_no_words_for_its_progress():
+    class Freed:
+        @property
+        def doing(self):
+            raise ReferenceError("StructRNA of type CameraRayCaster has been removed")
+
+    assert CameraRayCaster.advance(Freed(), 0.5) is False
+
+
+@pytest.mark.full
+def test_disabled_during_a_render_the_add_on_waits_until_that_has_ended(scene, slow, ended):
+    """Blender frees the engine's class then; in a window the render is on a thread of its own."""
+    scene.render.resolution_x = scene.render.resolution_y = 1000
+    waited = []
+
+    def disable():
+        while not engine._rendering:
+            pass
+        engine.stop()
+        waited.append(not engine._rendering)
+
+    disabling = threading.Thread(target=disable)
+    disabling.start()
+    ended()
+    disabling.join()
+    assert waited == [True]

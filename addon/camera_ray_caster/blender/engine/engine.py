@@ -8,6 +8,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from functools import partial, reduce
 from operator import add
+from time import perf_counter, sleep
 
 import bpy
 import numpy as np
@@ -36,6 +37,13 @@ BAND_PIXELS = 1 << 18
 """Number of pixels passed to Blender at once. The copies of a band reuse the memory of the band before. 18 passes of
 3840 x 2160 pixels take 1.5 to 2 s of processor time; all at once 4.5 to 7.2 s, in bands of 2**16 pixels 1.2 to 1.9 s.
 """
+
+LONGEST, POLL = 5.0, 0.01
+"""Seconds that an unregistration waits for a render at most, and between two looks at it."""
+_rendering: list[bool] = []
+"""One item for each render that is running."""
+_ending: list[bool] = []
+"""Not empty while renders are stopped."""
 
 
 @dataclass(eq=False)
@@ -86,11 +94,15 @@ class CameraRayCaster(Viewport, bpy.types.RenderEngine):
         Blender may free the engine, its result or the scene meanwhile: another render begins, or another file is
         opened. The cast then ends without a word, and nothing of Blender's is touched after that.
         """
+        call = self.call
+        _rendering.append(True)
         try:
             self.render_or_report(depsgraph)
         except (Cancelled, KeyboardInterrupt, ReferenceError):
-            if self.call is not None:
-                self.call.stopped = True
+            if call is not None:
+                call.stopped = True
+        finally:
+            _rendering.pop()
 
     def render_or_report(self, depsgraph):
         """Render one view layer, or report why not."""
@@ -216,13 +228,27 @@ class CameraRayCaster(Viewport, bpy.types.RenderEngine):
 
     def advance(self, fraction: float) -> bool:
         """Show the progress of the cast and the time; return whether to continue."""
-        layer, words = self.doing
         try:
+            layer, words = self.doing
             self.update_stats(layer, f"{words} {fraction:.0%}")
             self.update_progress(fraction)
         except ReferenceError:
             return False
-        return not signals.is_stopping()
+        return not (signals.is_stopping() or _ending)
+
+
+def stop() -> None:
+    """Stop every render and wait until it has ended: Blender frees the engine when its class is unregistered."""
+    _ending.append(True)
+    end = perf_counter() + LONGEST
+    while _rendering and perf_counter() < end:
+        sleep(POLL)
+    _ending.clear()
 
 
 CLASSES = (CameraRayCaster,)
+
+
+def register(undo) -> None:
+    """Register this module; see ``registration``."""
+    undo.callback(stop)

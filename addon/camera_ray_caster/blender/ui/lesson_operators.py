@@ -12,7 +12,6 @@ from .needs import OfScene
 
 HINT = "Click or drag in the camera's view or an Image Editor      Shift: One More      Esc, Enter: Done"
 
-
 _waiting: list[str] = []
 """The name of the workspace in which Step Through waits for clicks."""
 
@@ -52,10 +51,12 @@ class StepThrough(OfScene, bpy.types.Operator):
             return {"FINISHED"}
         if event.type == "LEFTMOUSE" and event.value == "RELEASE":
             self.is_dragging = False
+            hold(context, None)
         is_pressed = event.type == "LEFTMOUSE" and event.value == "PRESS"
         if not is_pressed and not (self.is_dragging and event.type == "MOUSEMOVE"):
             return {"PASS_THROUGH"}
-        pixel = pixel_at(context, event.mouse_x, event.mouse_y)
+        region, pixel = pixel_at(context, event.mouse_x, event.mouse_y)
+        hold(context, region)
         if pixel is None:
             return {"RUNNING_MODAL"} if self.is_dragging else {"PASS_THROUGH"}
         if is_pressed:
@@ -74,6 +75,7 @@ class StepThrough(OfScene, bpy.types.Operator):
 
 def end() -> None:
     """End the waiting for clicks: remove the hint from the workspace in which it was shown, and restore the cursor."""
+    hold(bpy.context, None)
     while _waiting:
         workspace = bpy.data.workspaces.get(_waiting.pop())
         if workspace is not None:
@@ -82,8 +84,10 @@ def end() -> None:
             window.cursor_modal_restore()
 
 
-def pixel_at(context, x: int, y: int) -> tuple[int, int] | None:
-    """Return column and row of the pixel at a position in the window, or None outside the camera's picture."""
+def pixel_at(context, x: int, y: int) -> tuple[bpy.types.Region | None, tuple[int, int] | None]:
+    """Return the region at a position in the window, and column and row of the pixel there; twice None outside the
+    camera's picture.
+    """
     camera = cached_scene(context).camera
     for area in context.screen.areas:
         for region in area.regions:
@@ -91,7 +95,7 @@ def pixel_at(context, x: int, y: int) -> tuple[int, int] | None:
             if beside or camera is None:
                 continue
             if region.type != "WINDOW":
-                return None  # the sidebar or another region covers the view
+                return None, None  # the sidebar or another region covers the view
             with context.temp_override(area=area, region=region):
                 frame = frame_in(bpy.context, camera.raster)
             if frame is None:
@@ -100,16 +104,33 @@ def pixel_at(context, x: int, y: int) -> tuple[int, int] | None:
             column = floor((x - region.x - left) / (right - left) * camera.raster.width)
             row = floor((y - region.y - bottom) / (top - bottom) * camera.raster.height)
             if 0 <= column < camera.raster.width and 0 <= row < camera.raster.height:
-                return column, row
-    return None
+                return region, (column, row)
+    return None, None
+
+
+def hold(context, region) -> None:
+    """Let the latest pixel be drawn with the mouse cursor in a 3D View's region, or None, as long as it is dragged."""
+    is_view = region is not None and any(region == own for area in context.screen.areas if area.type == "VIEW_3D"
+                                         for own in area.regions)  # fmt: skip
+    held = [region.as_pointer()] if is_view else []
+    if held != lesson.held:
+        lesson.held.clear()
+        redraw(context)
+        lesson.held[:] = held
 
 
 def redraw(context) -> None:
-    """Redraw every 3D View and Image Editor, with their sidebars: they show the pixels."""
+    """Redraw every 3D View and Image Editor, with their sidebars: they show the pixels. A view in which one is dragged
+    is not drawn: Blender draws the cursor with its sidebar, or, if that is closed, its header.
+    """
     for window in context.window_manager.windows:
         for area in window.screen.areas:
-            if area.type in {"VIEW_3D", "IMAGE_EDITOR"}:
-                area.tag_redraw()
+            if area.type not in {"VIEW_3D", "IMAGE_EDITOR"}:
+                continue
+            is_open = any(region.type == "UI" and region.width > 1 for region in area.regions)
+            for region in area.regions:
+                if region.type in {"WINDOW", "UI" if is_open else "HEADER"} and region.as_pointer() not in lesson.held:
+                    region.tag_redraw()
 
 
 def _sides(context) -> tuple[int, int]:

@@ -35,7 +35,7 @@ class SelectSeen(bpy.types.Operator):
 
     def invoke(self, context, event):
         """Select; after a press, wait whether the mouse is dragged. Outside of the frame Blender selects."""
-        pixel = pixel_at(context, event.mouse_x, event.mouse_y)
+        _, pixel = pixel_at(context, event.mouse_x, event.mouse_y)
         if pixel is None or event.type != select_mouse(context):
             return {"PASS_THROUGH"}
         self.item, self.start = object_at(context, pixel), (event.mouse_x, event.mouse_y)

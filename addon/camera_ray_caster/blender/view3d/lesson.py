@@ -1,7 +1,8 @@
 """The pixels chosen by Step Through, their step-by-step explanations, and their rays drawn in every 3D View.
 
 A picture of the camera, in an Image Editor or in a view through the camera, has a frame and the coordinates at each of
-these pixels; the view has the points on their rays and the normals, too, through the camera's model.
+these pixels; the view has the points on their rays and the normals, too, through the camera's model. While the latest
+pixel is dragged in a view, it is drawn there with the mouse cursor: Blender draws a cursor without the scene below it.
 """
 
 from __future__ import annotations
@@ -34,6 +35,8 @@ MOST_SAMPLES = 256
 
 pixels: list[tuple[int, int]] = []
 """Clicked pixels (column, row), the latest last."""
+held: list[int] = []
+"""Pointer of the region of the 3D View in which the latest pixel is dragged."""
 _read: list[tuple[CachedScene, dict[str, Any], dict[tuple[int, int], Lesson]]] = []
 
 
@@ -102,9 +105,24 @@ def draw_in_picture(context, frame, found) -> None:
 
 
 def draw_marks() -> None:
-    """Draw a frame around each pixel in the picture; called by Blender for each Image Editor and each 3D View."""
+    """Draw the marks of the pixels but a dragged one; called by Blender for each Image Editor and each 3D View."""
     context = bpy.context
-    found = lessons(context) if pixels and context.space_data.overlay.show_overlays else {}
+    _draw_marks(context, pixels[:-1] if context.region.as_pointer() in held else pixels)
+
+
+def draw_held(*_) -> None:
+    """Draw the marks of a dragged pixel; called by Blender with the mouse cursor, in pixels of the window."""
+    context = bpy.context
+    if context.region is not None and context.region.as_pointer() in held:
+        with gpu.matrix.push_pop():
+            gpu.matrix.translate((context.region.x, context.region.y))
+            _draw_marks(context, pixels[-1:])
+
+
+def _draw_marks(context, shown) -> None:
+    """Draw a frame around each of some pixels in the picture of the context's region."""
+    every = lessons(context) if shown and context.space_data.overlay.show_overlays else {}
+    found = {pixel: one for pixel, one in every.items() if pixel in shown}
     frame = frame_in(context, cached_scene(context).camera.raster) if found else None
     if frame is None:
         return
@@ -132,6 +150,7 @@ def draw_marks() -> None:
 def forget(*_):
     """Forget the pixels: another file is loaded."""
     pixels.clear()
+    held.clear()
     _read.clear()
 
 
@@ -146,3 +165,5 @@ def register(undo) -> None:
     ):
         handle = space.draw_handler_add(function, (), "WINDOW", when)
         undo.callback(space.draw_handler_remove, handle, "WINDOW")
+    cursor = bpy.types.WindowManager.draw_cursor_add(draw_held, (), "VIEW_3D", "WINDOW")
+    undo.callback(bpy.types.WindowManager.draw_cursor_remove, cursor)
