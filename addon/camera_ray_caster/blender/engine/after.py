@@ -1,4 +1,4 @@
-"""What Blender does to a picture after the cast: the compositor, Freestyle and Grease Pencil; and warnings of it."""
+"""What Blender does to a picture after the cast: the compositor, Freestyle and Grease Pencil; and warnings about it."""
 
 from collections.abc import Collection, Iterator
 

@@ -77,7 +77,7 @@ def not_run() -> tuple[str, ...]:
 
 
 def withhold_style_modules() -> None:
-    """Take the scripts from Freestyle's style modules: Blender 5.0 runs them even with ``use_scripts=False``.
+    """Remove the scripts of Freestyle's style modules: Blender 5.0 runs them even with ``use_scripts=False``.
 
     The modules cannot just be switched off: keys and drivers would switch them on. None can set a script.
     """
@@ -91,7 +91,7 @@ def withhold_style_modules() -> None:
 
 @contextmanager
 def scripts_given_back() -> Iterator[None]:
-    """Give the style modules their scripts inside the context, for a file that has them as before."""
+    """Restore the scripts of the style modules inside the context, so that a file is saved with them."""
     for module in _withheld:
         module.has(module.script)
     try:
@@ -102,6 +102,6 @@ def scripts_given_back() -> Iterator[None]:
 
 
 def give_back() -> None:
-    """Give the style modules their scripts: the file that is open may stay open in Blender."""
+    """Restore the scripts of the style modules: the file that is open may stay open in Blender."""
     with scripts_given_back():
         _withheld.clear()

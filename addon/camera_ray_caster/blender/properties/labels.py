@@ -1,4 +1,4 @@
-"""The names of models and settings in the window's language, in place of those of files and of the terminal."""
+"""Labels of models and settings, for messages in the window in place of the names that files and the terminal use."""
 
 import re
 

@@ -109,9 +109,9 @@ def _is_told() -> bool:
 
 @persistent
 def tag(scene, depsgraph):
-    """Distrust the entries of objects whose evaluation gave them new geometry."""
+    """Mark the entries of objects whose evaluation gave them new geometry as outdated."""
     if not _is_told():
-        distrust()
+        mark_all()
         return
     changed = {update.id.original.session_uid for update in depsgraph.updates if update.is_updated_geometry}
     for entry in _entries.get(depsgraph.mode, {}).values():
@@ -123,12 +123,12 @@ def tag(scene, depsgraph):
 def watch(*_):
     """Check the handlers before an evaluation, since another handler may be removed during it."""
     if not _is_told():
-        distrust()
+        mark_all()
 
 
 @persistent
-def distrust(*_):
-    """Distrust all entries, since any object may have changed."""
+def mark_all(*_):
+    """Mark all entries as possibly outdated, since any object may have changed."""
     for entries in _entries.values():
         for entry in entries.values():
             entry.owners.clear()
@@ -145,8 +145,8 @@ HANDLERS = (
     ("depsgraph_update_post", tag),
     ("frame_change_pre", watch),
     ("frame_change_post", tag),
-    ("undo_post", distrust),
-    ("redo_post", distrust),
+    ("undo_post", mark_all),
+    ("redo_post", mark_all),
     ("load_pre", forget),
     ("load_pre", images.forget),
 )

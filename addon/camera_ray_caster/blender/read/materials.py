@@ -1,4 +1,4 @@
-"""Looks of materials, what passes show of them: colors, transparent points and pass indices."""
+"""Looks of materials, which are what passes show of them: colors, transparent points and pass indices."""
 
 import math
 from collections.abc import Iterable, Iterator

@@ -123,7 +123,7 @@ def _combined(node: Node, first: Value | None, second: Value | None) -> Value:
 
 
 def alpha_of(through: Value) -> Value:
-    """Return the alpha of what lets through this much."""
+    """Return the alpha of a surface that lets this part of the light through."""
     return mean(function_of(lambda one: saturated(1 - one), through))
 
 

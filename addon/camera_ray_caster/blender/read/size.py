@@ -31,7 +31,7 @@ def size_of(scene) -> tuple[int, int]:
 
 @contextmanager
 def sized(scene, size: tuple[int, int] | None) -> Iterator[None]:
-    """Let a scene's pictures have a size, or the scene's own if there is none, and afterwards the one before."""
+    """Give a scene's pictures a size inside the context; without one they keep the scene's own."""
     render = scene.render
     names = "resolution_x", "resolution_y", "resolution_percentage"
     before = [getattr(render, name) for name in names]
@@ -44,7 +44,7 @@ def sized(scene, size: tuple[int, int] | None) -> Iterator[None]:
 
 
 def set_size(scene, size: tuple[int, int] | None) -> None:
-    """Let a scene's pictures have a size, if one is given."""
+    """Give a scene's pictures a size, unless it is None."""
     if size is not None:
         scene.render.resolution_x, scene.render.resolution_y = size
         scene.render.resolution_percentage = 100

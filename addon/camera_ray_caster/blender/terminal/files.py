@@ -67,7 +67,7 @@ def render(scene, *where, **how) -> tuple[Report, list[Path]]:
 
 
 def at_once(scene, making: Making[T]) -> T:
-    """Run what waits for renders of the scene to its end, with a render wherever it waits; return its result."""
+    """Run a generator that yields where it needs a render of the scene, with a render each time; return its result."""
     with closing(making):
         while True:
             try:

@@ -39,7 +39,7 @@ class Exporting(in_steps.Running):
         self.stopped = f"Stopped: nothing was written into {folder}"
 
     def step(self) -> None:
-        """Read frames and write files for a while; first of all, hear Esc."""
+        """Read frames and write files for a while; before that, let a pressed Esc be handled."""
         if not self.is_heard and not bpy.app.background:
             bpy.ops.camera_ray_caster.hear_esc("INVOKE_DEFAULT")
         self.is_heard, until = True, perf_counter() + WORK

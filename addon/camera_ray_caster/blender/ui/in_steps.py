@@ -22,7 +22,7 @@ BUSY = "Let the running work end first, or stop it"
 
 
 class Running(ABC):
-    """Work that is being done in ``steps``; a subclass has its words."""
+    """Work that is being done in ``steps``; a subclass has its messages."""
 
     interval = INTERVAL
     """Seconds from the end of a step to the next."""
@@ -165,7 +165,7 @@ class HearEsc(bpy.types.Operator):
     bl_options = {"INTERNAL"}
 
     def invoke(self, context, event):
-        """Hear events until the work has ended."""
+        """Listen for events until the work has ended."""
         self.timer = context.window_manager.event_timer_add(INTERVAL, window=context.window)
         context.window_manager.modal_handler_add(self)
         return {"RUNNING_MODAL"}
@@ -183,7 +183,7 @@ class HearEsc(bpy.types.Operator):
         return {"PASS_THROUGH"}
 
     def cancel(self, context):
-        """Hear no more; Blender calls this when it ends the operator itself, for example to load another file."""
+        """Stop listening; Blender calls this when it ends the operator itself, for example to load another file."""
         context.window_manager.event_timer_remove(self.timer)
 
 

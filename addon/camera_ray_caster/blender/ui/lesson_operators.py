@@ -162,7 +162,7 @@ def _set(axis: int, is_view: bool):
 
 
 class Place(bpy.types.PropertyGroup):
-    """The type of ``window_manager.camera_ray_caster_place``: where the latest pixel is. To set it moves the pixel."""
+    """The type of ``window_manager.camera_ray_caster_place``: where the latest pixel is. Setting it moves the pixel."""
 
     column: IntProperty(name="Column", description="Column of the pixel, from the left", min=0,
                         get=_get(0, False), set=_set(0, False))  # fmt: skip

@@ -1,4 +1,4 @@
-"""Which rays may meet balls: a quarter of the time of the exact test of a sphere."""
+"""A quick test of which rays may meet bounding balls. It takes a quarter of the time of the exact test of a sphere."""
 
 from __future__ import annotations
 

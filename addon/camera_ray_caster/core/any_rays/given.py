@@ -14,7 +14,7 @@ from .search import WORLD
 
 @dataclass(frozen=True, eq=False)
 class GivenRays(Model):
-    """Rays in the world by their number: pixel k of the only row is ray k. Their numbers are exact as they are given.
+    """A camera of a single row, whose pixel k has ray k, in the world. The rays are taken as exact.
     """
 
     origin: np.ndarray

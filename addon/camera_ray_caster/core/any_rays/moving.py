@@ -39,7 +39,7 @@ FLAT_OR_ROUND = {SPHERE: ((-1.0, -1.0, -1.0), (1.0, 1.0, 1.0)), PLANE: ((-1.0, -
 
 @dataclass(frozen=True, eq=False)
 class Moving:
-    """Shapes that move apart from those that do not."""
+    """The shapes of a scene, divided into those that stand still and those that move."""
 
     still: Shapes
     still_rows: np.ndarray
@@ -62,7 +62,7 @@ _known: WeakKeyDictionary[Shapes, Moving | None] = WeakKeyDictionary()
 
 
 def moving_of(shapes: Shapes) -> Moving | None:
-    """Return the shapes that move apart; None if their motion does not tell."""
+    """Return the shapes, divided; None if they have no motion that tells which of them move."""
     if shapes not in _known:
         motion = shapes.timeline.motion
         _known[shapes] = _divided(motion) if isinstance(motion, Motion) else None

@@ -1,1 +1,1 @@
-"""The library's door: cameras, shapes and files made from numbers and arrays, where no Blender is."""
+"""The public interface without Blender: cameras, shapes and files, made from numbers and arrays."""

@@ -1,4 +1,4 @@
-"""Images as arrays, and their values at coordinates: the interpolation and the edges that Cycles has.
+"""Images as arrays, and their values at coordinates, interpolated and extended beyond their edges as in Cycles.
 
 Reference: Blender's manual, Image Texture Node; the order of the steps is that of Cycles: texels of byte images are
 multiplied by their alpha and interpolated as they are stored, then converted to linear.

@@ -1,4 +1,5 @@
-"""How far apart, in pixels, two states of a scene show the same points: the error of the one if the other is true."""
+"""The distance in pixels between the images of the same points in two states of a scene, such as an interpolated and an
+evaluated one: the error of the first."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What passes show otherwise than a reader of them may expect, in sentences."""
+"""Notes on passes that show something else than their readers may expect."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Symmetries of BOP's models: the rotations that bring the vertices, normals and colors of a model upon themselves.
+"""Symmetries of BOP's models: the rotations that map the vertices, normals and colors of a model onto themselves.
 
 They are looked for about the axes of the object, by a part of a turn up to MOST, and among the rotations of a cube; all
 leave the mean of the vertices where it is. A model that at least ROUND equal turns about an axis bring upon itself

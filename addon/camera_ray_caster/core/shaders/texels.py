@@ -1,4 +1,4 @@
-"""Large tables as textures: what a shader's text would be too long with, it reads from a file, texel by texel.
+"""Large tables as textures, which a shader reads texel by texel: as part of its text they would be too long.
 
 A texture has up to three columns of a table, as red, green and blue, an entry after the other in rows of WIDE texels.
 Sides are powers of two, so that the middles of texels are exact in float32, where any interpolation gives the texel

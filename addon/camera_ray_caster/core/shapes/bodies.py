@@ -1,4 +1,4 @@
-"""Bodies: the parts of shapes that are met by rays one by one, whatever camera or list the rays come from.
+"""Bodies: the parts of shapes that single rays are tested against, whether a camera or an array gives the rays.
 
 A sphere or a plane is one body, a mesh is one body for each triangle. Each body has a box in the world, so that a tree
 of boxes (``core.any_rays.tree``) finds the bodies that a ray may meet.

@@ -42,7 +42,7 @@ BETA = Number("unified_beta", "Beta", "Flattening of the ellipsoid; 1 is a spher
 
 @dataclass(frozen=True)
 class Unified(Calibrated):
-    """The camera of the module's docstring."""
+    """A lens that projects points onto a sphere or an ellipsoid, and that as a pinhole farther back sees it."""
 
     xi: float = 0.0
     alpha: float = 0.0

@@ -88,7 +88,7 @@ class MeshesInView:
         self._placing = Shared(placing)
 
     def prepare(self) -> Iterator[None]:
-        """Bound the blocks, in small steps."""
+        """Compute the bounds of the blocks, in small steps."""
         yield from self._boxing.work()
 
     def place(self, some: np.ndarray) -> Iterator[None]:
