@@ -34,7 +34,7 @@ def sphere(scene):
 def read_meshes(monkeypatch):
     """The names of the evaluated meshes that are read, in order."""
     read, found = [], geometry.mesh_shapes
-    monkeypatch.setattr(geometry, "mesh_shapes", lambda mesh, setting: read.append(mesh.name) or found(mesh, setting))
+    monkeypatch.setattr(geometry, "mesh_shapes", lambda mesh, *more: read.append(mesh.name) or found(mesh, *more))
     return read
 
 

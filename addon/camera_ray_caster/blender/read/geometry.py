@@ -60,8 +60,11 @@ def shapes_of(
         item.to_mesh_clear()
 
 
-def mesh_shapes(mesh, setting: str, slots: int) -> Found:
-    """Return the shapes of an evaluated mesh, whose object has some slots, or the reason why it cannot be cast."""
+def mesh_shapes(mesh, setting: str, slots: int = 0) -> Found:
+    """Return the shapes of an evaluated mesh, or the reason why it cannot be cast.
+
+    With AUTOMATIC the number of its object's material slots counts: colors of several make it a mesh.
+    """
     if not len(mesh.vertices):
         return NOTHING
     kind = FORCED.get(setting)
