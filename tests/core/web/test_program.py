@@ -87,3 +87,27 @@ def test_the_angle_in_a_fisheye_s_formula_is_its_own():
     lens, fisheye = crc.camera("PERSP", (64, 48)), crc.camera("FISHEYE_EQUIDISTANT", (64, 48), fisheye_fov=2.0)
     assert values_of(lens.model, lens.record, lens.raster, 1.0, 2.0)["fov"][0] == pytest.approx(2 * np.arctan(18 / 50))
     assert "fov" not in values_of(fisheye.model, fisheye.record, fisheye.raster, 1.0, 2.0)
+
+
+@pytest.mark.parametrize(
+    ("key", "names"),
+    [
+        ("STRIP", {"x_A", "x_B", "A", "B", "n_A", "n_B"}), ("FTHETA", {"x_0", "s_y", "k1", "theta"}),
+        ("RAY_TABLE", {"a", "g", "i", "j", "m", "n"}),
+    ],
+)  # fmt: skip
+def test_what_a_table_or_an_iteration_gives_to_a_formula_is_that_of_the_camera(key, names):
+    values, camera = next(iter(settings(key)))
+    variant, x, y = variant_of(key, values), 0.3 * camera.raster.width, 0.4 * camera.raster.height
+    assert names <= {name for name, _ in variant.names}
+    given, parts = NUMPY | {"parameter": lambda value, name: values[name]}, variant.parts
+    kept = parts.first.evaluate(given, ())[parts.conditions :]
+    found, at = parts.rest.evaluate(given, (x, y, *kept))[RAY:], 0
+    expected = values_of(camera.model, camera.record, camera.raster, x, y)
+    for name, count in variant.names:
+        np.testing.assert_allclose(found[at : at + count], expected[name], rtol=1e-12, atol=1e-14, err_msg=name)
+        at += count
+
+
+def test_a_scanner_has_the_knobs_that_turn_its_rays():
+    assert [knob.name for knob in program("SCANNER").knobs] == ["scanner_start", "scanner_sweep"]

@@ -15,12 +15,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from math import inf, pi, sqrt
+from math import inf, pi
+
+import numpy as np
 
 from ..maths.inversion import Inverse
 from ..maths.polynomials import horner
-from ..maths.recording import least_root
-from ..maths.recording.scalars import least
+from ..maths.recording import is_recorded, least_root
+from ..maths.recording.scalars import least, plain
 from ..maths.speed import lazy
 from ..records import BlenderCamera, Raster
 from .model import IN_CASTS, Step
@@ -118,8 +120,11 @@ class FTheta(Calibrated):
     def formula_values(self, x, y):
         """See Model: the coefficients, and the angle that is found by iteration."""
         values = {f"k{i}": k for i, k in enumerate(self.polynomial, 1)}
-        rho = sqrt(self._r_squared(x, y))
-        return values | ({"theta": float(self._inverse(rho))} if self.forward and rho <= self.own_rim else {})
+        if not self.forward:
+            return values
+        rho = np.sqrt(self._r_squared(x, y))
+        theta = plain(self._inverse(rho))
+        return values | ({"theta": theta} if is_recorded(theta) or rho <= self.own_rim else {})
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> FTheta:

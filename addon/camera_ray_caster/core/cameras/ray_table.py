@@ -19,7 +19,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..conventions import gamma
-from ..maths.recording import is_recorded, look_up
+from ..maths.recording import is_recorded, look_up, vector
+from ..maths.recording.scalars import plain
 from ..maths.vector import norm
 from ..records import BlenderCamera, InputError, Raster
 from .model import Model, Step
@@ -213,9 +214,10 @@ class RayTable(Model):
     def formula_values(self, x, y):
         """See Model: the numbers of the table's place in the frame, the entry, and the weighted sums."""
         (a, c), (g, h) = self.scale, self.shift
-        sums = np.array([float(part) for part in self._sums(x, y)[1]])
+        sums = [plain(part) for part in self._sums(x, y)[1]]
         given = {"a": a, "g": g, "c": c, "h": h, "i": np.floor(x * a + g), "j": np.floor(y * c + h)}
-        return given | {"m": sums[:3], "n": float(norm(sums[:3]))} | ({} if self.central else {"q": sums[3:]})
+        given |= {"m": vector(*sums[:3]), "n": plain(norm(sums[:3]))}
+        return given | ({} if self.central else {"q": vector(*sums[3:])})
 
     def facts(self) -> dict[str, object]:
         """See Model: the size of the table, the number of entries without rays, and the estimated errors between

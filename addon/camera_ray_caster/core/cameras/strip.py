@@ -13,12 +13,14 @@ Reference: P. Rademacher and G. Bishop, Multiple-Center-of-Projection Images, SI
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
 from ..conventions import EPS
 from ..maths.intervals import Interval
-from ..maths.recording import look_up
+from ..maths.recording import look_up, vector
+from ..maths.recording.scalars import plain
 from ..maths.vector import components
 from ..records import BlenderCamera, InputError, Raster
 from .model import Model, Step
@@ -87,11 +89,13 @@ class Strip(Model):
 
     def formula_values(self, x, y):
         """See Model: the stretch of the path on which the column is."""
-        k = int(np.clip(np.searchsorted(self.columns, x, side="right") - 1, 0, len(self.columns) - 2))
-        level = np.insert(self.normals, 1, 0.0, axis=1)
-        parts = ("x", self.columns), ("n", level)
-        ends = {f"{name}_{end}": values[at] for name, values in parts for end, at in (("A", k), ("B", k + 1))}
-        return ends | {"A": self.eyes[k], "B": self.eyes[k + 1]}
+        k, found = self._stretch(x), dict[str, Any]()
+        for end, at in (("A", k), ("B", k + 1)):
+            column, *eye, normal_x, normal_z = (
+                plain(look_up(table, at)) for table in (self.columns, *self.eyes.T, *self.normals.T)
+            )
+            found |= {f"x_{end}": column, end: vector(*eye), f"n_{end}": vector(normal_x, 0.0, normal_z)}
+        return found
 
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> Strip:
@@ -181,9 +185,13 @@ class Strip(Model):
             )
         return bounds + np.array((-MARGIN, MARGIN, -MARGIN, MARGIN))
 
+    def _stretch(self, x):
+        """Return the stretch of the path on which columns are."""
+        return np.clip(np.searchsorted(self.columns, x, side="right") - 1, 0, len(self.columns) - 2)
+
     def _at(self, x):
         """Return the eye and the horizontal unit direction (x, z) of columns; NaN beyond the path."""
-        k = np.clip(np.searchsorted(self.columns, x, side="right") - 1, 0, len(self.columns) - 2)
+        k = self._stretch(x)
         start = look_up(self.columns, k)
         part = (x - start) / (look_up(self.columns, k + 1) - start)
         part = np.where((x >= 0) & (x <= self.columns[-1]), part, np.nan)

@@ -10,6 +10,8 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from ..camera.camera import Camera
 from ..cameras import MODELS
 from ..cameras.model import GROUPS, Model
@@ -35,6 +37,19 @@ LINES = {
     "path": ((-2.0, 0.0, 0.0), (2.0, 0.0, 0.0)),
 }
 """The objects of the page's own cameras, in their frames."""
+
+ACROSS, UP = (side.round(2) for side in np.meshgrid(np.linspace(-0.8, 0.8, 5), np.linspace(-0.45, 0.45, 4)))
+SQUARE = (ACROSS**2 + UP**2).round(2)
+TABLES_OF = {
+    "RAY_TABLE": {
+        "ray_directions": np.stack((ACROSS + UP / 10, UP, SQUARE / 4 - 1), axis=-1).round(2),
+        "ray_interpolation": "LINEAR",  # which takes half the text
+    },
+}
+"""The tables of the page's own cameras: the rays of a lens that was measured at five times four places."""
+
+HELD = {"RAY_TABLE": ("ray_axes", "ray_interpolation", "ray_slide")}
+"""Settings that are no knobs: each of their variants holds the table again."""
 
 FILES = Path(__file__).with_name("page_files")
 SCRIPTS = "formula", "scene", "picture", "space", "state", "own", "main"
@@ -78,11 +93,16 @@ def lesson_page(camera: Camera | None = None, pixel: tuple[int, int] | None = No
 def own_programs() -> tuple[Program, ...]:
     """Return the programs of the package's models, by groups."""
     own = [model for model in page_models() if model.__module__.startswith(Model.__module__.rpartition(".")[0])]
-    return tuple(program_of(example(model)) for group in GROUPS for model in own if model.group == group)
+    return tuple(own_program(model) for group in GROUPS for model in own if model.group == group)
+
+
+def own_program(model: type[Model]) -> Program:
+    """Return the program of a model as the page begins with it."""
+    return program_of(example(model), HELD.get(model.key, ()))
 
 
 def page_models() -> list[type[Model]]:
-    """Return the models that the page has: all but those that need a file, such as a table of rays."""
+    """Return the models that the page has: all but those that need a file or an object that it does not have."""
     found = []
     for model in MODELS:
         try:
@@ -96,7 +116,7 @@ def page_models() -> list[type[Model]]:
 def example(model: type[Model], **settings: Any) -> Camera:
     """Return the camera of a model with which the page begins; ``settings`` are further ones."""
     lines = {setting.name: LINES[setting.name] for setting in model.SETTINGS if setting.name in LINES}
-    return camera(model.key, FRAMES.get(model.key, FRAME), **lines, **settings)
+    return camera(model.key, FRAMES.get(model.key, FRAME), **lines, **TABLES_OF.get(model.key, {}), **settings)
 
 
 class _Tables:

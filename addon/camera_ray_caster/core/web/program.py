@@ -7,7 +7,7 @@ the given settings and at settings spread over the ranges of the knobs.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass, replace
 from itertools import product
 from typing import Any
@@ -75,21 +75,22 @@ class Program:
     variants: tuple[Variant, ...]
 
 
-def program_of(camera: Camera) -> Program:
-    """Return the program of a camera whose knobs have the camera's own settings as values.
+def program_of(camera: Camera, held: Collection[str] = ()) -> Program:
+    """Return the program of a camera whose knobs have the camera's own settings as values. ``held`` are settings that
+    keep their values.
 
-    A model whose ``from_blender`` cannot be recorded has no knobs: its numbers are fixed. Raises NotRecordable for a
-    model whose ``rays`` cannot be recorded.
+    Settings with which ``from_blender`` cannot be recorded, such as those that make tables, are fixed. Raises
+    NotRecordable for a model whose ``rays`` cannot be recorded.
     """
     model, raw = type(camera.model), camera.record
     knobs = tuple(knob for setting in model.SETTINGS for knob in knobs_of(setting, raw))
-    options = {setting: _options(setting) for setting in model.SETTINGS if _options(setting)}
+    options = {one: words for one in model.SETTINGS if one.name not in held and (words := _options(one))}
     given = {setting.name: setting.given(raw) for setting in options}
     choices = [dict(zip(given, words, strict=True)) for words in product(*options.values())]
     try:
         variants = [variant for chosen in choices for variant in _variants(camera, chosen, knobs)]
     except NotRecordable:
-        knobs = ()
+        knobs = tuple(knob for knob in knobs if _turns(camera, choices, knob))
         variants = [variant for chosen in choices for variant in _variants(camera, chosen, knobs)]
     turned = {knob.name.partition("[")[0] for knob in knobs} | set(given)
     fixed = tuple(setting for setting in model.SETTINGS if setting.name not in turned)
@@ -98,6 +99,16 @@ def program_of(camera: Camera) -> Program:
         for setting, words in options.items()
     }
     return Program(camera.model, raw, knobs, given, words_of, fixed, tuple(variants))
+
+
+def _turns(camera: Camera, choices: list[dict[str, Any]], knob: Knob) -> bool:
+    """Return whether the rays can be recorded with a knob, whatever is chosen, and depend on it for some choice."""
+    try:
+        records = [record_settings(camera, chosen, {knob.name: knob.value})[0] for chosen in choices]
+    except NotRecordable:
+        return False
+    rays = [needed(record.steps, record.outputs[:RAY]) for record in records]
+    return any(step.operation == "parameter" for record in rays for step in record.steps)
 
 
 def with_settings(raw: BlenderCamera, model: type[Model], values: Mapping[str, Any]) -> BlenderCamera:

@@ -65,9 +65,10 @@ class Beams:
             )
         delay = MICRO * delay + row_time * np.arange(count)
         place = np.stack((ahead, right, up), axis=1)
-        return cls(
-            elevations[order], np.radians(azimuth) + speed * delay, place, delay, _rings(elevations)[order], height
-        )
+        azimuth = np.radians(azimuth)
+        if delay.any():
+            azimuth = azimuth + speed * delay
+        return cls(elevations[order], azimuth, place, delay, _rings(elevations)[order], height)
 
     def __len__(self) -> int:
         return len(self.elevation)

@@ -22,7 +22,7 @@ from .number import (
     stop_gradient,
 )
 from .record import DOMAIN, NUMPY, Operation, Record, needed
-from .varied import Varied, array, cos, sin, tan
+from .varied import Varied, array, cos, sin, tan, vector
 
 __all__ = [
     "DOMAIN",
@@ -50,4 +50,5 @@ __all__ = [
     "sin",
     "stop_gradient",
     "tan",
+    "vector",
 ]  # fmt: skip

@@ -62,6 +62,14 @@ def array(parts: Any) -> np.ndarray:
     return found if kept else found.astype(np.float64)
 
 
+def vector(*parts: Any) -> np.ndarray:
+    """Return an array of numbers, some of which may be recorded numbers that depend on the inputs."""
+    found = np.empty(len(parts), object)
+    for place, part in enumerate(parts):
+        found[place] = part
+    return array(found)
+
+
 def _apply(name: str, *operands: Any) -> Any:
     count = next(len(one.slopes) for one in operands if isinstance(one, Varied))
     zero = (None,) * count

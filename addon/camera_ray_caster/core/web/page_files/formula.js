@@ -142,6 +142,8 @@ function shown(value, digits = 6) {
   return String(Number(value.toPrecision(digits)));
 }
 
+const named = (text) => text.match(/[A-Za-z_][A-Za-z_0-9]*'?/g) || [];
+
 // An expression with numbers in place of the names that are known.
 function putIn(expression, known) {
   return expression.replace(/[A-Za-z_][A-Za-z_0-9]*'?/g, (name) => {

@@ -86,11 +86,12 @@ function numbers() {
   seen = { ray: at, hit, time };
   const digits = (vector) => vector.map((one, k) => `${k ? "" : "("}${shown(one, 15)}${k < 2 ? "," : ")"}`);
   row("origin o", ...digits(ray.slice(0, 3)));
-  row("direction r", ...digits(ray.slice(3)));
+  const length = Math.abs(size(ray.slice(3)) - 1) < 1e-9 ? ["of unit length"] : ray[5] === -1 ? ["at unit depth"] : [];
+  row("direction r", ...digits(ray.slice(3)), ...length);
   row("from the axis", `${shown(Math.atan2(Math.hypot(ray[3], ray[4]), -ray[5]) * DEGREES)}°`);
   row("meets", hit.index < 0 ? "nothing" : `${hit.name}, at distance t = ${shown(hit.t)}, at ${shown(hit.point)} in the room`);
   const back = pixelOf(camera, along(ray.slice(0, 3), Math.min(hit.t, 20) / size(ray.slice(3)), ray.slice(3)));
-  row("back to the pixel", back ? `(${shown(back[0])}, ${shown(back[1])}), ${shown(Math.hypot(back[0] - x, back[1] - y), 2)} pixels off` : "not found");
+  row("back to the pixel", back ? `(${shown(back[0])}, ${shown(back[1])}), ${shown(Math.hypot(back[0] - x, back[1] - y), 2)} pixels off, by Gauss and Newton's method from the rays alone` : "not found by Gauss and Newton's method from the rays alone");
   if (state.times !== "none") row("time of the pixel", shown(time));
 }
 
@@ -107,17 +108,19 @@ function steps() {
     }
     return;
   }
-  const { known, own: special } = knownOf(model, state.values, camera, state.x, state.y), found = workedOut(model.steps, known, special);
+  const { known, own: special, given } = knownOf(model, state.values, camera, state.x, state.y), found = workedOut(model.steps, known, special);
   model.steps.forEach((step, k) => {
-    const item = make("li", step.words);
-    item.append(make("code", step.symbols, { class: "symbols" }), ...found[k].map((one) => result(one.name, one.numbers, one.value)));
+    const item = make("li", step.words), names = given.filter((name) => named(step.symbols).includes(name));
+    item.append(make("code", step.symbols, { class: "symbols" }));
+    if (names.length) item.append(make("code", `with ${names.map((name) => `${name} = ${shown(known[name])}`).join(", ")}`, { class: "symbols" }));
+    item.append(...found[k].map((one) => result(one.name, one.numbers, one.value)));
     list.append(item);
   });
 }
 
 function result(name, numbers, value) {
   const line = make("code", undefined, { class: "numbers" }), end = shown(value);
-  line.append(numbers === end ? `${name} = ` : `${name} = ${numbers} = `, make("b", end));
+  line.append([end, `(${end})`].includes(numbers) ? `${name} = ` : `${name} = ${numbers} = `, make("b", end));
   return line;
 }
 

@@ -81,7 +81,8 @@ function knownOf(model, values, camera, x, y) {
   delete given.view_y;
   const finite = Object.entries(given).filter(([, value]) => [value].flat().every(Number.isFinite));
   Object.assign(known, Object.fromEntries(numbers), { pi: Math.PI, W: model.frame[0], H: model.frame[1], x, y, p: 1 }, Object.fromEntries(finite));
-  return { known, own: model.steps.map((step) => step.words.includes("[-1, 1]²") && view.x !== undefined ? view : {}) };
+  const solved = finite.filter(([name, value]) => Array.isArray(value) || name === "theta").map(([name]) => name);
+  return { known, given: solved, own: model.steps.map((step) => step.words.includes("[-1, 1]²") && view.x !== undefined ? view : {}) };
 }
 
 // The pixel whose ray comes nearest to a point in the camera's frame, by Gauss and Newton from the best of a grid.
