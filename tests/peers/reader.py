@@ -77,7 +77,11 @@ def colmap(path):
         seen = [one for one in image.points2D if one.has_point3D()]
         places = image.cam_from_world() * np.array([model.points3D[one.point3D_id].xyz for one in seen])
         pixels = image.camera.img_from_cam(places)
-        apart.append(np.abs(pixels - [one.xy for one in seen]).max())
+        own = np.array([one.xy for one in seen])
+        off = np.abs(pixels - own)
+        if image.camera.model.name == "EQUIRECTANGULAR":  # the columns meet at the poles
+            off[:, 0] *= np.sin(np.pi * own[:, 1] / image.camera.height)
+        apart.append(off.max())
     return {
         "name": [image.name for image in images], "lens": [image.camera.model.name for image in images],
         "pose": [image.cam_from_world().matrix() for image in images], "apart": apart,
@@ -98,20 +102,24 @@ def coco(path):
 
 
 def fisheyes(path):
-    """The points that the depths of a fisheye stand for, in the frame of another, and where that one sees them."""
+    """The points that the depths of a fisheye stand for, in the frame of another, and where that one sees them, of each
+    frame.
+    """
     import cv2
 
     with np.load(path) as given:
-        depth, K, D, turn, shift, other_K, other_D = (given[name] for name in given)
-    rows, columns = np.indices(depth.shape)
+        depths, K, D, turns, shifts, other_K, other_D = (given[name] for name in given)
+    rows, columns = np.indices(depths[0].shape)
     pixels = np.stack((columns, rows), axis=-1).reshape(-1, 1, 2).astype(float)
     until = cv2.TERM_CRITERIA_COUNT + cv2.TERM_CRITERIA_EPS, 100, 1e-15
     x, y = cv2.fisheye.undistortPoints(pixels, K, D, criteria=until)[:, 0].T
     rays = np.stack((x, y, np.ones_like(x)), axis=-1)
     rays /= np.linalg.norm(rays, axis=-1, keepdims=True)  # a fisheye's depths are distances
-    points = rays * depth.reshape(-1, 1) @ turn.T + shift
-    seen, _ = cv2.fisheye.projectPoints(points[:, None], np.zeros(3), np.zeros(3), other_K, other_D)
-    return {"points": points, "pixels": seen[:, 0]}
+    still = np.zeros(3)
+    points = [rays * depth.reshape(-1, 1) @ turn.T + shift
+              for depth, turn, shift in zip(depths, turns, shifts, strict=True)]  # fmt: skip
+    seen = [cv2.fisheye.projectPoints(one[:, None], still, still, other_K, other_D)[0][:, 0] for one in points]
+    return {"points": points, "pixels": seen}
 
 
 if __name__ == "__main__":

@@ -37,6 +37,9 @@ EPS = float(np.finfo(np.float64).eps) / 2
 EPS32 = float(np.finfo(np.float32).eps) / 2
 """Unit roundoff of float32, 2**-24."""
 
+LAST_FRAME = 1048574
+"""Largest frame number in Blender; the smallest is its negative."""
+
 
 def gamma(n: int, unit_roundoff: float = EPS) -> float:
     """Return n u / (1 - n u), the upper bound of the relative error of n rounded operations in sequence.

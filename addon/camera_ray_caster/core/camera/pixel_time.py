@@ -17,6 +17,7 @@ import numpy as np
 
 from ..cameras.model import Firing
 from ..cameras.parts.settings import ABOVE_ZERO, CYCLES, RENDER, Choice, Image, Item, Number, Setting, Whole, span
+from ..conventions import LAST_FRAME
 from ..memory import of_pixels, require
 from ..records import BlenderCamera, InputError, Raster
 from .times import ImageTime, LinearTime, PixelTime, SweepTime
@@ -93,9 +94,6 @@ SETTINGS: dict[str, tuple[Setting, ...]] = {
 
 SHUTTER_STARTS = {"START": 0.0, "CENTER": -0.5, "END": -1.0}
 """Start of the shutter interval relative to the frame, in lengths of the interval."""
-
-LAST_FRAME = 1048574
-"""Largest frame number in Blender; the smallest is its negative."""
 
 WHOLE_FRAME = "use fewer pixels: an image gives a time to all pixels of the frame, even outside a render border"
 

@@ -142,15 +142,32 @@ def test_an_image_may_have_a_camera_of_its_own(tmp_path, images, expected):
     [
         (json.dumps({"K": MATRIX}), "it has no poses that are read: give a file of COLMAP"),
         ('{"fl_x": 3, "frames": [{"transform_matrix": [[1, 2]]}]}', "has 2 numbers: a pose has 3 or 4 rows"),
-        (json.dumps({"fl_x": 3, "frames": [{"transform_matrix": (2 * np.eye(4)).tolist()}]}), "is no rotation"),
+        (json.dumps({"fl_x": 3, "frames": [{"transform_matrix": (2 * np.eye(4))[:3].tolist()}]}), "is no rotation"),
         ("1 0 0 0 0 0 0 0\n", "the rotation of pose 1 is 0"),
         ("1 2 0 0 0 0 0 1\n5 5\n", "pose 2 is .* 8 finite numbers"),
+        ("1.5 2 0 0 0 0 0 1\n1.5 3 0 0 0 0 0 1\n", "two poses at the time 1.5: leave one out"),
+        ("1 2 0 0 0 0 0 1\n2,3,0,0,0,0,0,1\n", "pose 2 is '2,3,.*': all lines must have commas, or none"),
+        ("1 2 0 0 0 0 0 1\n2e6 3 0 0 0 0 0 1\n", "its times span 2e.06 s, more than the 1,048,574 frames"),
+        ('{"fl_x": 3, "frames": []}', "it has no pose of a camera"),
+        (json.dumps({"fl_x": 3, "frames": [{"transform_matrix": np.eye(4).tolist()}, {"file_path": "y"}]}),
+         "it has no transform_matrix of y"),
+        (json.dumps({"fl_x": 3, "frames": [{"transform_matrix": (np.eye(4) + np.eye(4)[[3]].T * 2).tolist()}]}),
+         "the last row of transform_matrix of 0 is .*: it must be 0 0 0 1, of a matrix by rows"),
+        (json.dumps({"0": {"cam_K": MATRIX, "cam_R_w2c": list(np.eye(3).ravel()), "cam_t_w2c": [0, 0, 1]},
+                     "1": {"cam_K": MATRIX}}), "it has no cam_R_w2c of 1"),
     ],
 )
 def test_what_is_no_pose_is_refused_in_one_line(tmp_path, text, says):
     (tmp_path / "file").write_text(text)
     with pytest.raises(InputError, match=says):
         read(tmp_path / "file")
+
+
+def test_a_pose_of_a_camera_that_the_file_does_not_have_is_refused(tmp_path):
+    (tmp_path / "cameras.txt").write_text("1 PINHOLE 64 48 30 30 32 24\n")
+    (tmp_path / "images.txt").write_text("1 1 0 0 0 1 2 3 7 a.png\n\n")
+    with pytest.raises(InputError, match="it has a pose of camera '7', and no lens of it"):
+        read(tmp_path)
 
 
 def test_a_folder_without_a_model_of_colmap_is_refused_as_such(tmp_path):

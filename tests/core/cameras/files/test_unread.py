@@ -57,6 +57,11 @@ OBJ = "v 0 0 0\nv 1 0 0\nvt 0 0\nvn 0 0 1\nf 1/1/1\n"
         ("a.csv", b"x,y,z\n1,2,3\n", "its first line must name x, y, dx, dy, dz, of a mesh of rays, or channel"),
         ("b.csv", b"x,y,dx,dy,dz\n0,0,1,1\n", "line 2"),
         ("b.npy", b" ", "is empty"),
+        ("a.pincam", b"256 192 200 200 128", "it must be one line of six numbers: width, height, fx, fy, cx and cy"),
+        ("b.pincam", b"256.5 192 200 200 128 96", "its image size is 256.5 x 192"),
+        ("images.txt", b"1 1 0 0 0 1 2 3 1 a.png\n\n", "COLMAP's poses: the lenses are in the file cameras beside it"),
+        ("two.json", b'{"K": [[30, 0, 32], [0, 30, 24], [0, 0, 1]], "fx": 40}', "its fx is 40, and 30 in the camera"),
+        ("parts.json", b'{"fx": 0.5, "fy": 0.7, "cx": 0.5, "cy": 0.5}', "which are not pixels: if they are parts"),
     ],
 )  # fmt: skip
 def test_a_damaged_file_is_called_what_its_name_says(tmp_path, name, content, words):

@@ -19,7 +19,7 @@ ENTRIES = [[f"t_{row}{column}" for column in range(4)] for row in range(3)]
 
 def read(document: Document, key: str) -> list[Lens] | None:
     """Return the lens of a .pincam; see the package."""
-    numbers = _of_pincam(document)
+    numbers = of_pincam(document)
     if numbers is None:
         return None
     width, height, *rest = document.numbers(numbers, "the line", 6)
@@ -28,7 +28,7 @@ def read(document: Document, key: str) -> list[Lens] | None:
 
 def poses(document: Document) -> list[Placed] | None:
     """Return the pose of the camera of a document; None of any other file. Raises InputError."""
-    if _of_pincam(document) is not None:
+    if of_pincam(document) is not None:
         return [Placed("", "", None, np.eye(4))]
     entries = document.entries
     if ENTRIES[0][0] not in entries:
@@ -37,6 +37,7 @@ def poses(document: Document) -> list[Placed] | None:
     return [Placed("", "", None, pose_of(document, rows, "the matrix t_00 to t_23") @ FROM_BLENDER)]
 
 
-def _of_pincam(document: Document) -> list[str] | None:
+def of_pincam(document: Document) -> list[str] | None:
+    """Return the six numbers of a .pincam, as they stand there; None of any other file."""
     words = document.text[:1000].split()
     return words if len(words) == 6 and len(numbers_of(words)) == 6 and "\n" not in document.text.strip() else None

@@ -48,7 +48,8 @@ def poses(document: Document) -> list[Placed] | None:
             to_world = own.get(camera.attributes.get("component_id")) or _child(chunk, "transform")
             if to_world is not None:
                 pose = _moved(document, to_world, pose)
-            placed.append(Placed(sensors.get(camera.attributes.get("sensor_id"), ""), label, None, pose))
+            sensor = camera.attributes.get("sensor_id")
+            placed.append(Placed(sensors.get(sensor, f"of sensor {sensor}"), label, None, pose))
         reference = _child(chunk, "reference")
         georeferenced |= reference is not None and reference.text.startswith(GEOGRAPHIC)
     if not placed:

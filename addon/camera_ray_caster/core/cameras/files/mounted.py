@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
 
+from ...conventions import LAST_FRAME
 from ...records import InputError
 from . import lenses_of
 from .document import Document, Lens
@@ -16,6 +18,9 @@ from .rigs import beside, object_and_frame, placed_in
 
 COLMAP = ".bin", ".txt"
 """Kinds of the files of a folder that is a COLMAP model."""
+
+UNNAMED = "", "camera"
+"""Names of lenses in files that do not name them; nerfstudio's is the latter."""
 
 MOST = 100_000
 """Poses that are read from a file."""
@@ -63,16 +68,16 @@ def mounted(path: str, key: str, frame: tuple[int, int], rate: float) -> list[Mo
     lens_file, pose_file = beside(path)
     document = Document(pose_file, frame)
     placed = placed_in(document)
+    if not placed:
+        raise document.refusal("it has no pose of a camera")
     if len(placed) > MOST:
         raise document.refusal(f"it has {len(placed):,} poses: {MOST:,} are read")
-    if placed and placed[0].time is not None:
-        times = [one.time or 0.0 for one in placed]
-        frames: list[float | None] = [1 + (time - times[0]) * rate for time in times]
-        return [Mounted(path, lens_file, True, [], frames, [one.pose for one in placed])]
+    if placed[0].time is not None:
+        return [Mounted(path, lens_file, True, [], _frames(document, placed, rate), [one.pose for one in placed])]
     lenses = {lens.name: lens for lens in lenses_of(lens_file, key, frame)}
     found: list[tuple[Placed, str, float | None, Lens]] = []
     for one, name, number in _named(placed):
-        lens = next(iter(lenses.values())) if len(lenses) == 1 else _lens(document, lenses, one, number)
+        lens = _lens(document, lenses, one, number)
         if lens.refusal is not None:
             raise lens.refusal
         found.append((one, name, number, lens))
@@ -86,6 +91,21 @@ def mounted(path: str, key: str, frame: tuple[int, int], rate: float) -> list[Mo
         if len(set(camera.frames)) < len(camera.frames):
             raise document.refusal(f"camera {camera.name!r} has two poses of one frame: rename its pictures")
     return list(cameras.values())
+
+
+def _frames(document: Document, placed: list[Placed], rate: float) -> list[float | None]:
+    """Return the frames of a trajectory's times. Raises InputError for equal times, and beyond Blender's last frame."""
+    times = [one.time or 0.0 for one in placed]
+    if len(set(times)) < len(times):
+        twice = next(time for time, after in pairwise(sorted(times)) if time == after)
+        raise document.refusal(f"it has two poses at the time {twice!r}: leave one out")
+    frames: list[float | None] = [1 + (time - times[0]) * rate for time in times]
+    if max(abs(time - times[0]) for time in times) * rate >= LAST_FRAME:
+        raise document.refusal(
+            f"its times span {max(times) - min(times):g} s, more than the {LAST_FRAME:,} frames of Blender: are they "
+            "seconds?"
+        )
+    return frames
 
 
 def _of_folder(path: str, key: str, frame: tuple[int, int], rate: float) -> list[Mounted]:
@@ -130,7 +150,12 @@ def _told_apart(found: list[tuple[Placed, str, float | None, Lens]]) -> list[tup
 
 
 def _lens(document: Document, lenses: dict[str, Lens], one: Placed, number: float | None) -> Lens:
-    """Return the lens of a pose: that of its camera, or of its camera in this frame."""
+    """Return the lens of a pose: that of its camera, or of its camera in this frame, or the only one, if it or the
+    camera has no name of its own.
+    """
+    only = next(iter(lenses), "")
+    if len(lenses) == 1 and (only in UNNAMED or one.camera in UNNAMED):
+        return lenses[only]
     for name in (one.camera, f"{one.camera} {number:g}" if number is not None else one.camera):
         if name in lenses:
             return lenses[name]

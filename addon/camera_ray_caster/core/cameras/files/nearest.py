@@ -7,7 +7,7 @@ from pathlib import Path
 
 from ...records import InputError
 from ..parts.programs import FILE_WRITERS, PROGRAMS
-from . import ray_arrays, ray_exr, ray_mesh
+from . import arkit, ray_arrays, ray_exr, ray_mesh
 from .document import Document
 
 WORDS = re.compile(r"[A-Za-z_][\w.]*")
@@ -43,6 +43,10 @@ def by_name(document: Document) -> InputError | None:
     if ending == ".obj":
         lost = [line.strip().decode() for line in ray_mesh.LINES if line not in b"\n" + document.data]
         return document.refusal(f"it is no mesh of rays: it has no lines {', '.join(lost)}") if lost else None
+    if ending == ".pincam" and arkit.of_pincam(document) is None:
+        return document.refusal("it must be one line of six numbers: width, height, fx, fy, cx and cy")
+    if Path(document.path).stem == "images" and ending in (".txt", ".bin"):
+        return document.refusal("it should have COLMAP's poses: the lenses are in the file cameras beside it")
     if ending == ".csv" and b"dx" not in begin and b"azimuth" not in begin:
         return document.refusal(
             f"its first line must name x, y, {', '.join(ray_mesh.DIRECTION)}, of a mesh of rays, or channel, "

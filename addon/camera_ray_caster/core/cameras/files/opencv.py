@@ -35,6 +35,12 @@ NO_DISTORTION = (0.0,)
 COUNTS = {"OPENCV_PINHOLE": (4, 5, 8, 12, 14), "OPENCV_FISHEYE": (4,), "UCM": (4,)}
 """How many coefficients OpenCV takes; of zeros any number."""
 
+APART = 1e-3
+"""Part by which a camera matrix and numbers beside it may differ: they may be rounded."""
+
+LEAST = 16
+"""Pixels from which on sides of a picture and focal lengths are taken for such: smaller ones may be parts of a size."""
+
 PINHOLE, FISHEYE, _ = TERMS
 FISHEYE_NAMES = ("fisheyemodel", "fisheye", "usefisheye", "isfisheye")
 MODEL_NAMES = ("distortionmodel", "cameramodel", "model", "cameratype", "distortiontype", "type")
@@ -77,6 +83,10 @@ def read(document: Document, key: str) -> list[Lens] | None:
 def _lens(document: Document, name: str, found: Spelled, key: str) -> Lens:
     if found.has(spelled.MATRIX):
         fx, skew, cx, fy, cy = _matrix(document, found.numbers(spelled.MATRIX))
+        for names, entry in zip((spelled.FX, spelled.FY, spelled.CX, spelled.CY), (fx, fy, cx, cy), strict=True):
+            if found.has(names) and abs(found.number(names) - entry) > APART * max(1, abs(entry)):
+                said = f"its {names[0]} is {found.number(names):g}, and {entry:g} in the camera matrix"
+                raise document.refusal(f"{said}: leave one out")
     else:
         (fx, fy), (cx, cy), skew = _focal(found), _center(found), 0.0
     listed = found.numbers(spelled.DISTORTION, empty=NO_DISTORTION, default=())
@@ -96,6 +106,12 @@ def _lens(document: Document, name: str, found: Spelled, key: str) -> Lens:
     if model == "UCM":
         settings["unified_xi"] = found.number(("xi",))
     x, y, size = _region(document, found)
+    width, height = (size[f"calibration_{side}"] for side in ("width", "height"))
+    if 0 < cx <= 1 and 0 < cy <= 1 and max(fx, fy) < LEAST and min(width or LEAST, height or LEAST) >= LEAST:
+        raise document.refusal(
+            f"fx, fy, cx and cy are {fx:g}, {fy:g}, {cx:g} and {cy:g}, which are not pixels: if they are parts of the "
+            "picture's size, multiply those of x by its width and those of y by its height"
+        )
     return Lens(name, model, size | matrix(fx, fy, cx - x, cy - y) | {"skew": skew, **settings})
 
 

@@ -63,12 +63,16 @@ def placed_in(document: Document) -> list[Placed]:
 
 def _of_transforms(document: Document) -> list[Placed] | None:
     frames = document.entries.get("frames")
-    if not isinstance(frames, list) or not all(isinstance(one, dict) and "transform_matrix" in one for one in frames):
+    if not isinstance(frames, list) or not all(isinstance(one, dict) for one in frames):
+        return None
+    if frames and not any("transform_matrix" in one for one in frames):
         return None
     placed = []
     for number, (frame, lens) in enumerate(zip(frames, nerfstudio.of_frames(document, frames), strict=True)):
         document.check()
         name = str(frame.get("file_path", number))
+        if "transform_matrix" not in frame:
+            raise document.refusal(f"it has no transform_matrix of {name}")
         pose = pose_of(document, frame["transform_matrix"], f"transform_matrix of {name}")
         placed.append(Placed(lens.name, name, None, pose @ FROM_BLENDER))
     return placed
@@ -119,13 +123,13 @@ def _of_basalt(document: Document) -> list[Placed] | None:
 
 def _of_bop(document: Document) -> list[Placed] | None:
     images = {key: mapping(one) for key, one in document.entries.items()}
-    if not all(key.isdecimal() and "cam_R_w2c" in one for key, one in images.items()):
+    if not all(map(str.isdecimal, images)) or not any("cam_R_w2c" in one for one in images.values()):
         return None
     placed = []
     for key, image in images.items():
         document.check()
         pose = np.eye(4)
-        pose[:3, :3] = np.reshape(document.numbers(image["cam_R_w2c"], f"cam_R_w2c of {key}", 9), (3, 3))
+        pose[:3, :3] = np.reshape(document.numbers(image.get("cam_R_w2c"), f"cam_R_w2c of {key}", 9), (3, 3))
         pose[:3, 3] = np.array(document.numbers(image.get("cam_t_w2c"), f"cam_t_w2c of {key}", 3)) / 1000
         placed.append(Placed(key, "", float(key), inverted(checked(document, pose, f"the pose of {key}"))))
     return placed

@@ -9,6 +9,7 @@ References: TUM RGB-D benchmark, File Formats; The EuRoC MAV dataset, Data forma
 from __future__ import annotations
 
 import re
+from reprlib import repr as shortened
 
 import numpy as np
 
@@ -33,10 +34,11 @@ def poses(document: Document) -> list[Placed] | None:
                                "ARKitScenes 7, of EuRoC at least 8 apart by commas")  # fmt: skip
     if len(words[0]) == 7:
         return [_of_arkit(document, number, line) for number, line in enumerate(words, 1)]
-    placed = []
+    placed, is_euroc = [], "," in lines[0]
     for number, (line, word) in enumerate(zip(lines, words, strict=True), 1):
         document.check()
-        is_euroc = "," in line
+        if is_euroc != ("," in line):
+            raise document.refusal(f"pose {number} is {shortened(line)}: all lines must have commas, or none")
         numbers = document.numbers(word[:8] if is_euroc else word, f"pose {number}", 8)
         time, place, turn = numbers[0], numbers[1:4], numbers[4:]
         time = time / 1e9 if is_euroc or time > NANOSECONDS else time
