@@ -206,9 +206,27 @@ def test_what_is_no_pose_of_the_format_is_refused(tmp_path, name):
     assert "\n" not in str(caught.value)
 
 
+def test_numbers_of_pictures_that_are_no_frames_are_none(tmp_path):
+    names = [f"frame_{14036365797635 + 10 * k}.png" for k in (1, 2)]
+    frames = [{"file_path": name, "transform_matrix": np.eye(4).tolist()} for name in names]
+    (camera,) = read(tmp_path, json.dumps({"fl_x": 300, "w": 640, "h": 480, "frames": frames}))
+    assert (camera.name, camera.frames) == ("Camera", [1, 2])
+
+
+def test_half_a_character_is_refused(tmp_path):
+    text = r'{"fl_x": 300, "w": 64, "h": 48, "frames": [{"file_path": "\ud83d%s", "transform_matrix": %s}]}'
+    with pytest.raises(InputError, match="a name has half of a character"):
+        read(tmp_path, text % ("x", np.eye(4).tolist()))
+    (camera,) = read(tmp_path, text % (r"\ude00_0003.png", np.eye(4).tolist()))
+    assert (camera.name, camera.frames) == ("\N{GRINNING FACE}", [3])
+
+
 def test_pictures_of_arkitscenes_need_their_trajectory(tmp_path):
     (tmp_path / "41_1.0.pincam").write_text("256 192 200 201 127.5 95\n")
     with pytest.raises(InputError, match=r"has 0 trajectories \(.traj\) beside its files"):
+        read(tmp_path)
+    (tmp_path / "a.traj").write_text("hello")
+    with pytest.raises(InputError, match="its lines must have seven numbers: a time"):
         read(tmp_path)
     (tmp_path / "a.traj").write_text(TRAJECTORY)
     with pytest.raises(InputError, match="has no picture at a time of its trajectory"):

@@ -45,6 +45,8 @@ def by_name(document: Document) -> InputError | None:
         return document.refusal(f"it is no mesh of rays: it has no lines {', '.join(lost)}") if lost else None
     if ending == ".pincam" and arkit.of_pincam(document) is None:
         return document.refusal("it must be one line of six numbers: width, height, fx, fy, cx and cy")
+    if ending == ".traj":
+        return document.refusal("its lines must have seven numbers: a time, axis times angle, and x, y, z")
     if Path(document.path).stem == "images" and ending in (".txt", ".bin"):
         return document.refusal("it should have COLMAP's poses: the lenses are in the file cameras beside it")
     if ending == ".csv" and b"dx" not in begin and b"azimuth" not in begin:

@@ -15,11 +15,13 @@ from pathlib import Path, PurePath
 
 import numpy as np
 
+from ...conventions import LAST_FRAME
 from ...records import InputError
 from . import arkit, basalt, colmap_images, hot3d, maplab, meshroom, metashape_poses, nerfstudio, okvis, trajectory
 from .document import Document, mapping
 from .folders import files_in
 from .kalibr import read as of_kalibr
+from .nearest import by_name
 from .placed import FROM_BLENDER, Placed, checked, inverted, of_quaternion, pose_of
 from .recorded import FORMAT, RECORD
 
@@ -52,10 +54,13 @@ def beside(path: str) -> tuple[str, ...]:
 def placed_in(document: Document) -> list[Placed]:
     """Return the poses of a document in its order. Raises InputError, in one line, for a document without poses."""
     binary = b"\0" in document.data[:64]
-    for read in (colmap_images.poses, *(() if binary else READERS)):
-        found = read(document)
-        if found is not None:
-            return found
+    try:
+        for read in (colmap_images.poses, *(() if binary else READERS)):
+            found = read(document)
+            if found is not None:
+                return found
+    except InputError as refusal:
+        raise by_name(document) or refusal from refusal
     raise document.refusal("it has no poses that are read: give a file of COLMAP, nerfstudio, Kalibr, EuRoC, OKVIS, "
                            "Basalt, BOP, Project Aria, HOT3D, maplab, Metashape, Meshroom, Polycam, ARKitScenes, this "
                            "add-on, or a trajectory")  # fmt: skip
@@ -176,8 +181,10 @@ READERS: tuple[Callable[[Document], list[Placed] | None], ...] = (
 
 
 def object_and_frame(image: str) -> tuple[str, float | None]:
-    """Return the camera's name and the frame in the name of a picture, which may have folders and an ending."""
+    """Return the camera's name and the frame in the name of a picture, which may have folders and an ending. A number
+    beyond Blender's frames, such as a time in nanoseconds, is none.
+    """
     stem = PurePath(image.replace("\\", "/")).name
     stem = stem.rsplit(".", 1)[0] if re.search(r"\.[A-Za-z]+\d?$", stem) else stem
     found = ENDING.fullmatch(stem)
-    return (found[1], float(found[2])) if found else (stem, None)
+    return (found[1], float(found[2])) if found and abs(float(found[2])) <= LAST_FRAME else (stem, None)

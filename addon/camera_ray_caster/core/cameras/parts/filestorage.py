@@ -34,6 +34,9 @@ LONGEST = 2.0
 JSON_TOKEN = re.compile(r'"(?:\\.|[^"\\])*"?|//[^\n]*|-?\.(?:Nan|Inf)')
 JSON_WORDS = {"//": "", ".N": "NaN", ".I": "Infinity", "-.": "-Infinity"}
 BEYOND_JSON = "//", ".Nan", ".Inf"
+HALF = re.compile(r"\\u[dD][89a-fA-F]")
+"""How JSON begins the halves of characters beyond 16 bits."""
+
 GZIP = b"\x1f\x8b"
 
 Check = Callable[[], None]
@@ -107,7 +110,13 @@ def _json(text: str, path: str, check: Check) -> dict | list:
 
 
 def _loaded(text: str) -> Any:
-    return json.loads(text, parse_int=float, object_pairs_hook=_once)  # integers may have any number of digits
+    found = json.loads(text, parse_int=float, object_pairs_hook=_once)  # integers may have any number of digits
+    if HALF.search(text):
+        try:
+            json.dumps(found, ensure_ascii=False).encode()
+        except UnicodeEncodeError as error:
+            raise ValueError("a name has half of a character (a lone surrogate)") from error
+    return found
 
 
 def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
