@@ -205,6 +205,9 @@ SPHERE = dict(origins=[0.0, 0, 0], directions=[0.0, 0, -1])
         (dict(origins=[0.0, 0]), r"origins of shape \(2,\) are no vectors"),
         (dict(directions=[0.0, 0, 0]), "directions are 0 for ray 0"),
         (dict(directions=[math.inf, 0, 0]), "directions hold infinite numbers"),
+        (dict(directions=[0, 0, -1e-101]), "directions are shorter than 1e-100 for ray 0"),
+        (dict(directions=[0, 0, -1e101]), "directions hold numbers beyond 1e.100"),
+        (dict(origins=[0, 0, 1e200]), "origins hold numbers beyond 1e.100"),
         (dict(origins=np.zeros((2, 3)), directions=np.ones((3, 3))), "do not broadcast"),
         (dict(passes="solid_angle"), "solid_angle needs a pixel"),
         (dict(passes="dept"), "dept"),
@@ -219,6 +222,16 @@ def test_bad_input_is_refused_in_one_line(change, words):
     with pytest.raises(crc.InputError, match=words) as refusal:
         crc.cast_rays(**(SPHERE | dict(shapes=crc.spheres([[0.0, 0.0, -5.0]], 1.0)) | change))
     assert "\n" not in str(refusal.value)
+
+
+@pytest.mark.parametrize("length", [1e-99, 1e-40, 1e40, 1e99])
+def test_short_and_long_directions_reach_as_far(length):
+    expected = crc.cast_rays([0.0, 0, 0], [0, 0, -1.0], scene(), "distance")["distance"]
+    for count in (1, 5000):
+        directions = np.tile([0.0, 0.0, -length], (count, 1))
+        found = crc.cast_rays([0.0, 0, 0], directions, scene(), ("depth", "distance", "normal"))
+        np.testing.assert_allclose(found["distance"], expected)
+        np.testing.assert_allclose(found["depth"] * length, found["distance"])
 
 
 def test_nothing_to_see_and_no_rays():

@@ -181,3 +181,16 @@ def test_a_sweep_is_written_into_the_images_of_an_earlier_cast(sweep):
     assert again is images
     for name in passes:
         np.testing.assert_array_equal(again[name], before[name])
+
+
+@pytest.mark.parametrize("times", [1.99, 12.5, [2.0, 400.0]])
+def test_times_beyond_the_frames_that_were_read_are_refused(sweep, times):
+    shapes = sweep[1]
+    with pytest.raises(crc.InputError, match=r"beyond the frames 2 to 11\.97"):
+        crc.cast_rays([[0.0, 0, 1]] * 2, [1.0, 0, 0], shapes, "distance", times)
+
+
+def test_no_rays_have_no_hits_at_any_time(sweep):
+    none = np.zeros((0, 3))
+    found = crc.cast_rays(none, [1.0, 0, 0], sweep[1], "distance", 3.0, all_hits=True)
+    assert [found[name].shape for name in ("distance", "ray", "count")] == [(0,)] * 3

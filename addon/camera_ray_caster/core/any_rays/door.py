@@ -14,6 +14,7 @@ from ..casting.needs import image_bytes
 from ..casting.passes import PASSES
 from ..conventions import gamma
 from ..maths.vector import norm
+from ..motion.evaluations import Motion
 from ..records import InputError, Shapes
 from .moving import cast_apart, moving_of
 from .search import BodySearch
@@ -24,6 +25,12 @@ WITHOUT_PIXEL = "solid_angle", "footprint", "flow_forward", "flow_backward", "fl
 
 KNOWN = tuple(name for name in PASSES if name not in WITHOUT_PIXEL)
 """The passes of rays, in the order of PASSES."""
+
+LENGTHS = 1e-100, 1e100
+"""Range of coordinates and of the lengths of directions: their squares and products neither overflow nor underflow."""
+
+FRAMES = 1e-6
+"""Frames by which times may lie beyond those at which shapes were read: rounding."""
 
 PARTS = "cast the rays in parts"
 
@@ -68,8 +75,9 @@ def cast_rays(
     bounds (the passes ``distance_bound``, ``position_bound`` and ``normal_bound``). Indices are equal wherever a hit is
     farther than its bound from an edge and from other surfaces.
 
-    Raises InputError for arrays that are not (..., 3) or do not broadcast, directions of length 0 and numbers that are
-    infinite, for unknown passes, for a range that is not one, and for passes that need more memory than is available.
+    Raises InputError for arrays that are not (..., 3) or do not broadcast, directions of length 0, numbers that are
+    infinite or beyond LENGTHS, times beyond the frames at which the shapes were read, unknown passes, a range that is
+    not one, and passes that need more memory than is available.
     """
     origin, direction, shape = _rays(origins, directions)
     passes = _passes(passes)
@@ -138,9 +146,10 @@ def _rays(origins, directions) -> tuple[np.ndarray, np.ndarray, tuple[int, ...]]
     """Return origins and directions, (3, n) each with NaN where there is no ray, and the shape of the rays."""
     origin, direction, shape = _points(origins, "origins", directions, "directions")
     length = np.abs(direction).max(axis=0, initial=0.0)
-    if (length == 0).any():
-        first = int(np.argmax(length == 0))
-        raise InputError(f"directions are 0 for ray {first}: give each a length, or NaN for no ray")
+    if (length < LENGTHS[0]).any():
+        first = int(np.argmax(length < LENGTHS[0]))
+        short = "0" if length[first] == 0 else f"shorter than {LENGTHS[0]:g}"
+        raise InputError(f"directions are {short} for ray {first}: give each a length, or NaN for no ray")
     lost = np.isnan(origin).any(axis=0) | np.isnan(direction).any(axis=0)
     direction[:, lost] = np.nan
     origin[:, lost] = 0.0
@@ -165,6 +174,8 @@ def _points(first, first_name: str, second, second_name: str) -> tuple[np.ndarra
     for values, name in zip(both, (first_name, second_name), strict=True):
         if np.isinf(values).any():
             raise InputError(f"{name} hold infinite numbers: give finite ones, or NaN for no ray")
+        if (np.abs(values) > LENGTHS[1]).any():
+            raise InputError(f"{name} hold numbers beyond {LENGTHS[1]:g}: scale the scene, or the directions")
     left, right = (np.array(np.broadcast_to(values, shape).reshape(-1, 3).T, order="C") for values in both)
     return left, right, shape[:-1]
 
@@ -202,12 +213,20 @@ def _times(shapes: Shapes, times, shape: tuple[int, ...]) -> np.ndarray | None:
         raise InputError(f"times of shape {given.shape} do not broadcast to rays of shape {shape}") from error
     if not np.isfinite(each).all():
         raise InputError("times hold NaN or infinite numbers: give each ray the frame at which it is cast")
+    motion = shapes.timeline.motion
+    if isinstance(motion, Motion) and each.size:
+        first, last = motion.intervals[0].frames[0], motion.intervals[-1].frames[-1]
+        if each.min() < first - FRAMES or each.max() > last + FRAMES:
+            raise InputError(
+                f"times from {each.min():g} to {each.max():g} lie beyond the frames {first:g} to {last:g} at which the "
+                "shapes were read: read them over all of these frames"
+            )
     return None if shapes.timeline.motion is None else each
 
 
 def _by_time(shapes: Shapes, each: np.ndarray | None) -> Iterator[tuple[Shapes, Any]]:
     """Yield the shapes at each time, and the indices of the rays of that time."""
-    if each is None:
+    if each is None or not len(each):
         yield shapes, slice(None)
         return
     for time in np.unique(each).tolist():
