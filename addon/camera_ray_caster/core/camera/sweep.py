@@ -49,4 +49,5 @@ def rays_in_sweep(camera: Any, time: SweepTime, x, y, shape: tuple[int, ...]) ->
 
 def _turned(bases: np.ndarray, vector) -> np.ndarray:
     """Return vectors in the world, (n, 3), given their components in the frames of bases, (n, 3, 3)."""
-    return sum(bases[..., axis] * np.asarray(part)[..., None] for axis, part in enumerate(vector))
+    parts = (bases[..., axis] * np.asarray(part)[..., None] for axis, part in enumerate(vector))
+    return sum(parts, start=np.zeros(()))

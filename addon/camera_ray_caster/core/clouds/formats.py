@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from io import BytesIO
+from typing import Any
 
 import numpy as np
 
@@ -116,7 +117,7 @@ def _npz(cloud: PointCloud, axes: str) -> Files:
     yield "_points.npz", _npz_bytes(points=points, normals=normals, pose=cloud.pose, size=np.array(cloud.size), **own)
 
 
-def _npz_bytes(**arrays: np.ndarray) -> bytes:
+def _npz_bytes(**arrays: Any) -> bytes:
     content = BytesIO()
     np.savez(content, **arrays)
     return content.getvalue()

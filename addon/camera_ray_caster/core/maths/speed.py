@@ -117,7 +117,7 @@ class Shared(Generic[T]):
         self._begun, self._done = (np.zeros(len(parts), bool) for _ in range(2))
         self._error: BaseException | None = None
 
-    def work(self, some: Sequence[int] | None = None) -> Iterator[None]:
+    def work(self, some: Sequence[int] | np.ndarray | None = None) -> Iterator[None]:
         """Do some of the parts, by default all, one part per step of the iteration; wait for the parts that other
         threads have begun. Raises the error of a part that failed.
         """

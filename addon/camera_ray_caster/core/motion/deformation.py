@@ -31,8 +31,13 @@ def same_faces(before: Mesh, after: Mesh) -> bool:
     return alike([before], [after]) or (
         before.vertices.shape == after.vertices.shape
         and _same(before, after, "polygon")
-        and np.array_equal(*(np.unique(mesh.polygon * np.int64(1 << 32) + mesh.triangles) for mesh in (before, after)))
+        and np.array_equal(_corners(before), _corners(after))
     )
+
+
+def _corners(mesh: Mesh) -> np.ndarray:
+    """Return the pairs of a face and one of its vertices as numbers, each once, in ascending order."""
+    return np.unique(mesh.polygon * np.int64(1 << 32) + mesh.triangles)
 
 
 def deformed(shapes: Shapes, evaluations: Sequence[Shapes], weights: Sequence[float]) -> Shapes:

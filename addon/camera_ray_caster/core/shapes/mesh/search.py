@@ -233,8 +233,8 @@ class MeshSet(ShapeSet):
         if some.size:
             origin, direction = rays.at(pixel[some])
             point = direction * t[some] if origin is None else origin + direction * t[some]
-            own = HitTriangles(cutouts.shapes, triangle[some], at, number, origin is None).only(slice(None))
-            pixels = crossings(at[triangle[some]], t[some], origin is None, **{TRIANGLES: own})
+            hit = HitTriangles(cutouts.shapes, triangle[some], at, number, origin is None).only(slice(None))
+            pixels = crossings(at[triangle[some]], t[some], origin is None, **{TRIANGLES: hit})
             is_hit[some] = cutouts.hit(pixels, point)
         return is_hit
 
