@@ -14,7 +14,7 @@ import numpy as np
 from .. import tuning
 from ..camera.camera import Camera
 from ..camera.pixel_time import PixelTime, groups
-from ..maths.speed import STRIP, Scratch, sharing
+from ..maths.speed import STRIP, Scratch, lending, sharing
 from ..records import Cancelled
 from .plan import Plan
 from .rays import chief_rays, sampled_rays
@@ -163,11 +163,8 @@ def in_threads(
     """
     own = local()
 
-    def begin() -> None:
-        own.scratch = Scratch()
-
     total = np.zeros(len(STEPS))
-    with ThreadPoolExecutor(workers, initializer=begin) as pool:
+    with lending() as lend, ThreadPoolExecutor(workers, initializer=lambda: setattr(own, "scratch", lend())) as pool:
         waiting: dict[Future, Tile] = {}
         try:
             for tile in tiles:  # raises if no thread can be started
