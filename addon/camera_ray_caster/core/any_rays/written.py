@@ -11,7 +11,7 @@ from ..casting.pixel_bounds import CameraPixelBounds
 from ..casting.plan import Plan
 from ..casting.rays import TileRays
 from ..casting.request import Request
-from ..casting.store import write as write_passes
+from ..casting.store import store
 from ..maths.speed import Scratch
 from ..records import MESH
 from ..shapes.mesh.nearest import SeenTriangles
@@ -31,9 +31,8 @@ def write(search: Found, origin, direction, t, body, images: dict[str, np.ndarra
     with np.errstate(all="ignore"):  # NaN and inf mean no ray and no hit
         for first in range(0, len(t), CHUNK):
             part = slice(first, first + CHUNK)
-            values = _values(plan, search, part, t, body, scratch)
             outs = {name: PASSES[name].empty((1, len(rays[part])), image.dtype) for name, image in images.items()}
-            write_passes(values, outs)
+            store(_hits(plan, search, part, t, body, scratch), outs)
             for name, out in outs.items():
                 images[name][:, rays[part]] = out
 
@@ -44,7 +43,7 @@ def t_errors(search: Found, origin, direction, hits: RayHits) -> np.ndarray:
     error = np.full(hits.t.shape, np.inf)
     for first in range(0, len(error), CHUNK):
         part = slice(first, first + CHUNK)
-        for where, own in _values(plan, search, part, hits.t, hits.body, scratch).errors:
+        for where, own in HitValues(_hits(plan, search, part, hits.t, hits.body, scratch)).errors:
             error[part][where[0]] = own.t_error
     return error
 
@@ -59,8 +58,8 @@ def _plan(search: Found, origin, direction, span: Span, passes: tuple[str, ...])
     return Plan(camera, shapes, request, search.placed, pixels, np.arange(len(shapes)), bounds, near, clips=False)
 
 
-def _values(plan: Plan, search: Found, part: slice, t, body, scratch: Scratch) -> HitValues:
-    """Return the values of the hits of some rays, given t and bodies of all, -1 for none."""
+def _hits(plan: Plan, search: Found, part: slice, t, body, scratch: Scratch) -> Hits:
+    """Return the hits of some rays, given t and bodies of all, -1 for none."""
     x = np.arange(len(t))[None, part] + 0.5
     origin, direction = plan.camera.model.rays(x, 0.5)
     t, body = t[None, part], body[None, part]
@@ -72,4 +71,4 @@ def _values(plan: Plan, search: Found, part: slice, t, body, scratch: Scratch) -
     met, place = np.unique(body[some], return_inverse=True)
     of_pixel = np.zeros(body.shape, np.int32)
     of_pixel[some] = place
-    return HitValues(Hits(plan, rays, t, index, {MESH: SeenTriangles(search.at[met], search.number[met], of_pixel)}))
+    return Hits(plan, rays, t, index, {MESH: SeenTriangles(search.at[met], search.number[met], of_pixel)})

@@ -11,7 +11,7 @@ import numpy as np
 from .. import tuning
 from ..maths.speed import lazy, widened
 from ..maths.vector import ALL
-from ..shapes.windows import in_tile
+from ..shapes.windows import banded, in_tile
 from .plan import Plan
 from .rays import TileRays
 
@@ -48,9 +48,10 @@ class Hits:
             yield window, self._part(window)
 
     def layers(self) -> Iterator[tuple[Window, Hits]]:
-        """Yield (window, hits) for each shape that is seen, in the pixels of its bounds."""
+        """Yield (window, hits) for each shape that is seen, in the pixels of its bounds, BLOCK_PIXELS at a time."""
         here, bounds = in_tile(self.plan.bounds, self.rays.corner, self.rays.shape)
-        for at, own in zip(self.plan.seen[here].tolist(), bounds.tolist(), strict=True):
+        part, bounds = banded(bounds, tuning.BLOCK_PIXELS)
+        for at, own in zip(self.plan.seen[here[part]].tolist(), bounds.tolist(), strict=True):
             window = widened(own, self.rays.shape[1])
             layer = self._part(window, at)
             if layer.seen.any():

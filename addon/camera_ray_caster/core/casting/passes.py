@@ -19,6 +19,7 @@ from typing import Any
 import numpy as np
 
 from ..errors.hits import HitErrors
+from ..maths.kept import empty
 from ..maths.speed import write_where
 from ..maths.vector import matvec, unit
 from . import shading
@@ -71,7 +72,7 @@ class Pass:
 
     def empty(self, shape: tuple[int, int], dtype) -> np.ndarray:
         """Return an uninitialized array for the pass of a picture, (rows, columns[, channels])."""
-        return np.empty(self.shape(shape), self.dtype or dtype)
+        return empty(self.shape(shape), self.dtype or dtype)
 
     def shape(self, shape: tuple[int, int]) -> tuple[int, ...]:
         """Return the shape of the array for the pass of a picture of (rows, columns)."""

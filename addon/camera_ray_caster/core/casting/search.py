@@ -9,9 +9,8 @@ from operator import attrgetter
 from typing import Any
 
 import numpy as np
-from numpy.lib.stride_tricks import sliding_window_view
 
-from ..maths.speed import whole_rows, widened
+from ..maths.speed import taken, whole_rows, widened
 from ..shapes.kind import Candidates, Large
 from ..shapes.search_rays import SearchRays
 from .hits import NOTHING, Hits
@@ -101,34 +100,49 @@ class NearestHits:
 
     def keep(self, found: Candidates) -> None:
         """Keep the crossings that are the nearest so far, in any order of shapes."""
-        (first_row, first_column), (count, high, wide) = found.corner, found.t.shape
-        at = found.at.astype(self.index.dtype)
-        if count == 1:  # without the copies that indexing by arrays makes
-            whole = slice(first_row[0], first_row[0] + high), slice(first_column[0], first_column[0] + wide)
-            before, other = self.t[whole][None], self.index[whole][None]
-        else:
-            before = sliding_window_view(self.t, (high, wide))[found.corner]
-            other = sliding_window_view(self.index, (high, wide))[found.corner]
+        if len(found.t) == 1:
+            self._keep_window(found)
+            return
+        (row, column), (count, high, wide) = found.corner, found.t.shape
+        scratch, width = self.rays.scratch, self.t.shape[1]
+        t, index = self.t.reshape(-1), self.index.reshape(-1)
+        window = (np.arange(high)[:, None] * width + np.arange(wide)).reshape(-1)
+        pixels = np.add((row * width + column)[:, None], window, out=scratch("pixels", (count, high * wide), np.intp))
+        before = np.take(t, pixels, mode="wrap", out=scratch("before", pixels.shape)).reshape(found.t.shape)
+        closer, tied = (scratch(name, found.t.shape, bool) for name in ("closer", "tied"))
+        np.less(found.t, before, out=closer)
+        if np.equal(found.t, before, out=tied).any():
+            other = index[pixels].reshape(tied.shape)
+            closer |= tied & (found.at < other)
+        if found.where is not None:
+            closer &= found.where
+        hits = np.flatnonzero(closer)
+
+        def at_hits(values: np.ndarray, name: str) -> np.ndarray:
+            return np.take(values.reshape(-1), hits, mode="wrap", out=scratch(name, hits.shape, values.dtype.type))
+
+        pixel, crossing = at_hits(pixels, "pixel"), at_hits(found.t, "crossing")
+        np.floor_divide(hits, found.t.size // found.at.size, out=hits)
+        shape = at_hits(found.at.astype(index.dtype), "shape")
+        while pixel.size:
+            t[pixel], index[pixel] = crossing, shape  # of several hits in a pixel the last is kept: others retry
+            kept = np.take(index, pixel, mode="wrap", out=scratch("kept", pixel.shape, index.dtype.type))
+            lost = np.flatnonzero(np.not_equal(kept, shape, out=scratch("lost", pixel.shape, bool)))
+            pixel, crossing, shape = pixel[lost], crossing[lost], shape[lost]
+            now = t[pixel]
+            nearer = (crossing < now) | ((crossing == now) & (shape < index[pixel]))
+            pixel, crossing, shape = pixel[nearer], crossing[nearer], shape[nearer]
+
+    def _keep_window(self, found: Candidates) -> None:
+        """Keep the crossings in one window, without the copies that indexing by arrays makes."""
+        (row, column), (_, high, wide) = found.corner, found.t.shape
+        window = slice(row[0], row[0] + high), slice(column[0], column[0] + wide)
+        before, other, at = self.t[window][None], self.index[window][None], found.at.astype(self.index.dtype)
         closer, tied = found.t < before, found.t == before
         if found.where is not None:
             closer &= found.where
             tied &= found.where
         if tied.any():
             closer |= tied & (at < other)
-        if count == 1:
-            np.copyto(before, found.t, where=closer, casting="same_kind")
-            np.copyto(other, at, where=closer)
-            return
-        hits = np.flatnonzero(closer)
-        width = self.t.shape[1]
-        window = (np.arange(high)[:, None] * width + np.arange(wide)).reshape(-1)
-        pixel = ((first_row * width + first_column)[:, None] + window).reshape(-1)[hits]
-        shape, crossing = at.reshape(-1)[hits // (found.t.size // at.size)], found.t.reshape(-1)[hits]
-        t, index = self.t.reshape(-1), self.index.reshape(-1)
-        while pixel.size:
-            t[pixel], index[pixel] = crossing, shape  # of several hits in a pixel the last is kept: others retry
-            lost = np.flatnonzero(index[pixel] != shape)
-            pixel, crossing, shape = pixel[lost], crossing[lost], shape[lost]
-            now = t[pixel]
-            nearer = (crossing < now) | ((crossing == now) & (shape < index[pixel]))
-            pixel, crossing, shape = pixel[nearer], crossing[nearer], shape[nearer]
+        np.copyto(before, found.t, where=closer, casting="same_kind")
+        np.copyto(other, at, where=closer)

@@ -18,31 +18,32 @@ def store(hits: Hits, outs: dict[str, np.ndarray], where=None) -> None:
         for name, out in outs.items():
             put(meant[name], out, where)
         return
+    layered = {name for name in outs if PASSES[name].missed is not None and hits.plan.is_layered}
     for window, block in hits.blocks():
-        write(HitValues(block), {name: out[window] for name, out in outs.items()})
-
-
-def write(values: HitValues, outs: dict[str, np.ndarray]) -> None:
-    """Write passes of a block of rows into parts of images."""
-    block = values.hits
-    layered = {name: out for name, out in outs.items() if PASSES[name].missed is not None and block.plan.is_layered}
-    with whole_rows(block.t.shape[1]):
-        for name, out in outs.items():
-            if name not in layered:
-                PASSES[name].write(values, out)
-            if (missed := PASSES[name].missed) is None or block.missed is None:
-                continue
-            if callable(missed):
-                missed(values, out)
-            elif name in layered:
-                out[...] = missed
-            else:
-                write_where(out, missed, block.missed)
-    for window, layer in block.layers() if layered else ():
-        own = HitValues(layer)
+        values = HitValues(block)
+        with whole_rows(block.t.shape[1]):
+            for name, out in outs.items():
+                if name not in layered:
+                    PASSES[name].write(values, out[window])
+                _write_missed(name, values, out[window], name in layered)
+    for window, layer in hits.layers() if layered else ():
+        values = HitValues(layer)
         with whole_rows(layer.t.shape[1]):
-            for name, out in layered.items():
-                PASSES[name].write(own, out[window])
+            for name in layered:
+                PASSES[name].write(values, outs[name][window])
+
+
+def _write_missed(name: str, values: HitValues, out: np.ndarray, everywhere: bool) -> None:
+    """Write what a pass of surfaces is where nothing is hit, or ``everywhere`` if there are such pixels."""
+    missed = PASSES[name].missed
+    if missed is None or values.hits.missed is None:
+        return
+    if callable(missed):
+        missed(values, out)
+    elif everywhere:
+        out[...] = missed
+    else:
+        write_where(out, missed, values.hits.missed)
 
 
 def add_combined(hits: Hits, total: np.ndarray) -> None:
@@ -50,7 +51,7 @@ def add_combined(hits: Hits, total: np.ndarray) -> None:
     for window, block in hits.blocks():
         part = total[window]
         once = hits.rays.scratch("once", part.shape, np.float64)
-        write(HitValues(block), {"combined": once})
+        store(block, {"combined": once})
         part += once
 
 

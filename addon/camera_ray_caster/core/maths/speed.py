@@ -17,6 +17,8 @@ from typing import Any, Generic, TypeVar, overload
 
 import numpy as np
 
+from .kept import MOST
+
 T = TypeVar("T")
 
 MULTIPLE = 16
@@ -27,12 +29,6 @@ NARROW = 128
 
 STRIP = 36
 """Default of the smallest number of rows that are processed together."""
-
-MOST_KEPT = 1 << 26
-"""Maximum number of bytes of working arrays that are kept between casts. The system clears new memory page by page:
-without kept arrays, times X."""
-
-_KEPT: list[Scratch] = []
 
 
 def processors() -> int:
@@ -118,16 +114,19 @@ class Scratch:
         return sum(one.nbytes for one in self._arrays.values()) + sum(part.size for part in self._parts.values())
 
 
+_unused: list[Scratch] = []
+
+
 @contextmanager
 def lending() -> Iterator[Callable[[], Scratch]]:
     """Give a function that lends working arrays: those of earlier work, or new ones. At the end they are kept for later
-    work, up to MOST_KEPT bytes.
+    work, up to MOST bytes.
     """
     lent: list[Scratch] = []
 
     def lend() -> Scratch:
         try:
-            lent.append(_KEPT.pop())
+            lent.append(_unused.pop())
         except IndexError:
             lent.append(Scratch())
         return lent[-1]
@@ -136,8 +135,8 @@ def lending() -> Iterator[Callable[[], Scratch]]:
         yield lend
     finally:
         for scratch in lent:
-            if scratch.size + sum(one.size for one in _KEPT) <= MOST_KEPT:
-                _KEPT.append(scratch)
+            if scratch.size + sum(one.size for one in _unused) <= MOST:
+                _unused.append(scratch)
 
 
 class Shared(Generic[T]):

@@ -1,0 +1,60 @@
+"""Memory is used again when nothing uses it any longer, and not before."""
+
+import gc
+
+import numpy as np
+import pytest
+
+from camera_ray_caster.core.maths import kept
+from camera_ray_caster.core.maths.speed import lending
+
+SHAPE = 300, 200, 3
+
+
+@pytest.fixture(autouse=True)
+def nothing_kept(monkeypatch):
+    monkeypatch.setattr(kept, "_unused", {})
+
+
+def place(array: np.ndarray) -> int:
+    return array.__array_interface__["data"][0]
+
+
+@pytest.mark.parametrize("dtype", [np.float32, np.float64, np.int32])
+def test_an_array_is_as_that_of_numpy_empty(dtype):
+    array = kept.empty(SHAPE, dtype)
+    assert (array.shape, array.dtype) == (SHAPE, dtype)
+    assert array.flags.c_contiguous and array.flags.writeable and array.flags.aligned
+
+
+def test_memory_comes_back_when_the_last_view_has_gone():
+    array = kept.empty(SHAPE, np.float32)
+    array.fill(1)
+    view, first = array[5:, ::2].T, place(array)
+    del array
+    other = kept.empty(SHAPE, np.float32)
+    other.fill(2)
+    assert place(other) != first and (view == 1).all()
+    del view
+    assert place(kept.empty(SHAPE, np.int32)) == first
+
+
+def test_no_more_is_kept_than_the_limit(monkeypatch):
+    size = np.empty(SHAPE, np.float32).nbytes
+    monkeypatch.setattr(kept, "MOST", 3 * size)
+    arrays = [kept.empty(SHAPE, np.float32) for _ in range(2)]
+    arrays += [kept.empty((2, *SHAPE), np.float32)]
+    del arrays
+    gc.collect()
+    assert sum(one * len(blocks) for one, blocks in kept._unused.items()) <= 3 * size
+    assert kept.empty((4, *SHAPE), np.float32).base is None  # too large to be kept
+    assert kept.empty((4, 4), np.float32).base is None  # the C library's
+
+
+def test_working_arrays_are_lent_to_one_at_a_time_and_again_afterwards():
+    with lending() as lend, lending() as other:
+        first, second, third = lend(), lend(), other()
+        assert len({id(first), id(second), id(third)}) == 3
+        first("a", (5,))
+    with lending() as lend:
+        assert {id(lend()) for _ in range(3)} >= {id(first)}
