@@ -35,7 +35,7 @@ def cases() -> dict[str, Callable]:
         for passes in (FOUR, TWO)
         for count in SPHERES
     }
-    found |= {f"{name} triangles, 4 passes": partial(mesh, side) for name, side in SIDES.items()}
+    found |= {f"{name} triangles, 4 passes": partial(mesh, side, FOUR) for name, side in SIDES.items()}
     found["F12, spheres and planes, 5 passes"] = _render
     return found | {f"rays, {model.key}": partial(_rays, model.key) for model in MODELS}
 
@@ -78,10 +78,12 @@ def _timed(root: Path, name: str, size: tuple[int, int]) -> float | None:
     return float(done.stdout.splitlines()[-1]) if done.returncode == 0 else None
 
 
-def _camera(size: tuple[int, int]):
+def _camera(size: tuple[int, int], model: str):
     from camera_ray_caster.core.records import BlenderCamera
 
-    record = BlenderCamera("Camera", "PERSP", np.eye(4), resolution_x=size[0], resolution_y=size[1])
+    if model != "PERSP":
+        return import_module("camera_ray_caster").camera(model, size)
+    record = BlenderCamera("Camera", model, np.eye(4), resolution_x=size[0], resolution_y=size[1])
     try:
         module = import_module("camera_ray_caster.core.camera.build")
     except ImportError:  # older than the folder camera/
@@ -89,7 +91,8 @@ def _camera(size: tuple[int, int]):
     return module.camera_from(record)
 
 
-def _cast(size, passes, **fields) -> Callable:
+def _cast(size, passes, model, **fields) -> Callable:
+    """Return a function that casts the shapes with these fields; it takes options of ``cast``."""
     from camera_ray_caster.core.cast import cast
     from camera_ray_caster.core.records import Shapes
 
@@ -99,11 +102,11 @@ def _cast(size, passes, **fields) -> Callable:
     if "centre" in Shapes.__dataclass_fields__:  # as older commits spell them
         fields = {{"center": "centre", "color": "colour"}.get(name, name): values for name, values in fields.items()}
     shapes = Shapes(object_index=index, material_index=index, name_index=index, **fields)
-    camera = _camera(size)
-    return lambda: cast(camera, shapes, passes, threads=2)
+    camera = _camera(size, model)
+    return lambda **options: cast(camera, shapes, passes, **{"threads": 2} | options)
 
 
-def spheres(count: int, passes, size) -> Callable:
+def spheres(count: int, passes, size, model: str = "PERSP") -> Callable:
     """Equal spheres without a wall, whose discs have 0.6 of the picture's area in sum."""
     from camera_ray_caster.core.records import SPHERE
 
@@ -114,10 +117,18 @@ def spheres(count: int, passes, size) -> Callable:
     center = np.stack((across * wide * depth, up * high * depth, -depth), axis=1)
     radius = np.sqrt(0.6 * 4 * wide * high / np.pi / np.sum(1 / depth**2))
     axes = np.broadcast_to(np.eye(3) * radius, (count, 3, 3)).copy()
-    return _cast(size, passes, kind=np.full(count, SPHERE, np.uint8), center=center, axes=axes)
+    return _cast(size, passes, model, kind=np.full(count, SPHERE, np.uint8), center=center, axes=axes)
 
 
-def mesh(side: int, size, passes=FOUR) -> Callable:
+def plane(passes, size) -> Callable:
+    """A plane that fills the picture."""
+    from camera_ray_caster.core.records import PLANE
+
+    center, axes = np.array([[0.0, 0.0, -32.0]]), 40 * np.eye(3)[None]
+    return _cast(size, passes, "PERSP", kind=np.array([PLANE], np.uint8), center=center, axes=axes)
+
+
+def mesh(side: int, passes, size, model: str = "PERSP") -> Callable:
     """A sheet of waves that fills the picture."""
     from camera_ray_caster.core.mesh import Mesh
     from camera_ray_caster.core.records import MESH
@@ -129,7 +140,8 @@ def mesh(side: int, size, passes=FOUR) -> Callable:
     triangles = np.concatenate(([corner, corner + 1, other + 1], [corner, other + 1, other]), axis=1).astype(np.int32)
     own = Mesh(vertices, triangles, np.arange(2 * len(corner), dtype=np.int32))
     return _cast(
-        size, passes, kind=np.array([MESH], np.uint8), center=own.middle[None], axes=np.eye(3)[None], meshes=(own,),
+        size, passes, model,
+        kind=np.array([MESH], np.uint8), center=own.middle[None], axes=np.eye(3)[None], meshes=(own,),
         mesh=np.zeros(1, np.int32), shared=np.zeros(1, bool),
     )  # fmt: skip
 

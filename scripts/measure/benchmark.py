@@ -31,6 +31,9 @@ def main(description: str) -> int:
         "--redraws", action="store_true", help="measure the pictures of a viewport, 574x287, of every camera model"
     )
     parser.add_argument("--passes", action="store_true", help="measure each pass beside writing its array alone")
+    parser.add_argument(
+        "--casts", action="store_true", help="measure whole casts beside writing their arrays, with one thread and two"
+    )
     parser.add_argument("--scaling", action="store_true", help="measure the cost against pixels, shapes and triangles")
     parser.add_argument(
         "--dataset", action="store_true", help="measure pictures of a data set, with one process and with two"
@@ -44,7 +47,8 @@ def main(description: str) -> int:
     parser.add_argument("--picture", type=Path, metavar="FILE", help="draw a diagram; with --scaling only")
     parser.add_argument("--json", type=Path, metavar="FILE", help="write the measurements to this file")
     options = parser.parse_args()
-    keep_memory()
+    if not options.casts:  # which are timed as users cast
+        keep_memory()
     for path in filter(None, (options.json, options.picture)):
         if not path.absolute().parent.is_dir():
             parser.error(f"there is no folder for {str(path)!r}: create the folder or choose another folder")
@@ -66,6 +70,10 @@ def main(description: str) -> int:
         from . import by_pass
 
         figures = by_pass.run(options.size, rounds)
+    elif options.casts:
+        from . import whole_casts
+
+        figures = whole_casts.run(options.size, rounds)
     elif options.models:
         from . import by_model
 

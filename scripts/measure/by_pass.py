@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from time import process_time
 
 import numpy as np
@@ -11,8 +12,7 @@ from camera_ray_caster.core.casting.passes import PASSES
 
 from . import against
 
-SCENES = {"10 spheres": lambda passes, size: against.spheres(10, passes, size),
-          "63k triangles": lambda passes, size: against.mesh(against.SIDES["63k"], size, passes)}  # fmt: skip
+SCENES = {"10 spheres": partial(against.spheres, 10), "63k triangles": partial(against.mesh, against.SIDES["63k"])}
 ARRAYS = 8
 """Number of arrays that are kept while the limit is measured: freed memory would be filled again from the cache."""
 
@@ -35,10 +35,16 @@ def run(size: tuple[int, int], rounds: int) -> list[dict]:
 
 
 def _filled(name: str, size: tuple[int, int]) -> list[np.ndarray]:
-    arrays = [PASSES[name].empty(size[::-1], np.float32) for _ in range(ARRAYS)]
+    arrays = [new(name, size) for _ in range(ARRAYS)]
     for array in arrays:
         array.fill(0)
     return arrays
+
+
+def new(name: str, size: tuple[int, int]) -> np.ndarray:
+    """Return an array for a pass in memory of its own; ``Pass.empty`` would use that of others again."""
+    one = PASSES[name]
+    return np.empty(one.shape(size[::-1]), one.dtype or np.float32)
 
 
 def _least(timed: Callable, rounds: int) -> float:

@@ -49,6 +49,18 @@ def test_every_model_is_timed_and_eyes_of_spherical_stereo(tmp_path):
 
 
 @pytest.mark.full
+def test_whole_casts_are_timed_beside_writing_their_arrays(tmp_path):
+    text, rows = figures(tmp_path, "--casts", "--size", "64x36", "--rounds", "1")
+    assert len(rows) == 9
+    assert all(row["name"] in text for row in rows)
+    for row in rows:
+        least = min(row["one_thread_ms"][0], row["two_threads_ms"][0])
+        assert row["over_writing"] == pytest.approx(least / row["writing_ms"][0])
+        assert row["over_filling"] == pytest.approx(row["into_ms"][0] / row["filling_ms"][0])
+        assert row["passes_ms"] < row["one_thread_ms"][0]
+
+
+@pytest.mark.full
 def test_scaling_is_measured_and_drawn(tmp_path):
     _, rows = figures(tmp_path, "--scaling", "--quick", "--picture", tmp_path / "scaling.png")
     assert [row["spheres"] for row in rows if row["against"] == "spheres"] == [10, 100, 1000]

@@ -27,9 +27,9 @@ its length. Always divided: 1.2 to 1.4 times the time of casts with normals.
 """
 
 BLOCK_PIXELS = 1 << 16
-"""Number of pixels whose passes are written at once. Processor time with 2**17: 1.0 to 1.1 times that of four passes, of
-error bounds 1.35 times for 10 spheres, 1.05 for 1,000 and 0.92 for a mesh of 63,000 triangles. With 2**15 1.0 to 1.05
-times that of four passes; by the clock 1.2 to 1.3 times, since threads wait for each other between calls of numpy.
+"""Number of pixels whose passes are written at once. Processor time with 2**17: 1.0 to 1.1 times that of four passes;
+of error bounds 1.35 times for 10 spheres, 1.05 for 1,000 and 0.92 for a mesh of 63,000 triangles. With 2**15 1.0 to
+1.05 times that of four passes; by the clock 1.2 to 1.3 times, since threads wait for each other between numpy's calls.
 """
 
 LAYER_PIXELS, LAYERED = 1 << 12, 1.5

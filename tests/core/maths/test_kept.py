@@ -24,7 +24,9 @@ def place(array: np.ndarray) -> int:
 def test_an_array_is_as_that_of_numpy_empty(dtype):
     array = kept.empty(SHAPE, dtype)
     assert (array.shape, array.dtype) == (SHAPE, dtype)
-    assert array.flags.c_contiguous and array.flags.writeable and array.flags.aligned
+    assert array.flags.c_contiguous
+    assert array.flags.writeable
+    assert array.flags.aligned
 
 
 def test_memory_comes_back_when_the_last_view_has_gone():
@@ -34,7 +36,8 @@ def test_memory_comes_back_when_the_last_view_has_gone():
     del array
     other = kept.empty(SHAPE, np.float32)
     other.fill(2)
-    assert place(other) != first and (view == 1).all()
+    assert place(other) != first
+    assert (view == 1).all()
     del view
     assert place(kept.empty(SHAPE, np.int32)) == first
 

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from ..maths.speed import taken, whole_rows, widened
+from ..maths.speed import whole_rows, widened
 from ..shapes.kind import Candidates, Large
 from ..shapes.search_rays import SearchRays
 from .hits import NOTHING, Hits

@@ -30,7 +30,7 @@ class _Block:
         try:
             self._bytes = _unused[size].pop()
         except (KeyError, IndexError):
-            np.empty(size, np.uint8)  # freed at once, as if nothing were kept: glibc keeps blocks up to the largest freed
+            np.empty(size, np.uint8)  # freed at once: glibc keeps what is smaller than the largest block ever freed
             self._bytes = np.empty(size, np.uint8)
         self.__array_interface__ = self._bytes.__array_interface__
 
