@@ -11,6 +11,8 @@ from camera_ray_caster.blender.ui import export_operators, in_steps
 from camera_ray_caster.core.exports import FORMATS
 from camera_ray_caster.core.exports.camera_json import camera_from_json
 
+from .test_panels import Layout
+
 
 def names(folder):
     return sorted(path.name for path in folder.iterdir())
@@ -73,6 +75,18 @@ def test_the_nearest_lens_is_written_and_its_error_said_last(blender, two, tmp_p
     said = r"First: fitted to its Double Sphere, within 57.3 degrees of the viewing direction: .* mean [\d.e-]+ pixels"
     assert re.match(said, in_steps.latest())
     assert in_steps.latest() in (tmp_path / "First.yml").read_text()
+
+
+def test_only_formats_of_lenses_offer_the_nearest_one(blender):
+    offered = {}
+    for one in FORMATS:
+        layout = Layout()
+        operator = type("Operator", (), {"layout": layout, "format": one.key, "fit": False})
+        export_operators.Export.draw(operator, blender.context)
+        offered[one.key] = {"fit", "fit_within"} <= set(layout.said)
+    assert {key for key, is_offered in offered.items() if not is_offered} == {
+        "tum", "kitti", "euroc", "stmap", "npz", "json"
+    }
 
 
 def test_every_format_can_be_chosen_and_says_what_it_is(blender):
