@@ -126,4 +126,7 @@ if __name__ == "__main__":
     kind, path, output = sys.argv[1:]
     kinds = {"ouster": ouster, "velodyne": velodyne, "ply": ply, "open3d": open3d, "pcd": pcd, "las": las,
              "colmap": colmap, "coco": coco, "fisheyes": fisheyes}  # fmt: skip
-    np.savez(output, **kinds[kind](path))
+    try:
+        np.savez(output, **kinds[kind](path))
+    except ModuleNotFoundError as error:
+        sys.exit(f"MISSING {error.name}")

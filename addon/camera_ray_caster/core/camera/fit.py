@@ -140,8 +140,14 @@ def _angles(rays: np.ndarray) -> np.ndarray:
 
 
 def _best(searches: list[Search]) -> tuple[Search, np.ndarray, bool, float]:
-    """Return the search that sees most rays, and among those the one with the least sum, and what it returned."""
-    found = [(search, *search.run()) for search in searches]
+    """Return the search that sees most rays, and among those the one with the least sum, and what it returned.
+
+    Once one has ended at a minimum with all rays, those that begin with fewer are left out: they see no more.
+    """
+    found: list[tuple[Search, np.ndarray, bool, float]] = []
+    for search in searches:
+        if not any(converged and counted == 1 for *_, converged, counted in found) or search.near().all():
+            found.append((search, *search.run()))
     offs = [search.residual(values) for search, values, *_ in found]
     best = min(range(len(found)), key=lambda k: (found[k][3] < LEFT, np.isnan(offs[k]).sum(), np.nansum(offs[k] ** 2)))
     return found[best]

@@ -104,7 +104,7 @@ class Number(Setting):
         within = is_number and low - near * abs(low) <= value <= high + near * abs(high)  # NaN is not
         if not (is_recorded(value) or within):
             too_large = is_number and high == LARGEST < abs(value) < math.inf
-            allowed = self.range_in_words(low, high) + f", up to {high:g}" * too_large
+            allowed = self.range_in_words(low, high) + f", up to {high:g}" * bool(too_large)
             raise self.refusal(raw, self.in_words(value, " ({:g} radians)"), allowed)
         return value if isinstance(value, Varied) or is_recorded(value) else float(value)
 
@@ -125,7 +125,7 @@ class Number(Setting):
             return "a finite number"
         least, most = self.in_words(low), self.in_words(high)
         if low == ABOVE_ZERO:
-            return "above 0" + f", up to {most}" * (high != LARGEST)
+            return "above 0" + f", up to {most}" * bool(high != LARGEST)
         return f"{least} or more" if high == LARGEST else f"from {least} to {most}"
 
 
