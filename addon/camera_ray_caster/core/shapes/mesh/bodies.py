@@ -21,6 +21,9 @@ BYTES = 144
 PREPARED = 0.25
 """Number of rays from one point, for each triangle, from which the triangles are prepared for them. Not tuned."""
 
+MOST_PREPARED = 1 << 21
+"""Largest number of triangles that are prepared: they take half a gigabyte."""
+
 FEWER = "cast at fewer instances, or reduce the subdivision"
 
 
@@ -72,7 +75,8 @@ class TriangleBodies(Bodies):
 
     def seen_from(self, eye: np.ndarray, rays: int) -> Bodies:
         """See ``Bodies``."""
-        return TrianglesFromEye(self, eye) if rays > PREPARED * len(self.at) else self
+        is_worth_it = PREPARED * len(self.at) < rays and len(self.at) <= MOST_PREPARED
+        return TrianglesFromEye(self, eye) if is_worth_it else self
 
     def corners(self, body: np.ndarray, origin: Any) -> np.ndarray:
         """Return the corners of triangles relative to origins, (3, 3, m): corner, component."""
