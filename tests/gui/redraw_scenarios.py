@@ -23,6 +23,10 @@ redraw waits for 60 ms at most. It took 1 to 2.6 s when every triangle was sough
 """
 
 
+SIX = "PERSP", "EQUIRECTANGULAR", "FISHEYE_EQUIDISTANT", "OPENCV_FISHEYE", "OMNIMAX", "CYLINDRICAL"
+"""Models of ``redraws_of_models``: Blender's own first."""
+
+
 class Watch:
     """Counts what the engine does in redraws: its processor time on the window's thread and in coarse tiles, and when
     pictures of which size are ready. ``waited``: the seconds that the window stood still in each redraw.
@@ -118,6 +122,43 @@ def redraws_all_around(user, scenes):
     space.shading.type = "SOLID"
 
 
+def redraws_of_models(user, scenes):
+    """Two rooms of triangles through six models, beside Blender's own Solid shading of the same view."""
+    for name in ("street", "living_room"):
+        yield from load(user, scenes, name)
+        scene, area, drawn = bpy.context.scene, user.area(), []
+        space, camera, view = area.spaces.active, scene.camera, bpy.types.SpaceView3D
+        handle = view.draw_handler_add(lambda drawn=drawn: drawn.append(1), (), "WINDOW", "POST_PIXEL")
+        space.region_3d.view_perspective, camera.data.camera_ray_caster.model = "CAMERA", "BLENDER"
+        camera.data.type = "PERSP"
+
+        def moved(camera=camera, area=area, drawn=drawn):
+            yield from user.wait(1)
+            drawn.clear()
+            began = time.process_time()
+            for count in range(1, REDRAWS + 1):
+                camera.location.y += 0.02
+                area.tag_redraw()
+                yield from user.until(lambda count=count: len(drawn) >= count, "it is drawn", 60)
+            return 1e3 * (time.process_time() - began) / REDRAWS
+
+        space.shading.type = "SOLID"
+        print(f"{name}, Solid: {(yield from moved()):.0f} ms of processor time a redraw")
+        scene.render.engine, space.shading.type, watch = "CAMERA_RAY_CASTER", "RENDERED", Watch()
+        for model in SIX:
+            own = camera.data.camera_ray_caster
+            own.model = model if model in own.bl_rna.properties["model"].enum_items else "BLENDER"
+            if own.model == "BLENDER" and model != "PERSP":
+                camera.data.type, camera.data.panorama_type = "PANO", model
+            watch.spent.clear()
+            whole = yield from moved()
+            print(f"{name}, {model}: {whole:.0f} ms, the engine's share {1e3 * np.median(watch.spent):.0f}")
+            assert np.median(watch.waited[-REDRAWS:]) < STREET, watch.waited
+        watch.end()
+        view.draw_handler_remove(handle, "WINDOW")
+        space.shading.type = "SOLID"
+
+
 def redraws(user, moved, limits):
     """While a view is turned, an object is moved and a fisheye camera flies, the engine takes a small part of a redraw;
     the full picture comes when all stands still.
@@ -160,4 +201,4 @@ def redraws(user, moved, limits):
     space.overlay.show_overlays, space.shading.type = True, "SOLID"
 
 
-REDRAW_SCENARIOS = (redraws_of_shapes, redraws_of_monkeys, redraws_all_around)
+REDRAW_SCENARIOS = (redraws_of_shapes, redraws_of_monkeys, redraws_all_around, redraws_of_models)
