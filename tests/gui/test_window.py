@@ -24,7 +24,8 @@ SCENARIOS = (
     "results_stay", "redraws_of_shapes", "redraws_of_monkeys", "redraws_all_around", "redraws_of_models",
     "shown_camera", "set_frame", "other_engine", "marks", "click_seen", "drag_a_ray", "cast_all",
     "export_all", "scanned_points", "slit_scan_movie",
-    "drag_x_before_a_class", "autosaved", "disable",
+    "drag_x_before_a_class", "autosaved",
+    "quad_and_local_views", "undone", "disable",
 )  # fmt: skip
 SEEDS = "1", "2", "3", "4"
 """Of random acts, 250 each: see random_acts.py."""

@@ -32,4 +32,59 @@ def autosaved(user, scenes):
     assert addon("ui.hide_overlays").MARK not in user.window.screen
 
 
-VIEWS_SCENARIOS = (autosaved,)
+def quad_and_local_views(user, scenes):
+    """See Through works in a quad view's camera corner and in local view, and ends as it began."""
+    yield from load(user, scenes, "living_room_omnimax")
+    area, button = user.area(), f"{BUTTON}see_through("
+    space, before = area.spaces.active, overlays(area.spaces.active)
+    in_view = {"window": user.window, "area": area, "region": user.region("WINDOW")}
+    for enter in (bpy.ops.screen.region_quadview, bpy.ops.view3d.localview):
+        with bpy.context.temp_override(**in_view):
+            enter()
+        yield from user.wait(0.5)
+        yield from user.press(button)
+        yield from user.until(lambda: not any(overlays(space).values()), "they are hidden")
+        yield from user.wait(1)
+        user.picture(f"view_{enter.idname_py().rpartition('.')[2]}")
+        yield from user.press(button)
+        yield from user.until(lambda: overlays(space) == before, "they come back")
+        with bpy.context.temp_override(**in_view):
+            enter()
+        yield from user.wait(0.5)
+
+
+def undone(user, scenes):
+    """Each change that a button makes goes with Ctrl+Z, and comes back with Ctrl+Shift+Z; keys and drivers stay."""
+    yield from load(user, scenes, "toys")
+    view = user.region("WINDOW")
+
+    def own():
+        return bpy.context.scene.camera.data.camera_ray_caster
+
+    own().model, bpy.context.scene.frame_end = "CROSS_SLIT", 9
+    own().keyframe_insert("time_end", frame=1)
+    bpy.ops.ed.undo_push(message="model")
+    yield from user.wait(0.7)
+    for name, changed in (
+        ("use_this_engine", lambda: bpy.context.scene.render.engine == "CAMERA_RAY_CASTER"),
+        ("add_line", lambda: own().slit_1 is not None),
+    ):
+        if name == "use_this_engine":
+            bpy.context.scene.render.engine = "BLENDER_WORKBENCH"
+            own().model = "OMNIMAX"
+            bpy.ops.ed.undo_push(message="engine")
+        else:
+            own().model = "CROSS_SLIT"
+            bpy.ops.ed.undo_push(message="slits")
+        yield from user.wait(0.7)
+        yield from user.press(f"{BUTTON}{name}(")
+        yield from user.until(changed, f"{name} has changed something")
+        for keys, holds in (("ctrl+z", False), ("ctrl+shift+z", True)):
+            yield from user.point(view.x + view.width // 3, view.y + view.height // 3)
+            yield from user.key(keys)
+            yield from user.until(lambda changed=changed, holds=holds: changed() is holds, f"{name}, {keys}")
+        yield from user.wait(0.5)
+    assert bpy.context.scene.camera.data.animation_data.action is not None
+
+
+VIEWS_SCENARIOS = (autosaved, quad_and_local_views, undone)
