@@ -7,6 +7,7 @@
     python scripts/benchmark.py --redraws       every camera model in scenes of triangles, by processor time
     python scripts/benchmark.py --passes        each pass beside writing its array alone
     python scripts/benchmark.py --casts         whole casts beside writing their arrays; one thread and two
+    python scripts/benchmark.py --renders --size 3840x2160    F12 beside the cast alone, and beside Blender's own share
     python scripts/benchmark.py --dataset       a data set of meshes: cost against writing alone, and two processes
     python scripts/benchmark.py --against v0.1.0    this checkout against a commit: casts and the rays of each model
     python scripts/benchmark.py --against v0.1.0 --same    whether the pictures of the example scenes are the same

@@ -34,6 +34,7 @@ def main(description: str) -> int:
     parser.add_argument(
         "--casts", action="store_true", help="measure whole casts beside writing their arrays, with one thread and two"
     )
+    parser.add_argument("--renders", action="store_true", help="measure F12 beside the cast alone")
     parser.add_argument("--scaling", action="store_true", help="measure the cost against pixels, shapes and triangles")
     parser.add_argument(
         "--dataset", action="store_true", help="measure pictures of a data set, with one process and with two"
@@ -47,7 +48,7 @@ def main(description: str) -> int:
     parser.add_argument("--picture", type=Path, metavar="FILE", help="draw a diagram; with --scaling only")
     parser.add_argument("--json", type=Path, metavar="FILE", help="write the measurements to this file")
     options = parser.parse_args()
-    if not options.casts:  # which are timed as users cast
+    if not (options.casts or options.renders):  # which are timed as users cast
         keep_memory()
     for path in filter(None, (options.json, options.picture)):
         if not path.absolute().parent.is_dir():
@@ -74,6 +75,10 @@ def main(description: str) -> int:
         from . import whole_casts
 
         figures = whole_casts.run(options.size, rounds)
+    elif options.renders:
+        from . import renders
+
+        figures = renders.run(options.size, rounds)
     elif options.models:
         from . import by_model
 

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import mmap
 from collections.abc import Callable
 from functools import partial
+from math import prod
 from time import process_time
 
 import numpy as np
@@ -14,7 +16,7 @@ from . import against
 
 SCENES = {"10 spheres": partial(against.spheres, 10), "63k triangles": partial(against.mesh, against.SIDES["63k"])}
 ARRAYS = 8
-"""Number of arrays that are kept while the limit is measured: freed memory would be filled again from the cache."""
+"""Number of arrays that are filled at once while the limit is measured."""
 
 
 def run(size: tuple[int, int], rounds: int) -> list[dict]:
@@ -42,9 +44,12 @@ def _filled(name: str, size: tuple[int, int]) -> list[np.ndarray]:
 
 
 def new(name: str, size: tuple[int, int]) -> np.ndarray:
-    """Return an array for a pass in memory of its own; ``Pass.empty`` would use that of others again."""
-    one = PASSES[name]
-    return np.empty(one.shape(size[::-1]), one.dtype or np.float32)
+    """Return an array for a pass in new memory, in large pages as numpy asks for them: freed memory may be kept."""
+    shape, dtype = PASSES[name].shape(size[::-1]), np.dtype(PASSES[name].dtype or np.float32)
+    memory = mmap.mmap(-1, prod(shape) * dtype.itemsize)
+    if hasattr(mmap, "MADV_HUGEPAGE"):
+        memory.madvise(mmap.MADV_HUGEPAGE)
+    return np.frombuffer(memory, dtype).reshape(shape)
 
 
 def _least(timed: Callable, rounds: int) -> float:
