@@ -49,7 +49,7 @@ def mark_the_rest(items):
     kept = 0
     for name, group in cases.items():
         mark = group[0].get_closest_marker("cases")
-        chosen = one_for_each(group) or spread(group, name, mark.args[0] if mark else CASES)
+        chosen = spread(group, name, mark.args[0]) if mark else one_for_each(group) or spread(group, name, CASES)
         for item in set(group) - chosen:
             item.add_marker(pytest.mark.full)
         kept += len(chosen)

@@ -173,6 +173,7 @@ def test_geometry_by_hand(key, fact):
         np.testing.assert_allclose(ray.origins, world[:3, :3] @ origin + world[:3, 3], rtol=8 * EPS, atol=8 * EPS)
 
 
+@pytest.mark.cases(3)  # poses know no models
 @each_example
 def test_the_pose_is_each_axis_normalized_for_itself(key, settings):
     plain = camera(key, settings | {"matrix_world": IDENTITY}).rays()
