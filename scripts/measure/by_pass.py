@@ -46,7 +46,7 @@ def _filled(name: str, size: tuple[int, int]) -> list[np.ndarray]:
 def new(name: str, size: tuple[int, int]) -> np.ndarray:
     """Return an array for a pass in new memory, in large pages as numpy asks for them: freed memory may be kept."""
     shape, dtype = PASSES[name].shape(size[::-1]), np.dtype(PASSES[name].dtype or np.float32)
-    memory = mmap.mmap(-1, prod(shape) * dtype.itemsize)
+    memory = mmap.mmap(-1, prod(shape) * dtype.itemsize, mmap.MAP_PRIVATE | mmap.MAP_ANONYMOUS)
     if hasattr(mmap, "MADV_HUGEPAGE"):
         memory.madvise(mmap.MADV_HUGEPAGE)
     return np.frombuffer(memory, dtype).reshape(shape)
