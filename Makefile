@@ -54,7 +54,7 @@ test-window: .venv/pure/ready  ## the other half
 .venv/peers/ready: pyproject.toml  # other programs' readers, which Python 3.11 can install
 	$(PYTHON) -m venv .venv/peers
 	.venv/peers/bin/pip install --quiet --upgrade pip
-	.venv/peers/bin/pip install --quiet ".[peers]"
+	.venv/peers/bin/pip install --quiet --only-binary ouster-sdk ".[peers]"
 	touch $@
 
 lint: $(VENV)/ready  ## check style, types and the table of models
