@@ -11,6 +11,7 @@ from time import perf_counter
 import numpy as np
 
 from camera_ray_caster.core.cast import cast
+from camera_ray_caster.core.maths.speed import release
 from camera_ray_caster.core.mesh import Mesh
 from camera_ray_caster.core.records import MESH
 
@@ -40,6 +41,7 @@ def run(rounds: int, threads: int, quick: bool) -> list[dict]:
             images = cast(camera, shapes, PASSES, threads=threads)
             times.append(1e3 * (perf_counter() - began))
         del images
+        release()
         tracemalloc.start()
         images = cast(camera, shapes, PASSES, threads=threads)
         beside = tracemalloc.get_traced_memory()[1] - sum(image.nbytes for image in images.values())

@@ -2,7 +2,9 @@
 
 import json
 
+import _cycles
 import bpy
+import numpy as np
 from parts import BUTTON, addon, load
 from window_scenarios import dialog, middle
 
@@ -14,11 +16,9 @@ def cast_all(user, scenes):
     """The list of cameras casts them all at all frames into a folder, as the terminal does; Esc leaves whole frames."""
     yield from load(user, scenes, "toys")
     scene, run = bpy.context.scene, addon("ui.in_steps")
-    second = bpy.data.objects.new("Dome", bpy.data.cameras.new("Dome"))
-    second.data.camera_ray_caster.model, second.matrix_world = "OMNIMAX", scene.camera.matrix_world.copy()
-    scene.collection.objects.link(second)
-    scene.render.engine, scene.render.resolution_percentage = "BLENDER_WORKBENCH", 20
-    scene.frame_start, scene.frame_end, scene.frame_current = 1, 2, 7
+    second = beside(scene)
+    second.data.camera_ray_caster.model = "OMNIMAX"
+    scene.frame_current = 7
     before = kept(scene)
     yield from user.wait(0.7)
     user.picture("cameras_closed")
@@ -54,6 +54,38 @@ def cast_all(user, scenes):
     check_whole(folder)
     scene.render.resolution_percentage, scene.frame_end = 20, 2
     assert kept(scene) == before
+
+
+def cast_all_by_cycles(user, scenes):
+    """The pictures of the list are Cycles' by choice, beside our depth; the scene's own engine stays."""
+    yield from load(user, scenes, "toys")
+    scene, run = bpy.context.scene, addon("ui.in_steps")
+    beside(scene)
+    scene.cycles.samples = 4
+    addon("properties.passes").tick(scene, bpy.context.view_layer, ["combined", "depth"])
+    before = kept(scene)
+    yield from user.wait(0.7)
+    yield from open_list(user)
+    folder = user.folder / "by_cycles"
+    folder.mkdir(exist_ok=True)
+    yield from user.press(f"{BUTTON}cast_all(")
+    yield from into(user, folder, engine="CYCLES", format="NPZ")
+    if not _cycles.with_osl:  # as Debian builds it
+        yield from user.until(lambda: "Open Shading Language" in run.latest(), "it says why")
+        assert not list(folder.iterdir())
+        assert kept(scene) == before
+        user.picture("cameras_by_cycles")
+        return
+    yield from user.until(run.running, "the pictures are being made")
+    yield from user.until(lambda: run.running() is None, "the pictures are made", 120)
+    assert run.latest().startswith("Wrote 4 pictures into"), run.latest()
+    check_whole(folder)
+    made = np.load(folder / f"{scene.camera.name}_0001.npz")
+    assert made["depth"].shape == made["combined"].shape[:2]
+    assert made["combined"][..., :3].std() > 0.05  # a picture is there
+    assert kept(scene) == before
+    yield from user.wait(0.5)
+    user.picture("cameras_by_cycles")
 
 
 def export_all(user, scenes):
@@ -96,6 +128,16 @@ def export_all(user, scenes):
     assert kept(scene) == before
 
 
+def beside(scene):
+    """Add a camera "Dome" where the scene's own is; two small frames are to be made of both. Return it."""
+    second = bpy.data.objects.new("Dome", bpy.data.cameras.new("Dome"))
+    second.matrix_world = scene.camera.matrix_world.copy()
+    scene.collection.objects.link(second)
+    scene.render.engine, scene.render.resolution_percentage = "BLENDER_WORKBENCH", 20
+    scene.frame_start, scene.frame_end = 1, 2
+    return second
+
+
 def kept(scene):
     """What a run must leave as it was."""
     render = scene.render
@@ -129,14 +171,16 @@ def open_list(user):
     yield from user.wait(0.7)
 
 
-def into(user, folder):
-    """Choose a folder in the file dialog."""
+def into(user, folder, **options):
+    """Choose a folder, and options of the operator, in the file dialog."""
     browser = yield from dialog(user)
     browser.spaces.active.params.directory = str(folder).encode()
+    for name, value in options.items():
+        setattr(browser.spaces.active.active_operator, name, value)
     yield from user.wait(1)
     user.picture("cameras_dialog")
     yield from user.point(*middle(browser))
     yield from user.key("Return")
 
 
-ALL_SCENARIOS = (cast_all, export_all)
+ALL_SCENARIOS = (cast_all, cast_all_by_cycles, export_all)

@@ -22,10 +22,10 @@ SCENARIOS = (
     "ray_under_mouse", "viewport", "cycles", "camera_settings", "model_gallery", "search", "told", "step_through",
     "step_through_image", "examples", "cast_a_cube", "see_through", "ray_of_a_pixel", "export_colmap", "notes_stay",
     "results_stay", "redraws_of_shapes", "redraws_of_monkeys", "redraws_all_around", "redraws_of_models",
-    "shown_camera", "set_frame", "other_engine", "marks", "click_seen", "drag_a_ray", "cast_all",
+    "shown_camera", "set_frame", "other_engine", "marks", "click_seen", "drag_a_ray", "cast_all", "cast_all_by_cycles",
     "export_all", "scanned_points", "slit_scan_movie",
     "drag_x_before_a_class", "autosaved",
-    "quad_and_local_views", "undone", "disable",
+    "quad_and_local_views", "undone", "linked_cameras", "disable",
 )  # fmt: skip
 SEEDS = "1", "2", "3", "4"
 """Of random acts, 250 each: see random_acts.py."""

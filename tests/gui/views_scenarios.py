@@ -87,4 +87,50 @@ def undone(user, scenes):
     assert bpy.context.scene.camera.data.animation_data.action is not None
 
 
-VIEWS_SCENARIOS = (autosaved, quad_and_local_views, undone)
+def linked_cameras(user, scenes):
+    """A second scene, in a second window, whose camera is of a library: buttons act on the scene of their window, and
+    settings of an override are its own.
+    """
+    yield from load(user, scenes, "toys")
+    first, reports = bpy.context.scene, addon("output.reports")
+    with bpy.data.libraries.load(str(scenes / "living_room_omnimax.blend"), link=True) as (there, here):
+        here.objects = there.objects
+    second = bpy.data.scenes.new("Second")
+    for item in here.objects:
+        second.collection.objects.link(item)
+    second.camera = next(item for item in here.objects if item.type == "CAMERA")
+    second.render.resolution_percentage = 20
+    with bpy.context.temp_override(window=user.window):
+        bpy.ops.wm.window_new_main()  # another of the first window would show the same scene
+    other = bpy.context.window_manager.windows[-1]
+    other.scene = second
+    yield from user.wait(1)
+    user.picture("two_windows")
+    with bpy.context.temp_override(window=other):
+        bpy.ops.wm.window_close()
+    yield from user.wait(0.5)
+    yield from user.press(f"{BUTTON}verify(")
+    yield from user.until(lambda: reports.verified(first), "the first is verified")
+    assert reports.verified(second) is None
+
+    user.window.scene = second
+    yield from user.wait(0.7)
+    user.picture("linked_camera")
+    yield from user.press(f"{BUTTON}verify(")
+    yield from user.until(lambda: reports.verified(second), "the second is verified")
+    assert reports.verified(second).camera["model"] == "Omnimax"
+    yield from user.press(f"{BUTTON}cast(")
+    yield from user.until(lambda: reports.latest(second), "it is cast", 60)
+    assert reports.latest(first) is None
+    linked = second.camera
+    linked.override_create(remap_local_usages=True).data.override_create(remap_local_usages=True)
+    assert (linked.library is None, second.camera.library) == (False, None)
+    second.camera.data.camera_ray_caster.model = "CAMERA_OBSCURA"
+    yield from user.wait(0.7)
+    user.picture("overridden_camera")
+    yield from user.press(f"{BUTTON}verify(")
+    yield from user.until(lambda: reports.verified(second).camera["model"] == "Camera Obscura", "it is verified")
+    assert linked.data.camera_ray_caster.model == "OMNIMAX"
+
+
+VIEWS_SCENARIOS = (autosaved, quad_and_local_views, undone, linked_cameras)

@@ -15,8 +15,8 @@ GROUPS = {group.__name__: group for group in (CameraProperties, ObjectProperties
 
 
 def said(found):
-    """What Blender says of a property, as lists, words and numbers."""
-    facts = {"type": found.type, "name": found.name, "description": found.description}
+    """What Blender says of a property, as lists, words and numbers, but for its description, which no file needs."""
+    facts = {"type": found.type, "name": found.name}
     if found.type in ("FLOAT", "INT"):
         facts["default"] = list(found.default_array) if found.is_array else found.default
         facts["hard"], facts["soft"] = [found.hard_min, found.hard_max], [found.soft_min, found.soft_max]

@@ -13,6 +13,7 @@ import pytest
 
 from camera_ray_caster.core import tuning
 from camera_ray_caster.core.cast import cast
+from camera_ray_caster.core.maths.speed import release
 from camera_ray_caster.core.records import SPHERE
 
 from ..camera.test_pixel_time import ROWS
@@ -69,6 +70,7 @@ def test_the_memory_beside_a_picture_does_not_grow_with_it():
     """It is that of the tile under way, once the picture has more than one of the largest."""
     beside = []
     for side in (2500, 3500):
+        release()
         tracemalloc.start()
         images = cast(camera_at(resolution_x=side, resolution_y=side), HIGH_UP, ("depth",), threads=1)
         beside.append(tracemalloc.get_traced_memory()[1] - images["depth"].nbytes)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from camera_ray_caster.core.maths import kept
-from camera_ray_caster.core.maths.speed import lending
+from camera_ray_caster.core.maths.speed import lending, release
 
 SHAPE = 300, 200, 3
 
@@ -52,6 +52,17 @@ def test_no_more_is_kept_than_the_limit(monkeypatch):
     assert sum(one * len(blocks) for one, blocks in kept._unused.items()) <= 3 * size
     assert kept.empty((4, *SHAPE), np.float32).base is None  # too large to be kept
     assert kept.empty((4, 4), np.float32).base is None  # the C library's
+
+
+def test_what_is_kept_is_released():
+    kept.empty(SHAPE, np.float32)
+    with lending() as lend:
+        working = lend()
+    assert kept._unused
+    release()
+    assert not kept._unused
+    with lending() as lend:
+        assert lend() is not working
 
 
 def test_working_arrays_are_lent_to_one_at_a_time_and_again_afterwards():

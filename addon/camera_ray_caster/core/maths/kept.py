@@ -43,6 +43,11 @@ class _Block:
                 excess -= one * len(_unused.pop(one, ()))
 
 
+def release() -> None:
+    """Give all memory that is kept back to the system."""
+    _unused.clear()
+
+
 def empty(shape: tuple[int, ...], dtype) -> np.ndarray:
     """Return a C-contiguous array with arbitrary values, as ``np.empty`` does. Its memory is that of an array of as
     many bytes that nothing uses any longer, if there is one, and is kept when nothing uses this array and its views.

@@ -17,7 +17,7 @@ from typing import Any, Generic, TypeVar, overload
 
 import numpy as np
 
-from .kept import MOST
+from . import kept
 
 T = TypeVar("T")
 
@@ -120,7 +120,7 @@ _unused: list[Scratch] = []
 @contextmanager
 def lending() -> Iterator[Callable[[], Scratch]]:
     """Give a function that lends working arrays: those of earlier work, or new ones. At the end they are kept for later
-    work, up to MOST bytes.
+    work, up to ``kept.MOST`` bytes.
     """
     lent: list[Scratch] = []
 
@@ -135,8 +135,14 @@ def lending() -> Iterator[Callable[[], Scratch]]:
         yield lend
     finally:
         for scratch in lent:
-            if scratch.size + sum(one.size for one in _unused) <= MOST:
+            if scratch.size + sum(one.size for one in _unused) <= kept.MOST:
                 _unused.append(scratch)
+
+
+def release() -> None:
+    """Free the working arrays, and the memory of arrays that have gone, that are kept for later work."""
+    _unused.clear()
+    kept.release()
 
 
 class Shared(Generic[T]):
