@@ -20,8 +20,8 @@ from window_scenarios import WINDOW_SCENARIOS
 
 LEFT_OUT = 3.4
 """Rows from the button Cast down to the row of what is left out."""
-DRAWN = 0.002
-"""Seconds of the processor that the drawing of a panel may take: a redraw must not be felt."""
+DRAWN = 0.004
+"""Seconds of the processor for the drawing of a panel: a quarter of a frame of 60 a second. It takes 1 to 2 ms."""
 
 
 def panel(user, scenes):

@@ -30,8 +30,8 @@ SCENARIOS = (
 SEEDS = "1", "2", "3", "4"
 """Of random acts, 250 each: see random_acts.py."""
 SIZE = "1400x900"
-LIMIT = 1200
-"""Seconds for the whole walk: ten times what it takes on two idle cores without a graphics card."""
+LIMIT = 3600
+"""Seconds for the whole walk: four times what it takes on two idle cores without a graphics card."""
 
 
 def program():
