@@ -43,17 +43,17 @@ def model_gallery(user, scenes):
     """The gallery shows a picture for each model, and closes when one is chosen."""
     yield from load(user, scenes, "toys")
     own = bpy.context.scene.camera.data.camera_ray_caster
+    own.model = "PENCIL"
     view = user.region("WINDOW")
     yield from user.point(view.x + view.width // 2, view.y + view.height // 2)
     with bpy.context.temp_override(window=user.window, area=user.area(), region=view):
         bpy.ops.wm.call_menu(name="CAMERA_RAY_CASTER_MT_gallery")
     yield from user.wait(3)
     opened = user.picture("gallery")
-    yield from user.key("Return")  # the first entry, under the mouse
+    yield from user.key("Return")  # the entry under the mouse, at first that of the first model
     yield from user.wait(1)
     assert np.abs(user.picture("gallery_closed") - opened).max(axis=2).mean() > 0.05
-    assert bpy.context.scene.camera.data.type in {"PERSP", "ORTHO", "PANO"}
-    assert own.model == "BLENDER"
+    assert own.model != "PENCIL"
 
 
 def search(user, scenes):

@@ -17,10 +17,11 @@ from .model_settings import blender_type
 from .needs import OfCamera, camera_object_of, objection
 
 LINES = 15
-"""Number of lines in a column of the menus."""
-COLUMNS = 7
-WIDTH, HEIGHT = 7.8, 3.2
-"""Width of a button, at least, and height of a picture, in interface units."""
+"""Number of lines in a column of the menu of names."""
+PICTURES = 8
+"""Number of pictures in a column of the gallery."""
+HEIGHT = 2.8
+"""Height of a picture, in interface units."""
 
 
 class ChooseModel(OfCamera, bpy.types.Operator):
@@ -118,20 +119,23 @@ class ModelGallery(bpy.types.Menu):
     bl_label = "Camera Models"
 
     def draw(self, context):
-        """Draw each group: a heading, and a picture with a button for each model. Small groups share a row."""
+        """Draw each group: a heading, and a picture with a button for each model. Small groups share a column."""
         item = camera_object_of(context)
         if reason := objection(context, item, is_changed=True):
             draw_message(self.layout, context, reason, "ERROR")
             return
-        camera = item.data
-        self.layout.context_pointer_set("camera", camera)
-        for groups in rows():
-            row, count = self.layout.row(), sum(map(len, groups.values()))
-            for group, models in groups.items():
-                column = row.column()
-                column.ui_units_x = COLUMNS * WIDTH * len(models) / count
+        self.layout.context_pointer_set("camera", item.data)
+        chosen, row, free = key_of(item.data), self.layout.row(), 0  # in a menu, rows below rows are not aligned
+        for group, members in by_group():
+            for models in columns(members):
+                if len(models) > free:
+                    column, free = row.column(), PICTURES
+                free -= len(models)
                 column.label(text=group)
-                draw_pictures(column, camera, models)
+                for it in models:
+                    column.template_icon(gallery.icon(gallery.scene_name(it.key)), scale=HEIGHT)
+                    icon = "CHECKMARK" if it.key == chosen else "BLANK1"
+                    column.operator(ChooseModel.bl_idname, text=it.label, icon=icon).key = it.key
 
 
 def key_of(camera) -> str:
@@ -146,26 +150,11 @@ def by_group() -> Iterator[tuple[str, list]]:
         yield group, list(models)
 
 
-def rows() -> Iterator[dict[str, list]]:
-    """Yield the rows of the gallery: the models of one or more groups, by group."""
-    row: dict[str, list] = {}
-    for group, members in by_group():
-        if row and sum(map(len, row.values())) + len(members) > COLUMNS:
-            yield row
-            row = {}
-        row[group] = members
-    yield row
-
-
-def draw_pictures(layout, camera, models) -> None:
-    """Draw the models of a group, each with its picture, in lines of about the same length."""
-    chosen, lines = key_of(camera), -(-len(models) // COLUMNS)
-    grid = layout.grid_flow(row_major=True, columns=-(-len(models) // lines), even_columns=True)
-    for it in models:
-        cell = grid.column(align=True)
-        cell.template_icon(gallery.icon(gallery.scene_name(it.key)), scale=HEIGHT)
-        icon = "CHECKMARK" if it.key == chosen else "BLANK1"
-        cell.operator(ChooseModel.bl_idname, text=it.label, icon=icon).key = it.key
+def columns(models: list) -> Iterator[list]:
+    """Yield the models of a group in parts of about the same length, each of which fits into a column of pictures."""
+    length = -(-len(models) // -(-len(models) // PICTURES))
+    for first in range(0, len(models), length):
+        yield models[first : first + length]
 
 
 def draw_model(layout, camera):
