@@ -6,7 +6,7 @@ from mathutils import Vector
 
 from camera_ray_caster.blender import gallery
 from camera_ray_caster.blender.read.scene import read_camera
-from camera_ray_caster.blender.ui.gallery_panels import COLUMNS, rows
+from camera_ray_caster.blender.ui.gallery_panels import PICTURES, columns
 from camera_ray_caster.blender.view3d import lesson
 from camera_ray_caster.core.cameras import MODELS
 
@@ -37,7 +37,7 @@ def test_the_menus_offer_all_that_has_a_picture():
 @pytest.mark.parametrize("model", MODELS, ids=lambda model: model.key)
 def test_the_gallery_has_a_button_for_each_model(blender, scene, model):
     """Blender's own set their types."""
-    assert [model in models for row in rows() for models in row.values()].count(True) == 1
+    assert [model in models for column in columns() for models in column.values()].count(True) == 1
     own = scene.camera.data.camera_ray_caster
     own.model = "CAMERA_OBSCURA"
     assert blender.ops.camera_ray_caster.choose_type(key=model.key) == {"FINISHED"}
@@ -47,9 +47,9 @@ def test_the_gallery_has_a_button_for_each_model(blender, scene, model):
         assert read_camera(scene).model.key == model.key
 
 
-def test_the_rows_of_the_gallery_have_no_more_models_than_fit():
-    for row in rows():
-        assert len(row) == 1 or sum(map(len, row.values())) <= COLUMNS
+def test_the_columns_of_the_gallery_have_no_more_models_than_fit():
+    for column in columns():
+        assert 0 < sum(map(len, column.values())) <= PICTURES
 
 
 @pytest.mark.parametrize("name", [*gallery.TIMES, "unrolled_monkey", "living_room"])

@@ -125,12 +125,10 @@ class ModelGallery(bpy.types.Menu):
             draw_message(self.layout, context, reason, "ERROR")
             return
         self.layout.context_pointer_set("camera", item.data)
-        chosen, row, free = key_of(item.data), self.layout.row(), 0  # in a menu, rows below rows are not aligned
-        for group, members in by_group():
-            for models in columns(members):
-                if len(models) > free:
-                    column, free = row.column(), PICTURES
-                free -= len(models)
+        chosen, row = key_of(item.data), self.layout.row()
+        for groups in columns():  # in a menu, rows below rows are not aligned
+            column = row.column()
+            for group, models in groups.items():
                 column.label(text=group)
                 for it in models:
                     column.template_icon(gallery.icon(gallery.scene_name(it.key)), scale=HEIGHT)
@@ -150,11 +148,20 @@ def by_group() -> Iterator[tuple[str, list]]:
         yield group, list(models)
 
 
-def columns(models: list) -> Iterator[list]:
-    """Yield the models of a group in parts of about the same length, each of which fits into a column of pictures."""
-    length = -(-len(models) // -(-len(models) // PICTURES))
-    for first in range(0, len(models), length):
-        yield models[first : first + length]
+def columns() -> Iterator[dict[str, list]]:
+    """Yield the columns of the gallery: the models of small groups, or a part of those of a large one, by group."""
+    column: dict[str, list] = {}
+    free = PICTURES
+    for group, members in by_group():
+        length = -(-len(members) // -(-len(members) // PICTURES))
+        for first in range(0, len(members), length):
+            models = members[first : first + length]
+            if len(models) > free:
+                yield column
+                column, free = {}, PICTURES
+            column[group] = models
+            free -= len(models)
+    yield column
 
 
 def draw_model(layout, camera):
