@@ -10,6 +10,7 @@ from camera_ray_caster.core.conventions import EPS
 from camera_ray_caster.core.maths.inversion import Inverse
 from camera_ray_caster.core.maths.recording import NUMPY, differentiate, look_up, loop, record, roundoff, stop_gradient
 from camera_ray_caster.core.maths.recording.record import COMPARISONS, NUMERIC
+from camera_ray_caster.core.maths.recording.varied import Varied
 
 from ..truth.recorded import MPMATH
 
@@ -127,3 +128,8 @@ def test_an_inverse_settles_soon_also_where_rounding_moves_it_to_and_fro():
     np.testing.assert_allclose(found[:-1], x, rtol=1e-13)
     assert np.isnan(found[-1])
     assert len(rounds) <= 16
+
+
+def test_a_function_without_a_derivative_is_refused_by_name():
+    with pytest.raises(TypeError, match="spacing of a setting has no derivative: use other functions"):
+        np.spacing(Varied(2.0, (1.0,)))

@@ -76,7 +76,7 @@ def _apply(name: str, *operands: Any) -> Any:
     duals = [Dual(float(one), one.slopes if isinstance(one, Varied) else zero) for one in operands]
     known = dual_arithmetic(count)
     if name not in known:
-        raise NotImplementedError(f"np.{name} of a setting has no derivative here: write it by other functions")
+        raise TypeError(f"np.{name} of a setting has no derivative: use other functions of numpy")
     found = known[name](*duals)
     return Varied(found.value, tuple(None if one is None else float(one) for one in found.partials))
 
