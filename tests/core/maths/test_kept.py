@@ -42,6 +42,18 @@ def test_memory_comes_back_when_the_last_view_has_gone():
     assert place(kept.empty(SHAPE, np.int32)) == first
 
 
+def test_memory_is_given_once_though_other_memory_comes_back_meanwhile():
+    """As the garbage collector, or another thread, may do between the look-up of a list and its ``pop``."""
+    first, second = kept.empty(SHAPE, np.float32), kept.empty(SHAPE, np.float32)
+    at = place(first), place(second)
+    del first
+    (blocks,) = kept._unused.values()
+    del second
+    given = {place(blocks.pop()) for _ in range(2)}
+    assert given == {*at}
+    assert not any(kept._unused.values())
+
+
 def test_no_more_is_kept_than_the_limit(monkeypatch):
     size = np.empty(SHAPE, np.float32).nbytes
     monkeypatch.setattr(kept, "MOST", 3 * size)

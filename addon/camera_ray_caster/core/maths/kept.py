@@ -18,8 +18,9 @@ and two.
 """
 
 _unused: dict[int, list[np.ndarray]] = {}
-"""Blocks by their number of bytes, the size used last at the end. Of threads that take one at a time each gets another,
-since ``pop`` is one step of the interpreter; of threads that give back, one may forget the block of the other.
+"""Blocks by their number of bytes, the size used last at the end. A block is in one list, once, and is taken by
+``pop``, which is one step of the interpreter: it is given once, even if the garbage collector or another thread gives
+back blocks meanwhile. Of threads that give back, one may forget the blocks of the other.
 """
 
 
@@ -36,7 +37,9 @@ class _Block:
 
     def __del__(self) -> None:
         size = self._bytes.nbytes
-        _unused[size] = [*_unused.pop(size, ()), self._bytes]
+        blocks = _unused.pop(size, [])
+        blocks.append(self._bytes)
+        _unused[size] = blocks
         excess = sum(one * len(blocks) for one, blocks in list(_unused.items())) - MOST
         for one in list(_unused):
             if excess > 0:
