@@ -92,6 +92,30 @@ def test_metashapes_chunk_is_turned_scaled_and_moved(tmp_path):
     np.testing.assert_allclose(seen(plain.poses[0]), (POINTS - PLACE) @ AXES * TO_BLENDER, atol=1e-14)
 
 
+LOCATION = np.array((0.5, 0.0, 1.0))
+OFFSET = f"<rotation>{flat(QUARTER).replace(',', '')}</rotation><location>0.5 0 1</location>"
+
+
+def rig(offset=OFFSET, master="0", label="IMG_0002"):
+    """The project above with a scale of 2, in which a camera of the left sensor follows IMG_0002; IMG_0003 has none."""
+    left = '<sensor id="0" label="left" type="frame">'
+    slaves = f"""<camera id="2" sensor_id="0" master_id="{master}" label="{label}"/>
+      <camera id="3" sensor_id="0" master_id="1" label="IMG_0003"/></group>"""
+    return metashape("<scale>2</scale>").replace(left, left + offset).replace("</group>", slaves)
+
+
+def test_metashapes_slave_stands_beside_its_master(tmp_path):
+    master, slave = read(tmp_path, rig())
+    in_master = (POINTS / 2 - PLACE) @ AXES
+    np.testing.assert_allclose(seen(master.poses[0]), in_master * 2 * TO_BLENDER, atol=1e-14)
+    np.testing.assert_allclose(seen(slave.poses[0]), (in_master - LOCATION) @ QUARTER * 2 * TO_BLENDER, atol=1e-14)
+    assert [(one.name, one.frames, one.lenses[0].name) for one in (master, slave)] == [
+        ("IMG-1", [2], "right"), ("IMG-2", [2], "left")
+    ]  # fmt: skip
+    _, beside = read(tmp_path, rig(offset=""))
+    np.testing.assert_allclose(seen(beside.poses[0]), in_master * 2 * TO_BLENDER, atol=1e-14)
+
+
 @pytest.mark.parametrize(("latitude", "longitude"), [(0.0, 0.0), (np.radians(48.2), np.radians(-120.4))])
 def test_a_georeferenced_project_is_east_north_up_about_its_cameras(tmp_path, latitude, longitude):
     """One camera looks down, north up in its picture; the Earth's radius of curvature is that of WGS 84."""
@@ -183,6 +207,9 @@ REFUSED = {
     "Metashape, scale": (metashape("<scale>-1</scale>"), "scale of a chunk is -1: it must be above 0"),
     "Metashape, sheared": (metashape(camera=np.triu(np.ones((4, 4)))), "transform of IMG_0002 is no rotation"),
     "Metashape, short": (metashape().replace("1.5 ", "", 1), "transform of IMG_0002 has 15 numbers: a pose has"),
+    "Metashape, master": (rig(master="7", label="IMG_0009"), "master_id of IMG_0009 is 7: no camera of its chunk has"),
+    "Metashape, slave": (rig(OFFSET.replace("-1.0", "-2.0")), "rotation of sensor 0 is no rotation"),
+    "Metashape, location": (rig(OFFSET.replace("0.5 0 1", "0.5 x")), "location of sensor 0 is .*: it must be 3 finite"),
     "Meshroom, none": (sfm(), "it has no poses of its views: give the file of StructureFromMotion"),
     "Meshroom, rig": (
         json.dumps(json.loads(sfm()) | {

@@ -114,8 +114,8 @@ PROGRAMS = (
     ProgramFiles(
         "Metashape", "calibrations, and cameras of projects, as .xml",
         "document chunk sensors sensor resolution adjusted",
-        "frame, fisheye", "",
-        "cameras that are not aligned, or are moved by a master; k4 of a frame camera, p3 and p4 are refused",
+        "frame, fisheye; slave cameras", "",
+        "cameras that are not aligned; k4 of a frame camera, p3 and p4 are refused",
     ),
     ProgramFiles(
         "Meshroom", ".sfm of AliceVision", "intrinsicId pxFocalLength principalPoint distortionParams sensorWidth",
