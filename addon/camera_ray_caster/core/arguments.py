@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Collection, Iterable
 from difflib import get_close_matches
 from itertools import islice
-from math import inf
+from math import inf, nan
 from operator import index
 from pathlib import Path
 from reprlib import repr as shortened
@@ -47,9 +48,13 @@ def number(value, name: str, most: float, least: float | None = None) -> float:
     """Return a Python or numpy number from ``least``, by default -most, to most as a float."""
     least = -most if least is None else least
     is_number = isinstance(value, int | float | np.integer | np.floating) and not isinstance(value, bool)
-    if not is_number or not least <= value <= most:  # refuses NaN, too
+    try:
+        found = float(value) if is_number else nan
+    except OverflowError:  # of a whole number
+        found = nan
+    if not least <= found <= most:
         raise _refusal(name, value, f"a number from {least:.12g} to {most:.12g}")
-    return float(value)
+    return found
 
 
 def folder(value) -> Path:
@@ -58,9 +63,24 @@ def folder(value) -> Path:
         path = Path(value)
     except TypeError as error:
         raise _refusal("folder", value, "a path") from error
-    if "\0" in str(path):
-        raise _refusal("folder", value, "a path, which has no null characters")
+    if "\0" in str(path) or not _can_be(os.fsencode, str(path)):
+        raise _refusal("folder", value, "a path, which has no null characters and no halves of characters")
     return path
+
+
+def name(value, what: str = "name") -> str:
+    """Return a string that files can hold."""
+    if not _can_be(str.encode, word(value, what)):
+        raise _refusal(what, value, "a string without halves of characters (lone surrogates)")
+    return value
+
+
+def _can_be(encoded: Callable[[str], bytes], text: str) -> bool:
+    try:
+        encoded(text)
+    except UnicodeEncodeError:
+        return False
+    return True
 
 
 def flag(value, name: str) -> bool:

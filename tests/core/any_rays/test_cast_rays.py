@@ -1,6 +1,8 @@
 """Rays given as arrays: beside the pictures of cameras that have them, and beside a plain test of every triangle."""
 
+import gc
 import math
+import weakref
 from dataclasses import replace
 
 import numpy as np
@@ -196,6 +198,21 @@ def test_an_infinite_plane_along_an_axis_warns_of_nothing():
     assert crc.cast_rays([0.0, 0, 0], [0.0, 0, -1], ground, "distance")["distance"] == 3.0
 
 
+@pytest.mark.parametrize("moving", [False, True])
+def test_shapes_that_have_gone_are_not_kept(moving):
+    shapes = crc.spheres([[0.0, 0.0, -5.0]], 1.0)
+    times = 1.5 if moving else None
+    if moving:
+        shapes = replace(shapes, timeline=Timeline(Falling()))
+    for all_hits in (False, True):
+        crc.cast_rays([0.0, 0, 0], [0.0, 0, -1], shapes, times=times, all_hits=all_hits)
+    crc.occluded([0.0, 0, 0], [0.0, 0, -9], shapes, times)
+    left = weakref.ref(shapes)
+    del shapes
+    gc.collect()
+    assert left() is None
+
+
 SPHERE = dict(origins=[0.0, 0, 0], directions=[0.0, 0, -1])
 
 
@@ -213,6 +230,7 @@ SPHERE = dict(origins=[0.0, 0, 0], directions=[0.0, 0, -1])
         (dict(passes="dept"), "dept"),
         (dict(near=2.0, far=1.0), "near = 2 to far = 1"),
         (dict(near=-1.0), "near = -1"),
+        (dict(far=10**400), "far is 10"),
         (dict(times=math.nan), "times hold NaN"),
         (dict(times=[1.0, 2.0]), "times of shape"),
         (dict(origins=np.broadcast_to(0.0, (10**10, 3))), "cast the rays in parts"),

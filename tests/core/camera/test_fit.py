@@ -148,6 +148,7 @@ def test_a_wide_fisheye_is_no_pinhole_but_in_its_middle():
         (("FISHEYE", None, None), "unknown model 'FISHEYE'"),
         (("UCM", 4.0, None), "as an angle it must be above 0, up to pi"),
         (("UCM", (0, 0, 65, 10), None), "it must be \\(x0, y0, x1, y1\\) within the frame of 64 x 48 pixels"),
+        (("UCM", [[1, 2], [3]], None), "it must be"),
         (("UCM", np.zeros((48, 64), bool), None), "no ray in the region: there is nothing to fit"),
         (("UCM", None, ("f",)), "unknown parameter of UCM 'f'"),
         (("UCM", None, ()), "has no parameter to fit"),

@@ -75,6 +75,8 @@ BAD = {
     "another type": (lambda: crc.cast(camera(), SHAPES, TWO, np.float64), "depth of into has the shape and type"),
     "a list": (lambda: changed(depth=lambda images: images["depth"].tolist()), "no pass depth"),
     "read-only": (lambda: changed(depth=read_only), "writable"),
+    "masked": (lambda: changed(depth=lambda images: np.ma.masked_array(images["depth"], mask=True, hard_mask=True)),
+               "depth of into has a mask"),
     "columns first": (lambda: changed(normal=lambda images: np.asfortranarray(images["normal"])), "C-contiguous"),
     "memory of another": (lambda: changed(depth=lambda images: images["normal"].reshape(-1)[: 64 * 48].reshape(48, 64)),
                           "share memory"),

@@ -69,6 +69,8 @@ def test_ranges_have_the_steps_of_a_device():
     cloud = crc.scan(scanner(), SHAPES, quantum=0.002)
     assert np.abs(cloud.range / 0.002 - np.rint(cloud.range / 0.002)).max() < 1e-9
     assert 0 < np.abs(cloud.range - cloud.true_range).max() <= 0.001 + 1e-12
+    fine = crc.scan(scanner(), SHAPES, quantum=1e-320)
+    assert np.abs(fine.range - fine.true_range).max() < 1e-12
 
 
 @pytest.mark.parametrize(("device", "step", "behind"), [("VLP_16", 2, 0), ("VLP_32C", 4, 0), ("OS1_64", 1, 12.163)])

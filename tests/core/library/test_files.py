@@ -61,6 +61,7 @@ def test_openimageio_reads_the_same(tmp_path):
     ("words", "said"),
     [
         (("colmp", perspectives()), "did you mean colmap"),
+        ((np.zeros(2), perspectives()), "unknown format array"),
         (("json", []), "there is no camera"),
         (("json", perspectives()[:1] * 2), "one name and one frame"),
         (("bop", crc.camera("EQUIRECTANGULAR", SIZE)), "BOP cannot represent the Equirectangular"),
@@ -89,8 +90,9 @@ def test_what_is_no_camera_and_no_folder(tmp_path):
         crc.export("json", "Camera", tmp_path)
     with pytest.raises(crc.InputError, match="folder is 3"):
         crc.export("json", perspectives(), 3)
-    with pytest.raises(crc.InputError, match=r"folder is .*no null characters"):
-        crc.export("json", perspectives(), f"{tmp_path}\0")
+    for odd in "\0", "\ud800":
+        with pytest.raises(crc.InputError, match=r"folder is .*no null characters and no halves of characters"):
+            crc.export("json", perspectives(), f"{tmp_path}{odd}")
     for fit in ("yes", -1.0, np.nan, None):
         with pytest.raises(crc.InputError, match=r"^fit is .*: it must be True, False or an angle above 0, up to pi"):
             crc.export("colmap", perspectives(), tmp_path, fit=fit)

@@ -68,6 +68,13 @@ def test_vertices_keep_their_type_and_their_digits(camera):
     assert crc.mesh(CUBE.astype(np.float32), QUADS).meshes[0].vertices.dtype == np.float32
 
 
+def test_a_mesh_does_not_change_with_the_arrays_it_was_made_of():
+    vertices = np.asfortranarray(CUBE, float)
+    made = crc.mesh(vertices, QUADS)
+    vertices += 1
+    np.testing.assert_array_equal(made.meshes[0].vertices.T, CUBE)
+
+
 @pytest.mark.parametrize("by_corner", [False, True])
 def test_normals_and_uv_are_interpolated(camera, by_corner):
     corners = np.array([(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0), (0, 0, -5)])  # the last one is nobody's
@@ -150,6 +157,7 @@ def test_joining_forgets_no_field():
         (lambda: crc.spheres((0, 0, 0), object_index=1.5), "whole numbers"),
         (lambda: crc.spheres((0, 0, 0), object_index=2**40), "32 bits"),
         (lambda: crc.spheres((0, 0, 0), name=("a", "b")), "2 names are given for 1 shapes"),
+        (lambda: crc.spheres((0, 0, 0), name="\udc80"), "without halves of characters"),
         (lambda: crc.planes((0, 0, 0), [[1, 1], [0, 0], [0, 0]]), "row 0"),
         (lambda: crc.planes((0, 0, 0), infinite=1), "infinite"),
         (lambda: crc.mesh([(0, 0)], [(0, 0, 0)]), r"vertices are of shape \(1, 2\)"),

@@ -1,6 +1,7 @@
 """Memory is used again when nothing uses it any longer, and not before."""
 
 import gc
+import sys
 
 import numpy as np
 import pytest
@@ -64,6 +65,19 @@ def test_no_more_is_kept_than_the_limit(monkeypatch):
     assert sum(one * len(blocks) for one, blocks in kept._unused.items()) <= 3 * size
     assert kept.empty((4, *SHAPE), np.float32).base is None  # too large to be kept
     assert kept.empty((4, 4), np.float32).base is None  # the C library's
+
+
+def test_memory_that_the_system_does_not_have_is_said_once(monkeypatch):
+    def none(*_):
+        raise MemoryError
+
+    said = []
+    monkeypatch.setattr(sys, "unraisablehook", said.append)
+    monkeypatch.setattr(np, "empty", none)
+    with pytest.raises(MemoryError):
+        kept.empty(SHAPE, np.float32)
+    gc.collect()
+    assert said == []
 
 
 def test_what_is_kept_is_released():

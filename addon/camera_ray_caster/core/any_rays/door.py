@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator
+from dataclasses import replace
 from typing import Any
 from weakref import WeakKeyDictionary
 
@@ -138,7 +139,7 @@ _searches: WeakKeyDictionary[Shapes, BodySearch] = WeakKeyDictionary()
 def search_of(shapes: Shapes) -> BodySearch:
     """Return the bodies of shapes with their tree, which is kept as long as the shapes are."""
     if shapes not in _searches:
-        _searches[shapes] = BodySearch(shapes)
+        _searches[shapes] = BodySearch(replace(shapes))  # a copy: what refers to its own key is kept for ever
     return _searches[shapes]
 
 

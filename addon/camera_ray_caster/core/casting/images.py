@@ -60,8 +60,10 @@ def check_reusable(images: Images | None, passes: tuple[str, ...], shape: tuple[
                 f"the pass {name} of into has the shape and type {found.shape} and {found.dtype}, and this cast needs "
                 f"{needed}: cast without into"
             )
-        if not (found.flags.writeable and found.flags.c_contiguous):
-            raise InputError(f"the pass {name} of into is not a writable, C-contiguous array: cast without into")
+        masked = isinstance(found, np.ma.MaskedArray)
+        if masked or not (found.flags.writeable and found.flags.c_contiguous):
+            what = "has a mask" if masked else "is not a writable, C-contiguous array"
+            raise InputError(f"the pass {name} of into {what}: cast without into")
     for one, other in combinations(passes, 2):
         if np.may_share_memory(images[one], images[other]):  # exact for contiguous arrays
             raise InputError(f"the passes {one} and {other} of into share memory: cast without into")

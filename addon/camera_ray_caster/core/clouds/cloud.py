@@ -37,6 +37,9 @@ AXES = SENSOR, WORLD
 LARGEST = 1e12
 """Largest noise, in Blender units."""
 
+LEAST = 1 / LARGEST
+"""Least step of ranges: smaller ones are none."""
+
 OF_DEVICE = "DEVICE"
 """The quantum of the scanner's device."""
 
@@ -166,7 +169,8 @@ def scan(
 def _steps(camera: Camera, quantum) -> tuple[float, float]:
     """Return the step of ranges, and how far behind the origins of beams these begin."""
     if not (isinstance(quantum, str) and quantum.upper() == OF_DEVICE):
-        return arguments.number(quantum, "quantum", LARGEST, 0.0), 0.0
+        step = arguments.number(quantum, "quantum", LARGEST, 0.0)
+        return (step if step >= LEAST else 0.0), 0.0
     device = camera.model.device if isinstance(camera.model, Scanner) else None
     if device is None or not device.quantum:
         kind = camera.model.label if device is None else device.label

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from ..arguments import count, flag, number, shown, unknown, word
+from ..arguments import name as a_name
 from ..camera import pixel_time
 from ..camera.build import camera_from
 from ..camera.calibration_file import chosen_lens
@@ -63,10 +64,10 @@ def camera(model: str, size, pose=None, **settings: Any) -> Camera:
     if not isinstance(model, str) or model not in known:
         raise unknown("model", model, known)
     width, height = _size(size)
-    name = word(settings.pop("name", "Camera"), "name")
+    name = a_name(settings.pop("name", "Camera"))
     frame = number(settings.pop("frame", 0.0), "frame", pixel_time.LAST_FRAME)
     mode = settings.pop(pixel_time.MODE.name, pixel_time.NONE)
-    if mode not in pixel_time.SETTINGS:
+    if not isinstance(mode, str) or mode not in pixel_time.SETTINGS:
         raise unknown(pixel_time.MODE.name, mode, pixel_time.SETTINGS)
     declared = {one.name: one for one in (*known[model].SETTINGS, *DEPTH_OF_FIELD, *pixel_time.SETTINGS[mode])}
     for given in settings:

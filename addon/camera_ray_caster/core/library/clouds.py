@@ -27,6 +27,6 @@ def save_points(
     """
     if not isinstance(cloud, PointCloud):
         raise TypeError(f"save_points takes the points of scan, not {type(cloud)}")
-    chosen, stem = arguments.word(axes, "axes", AXES), file_name(arguments.word(name, "name") or cloud.name)
+    chosen, stem = arguments.word(axes, "axes", AXES), file_name(arguments.name(name) or cloud.name)
     files = ((stem + ending, content) for ending, content in files_of(cloud, format, chosen))
     return write(files, arguments.folder(folder))

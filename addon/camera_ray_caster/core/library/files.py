@@ -13,8 +13,8 @@ import numpy as np
 from ..arguments import folder as a_folder
 from ..arguments import number, shown
 from ..camera.camera import Camera
-from ..exports import FORMATS
 from ..exports import export as files_of
+from ..exports import find_format
 from ..exports.format import Shot
 from ..exports.writing import write
 from ..names import file_names
@@ -61,8 +61,8 @@ def export(
             raise TypeError(f"export takes cameras, not {type(one)}")
     if not given:
         raise InputError("there is no camera to export: give one or more")
-    chosen = next((one for one in FORMATS if one.key == format), None)
-    if target is not None and chosen is not None and not chosen.takes_target:
+    chosen = find_format(format)
+    if target is not None and not chosen.takes_target:
         raise InputError(f"format {format} has no target camera: only maps have a target")
     unit = number(meters, "meters", 1e12)
     if unit <= 0:

@@ -60,7 +60,10 @@ def _region(camera: Camera, region) -> np.ndarray | None:
         if not 0 < region <= np.pi:
             raise InputError(f"region is {shown(region)}: as an angle it must be above 0, up to pi")
         return within(camera, float(region))
-    found = np.asarray(region)
+    try:
+        found = np.asarray(region)
+    except ValueError:  # lists of unequal length
+        found = np.zeros(0)
     if found.dtype == bool and found.shape == (height, width):
         return found
     if found.shape == (4,) and found.dtype.kind in "iu":

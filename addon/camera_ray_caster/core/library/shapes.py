@@ -7,7 +7,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..arguments import flag, numbers, shape_of, shown, word
+from ..arguments import flag, numbers, shape_of, shown
+from ..arguments import name as a_name
 from ..mesh import Mesh
 from ..records import INFINITE_PLANE, PLANE, SPHERE, InputError, Shapes, no_shapes
 from ..shapes.instances import Primitive, castable, mesh_primitive, put_in_world
@@ -104,7 +105,7 @@ def mesh(
     step = np.arange(len(polygon)) - np.repeat(np.cumsum(counts - 2) - (counts - 2), counts - 2)
     loops = (starts[polygon] + np.stack((np.zeros_like(step), step + 1, step + 2))).astype(np.int32)
     found = Mesh(
-        vertices=np.ascontiguousarray(points.T, kept),
+        vertices=np.array(points.T, kept, order="C"),
         triangles=np.ascontiguousarray(corners[loops]),
         polygon=polygon,
         loops=None if normals is None and uv is None else loops,
@@ -137,7 +138,7 @@ def _placed(primitive: Primitive, matrices: np.ndarray, object_index, material_i
     color = numbers(color, "color")
     if color.shape[-1:] == (3,):
         color = np.concatenate((color, np.ones((*color.shape[:-1], 1))), axis=-1)
-    names = (word(name, "name"),) if isinstance(name, str) else tuple(word(one, "one of name") for one in name)
+    names = (a_name(name),) if isinstance(name, str) else tuple(a_name(one, "one of name") for one in name)
     if len(names) not in (1, n):
         raise InputError(f"{len(names)} names are given for {n} shapes: give one, or as many")
     return Shapes(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable
+from sys import float_info
 from typing import Any
 
 import numpy as np
@@ -24,6 +25,8 @@ def a_number(value, name: str) -> float:
     value = value.item() if isinstance(value, np.generic | np.ndarray) and value.ndim == 0 else value
     if isinstance(value, bool) or not isinstance(value, int | float):
         raise InputError(f"{name} is {shown(value)}: it must be a number")
+    if isinstance(value, int) and abs(value) > float_info.max:
+        raise InputError(f"{name} is {shown(value)}: it must be a number up to {float_info.max:g}")
     return value
 
 

@@ -27,13 +27,8 @@ back blocks meanwhile. Of threads that give back, one may forget the blocks of t
 class _Block:
     """The memory of an array and its views, which hold it as their base."""
 
-    def __init__(self, size: int):
-        try:
-            self._bytes = _unused[size].pop()
-        except (KeyError, IndexError):
-            np.empty(size, np.uint8)  # freed at once: glibc keeps what is smaller than the largest block ever freed
-            self._bytes = np.empty(size, np.uint8)
-        self.__array_interface__ = self._bytes.__array_interface__
+    def __init__(self, memory: np.ndarray):
+        self._bytes, self.__array_interface__ = memory, memory.__array_interface__
 
     def __del__(self) -> None:
         size = self._bytes.nbytes
@@ -44,6 +39,14 @@ class _Block:
         for one in list(_unused):
             if excess > 0:
                 excess -= one * len(_unused.pop(one, ()))
+
+
+def _memory(size: int) -> np.ndarray:
+    try:
+        return _unused[size].pop()
+    except (KeyError, IndexError):
+        np.empty(size, np.uint8)  # freed at once: glibc keeps what is smaller than the largest block ever freed
+        return np.empty(size, np.uint8)
 
 
 def release() -> None:
@@ -59,4 +62,4 @@ def empty(shape: tuple[int, ...], dtype) -> np.ndarray:
     size = prod(shape) * dtype.itemsize
     if not LEAST <= size <= MOST:
         return np.empty(shape, dtype)
-    return np.asarray(_Block(size)).view(dtype).reshape(shape)
+    return np.asarray(_Block(_memory(size))).view(dtype).reshape(shape)
