@@ -157,7 +157,7 @@ def test_cast_all_and_exports_take_each_camera_in_the_frames_of_its_poses(blende
     for item in scene.objects:
         item.pop("frames_of_poses", None)
     assert chosen_frames.usual(scene) == "RANGE"
-    with pytest.raises(RuntimeError, match="No camera has poses of a file: choose Range or Current"):
+    with pytest.raises(RuntimeError, match="No camera has poses from a file: choose Range or Current"):
         cast(directory=str(tmp_path / "none"), frames="POSES")
 
 
@@ -191,9 +191,10 @@ def test_cameras_of_different_sizes_are_cast_into_one_folder(blender, camera_sce
     assert {one["all_frames"]["record"]["resolution_x"] for one in exported} == {80, 50, 32}
     assert "NeRF cannot represent" in capfd.readouterr().err
     assert commands.main("export", [str(out), "--format", "json", "--camera", "cam0"], "it") == 2
-    assert "--camera is for a .blend, not for a finished set" in capfd.readouterr().err
+    assert "--camera does not apply to a finished data set" in capfd.readouterr().err
     assert commands.main("export", [str(file), "--format", "yolo"], "it") == 2
-    assert f"--format yolo is of a finished set: give its folder, which {str(file)!r} is not" in capfd.readouterr().err
+    wanted = f"--format yolo needs a finished data set: give its folder in place of {str(file)!r}"
+    assert wanted in capfd.readouterr().err
     assert commands.main("cast", [str(file), "--rig", chain, "--camera", "Camera"], "it") == 2
     assert "--rig brings its own cameras" in capfd.readouterr().err
 

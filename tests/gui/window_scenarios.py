@@ -89,7 +89,7 @@ def other_engine(user, scenes):
     yield from user.point(*middle(user.region("WINDOW")))
     yield from user.key("F12")
     yield from user.until(lambda: said, "the status bar says it", 60)
-    assert said[0].startswith("Workbench does not know Omnimax: it renders a perspective"), said
+    assert said[0].startswith("Workbench does not support Omnimax: it renders a perspective view"), said
     yield from user.until(lambda: any(area.type == "IMAGE_EDITOR" for area in user.window.screen.areas), "it is shown")
     yield from user.wait(0.7)
     user.picture("other_engine_f12")

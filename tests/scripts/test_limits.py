@@ -65,6 +65,6 @@ def test_workers_that_have_all_ended_are_not_waited_for(monkeypatch):
     waiting = SimpleNamespace(done=lambda: False)
     client = SimpleNamespace(map=lambda *words, **more: [waiting], nthreads=lambda: next(runs))
     monkeypatch.setattr(farm, "CHECK", 0)
-    with pytest.raises(InputError, match=r"no worker runs any more; .*give fewer --workers"):
+    with pytest.raises(InputError, match=r"all workers have ended; .*give fewer --workers"):
         list(farm.outcomes(client, SimpleNamespace(workers=1), {}, {}, ["a job"]))
     assert list(runs) == []

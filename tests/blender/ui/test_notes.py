@@ -29,7 +29,7 @@ def unknown(scene, data):
 
 def sharp(scene, data):
     data.dof.use_dof, data.dof.focus_distance, data.dof.aperture_fstop = True, 5.0, 1.0
-    return "With 1 sample nothing is blurred: rays pass the middle of the opening only samples"
+    return "With 1 sample nothing is blurred: every ray passes through the center of the aperture samples"
 
 
 def all_at_once(scene, data):
@@ -41,7 +41,7 @@ def all_at_once(scene, data):
 
 def still(scene, data):
     data.camera_ray_caster.time_mode, scene.frame_end = "ROWS", 9
-    return "All frames show the same times camera_ray_caster.follow_timeline"
+    return "All frames have the same pixel times camera_ray_caster.follow_timeline"
 
 
 def no_camera(scene, data):

@@ -1,5 +1,7 @@
-"""Passes as NPZ files of NumPy: one array per pass, with rows from the bottom, as they were cast: the pixels of the
-render border only. Images and EXR files have the whole frame, unless it is cropped to the border.
+"""Passes as NPZ files of NumPy: one array per pass, with the rows from the bottom.
+
+The arrays hold the pixels that were cast, which are those of the render border. Images and EXR files have the whole
+frame, unless it is cropped to the border.
 """
 
 from __future__ import annotations

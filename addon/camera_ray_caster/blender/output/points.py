@@ -1,4 +1,4 @@
-"""The points of pictures, as the files of scanners: a cloud for each picture, and KITTI's sequences of a whole run."""
+"""The points of pictures in files of scanners' formats: a cloud for each picture, and KITTI's sequences of a run."""
 
 from __future__ import annotations
 
@@ -30,13 +30,13 @@ SEQUENCES = "sequences"
 def add_points(parser) -> None:
     """Add the options for points."""
     parser.add_argument("--points", type=str.lower, choices=FORMATS, help=
-        "also write the points that are hit, as files of scanners: PLY, PCD, KITTI with SemanticKITTI's labels, "
-        "nuScenes, LAS or NPZ")  # fmt: skip
+        "also write the hit points as a point cloud: PLY, PCD, KITTI with SemanticKITTI's labels, nuScenes, LAS or "
+        "NPZ")  # fmt: skip
     parser.add_argument("--points-axes", type=str.lower, choices=AXES, default=SENSOR, help=
         "axes of points: x ahead, y left, z up where each beam fires, or the world's; default: %(default)s")
     for name, text in (
         ("noise", "standard deviation of the ranges of points, in Blender units"),
-        ("dropout", "range up to which points on surfaces square to the beam are never lost"),
+        ("dropout", "range within which no point is lost on a surface perpendicular to the beam"),
     ):
         parser.add_argument(f"--{name}", type=float, default=0.0, metavar="LENGTH", help=f"{text}; default: none")
     parser.add_argument("--quantum", type=_length_or_device, default=0.0, metavar="LENGTH", help=
@@ -50,7 +50,7 @@ def _length_or_device(text: str) -> float | str:
     try:
         return float(text)
     except ValueError as error:
-        raise ArgumentTypeError(f"{text!r} is no length: give a number, or {OF_DEVICE}") from error
+        raise ArgumentTypeError(f"{text!r} is not a length: give a number, or {OF_DEVICE}") from error
 
 
 @dataclass(frozen=True)
@@ -90,8 +90,10 @@ def check_points(scene) -> None:
 
 
 def categories_of(names: Sequence[str]) -> dict[str, int]:
-    """Return the numbers of the categories of objects by name: of those that have the custom property CATEGORY, a whole
-    number, or a word, which has its place among all words of the file, from 1 on.
+    """Return the category numbers, by name, of the objects that have the custom property CATEGORY.
+
+    The property is a whole number, or a word; words are numbered from 1 in the sorted order of all words in the
+    file.
     """
     words = sorted({given for item in bpy.data.objects if isinstance(given := item.get(CATEGORY), str) and given})
     found = {}

@@ -1,7 +1,7 @@
-"""Files that Blender writes: whole, or with the system's own reason why not.
+"""Files that Blender writes: complete, or refused with the system's reason.
 
-Of a full disk Blender says "Invalid argument" or "No such file or directory", and nothing if it writes a PNG file or a
-compressed .blend, which it leaves cut off.
+For a full disk Blender reports "Invalid argument" or "No such file or directory". It reports nothing for a PNG file or
+a compressed .blend, and leaves a truncated file.
 """
 
 import os
@@ -19,7 +19,7 @@ from ..process.opening import reported, scripts_given_back
 from ..process.standard_output import quiet_errors
 
 PROBE = 1 << 20
-"""Bytes that a disk must still take after a failure, or else it is full."""
+"""Number of bytes that can still be written after a failure; if they cannot, the disk is full."""
 END_OF_PNG = b"IEND\xaeB`\x82"
 ZSTD, SEEKABLE = b"\x28\xb5\x2f\xfd", 0x8F92EAB1
 """First bytes of a compressed .blend, and the number that ends its table of frames."""
@@ -27,8 +27,10 @@ ZSTD, SEEKABLE = b"\x28\xb5\x2f\xfd", 0x8F92EAB1
 
 @contextmanager
 def blender_writes(folder: Path) -> Iterator[None]:
-    """Let Blender write into a folder inside the context. Raises OSError, with the system's reason if the disk is full,
-    else with Blender's, in place of its RuntimeError; what its libraries print on standard error is discarded.
+    """Let Blender write into a folder inside the context; discard what its libraries print on standard error.
+
+    Raises OSError in place of Blender's RuntimeError: with the system's reason if the disk is full, else with Blender's
+    message.
     """
     try:
         with quiet_errors(), redirect_stdout(None):
@@ -45,10 +47,10 @@ def check_space(folder: Path) -> None:
 
 
 def check_whole(path: Path) -> None:
-    """Raise OSError if a PNG file or a .blend is cut off."""
+    """Raise OSError if a PNG file or a .blend is truncated."""
     if not (_is_whole_png(path) if path.suffix == ".png" else _is_whole_blend(path)):
         check_space(path.parent)
-        raise OSError(0, "the file is cut off")
+        raise OSError(0, "the file is truncated")
 
 
 def save_copy(path: Path) -> None:

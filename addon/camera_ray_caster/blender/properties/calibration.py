@@ -20,7 +20,7 @@ KEPT = "FLOAT", "INT", "BOOLEAN", "ENUM", "VECTOR", "TEXT"
 
 
 def renew() -> None:
-    """Take up the models that were added since."""
+    """Add the models that were registered since."""
     READING.update({model.key: model.label for model in MODELS if FILE in model.SETTINGS})
 
 
@@ -56,7 +56,7 @@ def set_lens(camera, lens: Lens) -> None:
     model, own = model_of(lens), getattr(camera, GROUP)
     settings = [one for one in model.SETTINGS if one.owner in (OWN, CAMERA) and one not in FROM_FILE]
     if others := [setting.label for setting in settings if setting.kind not in KEPT]:
-        raise InputError(f"{model.label} has objects or images of a .blend ({', '.join(others)}), which no file gives")
+        raise InputError(f"{model.label} has objects or images of a .blend ({', '.join(others)}), which no file has")
     if model.number is None:
         is_type = model.key in {item.identifier for item in camera.bl_rna.properties["type"].enum_items}
         camera.type = model.key if is_type else "PANO"

@@ -35,7 +35,7 @@ def _of_cameras() -> list[Setting]:
 
 
 def renew() -> None:
-    """Take up the models that were added since."""
+    """Add the models that were registered since."""
     MODEL.items[:], CAMERA[:] = _models(), _of_cameras()
 
 
@@ -86,7 +86,7 @@ SAMPLES = Whole(
     1, 1, soft_high=256,
 )  # fmt: skip
 PRECISION = Choice(
-    "precision", "Precision", "Kept for files of version 0.1: hits are searched in float64, whatever it is",
+    "precision", "Precision", "Without effect, kept for files of version 0.1: hits are always computed in float64",
     "AUTOMATIC",
     (
         Item("AUTOMATIC", "Automatic", "Same as Robust", 0),

@@ -35,7 +35,7 @@ OWNERS = {
 
 
 def renew() -> None:
-    """Take up the settings of the models that were added since; the groups must not be registered."""
+    """Add the settings of the models that were registered since; the groups must not be registered."""
     declared.renew()
     CameraProperties.__annotations__ = {setting.name: property_of(setting) for setting in declared.CAMERA}
 

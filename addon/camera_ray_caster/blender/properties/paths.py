@@ -53,7 +53,7 @@ def remap(path: str, *_):
 
 @persistent
 def restore(*_):
-    """Give the paths back if a copy was saved, or nothing: the file that is open is still in its folder."""
+    """Restore the paths if a copy was saved, or if saving failed: the open file is still in its former folder."""
     if _before and _folder(bpy.data.filepath) == _before.pop()[1]:
         for own, value in _before:
             setattr(own, FILE.name, value)

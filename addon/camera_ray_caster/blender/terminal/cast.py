@@ -72,7 +72,7 @@ def options_of(arguments: Sequence[str], prog: str) -> argparse.Namespace:
     """Return the options of a command line. Raises InputError for options that cannot be combined."""
     parser = command_parser(
         prog,
-        "Cast the rays of a Blender file's cameras at what they show.",
+        "Cast the rays of a Blender file's cameras into pictures, passes and a report.",
         f"{prog} blend_scenes/spheres_and_planes.blend --output out --passes combined,depth",
         "writes out/spheres_and_planes.png, the 32-bit multilayer out/spheres_and_planes.exr with one layer per "
         "pass, and out/report.json. With --frames, each file name ends in the frame number; with --cameras, it is "

@@ -1,4 +1,4 @@
-"""Data sets: pictures of cameras and frames in one folder, ``cast --dataset``; and what else lies in every set.
+"""Data sets: pictures of cameras and frames in one folder, ``cast --dataset``, and the other files of every set.
 
 Each camera and frame has the passes CAMERA_FRAME.npz (or .exr), the report CAMERA_FRAME.json, from which
 ``camera_from_json`` makes the camera, and CAMERA_FRAME.png if the combined pass is requested. The ray passes of a

@@ -17,7 +17,7 @@ def run(arguments: Sequence[str], prog: str) -> int:
     """Print the steps from a pixel to its color; return the exit status."""
     parser = command_parser(
         prog,
-        "Explain a pixel of a Blender file: raster, view coordinates, the model's formula, ray, shapes, hit, color.",
+        "Explain how a pixel of a Blender file gets its color: view coordinates, formula, ray, shapes, hit, light.",
         f"{prog} blend_scenes/spheres_and_planes.blend --pixel 960,540",
         "prints every step of that pixel with its numbers.",
         "exit status: 0 done; 2 bad input.",

@@ -36,18 +36,18 @@ def run(arguments: Sequence[str], prog: str) -> int:
     formats = {one.key: one for one in FORMATS} | SET_FORMATS
     parser.add_argument("--format", type=str.lower, choices=formats, required=True, help=
         "; ".join(f"{key}: {one.description}" for key, one in formats.items())
-        + f". Of a folder with a finished set only: {', '.join(SET_FORMATS)}")  # fmt: skip
+        + f". For the folder of a finished data set only: {', '.join(SET_FORMATS)}")  # fmt: skip
     parser.add_argument("--points", type=count, metavar="N", help=
         f"number of seed points, for colmap-scene only; default: {sparse.COUNT}")  # fmt: skip
     parser.add_argument("--models", type=Path, metavar="FILE.blend", help=
-        "file of the set, from which the models of its objects are written, for bop-scenes only")  # fmt: skip
+        "Blender file of the data set, from which its objects' models are written, for bop-scenes only")  # fmt: skip
     add_cameras(parser)
     add_frames(parser)
     parser.add_argument("--to", metavar="NAME", help="target camera of the maps, for stmap only; "
                                                      "default: a perspective camera with the same lens")  # fmt: skip
     parser.add_argument("--fit", nargs="?", type=degrees, const=pi, metavar="DEGREES", help=
-        "write the nearest lens that the format has in place of one that it has not, and state its error in pixels; "
-        "DEGREES from the viewing direction count, default: all")  # fmt: skip
+        "if the format does not have a camera's lens, write the nearest one that it has, and report the error in "
+        "pixels; it is fitted up to DEGREES from the viewing direction, default: everywhere")  # fmt: skip
     parser.add_argument("--output", type=Path, default=Path("out"), metavar="FOLDER", help="default: %(default)s")
     options = parser.parse_args(arguments)
     check_cameras(options)
@@ -59,7 +59,7 @@ def run(arguments: Sequence[str], prog: str) -> int:
         return _of_set(options)
     if options.format in SET_FORMATS:
         given = "a .blend" if options.file is None else repr(str(options.file))
-        raise InputError(f"--format {options.format} is of a finished set: give its folder, which {given} is not")
+        raise InputError(f"--format {options.format} needs a finished data set: give its folder in place of {given}")
     scene = open_scene(options)
     if not options.cameras:
         check_camera(scene, scene.camera)
@@ -78,10 +78,10 @@ def run(arguments: Sequence[str], prog: str) -> int:
 
 
 def _of_set(options) -> int:
-    """Export a finished set, whose pictures have the names of their files; return the exit status."""
+    """Export a finished data set, with the names of its pictures' files; return the exit status."""
     unused = [name for name in OF_SCENES if getattr(options, name)]
     if unused:
-        raise InputError(f"--{unused[0].replace('_', '-')} is for a .blend, not for a finished set: leave it out")
+        raise InputError(f"--{unused[0].replace('_', '-')} does not apply to a finished data set: leave it out")
     views = read_set(options.file)
     if options.format in SET_FORMATS:
         if options.fit:
@@ -98,7 +98,7 @@ def _of_set(options) -> int:
 
 
 def _shapes_of(options, last: float) -> Callable[[float], Shapes]:
-    """Open the file of the models; return a function that gives the shapes of its scene at a frame, up to ``last``."""
+    """Open the file of the models; return a function that reads the shapes of its scene at a frame, up to ``last``."""
     open_file(options.models, options.enable_autoexec)
     scene = bpy.context.scene
 

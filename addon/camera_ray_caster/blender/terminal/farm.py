@@ -33,7 +33,7 @@ ANSWER = "10s"
 START = "60s"
 """Time for a worker of this machine to start."""
 CHECK = 15
-"""Seconds between two looks at whether any of them runs. None in two of them: one that was killed has started again."""
+"""Seconds between two checks that a worker runs. Two checks must fail, since a killed worker may be restarting."""
 FEWER = "give fewer --workers, or raise the limits of open files, processes and memory (ulimit)"
 POLL = 0.05
 """Seconds between two checks for finished tasks."""
@@ -94,11 +94,11 @@ def _local(workers: int) -> Iterator[str]:
         "silence_logs": logging.CRITICAL,
         "death_timeout": START,
     }
-    for name in ("distributed", "tornado", "asyncio"):  # of too few files each prints a line for every connection
+    for name in ("distributed", "tornado", "asyncio"):  # out of files, each logs every connection
         logging.getLogger(name).setLevel(logging.CRITICAL + 1)
     with dask.config.set(own):
         try:
-            with quiet_errors():  # of the workers, too, whose pictures tell what went wrong
+            with quiet_errors():  # of the workers, too: their outcomes have the errors
                 made = distributed.LocalCluster(n_workers=workers, **limits)
         except (RuntimeError, OSError, MemoryError) as error:
             raise InputError(f"{workers} workers cannot start: {_reason(error)}; {FEWER}") from error
@@ -161,7 +161,7 @@ def outcomes(client, options, stamp: Mapping[str, Any], maps: Mapping[str, Any],
             if options.workers and time.monotonic() - seen > CHECK:
                 seen, gone = time.monotonic(), 0 if client.nthreads() else gone + 1
                 if gone > 1:
-                    raise InputError(f"no worker runs any more; finished pictures are kept; {FEWER}")
+                    raise InputError(f"all workers have ended; finished pictures are kept; {FEWER}")
             over = [future for future in waiting if future.done()]
             waiting = [future for future in waiting if future not in over]
             for future in over:

@@ -56,7 +56,7 @@ FORMATS = EXR, NPZ
 
 T = TypeVar("T")
 Making = Generator[None, None, T]
-"""Steps that wait for a render of the scene wherever they yield, and return something in the end."""
+"""Generator that waits for a render of the scene at each ``yield``, and returns a result."""
 
 NOT_WRITTEN = "the compositor's File Output nodes were not run: --file-output makes them write their files"
 

@@ -1,4 +1,4 @@
-"""A scene that is as it was after pictures of it were made: in a window the user goes on with it."""
+"""Restores a scene after pictures of it were made, since in a window the user continues to work with it."""
 
 from __future__ import annotations
 

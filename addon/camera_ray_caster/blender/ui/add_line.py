@@ -1,4 +1,4 @@
-"""Operators that add what a camera lacks: a slit or path, placed so that the picture is filled, an image of times."""
+"""Operators that add what a camera model needs: a slit or a path that fills the picture, an image of pixel times."""
 
 import bpy
 import numpy as np
@@ -70,15 +70,15 @@ class SelectLine(OfLine, bpy.types.Operator):
         """Select the line and make it active."""
         line = getattr(getattr(camera_object_of(context).data, GROUP), self.setting)
         if line is None or line.name not in context.view_layer.objects:
-            self.report({"ERROR"}, "The object is not in this view layer")
+            self.report({"ERROR"}, "The object is not in this view layer: enable its collection, or choose another one")
             return {"CANCELLED"}
         select_alone(context, line)
         return {"FINISHED"}
 
 
 class AddGradient(OfCamera, bpy.types.Operator):
-    """Add an image whose gray grows evenly from the left, black, to the right, white, as the time of each pixel. Paint
-    or replace it for other times"""
+    """Add an image with an even gradient, from black at the left to white at the right, that sets the time of each
+    pixel. Paint or replace it to change the times"""
 
     bl_idname = "camera_ray_caster.add_gradient"
     bl_label = "Add Gradient"

@@ -1,4 +1,4 @@
-"""What the panels note of a camera's picture: missing objects, a stretched frame, an engine that does not know it."""
+"""The panels' notes on a camera: missing objects, a stretched frame, an engine that does not support its model."""
 
 from __future__ import annotations
 
@@ -18,29 +18,29 @@ from .see_through import is_seen_through
 
 
 def notes(context) -> list[Note]:
-    """Return the notes on the scene's camera: first why it cannot be cast."""
+    """Return the notes on the scene's camera; if it cannot be cast, the reason comes first."""
     scene, camera = context.scene, context.scene.camera
     found, reason = camera_of(context, camera)
     lacking = missing(context, camera) if reason else []
     frame = frame_note(context, camera)
     every = [Note(lacks(setting), partial(_draw_missing, camera.data, scene, setting)) for setting in lacking]
     if reason and not lacking:
-        every.append(Note(reason, frame and frame.mend))  # of a calibrated camera the reason is its frame
+        every.append(Note(reason, frame and frame.mend))  # for a calibrated camera the reason is its frame
         frame = None
     others = engine_note(scene, camera), timeline_note(scene, camera), sample_note(scene, found)
     every += filter(None, (frame, *others))
     if context.space_data is not None and is_seen_through(context) and not drawn_alike(camera):
-        said = "A click selects what is seen; Blender draws its gizmos in perspective"
+        said = "A click selects the object in the picture; Blender draws its gizmos in perspective"
         every.append(Note(said, icon="INFO"))
     return every
 
 
 def sample_note(scene, camera) -> Note | None:
-    """Return a note with the number of samples if a camera with an opening is rendered with one ray per pixel."""
+    """Return a note with the number of samples if a camera with an aperture is rendered with one ray per pixel."""
     settings = scene.camera_ray_caster
     if camera is None or camera.aperture is None or settings.samples != 1:
         return None
-    said = "With 1 sample nothing is blurred: rays pass the middle of the opening only"
+    said = "With 1 sample nothing is blurred: every ray passes through the center of the aperture"
     return Note(said, lambda row: row.prop(settings, "samples"), "INFO")
 
 
@@ -58,7 +58,7 @@ def drawn_alike(camera) -> bool:
 
 
 def missing(context, camera) -> list[Setting]:
-    """Return the object settings of a camera object's model whose objects are not there."""
+    """Return the object settings of a camera object's model whose objects are missing."""
     if camera is None or camera.type != "CAMERA":
         return []
     own = getattr(camera.data, GROUP)

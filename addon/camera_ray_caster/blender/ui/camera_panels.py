@@ -46,7 +46,7 @@ class SidebarCamera(Sidebar, bpy.types.Panel):
 
 
 class CameraNotes(Popover, bpy.types.Panel):
-    """All notes on the camera's picture in whole sentences, each with what mends it"""
+    """All notes on the camera in full, with buttons that solve the problems"""
 
     bl_idname = "CAMERA_RAY_CASTER_PT_camera_notes"
     bl_label = "Notes"

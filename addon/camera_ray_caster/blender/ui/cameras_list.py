@@ -1,4 +1,4 @@
-"""The list of the scene's cameras in the sidebar: each with its model, to be made active, or to be seen through."""
+"""The sidebar's list of the scene's cameras: each with its model, and buttons to make it active and see through it."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ class UseCamera(bpy.types.Operator):
     @classmethod
     def description(cls, context, properties):
         """Return the tooltip, which differs for the button that also looks through the camera."""
-        return "Make this camera the active one, and see through it" if properties.see_through else cls.__doc__
+        return "Make this camera the active one and see through it" if properties.see_through else cls.__doc__
 
     @reporting
     def execute(self, context):
@@ -59,7 +59,7 @@ class SidebarCameras(Sidebar, bpy.types.Panel):
         return sum(item.type == "CAMERA" for item in context.scene.objects) > 1
 
     def draw(self, context):
-        """Draw a row for each camera, the cast and the export of all, and how the latest of these ended."""
+        """Draw a row for each camera, the buttons that cast and export all, and the result of the latest run."""
         layout, active = self.layout, context.scene.camera
         column = layout.column(align=True)
         try:

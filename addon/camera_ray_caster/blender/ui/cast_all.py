@@ -1,7 +1,7 @@
-"""Cast All: pictures of all cameras and frames of the scene in a folder, by the code of the command ``cast``.
+"""The Cast All operator: pictures of all cameras and frames of the scene, by the code of the ``cast`` command.
 
-A timer makes one picture at a time. Blender renders it as F12 does, on a thread, so that the window stays responsive;
-Esc or the button Stop ends after the current tile, and leaves whole pictures only.
+A timer makes one picture at a time. Blender renders it on a thread, as with F12, so that the window stays responsive.
+Esc or the Stop button ends the run after the current tile; only complete pictures are kept.
 """
 
 from __future__ import annotations
@@ -42,11 +42,11 @@ class Casting(in_steps.Running):
         with restored(self.scene), ExitStack() as stack:
             changed(stack, bpy.context.preferences.view, render_display_type="NONE")
             pictures = Pictures(options, self.scene)
-            self.scene.render.use_lock_interface = True  # Blender may not draw what a render's thread evaluates
+            self.scene.render.use_lock_interface = True  # Blender must not draw data that a render thread evaluates
             if options.skip_existing:
                 clear_up(options.output)
             jobs, stamp = pictures.jobs(), pictures.stamp()
-            stamp["sha256"] = stamp["sha256"] if is_saved else None  # the file is not what the pictures show
+            stamp["sha256"] = stamp["sha256"] if is_saved else None  # unsaved changes: not the file's pictures
             self.count = len(jobs)
             for job in jobs:
                 self.name = job.name
@@ -58,7 +58,7 @@ class Casting(in_steps.Running):
         """Go on after a render, and begin the next."""
         next(self.steps)
         if bpy.ops.render.render("INVOKE_DEFAULT", scene=self.scene.name) == {"CANCELLED"}:
-            raise InputError("Blender is rendering something else: let it end first")
+            raise InputError("Blender is rendering something else: wait until it has ended, or stop it")
 
     def lines(self, result) -> list[str]:
         """Return how many pictures were made."""
@@ -81,7 +81,7 @@ class Casting(in_steps.Running):
 
 
 class CastAll(bpy.types.Operator):
-    """Cast all cameras of the scene, at one or all frames, into pictures, passes and reports in a folder"""
+    """Cast all cameras of the scene, at one frame or all frames, and write pictures, passes and reports to a folder"""
 
     bl_idname = "camera_ray_caster.cast_all"
     bl_label = "Cast All"
@@ -102,7 +102,7 @@ class CastAll(bpy.types.Operator):
         name="Picture",
         description="Engine that renders the combined pass",
         items=[
-            (ENGINE, "Camera Ray Caster", "The picture that the rays show"),
+            (ENGINE, "Camera Ray Caster", "The colors that the rays hit"),
             ("CYCLES", "Cycles", "A picture of Cycles, through the camera's model; the other passes are cast"),
         ],
     )
@@ -136,7 +136,7 @@ class CastAll(bpy.types.Operator):
     def execute(self, context):
         """Begin; a timer does the rest."""
         if self.skip_existing and bpy.data.is_dirty:
-            raise InputError("pictures of the file cannot be told from those of your changes: save it, or do not skip")
+            raise InputError("the file has unsaved changes: save it, or disable Skip Existing")
         scene = context.scene
         words = ["--cameras", ALL, "--output", bpy.path.abspath(self.directory), "--format", self.format]
         words += ["--engine", self.engine, "--enable-autoexec", *["--skip-existing"] * self.skip_existing]
@@ -168,7 +168,7 @@ class LatestRun(Popover, bpy.types.Panel):
     bl_label = "Latest Run"
 
     def draw(self, context):
-        """Draw it in whole sentences."""
+        """Draw the result in full."""
         widen(self.layout, context)
         draw_message(self.layout, context, in_steps.latest())
 

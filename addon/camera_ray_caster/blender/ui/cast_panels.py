@@ -21,9 +21,7 @@ class SidebarCast(Sidebar, bpy.types.Panel):
     bl_label = "Cast"
 
     def draw(self, context):
-        """Draw the button or the progress, a menu of the images, a row about the latest cast, and one of what it left
-        out.
-        """
+        """Draw the button or the progress, a menu of the images, and rows about the latest cast and what it omitted."""
         layout, fraction = self.layout, cast_operator.fraction()
         row = layout.row()
         row.scale_y = 1.4
@@ -99,7 +97,7 @@ class CastReport(Popover, bpy.types.Panel):
             draw_row(box, step.capitalize(), [f"{seconds:.4f} s"], 0.5)
         if report.rays_per_second is not None:
             draw_row(box, "Rays per Second", [f"{report.rays_per_second / 1e6:.3g} million"], 0.5)
-        box.label(text="Relative error of the distances")
+        box.label(text="Relative Error of Distances")
         for name in ("median", "worst"):
             draw_row(box, name.capitalize(), [reports.relative_error(report, name)], 0.5)
         noted = [*report.warnings, *sentences(report.notes, report.exact)]

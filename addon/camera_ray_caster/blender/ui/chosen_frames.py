@@ -16,7 +16,7 @@ POSES = "POSES", "Poses", "The frames of the poses in files of cameras: each cam
 
 
 def usual(scene) -> str:
-    """Return the choice for all cameras of a scene: POSES if a file has given them poses, else RANGE."""
+    """Return the choice for all cameras of a scene: POSES if any has poses from a file, else RANGE."""
     return (POSES if frames_of(find_cameras(scene, [ALL])) else RANGE)[0]
 
 
@@ -31,7 +31,7 @@ def chosen(scene, which: str, cameras: Sequence) -> tuple[Sequence[float], Calla
         return range(scene.frame_start, scene.frame_end + 1, scene.frame_step), _always
     frames = frames_of(cameras)
     if not frames:
-        raise InputError("no camera has poses of a file: choose Range or Current")
+        raise InputError("no camera has poses from a file: choose Range or Current")
     return frames, shows
 
 

@@ -1,4 +1,4 @@
-"""Operators that make points of the active camera's rays: as a mesh in the scene, and as files."""
+"""Operators that turn the hits of the active camera's rays into points: a mesh in the scene, or files."""
 
 from pathlib import Path
 
@@ -23,16 +23,19 @@ ATTRIBUTES = {
 
 
 class OfPoints(OfScene):
-    """Base of the operators on points: their errors."""
+    """Base of the operators on points, with the settings of range errors."""
 
     noise: FloatProperty(name="Noise", description="Standard deviation of the ranges", min=0, unit="LENGTH")
     dropout: FloatProperty(
-        name="Dropout", min=0, unit="LENGTH", description="Range up to which points on surfaces square to the beam are "
-        "never lost; farther, and at an angle, some are. 0: none is lost",
+        name="Dropout", min=0, unit="LENGTH", description="Range within which no point is lost on a surface "
+        "perpendicular to the beam. Farther away, or at an oblique angle, some are lost. 0 loses none",
     )  # fmt: skip
-    quantum: FloatProperty(name="Quantum", description="Step of the ranges; 0: none", min=0, unit="LENGTH", precision=4)
+    quantum: FloatProperty(
+        name="Quantum", description="Ranges are rounded to multiples of this. 0 does not round", min=0, unit="LENGTH",
+        precision=4,
+    )  # fmt: skip
     as_device: BoolProperty(
-        name="Quantum of Device", description="The step of the ranges is that which the scanner's device stores"
+        name="Quantum of Device", description="Round ranges to the step that the scanner's device stores"
     )
     seed: IntProperty(name="Seed", description="Seed of noise and lost points", min=0)
 
@@ -99,7 +102,7 @@ class SavePoints(OfPoints, ExportHelper, bpy.types.Operator):
 
 
 class SidebarPoints(Sidebar, bpy.types.Panel):
-    """Points of the active camera: drawn, as a mesh, as files."""
+    """Points of the active camera: drawn in the view, as a mesh or as files."""
 
     bl_idname = "CAMERA_RAY_CASTER_PT_points"
     bl_label = "Points"

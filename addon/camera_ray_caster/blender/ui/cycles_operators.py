@@ -12,7 +12,7 @@ from .needs import OfCamera, camera_object_of, reporting
 
 
 class UseInCycles(OfCamera, bpy.types.Operator):
-    """Let Cycles render this camera's rays: the camera becomes a custom camera, with a shader that is stored in the
+    """Let Cycles render with this camera's rays: the camera becomes a custom camera, whose shader is stored in the
     file"""
 
     bl_idname = "camera_ray_caster.use_in_cycles"
@@ -57,8 +57,8 @@ class BackToBlender(OfCamera, bpy.types.Operator):
 
 
 class FitLens(OfCamera, bpy.types.Operator):
-    """Set Blender's own lens nearest to this camera's model, and report its error in pixels: a perspective or an
-    orthographic, which EEVEE and Workbench render, too, or the polynomial fisheye, which Cycles renders anywhere"""
+    """Replace the camera model with the nearest of Blender's own lenses, and report the error in pixels. The lens is
+    perspective or orthographic, for any engine, or a polynomial fisheye, for Cycles on any device"""
 
     bl_idname = "camera_ray_caster.fit_lens"
     bl_label = "Fit Blender's Lens"

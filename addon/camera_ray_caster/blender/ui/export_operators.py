@@ -54,15 +54,15 @@ class Exporting(in_steps.Running):
 
 
 def said_of(said: list[str], paths: list[Path], folder: Path, fits: bool) -> list[str]:
-    """Return the remarks of an export, and the number of its files. The last one stays in sight: the number, or the
-    error of a fit.
+    """Return the remarks of an export and the number of its files; last, what the status bar keeps: the number of
+    files, or the errors of a fit.
     """
     wrote = f"Wrote {len(paths)} {'file' if len(paths) == 1 else 'files'} into {folder}"
     return [wrote, *said] if fits else [*said, wrote]
 
 
 class Export(OfScene, ExportHelper, bpy.types.Operator):
-    """Write cameras, by frame, to a folder, as files for another program"""
+    """Write cameras, at one or more frames, to a folder, as files for another program"""
 
     bl_idname = "camera_ray_caster.export"
     bl_label = "Export Cameras"
@@ -89,13 +89,13 @@ class Export(OfScene, ExportHelper, bpy.types.Operator):
 
     fit: BoolProperty(
         name=FIT,
-        description="In place of a lens that the format does not have, write the nearest one that it has, and tell how "
-                    "many pixels it is away",
+        description="If the format does not have a camera's lens, write the nearest one that it has, and report the "
+                    "error in pixels",
     )  # fmt: skip
     fit_within: FloatProperty(
         name=FIT_WITHIN,
-        description="Only pixels within this angle of the viewing direction count: a pinhole is like the middle of a "
-                    "fisheye at best",
+        description="Fit only pixels within this angle of the viewing direction. A pinhole can match only the middle "
+                    "of a fisheye",
         subtype="ANGLE", min=pi / 180, max=pi, default=pi,
     )  # fmt: skip
     in_steps: BoolProperty(

@@ -1,4 +1,4 @@
-"""The operator that lets the times of the pixels go with the timeline, and the note that offers it."""
+"""The operator that moves the pixel times with the timeline, and the note that offers it."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ from .notes import Note
 
 
 class FollowTimeline(OfCamera, bpy.types.Operator):
-    """Let Start and End, the times of the pixels, go with the timeline, by drivers. The current frame shows what it
-    did, and each frame of a movie another picture
+    """Add drivers that move Start and End, the pixel times, with the timeline. The picture of the current frame stays
+    the same, and each frame of an animation gets its own
     """
 
     bl_idname = "camera_ray_caster.follow_timeline"
@@ -25,7 +25,7 @@ class FollowTimeline(OfCamera, bpy.types.Operator):
         """Gray out the operator for cameras whose pixels have no Start and End."""
         if not super().poll(context):
             return False
-        cls.poll_message_set("For a slit scan or a time displacement")
+        cls.poll_message_set("Available only for slit scans and time displacement")
         return has_range(camera_object_of(context).data)
 
     def execute(self, context):
@@ -49,7 +49,7 @@ def timeline_note(scene, camera) -> Note | None:
     moves = camera.data.animation_data
     if moves is not None and (moves.action or any(START.name in one.data_path for one in moves.drivers)):
         return None
-    said = "All frames show the same times"
+    said = "All frames have the same pixel times"
     return Note(said, lambda row: row.operator(FollowTimeline.bl_idname, icon="DRIVER"), "INFO")
 
 

@@ -20,15 +20,15 @@ from .notes import Note
 
 SET_FRAME = Flag(
     "set_frame", "Set Frame",
-    "Set the scene's resolution to the size or the shape of the camera's pictures. If disabled, a camera whose "
-    "pictures have another shape than the frame is refused",
+    "Set the scene's resolution to the size or the aspect ratio of the camera's pictures. If disabled, a camera with "
+    "another aspect ratio than the frame is refused",
     True,
 )  # fmt: skip
 TYPES = ("type", "panorama_type")
 
 
 class SetFrame(OfCamera, bpy.types.Operator):
-    """Set the scene's resolution to the size or the shape of the camera's pictures, so that nothing is stretched"""
+    """Set the scene's resolution to the size or the aspect ratio of the camera's pictures, so that none is stretched"""
 
     bl_idname = "camera_ray_caster.set_frame"
     bl_label = "Set Frame"
@@ -39,7 +39,7 @@ class SetFrame(OfCamera, bpy.types.Operator):
         """Set the resolution and report it."""
         wanted = frame_of(context, camera_object_of(context))
         if wanted is None:
-            self.report({"INFO"}, "The frame has the shape of the camera's pictures already")
+            self.report({"INFO"}, "The frame already has the aspect ratio of the camera's pictures")
             return {"CANCELLED"}
         self.report({"INFO"}, set_frame(context.scene, wanted))
         return {"FINISHED"}

@@ -64,10 +64,10 @@ def look_through(*_) -> None:
 
 
 class AppendCamera(OfGallery, bpy.types.Operator):
-    """Add this camera from the gallery, with the slits or the path that it needs, and make it the scene's camera"""
+    """Add this camera from the gallery, with the slits or the path that it needs, and make it the active camera"""
 
     bl_idname = "camera_ray_caster.append_camera"
-    bl_label = "Add Camera of the Gallery"
+    bl_label = "Add Gallery Camera"
     bl_options = {"REGISTER", "UNDO"}
 
     def execute(self, context):
@@ -132,7 +132,7 @@ class CamerasMenu(GalleryMenu, bpy.types.Menu):
     """Menu of the cameras to add."""
 
     bl_idname = "CAMERA_RAY_CASTER_MT_cameras"
-    bl_label = "Camera of the Gallery"
+    bl_label = "Gallery Camera"
     operator = AppendCamera.bl_idname
 
 

@@ -1,9 +1,9 @@
-"""Blender's outlines and grid in a 3D View are hidden while it shows the picture of a model that Blender does not draw.
+"""Hides Blender's outlines and grid in a 3D View that shows the picture of a model that Blender cannot draw.
 
-Blender draws them in its own perspective, where the picture has nothing of the kind. They come back when the view shows
-something else, before the file is saved, and before another one is loaded. The choice is made after a view is drawn:
-each change that matters redraws it. Blender saves by itself, from time to time and when it quits, without a word to
-add-ons: a screen with hidden overlays has a mark, by which they come back when such a file is opened.
+Blender draws them in perspective, so they do not match the picture. They are restored when the view shows something
+else, before the file is saved, and before another file is loaded. The update runs after a view is drawn, since every
+relevant change redraws the view. Auto Save and the save on quit call no handlers of add-ons, so a screen with hidden
+overlays is marked; when a file with such a mark is opened, its overlays are restored.
 """
 
 from __future__ import annotations
@@ -36,8 +36,8 @@ def misleads(space, scene) -> bool:
 
 
 def hide(space) -> None:
-    """Hide Blender's outlines and grid in a 3D View. One that was split off has nothing left to hide: it keeps what the
-    other one had.
+    """Hide Blender's outlines and grid in a 3D View. If all are hidden already, as in a view that was split off from
+    another one, keep the former values of that view.
     """
     before = {name: getattr(space.overlay, name) for name in MISLEADING}
     if not any(before.values()) and _before:
@@ -54,7 +54,7 @@ def restore(space) -> None:
 
 
 def update() -> None:
-    """Hide or restore what has to be in each window, and mark its screen."""
+    """Hide or restore the overlays in each window as needed, and mark its screen."""
     for window in bpy.context.window_manager.windows:
         for area in window.screen.areas:
             space = area.spaces.active

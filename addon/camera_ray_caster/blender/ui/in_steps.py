@@ -1,4 +1,4 @@
-"""Long work in steps, from a timer: the window stays responsive, shows how far it is, and Esc or a button stops it."""
+"""Long work in steps, from a timer: the window stays responsive and shows the progress; Esc or a button stops it."""
 
 from __future__ import annotations
 
@@ -18,20 +18,20 @@ INTERVAL = 0.1
 """Seconds between two looks at whether a render has ended."""
 SHOWN = 10.0
 """Seconds that the status bar shows the result."""
-BUSY = "Let the running work end first, or stop it"
+BUSY = "Wait until the running work has ended, or stop it"
 
 
 class Running(ABC):
-    """Work that is being done in ``steps``; a subclass has its messages."""
+    """Work in progress, done in ``steps``; subclasses supply the messages."""
 
     interval = INTERVAL
     """Seconds from the end of a step to the next."""
     fraction: float | None = None
-    """How much of it is done, 0 to 1, where it is known."""
+    """Fraction that is done, 0 to 1; None if it is not known."""
     progress = ""
-    """What is being done, in words."""
+    """Message about the current step."""
     stopped = "Stopped"
-    """What is said if it is stopped."""
+    """Message if the work is stopped."""
 
     def __init__(self, scene, window, steps: Generator):
         self.scene, self.window, self.steps = scene, window, steps
@@ -39,11 +39,11 @@ class Running(ABC):
 
     @abstractmethod
     def step(self) -> None:
-        """Go on. Raises StopIteration at the end."""
+        """Do the next step. Raises StopIteration at the end."""
 
     @abstractmethod
     def lines(self, result) -> list[str]:
-        """Return what is said at the end, from the result of the steps."""
+        """Return the messages at the end, from the result of the steps."""
 
     def show(self) -> None:
         """Show the progress in the status bar and the sidebars."""
@@ -161,7 +161,7 @@ class HearEsc(bpy.types.Operator):
     """Stop the running work on Esc, and report how it ended"""
 
     bl_idname = "camera_ray_caster.hear_esc"
-    bl_label = "Hear Esc"
+    bl_label = "Stop on Esc"
     bl_options = {"INTERNAL"}
 
     def invoke(self, context, event):

@@ -109,7 +109,7 @@ def pixel_at(context, x: int, y: int) -> tuple[bpy.types.Region | None, tuple[in
 
 
 def hold(context, region) -> None:
-    """Let the latest pixel be drawn with the mouse cursor in a 3D View's region, or None, as long as it is dragged."""
+    """Draw the latest pixel with the mouse cursor in this region while it is dragged; None ends that."""
     is_view = region is not None and any(region == own for area in context.screen.areas if area.type == "VIEW_3D"
                                          for own in area.regions)  # fmt: skip
     held = [region.as_pointer()] if is_view else []
@@ -120,8 +120,10 @@ def hold(context, region) -> None:
 
 
 def redraw(context) -> None:
-    """Redraw every 3D View and Image Editor, with their sidebars: they show the pixels. A view in which one is dragged
-    is not drawn: Blender draws the cursor with its sidebar, or, if that is closed, its header.
+    """Redraw every 3D View and Image Editor and their sidebars, which show the pixels.
+
+    A view in which a pixel is dragged is not redrawn: Blender draws the cursor with the view's sidebar, or with its
+    header if the sidebar is closed.
     """
     for window in context.window_manager.windows:
         for area in window.screen.areas:

@@ -64,8 +64,10 @@ def not_used(camera) -> list[str]:
 
 
 def not_counted(settings, own) -> tuple[Setting, ...]:
-    """Return the settings of a model that are not used with its unit of length or its calibration file, which takes
-    the place of all others; without a unit, the name of a camera in a file alone, where there is none.
+    """Return the settings of a model that its unit of length or its calibration file makes unused.
+
+    A calibration file replaces the other settings of a calibrated lens. Without a file the name of a camera in the
+    file is unused.
     """
     if UNIT not in settings:
         return () if own.calibration_file else (FILE_CAMERA,)

@@ -6,7 +6,7 @@ from ...core.records import InputError
 from ..properties.labels import in_labels
 from ..read.camera import check_camera
 
-LINKED = "The camera is linked from another file: make it local, or an override, first"
+LINKED = "The camera is linked from another file: first make it local or a library override"
 
 
 def camera_object_of(context):
@@ -32,7 +32,7 @@ def objection(context, item, is_changed: bool = False) -> str:
 
 
 def can_use(operator, reason: str) -> bool:
-    """Return whether there is no reason against an operator; otherwise show the reason in its tooltip."""
+    """Return whether an operator can be used: ``reason`` is empty. Otherwise show the reason in its tooltip."""
     if reason:
         operator.poll_message_set(reason)
     return not reason

@@ -1,6 +1,7 @@
-"""Notes and results in panels: what is wrong with the camera's picture, with what mends it; how an operator ended.
+"""Notes in panels: problems with the camera's picture, each with a control that solves it; results of operators.
 
-In the sidebar they have rows of a constant number, which open popovers with all of it: no button moves under the mouse.
+In the sidebar they take a constant number of rows, so that no button moves under the mouse. A row opens a popover with
+the full text.
 """
 
 from __future__ import annotations
@@ -15,7 +16,7 @@ UNIT = 20.0
 
 
 class Note(NamedTuple):
-    """A sentence, and a function that draws into a row what mends it."""
+    """A sentence, and a function that draws a control that solves the problem into a row."""
 
     text: str
     mend: Callable[[Any], object] | None = None
@@ -23,7 +24,7 @@ class Note(NamedTuple):
 
 
 def draw_notes(layout, context, notes: Iterable[Note]) -> None:
-    """Draw each note, wrapped to the panel's width, and below it what mends it."""
+    """Draw each note, wrapped to the panel's width, and its control below it."""
     for note in notes:
         draw_message(layout, context, note.text, note.icon)
         if note.mend is not None:
@@ -31,7 +32,7 @@ def draw_notes(layout, context, notes: Iterable[Note]) -> None:
 
 
 def draw_first(layout, notes: list[Note], panel: str) -> None:
-    """Draw two rows, whatever there is: the first note, which opens ``panel``, and what mends it."""
+    """Draw two rows in any case: the first note, which opens ``panel``, and its control; a row may be empty."""
     if not notes:
         layout.label(text="No notes", icon="CHECKMARK")
         layout.label(text="")
@@ -45,7 +46,7 @@ def draw_first(layout, notes: list[Note], panel: str) -> None:
 
 
 def draw_line(layout, text: str, panel: str, icon: str = "INFO", otherwise: str = "") -> None:
-    """Draw one row, whatever there is: a text, which opens ``panel``, or without one what is said ``otherwise``."""
+    """Draw one row in any case: a text, which opens ``panel``, or the text ``otherwise`` if it is empty."""
     if text:
         layout.popover(panel, text=text, icon=icon)
     else:

@@ -1,4 +1,4 @@
-"""The lesson in a browser: a page about the scene's camera and the latest pixel, in a folder that the user sees."""
+"""The Open Lesson operator: a page for the browser about the scene's camera and the latest pixel."""
 
 from pathlib import Path
 
@@ -15,8 +15,8 @@ from .needs import OfScene, reporting
 
 
 class OpenLesson(OfScene, bpy.types.Operator):
-    """Open a page in the browser that shows this camera's formula, and the ray of the clicked pixel: all can be moved
-    there. The page is written beside the .blend file, or in the home folder, and needs no connection"""
+    """Open an interactive page in the browser with this camera's formula and the ray of the clicked pixel. The page is
+    written next to the .blend file, or into the home folder, and works offline"""
 
     bl_idname = "camera_ray_caster.open_lesson"
     bl_label = "Open Lesson"
@@ -37,7 +37,7 @@ class OpenLesson(OfScene, bpy.types.Operator):
 def write_lesson(camera, pixel) -> Path:
     """Write the page about a camera and a pixel; return its path.
 
-    Raises InputError for a folder that cannot be written, and for a model of one's own that is no plain arithmetic.
+    Raises InputError for a folder that cannot be written, and for a registered model whose formula cannot be recorded.
     """
     blend = Path(bpy.data.filepath)
     folder = blend.parent if bpy.data.filepath else Path.home()

@@ -1,4 +1,4 @@
-"""Render engines that do not know a camera's model: what the panels and the status bar say, and what would work."""
+"""Render engines that do not support a camera's model: messages in the panels and the status bar, with alternatives."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ SHOWN = 10.0
 
 
 class UseThisEngine(OfScene, bpy.types.Operator):
-    """Set the scene's render engine to Camera Ray Caster, which knows every camera model"""
+    """Set the scene's render engine to Camera Ray Caster, which supports every camera model"""
 
     bl_idname = "camera_ray_caster.use_this_engine"
     bl_label = "Use Camera Ray Caster"
@@ -34,7 +34,7 @@ class UseThisEngine(OfScene, bpy.types.Operator):
 
 
 def ignored(scene, camera) -> str:
-    """Return a sentence on what the scene's engine does not know of a camera object; "" if it renders all of it."""
+    """Return a sentence on what the scene's engine does not support of a camera object; "" if it supports all of it."""
     engine = scene.render.engine
     if engine.startswith(ENGINE) or camera is None or camera.type != "CAMERA":
         return ""
@@ -47,10 +47,10 @@ def ignored(scene, camera) -> str:
         return ""
     model = own.model if is_ours else blender_type(camera.data)
     what = label_of(model) if is_ours or not has_times else "the time of each pixel"
-    others = {"PERSP": "a perspective", "ORTHO": "an orthographic view"}
-    instead = others.get(kind, "a perspective" if engine != CYCLES else "Blender's own model")
+    others = {"PERSP": "a perspective view", "ORTHO": "an orthographic view"}
+    instead = others.get(kind, "a perspective view" if engine != CYCLES else "Blender's own model")
     instead = "all pixels at one time" if what == "the time of each pixel" else instead
-    return f"{engine_label(engine)} does not know {what}: it renders {instead}"
+    return f"{engine_label(engine)} does not support {what}: it renders {instead}"
 
 
 def engine_label(engine: str) -> str:
@@ -61,7 +61,7 @@ def engine_label(engine: str) -> str:
 
 
 def engine_note(scene, camera) -> Note | None:
-    """Return what the scene's engine does not know of a camera object, with buttons for what would work, or None."""
+    """Return a note on what the scene's engine does not support, with buttons for the alternatives, or None."""
     said = ignored(scene, camera)
     return Note(said, _draw_buttons) if said else None
 
@@ -78,7 +78,7 @@ def begin(scene, _=None):
     if said and bpy.app.background:
         print(f"Warning: {said}. Set the render engine to Camera Ray Caster, or use the camera in Cycles", flush=True)
     elif said:
-        show_later(f"{said}. What would work is in the sidebar, tab Ray Caster", 0.0)
+        show_later(f"{said}. The sidebar, tab Ray Caster, has alternatives", 0.0)
 
 
 @persistent

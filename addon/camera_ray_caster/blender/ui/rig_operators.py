@@ -1,4 +1,4 @@
-"""The operator that adds cameras, with lenses and poses, from files of other programs; it stands in File > Import."""
+"""The operator that adds cameras, with lenses and poses, from files of other programs (File > Import)."""
 
 from pathlib import Path
 
@@ -12,7 +12,7 @@ from .needs import reporting, select_alone
 
 
 class AddCameras(ImportHelper, bpy.types.Operator):
-    """Add the cameras of a file with lenses, places and keyframes, below one empty. A trajectory moves the empty"""
+    """Add the cameras of a file, with lenses, poses and keyframes, as children of one empty. A trajectory moves it"""
 
     bl_idname = "camera_ray_caster.add_cameras"
     bl_label = "Add Cameras from File"
@@ -26,7 +26,8 @@ class AddCameras(ImportHelper, bpy.types.Operator):
     )
     below_active: BoolProperty(
         name="Below Active Object",
-        description="Put the cameras below the active object. Below a camera, its view is the frame of the file",
+        description="Parent the cameras to the active object. If it is a camera, the file's coordinates are those of "
+        "its view: x right, y down, z forward",
     )
 
     @reporting

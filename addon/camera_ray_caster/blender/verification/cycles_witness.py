@@ -41,7 +41,7 @@ STEP = 2.0**-4
 
 
 def cycles_finding(camera: Camera) -> Finding:
-    """Return the finding on a camera's rays in Cycles, from its shader, all over the full frame, at one time.
+    """Return the finding on the rays of a camera's shader in Cycles, over the full frame, at one time.
 
     Pixels for which float32 leaves open whether there is a ray are not compared. Any other pixel fails (NaN) if only
     one of camera and Cycles has a ray. If pixels exceed their own bounds, only the worst pixel is reported. Raises
@@ -50,7 +50,7 @@ def cycles_finding(camera: Camera) -> Finding:
     camera = replace(camera, pixel_time=None, aperture=None)
     shift = tuple(float(camera.settings.get(name, 0.0)) for name in ("shift_x", "shift_y"))
     shader = camera_shader(camera, "PERSP", shift, folder=texture_folder())
-    shader = replace(shader, source=shader.source.partition("\n")[2])  # without a mark it does not follow settings
+    shader = replace(shader, source=shader.source.partition("\n")[2])  # without its mark, so that it is not updated
     return compared(camera, shift, lambda center, half, size: _ends(camera, shader, shift, center, half, size))
 
 

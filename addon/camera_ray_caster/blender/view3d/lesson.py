@@ -1,8 +1,8 @@
 """The pixels chosen by Step Through, their step-by-step explanations, and their rays drawn in every 3D View.
 
-A picture of the camera, in an Image Editor or in a view through the camera, has a frame and the coordinates at each of
-these pixels; the view has the points on their rays and the normals, too, through the camera's model. While the latest
-pixel is dragged in a view, it is drawn there with the mouse cursor: Blender draws a cursor without the scene below it.
+In a picture of the camera, in an Image Editor or a view through the camera, each of these pixels has a frame and its
+coordinates. The view also has hit points and normals, through the camera's model. While the latest pixel is dragged in
+a view, it is drawn with the mouse cursor, because Blender can redraw the cursor without the scene below it.
 """
 
 from __future__ import annotations
@@ -105,7 +105,7 @@ def draw_in_picture(context, frame, found) -> None:
 
 
 def draw_marks() -> None:
-    """Draw the marks of the pixels but a dragged one; called by Blender for each Image Editor and each 3D View."""
+    """Draw the marks of the pixels, except a dragged one; called by Blender for each Image Editor and each 3D View."""
     context = bpy.context
     _draw_marks(context, pixels[:-1] if context.region.as_pointer() in held else pixels)
 

@@ -1,8 +1,8 @@
 """A notice at the bottom of a 3D View: why its camera cannot be cast, and differences between the view and a render.
 
 The scene cannot be evaluated at other frames while a view is drawn. Doing it at other times would reset objects that
-the user has moved without a keyframe. So the view shows all pixels at one frame, and the notice tells this.
-The shapes are read once for all views, so the notice also tells that rays are not limited to Local View.
+the user has moved without a keyframe. So the view shows all pixels at one frame, and the notice says so.
+The shapes are read once for all views, so the notice also says that rays are not limited to Local View.
 """
 
 from __future__ import annotations

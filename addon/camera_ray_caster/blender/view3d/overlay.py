@@ -41,13 +41,13 @@ class OverlayProperties(bpy.types.PropertyGroup):
     points_by: EnumProperty(
         name="Color of Points",
         items=[
-            (RING, "Ring", "From the lowest beam, blue, to the highest, red"),
-            (RANGE, "Range", "From the nearest, blue, to the farthest, red"),
+            (RING, "Ring", "From blue, the lowest beam, to red, the highest"),
+            (RANGE, "Range", "From blue, the nearest point, to red, the farthest"),
             (LABEL, "Label", "A color for each category"),
         ],
     )
     show_sweep: BoolProperty(
-        name="Sweep by Timeline", description="Draw only what a scanner has swept by the current frame"
+        name="Sweep by Timeline", description="Draw only the points that a scanner has swept by this frame"
     )
     rays: IntProperty(
         name="Rays Across",

@@ -1,4 +1,4 @@
-"""The points of the active camera in the 3D View: all that its rays hit, or of a scanner what it has swept by now."""
+"""The points that the active camera's rays hit, drawn in the 3D View; of a scanner, those swept so far by choice."""
 
 from __future__ import annotations
 
@@ -19,8 +19,8 @@ from .camera_frame import camera_frame
 WIDTH = 3.0
 """Size of a point in pixels at interface scale 1."""
 CLOSER = 0.003
-"""Part of their distance by which points are drawn closer: a square of three pixels on a surface seen at an angle would
-be half within it.
+"""Fraction of their distance by which points are drawn closer: otherwise half of the square of three pixels would be
+inside a surface that is seen at an angle.
 """
 MOST = 1 << 20
 """Largest number of rays of which points are drawn."""
