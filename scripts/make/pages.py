@@ -43,18 +43,19 @@ one.
 
 File > Import > Cameras, and `--rig FILE ...` of `cast.py`, `dataset.py` and `export.py`, which does not change the
 .blend, add the cameras of files with their lenses, names and poses, below one empty that stands for the frame of the
-file: the world of COLMAP (a folder, images.txt or images.bin), nerfstudio, Metashape (with the scale of the chunk; of
-a georeferenced project east, north and up about the middle of its cameras), Meshroom, Polycam (y up), BOP (millimeters
+file: the world of COLMAP (a folder, images.txt or images.bin), nerfstudio, Metashape (with the scale of the chunk; of a
+georeferenced project east, north and up about the middle of its cameras), Meshroom, Polycam (y up), BOP (millimeters
 become meters) and this add-on, with a keyframe for each image; the body of Kalibr (the IMU, or the first camera),
-EuRoC, OKVIS, maplab, Basalt and Project Aria; the world of HOT3D, or the headset. A trajectory of TUM, EuRoC or
-ARKitScenes moves the empty. A folder of Polycam, of a clip of HOT3D or of ARKitScenes (its .pincam files and .traj)
-has a keyframe for each file. The frame is in the picture's name, CAMERA_FRAME, or the number of the image; of times,
-the first is frame 1. Images of one name whose lenses are of several models, or two in one frame, become cameras
-NAME-1, NAME-2, ... Where each frame has one of several cameras, markers bind it. `--rig FILE` without `--frames` casts
-and exports each camera in the frames of its own poses. `--rig-parent NAME` puts the empty below an object; below a
-camera, the file's frame is that of its picture, y down and z ahead. Lenses stay linked to the file, with all digits; a
-lens that changes is keyed. Blender rounds places to 6e-8 of themselves and turns to 1e-7 rad. A camera has pictures of
-its own size by its object's custom property `resolution`, in all commands but with `--resolution`.
+EuRoC, OKVIS, maplab, Basalt and Project Aria; camera 00 of KITTI; the world of HOT3D, or the headset. A trajectory of
+TUM, EuRoC, KITTI or ARKitScenes moves the empty. A folder of Polycam, of a clip of HOT3D or of ARKitScenes (its .pincam
+files and .traj) has a keyframe for each file. The frame is in the picture's name, CAMERA_FRAME, or the number of the
+image; of times and of KITTI's poses the first is frame 1. Images of one name whose lenses are of several models, or two
+in one frame, become cameras NAME-1, NAME-2, ... Where each frame has one of several cameras, markers bind it. `--rig
+FILE` without `--frames` casts and exports each camera in the frames of its own poses. `--rig-parent NAME` puts the
+empty below an object; below a camera, the file's frame is that of its picture, y down and z ahead. Lenses stay linked
+to the file, with all digits; a lens that changes is keyed. Blender rounds places to 6e-8 of themselves and turns to
+1e-7 rad. A camera has pictures of its own size by its object's custom property `resolution`, in all commands but with
+`--resolution`.
 
 | program | files | reads | writes | lost |
 |---|---|---|---|---|

@@ -9,7 +9,10 @@ from camera_ray_caster.blender.ui.operators import draw_cameras
 
 def test_messages_in_panels_have_the_labels_of_settings(blender):
     assert in_labels("slit_1 of camera 'A_b' is no line of the lens") == "Slit of camera 'A_b' is no line of the lens"
-    assert in_labels("set Camera in File (--calibration-camera) to a (b)") == "Set Camera in File to a (b)"
+    assert (
+        in_labels("set Camera in File (--calibration-camera, in Python camera=) to a (b)")
+        == "Set Camera in File to a (b)"
+    )
 
 
 def test_a_window_offers_the_cameras_of_a_file(blender, camera_scene, tmp_path):

@@ -12,8 +12,10 @@ def label_of(key: str) -> str:
 
 def in_labels(text: str) -> str:
     """Return a message with a capital, with the names of settings replaced by their labels in the panels, and without
-    the names of the terminal's options in parentheses. Names that are words of the language, too, stay.
+    the names of options in parentheses: of the terminal, and of Python beside it. Names that are words of the language,
+    too, stay.
     """
     labels = {setting.name: setting.label for model in MODELS for setting in model.SETTINGS if "_" in setting.name}
-    text = re.sub(r"\w+", lambda word: labels.get(word[0], word[0]), re.sub(r" \(--[a-z-]+\)", "", text))
+    text = re.sub(r" \(--[a-z-]+(, in Python \w+=)?\)", "", text)
+    text = re.sub(r"\w+", lambda word: labels.get(word[0], word[0]), text)
     return text[:1].upper() + text[1:]

@@ -86,7 +86,7 @@ def chosen_lens(path: str, key: str = "", name: str = "", frame: tuple[int, int]
             raise InputError(f"calibration file {path!r} has {said}")
         names = names if len(names) <= MOST_NAMED else [*names[:MOST_NAMED], f"{len(names) - MOST_NAMED} more"]
         said = f"no camera {name!r}" if name and not chosen else f"{len(chosen)} cameras"
-        setting = f"{FILE_CAMERA.label} (--calibration-camera)"
+        setting = f"{FILE_CAMERA.label} (--calibration-camera, in Python camera=)"
         remedy = f"set {setting} to one of {', '.join(names)}" if names != [""] else f"leave {setting} empty"
         raise InputError(f"calibration file {path!r} has {said}: {remedy}")
     if chosen[0].refusal is not None:

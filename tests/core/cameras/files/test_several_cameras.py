@@ -24,12 +24,16 @@ def test_a_camera_that_cannot_be_read_does_not_hide_the_others(tmp_path):
 
 
 def test_a_camera_that_is_not_in_the_file_is_refused_with_those_that_are(tmp_path):
-    with pytest.raises(InputError, match=r"no camera 'cam7': set Camera in File \(--calibration-camera\) to .*cam0"):
+    with pytest.raises(
+        InputError, match=r"no camera 'cam7': set Camera in File \(--calibration-camera, in Python camera=\) to .*cam0"
+    ):
         of_file(tmp_path / "camchain.yaml", GOOD, "OPENCV_PINHOLE", calibration_camera="cam7")
 
 
 def test_of_a_file_whose_camera_has_no_name_none_is_chosen(tmp_path):
-    with pytest.raises(InputError, match=r"no camera 'cam7': leave Camera in File \(--calibration-camera\) empty$"):
+    with pytest.raises(
+        InputError, match=r"no camera 'cam7': leave Camera in File \(--calibration-camera, in Python camera=\) empty$"
+    ):
         of_file(tmp_path / "lens", mrcal("PINHOLE", NUMBERS), "OPENCV_PINHOLE", calibration_camera="cam7")
 
 

@@ -25,6 +25,7 @@ from . import (
     hot3d,
     isaac,
     kalibr,
+    kitti,
     maplab,
     meshroom,
     metashape,
@@ -47,7 +48,7 @@ from .nearest import by_name, unknown
 
 FORMATS = (
     ray_arrays.read, ray_exr.read, ray_mesh.read, colmap_binary.read, metashape.read, colmap.read, arkit.read,
-    hesai.read, mrcal.read, ocam.read, velodyne.read, ouster.read, recorded.read, generic.read, aria.read,
+    hesai.read, kitti.read, mrcal.read, ocam.read, velodyne.read, ouster.read, recorded.read, generic.read, aria.read,
     nerfstudio.read, ftheta.read, isaac.read, woodscape.read, opensfm.read, meshroom.read, gyroflow.read, hot3d.read,
     basalt.read, camodocal.read, maplab.read, okvis.read, kalibr.read, opencv.read,
 )  # fmt: skip

@@ -72,7 +72,7 @@ def mounted(path: str, key: str, frame: tuple[int, int], rate: float) -> list[Mo
         raise document.refusal("it has no pose of a camera")
     if len(placed) > MOST:
         raise document.refusal(f"it has {len(placed):,} poses: {MOST:,} are read")
-    if placed[0].time is not None:
+    if placed[0].moves or placed[0].time is not None:
         return [Mounted(path, lens_file, True, [], _frames(document, placed, rate), [one.pose for one in placed])]
     lenses = {lens.name: lens for lens in lenses_of(lens_file, key, frame)}
     found: list[tuple[Placed, str, float | None, Lens]] = []
@@ -94,7 +94,11 @@ def mounted(path: str, key: str, frame: tuple[int, int], rate: float) -> list[Mo
 
 
 def _frames(document: Document, placed: list[Placed], rate: float) -> list[float | None]:
-    """Return the frames of a trajectory's times. Raises InputError for equal times, and beyond Blender's last frame."""
+    """Return the frames of a trajectory, or of its times. Raises InputError for equal times, and beyond Blender's last
+    frame.
+    """
+    if placed[0].moves:
+        return [one.frame for one in placed]
     times = [one.time or 0.0 for one in placed]
     if len(set(times)) < len(times):
         twice = next(time for time, after in pairwise(sorted(times)) if time == after)

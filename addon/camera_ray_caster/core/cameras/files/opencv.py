@@ -212,6 +212,6 @@ def _model(document: Document, found: Spelled, coefficients: list[float], tangen
     if four and key not in (PINHOLE, FISHEYE):
         raise document.refusal(
             f"its 4 coefficients may be of OpenCV's pinhole or of its fisheye: choose the model {PINHOLE} or {FISHEYE} "
-            "first (--model)"
+            "first (--model, in Python model=)"
         )
     return FISHEYE if key == FISHEYE and (four or not any(coefficients)) else PINHOLE

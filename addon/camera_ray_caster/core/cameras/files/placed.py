@@ -33,6 +33,8 @@ class Placed(NamedTuple):
     pose: np.ndarray
     time: float | None = None
     """Seconds, if the file tells them."""
+    moves: bool = False
+    """Whether it is of a trajectory with frames; one with times has these."""
 
 
 def pose_of(document: Document, value, name: str) -> np.ndarray:

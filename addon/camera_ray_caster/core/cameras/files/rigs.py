@@ -1,9 +1,9 @@
 """The poses of the cameras of a file, or of one beside it, by format; see ``placed``.
 
 COLMAP's, nerfstudio's, Metashape's and Meshroom's are of images, BOP's of frames; this add-on's camera.json has
-frames; those of Kalibr, EuRoC, OKVIS, maplab, Basalt and Project Aria are of cameras in a body, HOT3D's and Polycam's
-of cameras at one time. Kalibr's cameras are placed in the IMU's frame if each has a T_cam_imu, else in that of the
-first camera. BOP's lengths are read as meters.
+frames; those of Kalibr, EuRoC, OKVIS, maplab, Basalt, KITTI and Project Aria are of cameras in a body, HOT3D's and
+Polycam's of cameras at one time. Kalibr's cameras are placed in the IMU's frame if each has a T_cam_imu, else in that
+of the first camera. BOP's lengths are read as meters.
 References: those of the formats' modules.
 """
 
@@ -17,7 +17,19 @@ import numpy as np
 
 from ...conventions import LAST_FRAME
 from ...records import InputError
-from . import arkit, basalt, colmap_images, hot3d, maplab, meshroom, metashape_poses, nerfstudio, okvis, trajectory
+from . import (
+    arkit,
+    basalt,
+    colmap_images,
+    hot3d,
+    kitti,
+    maplab,
+    meshroom,
+    metashape_poses,
+    nerfstudio,
+    okvis,
+    trajectory,
+)
 from .document import Document, mapping
 from .folders import files_in
 from .kalibr import read as of_kalibr
@@ -55,15 +67,15 @@ def placed_in(document: Document) -> list[Placed]:
     """Return the poses of a document in its order. Raises InputError, in one line, for a document without poses."""
     binary = b"\0" in document.data[:64]
     try:
-        for read in (colmap_images.poses, *(() if binary else READERS)):
+        for read in (colmap_images.poses,) if binary else READERS:
             found = read(document)
             if found is not None:
                 return found
     except InputError as refusal:
         raise by_name(document) or refusal from refusal
     raise document.refusal("it has no poses that are read: give a file of COLMAP, nerfstudio, Kalibr, EuRoC, OKVIS, "
-                           "Basalt, BOP, Project Aria, HOT3D, maplab, Metashape, Meshroom, Polycam, ARKitScenes, this "
-                           "add-on, or a trajectory")  # fmt: skip
+                           "Basalt, BOP, Project Aria, HOT3D, maplab, Metashape, Meshroom, Polycam, ARKitScenes, "
+                           "KITTI, this add-on, or a trajectory")  # fmt: skip
 
 
 def _of_transforms(document: Document) -> list[Placed] | None:
@@ -175,8 +187,8 @@ def _flat(rows) -> list:
 
 
 READERS: tuple[Callable[[Document], list[Placed] | None], ...] = (
-    trajectory.poses, metashape_poses.poses, arkit.poses, _of_record, _of_aria, _of_transforms, meshroom.poses,
-    _of_basalt, maplab.poses, _of_okvis, _of_camchain, _of_bop, hot3d.poses,
+    kitti.poses, colmap_images.poses, trajectory.poses, metashape_poses.poses, arkit.poses, _of_record, _of_aria,
+    _of_transforms, meshroom.poses, _of_basalt, maplab.poses, _of_okvis, _of_camchain, _of_bop, hot3d.poses,
 )  # fmt: skip
 
 

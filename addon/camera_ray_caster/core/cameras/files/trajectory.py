@@ -31,7 +31,7 @@ def poses(document: Document) -> list[Placed] | None:
     words = [re.split(r"[\s,]+", line) for line in lines]
     if "," not in lines[0] and len(words[0]) > 8:
         raise document.refusal(f"its lines have {len(words[0])} numbers: those of TUM's trajectories have 8, of "
-                               "ARKitScenes 7, of EuRoC at least 8 apart by commas")  # fmt: skip
+                               "ARKitScenes 7, of KITTI 12, of EuRoC at least 8 apart by commas")  # fmt: skip
     if len(words[0]) == 7:
         return [_of_arkit(document, number, line) for number, line in enumerate(words, 1)]
     placed, is_euroc = [], "," in lines[0]

@@ -125,6 +125,11 @@ PROGRAMS = (
     ProgramFiles("Polycam", "keyframes' cameras as .json", "fx fy t_00 t_01 t_23 blur_score", "pinhole"),
     ProgramFiles("ARKitScenes", ".pincam; .traj", reads="pinhole"),
     ProgramFiles(
+        "KITTI", "calib_cam_to_cam.txt, also perspective.txt of KITTI-360; calib.txt; poses .txt",
+        "P0 P1 P2 P3 Tr", "pinholes as calibrated (K_02) and rectified (P_rect_02, P2), and their places", "kitti",
+        "of calib.txt the size of the pictures; of poses lenses and times",
+    ),
+    ProgramFiles(
         "Gyroflow", "lens profiles as .json", "calib_dimension fisheye_params use_opencv_fisheye calibrator_version",
         "opencv_fisheye, opencv_standard", "", "stretched pictures and other models are refused",
     ),
@@ -166,7 +171,6 @@ PROGRAMS = (
         "NeRF", "transforms_train.json, _val and _test", export="nerf", lost="all lenses but centered pinholes"
     ),
     ProgramFiles("TUM", "trajectories .txt", export="tum", lost="lenses"),
-    ProgramFiles("KITTI", "poses .txt", export="kitti", lost="lenses, times"),
     ProgramFiles("EuRoC trajectories", ".csv", export="euroc", lost="lenses"),
     ProgramFiles("STMaps", "pairs of .exr", export="stmap", lost="what is seen from two places; poses"),
     ProgramFiles("NumPy", ".npz with each pixel's ray", export="npz", lost="the formula: rays between pixels"),
