@@ -171,12 +171,12 @@ def _dataset(size) -> Callable:
     """A data set of an example scene, by the script of the checkout, in a process of its own."""
     import camera_ray_caster
 
-    script = Path(camera_ray_caster.__file__).resolve().parents[2] / "scripts" / "cast.py"
+    script = Path(camera_ray_caster.__file__).resolve().parents[2] / "scripts" / "dataset.py"
     scene = ROOT / "blend_scenes" / "animated.blend"
 
     def made() -> None:
         with tempfile.TemporaryDirectory() as folder:
-            words = "--dataset", "--frames", "1:8", "--passes", ",".join(FOUR), "--output", folder
+            words = "--frames", "1:8", "--passes", ",".join(FOUR), "--output", folder
             subprocess.run([sys.executable, script, scene, *words], check=True, stdout=subprocess.DEVNULL)
 
     return made

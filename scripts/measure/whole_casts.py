@@ -19,7 +19,7 @@ CASES: dict[str, tuple[tuple[str, ...], Callable]] = {
     "63k triangles": (FOUR, MESH),
     "a plane": (FOUR, against.plane),
     "1M triangles": (FOUR, partial(against.mesh, SIDES["1M"])),
-    "63k triangles, 15 passes": (tuple(PASSES_CAST), MESH),
+    f"63k triangles, {len(PASSES_CAST)} passes": (tuple(PASSES_CAST), MESH),
     "10 spheres, fisheye": (FOUR, partial(BALLS, model="FISHEYE_EQUIDISTANT")),
     "10 spheres, equirectangular": (FOUR, partial(BALLS, model="EQUIRECTANGULAR")),
     "63k triangles, fisheye": (FOUR, partial(MESH, model="FISHEYE_EQUIDISTANT")),

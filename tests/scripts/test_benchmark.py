@@ -61,6 +61,16 @@ def test_whole_casts_are_timed_beside_writing_their_arrays(tmp_path):
 
 
 @pytest.mark.full
+def test_renders_are_timed_beside_their_casts(tmp_path):
+    text, rows = figures(tmp_path, "--renders", "--size", "64x36", "--rounds", "2")
+    assert [row["name"] for row in rows] == ["spheres_and_planes", "living_room"]
+    for row in rows:
+        assert 0 < row["zeros_ms"] < row["F12_ms"]
+        assert row["into_ms"] > 0
+        assert f"{row['F12_ms'] / row['cast_ms']:.2f} x" in text
+
+
+@pytest.mark.full
 def test_scaling_is_measured_and_drawn(tmp_path):
     _, rows = figures(tmp_path, "--scaling", "--quick", "--picture", tmp_path / "scaling.png")
     assert [row["spheres"] for row in rows if row["against"] == "spheres"] == [10, 100, 1000]
