@@ -40,14 +40,21 @@ class Mesh:
     """(k,) int16: the material slot of each triangle; None if all have the first slot."""
     layers: tuple[tuple[str, np.ndarray], ...] = ()
     """Further attributes that the materials use, by name: at the corners of triangles, (3, k, channels) float32."""
+    own_middle: np.ndarray | None = None
+    """(3,) float64: ``middle`` of a mesh between evaluations, which is the mean of theirs; None for ``box_middle``."""
 
     def __len__(self) -> int:
         return self.triangles.shape[1]
 
-    @cached_property
+    @property
     def middle(self) -> np.ndarray:
-        """(3,) float64: the middle of the bounding box, from which places are computed. If a few vertices lie so far
-        away that the others would lose their digits, it is the median of some of the vertices instead.
+        """(3,) float64: the point from which places are computed: ``own_middle``, or else ``box_middle``."""
+        return self.box_middle if self.own_middle is None else self.own_middle
+
+    @cached_property
+    def box_middle(self) -> np.ndarray:
+        """(3,) float64: the middle of the bounding box. If a few vertices lie so far away that the others would lose
+        their digits, it is the median of some of the vertices instead.
         """
         low, high = self.vertices.min(axis=1).astype(np.float64), self.vertices.max(axis=1).astype(np.float64)
         some = np.sort(self.vertices[:, :: max(1, self.vertices.shape[1] // SAMPLED)].astype(np.float64))
@@ -79,7 +86,35 @@ class Mesh:
         outer[order[1:][same]] = outer[order[:-1][same]] = False
         return outer.reshape(3, -1)
 
+    def middles(self, which: np.ndarray) -> np.ndarray:
+        """Return the middles, (3, 1), from which the places of some triangles are computed; or (3, k), of each."""
+        return self.middle[:, None]
+
     @cached_property
     def half_size(self) -> np.ndarray:
         """(3,) float64: the largest distance of a vertex from the middle along each axis."""
         return np.abs(self.vertices - self.middle[:, None]).max(axis=1)
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class LooseTriangles(Mesh):
+    """Triangles that share no vertices, each with the middle of its mesh at a time of its own."""
+
+    middle_of: np.ndarray
+    """(3, k)."""
+    outer: np.ndarray
+    """(3, k) bool: ``is_outer`` in their meshes."""
+
+    def middles(self, which: np.ndarray) -> np.ndarray:
+        """See ``Mesh``."""
+        return self.middle_of[:, which]
+
+    @cached_property
+    def is_outer(self) -> np.ndarray:
+        """See ``Mesh``."""
+        return self.outer
+
+    @cached_property
+    def half_size(self) -> np.ndarray:
+        """See ``Mesh``."""
+        return np.abs(self.vertices.reshape(3, 3, -1) - self.middle_of[:, None]).max(axis=(1, 2), initial=0.0)

@@ -1,4 +1,4 @@
-"""Rays with times at shapes that move, turn and stretch: beside a cast at the time of each ray, to the same bits."""
+"""Rays with times at shapes that move, turn, stretch and bend: beside a cast at the time of each ray, to the bit."""
 
 from dataclasses import replace
 
@@ -25,7 +25,20 @@ def turned(shapes, center, angle, scale=(1.0, 1.0, 1.0)):
     return replace(shapes, center=np.array([center], float), axes=(turn * scale)[None])
 
 
+def waving(f, bend=True, **given):
+    """A mesh of two faces a quad, with normals and a map, that bends and leans."""
+    height = 0.3 * np.sin(3 * X + 4 * f * bend) * np.cos(Y)
+    normals = np.stack((-0.9 * np.cos(3 * X + 4 * f * bend) * np.cos(Y), 0.3 * np.sin(Y), 1 + 0 * X), axis=1)
+    given = {"normals": normals, "uv": np.stack((X, Y + f), axis=1)} | given
+    return crc.mesh(np.stack((X + 3, Y + f * X, height), axis=1), FACES, name="waving", **given)
+
+
 SCENES = {
+    "a mesh that bends": lambda f: [turned(waving(f), (0, f, 0.2), f), turned(LEVEL, (0, 0, -0.5 - f), 0)],
+    "a flat shaded mesh that bends, in three places": lambda f: [
+        waving(f, normals=None, uv=None), turned(waving(f, normals=None, uv=None), (1, 0, f), 0, (0.5, 0.3, 2)), BUMPY,
+    ],
+    "a mesh that bends far from the origin": lambda f: [turned(waving(f), (1e9 + f, 0, 0), f)],
     "meshes that turn and stretch": lambda f: [
         turned(BUMPY, (f, 0, 1), 2 * f, (1, 1.5, 1 + f)), turned(LEVEL, (0, f - 0.5, -0.5), -f)
     ],
@@ -50,22 +63,37 @@ def test_each_ray_meets_what_moves_as_a_cast_at_its_time_does(name):
         return crc.join(floor, *SCENES[name](frame))
 
     meshes = at(0.0).meshes
-    motion = resolve(lambda frame: (camera, replace(at(frame), meshes=meshes)), 0.0, 1.0, 0.1, 64)
+
+    def evaluate(frame):
+        return camera, replace(at(frame), meshes=at(frame).meshes if "bends" in name else meshes)
+
+    motion = resolve(evaluate, 0.0, 1.0, 0.1, 64)
     shapes = replace(at(0.0), timeline=Timeline(motion))
     apart = moving_of(shapes)
-    assert apart.rigid.all()
+    assert apart.alike.all()
+    assert bool(apart.forms) == ("bends" in name)
     assert len(apart.rows) in (len(shapes) - 1, len(shapes) - 2)
     random, count = np.random.default_rng(6), 600
-    times = np.append(np.round(random.uniform(0, 10, count - 8)) / 10, np.resize(sorted(motion.states), 8))
+    times = np.append(np.round(random.uniform(0, 5, count - 8)) / 5, np.resize(sorted(motion.states), 8))
     middle = shapes.center[1] * (np.abs(shapes.center[1]) > 1e6)
     origin, towards = (middle + random.uniform(-span, span, (count, 3)) for span in (4, 1))
-    found = crc.cast_rays(origin, towards - origin, shapes, PASSES, times)
+    rays = origin, towards - origin
+    found = crc.cast_rays(*rays, shapes, PASSES, times)
+    every = crc.cast_rays(*rays, shapes, PASSES, times, all_hits=True)
+    hidden = crc.occluded(origin, towards, shapes, times)
+    assert 20 < np.count_nonzero(hidden) < count - 20
     assert set(apart.rows[: 3 if name == "spheres and planes" else 1].tolist()) <= set(found["shape_index"].tolist())
     for time in np.unique(times).tolist():
-        some = times == time
-        expected = crc.cast_rays(origin[some], (towards - origin)[some], motion.shapes_at(time), PASSES)
+        some, then = times == time, motion.shapes_at(time)
+        expected = crc.cast_rays(*(part[some] for part in rays), then, PASSES)
         for each, image in expected.items():
             np.testing.assert_array_equal(found[each][some], image, err_msg=f"{each} at {time}")
+        expected, own = crc.cast_rays(*(part[some] for part in rays), then, PASSES, all_hits=True), some[every["ray"]]
+        np.testing.assert_array_equal(np.flatnonzero(some)[expected["ray"]], every["ray"][own])
+        np.testing.assert_array_equal(every["count"][some], expected["count"])
+        for each in PASSES:
+            np.testing.assert_array_equal(every[each][own], expected[each], err_msg=f"{each} of all hits at {time}")
+        np.testing.assert_array_equal(hidden[some], crc.occluded(origin[some], towards[some], then))
 
 
 def test_a_world_that_brightens_is_seen_by_each_ray_at_its_time():

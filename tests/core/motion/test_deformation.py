@@ -48,6 +48,20 @@ def test_vertices_between_evaluations_keep_the_tolerance():
         assert found.center[1].tolist() == [0, 0, -7]
 
 
+def test_a_mesh_between_evaluations_stays_in_the_space_of_its_object():
+    """So that textures by object coordinates stay in place, whatever the middle of the mesh."""
+    square = np.array([[1.0, 3, 3, 1], [1, 1, 3, 3], [0, 0, 0, 0]])
+    flat = Mesh(square, np.array([[0, 0], [1, 2], [2, 3]], np.int32), np.zeros(2, np.int32))
+
+    def growing(frame):
+        mesh = replace(flat, vertices=square + [[0.0], [frame], [0.0]] * (square > 2))
+        return CAMERA, shapes_of((mesh, mesh.middle, 1.0))
+
+    then = resolve(growing, 0.0, 1.0, 0.1, 20).shapes_at(0.3)
+    np.testing.assert_allclose(then.meshes[0].vertices[1], [1, 1, 3.3, 3.3], atol=1e-14)
+    np.testing.assert_allclose(then.center[0], [2, 2.15, 0], atol=1e-14)
+
+
 def test_a_mesh_of_other_triangles_is_another_one():
     """Each frame has its own: between them the first stands still, and the interval in which it changes is short."""
 

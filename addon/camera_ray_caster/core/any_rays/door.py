@@ -17,9 +17,9 @@ from ..conventions import gamma
 from ..maths.vector import norm
 from ..motion.evaluations import Motion
 from ..records import InputError, Shapes
-from .moving import cast_apart, moving_of
+from .moving import HitGroup, Moving, all_apart, cast_apart, moving_of
 from .search import BodySearch
-from .written import t_errors, write
+from .written import Span, t_errors, write
 
 WITHOUT_PIXEL = "solid_angle", "footprint", "flow_forward", "flow_backward", "flow_hidden"
 """Passes that a ray alone does not have."""
@@ -89,12 +89,10 @@ def cast_rays(
     count = origin.shape[1]
     each = _times(shapes, times, shape)
     if all_hits:
-        return _all(shapes, _by_time(shapes, each), origin, direction, shape, passes, near, far, dtype)
+        return _all(shapes, each, origin, direction, shape, passes, (near, far), dtype)
     images = RayImages({name: PASSES[name].empty((1, count), dtype) for name in passes})
     images.shapes = shapes
-    moving = None if each is None else moving_of(shapes)
-    if moving is not None and moving.light and "combined" in passes:
-        moving = None
+    moving = _moving(shapes, each, passes)
     if moving is not None and each is not None:
         cast_apart(moving, search_of(moving.still), origin, direction, each, (near, far), images)
     for then, some in _by_time(shapes, each) if moving is None else ():
@@ -118,18 +116,14 @@ def occluded(origins, targets, shapes: Shapes, times=None) -> np.ndarray:
     start, end, shape = _points(origins, "origins", targets, "targets")
     _require(shapes, shape, ("valid",), np.dtype(np.float64))
     hidden = np.zeros(start.shape[1], bool)
-    for then, some in _by_time(shapes, _times(shapes, times, shape)):
-        search = search_of(then)
-        own = start[:, some]
-        towards = end[:, some] - own
-        towards[:, ~(np.abs(towards).max(axis=0) > 0)] = np.nan
-        hits = search.all(own, towards, 0.0, 1.0)
-        with np.errstate(all="ignore"):
-            error = t_errors(search, own[:, hits.ray], towards[:, hits.ray], hits)
-            error += (gamma(4) * np.maximum(norm(own), norm(end[:, some])) / norm(towards))[hits.ray]
-        between = (hits.t > error) & (hits.t < 1 - error)
-        rays = np.arange(len(hidden))[some]
-        hidden[rays[hits.ray[between]]] = True
+    towards = end - start
+    towards[:, ~(np.abs(towards).max(axis=0) > 0)] = np.nan
+    with np.errstate(all="ignore"):
+        rounding = gamma(4) * np.maximum(norm(start), norm(end)) / norm(towards)
+        for group in _groups(shapes, _times(shapes, times, shape), start, towards, (0.0, 1.0)):
+            hits = group.hits
+            error = t_errors(group.found, start[:, hits.ray], towards[:, hits.ray], hits) + rounding[hits.ray]
+            hidden[hits.ray[(hits.t > error) & (hits.t < 1 - error)]] = True
     return hidden.reshape(shape)
 
 
@@ -234,21 +228,43 @@ def _by_time(shapes: Shapes, each: np.ndarray | None) -> Iterator[tuple[Shapes, 
         yield shapes.at(time), np.flatnonzero(each == time)
 
 
-def _all(shapes, parts, origin, direction, shape, passes, near: float, far: float, dtype) -> RayImages:
-    """Return the passes of all hits, with their rays and the counts of these."""
-    found = []
-    for then, some in parts:
+def _moving(shapes: Shapes, each: np.ndarray | None, passes: tuple[str, ...] = ()) -> Moving | None:
+    """Return the shapes, divided, if that is how rays with these times are cast; else None."""
+    moving = moving_of(shapes) if each is not None and len(each) else None
+    return None if moving is not None and moving.light and "combined" in passes else moving
+
+
+def _groups(
+    shapes: Shapes, each: np.ndarray | None, origin, direction, span: Span, passes: tuple[str, ...] = ()
+) -> Iterator[HitGroup]:
+    """Yield all hits of rays (3, n) at their times (n,), in groups."""
+    moving = _moving(shapes, each, passes)
+    if moving is not None and each is not None:
+        yield from all_apart(moving, search_of(moving.still), origin, direction, each, span)
+        return
+    rays = np.arange(origin.shape[1])
+    for then, some in _by_time(shapes, each):
         search = search_of(then)
-        hits = search.all(origin[:, some], direction[:, some], near, far)
+        hits = search.all(origin[:, some], direction[:, some], *span)
+        yield HitGroup.of(search, hits, rays[some], np.arange(len(then)))
+
+
+def _all(shapes, each, origin, direction, shape, passes, span: Span, dtype) -> RayImages:
+    """Return the passes of all hits, with their rays and the counts of these."""
+    found, order = [], []
+    for group in _groups(shapes, each, origin, direction, span, passes):
+        hits = group.hits
         images = RayImages({name: PASSES[name].empty((1, len(hits.t)), dtype) for name in passes})
-        own = origin[:, some][:, hits.ray], direction[:, some][:, hits.ray]
-        write(search, *own, hits.t, hits.body, images, np.arange(len(hits.t)), (near, far))
-        found.append((np.arange(origin.shape[1])[some][hits.ray], images))
-    ray = np.concatenate([ray for ray, _ in found])
-    order = np.argsort(ray, kind="stable")
-    result = RayImages({
-        name: np.concatenate([images[name][0] for _, images in found])[order] for name in passes
-    })  # fmt: skip
-    result["ray"], result["count"] = ray[order], np.bincount(ray, minlength=origin.shape[1]).reshape(shape)
+        own = origin[:, hits.ray], direction[:, hits.ray]
+        write(group.found, *own, hits.t, hits.body, images, np.arange(len(hits.t)), span)
+        if "shape_index" in images:
+            images["shape_index"][0] = group.row
+        found.append(images)
+        order.append((group.number, group.row, hits.t, hits.ray))
+    keys = [np.concatenate(key) for key in zip(*order, strict=True)]
+    rank = np.lexsort(keys)
+    result = RayImages({name: np.concatenate([images[name][0] for images in found])[rank] for name in passes})
+    ray = keys[-1]
+    result["ray"], result["count"] = ray[rank], np.bincount(ray, minlength=origin.shape[1]).reshape(shape)
     result.shapes = shapes
     return result

@@ -1,15 +1,15 @@
 """Rays with times of their own: shapes that stand still are searched once for all rays, others for the rays near them.
 
 A ray is near a shape if it meets the ball around the shape's center, at the ray's time, that holds the shape, and the
-box around it in its own axes. Of shapes that only move, turn and stretch each of these rays has one of its own, see
-``own_times``. For others, which deform or change their looks, rays are grouped by their times, and each group meets the
+box around it in its own axes. Of shapes that only move, turn, stretch and bend each of these rays has one of its own,
+see ``own_times``. For others, which change their looks, rays are grouped by their times, and each group meets the
 shapes as they are then. The hits are those of a cast at the time of the ray.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from weakref import WeakKeyDictionary
 
 import numpy as np
@@ -19,11 +19,13 @@ from ..motion.apart import centers_at, light_changes, moving, of_rows, place_at,
 from ..motion.evaluations import Motion
 from ..motion.interpolation import PLACE
 from ..motion.means import same
+from ..motion.triangles import bends, mesh_of
 from ..records import MESH, PLANE, SPHERE, Shapes
 from ..shapes.in_camera import in_camera, invert
 from .balls import may_meet, unit_directions
-from .own_times import SLACK, FoundParts, RowsPlaced, nearest
-from .search import RAYS, WORLD, BodySearch
+from .forms import SLACK, Form
+from .own_times import OwnTimes, RowsPlaced
+from .search import RAYS, WORLD, BodySearch, Found, RayHits
 from .written import Span, write
 
 MARGIN = 1.25
@@ -48,14 +50,16 @@ class Moving:
     motion: Motion
     light: bool
     """Whether lights or the background change."""
-    rigid: np.ndarray
-    """(m,) bool: which only move, turn and stretch: one of their own for each ray."""
+    alike: np.ndarray
+    """(m,) bool: which look alike at all times: one of their own for each ray."""
+    forms: dict[int, Form]
+    """Those of ``alike`` whose meshes bend."""
     changing: Motion
-    """The motion of those that are not ``rigid``."""
+    """The motion of those that are not ``alike``."""
     radius: np.ndarray
     """(m,): the radii of the balls around their centers."""
     boxes: dict[int, np.ndarray]
-    """(2, 3): the lowest and the highest corner in its own axes, of each that has one and does not deform."""
+    """(2, 3): the lowest and the highest corner in its own axes, of each that has one."""
 
 
 _known: WeakKeyDictionary[Shapes, Moving | None] = WeakKeyDictionary()
@@ -71,14 +75,20 @@ def moving_of(shapes: Shapes) -> Moving | None:
 
 def _divided(motion: Motion) -> Moving | None:
     moves, changes = moving(motion), moving(motion, but=PLACE)
-    if moves is None or changes is None:
+    looks = moving(motion, but=(*PLACE, "meshes"))
+    if moves is None or changes is None or looks is None:
         return None
     still, rows = np.flatnonzero(~moves), np.flatnonzero(moves)
-    own, rigid = of_rows(motion, rows), ~changes[rows]
+    own, unlike = of_rows(motion, rows), changes[rows]
+    states = [shapes for _, shapes in own.states.values()]
+    bent = [row for row in np.flatnonzero(unlike & ~looks[rows]).tolist()
+            if bends([mesh_of(shapes, row) for shapes in states])]  # fmt: skip
+    unlike[bent] = False
+    forms = {row: Form(own, row) for row in bent}
     first = next(iter(motion.states.values()))[1]
     return Moving(
-        rows_of(first, still), still, rows, own, light_changes(motion), rigid, of_rows(own, np.flatnonzero(~rigid)),
-        _radius(own), _boxes(own),
+        rows_of(first, still), still, rows, own, light_changes(motion), ~unlike, forms,
+        of_rows(own, np.flatnonzero(unlike)), _radius(own), _boxes(own, forms),
     )  # fmt: skip
 
 
@@ -92,7 +102,7 @@ def _radius(motion: Motion) -> np.ndarray:
     return radii.max(axis=0) * np.where(changes, MARGIN, 1 + 1e-6)
 
 
-def _boxes(motion: Motion) -> dict[int, np.ndarray]:
+def _boxes(motion: Motion, forms: dict[int, Form]) -> dict[int, np.ndarray]:
     every = [shapes for _, shapes in motion.states.values()]
     first, found = every[0], {}
     for row, kind in enumerate(first.kind.tolist()):
@@ -102,6 +112,7 @@ def _boxes(motion: Motion) -> dict[int, np.ndarray]:
         mesh = first.meshes[first.mesh[row]] if kind == MESH else None
         if mesh is not None and all(same(mesh, other.meshes[first.mesh[row]]) for other in every):
             found[row] = np.array((mesh.vertices.min(axis=1), mesh.vertices.max(axis=1))) - mesh.middle
+    found |= {row: form.box.copy() for row, form in forms.items()}
     for corners in found.values():
         corners += np.array((-1, 1))[:, None] * SLACK * np.abs(corners).max()
     return found
@@ -118,6 +129,24 @@ def _meets_box(axes: np.ndarray, to: np.ndarray, ahead: np.ndarray, corners: np.
     return ~((enter > leave) | (leave < 0))
 
 
+@dataclass(frozen=True, eq=False)
+class HitGroup:
+    """Hits of rays on some bodies."""
+
+    found: Found
+    hits: RayHits
+    row: np.ndarray
+    """(m,): the shapes that are hit."""
+    number: np.ndarray
+    """(m,): their triangles."""
+
+    @classmethod
+    def of(cls, found: Found, hits: RayHits, rays: np.ndarray, rows: np.ndarray) -> HitGroup:
+        """Return the hits of a part of the rays on bodies of a part of the shapes, by the numbers of these."""
+        every = RayHits(rays[hits.ray], hits.t, hits.body)
+        return cls(found, every, rows[found.at[hits.body]], found.number[hits.body])
+
+
 def cast_apart(apart: Moving, search: BodySearch, origin, direction, times: np.ndarray, span: Span, images) -> None:
     """Write the passes of rays (3, n) with times (n,) into images with one row; ``search``: of what stands still."""
     for first in range(0, len(times), RAYS):
@@ -126,23 +155,58 @@ def cast_apart(apart: Moving, search: BodySearch, origin, direction, times: np.n
         _cast_some(apart, search, origin[:, some], direction[:, some], times[some], span, part)
 
 
+def all_apart(
+    apart: Moving, search: BodySearch, origin, direction, times: np.ndarray, span: Span
+) -> Iterator[HitGroup]:
+    """Yield all hits of rays as ``cast_apart`` takes them."""
+    for first in range(0, len(times), RAYS):
+        part = slice(first, first + RAYS)
+        rays, own = np.arange(len(times))[part], (origin[:, part], direction[:, part])
+        yield HitGroup.of(search, search.all(*own, *span), rays, apart.still_rows)
+        for group in _groups(apart, *own, times[part], span, every=True):
+            hits = group.hits
+            yield replace(group, hits=RayHits(rays[hits.ray], hits.t, hits.body))
+
+
 def _cast_some(apart: Moving, search: BodySearch, origin, direction, times: np.ndarray, span: Span, images) -> None:
     t, body = search.nearest(origin, direction, *span)
     write(search, origin, direction, t, body, images, np.arange(len(t)), span)
     row = np.append(apart.still_rows, -1)[np.append(search.at, -1)[body]]
-    near = list(_near(apart, origin, direction, times))
-    _meet_rigid(apart, near, origin, direction, span, t, row, images)
-    for time, some in _by_time([rays for place, rays in near if not apart.rigid[place.row[0]]], times):
-        own = BodySearch(apart.changing.shapes_at(time), len(some))
-        rays = origin[:, some], direction[:, some]
-        own_t, which = own.nearest(*rays, *span)
-        rows = np.append(apart.rows[~apart.rigid], -1)[np.append(own.at, -1)[which]]
-        closer = (own_t < t[some]) | ((own_t == t[some]) & (rows < row[some]))
-        part = some[closer]
-        t[part], row[part] = own_t[closer], rows[closer]
-        write(own, rays[0][:, closer], rays[1][:, closer], own_t[closer], which[closer], images, part, span)
+    for group in _groups(apart, origin, direction, times, span, every=False):
+        before = t[group.hits.ray]
+        closer = (group.hits.t < before) | ((group.hits.t == before) & (group.row < row[group.hits.ray]))
+        hits = group.hits.only(closer)
+        t[hits.ray], row[hits.ray] = hits.t, group.row[closer]
+        own = origin[:, hits.ray], direction[:, hits.ray]
+        write(group.found, *own, hits.t, hits.body, images, hits.ray, span)
     if "shape_index" in images:
         images["shape_index"][0] = row
+
+
+def _groups(apart: Moving, origin, direction, times: np.ndarray, span: Span, every: bool) -> Iterator[HitGroup]:
+    """Yield the hits of rays on what moves: all, or of each ray the nearest of each group."""
+    near = list(_near(apart, origin, direction, times))
+    shapes, found = next(iter(apart.motion.states.values()))[1], []
+    for place, some in near:
+        row = int(place.row[0])
+        if apart.alike[row]:
+            one = OwnTimes(place.shapes(shapes), apart.forms.get(row), origin[:, some], direction[:, some], times[some])
+            hits = one.all(span) if every else one.nearest(span)
+            found.append((place.only(hits.ray), RayHits(some[hits.ray], hits.t, hits.body)))
+    if found:
+        place, hits = RowsPlaced.joined([place for place, _ in found]), RayHits.joined([hits for _, hits in found])
+        if not every:
+            order = np.lexsort((place.row, hits.t, hits.ray))
+            best = order[np.flatnonzero(np.diff(hits.ray[order], prepend=-1))]
+            place, hits = place.only(best), hits.only(best)
+        parts = place.parts(shapes, apart.forms, hits.body, times[hits.ray])
+        which = np.arange(len(hits.ray))
+        yield HitGroup(parts, RayHits(hits.ray, hits.t, which), apart.rows[place.row], hits.body)
+    for time, some in _by_time([rays for place, rays in near if not apart.alike[place.row[0]]], times):
+        own = BodySearch(apart.changing.shapes_at(time), len(some))
+        rays = origin[:, some], direction[:, some]
+        hits = own.all(*rays, *span) if every else RayHits.of(*own.nearest(*rays, *span))
+        yield HitGroup.of(own, hits, some, apart.rows[~apart.alike])
 
 
 def _near(apart: Moving, origin, direction, times: np.ndarray) -> Iterator[tuple[RowsPlaced, np.ndarray]]:
@@ -163,26 +227,6 @@ def _near(apart: Moving, origin, direction, times: np.ndarray) -> Iterator[tuple
                     some, center, axes = some[meets], center[meets], axes[meets]
                 if some.size:
                     yield RowsPlaced(np.full(len(some), row), center, axes), some
-
-
-def _meet_rigid(apart: Moving, near, origin, direction, span: Span, t, row, images) -> None:
-    """Write the hits on rigid shapes, and their t and rows, where they are the nearest."""
-    shapes = next(iter(apart.motion.states.values()))[1]
-    number = np.full(len(t), -1)
-    best = RowsPlaced(np.zeros(len(t), np.intp), np.empty((len(t), 3)), np.empty((len(t), 3, 3)))
-    for place, some in near:
-        own = int(place.row[0])
-        if not apart.rigid[own]:
-            continue
-        own_t, part = nearest(place.shapes(shapes), origin[:, some], direction[:, some], span)
-        closer = (own_t < t[some]) | ((own_t == t[some]) & (apart.rows[own] < row[some]))
-        rays = some[closer]
-        t[rays], row[rays], number[rays] = own_t[closer], apart.rows[own], part[closer]
-        best.row[rays], best.center[rays], best.axes[rays] = own, place.center[closer], place.axes[closer]
-    hit = np.flatnonzero(number >= 0)
-    if hit.size:
-        found = FoundParts(RowsPlaced(best.row[hit], best.center[hit], best.axes[hit]).shapes(shapes), number[hit])
-        write(found, origin[:, hit], direction[:, hit], t[hit], np.arange(len(hit)), images, hit, span)
 
 
 def _by_time(near: list[np.ndarray], times: np.ndarray) -> Iterator[tuple[float, np.ndarray]]:

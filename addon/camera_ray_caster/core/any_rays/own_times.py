@@ -1,12 +1,12 @@
-"""One shape where it is at the time of each ray: a row of ``Shapes`` for each ray, and the nearest hits of these.
+"""One shape where it is at the time of each ray: a row of ``Shapes`` for each ray, and the hits on these.
 
-A ray meets a mesh by a tree of its triangles in the mesh's own frame, to which the ray is brought; the triangles that
-it may meet are tested in the world, where they are then.
+A ray meets a mesh by a tree of its triangles in the mesh's own frame, to which the ray is brought, or of the boxes in
+which they move; the triangles that it may meet are tested in the world, where they are then.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from weakref import WeakKeyDictionary
 
@@ -17,17 +17,17 @@ from ..maths.speed import Scratch, taken
 from ..mesh import Mesh
 from ..motion.apart import rows_of
 from ..records import MESH, Shapes
+from ..shapes.bodies import Bodies
 from ..shapes.frames import InCamera
 from ..shapes.in_camera import in_camera
+from ..shapes.kind import Kind
 from ..shapes.kinds import by_kind
+from .forms import SLACK, Form
 from .packets import coherent_order, packets_of
 from .search import WORLD, Found, RayHits, keep_nearest, met
 from .traversal import Traversal
 from .tree import Tree, tree_of
 from .written import Span
-
-SLACK = 1e-6
-"""Fraction by which boxes are enlarged: far more than rounding."""
 
 PAIRS = 1 << 16
 """Number of pairs of rays and triangles that are tested at once, of meshes without a tree. Not tuned."""
@@ -44,9 +44,30 @@ class RowsPlaced:
     axes: np.ndarray
     """(n, 3, 3)."""
 
+    @classmethod
+    def joined(cls, parts: list[RowsPlaced]) -> RowsPlaced:
+        """Return all parts, one after the other."""
+        names = "row", "center", "axes"
+        return cls(*(np.concatenate([getattr(part, name) for part in parts]) for name in names))
+
+    def only(self, some: np.ndarray) -> RowsPlaced:
+        """Return some of them, by index."""
+        return RowsPlaced(self.row[some], self.center[some], self.axes[some])
+
     def shapes(self, shapes: Shapes) -> Shapes:
         """Return these rows of shapes, each at its place."""
         return replace(rows_of(shapes, self.row), center=self.center, axes=self.axes)
+
+    def parts(self, shapes: Shapes, forms: Mapping[int, Form], number: np.ndarray, times: np.ndarray) -> FoundParts:
+        """Return a part of each, by number; of meshes that bend the triangle as it is at its time."""
+        own, number = self.shapes(shapes), number.copy()
+        meshes, mesh = list(own.meshes), own.mesh.copy()
+        for row in np.intersect1d(list(forms), self.row).astype(int).tolist():
+            some = np.flatnonzero(self.row == row)
+            mesh[some] = len(meshes)
+            meshes.append(forms[row].at(number[some], times[some]))
+            number[some] = np.arange(len(some))
+        return FoundParts(replace(own, meshes=tuple(meshes), mesh=mesh), number)
 
 
 class FoundParts(Found):
@@ -57,44 +78,76 @@ class FoundParts(Found):
         self.at, self.number = np.arange(len(shapes)), number
 
 
-def nearest(shapes: Shapes, origin: np.ndarray, direction: np.ndarray, span: Span) -> tuple[np.ndarray, np.ndarray]:
-    """Return t of the nearest hit of each ray (3, n) on the shape of its number, all of one kind and mesh, inf for
-    none, and the number of the triangle, -1 for none.
-    """
-    near, far = span
-    placed, scratch = in_camera(shapes, WORLD), Scratch()
-    ((kind, _),) = by_kind(shapes.kind)
-    t, number = np.full(origin.shape[1], np.inf), np.full(origin.shape[1], -1)
-    rays = np.arange(len(t))
-    with np.errstate(all="ignore"):  # NaN and inf mean no hit
-        for ray, part in _candidates(placed, origin, direction, near, lambda: np.minimum(t, far)):
-            bodies = kind.bodies(placed, ray, part)
-            own = taken(origin, ray), taken(direction, ray)
-            for hits in met(bodies, np.arange(len(ray)), ray, own, near, far, scratch, twice=False):
-                keep_nearest(RayHits(hits.ray, hits.t, part[hits.body]), t, number, rays)
-    return t, number
+@dataclass(frozen=True, eq=False)
+class OwnTimes:
+    """Shapes of one kind and mesh, one for each ray, (3, n): where it is at the time of the ray, (n,)."""
+
+    shapes: Shapes
+    form: Form | None
+    """If the mesh bends."""
+    origin: np.ndarray
+    direction: np.ndarray
+    times: np.ndarray
+
+    def nearest(self, span: Span) -> RayHits:
+        """Return the nearest hit of each ray that has one; its body is the number of the triangle."""
+        t, number = np.full(len(self.times), np.inf), np.full(len(self.times), -1)
+        rays = np.arange(len(t))
+        for hits in self._hits(span, lambda: np.minimum(t, span[1]), twice=False):
+            keep_nearest(hits, t, number, rays)
+        return RayHits.of(t, number)
+
+    def all(self, span: Span) -> RayHits:
+        """Return all hits, in any order."""
+        return RayHits.joined([*self._hits(span, lambda: np.full(len(self.times), span[1]), twice=True)])
+
+    def _hits(self, span: Span, limit: Callable[[], np.ndarray], twice: bool) -> Iterator[RayHits]:
+        if self.form is not None:
+            placed = in_camera(replace(self.shapes, meshes=(self.form.hull,)), WORLD)
+        else:
+            placed = in_camera(self.shapes, WORLD)
+        scratch, ((kind, _),) = Scratch(), by_kind(self.shapes.kind)
+        with np.errstate(all="ignore"):  # NaN and inf mean no hit
+            for ray, part in self._candidates(placed, span[0], limit):
+                own = taken(self.origin, ray), taken(self.direction, ray)
+                bodies = self._bodies(kind, placed, ray, part)
+                for hits in met(bodies, np.arange(len(ray)), ray, own, *span, scratch, twice):
+                    yield RayHits(hits.ray, hits.t, part[hits.body])
+
+    def _bodies(self, kind: Kind, placed: InCamera, ray: np.ndarray, part: np.ndarray) -> Bodies:
+        if self.form is None:
+            return kind.bodies(placed, ray, part)
+        now = replace(self.shapes, meshes=(self.form.at(part, self.times[ray]),))
+        return kind.bodies(replace(placed, shapes=now), ray, np.arange(len(part), dtype=np.int32))
+
+    def _candidates(
+        self, placed: InCamera, near: float, limit: Callable[[], np.ndarray]
+    ) -> Iterator[tuple[np.ndarray, np.ndarray]]:
+        """Yield rays and the triangles that they may meet, (m,) each; 0 for shapes that are no meshes."""
+        rays = np.arange(len(self.times))
+        if placed.shapes.kind[0] != MESH:
+            yield rays, np.zeros(len(rays), np.int32)
+            return
+        mesh = self.shapes.meshes[0]
+        reach = _reach(mesh) if self.form is None else self.form.reach
+        to_mesh, away = placed.shape_from_world, self.origin.T - placed.center
+        rounding = 2 * (placed.rounding + gamma(4)) * np.linalg.norm(to_mesh, axis=2).max(axis=1)
+        rounding *= np.linalg.norm(away, axis=1) + placed.radius
+        if not (rounding < SLACK / 2 * reach).all():  # flat, or far away
+            for some in np.array_split(rays, -(-len(rays) * len(mesh) // PAIRS)):
+                yield np.repeat(some, len(mesh)), np.tile(np.arange(len(mesh), dtype=np.int32), len(some))
+            return
+        start, ahead = (np.einsum("nij,nj->in", to_mesh, vector) for vector in (away, self.direction.T))
+        for tree, some in [(_tree_of(mesh), rays)] if self.form is None else self.form.slices(self.times):
+            yield from _in_boxes(tree, some, start, ahead, near, limit)
 
 
-def _candidates(
-    placed: InCamera, origin, direction, near: float, limit: Callable[[], np.ndarray]
+def _in_boxes(
+    tree: Tree, some: np.ndarray, start, ahead, near: float, limit: Callable[[], np.ndarray]
 ) -> Iterator[tuple[np.ndarray, np.ndarray]]:
-    """Yield rays and the triangles that they may meet, (m,) each; 0 for shapes that are no meshes."""
-    rays = np.arange(origin.shape[1])
-    if placed.shapes.kind[0] != MESH:
-        yield rays, np.zeros(len(rays), np.int32)
-        return
-    mesh = placed.shapes.meshes[0]
-    to_mesh, away = placed.shape_from_world, origin.T - placed.center
-    rounding = 2 * (placed.rounding + gamma(4)) * np.linalg.norm(to_mesh, axis=2).max(axis=1)
-    rounding *= np.linalg.norm(away, axis=1) + placed.radius
-    if not (rounding < SLACK / 2 * _reach(mesh)).all():  # flat, or far away
-        for some in np.array_split(rays, -(-len(rays) * len(mesh) // PAIRS)):
-            yield np.repeat(some, len(mesh)), np.tile(np.arange(len(mesh), dtype=np.int32), len(some))
-        return
-    start, ahead = (np.einsum("nij,nj->in", to_mesh, vector) for vector in (away, direction.T))
-    order = coherent_order(start, ahead)
+    order = some[coherent_order(start[:, some], ahead[:, some])]
     packets = packets_of(start[:, order], ahead[:, order])
-    for ray, part in Traversal(_tree_of(mesh), packets, near, lambda: packets.farthest(limit()[order])).pairs():
+    for ray, part in Traversal(tree, packets, near, lambda: packets.farthest(limit()[order])).pairs():
         yield order[ray], part.astype(np.int32)
 
 

@@ -45,6 +45,24 @@ class RayHits:
     body: np.ndarray
     """Indices into the bodies of ``Search``."""
 
+    @classmethod
+    def of(cls, t: np.ndarray, body: np.ndarray) -> RayHits:
+        """Return the nearest hits of rays, given t and bodies of all rays, -1 for none."""
+        hit = np.flatnonzero(body >= 0)
+        return cls(hit, t[hit], body[hit])
+
+    @classmethod
+    def joined(cls, parts: list[RayHits]) -> RayHits:
+        """Return the hits of all parts, one after the other."""
+        kinds = (("ray", np.intp), ("t", float), ("body", np.intp))
+        return cls(*(
+            np.concatenate([getattr(hits, name) for hits in parts] or [np.zeros(0, kind)]) for name, kind in kinds
+        ))  # fmt: skip
+
+    def only(self, some: np.ndarray) -> RayHits:
+        """Return some of them, by index."""
+        return RayHits(self.ray[some], self.t[some], self.body[some])
+
 
 class Found:
     """Bodies of shapes, on which rays have hits."""
@@ -118,12 +136,8 @@ class BodySearch(Found):
             kept.append(RayHits(part[found.ray], found.t, found.body))
 
         self._search(origin, direction, near, far, lambda part: np.full(len(part), far), keep, twice=True)
-        ray, t, body = (
-            np.concatenate([getattr(hits, name) for hits in kept] or [np.zeros(0, kind)])
-            for name, kind in (("ray", np.intp), ("t", float), ("body", np.intp))
-        )
-        order = np.lexsort((body, t, ray))
-        return RayHits(ray[order], t[order], body[order])
+        hits = RayHits.joined(kept)
+        return hits.only(np.lexsort((hits.body, hits.t, hits.ray)))
 
     def _search(
         self, origin, direction, near: float, far: float, limit: Callable, keep: Callable, twice: bool = False

@@ -39,7 +39,7 @@ def rows_of(shapes: Shapes, some: np.ndarray) -> Shapes:
 
 def moving(motion: Motion, but: Collection[str] = ()) -> np.ndarray | None:
     """Return which shapes differ between evaluations, in place or in looks, (n,) bool; None if there are not the same
-    shapes in all. ``but`` are arrays whose differences do not count.
+    shapes in all. ``but`` are arrays whose differences do not count; with "meshes" those of vertices neither.
     """
     first, *others = (shapes for _, shapes in motion.states.values())
     moves = np.zeros(len(first), bool)
@@ -51,7 +51,7 @@ def moving(motion: Motion, but: Collection[str] = ()) -> np.ndarray | None:
             if len(values) and name not in but:
                 moves |= (values != getattr(other, name)).reshape(len(values), -1).any(axis=1)
         changed = [not same(*meshes) for meshes in zip(first.meshes, other.meshes, strict=True)]
-        if any(changed):
+        if any(changed) and "meshes" not in but:
             moves |= np.append(changed, False)[first.mesh]
         if not all(same(getattr(first, name), getattr(other, name)) for name in OF_ALL):
             moves[:] = True

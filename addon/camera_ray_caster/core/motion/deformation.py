@@ -42,19 +42,22 @@ def _corners(mesh: Mesh) -> np.ndarray:
 
 def deformed(shapes: Shapes, evaluations: Sequence[Shapes], weights: Sequence[float]) -> Shapes:
     """Return shapes with their meshes interpolated between evaluations; the weights have the sum 1."""
-    meshes, center = list(shapes.meshes), shapes.center.copy()
+    meshes = list(shapes.meshes)
     for k, forms in enumerate(zip(*(one.meshes for one in evaluations), strict=True)):
         if all(_same(forms[0], other, name) for other in forms[1:] for name in ("vertices", "normals", "uv")):
             continue
-        places = mean([form.vertices - form.middle[:, None] for form in forms], weights)
+        middle = mean([form.middle for form in forms], weights)  # which the center of the shape is the image of
+        places = mean([form.vertices - form.middle[:, None] for form in forms], weights) + middle[:, None]
         normals, uv = (_mean_of([getattr(form, name) for form in forms], weights) for name in ("normals", "uv"))
-        if normals is not None:
-            lengths = np.sqrt((normals * normals).sum(axis=1, keepdims=True))
-            normals = normals / np.maximum(lengths, np.finfo(float).tiny)
-        meshes[k] = replace(meshes[k], vertices=places, normals=normals, uv=uv)
-        rows = shapes.mesh == k
-        center[rows] += shapes.axes[rows] @ meshes[k].middle  # positions are relative to the middle
-    return replace(shapes, meshes=tuple(meshes), center=center)
+        normals = None if normals is None else unit(normals)
+        meshes[k] = replace(meshes[k], vertices=places, normals=normals, uv=uv, own_middle=middle)
+    return replace(shapes, meshes=tuple(meshes))
+
+
+def unit(normals: np.ndarray) -> np.ndarray:
+    """Return vectors (..., 3) with length 1; 0 stays 0."""
+    lengths = np.sqrt((normals * normals).sum(axis=-1, keepdims=True))
+    return normals / np.maximum(lengths, np.finfo(float).tiny)
 
 
 def vertices(shapes: Shapes, rows: np.ndarray) -> np.ndarray:

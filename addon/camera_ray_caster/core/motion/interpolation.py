@@ -50,20 +50,20 @@ class TimeInterval:
 
     def poses_at(self, frames: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Return the eyes (n, 3) and the bases (n, 3, 3) of the camera at frames (n,)."""
-        weights = [np.broadcast_to(weight, frames.shape)[:, None] for weight in self._weights(frames)]
+        weights = [weight[:, None] for weight in self.weights(frames)]
         eyes = mean([camera.pose.eye[None] for camera, _ in self.states], weights)
         bases = self._camera_axes.at(weights)
         return np.broadcast_to(eyes, (len(frames), 3)), bases / np.linalg.norm(bases, axis=1, keepdims=True)
 
     def centers_at(self, rows: slice, frames: np.ndarray) -> np.ndarray:
         """Return the centers of some shapes at frames (n,), (shapes, n, 3), but for rounding at evaluations."""
-        weights = [np.broadcast_to(weight, frames.shape)[:, None] for weight in self._weights(frames)]
+        weights = [weight[:, None] for weight in self.weights(frames)]
         found = mean([shapes.center[rows, None] for _, shapes in self.states], weights)
         return np.broadcast_to(found, (len(found), len(frames), 3))
 
     def place_at(self, row: int, frames: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Return the centers (n, 3) and the axes (n, 3, 3) of one shape at frames (n,), those of ``shapes_at``."""
-        weights = [np.broadcast_to(weight, frames.shape)[:, None] for weight in self._weights(frames)]
+        weights = [weight[:, None] for weight in self.weights(frames)]
         centers, axes = ([getattr(shapes, name)[row : row + 1] for _, shapes in self.states] for name in PLACE)
         center, turned = np.empty((len(frames), 3)), np.empty((len(frames), 3, 3))
         center[...], turned[...] = mean(centers, weights), Turning.of(axes).at(weights)
@@ -87,6 +87,10 @@ class TimeInterval:
     def at(self, frame: float) -> State:
         """Return camera and shapes at a frame."""
         return self.camera_at(frame), self.shapes_at(frame)
+
+    def weights(self, frames: np.ndarray) -> list[np.ndarray]:
+        """Return the weight of each evaluation at frames (n,), (n,) each."""
+        return [np.broadcast_to(weight, frames.shape) for weight in self._weights(frames)]
 
     def _weights(self, frame) -> list:
         """Return the weight of each evaluation in the polynomial at a frame, or at frames (n,) (Lagrange)."""

@@ -46,7 +46,7 @@ def apart(state: State, truth: State) -> float:
         local = _landmarks(true_shapes, *rays)
         here, there = (
             one.project(np.concatenate((
-                _places(own, local).reshape(-1, 3), vertices(own, deforming), origins + AHEAD * directions
+                _places(_boxed(own), local).reshape(-1, 3), vertices(own, deforming), origins + AHEAD * directions
             )))
             for one, own in ((camera, shapes), (true_camera, true_shapes))
         )  # fmt: skip
@@ -76,6 +76,16 @@ def _rays(camera: Camera) -> tuple[np.ndarray, np.ndarray]:
 def _places(shapes: Shapes, local: np.ndarray) -> np.ndarray:
     """Return points in the shapes' frames, (n, m, 3), as points in the world."""
     return shapes.center[:, None] + np.einsum("nij,nmj->nmi", shapes.axes, local)
+
+
+def _boxed(shapes: Shapes) -> Shapes:
+    """Return the shapes; those whose meshes are between evaluations about the middles of their bounding boxes."""
+    center = shapes.center.copy()
+    for k, mesh in enumerate(shapes.meshes):
+        if mesh.own_middle is not None:
+            rows = shapes.mesh == k
+            center[rows] += shapes.axes[rows] @ (mesh.box_middle - mesh.own_middle)
+    return replace(shapes, center=center)
 
 
 def _landmarks(shapes: Shapes, origins: np.ndarray, directions: np.ndarray) -> np.ndarray:

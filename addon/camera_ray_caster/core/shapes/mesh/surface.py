@@ -161,7 +161,7 @@ class HitTriangles:
 
     def in_object(self, point: Any) -> np.ndarray:
         """Return the points in the spaces of their objects, (3, m)."""
-        middle = self._gather((3,), float, lambda mesh, which: mesh.middle[:, None])
+        middle = self._gather((3,), float, lambda mesh, which: mesh.middles(which))
         return self.interpolated(self.local + middle, point)
 
     def from_edge(self, point: Any) -> np.ndarray:
@@ -207,7 +207,7 @@ def affine_at(which: np.ndarray, constant: np.ndarray, slope: np.ndarray, point:
 
 def corners_from_middle(mesh: Mesh, which: np.ndarray) -> np.ndarray:
     """Return the corners of triangles (k,) relative to the mesh's middle, (3, 3, k): corner, component."""
-    return places_from_middle(mesh, mesh.triangles.take(which, axis=1))
+    return mesh.vertices.take(mesh.triangles.take(which, axis=1), axis=1).swapaxes(0, 1) - mesh.middles(which)
 
 
 def places_from_middle(mesh: Mesh, vertices: np.ndarray) -> np.ndarray:

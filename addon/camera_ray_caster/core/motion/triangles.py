@@ -1,0 +1,67 @@
+"""Triangles of a mesh that bends, each at a time of its own, to the bits of ``deformation``."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from ..mesh import LooseTriangles, Mesh
+from .deformation import alike, unit
+from .evaluations import Motion
+from .means import mean
+
+LOOPS = "normals", "uv"
+"""Values at the loops of a mesh that may change as it bends."""
+
+
+def bends(forms: Sequence[Mesh]) -> bool:
+    """Whether the evaluations of a mesh differ in its vertices, normals and maps alone."""
+    first, *others = forms
+    return all(
+        alike([first], [other])
+        and [name for name, _ in other.layers] == [name for name, _ in first.layers]
+        and all(np.array_equal(one, now) for (_, one), (_, now) in zip(first.layers, other.layers, strict=True))
+        and all(np.shape(getattr(first, name)) == np.shape(getattr(other, name)) for name in LOOPS)
+        for other in others
+    )
+
+
+def triangles_at(motion: Motion, row: int, number: np.ndarray, frames: np.ndarray) -> LooseTriangles:
+    """Return triangles of the mesh of a shape, (k,) by number, each as it is at a frame of its own, (k,)."""
+    mesh = mesh_of(next(iter(motion.states.values()))[1], row)
+    loops = np.zeros((3, len(number)), np.int32) if mesh.loops is None else mesh.loops[:, number]
+    middle, places = np.empty((3, len(number))), np.empty((3, 3, len(number)))
+    at_loops = {name: np.empty((3, len(number), getattr(mesh, name).shape[1]))
+                for name in LOOPS if getattr(mesh, name) is not None}  # fmt: skip
+    for interval, some in motion.parts(frames):
+        forms = [mesh_of(shapes, row) for _, shapes in interval.states]
+        weights, corners = interval.weights(frames[some]), mesh.triangles[:, number[some]]
+        middle[:, some] = mean([form.middle[:, None] for form in forms], weights)
+        places[..., some] = mean([form.vertices[:, corners] - form.middle[:, None, None] for form in forms], weights)
+        places[..., some] += middle[:, None, some]
+        for name, found in at_loops.items():
+            values = [getattr(form, name)[loops[:, some]] for form in forms]
+            between = np.broadcast_to(
+                mean(values, [weight[:, None].astype(values[0].dtype) for weight in weights]), values[0].shape
+            )
+            found[:, some] = unit(between) if name == "normals" else between
+        for frame, form in zip(interval.frames, forms, strict=True):
+            now = some[frames[some] == frame]
+            middle[:, now] = form.middle[:, None]
+            places[..., now] = form.vertices[:, mesh.triangles[:, number[now]]]
+            for name, found in at_loops.items():
+                found[:, now] = getattr(form, name)[loops[:, now]]
+    each = np.arange(3 * len(number), dtype=np.int32).reshape(3, -1)
+    return LooseTriangles(
+        places.reshape(3, -1), each, mesh.polygon[number], None if mesh.loops is None else each,
+        **{name: found.reshape(-1, found.shape[2]) for name, found in at_loops.items()},
+        slot=None if mesh.slot is None else mesh.slot[number],
+        layers=tuple((name, values[:, number]) for name, values in mesh.layers),
+        middle_of=middle, outer=mesh.is_outer[:, number],
+    )  # fmt: skip
+
+
+def mesh_of(shapes, row: int) -> Mesh:
+    """Return the mesh of a shape."""
+    return shapes.meshes[shapes.mesh[row]]
