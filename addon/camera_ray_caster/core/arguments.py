@@ -10,6 +10,7 @@ from math import inf, nan
 from operator import index
 from pathlib import Path
 from reprlib import repr as shortened
+from tokenize import TokenError
 from typing import Any
 from zipfile import BadZipFile
 from zlib import error as ZlibError
@@ -18,13 +19,21 @@ import numpy as np
 
 from .records import InputError
 
-DAMAGED = (BadZipFile, ZlibError, ValueError, EOFError, OSError, KeyError, TypeError, RuntimeError)
+DAMAGED = (
+    BadZipFile, ZlibError, TokenError, SyntaxError, ValueError, EOFError, OSError, KeyError, TypeError, RuntimeError,
+    MemoryError,
+)  # fmt: skip
 """What ``np.load`` and its arrays raise for a file that is cut off, damaged or encrypted, or holds no numbers."""
+
+
+LONGEST = 200
+"""Number of letters of a value in a message: nested lists are long, though each is shortened."""
 
 
 def shown(value) -> str:
     """Return any value as one short line of text, a scalar of numpy as the number that it is."""
-    return " ".join(shortened(value.item() if isinstance(value, np.generic) else value).split())
+    text = " ".join(shortened(value.item() if isinstance(value, np.generic) else value).split())
+    return text if len(text) <= LONGEST else f"{text[: LONGEST - 3]}..."
 
 
 def shape_of(array: np.ndarray) -> str:

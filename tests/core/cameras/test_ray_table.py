@@ -218,6 +218,8 @@ BAD = {
     "area": (saved(directions=pinhole(), area=np.zeros(4)), "area must be"),
     "times": (saved(directions=pinhole(), time=np.zeros((18, 24))), "their own times"),
     "cut npy": (array_file(pinhole())[:500], "damaged"),
+    "no type": (array_file(pinhole()).replace(b"'<f8'", b"',f8'"), "damaged"),
+    "no end": (array_file(pinhole()).replace(b"3), }", b"3), ("), "damaged"),
     "everywhere NaN": (array_file(pinhole() * np.nan), "no ray"),
 }
 

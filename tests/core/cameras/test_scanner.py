@@ -128,6 +128,7 @@ def test_hesais_angles(tmp_path):
         ("a.json", json.dumps(FLAT | {"lidar_to_sensor_transform": [1, *HALF_TURN[1:]]}), "half a turn"),
         ("a.csv", HESAI.replace("2,-7.25", "3,-7.25"), "channels"),
         ("a.csv", HESAI.replace("-7.25", "low"), "not a channel"),
+        ("a.csv", "Channel,Elevation,Azimuth\n", "no channels"),
     ],
 )
 def test_files_without_meaning_are_refused_in_one_line(tmp_path, name, text, word):

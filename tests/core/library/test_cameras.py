@@ -130,6 +130,7 @@ def test_a_closed_path_is_closed():
         (("PUSHBROOM", SIZE), {"slit_1": [(0, 0, np.nan), (1, 0, 0)]}, r"slit_1 is of shape \(2, 3\), with NaN"),
         (("PERSP", SIZE), {"frame": np.nan}, "frame is nan: it must be a number from"),
         (("PERSP", SIZE), {"frame": 1e300}, "frame is 1e\\+300: it must be a number from"),
+        (("RAY_TABLE", SIZE), {"ray_directions": [[["a"] * 9] * 9] * 9}, r"ray_directions is .{197}\.\.\.: it must be"),
         (("STRIP", SIZE), {"path": [(0, 0, 0)]}, "path of camera 'Camera' has no length"),
         (("GENERAL_LINEAR", SIZE), {"ray_1": (1, 2)}, "ray_1"),
         (

@@ -121,7 +121,7 @@ def load_calibration(
     if size is None:
         size = tuple(int(lens.settings.get(side.name, 0)) for side in SIZE)
         if SIZE[0].name not in lens.settings and FILE in models()[lens.model].SETTINGS:  # the tables tell it
-            size = _of_model(lens.model, (1, 1), **lens.settings).model.size
+            size = _of_model(lens.model, (1, 1), **lens.settings).model.size or (0, 0)
         if not all(size):
             raise InputError(f"calibration file {file!r} does not tell the size of its pictures: give size=")
     linked = {"calibration_file": file, "calibration_camera": chosen}

@@ -1,6 +1,7 @@
 """Poses in files: each format's, read back from our exports, from COLMAP's own binary, and by hand."""
 
 import json
+import struct
 
 import numpy as np
 import pytest
@@ -51,6 +52,15 @@ def test_images_bin_says_what_images_txt_says(tmp_path):
     assert binary.frames == text.frames
     assert binary.lenses == text.lenses
     assert np.abs(np.array(binary.poses) - text.poses).max() < 1e-14
+
+
+def test_a_damaged_images_bin_is_refused(tmp_path):
+    """The number of points of its first image leads beyond all files."""
+    content = struct.pack("<QI7dI", 2, 1, 1, 0, 0, 0, 0, 0, 0, 1) + b"a.png\0" + struct.pack("<Q", 1 << 63)
+    (tmp_path / "images.bin").write_bytes(content + bytes(100))
+    (tmp_path / "cameras.txt").write_text("1 PINHOLE 64 48 50 50 32 24\n")
+    with pytest.raises(InputError, match=r"images\.bin"):
+        read(tmp_path / "images.bin")
 
 
 def test_a_camera_of_kalibr_stands_beside_the_one_before(tmp_path):
@@ -144,6 +154,7 @@ def test_an_image_may_have_a_camera_of_its_own(tmp_path, images, expected):
         ('{"fl_x": 3, "frames": [{"transform_matrix": [[1, 2]]}]}', "has 2 numbers: a pose has 3 or 4 rows"),
         (json.dumps({"fl_x": 3, "frames": [{"transform_matrix": (2 * np.eye(4))[:3].tolist()}]}), "is no rotation"),
         ("1 0 0 0 0 0 0 0\n", "the rotation of pose 1 is 0"),
+        ("1 0 0 0 0 0 0 1e-170\n", "the rotation of pose 1 is 0"),
         ("1 2 0 0 0 0 0 1\n5 5\n", "pose 2 is .* 8 finite numbers"),
         ("1.5 2 0 0 0 0 0 1\n1.5 3 0 0 0 0 0 1\n", "two poses at the time 1.5: leave one out"),
         ("1 2 0 0 0 0 0 1\n2,3,0,0,0,0,0,1\n", "pose 2 is '2,3,.*': all lines must have commas, or none"),

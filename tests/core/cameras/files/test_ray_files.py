@@ -117,6 +117,12 @@ def test_a_mesh_may_have_origins_and_be_an_obj(tmp_path):
     np.testing.assert_allclose(rays.origins, origins, rtol=0, atol=16 * EPS)
 
 
+def test_a_mesh_does_not_tell_the_size_of_its_pictures(tmp_path):
+    (tmp_path / "mesh.csv").write_text(csv_of())
+    with pytest.raises(crc.InputError, match="does not tell the size of its pictures: give size="):
+        crc.load_calibration(tmp_path / "mesh.csv")
+
+
 BAD = {
     "unequal": (csv_of(drop=(30,)), "rows are of unequal length: 0 rays at column 4, row 2 of 13 x 9"),
     "twice": (csv_of() + "0, 0, 0, 0, -1\n", "2 rays at column 0, row 0"),

@@ -55,5 +55,5 @@ def _of_binary(data: bytes) -> list[tuple] | None:
             at += POINTS.size + POINT * points
             found.append((number, numbers, camera, name))
         return found if at == len(data) else None
-    except (struct.error, ValueError):
+    except (struct.error, ValueError, OverflowError):
         return None

@@ -7,9 +7,9 @@ from collections.abc import Callable, Collection
 from copy import copy
 from functools import cached_property
 from hashlib import sha256
-from reprlib import repr as shortened
 from typing import Any, NamedTuple
 
+from ...arguments import shown
 from ...records import InputError
 from ..parts.calibration import LARGEST
 from ..parts.filestorage import content_of, deadline, decoded, entries_of
@@ -74,7 +74,7 @@ class Document:
         numbers = numbers_of(values)
         if not numbers or (count or len(numbers)) != len(numbers) or not all(abs(one) <= LARGEST for one in numbers):
             wanted = f"{count or 'a list of'} finite number{'' if count == 1 else 's'}, up to {LARGEST:g}"
-            raise self.refusal(f"{name} is {shortened(values)}: it must be {wanted}")
+            raise self.refusal(f"{name} is {shown(values)}: it must be {wanted}")
         return numbers
 
     def one_of(self, value, name: str, known: Collection[str]) -> str:
@@ -82,7 +82,7 @@ class Document:
         if value is None:
             raise self.refusal(f"it has no {name}: it must be one of {', '.join(known)}")
         if not isinstance(value, str) or value not in known:
-            raise self.refusal(f"{name} is {shortened(value)}: it must be one of {', '.join(known)}")
+            raise self.refusal(f"{name} is {shown(value)}: it must be one of {', '.join(known)}")
         return value
 
     def size(self, width: float | None, height: float | None) -> dict[str, Any]:

@@ -32,6 +32,8 @@ def read(document: Document, key: str) -> list[Lens] | None:
         if len(numbers) != 3:
             raise document.refusal(f"line {', '.join(line)[:60]!r} is not a channel, an elevation and an azimuth")
         rows.append(numbers)
+    if not rows:
+        raise document.refusal("it has no channels")
     rows.sort()
     if [channel for channel, *_ in rows] != list(range(1, len(rows) + 1)):
         raise document.refusal(f"its {len(rows)} channels are not 1 to {len(rows)}, each once")

@@ -14,6 +14,9 @@ from ...maths.rotations import from_quaternion
 from ..parts.filestorage import flat
 from .document import Document, numbers_of
 
+SHORTEST = 1e-100
+"""Quaternions that are shorter are 0: their squares underflow."""
+
 NOT_TURNED = 1e-3
 """Largest departure of a rotation's products of columns from those of a rotation: files have from 4 digits on."""
 
@@ -54,7 +57,7 @@ def pose_of(document: Document, value, name: str) -> np.ndarray:
 def of_quaternion(document: Document, quaternion, translation, name: str) -> np.ndarray:
     """Return the pose of a quaternion w, x, y, z, of any length, and a translation. Raises InputError, with a name."""
     w, x, y, z = document.numbers(quaternion, f"rotation of {name}", 4)
-    if not any((w, x, y, z)):
+    if max(map(abs, (w, x, y, z))) < SHORTEST:
         raise document.refusal(f"the rotation of {name} is 0: it must be a quaternion")
     pose = np.eye(4)
     pose[:3, :3] = from_quaternion(np.array((w, x, y, z)))

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from reprlib import repr as shortened
 from typing import Any
 
 import numpy as np
 
+from ...arguments import shown
 from ...records import BlenderCamera
 from .settings import Setting
 
@@ -24,7 +24,7 @@ class Vectors(Setting):
         try:
             return None if given is None else np.asarray(given, np.float64)
         except (TypeError, ValueError) as error:
-            raise self.refusal(raw, shortened(given), "rows of equal length, of three numbers each entry") from error
+            raise self.refusal(raw, shown(given), "rows of equal length, of three numbers each entry") from error
 
     def reported(self, raw: BlenderCamera) -> Any:
         """Return the shape of the table for a report, which would be too long with all numbers; None without one."""
