@@ -42,23 +42,30 @@ def cast(
     finished: Callable[[Images, slice], None] | None = None,
     into: Images | None = None,
 ) -> Images:
-    """Return the passes of the camera's render window as a mapping of name to array.
+    """Return the passes of a picture as a mapping of name to array, (rows, columns[, channels]), row 0 at the bottom.
+
+    The arrays have the pixels of the camera's render window. Positions and directions are in the world, lengths in
+    Blender units. ``core.casting.passes`` says what each pass holds, also where nothing is hit; the passes
+    ``distance_bound``, ``position_bound`` and ``normal_bound`` bound the rounding errors. All arithmetic is float64.
 
     camera: a camera, and ``shapes`` what it sees; or a scene, which has both: ``cast(scene, passes=...)``.
+    passes: names of passes.
+    dtype: type of the passes of real numbers; index passes are int32, ``valid`` and ``flow_hidden`` bool.
+    shading: "MATERIAL" or "GRID", of the combined pass.
+    samples: number of rays per pixel for the combined pass, which is their mean; they are spread over the pixel and
+        the camera's aperture. All other passes show the chief rays.
+    threads: maximum number of threads, by default one per processor; fewer are used if they would wait for each other.
+    cull: False tests every shape at every pixel: the same picture, but slower.
+    precision: accepted without effect; see PRECISIONS.
+    progress: ``progress(fraction)`` is called in the calling thread after each tile, and twenty times a second; if it
+        returns False, the cast stops before the next shape and raises Cancelled.
+    finished: ``finished(images, rows)`` is called in the calling thread as soon as some rows, a slice, are complete in
+        all passes, once for each row; the other rows are undefined.
+    into: the images of an earlier cast, which are written and returned, so that a series of pictures needs no new
+        memory. Each requested pass must be there with the shape and type of this cast, writable, C-contiguous and
+        without memory of another; other passes are removed, and its camera, shapes, plan and seconds are replaced. Its
+        contents are undefined after Cancelled, and after an error while it is written.
 
-    Passes of real numbers are stored as ``dtype``; the arithmetic is float64. ``precision`` is accepted and changes
-    nothing: see PRECISIONS. The index passes are int32, valid and flow_hidden are bool. With ``samples`` above 1 the
-    combined pass is the mean of that number of rays per pixel, spread over the pixel and the camera's aperture; all
-    other passes show the chief rays. ``threads`` is the maximum number of threads, by default one per processor; fewer
-    are used if they would wait for each other. ``progress(fraction)`` is called in the calling thread after each tile,
-    and twenty times a second; if it returns False, the cast stops before the next shape and raises Cancelled.
-    ``finished(images, rows)`` is called there, too, as soon as some rows, a slice, are complete in all passes, once for
-    each row; the other rows are undefined.
-    ``into``: the images of an earlier cast, which are written and returned, so that a series of pictures takes no new
-    memory. Each requested pass must be there with the shape and type of this cast, writable, C-contiguous and without
-    memory of another; passes that are not requested are removed from it, and its camera, shapes, plan and seconds are
-    replaced. Its contents are undefined after Cancelled, and after an error while it is written.
-    ``cull=False`` tests every shape at every pixel: the same picture, but slower.
     Raises InputError for an unknown pass, shading or precision, for a dtype that is not a floating-point type, for a
     number of samples or threads that is not whole or below 1, for more than MOST_SAMPLES samples, for flow to frames
     that were not read, for passes that need more memory than is available, and, before anything is written, for

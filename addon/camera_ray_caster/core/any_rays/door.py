@@ -58,7 +58,7 @@ def cast_rays(
 
     origins, directions: (..., 3) in the world, of shapes that broadcast. Directions may have any length: ``depth`` is
     t, counted in lengths of the direction, and ``distance`` is the distance in world units. A ray with NaN in its
-    origin or direction is none: ``valid`` is False there. Hits count from ``near`` to ``far``, which are values of t.
+    origin or direction is no ray: ``valid`` is False there. Hits count from ``near`` to ``far``, which are values of t.
 
     passes: the names of those passes of ``cast`` that a ray has: all but the solid angle, the footprint and flow. Each
     array has the shape of the rays, and then its channels. Values where nothing is hit are those of ``cast``.
@@ -133,7 +133,7 @@ _searches: WeakKeyDictionary[Shapes, BodySearch] = WeakKeyDictionary()
 def search_of(shapes: Shapes) -> BodySearch:
     """Return the bodies of shapes with their tree, which is kept as long as the shapes are."""
     if shapes not in _searches:
-        _searches[shapes] = BodySearch(replace(shapes))  # a copy: what refers to its own key is kept for ever
+        _searches[shapes] = BodySearch(replace(shapes))  # a copy: a value that refers to its key would never be freed
     return _searches[shapes]
 
 

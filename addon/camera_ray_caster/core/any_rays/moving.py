@@ -45,21 +45,21 @@ class Moving:
 
     still: Shapes
     still_rows: np.ndarray
-    """Their rows in all shapes; in ``rows`` those of the others."""
+    """Rows of ``still`` in all shapes; ``rows`` are those of the shapes that move."""
     rows: np.ndarray
     motion: Motion
     light: bool
     """Whether lights or the background change."""
     alike: np.ndarray
-    """(m,) bool: which look alike at all times: one of their own for each ray."""
+    """(m,) bool: which shapes look alike at all times; these are placed anew for each ray."""
     forms: dict[int, Form]
-    """Those of ``alike`` whose meshes bend."""
+    """By row, the shapes of ``alike`` whose meshes bend."""
     changing: Motion
-    """The motion of those that are not ``alike``."""
+    """The motion of the shapes that are not ``alike``."""
     radius: np.ndarray
     """(m,): the radii of the balls around their centers."""
     boxes: dict[int, np.ndarray]
-    """(2, 3): the lowest and the highest corner in its own axes, of each that has one."""
+    """By row, the lowest and the highest corner of a shape's box in its own axes, (2, 3); not all shapes have one."""
 
 
 _known: WeakKeyDictionary[Shapes, Moving | None] = WeakKeyDictionary()

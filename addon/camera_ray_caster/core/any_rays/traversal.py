@@ -19,12 +19,14 @@ from .packets import Packets
 from .tree import FAN, Tree
 
 PAIRS = 1 << 15
-"""Number of pairs divided at once. Rays in a room, 2**13 and 2**17: 1.0 to 1.4 times the time."""
+"""Number of pairs divided at once. With 2**13 or 2**17, rays in a room take 1.0 to 1.4 times as long."""
 
 SPLIT = 8.0
-"""A packet is divided, not the node, if this many packets side by side would be wider than the node's box. Random rays
-from a point and around it, in a room and on a street: 1 takes 1.2 to 5 times, 4 1.0 to 1.6 and 16 0.7 to 1.0 times the
-time; rays of pictures: 1 0.8 to 1.1, 16 1.0 to 1.15.
+"""A packet is divided, not the node, if this many packets side by side would be wider than the node's box.
+
+Relative times of other values: random rays from a point and around it, in a room and on a street, take 1.2 to 5 times
+as long with 1, 1.0 to 1.6 times with 4 and 0.7 to 1.0 times with 16; rays of pictures 0.8 to 1.1 times with 1 and 1.0
+to 1.15 times with 16.
 """
 
 ROUNDED = 2.0**-40

@@ -10,10 +10,10 @@ from dataclasses import dataclass
 import numpy as np
 
 FAN = 4
-"""Number of nodes below a node. 2 and 8: 1.0 and 1.1 times the time of random rays in a room."""
+"""Number of nodes below a node. With 2 and 8, random rays in a room take 1.0 and 1.1 times as long."""
 
 LEAF = 4
-"""Maximum number of bodies in a leaf. 2: 1.0 to 1.3 times."""
+"""Maximum number of bodies in a leaf. With 2, they take 1.0 to 1.3 times as long."""
 
 MARGIN = 2.0**-30
 """Fraction by which boxes are enlarged. It exceeds the rounding of vertices, of box tests, and of t (see

@@ -30,11 +30,11 @@ def shade(values: HitValues, out: np.ndarray) -> None:
     """Write linear RGBA into ``out``, (rows, columns, 4), where shapes are hit.
 
     Lambert's law without shadows: a sun of E W/m^2 gives color E cos / pi; a point light of P W at distance r gives
-    color P cos / (4 pi^2 r^2), in Blender's units; a spot light the same times how it fades towards its edge, an area
-    light, as from its middle, 4 times the cosine at the lamp; the world's color is added as uniform light from all
-    directions, and what surfaces emit. Without lights a headlight shines along each ray. GRID darkens lines of constant
-    longitude, latitude or other coordinate of exact shapes, lines of constant uv of meshes, or the edges of faces
-    without a UV map.
+    color P cos / (4 pi^2 r^2), in Blender's units; a spot light that, times its falloff towards the edge; an area light
+    that of a point light at its center, times 4 times the cosine at the lamp. The world's color is added as uniform
+    light from all directions, and then the emission of the surface. Without lights a headlight shines along each ray.
+    GRID darkens lines of constant longitude, latitude or other coordinate of exact shapes, lines of constant uv of
+    meshes, or the edges of faces without a UV map.
     """
     world_color = values.plan.shapes.world_color
     lit, grid = irradiance(values), grid_factor(values)
@@ -121,7 +121,7 @@ class Light:
     strength: np.ndarray
     """(3,): the factor of ``gain``, red, green and blue."""
     beam: Any = 1.0
-    """What part of the power goes towards the surface, of spot and area lights."""
+    """Of spot and area lights: the fraction of the power that goes towards the surface."""
 
 
 def lights(values: HitValues) -> Iterator[Light]:

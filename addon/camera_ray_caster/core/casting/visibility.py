@@ -33,7 +33,7 @@ def visible(camera: Camera, shapes: Shapes, points, tolerance: float = 0.0) -> n
     vertex that was rounded to float32 may lie inside its surface by 1e-7 of its coordinates.
     With pixel times the points stand still, and each is tested at the time of the pixel that sees it.
     Raises InputError for an array of another shape, and for a tolerance that is not a number or is negative;
-    TypeError for another camera, or other shapes.
+    TypeError for a camera or shapes of another type.
     """
     if not (isinstance(camera, Camera) and isinstance(shapes, Shapes)):
         raise TypeError(f"visible takes a camera and shapes as they are read, not {type(camera)} and {type(shapes)}")

@@ -2,10 +2,10 @@
 
 The sensor's axes are those of ROS: x ahead, y to the left, z up; a scanner that moves has them where each beam fired,
 as a real one's raw points. In the world points lie where they were hit.
-The strength of a return falls with the cosine of the incidence and the square of the range; returns are lost at random
-below the strength that a surface square to the beam has at a chosen range. Ranges have Gaussian noise; what is lost and
-what is noise depends on the seed, the frame and the number of the pixel alone. ``true_range`` is the range without
-noise.
+The strength of a return is proportional to the cosine of the angle of incidence over the square of the range. Returns
+weaker than that of a surface perpendicular to the beam at a chosen range are lost at random. Ranges have Gaussian
+noise. Noise and losses depend only on the seed, the frame and the number of the pixel. ``true_range`` is the range
+without noise.
 Reference: W. Wagner et al., Gaussian decomposition and calibration of a full-waveform airborne scanner (2006), the
 radar equation.
 """
@@ -38,7 +38,7 @@ LARGEST = 1e12
 """Largest noise, in Blender units."""
 
 LEAST = 1 / LARGEST
-"""Least step of ranges: smaller ones are none."""
+"""Least step of ranges; smaller steps have no effect."""
 
 OF_DEVICE = "DEVICE"
 """The quantum of the scanner's device."""
@@ -80,7 +80,7 @@ class PointCloud:
     incidence: np.ndarray
     """Cosine of the angle between beam and normal."""
     reflectance: np.ndarray
-    """incidence × albedo, the mean of its three channels: no intensity of a device."""
+    """incidence × albedo, the mean of its three channels; not the intensity that a device measures."""
 
     def __len__(self) -> int:
         return len(self.range)
@@ -96,16 +96,16 @@ def scan(
     seed: int = 0,
     categories: Mapping[str, int] | None = None,
 ) -> PointCloud:
-    """Return the points that a camera's rays hit.
+    """Return the points that a camera's rays hit, with range, ring, time, labels, normal and incidence.
 
     camera: as in ``cast``; each pixel's chief ray is a beam.
     noise: standard deviation of the ranges, in Blender units.
-    dropout: range up to which surfaces square to the beam always return it; beyond, and at an angle, returns are lost
-        with the probability 1 - cos(incidence) (dropout / range)²; 0: none is lost.
-    quantum: step of the ranges, as a device stores them; 0: none. "DEVICE" is that of a scanner by name; an Ouster's
-        ranges count from behind the origins of its beams, and so do the steps.
-    seed: of what is random, 0 or more.
-    categories: numbers by names of objects; others have their pass index.
+    dropout: range up to which a surface perpendicular to the beam always returns it. In general a return is lost with
+        the probability 1 - cos(incidence) (dropout / range)², if this is above 0; with 0 none is lost.
+    quantum: step to which ranges are rounded, in Blender units; 0: they are not rounded. "DEVICE" is the step of the
+        scanner's device; an Ouster's ranges, and so its steps, count from a point behind the origins of its beams.
+    seed: seed of noise and losses, a whole number, 0 or more.
+    categories: numbers by names of objects; other objects have their pass index.
 
     Raises InputError for numbers that are negative or not finite, for categories that are not whole numbers, for a
     device whose quantum is not known, and for what ``cast`` refuses.

@@ -21,7 +21,7 @@ from .cloud import SENSOR, PointCloud
 from .las import las
 
 PLY_TYPES = {"<f4": "float", "<f8": "double", "<i4": "int"}
-"""The ring is an int, too: Open3D leaves out what is a ushort."""
+"""The ring is an int, too, since Open3D does not read properties of type ushort."""
 NUSCENES_FROM_SENSOR = np.array(((0.0, -1.0, 0.0), (1.0, 0.0, 0.0), (0.0, 0.0, 1.0)))
 """From the sensor's axes to x right, y ahead, z up."""
 

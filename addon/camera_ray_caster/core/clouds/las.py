@@ -1,7 +1,7 @@
-"""LAS 1.4, point record format 6, with extra bytes for what it has no place for.
+"""LAS 1.4, point record format 6, with extra bytes for the fields that it does not have.
 
 Coordinates are whole multiples of a tenth of a millimeter, or of what the extent needs. GPS time is the time of the
-points in seconds; intensity is the reflectance, of 65,535.
+points in seconds; intensity is the reflectance times 65,535.
 Reference: ASPRS, LAS Specification 1.4 - R15.
 """
 

@@ -108,7 +108,7 @@ def load_calibration(
     pose: as in ``camera``.
     model: key of the model of a file that does not name its own, such as "OPENCV_FISHEYE" for one of OpenCV.
 
-    Raises InputError, in one line, for a file that cannot be read, has no such camera, or does not tell its size.
+    Raises InputError, in one line, for a file that cannot be read, has no such camera, or does not state its size.
     """
     try:
         file = str(os.fspath(path))
@@ -141,8 +141,8 @@ def _size(size) -> tuple[int, int]:
 
 
 def _in_pixels(declared: Mapping[str, Setting], given: Iterable[str], width: int, height: int) -> dict[str, float]:
-    """Return the defaults of the settings of a calibrated picture: once one of its numbers is given and not its size,
-    the picture is that of the frame, and what is declared of it is scaled to the frame.
+    """Return the defaults of the settings of a calibrated picture. If any of its numbers is given, but not its size, it
+    has the size of the frame, and its declared defaults are scaled to the frame.
     """
     sides = {one.name for one in SIZE}
     own = {

@@ -18,7 +18,7 @@ def explain(camera: Camera, shapes: Shapes, pixel, *, shading: str = MATERIAL, s
 
     pixel: (column, row), whole numbers from the bottom left of the full frame.
     shading, samples: as in ``cast``.
-    Raises InputError, in one line, for a pixel outside of the frame; TypeError for another camera, or other shapes.
+    Raises InputError, in one line, for a pixel outside of the frame; TypeError for a camera or shapes of another type.
     """
     if not (isinstance(camera, Camera) and isinstance(shapes, Shapes)):
         raise TypeError(f"explain takes a camera and shapes, not {type(camera)} and {type(shapes)}")

@@ -22,7 +22,8 @@ SAME = np.eye(2, 3)
 
 
 def join(*shapes: Shapes) -> Shapes:
-    """Return the shapes of several records as one, in their order. The first record's world counts.
+    """Return the shapes of several records as one, in their order. The world's color and background are the first
+    record's; all lights are kept.
 
     Raises InputError for shapes that move, and TypeError for anything but shapes.
     """

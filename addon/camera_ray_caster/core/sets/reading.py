@@ -53,8 +53,8 @@ class View:
 
     @property
     def basis(self) -> np.ndarray:
-        """Return the axes of its camera in the world, (3, 3): the columns are x, y and z; also where its time is an
-        image, of which a report has no record.
+        """Return the axes of its camera in the world, (3, 3), whose columns are x, y and z, even if the times of pixels
+        are an image, which a report does not contain.
         """
         x, y, ahead = (np.array(self.report["camera"][name], np.float64) for name in "uvw")
         return np.stack((x, y, -ahead), axis=1)
@@ -66,7 +66,7 @@ class View:
 
     @property
     def frame_rate(self) -> float:
-        """Return the frames of a second; those of a new file of Blender if the set does not tell them."""
+        """Return the frames per second; Blender's default if the set does not state them."""
         return float(self.report.get("host", {}).get("frame_rate", 24.0))
 
     @property

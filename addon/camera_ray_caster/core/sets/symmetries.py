@@ -1,9 +1,9 @@
 """Symmetries of BOP's models: the rotations that map the vertices, normals and colors of a model onto themselves.
 
-They are looked for about the axes of the object, by a part of a turn up to MOST, and among the rotations of a cube; all
-leave the mean of the vertices where it is. A model that at least ROUND equal turns about an axis bring upon itself
-counts as one of revolution: it departs from its circle by 2 %, where BOP allows 10 % of the diameter. Two sets of
-points are taken for equal if their characteristic functions are, the sums of exp(i k x), at some vectors k.
+The candidates are n-fold rotations about the axes of the object, n up to MOST, and the rotations of a cube, all about
+the mean of the vertices. A model with an n-fold symmetry of at least ROUND counts as a surface of revolution: it
+differs from one by up to 2 %, where BOP allows 10 % of the diameter. Two sets of points are considered equal if their
+characteristic functions, the sums of exp(i k x), are equal at some vectors k.
 References: BOP toolkit documentation, BOP dataset format; T. Hodan et al., BOP Challenge 2020.
 """
 
@@ -72,7 +72,7 @@ def of_ellipsoid(size: np.ndarray) -> dict[str, list[Any]]:
 
 
 class _Points:
-    """A set of points, and whether rotations bring it upon itself."""
+    """A set of points, and whether rotations map it onto itself."""
 
     def __init__(self, places: np.ndarray, normals: np.ndarray, colors: np.ndarray):
         self.places, self.normals = places, normals
@@ -92,7 +92,7 @@ class _Points:
         return int((np.hypot(*np.delete(self.places, axis, axis=1).T) > EQUAL).sum())
 
     def stay(self, turn: np.ndarray) -> bool:
-        """Return whether a rotation brings the points upon themselves."""
+        """Return whether a rotation maps the points onto themselves."""
         if np.abs(turn @ self.moments @ turn.T - self.moments).max() > self.allowed:
             return False
         return all(abs(self._sum(turn, k) - self.sums[k]) <= self.allowed for k in range(PROBES))

@@ -26,7 +26,7 @@ from .values import values_of
 Names = tuple[tuple[str, int], ...]
 
 WIDEST = 100.0
-"""Largest range of a setting that is a slider's, too."""
+"""Largest range of a setting that a slider has, too."""
 
 SAMPLES = 60
 """Settings that are tried for further variants, for each choice: with 200, no model gets another one."""
