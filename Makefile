@@ -81,12 +81,12 @@ clean:  ## remove everything that these commands made
 	find addon scripts tests -name __pycache__ -prune -exec rm -rf {} +
 
 help:  ## show this list
-	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' Makefile | expand -t 15
+	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' Makefile | expand -t 17
 
-# pip from outside installs into the environment: no ensurepip needed, which some systems package apart.
+# pip from outside installs into the environment, itself, too: no ensurepip needed, which some systems package apart.
 .venv/bpy-%/ready: pyproject.toml
 	$(PYTHON) -m venv --without-pip $(@D)
-	$(PYTHON) -m pip --python $(@D)/bin/python install --quiet --editable '.[test]' 'bpy==$*.*'
+	$(PYTHON) -m pip --python $(@D)/bin/python install --quiet --editable '.[test]' 'bpy==$*.*' pip
 	@touch $@
 
 .venv/docs/ready: pyproject.toml

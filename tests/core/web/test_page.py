@@ -2,6 +2,7 @@
 
 import json
 import re
+from itertools import combinations
 
 import numpy as np
 import pytest
@@ -99,10 +100,11 @@ def test_a_drag_in_the_picture_moves_the_ray(opened, page):
 @pytest.mark.parametrize("key", ["FISHEYE_EQUIDISTANT", "OPENCV_FISHEYE", "PUSHBROOM"])
 def test_three_cameras_answer_the_exercise(opened, page, key):
     """Given (x, y) on the screen, what is the ray?"""
-    fresh(opened, page, f"#v=1&model={key}&x=400.5&y=120.25")
+    fresh(opened, page, f"#v=1&model={key}&x=300.5&y=120.25")
     settled(opened, lambda one: state(one)["model"] == key and shown(one, "direction r"))
     lines = {"slit_1": [(-1, 0, 0), (1, 0, 0)]} if key == "PUSHBROOM" else {}
-    origin, direction = crc.camera(key, FRAME, **lines).model.rays(400.5, 120.25)
+    frame = (360, 360) if key == "FISHEYE_EQUIDISTANT" else FRAME  # a circle
+    origin, direction = crc.camera(key, frame, **lines).model.rays(300.5, 120.25)
     assert numbers(shown(opened, "origin o")) == pytest.approx([float(one) for one in origin], abs=1e-13)
     assert numbers(shown(opened, "direction r")) == pytest.approx([float(one) for one in direction], abs=1e-13)
     values = opened.execute_script("return document.querySelectorAll('#steps .numbers').length")
@@ -168,6 +170,10 @@ def test_figures_are_states_of_the_page(opened, page):
         settled(opened, lambda one, figure=figure: state(one)["model"] == figure["model"] and shown(one, "pixel"))
         assert by_id(opened, "caption").text == figure["text"]
         assert by_id(opened, "message").text == ""
+        labels = opened.execute_script("return window.lesson.labels()")
+        for one, other in combinations(labels, 2):
+            assert abs(one["x"] - other["x"]) >= one["half"] + other["half"] or abs(one["y"] - other["y"]) >= 13
+        assert len(labels) >= 4
 
 
 def test_every_model_can_be_chosen_and_its_steps_have_numbers(opened, page):
@@ -203,6 +209,8 @@ def test_it_fits_screens(page, screen):
             " > window.innerWidth + 1).map((one) => one.id || one.tagName)"
         )
         assert wide == []
+        figures = "[...document.querySelectorAll('#figures button')].map((one) => one.getBoundingClientRect().right)"
+        assert max(driver.execute_script(f"return {figures}")) <= width
         canvas = by_id(driver, "picture")
         mouse(driver).move_to_element(canvas).click().perform()
         settled(driver, lambda one: abs(state(one)["x"] - FRAME[0] / 2) < 3)

@@ -6,9 +6,11 @@ import numpy as np
 import pytest
 
 import camera_ray_caster as crc
+from camera_ray_caster.core.cameras import MODELS
 from camera_ray_caster.core.errors.rays import world_rays
 from camera_ray_caster.core.maths.recording import NUMPY
 from camera_ray_caster.core.shaders.javascript import RUNTIME
+from camera_ray_caster.core.web.page import example
 from camera_ray_caster.core.web.program import holds
 from camera_ray_caster.core.web.split import RAY, functions
 from camera_ray_caster.core.web.values import values_of
@@ -81,6 +83,13 @@ def test_the_matrix_in_a_formula_is_of_the_frame_s_pixels_not_of_the_calibrated_
     camera = crc.camera("OPENCV_FISHEYE", (640, 360), fx=1500.0, fy=1200.0, cx=929.5, cy=539.5, **size)
     found = values_of(camera.model, camera.record, camera.raster, 100.0, 300.0)
     assert [found[name][0] for name in ("fx", "fy", "cx", "cy")] == pytest.approx([500, 400, 309.5, 179.5])
+
+
+@pytest.mark.parametrize(("key", "size"), [
+    ("PERSP", (640, 360)), ("FISHEYE_EQUIDISTANT", (360, 360)), ("EQUIRECTANGULAR", (640, 320)), ("SCANNER", (512, 64)),
+])  # fmt: skip
+def test_a_camera_of_the_page_has_a_frame_that_stretches_nothing(key, size):
+    assert example(next(model for model in MODELS if model.key == key)).raster.size == size
 
 
 def test_the_angle_in_a_fisheye_s_formula_is_its_own():

@@ -51,13 +51,18 @@ def own_frame(raw: BlenderCamera) -> OwnFrame | None:
             return OwnFrame(wide, high, sentence)
         if shape is not None:
             shape *= aspect
-            wide, high = (round(shape * height), height) if width > shape * height else (width, round(width / shape))
+            wide, high = within(width, height, shape)
             asked = f"{model.label} keeps its shapes in {wide} × {high}"
     if shape is None or abs(raster.width / (shape * raster.height) - 1) <= 1 / raster.width + 1 / raster.height:
         return None
     sentence = f"the picture is stretched: the frame has {raster.width} × {raster.height} pixels, and {asked}"
     wide, high = (min(max(side, LEAST), MOST) for side in (wide, high))
     return OwnFrame(wide, high, sentence)
+
+
+def within(width: int, height: int, shape: float) -> tuple[int, int]:
+    """Return the largest frame of a shape, width over height, in another frame."""
+    return (round(shape * height), height) if width > shape * height else (width, round(width / shape))
 
 
 def calibrated_size(raw: BlenderCamera, model: type[Model]) -> tuple[int, int]:

@@ -40,7 +40,7 @@ FIGURES = [
         "ORTHO", values={"ortho_scale": 4.0}, x=460.0, y=200.0,
     ),
     _figure("Fisheye", "The angle from the axis grows with the radius: 180 degrees in a circle.", "FISHEYE_EQUIDISTANT",
-            x=400.0, y=260.0, walk=0.9),
+            x=225.0, y=260.0, walk=0.9),
     _figure("Omnimax", "The fisheye of dome theaters: its axis lies below the middle of the film.", "OMNIMAX",
             walk=0.9),
     _figure("Panorama", ALL_AROUND, "EQUIRECTANGULAR", walk=0.9, x=240.0, y=200.0),

@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from ..camera.camera import Camera
+from ..camera.own_frame import within
 from ..cameras import MODELS
 from ..cameras.model import GROUPS, Model
 from ..cameras.parts.parameters import parameters_of
@@ -26,7 +27,7 @@ from .room import SCENE
 from .split import functions, glsl
 
 FRAME = 640, 360
-"""Width and height in pixels of the page's own cameras."""
+"""Width and height in pixels of the page's own cameras; of those with a shape of their own, the largest."""
 
 FRAMES = {"SCANNER": (512, 64)}
 """Frames of models whose rows are few."""
@@ -114,9 +115,18 @@ def page_models() -> list[type[Model]]:
 
 
 def example(model: type[Model], **settings: Any) -> Camera:
-    """Return the camera of a model with which the page begins; ``settings`` are further ones."""
+    """Return the camera of a model with which the page begins, whose frame stretches nothing; ``settings`` are further
+    ones.
+    """
     lines = {setting.name: LINES[setting.name] for setting in model.SETTINGS if setting.name in LINES}
-    return camera(model.key, FRAMES.get(model.key, FRAME), **lines, **TABLES_OF.get(model.key, {}), **settings)
+
+    def made(frame: tuple[int, int]) -> Camera:
+        return camera(model.key, frame, **lines, **TABLES_OF.get(model.key, {}), **settings)
+
+    if model.key in FRAMES:
+        return made(FRAMES[model.key])
+    shape = made(FRAME).model.shape
+    return made(FRAME if shape is None else within(*FRAME, shape))
 
 
 class _Tables:

@@ -15,6 +15,7 @@ class Space {
     const g = this.g = canvas.getContext("2d"), style = getComputedStyle(document.documentElement);
     const ink = (name) => style.getPropertyValue(name).trim();
     this.unit = ratio;
+    this.labels = [];
     g.fillStyle = ink("--space");
     g.fillRect(0, 0, canvas.width, canvas.height);
     const at = pose(state);
@@ -123,6 +124,7 @@ class Space {
     g.fill();
   }
 
+  // A label that would lie on one before it is left out.
   label(point, text, color) {
     const to = this.place(point), g = this.g;
     if (!to) return;
@@ -131,9 +133,12 @@ class Space {
     g.textBaseline = "middle";
     g.lineWidth = 3 * this.unit;
     g.strokeStyle = getComputedStyle(document.documentElement).getPropertyValue("--space").trim();
-    const half = g.measureText(text).width / 2 + g.lineWidth, x = Math.min(Math.max(to[0], half), g.canvas.width - half);
-    g.strokeText(text, x, to[1]);
+    const half = g.measureText(text).width / 2 + g.lineWidth, high = 13 * this.unit;
+    const [x, y] = [Math.min(Math.max(to[0], half), g.canvas.width - half), Math.min(Math.max(to[1], high), g.canvas.height - high)];
+    if (this.labels.some((one) => Math.abs(one.x - x) < one.half + half && Math.abs(one.y - y) < high)) return;
+    this.labels.push({ x, y, half });
+    g.strokeText(text, x, y);
     g.fillStyle = color;
-    g.fillText(text, x, to[1]);
+    g.fillText(text, x, y);
   }
 }
