@@ -6,6 +6,7 @@ import _cycles
 import bpy
 import numpy as np
 from all_scenarios import ALL_SCENARIOS
+from animated_scenarios import ANIMATED_SCENARIOS
 from camera_scenarios import CAMERA_SCENARIOS
 from cast_scenarios import CAST_SCENARIOS
 from lesson_scenarios import LESSON_SCENARIOS
@@ -260,7 +261,7 @@ SCENARIOS = {
     for scenario in (
         panel, no_camera, left_out, *CAST_SCENARIOS, overlay, ray_under_mouse, viewport,
         cycles, *CAMERA_SCENARIOS, *LESSON_SCENARIOS, *STRANGER_SCENARIOS, *REDRAW_SCENARIOS, *WINDOW_SCENARIOS,
-        *ALL_SCENARIOS, *WALK_SCENARIOS, *POINTS_SCENARIOS, *VIEWS_SCENARIOS,
+        *ALL_SCENARIOS, *WALK_SCENARIOS, *POINTS_SCENARIOS, *VIEWS_SCENARIOS, *ANIMATED_SCENARIOS,
         disable,
     )
 }  # fmt: skip

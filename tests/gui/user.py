@@ -120,18 +120,19 @@ class User:
             yield from self.click(region.x + region.width - 12, y)
         raise AssertionError(f"the sidebar has no tab {name!r}")
 
-    def find(self, command, region=None):
+    def find(self, command, region=None, keys="ctrl+c", share=1 / 3):
         """Move the mouse onto the button of an operator in a region, the sidebar's by default: the one of which Ctrl+C
-        copies that Python command. ``known`` has its height.
+        copies that Python command; of a property Ctrl+Shift+C copies the data path. ``known`` has its height, and the
+        mouse is at a ``share`` of the region's width.
 
         Where it was the last time is tried first, then every 17 pixels: less than a button's height.
         """
         wm, region = bpy.context.window_manager, region or self.region()
-        x, top = region.x + region.width // 3, region.y + region.height - 34
+        x, top = region.x + round(region.width * share), region.y + region.height - 34
         for y in (self.known.get(command, top), *range(top, region.y, -17)):
             wm.clipboard = ""
             yield from self.point(x, y)
-            self.send("key", "ctrl+c")
+            self.send("key", keys)
             yield
             yield
             if wm.clipboard.strip().startswith(command):

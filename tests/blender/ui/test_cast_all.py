@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from camera_ray_caster.blender.output.restored import FORM
 from camera_ray_caster.blender.terminal import files
 from camera_ray_caster.blender.ui import in_steps
 from camera_ray_caster.core.casting.passes import PASSES
@@ -40,6 +41,23 @@ def state(blender, scene):
             blender.context.view_layer.use_pass_normal]  # fmt: skip
 
 
+def test_a_file_that_is_saved_meanwhile_has_the_scene_as_before(blender, scene, tmp_path):
+    scene.timeline_markers.new("cut", frame=4).camera = scene.objects["Dome"]
+    before, path = repr(state(blender, scene)), str(tmp_path / "meanwhile.blend")
+    blender.ops.camera_ray_caster.cast_all(directory=str(tmp_path / "all"))
+    for _ in range(3):
+        in_steps.tick()
+    during = state(blender, scene)
+    assert (repr(during) != before, scene.camera.name) == (True, "Dome")
+    blender.ops.wm.save_as_mainfile(filepath=path, copy=True)
+    assert state(blender, scene) == during
+    while in_steps.tick() is not None:
+        pass
+    assert in_steps.latest() == f"Wrote 4 pictures into {tmp_path / 'all'}"
+    blender.ops.wm.open_mainfile(filepath=path)
+    assert repr(state(blender, blender.context.scene)) == before
+
+
 def test_all_cameras_and_frames_are_the_terminal_s_and_the_scene_is_as_before(blender, scene, tmp_path):
     scene.timeline_markers.new("cut", frame=4).camera = scene.objects["Dome"]
     before = state(blender, scene)
@@ -53,6 +71,7 @@ def test_all_cameras_and_frames_are_the_terminal_s_and_the_scene_is_as_before(bl
     scene.frame_set(3)
     blender.context.view_layer.use_pass_normal = blender.context.view_layer.use_pass_z = True
     assert {"depth", "normal"} <= PASSES.keys()
+    assert {*files.PICTURE, *files.LAYERS} <= set(FORM)
     files.render(scene, tmp_path / "one", "Plain", layers=files.NPZ)
     one, found = np.load(tmp_path / "one" / "Plain.npz"), np.load(tmp_path / "all" / "Plain_0003.npz")
     for key in ("depth", "normal"):

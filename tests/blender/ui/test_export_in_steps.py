@@ -52,6 +52,22 @@ def test_the_files_are_those_of_one_go_and_the_scene_is_as_before(blender, scene
     assert blender.ops.camera_ray_caster.export.poll()
 
 
+def test_a_file_that_is_saved_meanwhile_has_the_scene_as_before(blender, scene, tmp_path):
+    before, path = state(scene), str(tmp_path / "meanwhile.blend")
+    export(blender, tmp_path / "out", in_steps=True)
+    for _ in range(7):  # frames of the camera with a size of its own
+        in_steps.tick()
+    during = state(scene)
+    assert during[1:3] != before[1:3]
+    blender.ops.wm.save_as_mainfile(filepath=path, copy=True)
+    assert state(scene) == during
+    in_steps.stop()
+    assert state(scene) == before
+    said = repr(before)
+    blender.ops.wm.open_mainfile(filepath=path)
+    assert repr(state(blender.context.scene)) == said
+
+
 @pytest.mark.parametrize("steps", [0, 2, 7, 12])
 def test_a_stop_leaves_nothing_behind_and_the_scene_as_it_was(blender, scene, tmp_path, steps):
     before = state(scene)

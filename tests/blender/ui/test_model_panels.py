@@ -79,9 +79,9 @@ class Layout:
     def label(self, text, icon="NONE"):
         self.labels.append(text)
 
-    def prop(self, owner, name, index=0, text=None):
+    def prop(self, owner, name, index=0, text=None, icon="NONE", icon_only=False):
         assert name in owner.bl_rna.properties
-        if index == 0:
+        if index == 0 and not icon_only:  # the model's own icon, beside its menu
             (self.names if self.active else self.grayed).append(name)
 
     def template_ID(self, owner, name, open):
@@ -98,7 +98,7 @@ class Layout:
     def context_pointer_set(self, name, data):
         """For the popover."""
 
-    def menu(self, name, text, icon):
+    def menu(self, name, text, icon="NONE"):
         """Menus are drawn in a window."""
 
     def operator(self, name, text=None, icon="NONE"):

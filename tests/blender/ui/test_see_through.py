@@ -5,6 +5,7 @@ from types import SimpleNamespace
 import pytest
 
 from camera_ray_caster.blender.ui.camera_notes import missing
+from camera_ray_caster.blender.ui.see_through import BEFORE, shows_picture
 from camera_ray_caster.blender.view3d import notice
 
 
@@ -23,6 +24,29 @@ def test_see_through_shows_the_camera_s_own_picture_and_restores_everything(blen
             operator()
             assert (space.region_3d.view_perspective, space.shading.type) == ("ORTHO", "MATERIAL")
             assert scene.render.engine == engine
+
+
+@pytest.mark.parametrize("engine", ["BLENDER_WORKBENCH", "OF_ANOTHER_VERSION"])
+def test_a_file_saved_meanwhile_knows_the_engine_of_before(blender, scene, tmp_path, engine):
+    def press():
+        area = next(area for area in blender.context.window.screen.areas if area.type == "VIEW_3D")
+        area.spaces.active.shading.type = "SOLID"  # as Blender loads it
+        with blender.context.temp_override(area=area):
+            blender.ops.camera_ray_caster.see_through()
+        return area.spaces.active, blender.context.scene
+
+    scene.render.engine = "BLENDER_WORKBENCH"
+    _, scene = press()
+    scene[BEFORE] = engine
+    blender.ops.wm.save_as_mainfile(filepath=str(tmp_path / "seen.blend"))
+    blender.ops.wm.open_mainfile(filepath=str(tmp_path / "seen.blend"))
+    assert blender.context.scene.render.engine == "CAMERA_RAY_CASTER"
+    space, scene = press()
+    assert shows_picture(space, scene)
+    with blender.context.temp_override(area=next(a for a in blender.context.screen.areas if a.spaces.active == space)):
+        blender.ops.camera_ray_caster.see_through()
+    assert scene.render.engine == (engine if engine == "BLENDER_WORKBENCH" else "CAMERA_RAY_CASTER")
+    assert BEFORE not in scene
 
 
 def test_a_slit_that_is_deleted_is_offered_again(blender, scene):

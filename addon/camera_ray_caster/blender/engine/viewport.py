@@ -25,6 +25,7 @@ from ...core.casting.images import reusable
 from ...core.casting.worker import Worker
 from ...core.records import BlenderCamera, InputError
 from ..output.reports import left_out_count
+from ..properties.declared import SHADING
 from ..read.scene_cache import CachedScene, cached_scene
 from ..read.view import camera_frame
 
@@ -95,7 +96,7 @@ class Viewport:
         scene = cached_scene(context)
         region_data = context.region_data
         settings = context.scene.camera_ray_caster
-        shown = {"shading": settings.shading}
+        shown = {"shading": settings.shading or SHADING.default}  # no word for the item of a newer version
         matrices = [tuple(row) for row in (*region_data.view_matrix, *region_data.window_matrix)]
         key = scene, matrices, context.region.width, context.region.height, shown
         self.update_stats("", left_out_count((*scene.shapes.left_out, *scene.shapes.lights.left_out)))

@@ -21,7 +21,6 @@ from ..read.camera import ALL, find_cameras
 from ..terminal import files
 from ..terminal.cast import options_of
 from ..terminal.pictures import Pictures
-from ..terminal.restored import restored
 from . import chosen_frames, in_steps
 from .drawing import draw_message
 from .needs import can_use, reporting
@@ -39,7 +38,7 @@ class Casting(in_steps.Running):
     def _steps(self, options) -> Generator[None, None, None]:
         """Make the pictures; wait for a render of the scene at each step."""
         is_saved = not bpy.data.is_dirty
-        with restored(self.scene), ExitStack() as stack:
+        with ExitStack() as stack:
             changed(stack, bpy.context.preferences.view, render_display_type="NONE")
             pictures = Pictures(options, self.scene)
             self.scene.render.use_lock_interface = True  # Blender must not draw data that a render thread evaluates

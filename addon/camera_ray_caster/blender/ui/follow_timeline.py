@@ -39,7 +39,7 @@ class FollowTimeline(OfCamera, bpy.types.Operator):
 
 def has_range(camera) -> bool:
     """Return whether a camera's pixels have times between Start and End."""
-    return START in SETTINGS[getattr(camera, GROUP).time_mode]
+    return START in SETTINGS.get(getattr(camera, GROUP).time_mode, ())
 
 
 def timeline_note(scene, camera) -> Note | None:

@@ -10,7 +10,7 @@ from ...core.camera import pixel_time
 from ...core.cameras import MODELS
 from ...core.cameras.model import GROUPS
 from .. import gallery
-from ..properties.declared import BLENDERS_OWN, GROUP
+from ..properties.declared import BLENDERS_OWN, GROUP, MODEL
 from ..properties.labels import label_of
 from .drawing import draw_message
 from .model_settings import blender_type
@@ -168,8 +168,9 @@ def draw_model(layout, camera):
     """Draw the menu of a camera's models with the gallery button next to it, and return their row."""
     row = layout.row(align=True)
     row.context_pointer_set("camera", camera)
-    key = key_of(camera)
-    row.menu(ModelMenu.bl_idname, text=label_of(key), icon="CAMERA_DATA")
+    own, key = getattr(camera, GROUP), key_of(camera)
+    row.prop(own, MODEL.name, text="", icon="CAMERA_DATA", icon_only=True)  # to be keyed; a menu cannot be
+    row.menu(ModelMenu.bl_idname, text=label_of(key))
     row.menu(ModelGallery.bl_idname, text="", icon="IMGDISPLAY")
     return row
 

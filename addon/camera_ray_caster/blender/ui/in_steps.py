@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Generator
+from collections.abc import Callable, Generator
 
 import bpy
 from bpy.app.handlers import persistent
 
 from ...core.memory import exhausted
 from ...core.records import Cancelled, InputError
+from ..output.restored import restored
 from ..process import signals
 from ..properties.labels import in_labels
 from .other_engine import show, show_later
@@ -34,8 +35,15 @@ class Running(ABC):
     """Message if the work is stopped."""
 
     def __init__(self, scene, window, steps: Generator):
-        self.scene, self.window, self.steps = scene, window, steps
+        self.scene, self.window, self.steps = scene, window, self._restoring(steps)
         self.is_cancelled = False
+        self.exchange: Callable[[], None] = lambda: None
+        """Exchanges what the scene has for what it had before the first step."""
+
+    def _restoring(self, steps: Generator) -> Generator:
+        """Do the steps, and restore the scene afterwards."""
+        with restored(self.scene) as self.exchange:
+            return (yield from steps)
 
     @abstractmethod
     def step(self) -> None:
@@ -143,6 +151,13 @@ def stop(*_) -> None:
         end("Stopped")
 
 
+@persistent
+def exchange(*_) -> None:
+    """Let the file that is being saved have the scene as it was before the work, which goes on after that."""
+    for now in _running:
+        now.exchange()
+
+
 class StopAll(bpy.types.Operator):
     """Stop after the current tile, frame or file; pictures that are finished stay"""
 
@@ -195,3 +210,4 @@ def register(undo) -> None:
     undo.callback(_said.clear)
     undo.callback(stop)
     undo.add_handlers([("render_cancel", note_cancelled), ("load_pre", stop)])
+    undo.add_handlers([(name, exchange) for name in ("save_pre", "save_post", "save_post_fail")])

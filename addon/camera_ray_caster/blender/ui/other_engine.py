@@ -39,6 +39,8 @@ def ignored(scene, camera) -> str:
     if engine.startswith(ENGINE) or camera is None or camera.type != "CAMERA":
         return ""
     own, kind = getattr(camera.data, GROUP), camera.data.type
+    if not (own.model and own.time_mode):  # no item of this version: it cannot be cast, and a note says why
+        return ""
     is_ours = own.model != BLENDERS_OWN
     has_times = own.time_mode not in ("NONE", "ROLLING_SHUTTER") or (own.time_mode != "NONE" and engine != CYCLES)
     if engine == CYCLES and shader_mark(camera.data) is not None:

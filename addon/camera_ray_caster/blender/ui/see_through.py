@@ -3,6 +3,8 @@
 It is a switch: pressed again it restores the view, its shading and the scene's render engine.
 """
 
+from contextlib import suppress
+
 import bpy
 from bpy.app.handlers import persistent
 
@@ -13,8 +15,8 @@ SEEN = "CAMERA", "RENDERED"
 """Perspective and shading of a view that shows the camera's picture."""
 _views: dict[int, tuple[str, str]] = {}
 """Perspective and shading before See Through, by the pointer of the 3D View."""
-_engines: dict[int, str] = {}
-"""Render engine before See Through, by the pointer of the scene."""
+BEFORE = "camera_ray_caster_engine"
+"""Custom property of a scene: its render engine before See Through, which a file keeps that is saved meanwhile."""
 
 
 class SeeThrough(OfScene, bpy.types.Operator):
@@ -41,7 +43,7 @@ class SeeThrough(OfScene, bpy.types.Operator):
         if before != SEEN:  # an undo restores the engine alone
             _views[space.as_pointer()] = before
         if scene.render.engine != ENGINE:
-            _engines[scene.as_pointer()] = scene.render.engine
+            scene[BEFORE] = scene.render.engine
             self.report({"INFO"}, "The scene's render engine is Camera Ray Caster; See Through again restores it")
         scene.render.engine = ENGINE
         space.use_local_camera = False
@@ -57,7 +59,8 @@ def end(context) -> None:
     views = [area.spaces.active for window in context.window_manager.windows
              if window.scene == scene for area in window.screen.areas if area.type == "VIEW_3D"]  # fmt: skip
     if not any(shows_picture(view, scene) for view in views):
-        scene.render.engine = _engines.pop(scene.as_pointer(), scene.render.engine)
+        with suppress(TypeError):  # an engine that this Blender does not have
+            scene.render.engine = scene.pop(BEFORE, scene.render.engine)
 
 
 def is_seen_through(context) -> bool:
@@ -75,7 +78,6 @@ def shows_picture(space, scene) -> bool:
 def forget(*_) -> None:
     """Forget what was before: another file is loaded."""
     _views.clear()
-    _engines.clear()
 
 
 CLASSES = (SeeThrough,)

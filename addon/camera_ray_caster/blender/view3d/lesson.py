@@ -18,6 +18,7 @@ from bpy.app.handlers import persistent
 from ...core.lesson.diagram import pixel_outline
 from ...core.lesson.in_picture import lines_in_picture, points_in_picture
 from ...core.lesson.lesson import Lesson, lesson
+from ..properties.declared import SHADING
 from ..read.scene_cache import CachedScene, cached_scene
 from ..read.view import camera_frame
 from .camera_frame import frame_in, in_pixels
@@ -43,7 +44,7 @@ _read: list[tuple[CachedScene, dict[str, Any], dict[tuple[int, int], Lesson]]] =
 def lessons(context) -> dict[tuple[int, int], Lesson]:
     """Return the explanations of the pixels inside the frame, updated after a change of the scene or its settings."""
     scene, settings = cached_scene(context), context.scene.camera_ray_caster
-    look = {name: getattr(settings, name) for name in ("shading", "samples")}
+    look = {"shading": settings.shading or SHADING.default, "samples": settings.samples}
     if not _read or _read[0][0] is not scene or _read[0][1] != look:
         _read[:] = [(scene, look, {})]
     known = _read[0][2]

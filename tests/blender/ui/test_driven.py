@@ -1,0 +1,89 @@
+"""Settings that are keyed and driven: what can be follows the frame, and what a driver gives may be no item."""
+
+import pytest
+
+from camera_ray_caster.blender.properties.declared import CAMERA, OBJECT, SCENE
+from camera_ray_caster.blender.ui import camera_panels, facts_panels, lesson_panels
+from camera_ray_caster.blender.ui.other_engine import ignored
+from camera_ray_caster.blender.view3d import lesson
+
+from .test_panels import drawn
+
+NUMBERS = {"FLOAT", "INT", "BOOLEAN", "ENUM", "VECTOR"}
+"""Kinds of settings that Blender stores as numbers: these alone can be keyed and driven."""
+PANELS = (
+    camera_panels.SidebarCamera, camera_panels.SidebarSettings, facts_panels.SidebarFacts, lesson_panels.SidebarLesson,
+)  # fmt: skip
+
+
+def other(setting):
+    """A value of a setting that is not its default."""
+    if setting.kind == "ENUM":
+        return next(item.key for item in setting.items if item.key != setting.default)
+    if setting.kind == "BOOLEAN":
+        return not setting.default
+    if setting.kind == "VECTOR":
+        return tuple(number + 0.25 for number in setting.default)
+    step = 1 if setting.kind == "INT" else 0.25
+    return setting.default + step if setting.default + step <= setting.high else setting.default - step
+
+
+def value_of(group, name):
+    """The value of a setting, which does not follow the setting."""
+    value = getattr(group, name)
+    return value if isinstance(value, str | bool | int | float) else tuple(value)
+
+
+@pytest.mark.parametrize("kind", ["camera", "object", "scene"])
+def test_what_is_a_number_is_keyed_and_follows_the_frame_and_nothing_else_can_be(blender, scene, kind):
+    ball = next(item for item in scene.objects if item.type == "MESH")
+    owner, settings = {"camera": (scene.camera.data, CAMERA), "object": (ball, OBJECT), "scene": (scene, SCENE)}[kind]
+    own = owner.camera_ray_caster
+    wanted = {}
+    for setting in settings:
+        found = own.bl_rna.properties[setting.name]
+        assert found.is_animatable is (setting.kind in NUMBERS), setting.name
+        if setting.kind not in NUMBERS:
+            with pytest.raises(TypeError, match="not animatable"):
+                own.keyframe_insert(setting.name)
+            continue
+        first = value_of(own, setting.name)
+        own.keyframe_insert(setting.name, frame=1)
+        setattr(own, setting.name, other(setting))
+        own.keyframe_insert(setting.name, frame=2)
+        wanted[setting.name] = first, value_of(own, setting.name)
+    for frame in (1, 2):
+        scene.frame_set(frame)
+        evaluated = owner.evaluated_get(blender.context.evaluated_depsgraph_get()).camera_ray_caster
+        for name, values in wanted.items():
+            for group in (own, evaluated):
+                assert value_of(group, name) == values[frame - 1], name
+    assert "model" in drawn(blender, camera_panels.SidebarCamera).split(), "beside its menu, which cannot be keyed"
+    assert len(wanted) == sum(setting.kind in NUMBERS for setting in settings)
+
+
+@pytest.mark.parametrize("name", ["model", "time_mode", "shading", "primitive", "fov"])
+def test_a_driver_that_gives_no_item_is_told_and_one_that_is_muted_drives_nothing(blender, scene, name):
+    ball = next(item for item in scene.objects if item.name == "Sphere")
+    owners = {"shading": scene, "primitive": ball}
+    own = owners.get(name, scene.camera.data).camera_ray_caster
+    scene.camera.data.camera_ray_caster.model = "DOME_MASTER"
+    before, curve = getattr(own, name), own.driver_add(name)
+    curve.driver.expression, curve.mute = "99", True
+    scene.frame_set(2)
+    assert getattr(own, name) == before
+    curve.mute = False
+    scene.frame_set(3)
+    assert getattr(own, name) != before
+    lesson.pixels[:] = [(3, 3)]
+    try:
+        for panel in PANELS:
+            drawn(blender, panel)
+    finally:
+        lesson.forget()
+    assert "know :" not in ignored(scene, scene.camera)
+    if name in ("model", "time_mode", "shading"):
+        with pytest.raises(RuntimeError, match="must be one of"):
+            blender.ops.camera_ray_caster.cast()
+    else:
+        assert blender.ops.camera_ray_caster.cast() == {"FINISHED"}
