@@ -32,32 +32,51 @@ With any model each pixel may have its own time: `time_mode` is one of these.
 FILES = """\
 # Files of cameras
 
-Made by `python scripts/make_docs.py` from [programs.py](../parts/programs.py). Calibrations are read by the button next
-to the model and by `--calibration FILE`, by their content, whatever their names are; exports are written by
-`scripts/export.py --format` and File > Export. "Lost" is what the files do not tell, and what is refused in one line.
+Made by `python scripts/make_docs.py` from [programs.py](../parts/programs.py).
 
-A file that does not tell the size of its pictures is of the frame's size, and a line says so. If OpenCV's four
-coefficients stand without the name of their model, the chosen model decides (`--model`). Files may be compressed by
-gzip, and hold several cameras, by name, in a list or in lines of JSON; Camera in File (`--calibration-camera`) chooses
-one.
+## Calibrations
 
-File > Import > Cameras, and `--rig FILE ...` of `cast.py`, `dataset.py` and `export.py`, which does not change the
-.blend, add the cameras of files with their lenses, names and poses, below one empty that stands for the frame of the
-file: the world of COLMAP (a folder, images.txt or images.bin), nerfstudio, Metashape (with the scale of the chunk; of a
-georeferenced project east, north and up about the middle of its cameras), Meshroom, Polycam (y up), BOP (millimeters
-become meters) and this add-on, with a keyframe for each image; the body of Kalibr (the IMU, or the first camera),
-EuRoC, OKVIS, maplab, Basalt and Project Aria; camera 00 of KITTI; the world of HOT3D, or the headset. A trajectory of
-TUM, EuRoC, KITTI or ARKitScenes moves the empty. A folder of Polycam, of a clip of HOT3D or of ARKitScenes (its .pincam
-files and .traj) has a keyframe for each file. The frame is in the picture's name, CAMERA_FRAME, or the number of the
-image; of times and of KITTI's poses the first is frame 1. Images of one name whose lenses are of several models, or two
-in one frame, become cameras NAME-1, NAME-2, ... Where each frame has one of several cameras, markers bind it. `--rig
-FILE` without `--frames` casts and exports each camera in the frames of its own poses. `--rig-parent NAME` puts the
-empty below an object; below a camera, the file's frame is that of its picture, y down and z ahead. Lenses stay linked
-to the file, with all digits; a lens that changes is keyed. Blender rounds places to 6e-8 of themselves and turns to
-1e-7 rad. A camera has pictures of its own size by its object's custom property `resolution`, in all commands but with
-`--resolution`.
+Files are read by Load Calibration, next to the camera's model, by `--calibration FILE` and by `crc.load_calibration`.
+They are recognized by their content, whatever their names are.
 
-| program | files | reads | writes | lost |
+* A file that does not state the size of its pictures is taken to be for the size of the frame; a message says so.
+  `crc.load_calibration` needs `size=` then.
+* Four coefficients of OpenCV without the name of their model are for the chosen model (`--model`).
+* A file may be compressed by gzip, and hold several cameras, by name, in a list or in lines of JSON. Camera in File
+  (`--calibration-camera`) chooses one.
+
+## Cameras with poses
+
+File > Import > Cameras, and `--rig FILE ...` of `cast.py`, `dataset.py` and `export.py`, add the cameras of files
+with their lenses, names and poses; `--rig` does not change the .blend. The cameras are children of one empty, which
+is the coordinate system of the file:
+
+* **The world**, with a keyframe for each image: COLMAP (a folder, images.txt or images.bin), nerfstudio, Metashape
+  (with the scale of the chunk; of a georeferenced project east, north and up about the middle of its cameras),
+  Meshroom, Polycam (y up), BOP (millimeters become meters) and this add-on. Of HOT3D the world, or the headset.
+* **The body of a rig**: Kalibr (the IMU, or the first camera), EuRoC, OKVIS, maplab, Basalt and Project Aria; camera
+  00 of KITTI. A trajectory of TUM, EuRoC, KITTI or ARKitScenes moves the empty.
+* **Folders** of Polycam, of a clip of HOT3D or of ARKitScenes (its .pincam files and .traj) have a keyframe for each
+  file.
+
+The frame of a pose is that in the picture's name, CAMERA_FRAME, or the number of the image; the first of several
+times, and KITTI's first pose, are frame 1. If images of one name have lenses of several models, or two of them one
+frame, they become cameras NAME-1, NAME-2, ... If each frame has one of several cameras, markers bind it.
+
+* `--rig FILE` without `--frames` casts and exports each camera in the frames of its own poses.
+* `--rig-parent NAME` makes the empty a child of an object. If that is a camera, the coordinates of the file are those
+  of its view: x right, y down, z ahead.
+* Lenses stay linked to the file, with all digits; a lens that changes has keyframes. Blender rounds positions by up
+  to 6e-8 of their size, and rotations by 1e-7 rad.
+* The custom property `resolution` of a camera object is the size of its pictures, in all commands without
+  `--resolution`.
+
+## Programs
+
+Exports are written by `scripts/export.py --format`, File > Export and `crc.export`. The last column says what the
+files do not contain, and what is refused in one line.
+
+| program | files | reads | writes | not contained, or refused |
 |---|---|---|---|---|
 """
 
@@ -65,13 +84,16 @@ SETS = """
 ## Finished data sets
 
 `export.py FOLDER --format KEY --output OUT` exports the set that `cast.py` or `dataset.py` made in a folder, with its
-sizes and frames: its cameras in each of the formats above, and these. They read the passes of NPZ and EXR files (depth
-or distance; combined, shape_index or normal where the format has them) and the annotations of `--annotations`, in
-which each object has its visible and its whole (amodal) mask, its category, and the pose and size of a box in its own
-axes. `--models FILE.blend`, the file of the set, adds the models of `bop-scenes`: a PLY in millimeters for each
-category, as the viewport evaluates its last object at its last frame, with normals and the colors of materials;
-diameters of the models in place of those of boxes; and the symmetries that bring vertices, normals and colors of a
-model upon themselves: rotations about its axes, and those of a cube.
+sizes and frames: its cameras in each of the formats above, or the whole set in one of the formats below.
+
+* They read the passes of NPZ and EXR files: depth or distance, and combined, shape_index or normal if the format has
+  them.
+* They read the annotations of `--annotations`: of each object its visible and its whole (amodal) mask, its category,
+  and the pose and size of a box in its own axes.
+* `--models FILE.blend`, the file of the set, adds the models of `bop-scenes`: a PLY in millimeters for each category,
+  as the viewport evaluates its last object at its last frame, with normals and the colors of materials. Diameters are
+  then those of the models, not of the boxes. Symmetries are the rotations about the axes of a model, and those of a
+  cube, that map its vertices, normals and colors onto themselves.
 
 | key | |
 |---|---|
