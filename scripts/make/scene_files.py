@@ -34,7 +34,8 @@ where the camera has no ray.
 
 The add-on's picture on the left shows the nearest surface that each ray hits. The picture on the right is rendered by
 Cycles along the same rays, with shadows and reflected light, by this command:
-`python scripts/cast.py blend_scenes/NAME.blend --engine CYCLES --samples 12`
+`python scripts/cast.py blend_scenes/NAME.blend --engine CYCLES --samples 12`. The grid room is closed, and its lamps
+are outside: Cycles, which has shadows, needs a lamp in it.
 
 | | |
 |---|---|

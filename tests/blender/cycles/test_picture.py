@@ -257,3 +257,15 @@ def test_a_camera_that_is_a_custom_one_keeps_its_shader_and_keyframes(scene):
     check(scene)
     assert scene.camera.data.custom_shader.as_string() == source
     assert [each.data_path for each in curves(scene.camera.data)] == paths
+
+
+@pytest.mark.parametrize("color", [0.0, 0.5])
+def test_a_picture_without_light_is_warned_of(scene, color):
+    scene.world = bpy.data.worlds.new("World")
+    scene.world.use_nodes = True
+    scene.world.node_tree.nodes["Background"].inputs[0].default_value = (color, color, color, 1.0)
+    scene.render.resolution_x, scene.render.resolution_y, scene.cycles.samples = 12, 8, 1
+    for lamp in [one for one in scene.objects if one.type == "LIGHT"]:
+        bpy.data.objects.remove(lamp)
+    said = picture_of(scene).warnings
+    assert [line.partition(":")[0] for line in said] == ([] if color else ["Cycles' picture is black"])

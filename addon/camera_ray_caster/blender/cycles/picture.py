@@ -34,6 +34,13 @@ from .renderer import Render, border, changed, cycles_engine
 from .rolling import blur_settings, is_shutter
 from .shader import check_cycles, set_shader, texture_folder
 
+DARK = 1e-3
+"""Linear color that is seen as black: 3 of 255 on a screen."""
+BLACK = (
+    "Cycles' picture is black: shapes hide the lamps and the world from what is seen, or there are none. Cycles "
+    "has shadows, and casts have none: put a lamp where the camera is"
+)
+
 
 @dataclass(frozen=True)
 class CyclesPicture:
@@ -44,6 +51,11 @@ class CyclesPicture:
     made_by: Mapping[str, object]
     """Engine, device and samples, for the report."""
     seconds: float
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """A line on a picture without light."""
+        return () if any((pixels[..., :3] > DARK).any() for pixels in self.pixels.values()) else (BLACK,)
 
 
 @dataclass(frozen=True)

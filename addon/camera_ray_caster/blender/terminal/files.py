@@ -119,7 +119,9 @@ def rendering(
     call = RenderCall(picture, {} if keeps else None, spare or {})
     with atomic_folder(folder) as temporary:
         report = yield from _composited(scene, call, file_output)
-        report = report if picture is None else report.with_seconds(cycles=picture.seconds)
+        if picture is not None:
+            report = replace(report, warnings=(*report.warnings, *picture.warnings))
+            report = report.with_seconds(cycles=picture.seconds)
         started = perf_counter()
         if shown:
             _save(scene, temporary / f"{name}.png", PICTURE)
