@@ -205,6 +205,17 @@ def test_the_map_the_face_and_the_material_are_those_of_the_point():
     np.testing.assert_allclose(images["combined"][hit][:, 3], np.where(x <= 0, 0.3, 0.4), atol=1e-7)
 
 
+def test_a_mesh_without_a_map_has_0_beside_one_with_a_map():
+    bare = grid(1, 1, lambda u, v: (u - 0.5, v - 0.5, 0 * u))
+    mapped = replace(bare, uv=np.full((4, 2), 0.25, np.float32), loops=bare.triangles)
+    shapes = shapes_of((bare, (0.5, 0, -3), 1.0), (mapped, (-0.5, 0, -3), 1.0))
+    images = cast(camera_at(), shapes, ("uv", "shape_index"))
+    for shape, expected in enumerate(([0, 0, 0], [0.25, 0.25, 0])):
+        found = images["uv"][images["shape_index"] == shape]
+        assert len(found) > 10
+        np.testing.assert_array_equal(found, np.tile(np.float32(expected), (len(found), 1)))
+
+
 def test_the_grid_is_that_of_the_map_or_of_the_edges_of_faces():
     """Two squares of two triangles each, without the diagonals between these; with a map its lines, 24 and 12."""
     mesh = grid(1, 2, lambda u, v: (2 * u - 1, v - 0.5, 0 * u))

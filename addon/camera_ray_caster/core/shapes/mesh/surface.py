@@ -147,6 +147,8 @@ class HitTriangles:
 
     def uv(self, point: Any) -> tuple[np.ndarray, np.ndarray]:
         """Return u and v, (m,) each; 0 if the mesh has no map."""
+        if all(self.shapes.shapes.meshes[k].uv is None for k in self._meshes):
+            return np.zeros(len(self.which)), np.zeros(len(self.which))
         u, v = self.interpolated(self._gather((3, 2), float, _uv), point)
         return u, v
 
