@@ -34,8 +34,8 @@ from .renderer import Render, border, changed, cycles_engine
 from .rolling import blur_settings, is_shutter
 from .shader import check_cycles, set_shader, texture_folder
 
-DARK = 1e-3
-"""Linear color that is seen as black: 3 of 255 on a screen."""
+DARK = 4e-3
+"""Linear color up to which a picture is black: the denoiser makes up to 2.2e-3 of no light."""
 BLACK = (
     "Cycles' picture is black: shapes hide the lamps and the world from what is seen, or there are none. Cycles "
     "has shadows, and casts have none: put a lamp where the camera is"
