@@ -49,6 +49,19 @@ def test_a_file_saved_meanwhile_knows_the_engine_of_before(blender, scene, tmp_p
     assert BEFORE not in scene
 
 
+def test_the_engine_is_undone_and_redone(blender, scene):
+    area = next(area for area in blender.context.window.screen.areas if area.type == "VIEW_3D")
+    scene.render.engine = "BLENDER_WORKBENCH"
+    blender.ops.ed.undo_push(message="before")
+    with blender.context.temp_override(area=area):
+        blender.ops.camera_ray_caster.see_through()
+    blender.ops.ed.undo_push(message="after")
+    for step, is_on in ((blender.ops.ed.undo, False), (blender.ops.ed.redo, True)):
+        step()
+        scene = blender.context.scene
+        assert (scene.render.engine == "CAMERA_RAY_CASTER", BEFORE in scene) == (is_on, is_on)
+
+
 def test_a_slit_that_is_deleted_is_offered_again(blender, scene):
     camera, ops = scene.camera, blender.ops
     camera.data.camera_ray_caster.model = "PUSHBROOM"
