@@ -52,6 +52,8 @@ def test_a_ball_or_floor_of_several_materials_is_cast_as_its_mesh(scene):
     shapes = read_shapes(scene)
     kinds = {shapes.names[name]: kind for name, kind in zip(shapes.name_index, shapes.kind, strict=True)}
     assert kinds == {"Grid": MESH, "Painted": MESH, "Forced": SPHERE}
+    painted.data.polygons[0].material_index = 2**15 - 1  # Blender's largest
+    assert set(read_shapes(scene).kind) == {MESH, SPHERE}
     for item in (floor, painted):
         for polygon in item.data.polygons:
             polygon.material_index = 1 + polygon.index

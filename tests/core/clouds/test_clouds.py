@@ -11,6 +11,8 @@ import camera_ray_caster as crc
 from camera_ray_caster.core.clouds.cloud import FROM_CAMERA, WORLD
 from camera_ray_caster.core.clouds.formats import FORMATS, files_of
 from camera_ray_caster.core.clouds.sequences import sequence
+from camera_ray_caster.core.motion.apart import rows_of
+from camera_ray_caster.core.motion.evaluations import resolve
 
 SHAPES = crc.join(
     crc.spheres([(4.0, 0.0, 1.0)], 1.0, object_index=3, name="ball", color=(0.8, 0.4, 0.6)),
@@ -152,6 +154,20 @@ def test_the_header_of_las():
     scale, offset = np.frombuffer(content, "<f8", 3, 131), np.frombuffer(content, "<f8", 3, 155)
     places = np.frombuffer(content, np.dtype([("xyz", "<i4", 3), ("rest", f"V{length - 12}")]), offset=first)["xyz"]
     assert np.abs(places * scale + offset - CLOUD.world).max() <= 0.5e-4 + 1e-9
+
+
+def test_shapes_that_appear_while_beams_fire_have_no_numbers():
+    """The row of a shape would mean the one in some points, and the other in others."""
+    cam = scanner(time_mode="SWEEP")
+
+    def evaluate(frame):
+        return cam, SHAPES if frame > 1 else rows_of(SHAPES, np.array([1]))
+
+    motion = resolve(evaluate, 0.0, 2.4, 0.01, 64)
+    assert any("appear or disappear" in line for line in motion.in_words())
+    scene = crc.Scene(cam, evaluate(0.0)[1]).with_timeline(motion)
+    with pytest.raises(crc.InputError, match=r"frame \S+ differs in 'ball': show it at all"):
+        crc.scan(scene)
 
 
 def test_numbers_that_a_format_cannot_store_are_refused():

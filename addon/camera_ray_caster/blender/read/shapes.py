@@ -171,7 +171,7 @@ def _slots(item, mesh: Mesh | None) -> Iterable[int]:
     """Return the material slots that are needed: the object's first face's, or 0 .. the largest of a mesh record."""
     if mesh is None:
         return (first_slot(item),)
-    return (0,) if mesh.slot is None else range(mesh.slot.max() + 1)
+    return (0,) if mesh.slot is None else range(int(mesh.slot.max()) + 1)
 
 
 def _refusal(setting: str) -> str:

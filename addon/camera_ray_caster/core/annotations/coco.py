@@ -19,10 +19,10 @@ from typing import Any
 import numpy as np
 
 from ..camera.camera import Camera
+from ..motion.moments import check_rows, check_still
 from ..records import Shapes
 from ..version import VERSION
 from .keypoints import SeenKeyPoint
-from .moments import check_rows, check_still
 from .poses import object_poses
 from .silhouettes import Box, Silhouette, silhouettes
 

@@ -22,6 +22,7 @@ from ..camera.camera import Camera
 from ..cameras.scanner import Scanner
 from ..cast import cast
 from ..casting.hits import NOTHING
+from ..motion.moments import check_rows
 from ..records import InputError, Shapes
 from ..scene import Scene
 
@@ -108,7 +109,8 @@ def scan(
     categories: numbers by names of objects; other objects have their pass index.
 
     Raises InputError for numbers that are negative or not finite, for categories that are not whole numbers, for a
-    device whose quantum is not known, and for what ``cast`` refuses.
+    device whose quantum is not known, for shapes that appear or disappear between the times of pixels, and for what
+    ``cast`` refuses.
     """
     scene = Scene.given(camera, shapes, "scan")
     camera, shapes = scene.camera, scene.shapes
@@ -124,6 +126,7 @@ def scan(
             f"categories is {arguments.shown(categories)}: it must map names of objects to whole numbers from 0 to "
             f"{MOST_CATEGORY}"
         )
+    check_rows(shapes)
     images, rays = cast(camera, shapes, PASSES, np.float64), camera.rays()
     hit = (images["shape_index"] != NOTHING) & np.isfinite(images["distance"])
     ahead, true = np.where(hit[..., None], rays.directions, 0.0), np.where(hit, images["distance"], 0.0)

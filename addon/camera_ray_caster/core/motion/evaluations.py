@@ -131,6 +131,9 @@ class Motion:
                 f"jumps: {len(jumps)}, the first at frame {jumps[0]:g}; between two frames {SHORTEST:.2g} apart, all "
                 "places are those of the earlier frame"
             )
+        each = [shapes for _, shapes in self.states.values()]
+        if not all(same_rows(each[0], other) for other in each[1:]):
+            lines.append("shapes appear or disappear: shape_index counts those that are there at a pixel's own time")
         if self.measured > self.tolerance:
             lines.append(
                 f"{UNRESOLVED}: motion off by {self.measured:.2g} pixels where it was measured, between evaluations: "
@@ -143,6 +146,11 @@ class Motion:
                 "the scene changes too fast for the evaluations allowed"
             )
         return lines
+
+
+def same_rows(before: Shapes, after: Shapes) -> bool:
+    """Whether the rows of two evaluations are of the same objects, if perhaps in other forms."""
+    return before.names == after.names and np.array_equal(before.name_index, after.name_index)
 
 
 def resolve(

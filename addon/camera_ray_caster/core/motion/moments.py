@@ -1,24 +1,24 @@
-"""Pictures whose pixels have their own times: what annotations, which are of one moment, can say of them."""
+"""Pictures whose pixels have their own times: what annotations and points, whose numbers of shapes are of one moment,
+can say of them.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Collection
 
-import numpy as np
-
-from ..motion.evaluations import Motion
 from ..records import InputError, Shapes
+from .evaluations import Motion, same_rows
 
 
 def check_rows(shapes: Shapes) -> None:
     """Raise InputError if a shape index means another shape at the time of another pixel."""
     for frame, other in _others(shapes):
-        if shapes.names != other.names or not np.array_equal(shapes.name_index, other.name_index):
+        if not same_rows(shapes, other):
             known, here = ({one.names[k] for k in one.name_index.tolist()} for one in (shapes, other))
             names = ", ".join(map(repr, sorted(known ^ here))) or "instances"
             raise InputError(
-                f"annotations need the same objects at the times of all pixels, and frame {frame:g} differs in "
-                f"{names}: show it at all of these times, or at none"
+                "shapes are numbered only if they are the same at the times of all pixels, and frame "
+                f"{frame:g} differs in {names}: show it at all of these times, or at none"
             )
 
 
