@@ -99,7 +99,7 @@ sizes and frames: its cameras in each of the formats above, or the whole set in 
 |---|---|
 """
 
-COLUMNS = "| setting | unit | range | default | |\n|---|---|---|---|---|\n"
+COLUMNS = "| setting | unit | range | default | label: meaning |\n|---|---|---|---|---|\n"
 
 
 def models() -> str:

@@ -1,6 +1,6 @@
 """The f-theta camera of NVIDIA's simulators and recordings: a polynomial between the angle and the radius.
 
-Assumption: the azimuth is kept, except for a linear map of the picture, for a sensor that is not square to the lens.
+Assumption: the azimuth is kept, except for a linear map of the picture, for a sensor not perpendicular to the axis.
 Formula: (u, v), v down, is the pixel's offset from the center; (u, v) = ((c, d), (e, 1)) (u', v'), and r is the length
 of (u', v'). Either r is a polynomial of the angle theta (angle to pixel distance, "forward"), or theta is a polynomial
 of r (pixel distance to angle, "backward"), of any degree, without a constant. Files have both polynomials and declare

@@ -1,7 +1,7 @@
 """OCam of Scaramuzza: a model of mirror lenses and fisheyes, whose rays have a polynomial of the radius as component z.
 
-Assumption: on a sensor square to the lens, the ray of the pixel at (u', v') from the center is (u', v', f(r)). The
-third axis points back, so that f is below 0 on the axis.
+Assumption: on a sensor perpendicular to the axis, the ray of the pixel at (u', v') from the center is (u', v', f(r)).
+The third axis points back, so that f is below 0 on the axis.
 Formula: the toolbox has x along the row numbers, down, and y to the right. With its c, d and e, a pixel's offset from
 the center is (right, down) = ((1, e), (d, c)) (u', v'), and f(r) = a0 + a1 r + a2 r^2 + ..., in pixels. The inverse is
 exact, by Newton's method, instead of the polynomial that the toolbox fits to it.

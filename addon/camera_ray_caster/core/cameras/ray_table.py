@@ -48,7 +48,7 @@ AREA = Numbers(
 )  # fmt: skip
 OPENCV = "OPENCV"
 AXES = Choice(
-    "ray_axes", "Axes", "Axes of the rays in a file that does not tell", "BLENDER",
+    "ray_axes", "Axes", "Axes of the rays in a file that does not state them", "BLENDER",
     (
         Item("BLENDER", "Blender", "X right, Y up, the camera looks along -Z", 0),
         Item(OPENCV, "OpenCV", "X right, Y down, the camera looks along Z", 1),

@@ -1,4 +1,4 @@
-"""A window whose axes are not the pixels' axes: for a skewed camera matrix, or a sensor not square to the lens."""
+"""A window whose axes are not the pixels' axes: for a skewed camera matrix, or a sensor that is tilted slightly."""
 
 from __future__ import annotations
 

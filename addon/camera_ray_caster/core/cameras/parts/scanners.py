@@ -42,12 +42,12 @@ AHEAD, RIGHT, UP = (
 DELAYS = Table("scanner_delays", "Delays", "Time at which each beam fires after its column begins, microseconds", "0")
 ROW_SHARE = Number(
     "scanner_row_share", "Row Share", "Part of the time from column to column in which the rows fire one after the "
-                                      "other, upwards, as a mirror turns; beside the delays", 0.0, 0.0, 1.0,
+                                      "other, upwards, as a mirror turns; in addition to the delays", 0.0, 0.0, 1.0,
 )  # fmt: skip
 SWEEP = Number("scanner_sweep", "Sweep", "Angle of a sweep", FULL_TURN, ABOVE_ZERO, LARGEST_ANGLE, "angle")
 COLUMNS = Whole("scanner_columns", "Columns", "Number of columns of a sweep; 0 is the frame's width", 0, 0, 1 << 20)
 PERIOD = Number(
-    "scanner_period", "Period", "Time from column to column, microseconds; then a sweep has as many columns as fit in. "
+    "scanner_period", "Period", "Time from column to column, microseconds; then a sweep has as many columns as fit. "
                                 "0 divides the sweep by its columns", 0.0, 0.0, digits=3,
 )  # fmt: skip
 CLOCKWISE = "CLOCKWISE"
