@@ -13,6 +13,7 @@ from lesson_scenarios import LESSON_SCENARIOS
 from parts import BUTTON, MODULE, addon, load, timed
 from points_scenarios import POINTS_SCENARIOS
 from redraw_scenarios import REDRAW_SCENARIOS
+from saved_scenarios import SAVED_SCENARIOS
 from stranger_scenarios import ROW, STRANGER_SCENARIOS, open_menu
 from user import pixels_of
 from views_scenarios import VIEWS_SCENARIOS
@@ -261,7 +262,7 @@ SCENARIOS = {
     for scenario in (
         panel, no_camera, left_out, *CAST_SCENARIOS, overlay, ray_under_mouse, viewport,
         cycles, *CAMERA_SCENARIOS, *LESSON_SCENARIOS, *STRANGER_SCENARIOS, *REDRAW_SCENARIOS, *WINDOW_SCENARIOS,
-        *ALL_SCENARIOS, *WALK_SCENARIOS, *POINTS_SCENARIOS, *VIEWS_SCENARIOS, *ANIMATED_SCENARIOS,
+        *ALL_SCENARIOS, *WALK_SCENARIOS, *POINTS_SCENARIOS, *VIEWS_SCENARIOS, *ANIMATED_SCENARIOS, *SAVED_SCENARIOS,
         disable,
     )
 }  # fmt: skip
