@@ -99,19 +99,29 @@ sizes and frames: its cameras in each of the formats above, or the whole set in 
 |---|---|
 """
 
+CONTENTS = "\n| group | models |\n|---|---|\n"
 COLUMNS = "| setting | unit | range | default | label: meaning |\n|---|---|---|---|---|\n"
 
 
 def models() -> str:
     """Return the page of models: a section for each group of models, and a section for pixel times."""
-    groups = {group: [model for model in MODELS if model.group == group] for group in GROUPS}
-    sections = [f"\n## {group}\n" + "".join(map(section, those)) for group, those in groups.items() if those]
+    groups = {group: those for group in GROUPS if (those := [model for model in MODELS if model.group == group])}
+    sections = [f"\n## {group}\n" + "".join(map(section, those)) for group, those in groups.items()]
     items = {item.key: item for item in pixel_time.MODE.items}
+    labels = {group: [model.label for model in those] for group, those in groups.items()}
+    labels["The time of each pixel"] = [items[key].label for key in pixel_time.SETTINGS]
+    contents = "".join(f"| {group} | {', '.join(map(link, those))} |\n" for group, those in labels.items())
     modes = [
         f"\n### {items[key].label}\n\n`{key}`: {items[key].text}.\n" + table(settings)
         for key, settings in pixel_time.SETTINGS.items()
     ]
-    return "".join((HEAD, *sections, TIMES, *modes))
+    return "".join((HEAD, CONTENTS, contents, *sections, TIMES, *modes))
+
+
+def link(title: str) -> str:
+    """Return a link to the section of a title, as viewers of Markdown name them."""
+    name = re.sub(r"[^\w -]", "", title.lower()).replace(" ", "-")
+    return f"[{title}](#{name})"
 
 
 def files() -> str:

@@ -171,7 +171,7 @@ def test_the_bounds_of_hits_are_in_table_and_json_with_their_units(report):
     rows = {line[2:19].strip(): line[19:].split()[:2] for line in lines if line[19:].strip()[:1].isdigit()}
     assert rows["distance"] == ["5.0e-15", "9.0e-15"]
     assert rows["normal"] == ["8.0e-15", "inf"]
-    assert "  3 hits at 10 pixels all over the picture; precision ROBUST" in lines
+    assert "  3 hits at 10 pixels all over the picture, in float64" in lines
     assert max(map(len, lines)) <= WIDTH
 
 
@@ -185,7 +185,7 @@ def test_the_samples_of_two_layers_are_one(report):
 
 def test_where_nothing_is_hit_the_report_says_so(report):
     report = replace(report, accuracy=Accuracy(10))
-    assert "Hits: none at 10 pixels all over the picture; precision ROBUST" in as_lines(report)
+    assert "Hits: none at 10 pixels all over the picture, in float64" in as_lines(report)
     found = strict(as_json(report))["accuracy"]
     assert found["hits"] == 0
     assert found["distance"]["worst_bound"] is None

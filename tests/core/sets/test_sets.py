@@ -217,3 +217,15 @@ def test_nerfstudios_frames_name_depths_and_masks(made):
     assert (depth[~hit] == 0).all()
     assert (cv2.imread(str(out / frame["mask_path"]), cv2.IMREAD_UNCHANGED) == 255).all()
     assert (out / frame["file_path"]).is_file()
+
+
+CASES = [(("depth", "distance"), 1), (("distance", "normal"), 2), (("normal",), 1)]
+
+
+@pytest.mark.parametrize(("passes", "count"), CASES)
+def test_a_preview_shows_the_distance_where_there_is_no_depth(tmp_path, passes, count):
+    _, images = view(tmp_path, 1)
+    np.savez(tmp_path / "PERSP_0001.npz", **{one: images[one] for one in passes})
+    ((name, content),) = SET_FORMATS["preview"].files(read_set(tmp_path))
+    shown = cv2.imdecode(np.frombuffer(content, np.uint8), cv2.IMREAD_COLOR)
+    assert (name, shown.shape[1]) == ("preview.png", count * SIZE[0])

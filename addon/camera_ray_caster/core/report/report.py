@@ -243,11 +243,11 @@ def _accuracy_lines(report: Report) -> list[str]:
     if not found.pixels:
         return []
     if not found.hits:
-        return ["", f"Hits: none at {found.pixels} pixels all over the picture; precision {report.precision}"]
+        return ["", f"Hits: none at {found.pixels} pixels all over the picture, in float64"]
     lines = ["", f"{'Hits':19} {'median bound':>13} {'worst bound':>13}"]
     for name, unit in QUANTITIES.items():
         lines.append(f"  {name.replace('_', ' '):17} {found.median(name):13.1e} {found.worst(name):13.1e}  {unit}")
-    lines.append(f"  {found.hits} hits at {found.pixels} pixels all over the picture; precision {report.precision}")
+    lines.append(f"  {found.hits} hits at {found.pixels} pixels all over the picture, in float64")
     return [*lines, f"  before storage: storing as float32 adds a rounding of up to {EPS32:.0e} of the value"]
 
 

@@ -12,7 +12,7 @@ from .png import png, srgb
 from .reading import View
 
 MOST = 65535
-SHOWN = "combined", "depth", "shape_index", "object_index", "normal"
+SHOWN = "combined", "depth", "distance", "shape_index", "object_index", "normal"
 """Passes of which a preview shows those that there are."""
 
 OPENCV = np.array((1.0, -1.0, -1.0))
@@ -41,11 +41,11 @@ def normals(views: list[View]) -> Iterator[tuple[str, str | bytes]]:
 
 
 def preview(views: list[View]) -> Iterator[tuple[str, str | bytes]]:
-    """Yield preview.png: of the first view of each camera a row of picture, depth, indices and normals, as cast."""
+    """Yield preview.png: of the first view of each camera a row of picture, depth or distance, indices and normals."""
     firsts = {view.report["camera"]["name"]: view for view in reversed(views)}
     rows = [row for view in firsts.values() if (row := _row(view)) is not None]
     if not rows:
-        raise InputError("the set has none of the passes combined, depth, shape_index and normal, which previews show")
+        raise InputError(f"the set has none of the passes {', '.join(SHOWN)}, which previews show")
     width = max(row.shape[1] for row in rows)
     padded = [np.pad(row, ((0, 0), (0, width - row.shape[1]), (0, 0))) for row in rows]
     yield "preview.png", png(np.vstack(padded)[::-1])
@@ -55,8 +55,8 @@ def _row(view: View) -> np.ndarray | None:
     parts = []
     if view.has("combined"):
         parts.append(srgb(view.pixels("combined")[..., :3]))
-    if view.has("depth"):
-        depth = view.pixels("depth").astype(np.float64)
+    if depths := [key for key in ("depth", "distance") if view.has(key)]:
+        depth = view.pixels(depths[0]).astype(np.float64)
         hit = np.isfinite(depth)
         near, far = (depth[hit].min(), depth[hit].max()) if hit.any() else (0.0, 1.0)
         gray = np.where(hit, 255 - 205 * (np.where(hit, depth, near) - near) / max(far - near, 1e-30), 0)
