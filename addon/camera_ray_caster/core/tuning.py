@@ -16,6 +16,12 @@ BATCH_PIXELS = 1 << 18
 10,000 spheres, since threads wait for each other; no limit: within 5 %, but the memory is unlimited, too.
 """
 
+SEARCHED_PIXELS = 1 << 18
+"""Number of pixels in the bounds of a large shape that are tested at once: a plane covers or misses many bands of rows
+as a whole. No limit: 1.5 times the processor time of three planes and 92 spheres and ellipsoids with two passes, 1.13
+with these and combined, position and normal; 2**17: 0.95 and 1.0 times, and more calls for 10 spheres.
+"""
+
 PREPARED_PIXELS = 1 << 16
 """Number of rows plus columns, over all shapes of a group, whose terms are computed at once for large shapes. One shape
 at a time: 1.2 times the time for 100 spheres and two passes, 1.03 to 1.06 otherwise.

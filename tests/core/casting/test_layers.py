@@ -1,4 +1,4 @@
-"""Passes that are written shape by shape are those that each pixel looks up."""
+"""Passes that are written shape by shape are those that each pixel looks up; so are those of a search in bands."""
 
 import numpy as np
 import pytest
@@ -41,6 +41,25 @@ def test_layers_change_no_pass(monkeypatch, model, around):
     for name in STILL:
         np.testing.assert_array_equal(layered[name], looked_up[name], err_msg=name)
     np.testing.assert_array_equal(sampled["combined"], crc.cast(camera, seen, "combined", samples=2)["combined"])
+
+
+@pytest.mark.parametrize("last", ["wall", "floor", "ball"])
+def test_a_search_in_bands_of_rows_changes_no_pixel(monkeypatch, last):
+    """Also where the shape that is tested first covers or misses some of the bands as a whole."""
+    every = {
+        "ball": crc.spheres((0.5, 0, -5), 1.0),
+        "wall": crc.planes((0, 6, -9), [[20, 0], [0, 5], [0, 0]]),
+        "floor": crc.planes((0, -1, 0), [[9, 0], [0, 0], [0, 9]], infinite=True),
+    }
+    camera = crc.camera("PERSP", (160, 120))
+    seen = crc.join(*(every[name] for name in every if name != last), every[last])
+    whole = crc.cast(camera, seen, STILL, threads=1)
+    monkeypatch.setattr(tuning, "SEARCHED_PIXELS", 160 * 7)
+    crc.cast(camera, crc.planes((0, 0, -0.5)), STILL, threads=1)  # so that working arrays have other, nearer hits
+    bands = crc.cast(camera, seen, STILL, threads=1)
+    assert len(np.unique(whole["shape_index"])) == 4
+    for name in STILL:
+        np.testing.assert_array_equal(bands[name], whole[name], err_msg=name)
 
 
 def test_passes_of_surfaces_are_their_number_where_nothing_is_hit():

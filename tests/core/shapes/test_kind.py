@@ -85,6 +85,7 @@ def brute_force(shapes, inverses, origin, direction):
 def test_toy_kinds_are_cast_as_brute_force_finds_them(monkeypatch, key, small):
     monkeypatch.setattr(tuning, "SMALL_PIXELS", small)
     monkeypatch.setattr(tuning, "BLOCK_PIXELS", 400)
+    monkeypatch.setattr(tuning, "SEARCHED_PIXELS", 200)
     camera = camera_of(key, SIZE)
     shapes = scene(camera, 3)
     images, rays = cast(camera, shapes, PASSES, np.float64), camera.rays()

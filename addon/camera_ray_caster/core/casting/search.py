@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from .. import tuning
 from ..maths.speed import whole_rows, widened
 from ..shapes.kind import Candidates, Large
 from ..shapes.search_rays import SearchRays
@@ -64,30 +65,32 @@ class NearestHits:
     t: np.ndarray
     """t of the nearest hits so far, inf without a hit; hits beyond the clip end are removed after the search."""
     index: np.ndarray
-    is_blank: bool = True
-    """Whether ``t`` and ``index`` are still to be written."""
+    written: int = 0
+    """The number of rows, the lowest ones, whose ``t`` and ``index`` are written."""
 
     def clear(self) -> None:
-        """Write that nothing is hit, unless a shape has been tested already."""
-        if self.is_blank:
-            self.t.fill(np.inf)
-            self.index.fill(NOTHING)
-            self.is_blank = False
+        """Write that nothing is hit in the rows that are not written yet."""
+        self.t[self.written :].fill(np.inf)
+        self.index[self.written :].fill(NOTHING)
+        self.written = len(self.t)
 
     def cast(self, large: Large) -> None:
         """Test one shape at the pixels of its bounds; no shape that was tested before may have a lower index."""
-        window = widened(large.bounds, self.t.shape[1])
-        with whole_rows(window[1].stop - window[1].start):
-            found, where = large.solve(window, self.rays.scratch)
-            if found is not None:
-                self._keep_one(window, found, where, large.at)
+        x0, x1, y0, y1 = large.bounds
+        step = max(1, tuning.SEARCHED_PIXELS // (x1 - x0))
+        for first in range(y0, y1, step):
+            window = widened((x0, x1, first, min(first + step, y1)), self.t.shape[1])
+            with whole_rows(window[1].stop - window[1].start):
+                found, where = large.solve(window, self.rays.scratch)
+                if found is not None:
+                    self._keep_one(window, found, where, large.at)
 
     def _keep_one(self, window: tuple[slice, slice], found: Any, where: Any, at: int) -> None:
         t, index = self.t[window], self.index[window]
-        if self.is_blank and where is True and t.shape == self.t.shape:
+        if where is True and window[0].start == self.written and t.shape[1] == self.t.shape[1]:
             np.copyto(t, found)
             index.fill(at)
-            self.is_blank = False
+            self.written = window[0].stop
             return
         self.clear()
         closer = np.less_equal(found, t, out=self.rays.scratch("closer", t.shape, bool))

@@ -12,8 +12,8 @@ from typing import Any
 import numpy as np
 
 from ..conventions import EPS, gamma
-from ..maths.speed import Scratch
-from ..maths.vector import components, cross, difference, dot, matrix_rows, matvec, norm, unit
+from ..maths.speed import Scratch, merged, taken
+from ..maths.vector import cross, difference, dot, matvec, norm, unit
 from ..records import SPHERE, Shapes
 from . import sphere_rays
 from .affine import AffineErrors, AffineKind
@@ -114,16 +114,16 @@ def _curved(shapes: InCamera, at: np.ndarray) -> PixelNormals:
     """Return a function that gives the unit normals of hit pixels on the ellipsoids at these indices."""
     matrix = shapes.shape_from_world[at]
     power = -np.frexp(np.abs(matrix).max(axis=(1, 2), initial=0.0))[1]
-    matrix = np.ldexp(matrix, power[:, None, None])  # about 1
-    center = np.ldexp(shapes.offset[at], power[:, None])
+    matrix = np.ldexp(matrix, power[:, None, None]).transpose(1, 2, 0).copy()  # about 1; long arrays, so fast ones
+    center = np.ldexp(shapes.offset[at], power[:, None]).T.copy()
     place = np.zeros(len(shapes.shapes), np.intp)
     place[at] = np.arange(len(at))
 
     def normals(pixels: HitPixels, point, direction):
-        here = place[pixels.at]
-        own = matrix[here]
-        q = difference(matvec(matrix_rows(own), point), components(center[here]))
-        normal = unit(matvec(matrix_rows(np.swapaxes(own, 1, 2)), q))
+        here = place[merged(pixels.at)]
+        own = taken(matrix, here)
+        q = difference(matvec(own, point), taken(center, here))
+        normal = unit(matvec(own.swapaxes(0, 1), q))
         if direction is None:
             return normal
         towards = -np.sign(dot(normal, direction))
