@@ -58,7 +58,7 @@ function build() {
   if (!own) {
     for (const [name, options] of Object.entries(model.options)) refreshers.push(choice($("knobs"), name, model.labels[name], options, () => state.values[name], (value) => { state.values[name] = value; }));
     for (const knob of model.knobs) refreshers.push(slider($("knobs"), knob.name, knob, () => state.values[knob.name], (value) => { state.values[knob.name] = value; }));
-    if (model.fixed.length) $("knobs").append(make("p", `Given as they are here: ${model.fixed.join(", ")}.`, { class: "note" }));
+    if (model.fixed.length) $("knobs").append(make("p", `Fixed at this camera's values: ${model.fixed.join(", ")}.`, { class: "note" }));
   } else $("knobs").append(make("p", "It has no settings: change its lines below.", { class: "note" }));
   for (const name of ["turn", "tilt", "walk"]) refreshers.push(slider($("view"), name, VIEW[name], () => state[name], (value) => { state[name] = value; }));
   refreshers.push(slider($("view"), "time", VIEW.time, () => state.time, (value) => { state.time = value; }));
