@@ -48,7 +48,7 @@ def test_a_search_in_bands_of_rows_changes_no_pixel(monkeypatch, last):
     """Also where the shape that is tested first covers or misses some of the bands as a whole."""
     every = {
         "ball": crc.spheres((0.5, 0, -5), 1.0),
-        "wall": crc.planes((0, 6, -9), [[20, 0], [0, 5], [0, 0]]),
+        "wall": crc.planes((0, -5, -9), [[20, 0], [0, 6], [0, 0]]),
         "floor": crc.planes((0, -1, 0), [[9, 0], [0, 0], [0, 9]], infinite=True),
     }
     camera = crc.camera("PERSP", (160, 120))
