@@ -73,6 +73,9 @@ def defined(**names):
         (lambda: type("Bare", (crc.Model,), {}), "model Bare has no key, label, description, group, FORMULA, rays"),
         (lambda: defined(group="Panoramas"), "group of model OWN"),
         (lambda: defined(number=1), "number 1 of model OWN is another model's"),
+        (lambda: defined(number="1000"), "number of model OWN is '1000'"),
+        (lambda: defined(label=None), "label of model OWN is None"),
+        (lambda: defined(key="own\n"), "must be capitals, digits and _"),
         (lambda: defined(key="PERSP"), "key PERSP is that of a model of the package"),
     ],
 )
@@ -81,3 +84,17 @@ def test_what_is_no_model_is_one_line_and_adds_nothing(model, said):
     with pytest.raises(crc.InputError, match=said):
         crc.register_model(model())
     assert before == MODELS
+
+
+@pytest.mark.parametrize(
+    ("planar", "said"), [(False, "it must be of length 1, or have z = -1 and planar"), (True, "it must have z = -1")]
+)
+def test_directions_of_another_length_are_named(planar, said):
+    before = list(MODELS)
+    rays = lambda self, x, y: ((0.0, 0.0, 0.0), (0.2 * x - 5, 0.2 * y - 4, -2.0))  # noqa: E731
+    try:
+        crc.register_model(defined(rays=rays, planar=planar))
+        with pytest.raises(crc.InputError, match=said):
+            crc.camera("OWN", (50, 40))
+    finally:
+        MODELS[:] = before

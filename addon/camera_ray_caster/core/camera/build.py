@@ -29,6 +29,9 @@ PLACES = np.linspace(0, 1, 5)
 NEAR = 2.0**-13
 """Distance of the points that it must find, over the distance of the rays' origins from the world's origin."""
 
+UNIT = 1e-6
+"""Largest error of the lengths of a model's directions: far more than rounding."""
+
 FARTHEST_PLANE = 1e50
 """Largest coordinate on the image plane: powers of larger ones overflow. Rays that are parallel need none."""
 
@@ -106,9 +109,9 @@ def _check_inverse(raw: BlenderCamera, model: Model, pose: Pose) -> None:
         return
     x, y = (part.ravel() for part in np.meshgrid(*(0.5 + PLACES * (side - 1) for side in model.frame)))
     with np.errstate(all="ignore"):
-        origin, direction = (
-            np.stack(np.broadcast_arrays(*part, x)[:3], axis=-1) @ pose.basis.T for part in model.rays(x, y)
-        )
+        own = [np.stack(np.broadcast_arrays(*part, x)[:3], axis=-1) for part in model.rays(x, y)]
+        _check_lengths(model, own[1])
+        origin, direction = (part @ pose.basis.T for part in own)
         origin = origin + pose.eye
         far = (1 + NEAR * np.linalg.norm(origin, axis=1)) * np.linspace(1, 2, len(x))  # each has a rounding of its own
         points = origin + far[:, None] * direction
@@ -120,6 +123,15 @@ def _check_inverse(raw: BlenderCamera, model: Model, pose: Pose) -> None:
             f"a point on the ray of pixel ({x[lost[0]]:g}, {y[lost[0]]:g}) of camera {raw.name!r} does not project "
             f"back to it: {_cause(raw, model, pose)}"
         )
+
+
+def _check_lengths(model: Model, direction: np.ndarray) -> None:
+    """Raise InputError for directions, (n, 3), which are not as long as a model's have to be."""
+    off = np.abs((-direction[:, 2] if model.planar else np.linalg.norm(direction, axis=1)) - 1)
+    if (off > UNIT).any():
+        needed = "have z = -1, as planar says" if model.planar else "be of length 1, or have z = -1 and planar = True"
+        first = ", ".join(f"{number:.3g}" for number in direction[np.argmax(off > UNIT)])
+        raise InputError(f"model {model.key} has the direction ({first}): it must {needed}")
 
 
 def _cause(raw: BlenderCamera, model: Model, pose: Pose) -> str:

@@ -2,10 +2,18 @@
 
 from __future__ import annotations
 
-from ..arguments import shown, word
+import re
+
+from ..arguments import count, shown, word
 from ..cameras import MODELS
 from ..cameras.model import GROUPS, Model
 from ..records import InputError
+
+KEY = re.compile("[A-Z][A-Z0-9_]*")
+"""Keys of models."""
+
+LARGEST = 2**31 - 1
+"""Largest number that Blender stores."""
 
 
 class Models(dict[str, type[Model]]):
@@ -35,7 +43,13 @@ def add_model(model: type[Model]) -> None:
     if missing or model.__abstractmethods__:
         lacking = ", ".join((*missing, *sorted(model.__abstractmethods__)))
         raise InputError(f"model {model.__name__} has no {lacking}: define it in the class")
+    if not KEY.fullmatch(word(model.key, f"key of model {model.__name__}")):
+        raise InputError(f"key of model {model.__name__} is {model.key!r}: it must be capitals, digits and _")
+    for name in ("label", "description"):
+        word(getattr(model, name), f"{name} of model {model.key}")
     word(model.group, f"group of model {model.key}", GROUPS)
+    if model.number is not None:
+        count(model.number, f"number of model {model.key}", LARGEST)
     others = [one for one in MODELS if one.key != model.key]
     if model.number is not None and model.number in [one.number for one in others]:
         raise InputError(f"number {model.number} of model {model.key} is another model's: take one from 1000 on")
