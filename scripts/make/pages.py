@@ -20,7 +20,8 @@ HEAD = """\
 
 Made by `python scripts/make_docs.py` from what each model declares in its file. The camera's axes u, v and w are right,
 up and ahead; W and H are the frame's width and height in pixels, (x, y) the pixel coordinates, y up. A star marks
-Blender's own settings. Angles are stored in radians and given in degrees here.
+Blender's own settings; of a calibrated lens they count only if Lengths In (`calibration_unit`) is `MILLIMETERS`. Angles
+are stored in radians and given in degrees here.
 """
 
 TIMES = """
