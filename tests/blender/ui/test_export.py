@@ -67,7 +67,7 @@ def test_the_nearest_lens_is_written_and_its_error_said_last(blender, two, tmp_p
     own.model, own.fx, own.fy, own.cx, own.cy = "DOUBLE_SPHERE", 30, 30, 31.5, 23.5
     own.calibration_width, own.calibration_height = 64, 48
     given = {"filepath": str(tmp_path), "format": "opencv"}
-    with pytest.raises(RuntimeError, match=r"cannot represent the Double Sphere .*, or Fit the Nearest Lens"):
+    with pytest.raises(RuntimeError, match=r"cannot represent the Double Sphere .*, or Fit Nearest Lens"):
         blender.ops.camera_ray_caster.export(**given)
     blender.ops.camera_ray_caster.export(**given, fit=True, fit_within=1.0, in_steps=True)
     while in_steps.tick() is not None:

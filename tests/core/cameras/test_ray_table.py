@@ -239,7 +239,7 @@ def test_exports_take_a_table_as_it_is_or_refuse_it_by_name(tmp_path):
     """STMaps only of rays with one eye."""
     central = crc.camera("RAY_TABLE", (24, 18), ray_directions=pinhole())
     apart = crc.camera("RAY_TABLE", (24, 18), ray_directions=pinhole(), ray_origins=pinhole() * (0.1, 0.1, 0))
-    for cam, able in ((central, r"stmap, npz, json, or Fit the Nearest Lens \(--fit\)"), (apart, "npz, json")):
+    for cam, able in ((central, r"stmap, npz, json, or Fit Nearest Lens \(--fit\)"), (apart, "npz, json")):
         for name in ("colmap", "nerfstudio", "opencv", "ros", "kalibr", "mrcal", "bop"):
             with pytest.raises(crc.InputError, match=f"Ray Table of camera 'Camera'.*choose one of .*{able}$"):
                 crc.export(name, cam, tmp_path)

@@ -26,7 +26,7 @@ def choices(key, made):
     with pytest.raises(InputError) as refusal:
         export(key, made)
     said, _, names = str(refusal.value).partition(": choose one of ")
-    return said, names.removesuffix(", or Fit the Nearest Lens (--fit)").split(", ")
+    return said, names.removesuffix(", or Fit Nearest Lens (--fit)").split(", ")
 
 
 @pytest.mark.parametrize("key", ["PERSP", "CROSS_SLIT", "FISHEYE_EQUIDISTANT"])

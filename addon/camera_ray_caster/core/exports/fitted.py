@@ -21,7 +21,7 @@ from .lenses import MATRIX, LensFormat
 FAR = 0.05
 """Part of the frame: a lens that errs by more is no likeness."""
 
-FIT, FIT_WITHIN = "Fit the Nearest Lens", "Within"
+FIT, FIT_WITHIN = "Fit Nearest Lens", "Within"
 """The labels of the options in the window."""
 
 Refusal = Callable[[Format, Shot], str | None]
