@@ -2,6 +2,7 @@
 
 import itertools
 
+import bpy
 import numpy as np
 import pytest
 
@@ -144,3 +145,16 @@ def test_blender_is_no_witness_for_a_panorama(blender):
     (finding,) = verify_camera(scene)
     assert finding.witness == "round trip"
     assert finding.passed
+
+
+@pytest.mark.parametrize("percentage", [100, 50])
+def test_a_moving_camera_among_keyed_visibility_is_verified(camera_scene, percentage):
+    """Blender 4.5 and 5.0 crashed."""
+    bpy.ops.mesh.primitive_cube_add(location=(0, 0, -6))
+    item, scene = bpy.context.object, camera_scene
+    for frame, hidden in ((1, False), (2, True)):
+        item.hide_render = hidden
+        item.keyframe_insert("hide_render", frame=frame)
+    scene.render.resolution_percentage = percentage
+    scene.camera.data.camera_ray_caster.time_mode = "ROWS"
+    assert all(finding.passed for finding in verify_camera(scene))

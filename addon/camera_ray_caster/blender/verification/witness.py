@@ -79,10 +79,15 @@ def _frame_of(size, scene):
     """Yield the evaluated scene with the rendered frame's aspect, since view_frame ignores the percentage.
 
     Only the depsgraph's own copy of the scene is changed, and restored afterwards; the user's scene is not touched.
+    It is changed only for another aspect: that tags the copy of the camera, and Blender before 5.2 crashes at another
+    frame then, if the visibility of an object has keys.
     """
     render = scene.render
-    before = render.resolution_x, render.resolution_y
-    render.resolution_x, render.resolution_y = (side * _enlarged(size) for side in size)
+    before, meant = (render.resolution_x, render.resolution_y), tuple(side * _enlarged(size) for side in size)
+    if meant[0] * before[1] == meant[1] * before[0]:
+        yield scene
+        return
+    render.resolution_x, render.resolution_y = meant
     try:
         yield scene
     finally:
