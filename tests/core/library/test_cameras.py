@@ -142,7 +142,6 @@ def test_a_closed_path_is_closed():
         (("OPENCV_PINHOLE", SIZE), {"calibration_file": "/no/file.yml"}, "/no/file.yml"),
     ],
 )
-@pytest.mark.one_for_each("said")
 def test_what_no_camera_can_be_is_one_line(words, settings, said):
     with pytest.raises(crc.InputError, match=said) as caught:
         crc.camera(*words, **settings)

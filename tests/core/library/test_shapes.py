@@ -172,7 +172,6 @@ def test_joining_forgets_no_field():
         (lambda: crc.mesh(CUBE, QUADS, pose=np.eye(3)), r"pose is of shape \(1, 3, 3\)"),
     ],
 )
-@pytest.mark.one_for_each("said")
 def test_what_no_shape_can_be_is_one_line(make, said):
     with pytest.raises(crc.InputError, match=said) as caught:
         make()
