@@ -117,6 +117,12 @@ def test_a_bad_place_is_refused(tmp_path, text, words):
         rig(tmp_path, text)
 
 
+def test_long_numbers_are_read_at_once(tmp_path):
+    """A pattern of numbers took time that grew with a power of their digits."""
+    with pytest.raises(InputError):
+        rig(tmp_path, " ".join(["9" * 400] * 13) + "\n")
+
+
 def test_a_coefficient_named_p1_is_none_of_kittis_cameras(tmp_path):
     path = tmp_path / "camera.yml"
     path.write_text("fx: 300.\nfy: 301.\ncx: 320.\ncy: 240.\nP1: 0.001 # tangential\nP2: 0.002\nw: 640\nh: 480\n")

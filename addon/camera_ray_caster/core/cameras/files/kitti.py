@@ -18,7 +18,7 @@ from functools import partial
 import numpy as np
 
 from . import opencv
-from .document import NUMBER, Document, Lens, one_of_several
+from .document import Document, Lens, numbers_of, one_of_several
 from .placed import Placed, checked, inverted, pose_of
 
 LINE = re.compile(r"^(P\d|[SKDRT]_\d\d|[SRP]_rect_\d\d):[ \t]+(\S+[ \t]+[^\s#].*)$", re.MULTILINE)
@@ -26,8 +26,10 @@ LINE = re.compile(r"^(P\d|[SKDRT]_\d\d|[SRP]_rect_\d\d):[ \t]+(\S+[ \t]+[^\s#].*
 LENS = re.compile(r"P\d|K_\d\d|P_rect_\d\d")
 """Names of the matrices that are lenses."""
 REFERENCE = "R_rect_00"
-POSE = re.compile(rf"\s*({NUMBER.pattern}[ \t]+){{11}}{NUMBER.pattern}[ \t\r]*(\n|\Z)", re.ASCII)
-"""The first line of poses."""
+POSE = 12
+"""Numbers of a line of poses."""
+LONGEST = 1000
+"""Characters in which such a line ends."""
 
 
 def read(document: Document, key: str) -> list[Lens] | None:
@@ -40,7 +42,8 @@ def poses(document: Document) -> list[Placed] | None:
     """Return the poses of a document: those of the cameras of a calibration, in the frame of the first one, or of
     poses.txt; None of any other file. Raises InputError.
     """
-    if POSE.match(document.text):
+    first = document.text[:LONGEST].strip().partition("\n")[0].split()
+    if len(first) == len(numbers_of(first)) == POSE:
         rows = [line.split() for line in document.text.splitlines() if line.strip()]
         return [_moved(document, number, row) for number, row in enumerate(rows, 1)]
     lines = _lines(document)
