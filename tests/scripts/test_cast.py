@@ -147,10 +147,10 @@ def test_cast_takes_the_precision_and_the_report_has_the_bounds_of_the_hits(comm
         assert 0 < distance["median_bound"] <= distance["worst_bound"]
         assert report["seconds"]["accuracy"] > 0
         worst.append(distance["worst_bound"])
-        assert f"precision {report['precision']}" in done.stdout
+        assert "in float64" in done.stdout
         assert f"{distance['worst_bound']:.1e}  world units" in done.stdout
     assert worst[0] == worst[1] < 1e-11
-    assert "precision ROBUST, which FAST means" in done.stdout
+    assert "ROBUST" in report["precision"]
 
 
 @pytest.mark.full
