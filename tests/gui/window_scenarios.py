@@ -152,7 +152,7 @@ def click_seen(user, scenes):
     yield from user.until(lambda: not any(overlays().values()), "outlines and grid are hidden")
     seen, probe = addon("read.scene_cache").cached_scene(context), addon("view3d.mouse_gizmo").probe
     width, height = seen.camera.raster.size
-    names = set()
+    names = []
     for x, y in ((0.3, 0.3), (0.5, 0.35), (0.65, 0.3), (0.4, 0.6), (0.6, 0.7)):
         pixel = int(x * width), int(y * height)
         yield from user.click(*place_of(user, *pixel))
@@ -160,9 +160,13 @@ def click_seen(user, scenes):
         name = probe(seen.camera, seen.shapes, *pixel).name
         assert [item.name for item in context.selected_objects] == [name]
         assert context.object.name == name
-        names.add(name)
-    assert len(names) > 2, names
+        names.append(name)
+    assert len(set(names)) > 2, names
     user.picture("click_seen")
+    for keys, expected in (("ctrl+z", names[-2]), ("ctrl+shift+z", name)):
+        yield from user.key(keys)
+        yield from user.until(lambda expected=expected: [one.name for one in context.selected_objects] == [expected],
+                              f"{keys} of a click")  # fmt: skip
     own, asked = addon("ui.select_seen"), []
     object_at = own.object_at
     own.object_at = lambda *given: (asked.append(given), object_at(*given))[1]
