@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 
-from camera_ray_caster.blender.output.restored import FORM
 from camera_ray_caster.blender.terminal import files
 from camera_ray_caster.blender.ui import in_steps
 from camera_ray_caster.core.casting.passes import PASSES
@@ -71,7 +70,6 @@ def test_all_cameras_and_frames_are_the_terminal_s_and_the_scene_is_as_before(bl
     scene.frame_set(3)
     blender.context.view_layer.use_pass_normal = blender.context.view_layer.use_pass_z = True
     assert {"depth", "normal"} <= PASSES.keys()
-    assert {*files.PICTURE, *files.LAYERS} <= set(FORM)
     files.render(scene, tmp_path / "one", "Plain", layers=files.NPZ)
     one, found = np.load(tmp_path / "one" / "Plain.npz"), np.load(tmp_path / "all" / "Plain_0003.npz")
     for key in ("depth", "normal"):

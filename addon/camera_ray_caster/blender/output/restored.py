@@ -7,17 +7,13 @@ from contextlib import contextmanager, suppress
 
 from ..properties.passes import PASSES
 from .file_outputs import writing
+from .saving import LAYERS, PICTURE
 
 RENDER = (
     "engine", "use_persistent_data", "use_sequencer", "use_render_cache", "use_lock_interface", "resolution_x",
     "resolution_y", "resolution_percentage",
 )  # fmt: skip
-FORM = (
-    "media_type", "file_format", "views_format", "color_mode", "color_depth", "exr_codec", "use_exr_interleave",
-)  # fmt: skip
-"""Properties of the render settings and of the image settings that making pictures changes, the latter in the order in
-which they have to be set; some versions of Blender lack some.
-"""
+"""Properties of the render settings that making pictures changes; some versions of Blender lack some."""
 
 
 @contextmanager
@@ -49,7 +45,7 @@ def restored(scene) -> Iterator[Callable[[], None]]:
 
 def _values(scene) -> Iterator[tuple]:
     """Yield (owner, name, value) of what is restored, in the order in which it has to be set."""
-    owners = [(scene.render, RENDER), (scene.render.image_settings, FORM)]
+    owners = [(scene.render, RENDER), (scene.render.image_settings, dict.fromkeys((*PICTURE, *LAYERS)))]
     owners += [(marker, ("camera",)) for marker in scene.timeline_markers]
     owners += [(entry.settings(scene, layer), (entry.tick,)) for layer in scene.view_layers for entry in PASSES]
     owners += [(scene.camera_ray_caster, ("exact_shapes",)), *((node, ("mute",)) for node in writing(scene))]

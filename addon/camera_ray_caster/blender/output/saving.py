@@ -18,6 +18,23 @@ from ...core.records import InputError
 from ..process.opening import reported, scripts_given_back
 from ..process.standard_output import quiet_errors
 
+PICTURE = {
+    "media_type": "IMAGE",
+    "file_format": "PNG",
+    "views_format": "INDIVIDUAL",
+    "color_mode": "RGBA",
+    "color_depth": "8",
+}
+LAYERS = {
+    "media_type": "MULTI_LAYER_IMAGE",
+    "file_format": "OPEN_EXR_MULTILAYER",
+    "views_format": "INDIVIDUAL",  # one file per view: every reader supports it
+    "color_depth": "32",
+    "exr_codec": "ZIP",
+    "use_exr_interleave": True,  # one part: every reader supports it, at any pixel aspect
+}
+"""Image settings by Blender's names, in the order in which they must be set."""
+
 PROBE = 1 << 20
 """Number of bytes that can still be written after a failure; if they cannot, the disk is full."""
 END_OF_PNG = b"IEND\xaeB`\x82"

@@ -25,30 +25,13 @@ from ..engine.engine import RenderCall
 from ..output import arrays, file_outputs
 from ..output.annotations import ENDING, annotated
 from ..output.points import PointFiles
-from ..output.saving import blender_writes, check_whole
+from ..output.saving import LAYERS, PICTURE, blender_writes, check_whole
 from ..output.stamps import made
 from ..process import signals
 from ..process.opening import not_run, reported
 from ..properties.passes import ticked
 from ..read.camera import views_of
 from ..read.frames import check_layers
-
-PICTURE = {
-    "media_type": "IMAGE",
-    "file_format": "PNG",
-    "views_format": "INDIVIDUAL",
-    "color_mode": "RGBA",
-    "color_depth": "8",
-}
-LAYERS = {
-    "media_type": "MULTI_LAYER_IMAGE",
-    "file_format": "OPEN_EXR_MULTILAYER",
-    "views_format": "INDIVIDUAL",  # one file per view: every reader supports it
-    "color_depth": "32",
-    "exr_codec": "ZIP",
-    "use_exr_interleave": True,  # one part: every reader supports it, at any pixel aspect
-}
-"""Image settings by Blender's names, in the order in which they must be set."""
 
 EXR, NPZ = "EXR", "NPZ"
 FORMATS = EXR, NPZ
