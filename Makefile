@@ -27,7 +27,7 @@ cast: $(VENV)/ready  ## render the example scene into out/ and print the report
 # ends the run.
 PYTEST := $(VENV)/bin/python -m pytest --numprocesses auto --max-worker-restart 0 --timeout 600
 
-test: $(VENV)/ready  ## run the tests with this Python, on all cores: each thing once, in some three minutes
+test: $(VENV)/ready  ## run the tests with this Python, on all cores: each thing once, in two to three minutes
 	$(PYTEST) --dist loadfile
 
 test-full: $(VENV)/ready  ## the same with all further examples, some ten minutes

@@ -50,6 +50,8 @@ def unregister(blender):
 _BEGAN = pytest.StashKey[float]()
 _MODELS = pytest.StashKey[tuple]()
 _STATUS = pytest.StashKey[int]()
+_WORKERS = pytest.StashKey[float]()
+TIME = "processor_seconds"
 
 
 def pytest_addoption(parser):
@@ -69,19 +71,36 @@ def pytest_collection_modifyitems(config, items):
     """Mark what the default tier leaves out, before pytest leaves it out."""
     if config.stash[_MODELS]:
         items[:] = tiers.of_models(items, config.stash[_MODELS])
-    config.stash[tiers.KEPT] = tiers.mark_the_rest(items)
+    tiers.mark_the_rest(items)
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_testnodedown(node):
+    """Add the processor time of a worker that has ended."""
+    seconds = getattr(node, "workeroutput", {}).get(TIME, 0.0)
+    node.config.stash[_WORKERS] = node.config.stash.get(_WORKERS, 0.0) + seconds
 
 
 def pytest_terminal_summary(terminalreporter, config):
-    """Print the seconds of the whole default tier beside its budget."""
+    """Print the seconds of the whole default tier beside its budget, and warn if they are more."""
     if "not full" in config.option.markexpr and config.args_source is config.ArgsSource.TESTPATHS:
         seconds = monotonic() - config.stash[_BEGAN]
-        terminalreporter.write_line(f"default tier: {seconds:.0f} s of a budget of {tiers.BUDGET} s on two cores")
+        used = tiers.processor_seconds() + config.stash.get(_WORKERS, 0.0)
+        line = f"default tier: {seconds:.0f} s; {used:.0f} s of the processors, of a budget of {2 * tiers.BUDGET}"
+        terminalreporter.write_line(line)
+        if used > 2 * tiers.BUDGET:
+            terminalreporter.write_line(
+                "WARNING: the default tier is over its budget: make its slowest tests cheaper, or mark them full "
+                "(--durations=20 lists them)",
+                yellow=True,
+            )
 
 
 def pytest_sessionfinish(session, exitstatus):
-    """Keep the status for the end."""
+    """Keep the status for the end; a worker hands its processor time in."""
     session.config.stash[_STATUS] = int(exitstatus)
+    if hasattr(session.config, "workeroutput"):
+        session.config.workeroutput[TIME] = tiers.processor_seconds()
 
 
 @pytest.hookimpl(trylast=True)

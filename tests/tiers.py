@@ -1,23 +1,22 @@
 """Which cases the default tier of tests has: what shows each thing once. All others are marked ``full``.
 
-A test with many cases keeps ``CASES`` of them, spread evenly from a place that its name gives, so that all tests
-together try every model, file and pass. A test marked ``one_for_each("key")`` keeps one case for each value of that
-parameter, and of the k-th value the k-th of its cases. A test that is slow and says little that is new is marked
-``full`` by hand, and one whose cases are slow ``cases(1)``.
+Of a test with many cases it has the first of each kind: where a parameter is a camera model, the first case of each
+group of models; of any other test the first ``CASES``. A test marked ``one_for_each("key")`` has the first case of each
+value of that parameter, a test marked ``cases(1)`` its first. A test that is slow and says little that is new is marked
+``full`` by hand. So no case depends on a name, and a case that is added at the end moves no other.
 """
 
 import importlib.util
+import os
 import sys
-from zlib import crc32
+from functools import cache
 
 import pytest
 
 CASES = 3
-"""Cases of one test in the default tier."""
-LIMIT = 3200
-"""Cases of all tests in the default tier, so that it stays within its budget."""
-BUDGET = 180
-"""Seconds of the default tier on two cores."""
+"""Cases of one test in the default tier, where its cases are of one kind."""
+BUDGET = 140
+"""Seconds of the default tier on two cores: of the processors, twice as many."""
 OUTSIDE = ("full", "hostile")
 """The marks of what the default tier leaves out."""
 FULL = (
@@ -29,8 +28,6 @@ SHARE = 4
 """The default tier tries one of so many generated examples."""
 is_full = True
 """Whether this run has the full tier, too."""
-KEPT = pytest.StashKey[int]()
-"""The number of cases that are kept of those that are collected."""
 
 
 def examples(count):
@@ -39,40 +36,56 @@ def examples(count):
 
 
 def mark_the_rest(items):
-    """Mark as ``full`` what the default tier leaves out of collected tests; return the number that it keeps."""
+    """Mark as ``full`` what the default tier leaves out of collected tests."""
     cases = {}
     for item in items:
         if item.nodeid.startswith(FULL):
             item.add_marker(pytest.mark.full)
         elif not any(item.get_closest_marker(mark) for mark in OUTSIDE):
             cases.setdefault(item.nodeid.split("[", 1)[0], []).append(item)
-    kept = 0
-    for name, group in cases.items():
-        mark = group[0].get_closest_marker("cases")
-        chosen = spread(group, name, mark.args[0]) if mark else one_for_each(group) or spread(group, name, CASES)
-        for item in set(group) - chosen:
-            item.add_marker(pytest.mark.full)
-        kept += len(chosen)
-    return kept
+    for group in cases.values():
+        kept = chosen(group)
+        for item in group:
+            if item not in kept:
+                item.add_marker(pytest.mark.full)
 
 
-def one_for_each(cases):
-    """The set of cases with each value of the marked parameter once, the others in turns; empty if there is none."""
-    mark = cases[0].get_closest_marker("one_for_each")
-    parameters = getattr(cases[0], "callspec", None)
-    values = {}
-    if mark and parameters and mark.args[0] in parameters.params:
-        for case in cases:
-            values.setdefault(str(case.callspec.params[mark.args[0]]), []).append(case)
-    return {those[k % len(those)] for k, those in enumerate(values.values())}
+def chosen(cases):
+    """The cases of one test that the default tier has."""
+    count = cases[0].get_closest_marker("cases")
+    if count:
+        return cases[: count.args[0]]
+    declared = cases[0].get_closest_marker("one_for_each")
+    if declared and declared.args[0] in _parameters(cases[0]):
+        return first_of_each(cases, lambda case: str(_parameters(case)[declared.args[0]]))
+    return first_of_each(cases, group_of_models) if group_of_models(cases[0]) else cases[:CASES]
 
 
-def spread(cases, name, count):
-    """The set of at most ``count`` cases, evenly apart."""
-    if len(cases) <= count:
-        return set(cases)
-    first = crc32(name.encode()) % len(cases)
-    return {cases[(first + k * len(cases) // count) % len(cases)] for k in range(count)}
+def first_of_each(cases, kind):
+    """The first case of each kind, which is a function of a case."""
+    first = {}
+    for case in cases:
+        first.setdefault(kind(case), case)
+    return list(first.values())
+
+
+def group_of_models(case):
+    """The group of the camera model that a parameter of this case is, or whose key it is; None if there is none."""
+    groups = groups_of_models()
+    return next((groups[word] for word in _words(case) if word in groups), None)
+
+
+@cache
+def groups_of_models():
+    """The group of each camera model, by the model and by its key."""
+    from camera_ray_caster.core.cameras import MODELS
+
+    return {word: model.group for model in MODELS for word in (model, model.key)}
+
+
+def processor_seconds():
+    """The time that this process and those that it has waited for took of the processors."""
+    return sum(os.times()[:4])
 
 
 def added_models(path):
@@ -98,7 +111,11 @@ def of_models(items, models):
     return [item for item in items if any(one is value or one == value for value in _words(item) for one in wanted)]
 
 
+def _parameters(item):
+    """The parameters of a test, by name."""
+    return item.callspec.params if hasattr(item, "callspec") else {}
+
+
 def _words(item):
     """The parameters of a test that are words or classes."""
-    parameters = item.callspec.params.values() if hasattr(item, "callspec") else ()
-    return [value for value in parameters if isinstance(value, str | type)]
+    return [value for value in _parameters(item).values() if isinstance(value, str | type)]

@@ -9,8 +9,6 @@ from functools import cache
 from importlib.util import find_spec
 from pathlib import Path
 
-from ..tiers import KEPT, LIMIT
-
 ROOT = Path(__file__).parents[2]
 PACKAGE = ROOT / "addon" / "camera_ray_caster"
 MODULES = sorted(PACKAGE.rglob("*.py"))
@@ -256,11 +254,6 @@ def is_wide(handler):
 def raises(handler):
     """Whether a handler raises an exception."""
     return any(isinstance(node, ast.Raise) for node in ast.walk(handler))
-
-
-def test_the_default_tier_of_tests_stays_small(request):
-    """What shows once more what is shown already is marked ``full``; here, unless only some tests are collected."""
-    assert request.config.stash[KEPT] <= LIMIT
 
 
 def test_one_version():
