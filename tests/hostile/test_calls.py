@@ -84,7 +84,7 @@ def calls(bpy, count):
     made = {"camera": camera, "shapes": shapes}
     cast = {
         "passes": ("depth",), "dtype": np.float32, "shading": "MATERIAL",
-        "samples": 2, "threads": 2, "cull": True, "precision": "AUTOMATIC", "progress": None,
+        "samples": 2, "threads": 2, "cull": True, "progress": None,
     }  # fmt: skip
     functions = [
         *((function, read) for function in (crc.read_camera, crc.read_shapes, crc.read_scene)),

@@ -169,7 +169,6 @@ OTHERS = {
     "resolution": ("--resolution", "16x12"),
     "format": ("--format", "npz"),
     "bits": ("--half",),
-    "precision": ("--precision", "fast"),
 }
 
 

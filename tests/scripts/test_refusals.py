@@ -26,7 +26,6 @@ WRONG_WORDS = {
 WRONG_FOR_CAST = {
     "no such pass": (["small.blend", "--passes", "depth,normals"], "unknown pass 'normals': did you mean normal?"),
     "no such shading": (["small.blend", "--shading", "toon"], "MATERIAL"),
-    "no such precision": (["small.blend", "--precision", "double"], "AUTOMATIC"),
     "frames backwards": (["small.blend", "--frames", "2:1"], "2:1 has no frames"),
     "frames without a step": (["small.blend", "--frames", "1:2:0"], "1:2:0 has the step 0"),
     "no such camera of several": (["small.blend", "--cameras", "Top", "Front"], "no camera 'Front'"),

@@ -17,7 +17,7 @@ from .casting.images import Images, check_reusable
 from .casting.needs import image_bytes, pictures
 from .casting.passes import PASSES
 from .casting.plan import Plan, make_plan
-from .casting.request import MATERIAL, PRECISIONS, Request, meaning
+from .casting.request import MATERIAL, Request
 from .casting.tiles import STEPS, Effort, Tile, cast_tile, in_threads, listening, moments, shares
 from .maths.speed import Scratch, processors
 from .records import Shapes
@@ -37,7 +37,7 @@ def cast(
     samples: int = 1,
     threads: int | None = None,
     cull: bool = True,
-    precision: str = "AUTOMATIC",
+    precision: str | None = None,
     progress: Callable[[float], bool] | None = None,
     finished: Callable[[Images, slice], None] | None = None,
     into: Images | None = None,
@@ -56,7 +56,7 @@ def cast(
         the camera's aperture. All other passes show the chief rays.
     threads: maximum number of threads, by default one per processor; fewer are used if they would wait for each other.
     cull: False tests every shape at every pixel: the same picture, but slower.
-    precision: accepted without effect; see PRECISIONS.
+    precision: without effect; accepted with a DeprecationWarning until version 0.4.
     progress: ``progress(fraction)`` is called in the calling thread after each tile, and twenty times a second; if it
         returns False, the cast stops before the next shape and raises Cancelled.
     finished: ``finished(images, rows)`` is called in the calling thread as soon as some rows, a slice, are complete in
@@ -66,7 +66,7 @@ def cast(
         without memory of another; other passes are removed, and its camera, shapes, plan and seconds are replaced. Its
         contents are undefined after Cancelled, and after an error while it is written.
 
-    Raises InputError for an unknown pass, shading or precision, for a dtype that is not a floating-point type, for a
+    Raises InputError for an unknown pass or shading, for a dtype that is not a floating-point type, for a
     number of samples or threads that is not whole or below 1, for more than MOST_SAMPLES samples, for flow to frames
     that were not read, for passes that need more memory than is available, and, before anything is written, for
     ``into`` that does not fit.
@@ -79,8 +79,8 @@ def cast(
     dtype = arguments.real_type(dtype, "dtype")
     progress, finished = arguments.function(progress, "progress"), arguments.function(finished, "finished")
     passes = arguments.words(passes, "passes", PASSES)
-    if arguments.word(precision, "precision", PRECISIONS) == "FAST":
-        warnings.warn(f"precision is {meaning(precision)}", stacklevel=2)
+    if precision is not None:
+        warnings.warn("precision has no effect; version 0.4 will refuse it", DeprecationWarning, stacklevel=2)
     request = Request(passes, tuple(PASSES), shading, arguments.flag(cull, "cull"))
     shape = camera.raster.shape
     if into is None:

@@ -9,7 +9,6 @@ from camera_ray_caster.blender.read.scene import read_camera, read_scene, read_s
 from camera_ray_caster.blender.ui import cast_operator
 from camera_ray_caster.core.cast import cast
 from camera_ray_caster.core.casting.passes import PASSES
-from camera_ray_caster.core.casting.request import PRECISIONS
 
 from .conftest import HEIGHT, WIDTH
 
@@ -73,27 +72,6 @@ def test_the_progress_of_two_views_is_one(blender, scene):
     assert seen == sorted(seen)
     assert any(fraction <= 0.5 for fraction in seen)
     assert max(seen) <= 1 < 2 * max(seen)
-
-
-def test_every_precision_of_a_file_means_float64_and_fast_says_so(blender, scene):
-    passes.tick(scene, blender.context.view_layer, ["depth"])
-    depth = cast(read_camera(scene), read_shapes(scene), ["depth"])["depth"]
-    for precision in PRECISIONS:
-        scene.camera_ray_caster.precision = precision
-        blender.ops.camera_ray_caster.cast()
-        found = pixels_of(blender.data.images[images.image_name("depth")])[..., 0]
-        assert np.array_equal(found, np.where(np.isinf(depth), np.float32(passes.FAR), depth))
-        said = "ROBUST, which FAST means" if precision == "FAST" else precision
-        assert reports.latest().precision.startswith(said)
-
-
-def test_the_precision_is_undone_as_other_settings_are(blender, scene):
-    assert scene.camera_ray_caster.precision == "AUTOMATIC"
-    blender.ops.ed.undo_push(message="before")
-    scene.camera_ray_caster.precision = "FAST"
-    blender.ops.ed.undo_push(message="after")
-    blender.ops.ed.undo()
-    assert blender.context.scene.camera_ray_caster.precision == "AUTOMATIC"
 
 
 def test_cast_again_writes_into_the_same_images(blender, scene):
@@ -224,7 +202,7 @@ def test_a_file_goes_without_the_add_on_and_comes_back_with_it(blender, scene, t
     """Blender keeps the settings of an add-on that is not there."""
     import camera_ray_caster
 
-    scene.camera_ray_caster.shading, scene.camera_ray_caster.precision = "GRID", "FAST"
+    scene.camera_ray_caster.shading = "GRID"
     scene.camera_ray_caster_overlay.show = True
     scene.render.engine = "CAMERA_RAY_CASTER"
     blender.data.objects["Suzanne"].camera_ray_caster.primitive = "SPHERE"
@@ -241,7 +219,7 @@ def test_a_file_goes_without_the_add_on_and_comes_back_with_it(blender, scene, t
         camera_ray_caster.register()
     blender.ops.wm.open_mainfile(filepath=path)
     scene = blender.context.scene
-    assert (scene.camera_ray_caster.shading, scene.camera_ray_caster.precision) == ("GRID", "FAST")
+    assert scene.camera_ray_caster.shading == "GRID"
     assert scene.camera_ray_caster_overlay.show
     assert blender.data.objects["Suzanne"].camera_ray_caster.primitive == "SPHERE"
     assert blender.ops.camera_ray_caster.cast() == {"FINISHED"}

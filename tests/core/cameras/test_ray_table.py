@@ -258,7 +258,7 @@ def test_a_report_states_the_errors_and_holds_small_tables_only():
         cam = crc.camera("RAY_TABLE", (24, 18), ray_directions=table)
         images = crc.cast(cam, shapes, passes="depth")
         seconds = dict.fromkeys(("read", *images.seconds), 0.0)
-        report = report_cast(cam, shapes, images, seconds, (), 1.0, "", precision="", accuracy=Accuracy())
+        report = report_cast(cam, shapes, images, seconds, (), 1.0, "", accuracy=Accuracy())
         assert any(line.startswith("  interpolation error  ") for line in as_lines(report))
         document = json.loads(as_json(report))
         assert (document["record"] is not None) == held

@@ -223,16 +223,11 @@ def test_what_is_not_needed_is_said():
     assert not any("eye" in line or "clip" in line for line in slanted.plan.left_out())
 
 
-@pytest.mark.parametrize("precision", ["AUTOMATIC", "ROBUST", "FAST"])
-def test_every_precision_means_float64_and_fast_says_so(precision, recwarn):
+def test_precision_has_no_effect_and_warns_until_it_goes():
     shapes = shapes_of((SPHERE, (0, 0, -5), 1.0))
-    images = cast(camera_at(), shapes, ("depth",), np.float64, precision=precision)
-    np.testing.assert_array_equal(images["depth"], cast(camera_at(), shapes, ("depth",), np.float64)["depth"])
-    assert [str(one.message) for one in recwarn] == (
-        ["precision is ROBUST, which FAST means: hits are searched in float64"] if precision == "FAST" else []
-    )
-    with pytest.raises(InputError, match="precision is 'DOUBLE'"):
-        cast(camera_at(), shapes, ("depth",), precision="DOUBLE")
+    with pytest.warns(DeprecationWarning, match="precision has no effect"):
+        images = cast(camera_at(), shapes, ("depth",), precision="FAST")
+    np.testing.assert_array_equal(images["depth"], cast(camera_at(), shapes, ("depth",))["depth"])
 
 
 def test_unknown_pass_and_shading_are_refused_by_name():

@@ -45,10 +45,10 @@ def report():
         notes=tuple((name, "its map is another") for name in ("A", "B", "C", "D", "E")),
         lights=Lights(left_out=(("Lamp", "its color is not finite"),)),
     )
-    images = cast(camera(), shapes, ("depth",), precision="ROBUST")
+    images = cast(camera(), shapes, ("depth",))
     seconds = {"read": 0.5, "plan": 0.01, "cast": 0.02, "passes": 0.03, "write": 0.25}
     bounds = accuracy(camera(), shapes, images.plan)
-    return report_cast(camera(), shapes, images, seconds, [GOOD], 1.5, "Layer", precision="ROBUST", accuracy=bounds)
+    return report_cast(camera(), shapes, images, seconds, [GOOD], 1.5, "Layer", accuracy=bounds)
 
 
 def strict(text):
@@ -88,9 +88,7 @@ def test_of_several_layers_each_is_named_beside_what_it_did_not_do(report):
     assert any(line.startswith("passes combined") for line in report.not_done)
     images = cast(camera(), Shapes(*(np.zeros((0, *s)) for s in ((), (3,), (3, 3), (), (), (4,), ()))), ("depth",))
     nothing = Shapes(*(np.zeros(0),) * 7)
-    several = report_cast(
-        camera(), nothing, images, {}, [], 1.0, "Layer", several=True, precision="FAST", accuracy=Accuracy()
-    )
+    several = report_cast(camera(), nothing, images, {}, [], 1.0, "Layer", several=True, accuracy=Accuracy())
     assert several.not_done
     assert all(line.startswith("Layer: ") for line in several.not_done)
 
@@ -100,8 +98,8 @@ def test_lights_are_left_out_of_a_picture_alone():
     shapes = replace(no_shapes(), lights=Lights(left_out=(("Lamp", "its color is not finite"),)))
     for passes, left_out in ((("depth",), ()), (("depth", "combined"), shapes.lights.left_out)):
         images = cast(camera(), shapes, passes)
-        words = {"precision": "FAST", "accuracy": Accuracy()}
-        assert report_cast(camera(), shapes, images, {}, [], 1.0, "Layer", **words).left_out == left_out
+        report = report_cast(camera(), shapes, images, {}, [], 1.0, "Layer", accuracy=Accuracy())
+        assert report.left_out == left_out
 
 
 def test_json_is_strict_and_holds_the_record(report):
@@ -160,7 +158,6 @@ def test_the_bounds_of_hits_are_in_table_and_json_with_their_units(report):
     bounds = np.array([[1e-15, 2e-15, 3e-15, 4e-15], [5e-15, 6e-15, 7e-15, 8e-15], [9e-15, 1e-14, 2e-14, np.inf]])
     report = replace(report, accuracy=Accuracy(10, bounds))
     data = strict(as_json(report))
-    assert data["precision"] == "ROBUST"
     found = data["accuracy"]
     assert (found["sampled_pixels"], found["hits"]) == (10, 3)
     assert found["distance"] == {"unit": "world units", "median_bound": 5e-15, "worst_bound": 9e-15}

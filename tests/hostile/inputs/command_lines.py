@@ -26,7 +26,7 @@ WRONG = {
         ("--frames", "2:1"), ("--frames", ":"), ("--frames", "1"), ("--frames", "1:2:0"), ("--frames", "-9999999:1"),
         ("--frames", "a:b"), ("--frames", "1" * 5000 + ":2"), ("--frames", "1:" + "9" * 20), ("--passes", ""),
         ("--passes", "depth,,"), ("--passes", "\n"), ("--passes", "combined," * 999 + "z"), ("--shading", "toon"),
-        ("--precision", "double"), ("--output", ""), ("--output", "/proc/x"), ("--output", "/dev/null"),
+        ("--output", ""), ("--output", "/proc/x"), ("--output", "/dev/null"),
         ("--output", "/dev/null/x"), ("--output", "x" * 300), ("--output",),
         ("--output", "x/" * 3000),
     ),

@@ -15,7 +15,6 @@ from ...core.camera.stereo import eye_record
 from ...core.cast import Images, cast
 from ...core.casting.images import reusable
 from ...core.casting.needs import frames_of, image_bytes
-from ...core.casting.request import meaning
 from ...core.memory import of_pixels, require
 from ...core.records import Finding, Shapes
 from ...core.report.accuracy import accuracy
@@ -35,7 +34,6 @@ class Job:
     passes: Sequence[str]
     shading: str
     samples: int
-    precision: str
     findings: list[Finding]
     seconds: dict[str, float]
     frame: float
@@ -74,7 +72,7 @@ class Job:
         frame, layer = frame_of(scene), depsgraph.view_layer_eval.name
         several = sum(layer.use for layer in scene.view_layers) > 1
         settings = scene.camera_ray_caster
-        shading, samples, precision = settings.shading, settings.samples, settings.precision
+        shading, samples = settings.shading, settings.samples
         if found.camera.pixel_time is not None or frames_of(passes):
             visit = visit or partial(go_to, depsgraph.scene)
             try:
@@ -89,7 +87,6 @@ class Job:
             passes=passes,
             shading=shading,
             samples=samples,
-            precision=precision,
             findings=findings,
             seconds={"read": read - started + moved - verified, "verify": verified - read},
             frame=frame,
@@ -127,7 +124,7 @@ class Job:
         seconds = {**self.seconds, **images.seconds, "accuracy": perf_counter() - began}
         report = report_cast(
             self.camera, self.shapes, images, seconds, self.findings, self.frame, self.layer, self.several,
-            precision=meaning(self.precision), accuracy=bounds, host=self.host,
+            accuracy=bounds, host=self.host,
         )  # fmt: skip
         return images, report
 

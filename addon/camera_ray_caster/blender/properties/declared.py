@@ -20,6 +20,7 @@ ENGINE = "CAMERA_RAY_CASTER"
 BLENDERS_OWN = "BLENDER"
 """Item of MODEL for the model of Blender's own camera type."""
 
+
 def _models() -> list[Item]:
     models = sorted(MODELS, key=lambda it: GROUPS.index(it.group))
     return [
@@ -85,15 +86,6 @@ SAMPLES = Whole(
                           "camera's aperture",
     1, 1, soft_high=256,
 )  # fmt: skip
-PRECISION = Choice(
-    "precision", "Precision", "Without effect, kept for files of version 0.1: hits are always computed in float64",
-    "AUTOMATIC",
-    (
-        Item("AUTOMATIC", "Automatic", "Same as Robust", 0),
-        Item("ROBUST", "Robust", "float64, with measured error bounds of about 1e-14 of the distance", 1),
-        Item("FAST", "Fast", "Same as Robust", 2),
-    ),
-)  # fmt: skip
 EXACT_SHAPES = Flag(
     "exact_shapes", "Exact Shapes",
     "Cast meshes that are spheres or planes as exact shapes. If disabled, they are cast as triangles, except objects "
@@ -103,5 +95,5 @@ EXACT_SHAPES = Flag(
 PASSES = tuple(Flag(one.tick, one.label, one.text, False) for one in passes.PASSES if one.own)
 """Check boxes of the passes that Blender does not have."""
 
-SCENE = (SHADING, SAMPLES, PRECISION, EXACT_SHAPES, *PASSES)
+SCENE = (SHADING, SAMPLES, EXACT_SHAPES, *PASSES)
 """Settings in ``scene.camera_ray_caster``."""

@@ -14,7 +14,7 @@ from ...core.any_rays.sweep import check_passes
 from ...core.camera.camera import Camera
 from ...core.cast import Images
 from ...core.casting.passes import PASSES
-from ...core.casting.request import PRECISIONS, SHADINGS
+from ...core.casting.request import SHADINGS
 from ...core.names import file_names, frame_digits
 from ...core.records import InputError
 from ...core.report.report import Report
@@ -64,8 +64,6 @@ def add_words(parser) -> None:
     parser.add_argument(
         "--shading", type=str.upper, choices=SHADINGS, help="shading of the combined pass; default: the file's"
     )
-    parser.add_argument("--precision", type=str.upper, choices=PRECISIONS,
-                        help="kept for scripts of version 0.1: all words mean ROBUST, float64")  # fmt: skip
     parser.add_argument("--engine", type=str.upper, choices=ENGINES, default=ENGINES[0],
                         help="engine that renders the combined pass; the add-on casts the other passes; "
                              "default: %(default)s")  # fmt: skip
@@ -133,9 +131,8 @@ class Pictures:
         for layer, own in self.passes.items():
             if options.passes or own == ["combined"]:
                 self.passes[layer] = list(options.passes or DEFAULT_PASSES)
-        for setting in ("shading", "precision"):
-            if getattr(options, setting):
-                setattr(scene.camera_ray_caster, setting, getattr(options, setting))
+        if options.shading:
+            scene.camera_ray_caster.shading = options.shading
 
     @property
     def keypoints(self) -> list[str] | None:

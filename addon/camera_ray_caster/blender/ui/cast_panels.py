@@ -62,7 +62,7 @@ class SidebarPasses(Sidebar, bpy.types.Panel):
 
 
 class SidebarQuality(Sidebar, bpy.types.Panel):
-    """Shading, samples and precision."""
+    """Shading, samples and exact shapes."""
 
     bl_idname = "CAMERA_RAY_CASTER_PT_cast_settings"
     bl_label = "Shading"

@@ -12,16 +12,6 @@ MATERIAL, GRID = "MATERIAL", "GRID"
 SHADINGS = (MATERIAL, GRID)
 """Shadings of the combined pass: see ``shading``."""
 
-PRECISIONS = ("AUTOMATIC", "ROBUST", "FAST")
-"""Words that ``cast`` and files may have for the precision of the search for hits. All mean float64: float32 gained
-1.05 to 1.15 times, and its error bound was never within the rounding of a stored float32.
-"""
-
-
-def meaning(precision: str) -> str:
-    """Return what a word of PRECISIONS means, for reports: for FAST, which once was float32, in a few words."""
-    return "ROBUST, which FAST means: hits are searched in float64" if precision == "FAST" else precision
-
 
 @dataclass(frozen=True)
 class Request:

@@ -60,8 +60,6 @@ class Report:
     """Objects whose mesh is a sphere or plane and was cast as such: see ``Shapes``."""
     motion: tuple[str, ...] = ()
     """For pixels with their own times: the number of evaluations of the scene, and the accuracy between them."""
-    precision: str = ""
-    """Precision setting of the search for hits; empty if nothing was cast."""
     accuracy: Accuracy = field(default_factory=Accuracy)
     """Error bounds of the hits."""
     file_outputs: tuple[str, ...] = ()
@@ -130,7 +128,6 @@ def report_cast(
     layer: str,
     several: bool = False,
     *,
-    precision: str,
     accuracy: Accuracy,
     host: Mapping[str, Any] | None = None,
 ) -> Report:
@@ -150,7 +147,6 @@ def report_cast(
         notes=shapes.notes,
         exact=_union(shapes.exact, ()),
         motion=tuple(motion.in_words()) if motion is not None else (),
-        precision=precision,
         accuracy=accuracy,
         host=host or {},
         record=recorded(camera) if _has_record(camera) else None,
