@@ -22,7 +22,7 @@ root_doc = "docs/index"
 include_patterns = [
     "docs/**.md",
     "README.md", "CONTRIBUTING.md", "CHANGELOG.md", "addon/README.md", "scripts/README.md", "blend_scenes/README.md",
-    "addon/camera_ray_caster/core/cameras/files/README.md", "addon/camera_ray_caster/core/cameras/README.md",
+    "addon/camera_ray_caster/core/programs/README.md", "addon/camera_ray_caster/core/cameras/README.md",
     "addon/camera_ray_caster/blender/read/README.md",
 ]  # fmt: skip
 exclude_patterns = [".venv*", "out", "dist", "build", "docs/lesson"]

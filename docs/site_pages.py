@@ -30,7 +30,7 @@ CONTENTS = {
     ),
     "Look up": (
         "cameras/index", "conventions", "python", "terminal", "api/index", "formats",
-        "/addon/camera_ray_caster/core/cameras/files/README", "/addon/camera_ray_caster/blender/read/README",
+        "/addon/camera_ray_caster/core/programs/README", "/addon/camera_ray_caster/blender/read/README",
         "/blend_scenes/README",
     ),
     "Measured": ("accuracy", "/scripts/README"),

@@ -41,7 +41,7 @@ def main() -> int | str:
     parser.add_argument("--check", action="store_true", help="write nothing; exit status 1 if it is not up to date")
     texts = {
         CAMERAS / "README.md": pages.models(),
-        CAMERAS / "files" / "README.md": pages.files(),
+        CAMERAS.parent / "programs" / "README.md": pages.files(),
         ROOT / "docs" / "pictures" / "architecture.svg": architecture.picture(TABLE),
         ROOT / "docs" / "lesson" / "index.html": lesson_page(),
     }

@@ -10,9 +10,9 @@ from pathlib import Path
 from camera_ray_caster.core.camera import pixel_time
 from camera_ray_caster.core.cameras import MODELS
 from camera_ray_caster.core.cameras.model import GROUPS, Model
-from camera_ray_caster.core.cameras.parts.programs import PROGRAMS, ProgramFiles
 from camera_ray_caster.core.cameras.parts.settings import OWN, Coefficients, Setting
 from camera_ray_caster.core.exports import FORMATS
+from camera_ray_caster.core.programs.table import PROGRAMS, ProgramFiles
 from camera_ray_caster.core.sets import SET_FORMATS
 
 HEAD = """\
@@ -33,7 +33,7 @@ With any model each pixel may have its own time: `time_mode` is one of these.
 FILES = """\
 # Files of cameras
 
-Made by `python scripts/make_docs.py` from [programs.py](../parts/programs.py).
+Made by `python scripts/make_docs.py` from [table.py](table.py).
 
 ## Calibrations
 

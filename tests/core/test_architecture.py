@@ -19,7 +19,8 @@ LOW = {
     "core.conventions", "core.tuning", "core.materials", "core.mesh", "core.timeline", "core.records", "core.arguments",
     "core.memory", "core.maths",
 }  # fmt: skip
-RAYS = LOW | {"core.cameras", "core.camera"}
+FILES = {"core.programs", "core.text_forms"}
+RAYS = LOW | {"core.cameras", "core.camera"} | FILES
 HITS = RAYS | {"core.scene", "core.motion", "core.shapes", "core.errors", "core.casting"}
 READ = {"core", "blender.properties", "blender.process", "blender.read"}
 RENDER = READ | {"blender.cycles", "blender.verification", "blender.output"}
@@ -38,6 +39,8 @@ MAY_IMPORT = {
     "core.version": set(),
     "core.maths": {"core.conventions", "core.maths"},
     "core.cameras": LOW | {"core.cameras"},
+    "core.text_forms": {"core.memory", "core.records", "core.text_forms"},
+    "core.programs": LOW | FILES | {"core.cameras"},
     "core.camera": RAYS,
     "core.shapes": LOW | {"core.shapes"},
     "core.errors": RAYS | {"core.shapes", "core.errors"},

@@ -15,12 +15,12 @@ import bpy
 import numpy as np
 from mathutils import Quaternion
 
-from ..core.cameras.files.document import Lens
-from ..core.cameras.files.mounted import Mounted, mounted
-from ..core.cameras.files.placed import FROM_BLENDER
-from ..core.cameras.files.rigs import beside
 from ..core.cameras.parts.calibration import FILE, FILE_CAMERA
 from ..core.maths.rotations import polar, quaternion
+from ..core.programs.parts.document import Lens
+from ..core.programs.parts.placed import FROM_BLENDER
+from ..core.programs.reading.mounted import Mounted, mounted
+from ..core.programs.reading.poses import beside
 from ..core.records import InputError
 from .properties.calibration import READING, set_lens, settings_in
 from .properties.declared import GROUP, MODEL

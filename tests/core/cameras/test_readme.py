@@ -5,8 +5,8 @@ from pathlib import Path
 
 from camera_ray_caster.core.camera import pixel_time
 from camera_ray_caster.core.cameras import MODELS
-from camera_ray_caster.core.cameras.parts.programs import FILE_WRITERS, PROGRAMS
 from camera_ray_caster.core.exports import FORMATS
+from camera_ray_caster.core.programs.table import FILE_WRITERS, PROGRAMS
 
 PAGES = runpy.run_path(str(Path(__file__).parents[3] / "scripts" / "make" / "pages.py"))
 

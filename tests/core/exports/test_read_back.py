@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from camera_ray_caster.core.cameras.files import lenses_of
 from camera_ray_caster.core.exports import FORMATS
+from camera_ray_caster.core.programs.reading.lenses import lenses_of
 
 from ..cameras.model_examples import camera
 from .shots import CAMERAS, exported, shots, views

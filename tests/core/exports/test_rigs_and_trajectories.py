@@ -6,10 +6,10 @@ from math import atan
 import numpy as np
 import pytest
 
-from camera_ray_caster.core.cameras.files.mounted import mounted
 from camera_ray_caster.core.exports import export
 from camera_ray_caster.core.exports.format import Shot
 from camera_ray_caster.core.exports.rigid import with_rotation
+from camera_ray_caster.core.programs.reading.mounted import mounted
 from camera_ray_caster.core.records import InputError
 
 from ..cameras.model_examples import camera

@@ -4,10 +4,10 @@ from typing import Any
 
 from ...core.camera.calibration_file import FRAMES_SIZE, chosen_lens, has_size, model_of
 from ...core.cameras import MODELS
-from ...core.cameras.files import lenses_of
-from ...core.cameras.files.document import Lens
 from ...core.cameras.parts.calibration import FILE, FILE_CAMERA, FROM_FILE
 from ...core.cameras.parts.settings import CAMERA, OWN
+from ...core.programs.parts.document import Lens
+from ...core.programs.reading.lenses import lenses_of
 from ...core.records import InputError
 from .declared import BLENDERS_OWN, GROUP, MODEL
 from .owners import owner_of

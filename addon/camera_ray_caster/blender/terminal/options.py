@@ -11,7 +11,7 @@ from textwrap import fill
 import bpy
 
 from ...core.camera.calibration_file import FRAMES_SIZE
-from ...core.cameras.parts.programs import FILE_WRITERS
+from ...core.programs.table import FILE_WRITERS
 from ...core.records import InputError
 from ...core.report.report import WIDTH, Report, as_json, as_lines
 from ..engine.engine import CameraRayCaster

@@ -8,8 +8,8 @@ from bpy.props import BoolProperty, StringProperty
 
 from ...core.camera.facts import camera_facts
 from ...core.cameras.parts.calibration import SIZE
-from ...core.cameras.parts.programs import FILE_WRITERS
 from ...core.exports.camera_json import recorded
+from ...core.programs.table import FILE_WRITERS
 from ...core.records import InputError
 from ...core.report.report import Report, as_json
 from ..output import reports

@@ -5,11 +5,11 @@ from __future__ import annotations
 from dataclasses import replace
 
 from ..cameras import MODELS
-from ..cameras.files import lenses_of
-from ..cameras.files.document import FRAME_SIZE, Lens
 from ..cameras.model import Model
 from ..cameras.parts.calibration import CENTER, FILE, FILE_CAMERA, SIZE
 from ..cameras.parts.settings import RECORD_FIELDS
+from ..programs.parts.document import FRAME_SIZE, Lens
+from ..programs.reading.lenses import lenses_of
 from ..records import BlenderCamera, InputError, Raster
 
 FRAMES_SIZE = "the file does not tell the size of its pictures: it is taken to be the frame's"

@@ -8,7 +8,7 @@ Reference: BOP toolkit documentation, BOP dataset format.
 
 from __future__ import annotations
 
-from ..cameras.files.document import matrix_of
+from ..programs.parts.document import matrix_of
 from . import lenses
 from .format import Shot
 from .plain import as_text

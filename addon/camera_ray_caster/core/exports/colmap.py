@@ -11,10 +11,10 @@ from math import pi
 
 import numpy as np
 
-from ..cameras.files.colmap import MODELS, SPHERE
-from ..cameras.files.document import Lens, matrix_of
 from ..conventions import EPS32
 from ..maths.rotations import quaternion
+from ..programs.colmap import MODELS, SPHERE
+from ..programs.parts.document import Lens, matrix_of
 from . import lenses
 from .format import Shot
 

@@ -11,8 +11,8 @@ import json
 
 import numpy as np
 
-from ..cameras.files.document import matrix_of
-from ..cameras.files.kalibr import DISTORTIONS, SHAPES
+from ..programs.kalibr import DISTORTIONS, SHAPES
+from ..programs.parts.document import matrix_of
 from ..records import InputError
 from . import lenses
 

@@ -1,6 +1,6 @@
 """A camera's lens as a calibration: the same record that is read from calibration files.
 
-Each format has a table of its models, with the settings of our models that each of them can store (``cameras.files``).
+Each format has a table of its models, with the settings of our models that each of them can store (``core.programs``).
 A lens is written as the first model in the table that can store all of its nonzero settings.
 """
 
@@ -12,7 +12,6 @@ from typing import Any, ClassVar
 
 from ..camera.camera import Camera
 from ..cameras.equirectangular import Equirectangular
-from ..cameras.files.document import Lens
 from ..cameras.fisheye_equidistant import FisheyeEquidistant
 from ..cameras.fisheye_stereographic import FisheyeStereographic
 from ..cameras.model import WindowModel
@@ -20,6 +19,7 @@ from ..cameras.opencv_pinhole import OpencvPinhole
 from ..cameras.parts.calibrated import Calibrated
 from ..cameras.parts.calibration import CALIBRATION
 from ..cameras.perspective import Perspective
+from ..programs.parts.document import Lens
 from .format import OWN_TIMES, Format, Shot
 
 MATRIX = "fx", "fy", "cx", "cy"

@@ -7,9 +7,9 @@ Reference: mrcal documentation, Lens models; The .cameramodel file format.
 
 from __future__ import annotations
 
-from ..cameras.files.document import Lens, matrix_of
-from ..cameras.files.mrcal import LONLAT, MODELS, STEREOGRAPHIC
 from ..maths.rotations import half_turn_vector
+from ..programs.mrcal import LONLAT, MODELS, STEREOGRAPHIC
+from ..programs.parts.document import Lens, matrix_of
 from . import lenses
 
 TABLE = {kind: one for kind, one in MODELS.items() if kind != STEREOGRAPHIC} | {

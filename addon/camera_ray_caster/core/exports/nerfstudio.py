@@ -10,8 +10,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..cameras.files.document import matrix_of
-from ..cameras.files.nerfstudio import MODELS
+from ..programs.nerfstudio import MODELS
+from ..programs.parts.document import matrix_of
 from ..records import InputError
 from . import lenses
 from .format import Shot

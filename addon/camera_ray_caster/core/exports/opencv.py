@@ -13,9 +13,9 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ..cameras.files.document import matrix_of
-from ..cameras.files.opencv import TERMS
 from ..maths.rotations import half_turn_vector
+from ..programs.opencv import TERMS
+from ..programs.parts.document import matrix_of
 from . import lenses
 from .format import Shot
 

@@ -8,8 +8,8 @@ from __future__ import annotations
 
 import json
 
-from ..cameras.files.document import matrix_of
-from ..cameras.files.opencv import TERMS
+from ..programs.opencv import TERMS
+from ..programs.parts.document import matrix_of
 from . import lenses
 from .format import Shot
 

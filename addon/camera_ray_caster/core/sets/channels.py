@@ -12,9 +12,9 @@ from typing import Any
 
 import numpy as np
 
-from ..cameras.files import ray_exr
 from ..casting.passes import PASSES
 from ..names import file_names
+from ..programs import ray_exr
 from ..records import InputError
 
 COMPOSITE = "Composite"

@@ -17,7 +17,6 @@ from ...maths.recording.scalars import largest
 from ...records import BlenderCamera, InputError, Raster
 from .affine import AffineWindow
 from .film import FARTHEST_PIXELS, FILM, LENS, OFF_AXIS, Film, Window
-from .programs import FILE_WRITERS
 from .settings import Choice, FilePath, Item, Number, Text, Whole
 
 MILLIMETERS = "MILLIMETERS"
@@ -61,7 +60,7 @@ SIZE = (
     ),
 )
 FILE = FilePath(
-    "calibration_file", "Calibration", f"Calibration file of {FILE_WRITERS}. If empty, the numbers below are used", ""
+    "calibration_file", "Calibration", "Calibration file of another program. If empty, the numbers below are used", ""
 )
 FILE_CAMERA = Text(
     "calibration_camera", "Camera in File", "Name of the camera in a calibration file that has several cameras", ""

@@ -1,0 +1,52 @@
+"""The generic cameras of T. Schöps et al.: intrinsicsN.yaml, a grid of control points of a uniform cubic B-spline.
+
+Pixels are measured from the top left corner, y down; rays have y down and z ahead. On the grid g = 1 + (grid_width - 3)
+(x - min) / (max + 1 - min), so that the outermost control points lie beyond the calibrated area, which has all rays.
+References: T. Schöps et al., Why having 10,000 parameters in your camera model is better than twelve, CVPR 2020; the
+program camera_calibration.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .parts.document import Document, Lens
+from .ray_arrays import table
+
+GRIDS = {"CentralGenericModel": ("grid", ""), "NoncentralGenericModel": ("direction_grid", "point_grid")}
+"""Names of the grids of directions and of points, by the model's type in the file."""
+
+
+def read(document: Document, key: str) -> list[Lens] | None:
+    """Return the lens of a document; see the package."""
+    entries = document.entries
+    kind = entries.get("type")
+    if not isinstance(kind, str) or kind not in GRIDS:
+        return None
+    wide, high = (_count(document, f"grid_{side}", 4) for side in ("width", "height"))
+    width, height = (_count(document, side, 1) for side in ("width", "height"))
+    ends = []
+    for axis, count, side in (("x", wide, width), ("y", high, height)):
+        low, high_end = (document.number(entries, f"calibration_{end}_{axis}") for end in ("min", "max"))
+        cell = (high_end + 1 - low) / (count - 3)
+        if not cell > 0:
+            least = f"calibration_min_{axis}, {low:g}"
+            raise document.refusal(f"calibration_max_{axis} is {high_end:g}: it must not be below {least}")
+        ends.append(((low - 1.5 * cell) / side, (low + (count - 1.5) * cell) / side))
+    (left, right), (top, bottom) = ends
+    directions, points = (
+        None if not name else
+        np.array(document.numbers(entries.get(name), name, 3 * wide * high)).reshape(high, wide, 3)[::-1].copy()
+        for name in GRIDS[kind]
+    )  # fmt: skip
+    assert directions is not None
+    lens = table(document, directions, points, np.array((left, 1 - bottom, right, 1 - top)))
+    size = {"calibration_width": float(width), "calibration_height": float(height)}
+    return [lens._replace(settings=lens.settings | size | {"ray_axes": "OPENCV", "ray_interpolation": "SPLINE"})]
+
+
+def _count(document: Document, name: str, least: int) -> int:
+    found = document.number(document.entries, name)
+    if found % 1 or found < least:
+        raise document.refusal(f"{name} is {found:g}: it must be a whole number from {least}")
+    return int(found)

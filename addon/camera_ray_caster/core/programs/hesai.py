@@ -1,0 +1,44 @@
+"""Hesai's angle correction files, CSV: a channel, its elevation and its azimuth in a line, degrees.
+
+The first line names the columns, after a line EEFF,1,1 in some files. Channels count from 1. The azimuth is added to
+the head's. All beams leave the center. The files tell neither columns nor times: all beams of a column fire at once,
+and columns are those of 10 sweeps a second, 2000 of up to 32 channels and 1800 of more.
+Reference: Hesai, Pandar128 and PandarXT User Manuals, Channel Distribution.
+"""
+
+from __future__ import annotations
+
+from ..cameras.parts.devices import numbers_as_text
+from ..cameras.parts.scanners import AZIMUTHS, COLUMNS, ELEVATIONS
+from .parts.document import Document, Lens, numbers_of
+
+HEADS = ["channel", "elevation", "azimuth"], ["laser id", "elevation", "azimuth"]
+FEW = 32
+"""Number of channels of the sensors with a step of 0.18 degrees, not 0.2."""
+
+
+def read(document: Document, key: str) -> list[Lens] | None:
+    """Return the scanner of a document; see the package."""
+    if b"levation" not in document.data[:256]:
+        return None
+    lines = [[cell.strip() for cell in line.split(",")] for line in document.text.splitlines() if line.strip(" ,")]
+    head = next((k for k, line in enumerate(lines[:2]) if [cell.lower() for cell in line[:3]] in HEADS), None)
+    if head is None:
+        return None
+    rows = []
+    for line in lines[head + 1 :]:
+        document.check()
+        numbers = numbers_of(line[:3])
+        if len(numbers) != 3:
+            raise document.refusal(f"line {', '.join(line)[:60]!r} is not a channel, an elevation and an azimuth")
+        rows.append(numbers)
+    if not rows:
+        raise document.refusal("it has no channels")
+    rows.sort()
+    if [channel for channel, *_ in rows] != list(range(1, len(rows) + 1)):
+        raise document.refusal(f"its {len(rows)} channels are not 1 to {len(rows)}, each once")
+    _, elevations, azimuths = zip(*rows, strict=True)
+    return [Lens("", "SCANNER", {
+        ELEVATIONS.name: numbers_as_text(elevations), AZIMUTHS.name: numbers_as_text(azimuths),
+        COLUMNS.name: 2000 if len(rows) <= FEW else 1800,
+    })]  # fmt: skip

@@ -1,0 +1,96 @@
+"""KITTI's calibrations and poses: calib_cam_to_cam.txt of its raw data, perspective.txt of KITTI-360, the calib.txt of
+its benchmarks, which have a file for each picture, too, and poses.txt of its odometry.
+
+A line of a calibration is a name, a colon and numbers. Camera 02 of the raw data has the size S_02, the matrix K_02,
+the distortion D_02 as OpenCV's, and R_02 and T_02, from the frame of camera 00 to its own; rectified it has S_rect_02
+and the matrix P_rect_02, from the frame of camera 00 after its turn by R_rect_00. The benchmarks have P0 to P3 alone,
+which are those matrices, without sizes. A lens is named after its matrix. The center of the first pixel is (0, 0).
+A line of poses.txt has the rows of a matrix (3, 4), from the camera to the world; the first is frame 1.
+References: A. Geiger, P. Lenz, C. Stiller and R. Urtasun, Vision meets Robotics: The KITTI Dataset (2013); the
+development kits of KITTI's raw data and odometry; KITTI-360 documentation.
+"""
+
+from __future__ import annotations
+
+import re
+from functools import partial
+
+import numpy as np
+
+from . import opencv
+from .parts.document import Document, Lens, numbers_of, one_of_several
+from .parts.placed import Placed, checked, inverted, pose_of
+
+LINE = re.compile(r"^(P\d|[SKDRT]_\d\d|[SRP]_rect_\d\d):[ \t]+(\S+[ \t]+[^\s#].*)$", re.MULTILINE)
+"""A line of a name and two words or more: one number named P1 is a coefficient of other formats."""
+LENS = re.compile(r"P\d|K_\d\d|P_rect_\d\d")
+"""Names of the matrices that are lenses."""
+REFERENCE = "R_rect_00"
+POSE = 12
+"""Numbers of a line of poses."""
+LONGEST = 1000
+"""Characters in which such a line ends."""
+
+
+def read(document: Document, key: str) -> list[Lens] | None:
+    """Return the lenses of a document; see the package."""
+    lines = _lines(document)
+    return [one_of_several(name, _lens, document, lines, name) for name in lines if LENS.fullmatch(name)] or None
+
+
+def poses(document: Document) -> list[Placed] | None:
+    """Return the poses of a document: those of the cameras of a calibration, in the frame of the first one, or of
+    poses.txt; None of any other file. Raises InputError.
+    """
+    first = document.text[:LONGEST].strip().partition("\n")[0].split()
+    if len(first) == len(numbers_of(first)) == POSE:
+        rows = [line.split() for line in document.text.splitlines() if line.strip()]
+        return [_moved(document, number, row) for number, row in enumerate(rows, 1)]
+    lines = _lines(document)
+    return [Placed(lens.name, "", None, _pose(document, lines, lens)) for lens in read(document, "") or ()] or None
+
+
+def _lines(document: Document) -> dict[str, list[str]]:
+    """Return the words of each line of a calibration by its name."""
+    return {name: words.split() for name, words in LINE.findall(document.text)}
+
+
+def _lens(document: Document, lines: dict[str, list[str]], name: str) -> Lens:
+    """Return a lens, which is OpenCV's pinhole."""
+    kind, _, number = name.rpartition("_")
+    numbers = partial(_numbers, document, lines)
+    matrix = numbers(name, 9) if kind == "K" else np.reshape(numbers(name, 12), (3, 4))[:, :3].ravel().tolist()
+    entries: dict = {"camera_matrix": matrix, "distortion_model": "plumb_bob"}
+    size = f"S{kind[1:]}_{number}"
+    if kind and size in lines:
+        entries |= zip(("image_width", "image_height"), numbers(size, 2), strict=True)
+    if kind == "K":
+        entries["distortion_coefficients"] = numbers(f"D_{number}", 5)
+    return (opencv.read(document.part(entries), "") or [])[0]._replace(name=name)
+
+
+def _pose(document: Document, lines: dict[str, list[str]], lens: Lens) -> np.ndarray:
+    """Return the pose of a camera in the frame of camera 00, before it was rectified if the file tells both."""
+    if lens.refusal is not None:
+        raise lens.refusal
+    name = lens.name
+    kind, _, number = name.rpartition("_")
+    if kind == "K":
+        turn, move = _numbers(document, lines, f"R_{number}", 9), _numbers(document, lines, f"T_{number}", 3)
+        rows = np.column_stack((np.reshape(turn, (3, 3)), move))
+        return inverted(pose_of(document, rows.ravel().tolist(), f"R_{number} and T_{number}"))
+    matrix, turned = np.reshape(_numbers(document, lines, name, 12), (3, 4)), np.eye(4)
+    if kind and REFERENCE in lines:
+        turned[:3, :3] = np.reshape(_numbers(document, lines, REFERENCE, 9), (3, 3))
+    moved = np.eye(4)
+    moved[:3, 3] = np.linalg.solve(matrix[:, :3], matrix[:, 3])
+    return inverted(moved @ checked(document, turned, REFERENCE))
+
+
+def _moved(document: Document, number: int, row: list[str]) -> Placed:
+    document.check()
+    return Placed("", "", float(number), pose_of(document, row, f"pose {number}"), moves=True)
+
+
+def _numbers(document: Document, lines: dict[str, list[str]], name: str, count: int) -> list[float]:
+    return document.numbers(lines.get(name), name, count)

@@ -1,0 +1,49 @@
+"""OCamCalib's calib_results.txt: five lines of numbers, with comments between them; and the same as JSON.
+
+The lines are the polynomial after its number of coefficients, the inverse polynomial, which is not needed, the center
+(row, column), the affine terms c, d and e, and the picture's height and width.
+The JSON of data sets of head-mounted cameras has the polynomial as polynomialC2W, and image_center and size as x and y.
+The center of the first pixel is (0, 0).
+Reference: D. Scaramuzza, OCamCalib: Omnidirectional Camera Calibration Toolbox for Matlab.
+"""
+
+from __future__ import annotations
+
+import re
+
+from .parts.document import Document, Lens
+
+BEGIN, COMMENT = re.compile(r"\d+\s+[-+.\d]"), "#polynomial"
+"""Pattern of the first line, and what the toolbox writes before it. COLMAP's files of poses begin with numbers, too."""
+
+
+def read(document: Document, key: str) -> list[Lens] | None:
+    """Return the lens of a document; see the package."""
+    if document.text.lstrip()[:1] == "{" or not document.text:
+        return [_of_json(document, document.entries)] if "polynomialC2W" in document.entries else None
+    lines = [line for line in map(str.strip, document.text.splitlines()) if line and not line.startswith("#")]
+    if not lines or not BEGIN.match(lines[0]) or not (len(lines) == 5 or COMMENT in document.text):
+        return None
+    if len(lines) != 5:
+        raise document.refusal(f"it has {len(lines)} lines of numbers: a calib_results.txt of OCamCalib has 5")
+    polynomial, _, center, affine, sides = (line.split() for line in lines)
+    count, *coefficients = document.numbers(polynomial, "its polynomial")
+    if count != len(coefficients):
+        raise document.refusal(f"its polynomial has {len(coefficients)} coefficients, but states {count:g}")
+    row, column = document.numbers(center, "its center", 2)
+    height, width = document.numbers(sides, "its image size", 2)
+    terms = document.numbers(affine, "its affine parameters", 3)
+    return [_lens(document, coefficients, (column, row), terms, (width, height))]
+
+
+def _of_json(document: Document, entries: dict) -> Lens:
+    names = ("polynomialC2W", None), ("image_center", 2), ("affine", 3), ("size", 2)
+    given = {"affine": [1.0, 0.0, 0.0]} | entries
+    return _lens(document, *(document.numbers(given.get(name), name, count) for name, count in names))
+
+
+def _lens(document: Document, coefficients, center, terms, size) -> Lens:
+    return Lens("", "OCAM", document.size(*size) | {
+        "cx": center[0], "cy": center[1], "ocam_polynomial": " ".join(map(repr, coefficients)),
+        **{f"ocam_{name}": number for name, number in zip("cde", terms, strict=True)},
+    })  # fmt: skip

@@ -1,0 +1,1 @@
+"""What the programs' files share: documents, their entries, lenses and poses."""

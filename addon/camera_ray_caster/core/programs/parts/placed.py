@@ -1,0 +1,81 @@
+"""Poses in files: where a camera of a file stands, in which frame or at which time.
+
+A pose is the matrix (4, 4) float64 from the camera's frame, x right, y down, z ahead as in OpenCV, to the file's: the
+world of a reconstruction, or the body of a rig. Lengths are in the file's unit.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from ...maths.rotations import from_quaternion
+from ...text_forms.content import flat
+from .document import Document, numbers_of
+
+SHORTEST = 1e-100
+"""Quaternions that are shorter are 0: their squares underflow."""
+
+NOT_TURNED = 1e-3
+"""Largest departure of a rotation's products of columns from those of a rotation: files have from 4 digits on."""
+
+FROM_BLENDER = np.diag((1.0, -1.0, -1.0, 1.0))
+"""From Blender's camera frame, y up and z back, to that of files; the same the other way."""
+
+
+class Placed(NamedTuple):
+    """A camera at a place."""
+
+    camera: str
+    """Name of its lens in the file; see ``Lens``."""
+    image: str
+    """Name of its picture without folders and ending, or "" of a camera that stands still in a rig."""
+    frame: float | None
+    """Frame, if the file tells it."""
+    pose: np.ndarray
+    time: float | None = None
+    """Seconds, if the file tells them."""
+    moves: bool = False
+    """Whether it is of a trajectory with frames; one with times has these."""
+
+
+def pose_of(document: Document, value, name: str) -> np.ndarray:
+    """Return the pose that a file has as a matrix of 3 or 4 rows, flat or not. Raises InputError, with ``name``."""
+    numbers = numbers_of(flat(value, name, document.path))
+    if len(numbers) not in (12, 16):
+        raise document.refusal(f"{name} has {len(numbers)} numbers: a pose has 3 or 4 rows of 4 finite numbers")
+    document.numbers(numbers, name)
+    if numbers[12:] not in ([], [0.0, 0.0, 0.0, 1.0]):
+        last = " ".join(f"{one:g}" for one in numbers[12:])
+        raise document.refusal(f"the last row of {name} is {last}: it must be 0 0 0 1, of a matrix by rows")
+    pose = np.eye(4)
+    pose[:3] = np.reshape(numbers, (-1, 4))[:3]
+    return checked(document, pose, name)
+
+
+def of_quaternion(document: Document, quaternion, translation, name: str) -> np.ndarray:
+    """Return the pose of a quaternion w, x, y, z, of any length, and a translation. Raises InputError, with a name."""
+    w, x, y, z = document.numbers(quaternion, f"rotation of {name}", 4)
+    if max(map(abs, (w, x, y, z))) < SHORTEST:
+        raise document.refusal(f"the rotation of {name} is 0: it must be a quaternion")
+    pose = np.eye(4)
+    pose[:3, :3] = from_quaternion(np.array((w, x, y, z)))
+    pose[:3, 3] = document.numbers(translation, f"translation of {name}", 3)
+    return pose
+
+
+def checked(document: Document, pose: np.ndarray, name: str) -> np.ndarray:
+    """Return the pose. Raises InputError unless its axes are those of a rotation, up to NOT_TURNED."""
+    axes = pose[:3, :3]
+    if np.abs(axes.T @ axes - np.eye(3)).max() > NOT_TURNED or np.linalg.det(axes) < 0:
+        raise document.refusal(f"{name} is no rotation: its axes must be of length 1 and at right angles")
+    return pose
+
+
+def inverted(pose: np.ndarray) -> np.ndarray:
+    """Return the inverse of a pose, with the transposed axes."""
+    inverse = np.eye(4)
+    inverse[:3, :3] = pose[:3, :3].T
+    inverse[:3, 3] = -pose[:3, :3].T @ pose[:3, 3]
+    return inverse

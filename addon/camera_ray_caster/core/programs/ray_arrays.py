@@ -1,0 +1,89 @@
+"""Tables of rays as numpy's arrays: the NPZ of the add-on's ray maps, and NPZ or NPY of other programs.
+
+directions are (rows, columns, 3), origins the same if there are any, valid (rows, columns) bool tells where rays
+are; row 0 is the bottom row. With pose, a (4, 4) matrix from the camera's frame to the world, as in ray maps, the rays
+are in the world; without it in the camera's frame. With area (4,), they fill a part of the frame: see ``ray_area``. An
+NPY holds directions, or (rows, columns, 6): origins, then directions.
+"""
+
+from __future__ import annotations
+
+import zipfile
+from collections.abc import Mapping
+from io import BytesIO
+from typing import Any
+
+import numpy as np
+
+from .. import memory
+from ..arguments import DAMAGED, numbers
+from ..maths.vector import inverse
+from ..records import InputError
+from .parts.document import Document, Lens
+
+ZIP, NPY = b"PK\x03\x04", b"\x93NUMPY"
+KEY = "RAY_TABLE"
+
+
+def read(document: Document, key: str) -> list[Lens] | None:
+    """Return the lens of a document; see the package."""
+    if not document.data.startswith((ZIP, NPY)):
+        return None
+    try:
+        arrays = _arrays(document)
+    except DAMAGED as error:
+        damage = "" if isinstance(error, InputError) else "it is no array of numpy, or damaged: "
+        raise document.refusal(damage + (" ".join(str(error).split()) or type(error).__name__)) from error
+    if "time" in arrays:
+        raise document.refusal(
+            "its pixels have their own times, which a table of rays has not: export a camera without pixel times"
+        )
+    if "directions" not in arrays:
+        raise document.refusal("it has no directions: no array has this name")
+    directions, origins = arrays["directions"], arrays.get("origins")
+    if directions.ndim != 3 or directions.shape[2] != 3:
+        raise document.refusal(f"directions are of shape {directions.shape}: they must be (rows, columns, 3)")
+    if origins is not None and origins.shape != directions.shape:
+        raise document.refusal(f"origins are of shape {origins.shape}, and directions of {directions.shape}")
+    if "valid" in arrays:
+        if arrays["valid"].shape != directions.shape[:2]:
+            raise document.refusal(f"valid is of shape {arrays['valid'].shape}, directions of {directions.shape}")
+        directions = np.where(arrays["valid"][..., None] != 0, directions, np.nan)
+    area = arrays.get("area", np.array((0.0, 0.0, 1.0, 1.0)))
+    if area.shape != (4,) or not (area[2:] > area[:2]).all():
+        raise document.refusal("area must be left, bottom, right, top, 0 to 1 over the frame")
+    return [table(document, directions, origins, area, arrays.get("pose"))]
+
+
+def table(document: Document, directions: np.ndarray, origins: np.ndarray | None, area, pose=None) -> Lens:
+    """Return the lens of rays in the camera's frame, or with its pose, (4, 4), in the world; area: see ``ray_area``."""
+    settings: dict[str, Any] = {"ray_area": tuple(area.tolist())}
+    if pose is not None:
+        if pose.shape != (4, 4) or not np.isfinite(pose).all() or not np.linalg.det(pose[:3, :3]):
+            raise document.refusal("pose must be a (4, 4) matrix of finite numbers that can be inverted")
+        camera_from_world = inverse(pose[:3, :3])
+        directions = directions @ camera_from_world.T
+        origins = None if origins is None else (origins - pose[:3, 3]) @ camera_from_world.T
+        settings["ray_axes"] = "BLENDER"
+    sides = np.array(directions.shape[1::-1]) / (area[2:] - area[:2])
+    size = dict(zip(("calibration_width", "calibration_height"), sides.round().tolist(), strict=True))
+    for array in (directions, origins):
+        if array is not None:
+            array.setflags(write=False)
+    return Lens("", KEY, {**size, **settings, "ray_directions": directions, "ray_origins": origins})
+
+
+def _arrays(document: Document) -> Mapping[str, np.ndarray]:
+    """Return the arrays of a file by name as float64. Raises one of DAMAGED, and InputError for what is too large."""
+    data = BytesIO(document.data)
+    if document.data.startswith(NPY):
+        both = numbers(np.load(data, allow_pickle=False), "the array")
+        if both.ndim == 3 and both.shape[2] == 6:
+            return {"origins": both[..., :3], "directions": both[..., 3:]}
+        return {"directions": both}
+    with zipfile.ZipFile(data) as archive:
+        size = sum(entry.file_size for entry in archive.infolist())
+    memory.require(4 * size, f"the arrays of calibration file {document.path!r}", "give a coarser table")
+    with np.load(data, allow_pickle=False) as found:
+        wanted = [name for name in ("directions", "origins", "valid", "pose", "area", "time") if name in found.files]
+        return {name: numbers(found[name], name) for name in wanted}

@@ -1,0 +1,67 @@
+"""Tables of rays as OpenEXR images: directions as red, green and blue, or channels of origins and directions by name.
+
+Names are as the passes of renders have them: the last part is X, Y, Z or R, G, B, and what stands before it has the
+word direction or origin. The rays are in the camera's frame; a direction of NaN or 0 is no ray. Numbers have to be
+float32: half floats turn rays by up to 2.4e-4 radians. The files are read by Blender, which sets ``decoder``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+import numpy as np
+
+from .parts.document import Document, Lens
+from .ray_arrays import table
+
+MAGIC = b"\x76\x2f\x31\x01"
+AXES = "xyz", "rgb"
+
+decoder: Callable[[str], Mapping[str, np.ndarray]] | None = None
+"""Returns the channels of a file by name, (rows, columns) from the top: float16 those of half floats, else float32.
+Raises ValueError with the reason, in one line, for a file that cannot be read.
+"""
+
+
+def read(document: Document, key: str) -> list[Lens] | None:
+    """Return the lens of a document; see the package."""
+    if not document.data.startswith(MAGIC):
+        return None
+    if decoder is None:
+        raise document.refusal("it is an EXR image, which Blender reads: load it there, or save its arrays as NPZ")
+    try:
+        channels = decoder(document.path)
+    except ValueError as error:
+        raise document.refusal(str(error)) from error
+    if any(values.dtype == np.float16 for values in channels.values()):
+        raise document.refusal(
+            "its numbers are half floats, which turn rays by up to 2.4e-4 radians: save it as float32"
+        )
+    vectors = _vectors(channels)
+    directions = [name for name in vectors if "direction" in name]
+    if len(vectors) == 1:
+        directions = list(vectors)
+    origins = [name for name in vectors if "origin" in name]
+    if len(directions) != 1 or len(origins) > 1:
+        raise document.refusal(
+            f"its channels are {', '.join(channels)}: it must have one direction, such as direction.X, direction.Y, "
+            "direction.Z, and one origin or none"
+        )
+    ahead = vectors[directions[0]]
+    ahead[(ahead == 0).all(axis=2)] = np.nan
+    return [table(document, ahead, vectors[origins[0]] if origins else None, np.array((0.0, 0.0, 1.0, 1.0)))]
+
+
+def _vectors(channels: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
+    """Return the vectors (rows, columns, 3), from the bottom, of which channels are the components, by lower-case name.
+    """
+    parts: dict[str, dict[str, np.ndarray]] = {}
+    for name, values in channels.items():
+        before, _, last = name.lower().rpartition(".")
+        parts.setdefault(before, {})[last] = values
+    return {
+        name: np.stack([own[axis] for axis in axes], axis=2).astype(np.float64)[::-1].copy()
+        for name, own in parts.items()
+        for axes in AXES
+        if set(axes) <= set(own)
+    }

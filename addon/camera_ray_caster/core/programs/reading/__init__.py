@@ -1,0 +1,1 @@
+"""Reading files of any program: lenses, poses, and cameras with both."""

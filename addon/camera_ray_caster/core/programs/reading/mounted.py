@@ -1,0 +1,192 @@
+"""The cameras of a file, with their lenses and poses: what "Add Cameras from File" makes of it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+
+from ...conventions import LAST_FRAME
+from ...records import InputError
+from ..parts.document import Document, Lens
+from ..parts.placed import FROM_BLENDER, Placed
+from .folders import CLIP, TRAJECTORY, nearest, number_of
+from .lenses import lenses_of
+from .poses import beside, object_and_frame, placed_in
+
+COLMAP = ".bin", ".txt"
+"""Kinds of the files of a folder that is a COLMAP model."""
+
+UNNAMED = "", "camera"
+"""Names of lenses in files that do not name them; nerfstudio's is the latter."""
+
+MOST = 100_000
+"""Poses that are read from a file."""
+
+
+@dataclass
+class Mounted:
+    """A camera of a file. It stands still if it has one pose and no frame."""
+
+    name: str
+    file: str
+    """The file of its lenses."""
+    alone: bool
+    """Whether its lens is the only one in the file, which needs no name there."""
+    lenses: list[Lens] = field(default_factory=list)
+    """The lens for each pose; none of a trajectory."""
+    frames: list[float | None] = field(default_factory=list)
+    poses: list[np.ndarray] = field(default_factory=list)
+    """(4, 4) float64: from Blender's camera frame to the file's, for a trajectory from the moving frame."""
+
+    @property
+    def lens(self) -> Lens | None:
+        """Return the lens if all poses have the same; else None."""
+        return self.lenses[0] if self.lenses and all(lens is self.lenses[0] for lens in self.lenses) else None
+
+    @property
+    def size(self) -> tuple[int, int] | None:
+        """Return width and height of the pictures, if the file tells one size."""
+        sizes = {tuple(int(lens.settings.get(f"calibration_{side}", 0)) for side in ("width", "height"))
+                 for lens in self.lenses}  # fmt: skip
+        width, height = sizes.pop() if len(sizes) == 1 else (0, 0)
+        return (width, height) if width and height else None
+
+
+def mounted(path: str, key: str, frame: tuple[int, int], rate: float) -> list[Mounted]:
+    """Return the cameras of a file, or of COLMAP's files in a folder, in the file's order; or one trajectory.
+
+    ``key`` and ``frame`` are those of ``lenses_of``; ``rate`` is the number of frames in a second, for files with
+    times, the first of which is frame 1. Images without a frame in their names have the frames 1, 2, 3, ... Images of
+    one name are of several cameras, numbered -1, -2, ..., if their lenses are of several models, or two in one frame.
+    The files of a folder of pictures are its frames. Raises InputError, in one line.
+    """
+    if Path(path).is_dir() and Path(beside(path)[0]).suffix not in COLMAP:
+        return _of_folder(path, key, frame, rate)
+    lens_file, pose_file = beside(path)
+    document = Document(pose_file, frame)
+    placed = placed_in(document)
+    if not placed:
+        raise document.refusal("it has no pose of a camera")
+    if len(placed) > MOST:
+        raise document.refusal(f"it has {len(placed):,} poses: {MOST:,} are read")
+    if placed[0].moves or placed[0].time is not None:
+        return [Mounted(path, lens_file, True, [], _frames(document, placed, rate), [one.pose for one in placed])]
+    lenses = {lens.name: lens for lens in lenses_of(lens_file, key, frame)}
+    found: list[tuple[Placed, str, float | None, Lens]] = []
+    for one, name, number in _named(placed):
+        lens = _lens(document, lenses, one, number)
+        if lens.refusal is not None:
+            raise lens.refusal
+        found.append((one, name, number, lens))
+    cameras: dict[str, Mounted] = {}
+    for one, name, number, lens in _told_apart(found):
+        camera = cameras.setdefault(name, Mounted(name, lens_file, len(lenses) == 1))
+        camera.lenses.append(lens)
+        camera.frames.append(number)
+        camera.poses.append(one.pose @ FROM_BLENDER)
+    for camera in cameras.values():
+        if len(set(camera.frames)) < len(camera.frames):
+            raise document.refusal(f"camera {camera.name!r} has two poses of one frame: rename its pictures")
+    return list(cameras.values())
+
+
+def _frames(document: Document, placed: list[Placed], rate: float) -> list[float | None]:
+    """Return the frames of a trajectory, or of its times. Raises InputError for equal times, and beyond Blender's last
+    frame.
+    """
+    if placed[0].moves:
+        return [one.frame for one in placed]
+    times = [one.time or 0.0 for one in placed]
+    if len(set(times)) < len(times):
+        twice = next(time for time, after in pairwise(sorted(times)) if time == after)
+        raise document.refusal(f"it has two poses at the time {twice!r}: leave one out")
+    frames: list[float | None] = [1 + (time - times[0]) * rate for time in times]
+    if max(abs(time - times[0]) for time in times) * rate >= LAST_FRAME:
+        raise document.refusal(
+            f"its times span {max(times) - min(times):g} s, more than the {LAST_FRAME:,} frames of Blender: are they "
+            "seconds?"
+        )
+    return frames
+
+
+def _of_folder(path: str, key: str, frame: tuple[int, int], rate: float) -> list[Mounted]:
+    """Return the cameras of a folder with a file for each picture; equal lenses are one."""
+    files = list(map(Path, beside(path)))
+    moves = placed_in(Document(str(files.pop()), frame)) if files[-1].suffix == TRAJECTORY else []
+    times = np.array([one.time or 0.0 for one in moves])
+    cameras: dict[str, Mounted] = {}
+    lenses: dict[str, Lens] = {}
+    for order, file in enumerate(files, 1):
+        move = nearest(times, number_of(file)) if moves else None
+        if moves and move is None:
+            continue
+        for one in mounted(str(file), key, frame, rate):
+            if one.lens is None:
+                raise InputError(f"file {str(file)!r} of a folder of pictures has no lens: take it out")
+            camera = cameras.setdefault(one.name, Mounted(one.name, one.file, one.alone))
+            camera.lenses.append(lenses.setdefault(repr(one.lens), one.lens))
+            camera.frames.append(number_of(file) if file.name.endswith(CLIP) else float(order))
+            camera.poses.append(one.poses[0] if move is None else moves[move].pose @ one.poses[0])
+    if not cameras:
+        raise InputError(f"folder {path!r} has no picture at a time of its trajectory: give both of one recording")
+    return list(cameras.values())
+
+
+def _told_apart(found: list[tuple[Placed, str, float | None, Lens]]) -> list[tuple[Placed, str, float | None, Lens]]:
+    """Return poses with names that are of one camera each; see ``mounted``."""
+    numbers: dict[str, dict[str, int]] = {}
+    models: dict[str, str] = {}
+    frames, several = set(), set()
+    for _, name, frame, lens in found:
+        own = numbers.setdefault(name, {})
+        own.setdefault(lens.name, len(own) + 1)
+        if (name, frame) in frames or lens.model != models.setdefault(name, lens.model):
+            several.add(name)
+        frames.add((name, frame))
+    several -= {name for name, own in numbers.items() if len(own) == 1}
+    return [
+        (one, f"{name}-{numbers[name][lens.name]}" if name in several else name, frame, lens)
+        for one, name, frame, lens in found
+    ]
+
+
+def _lens(document: Document, lenses: dict[str, Lens], one: Placed, number: float | None) -> Lens:
+    """Return the lens of a pose: that of its camera, or of its camera in this frame, or the only one, if it or the
+    camera has no name of its own.
+    """
+    only = next(iter(lenses), "")
+    if len(lenses) == 1 and (only in UNNAMED or one.camera in UNNAMED):
+        return lenses[only]
+    for name in (one.camera, f"{one.camera} {number:g}" if number is not None else one.camera):
+        if name in lenses:
+            return lenses[name]
+    raise document.refusal(f"it has a pose of camera {one.camera!r}, and no lens of it: give a file with both")
+
+
+def _named(placed: list[Placed]) -> list[tuple[Placed, str, float | None]]:
+    """Return each pose with its camera's name and its frame: by the names of pictures if all tell a frame, or if each
+    has a lens of its own; else one camera for each lens. Frames that are not told are in the order of the file.
+    """
+    told = [(one, *object_and_frame(one.image)) for one in placed]
+    if any(one.frame is not None for one in placed):
+        return [(one, one.image or "Camera", one.frame) for one in placed]
+    if all(number is not None for _, _, number in told):
+        return told
+    if not any(one.image for one in placed):
+        return [(one, one.camera or "Camera", None) for one in placed]
+    names = {name for _, name, _ in told}
+    if len({one.camera for one in placed}) == len(names) == len(placed) > 1:
+        return [(one, name, float(frame)) for frame, (one, name, _) in enumerate(told, 1)]
+    counts: dict[str, int] = {}
+    found: list[tuple[Placed, str, float | None]] = []
+    for one in placed:
+        counts[one.camera] = counts.get(one.camera, 0) + 1
+        name = f"Camera {one.camera}" if one.camera.isdecimal() else "Camera"
+        found.append((one, name, float(counts[one.camera])))
+    if len(counts) > 1 and len({name for _, name, _ in found}) < len(counts):  # lenses named by their first pictures
+        numbers = {camera: i for i, camera in enumerate(counts, 1)}
+        return [(one, f"Camera {numbers[one.camera]}", number) for one, _, number in found]
+    return found

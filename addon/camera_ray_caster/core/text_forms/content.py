@@ -1,0 +1,203 @@
+"""Reads the contents of calibration files: YAML, JSON and XML as OpenCV's cv::FileStorage and its relatives write them.
+
+JSON is read by the standard library. Beyond the JSON standard, OpenCV writes the words .Nan and .Inf, and comments. A
+file of several JSON objects, one per line, and a list stand for a mapping of their entries by number. Files that are
+compressed by gzip are read, too. Reading is limited by memory and processor time, so that any file ends in a lens or in
+one line.
+Reference: OpenCV documentation, File Input and Output using XML / YAML / JSON files.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+import zlib
+from collections.abc import Callable
+from pathlib import Path
+from time import thread_time
+from typing import Any
+
+from .. import memory
+from ..records import InputError
+from .xml_subset import XmlError, storage
+from .yaml_subset import YamlError, parse
+
+LARGEST = 1 << 28
+"""Maximum size in bytes, decompressed: JSON of this size, some 250,000 frames of nerfstudio, takes 5 s to read."""
+
+PER_BYTE = 12
+"""Bytes of memory that a byte of a file takes when it is read: lists of short numbers take the most."""
+
+LONGEST = 2.0
+"""Processor time in seconds that reading YAML, XML or a file's lenses may take: some 4 MB of YAML."""
+
+JSON_TOKEN = re.compile(r'"(?:\\.|[^"\\])*"?|//[^\n]*|-?\.(?:Nan|Inf)')
+JSON_WORDS = {"//": "", ".N": "NaN", ".I": "Infinity", "-.": "-Infinity"}
+BEYOND_JSON = "//", ".Nan", ".Inf"
+HALF = re.compile(r"\\u[dD][89a-fA-F]")
+"""How JSON begins the halves of characters beyond 16 bits."""
+
+GZIP = b"\x1f\x8b"
+
+Check = Callable[[], None]
+"""Raises InputError when the time for a file is over."""
+
+
+def deadline(path: str) -> Check:
+    """Return a function that raises InputError, with the path, once LONGEST has passed in this thread."""
+    end = thread_time() + LONGEST
+
+    def check() -> None:
+        if thread_time() > end:
+            raise InputError(
+                f"calibration file {path!r} takes longer than {LONGEST:g} s to read: is it a calibration? A part of it "
+                "with fewer cameras or frames may be read"
+            )
+
+    return check
+
+
+def entries_of(text: str, path: str, check: Check | None = None) -> dict:
+    """Return the entries of a text by name: values of JSON, or scalars of YAML and XML as text.
+
+    Raises InputError, one line that names ``path``, if the text is none of the three, has no entries, or takes too
+    long.
+    """
+    check = check or deadline(path)
+    entries: dict | list
+    begin = text.lstrip()[:1]
+    if begin in ("{", "["):
+        entries = _json(text, path, check)
+    elif begin == "<":
+        try:
+            entries = storage(text, check)
+        except XmlError as error:
+            raise InputError(f"calibration file {path!r} is not XML as OpenCV writes it: {error}") from error
+    else:
+        try:
+            entries = parse(text, check)
+        except YamlError as error:
+            reason = f"neither YAML nor JSON as OpenCV writes it: {error}"
+            raise InputError(f"calibration file {path!r} is {reason}") from error
+    if not entries:
+        raise InputError(f"calibration file {path!r} is empty")
+    return entries if isinstance(entries, dict) else {str(number): one for number, one in enumerate(entries)}
+
+
+def _json(text: str, path: str, check: Check) -> dict | list:
+    try:
+        try:
+            return _loaded(text)
+        except json.JSONDecodeError as error:
+            if error.msg == "Extra data" and (lines := [line for line in text.splitlines() if line.strip()])[1:]:
+                try:
+                    return [_loaded(line) for line in lines]
+                except json.JSONDecodeError:
+                    pass
+            if not any(one in text for one in BEYOND_JSON):
+                raise
+
+            def plain(token: re.Match) -> str:
+                check()
+                return JSON_WORDS.get(token[0][:2], token[0])
+
+            return _loaded(JSON_TOKEN.sub(plain, text))
+    except (ValueError, RecursionError) as error:
+        if isinstance(error, InputError):
+            raise
+        reason = error if isinstance(error, ValueError) else "it is nested too deeply"
+        raise InputError(f"calibration file {path!r} is not JSON: {reason}") from error
+
+
+def _loaded(text: str) -> Any:
+    found = json.loads(text, parse_int=float, object_pairs_hook=_once)  # integers may have any number of digits
+    if HALF.search(text):
+        try:
+            json.dumps(found, ensure_ascii=False).encode()
+        except UnicodeEncodeError as error:
+            raise ValueError("a name has half of a character (a lone surrogate)") from error
+    return found
+
+
+def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    """Return an object of JSON; ValueError where it has a name twice."""
+    found: dict[str, Any] = {}
+    for name, value in pairs:
+        if name in found:
+            raise ValueError(f"it has {name!r} twice")
+        found[name] = value
+    return found
+
+
+def content_of(path: str) -> bytes:
+    """Return the content of a file, decompressed. Raises InputError if it cannot be read, or is larger than LARGEST."""
+    file = Path(path)
+    refusal = f"calibration file {path!r} cannot be read"
+    too_large = InputError(f"{refusal}: it is larger than {LARGEST >> 20} MB, too large for a calibration")
+    try:
+        if file.exists() and not file.is_file():
+            raise InputError(f"{refusal}: it is a {'directory' if file.is_dir() else 'device'}, not a file")
+        if path.encode(errors="replace") != path.encode(errors="surrogatepass"):
+            raise InputError(f"{refusal}: its path is not UTF-8, as reports are: rename it")
+        size = file.stat().st_size
+        if size > LARGEST:
+            raise too_large
+        memory.require(PER_BYTE * size, f"the entries of calibration file {path!r}", "give a part of it")
+        content = file.read_bytes()
+    except (OSError, ValueError) as error:
+        if isinstance(error, InputError):
+            raise
+        reason = error.strerror if isinstance(error, OSError) else "its path is no path"
+        raise InputError(f"{refusal}: {reason}") from error
+    if not content.startswith(GZIP):
+        return content
+    try:
+        unpacking = zlib.decompressobj(wbits=31)
+        content = unpacking.decompress(content, LARGEST)
+        if unpacking.unconsumed_tail:
+            raise too_large
+        memory.require(PER_BYTE * len(content), f"the entries of calibration file {path!r}", "give a part of it")
+        return content + unpacking.flush()
+    except zlib.error as error:
+        raise InputError(f"{refusal}: it begins as a file of gzip, but is damaged") from error
+
+
+def decoded(content: bytes, path: str) -> str:
+    """Return the content of a file as text. Raises InputError if it is not UTF-8, or has a null character."""
+    try:
+        text = content.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        text = "\0"
+    if "\0" in text:
+        raise InputError(f"calibration file {path!r} cannot be read: it is not a text file")
+    return text
+
+
+def text_of(path: str) -> str:
+    """Return the text of a file; see ``content_of`` and ``decoded``."""
+    return decoded(content_of(path), path)
+
+
+def flat(value, name: str, path: str):
+    """Return a matrix, given as OpenCV's mapping or as nested lists, as a flat list; anything else unchanged.
+
+    Raises InputError for a matrix of OpenCV if its number of values is not rows times cols.
+    """
+    if isinstance(value, dict) and "data" in value:
+        sides, value = [str(value.get(side)) for side in ("rows", "cols")], value["data"]
+        if isinstance(value, list) and all(side.isdecimal() for side in sides):
+            rows, columns = map(int, sides)
+            if not any(isinstance(entry, list) for entry in value) and len(value) != rows * columns:
+                raise InputError(f"{name} in {path!r} has {len(value)} numbers for {rows} rows x {columns} columns")
+    if not isinstance(value, list):
+        return value
+    flat, waiting = [], [iter(value)]
+    while waiting:
+        for entry in waiting[-1]:
+            if isinstance(entry, list):
+                waiting.append(iter(entry))
+                break
+            flat.append(entry)
+        else:
+            waiting.pop()
+    return flat
