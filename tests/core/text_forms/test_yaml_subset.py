@@ -105,18 +105,18 @@ def test_what_is_not_read_is_refused_with_its_line(text, says):
         "a.b-c", "- ", "x:\n - - - ",
     ],
 )  # fmt: skip
-@pytest.mark.parametrize("begin", ["", '{"a": ', "K: [", '{"'])
-def test_no_text_takes_more_than_linear_time(tmp_path, piece, begin):
-    """A megabyte of each: what takes the square of it would not end today."""
+def test_no_text_takes_more_than_linear_time(tmp_path, piece):
+    """A quarter of a megabyte after each beginning: what takes the square of it would not end today."""
     path = tmp_path / "lens.yml"
-    path.write_text((begin + piece * MEGABYTE)[:MEGABYTE])
-    said = ""
-    try:
-        entries_of(text_of(str(path)), "lens")
-    except InputError as error:
-        said = str(error)
-    assert "\n" not in said
-    assert len(said) < 500
+    for begin in ("", '{"a": ', "K: [", '{"'):
+        path.write_text((begin + piece * MEGABYTE)[: MEGABYTE // 4])
+        said = ""
+        try:
+            entries_of(text_of(str(path)), "lens")
+        except InputError as error:
+            said = str(error)
+        assert "\n" not in said
+        assert len(said) < 500
 
 
 def test_a_name_of_json_that_is_there_twice_is_found_in_linear_time():
