@@ -108,6 +108,11 @@ def test_silhouettes_are_those_of_casts_without_the_others(key):
         seen = index == one.row
         assert one.visible_pixels == seen.sum()
         assert (one.visible is None) == (not seen.any())
+        assert (one.alone == alone[slice(*one.whole[2:]), slice(*one.whole[:2])]).all()
+    for passes in ("depth", "shape_index"), ("depth",):
+        again, same_index = silhouettes(camera, shapes, cast(camera, shapes, passes))
+        assert (same_index == index).all()
+        assert [one.row for one in again] == [one.row for one in found]
 
 
 def test_a_shape_alone_has_the_holes_of_its_own_material():

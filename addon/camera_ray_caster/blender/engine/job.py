@@ -22,7 +22,7 @@ from ...core.report.report import Report, report_cast
 from ..read.evaluated import Eye, scene_at
 from ..read.frames import frame_of, frame_rate, go_to
 from ..read.motion import with_other_frames
-from ..verification.check import verify_evaluated
+from ..verification.check import findings_of_picture
 
 
 @dataclass(frozen=True)
@@ -67,7 +67,7 @@ class Job:
         eye = eye or partial(eye_record, view=view)
         found = scene_at(camera_object, depsgraph, eye)
         read = perf_counter()
-        findings = verify_evaluated(found.camera, camera_object, depsgraph, view)
+        findings = findings_of_picture(found.camera, camera_object, depsgraph, view)
         verified = perf_counter()
         frame, layer = frame_of(scene), depsgraph.view_layer_eval.name
         several = sum(layer.use for layer in scene.view_layers) > 1

@@ -47,7 +47,7 @@ def annotated(scene, images: Images, file_name: str, keypoints: Sequence[str] = 
     image = {"file_name": file_name, "camera": camera.name, "frame": frame_of(scene)}
     points = key_points(scene, bpy.context.evaluated_depsgraph_get(), keypoints) if keypoints else []
     seen = seen_key_points(camera, images.shapes, points)
-    return json.dumps(document(image, Sheet(*size, corner), camera, images.shapes, category_of, seen))
+    return json.dumps(document(image, Sheet(*size, corner), camera, images.shapes, category_of, seen, images))
 
 
 def category_of(name: str) -> str:

@@ -2,10 +2,12 @@
 
 from dataclasses import replace
 from functools import partial
+from typing import Any
 
 from ...core.camera.camera import Camera
 from ...core.camera.facts import camera_facts
 from ...core.camera.stereo import eye_record
+from ...core.motion.means import same
 from ...core.records import Finding
 from ...core.report.report import Report
 from ...core.report.verification import verify
@@ -16,6 +18,7 @@ from ..read.motion import motion_of
 from ..read.scene import evaluated_camera
 from . import witness
 from .cycles_witness import cycles_finding
+from .witness import Witness
 
 MOVING_GRID = 2
 """Number of pixels per side at which a moving camera is verified: each projection is searched over all of its times."""
@@ -50,11 +53,39 @@ def _read_and_verified(scene, camera_object=None, frame=None, view="") -> tuple[
     return camera, findings
 
 
-def verify_evaluated(camera: Camera, camera_object, depsgraph, view="") -> list[Finding]:
-    """Return the findings on a camera that was read from this object, at the depsgraph's frame.
+MOST = 64
+"""Number of cameras whose findings are kept."""
+_kept: dict[tuple[str, str], tuple[Any, list[Finding]]] = {}
+"""The findings on the cameras and views of pictures, the latest last, and what they depend on."""
 
-    Blender answers only for its own models, and for an eye only if the eye is a camera object of its own.
+
+def findings_of_picture(camera: Camera, camera_object, depsgraph, view="") -> list[Finding]:
+    """Return what ``verify_evaluated`` does; of a still camera that has not changed since its last picture, the
+    findings of that picture. In a data set of small pictures a verification takes longer than a cast.
+    """
+    if camera.pixel_time is not None:
+        return verify_evaluated(camera, camera_object, depsgraph, view)
+    answers, settings = _answers(camera, camera_object, depsgraph, view), {**camera.record.settings, "frame": None}
+    of = (replace(camera.record, settings={}), tuple(settings.items()),
+          answers and replace(answers, camera=None, depsgraph=None))  # fmt: skip
+    others, findings = _kept.pop((camera.name, view), (None, []))
+    if not same(of, others):
+        findings = verify(camera, answers)
+    _kept[camera.name, view] = of, findings
+    if len(_kept) > MOST:
+        del _kept[next(iter(_kept))]
+    return findings
+
+
+def verify_evaluated(camera: Camera, camera_object, depsgraph, view="") -> list[Finding]:
+    """Return the findings on a camera that was read from this object, at the depsgraph's frame."""
+    return verify(replace(camera, pixel_time=None), _answers(camera, camera_object, depsgraph, view))
+
+
+def _answers(camera: Camera, camera_object, depsgraph, view: str) -> Witness | None:
+    """Return Blender's answers for a camera: only for its own models, and for an eye only if the eye is a camera object
+    of its own.
     """
     apart = not view or depsgraph.scene_eval.render.views_format == "MULTIVIEW"
     by_blender = camera.model.key == camera_object.data.type and apart
-    return verify(replace(camera, pixel_time=None), witness.ask(camera_object, depsgraph) if by_blender else None)
+    return witness.ask(camera_object, depsgraph) if by_blender else None

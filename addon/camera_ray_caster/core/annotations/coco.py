@@ -19,6 +19,7 @@ from typing import Any
 import numpy as np
 
 from ..camera.camera import Camera
+from ..cast import Images
 from ..motion.moments import check_rows, check_still
 from ..records import Shapes
 from ..version import VERSION
@@ -56,15 +57,17 @@ def document(
     shapes: Shapes,
     category_of: Callable[[str], str],
     points: Sequence[SeenKeyPoint] = (),
+    images: Images | None = None,
 ) -> Document:
     """Return the annotations of one picture.
 
     image: ``file_name``, and any further entries of the image. category_of: maps an object's name to its category.
+    images: a cast of camera and shapes, if there is one.
     Raises InputError if pixels have their own times, and objects appear or disappear, or those with key points move.
     """
     check_rows(shapes)
     check_still(shapes, {seen.point.owner for seen in points})
-    found, index = silhouettes(camera, shapes)
+    found, index = silhouettes(camera, shapes, images)
     raster = camera.raster
     names = [shapes.names[shapes.name_index[one.row]] for one in found]
     category = {name: category_of(name) for name in names}

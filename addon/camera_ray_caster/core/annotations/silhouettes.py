@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from ..any_rays.sweep import is_cast_by_rays
 from ..camera.camera import Camera
-from ..cast import cast
+from ..cast import Images, cast
+from ..casting.pixels import is_hit
+from ..casting.plan import Plan
+from ..maths.speed import lending
 from ..motion.apart import of_rows, rows_of
 from ..motion.evaluations import Motion
 from ..records import Shapes
@@ -33,32 +38,50 @@ class Silhouette:
     """(rows, columns) bool: the pixels in ``whole`` that the shape would have alone."""
 
 
-def silhouettes(camera: Camera, shapes: Shapes) -> tuple[list[Silhouette], np.ndarray]:
+def silhouettes(
+    camera: Camera, shapes: Shapes, images: Images | None = None
+) -> tuple[list[Silhouette], np.ndarray]:
     """Return the silhouettes of all shapes that have pixels in the render window, and the shape index of each pixel,
     (rows, columns) int32.
 
-    Each shape is cast by itself, in its bounds.
+    Each shape is cast by itself, in its bounds. ``images``: a cast of these, if there is one.
     """
-    images = cast(camera, shapes, ("shape_index",))
+    if images is None or "shape_index" not in images:
+        images = cast(camera, shapes, ("shape_index",))
     index = images["shape_index"]
     rows, columns = np.nonzero(index >= 0)
     found = dict(zip(*_boxes(index[rows, columns], columns, rows), strict=True))
-    everywhere = 0, camera.raster.shape[1], 0, camera.raster.shape[0]
-    if camera.pixel_time is None:
-        bounds = dict(zip(images.plan.seen.tolist(), images.plan.bounds.tolist(), strict=True))
-    else:
-        bounds = dict.fromkeys(range(len(shapes)), everywhere)
     result = []
-    for row, (x0, x1, y0, y1) in bounds.items():
-        raster = camera.raster
-        window = replace(raster, x0=raster.x0 + x0, x1=raster.x0 + x1, y0=raster.y0 + y0, y1=raster.y0 + y1)
-        alone = cast(replace(camera, raster=window), _alone(shapes, row), ("shape_index",), threads=1)["shape_index"]
-        own_rows, own_columns = np.nonzero(alone >= 0)
-        for whole, count in _boxes(alone[own_rows, own_columns], own_columns + x0, own_rows + y0)[1]:
-            own = alone[whole[2] - y0 : whole[3] - y0, whole[0] - x0 : whole[1] - x0] >= 0
-            visible, pixels = found.get(row, (None, 0))
-            result.append(Silhouette(row, whole, count, visible, pixels, own))
+    for row, x, y, pixels in _alone(camera, shapes, images.plan):
+        (y0, y1), (x0, x1) = (_ends(pixels.any(axis=1 - axis)) for axis in (0, 1))
+        own = pixels[y0:y1, x0:x1]
+        whole = x0 + x, x1 + x, y0 + y, y1 + y
+        visible, count = found.get(row, (None, 0))
+        result.append(Silhouette(row, whole, int(np.count_nonzero(own)), visible, count, own))
     return result, index
+
+
+def _alone(camera: Camera, shapes: Shapes, plan: Plan) -> Iterator[tuple[int, int, int, np.ndarray]]:
+    """Yield the row of each shape that has pixels of its own, the first column and row of a window, and which pixels of
+    the window would show the shape alone, (rows, columns) bool.
+    """
+    if camera.pixel_time is not None or is_cast_by_rays(camera):
+        for row in range(len(shapes)):
+            pixels = cast(camera, _only(shapes, row), ("shape_index",), threads=1)["shape_index"] >= 0
+            if pixels.any():
+                yield row, 0, 0, pixels
+        return
+    with lending() as lend:
+        scratch = lend()
+        for k, (row, bounds) in enumerate(zip(plan.seen.tolist(), plan.bounds.tolist(), strict=True)):
+            pixels = is_hit(plan.of_shape(k), scratch)
+            if pixels.any():
+                yield row, bounds[0], bounds[2], pixels
+
+
+def _ends(some: np.ndarray) -> tuple[int, int]:
+    """Return the first and the last index of what is set in some flags (n,), the last plus 1."""
+    return int(some.argmax()), len(some) - int(some[::-1].argmax())
 
 
 def _boxes(index: np.ndarray, columns: np.ndarray, rows: np.ndarray) -> tuple[list[int], list[tuple[Box, int]]]:
@@ -74,7 +97,7 @@ def _boxes(index: np.ndarray, columns: np.ndarray, rows: np.ndarray) -> tuple[li
     return which.tolist(), list(zip(boxes, counts.tolist(), strict=True))
 
 
-def _alone(shapes: Shapes, row: int) -> Shapes:
+def _only(shapes: Shapes, row: int) -> Shapes:
     """Return a single shape, with its motion."""
     motion, only = shapes.timeline.motion, np.array([row])
     timeline = Timeline(of_rows(motion, only)) if isinstance(motion, Motion) else ONE_TIME

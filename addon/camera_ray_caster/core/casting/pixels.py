@@ -19,6 +19,7 @@ from .rays import chief_rays
 from .request import Request
 from .search import nearest_hits
 from .store import store
+from .tiles import shares
 
 
 def hits_at(plan: Plan, columns: np.ndarray, rows: np.ndarray) -> Hits:
@@ -30,6 +31,18 @@ def hits_at(plan: Plan, columns: np.ndarray, rows: np.ndarray) -> Hits:
     with np.errstate(all="ignore"):  # NaN and inf mean no ray and no hit
         rays = chief_rays(camera, columns[None, :] + 0.5, rows[:, None] + 0.5, (0, 0), Scratch())
         return nearest_hits(own, rays)
+
+
+def is_hit(plan: Plan, scratch: Scratch) -> np.ndarray:
+    """Return whether the chief ray of each pixel of a plan hits something, (rows, columns) bool, in this thread."""
+    raster = plan.camera.raster
+    found, columns, rows = np.empty(raster.shape, bool), raster.columns(), raster.rows()
+    with np.errstate(all="ignore"):  # NaN and inf mean no ray and no hit
+        for tile in shares(plan, threads=1):
+            place = columns[:, tile.columns], rows[tile.rows], (tile.columns.start, tile.rows.start)
+            hits = nearest_hits(plan, chief_rays(plan.camera, *place, scratch))
+            found[tile.rows, tile.columns] = hits.seen
+    return found
 
 
 def passes_at(

@@ -74,6 +74,17 @@ class Plan:
         here = (bounds[:, 0] < bounds[:, 1]) & (bounds[:, 2] < bounds[:, 3])
         return replace(self, whole=self, pixels=pixels, seen=self.seen[here], bounds=bounds[here], near=self.near[here])
 
+    def of_shape(self, k: int) -> Plan:
+        """Return the plan of the k-th of ``seen`` alone, in the window of its bounds."""
+        x0, x1, y0, y1 = self.bounds[k].tolist()
+        raster = self.camera.raster
+        window = replace(raster, x0=raster.x0 + x0, x1=raster.x0 + x1, y0=raster.y0 + y0, y1=raster.y0 + y1)
+        camera, only = replace(self.camera, raster=window), slice(k, k + 1)
+        return replace(
+            self, camera=camera, pixels=replace(self.pixels, camera=camera), seen=self.seen[only],
+            bounds=np.array([[0, x1 - x0, 0, y1 - y0]]), near=self.near[only],
+        )  # fmt: skip
+
     @cached_property
     def work(self) -> np.ndarray:
         """(rows,): the number of tests in each row of the render window, plus one per pixel, which stands for its ray

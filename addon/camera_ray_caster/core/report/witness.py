@@ -27,6 +27,7 @@ from typing import Protocol
 import numpy as np
 
 from ..conventions import EPS32, gamma
+from ..maths.vector import inverse
 from ..records import Finding
 from .sample import CameraRays, Sample, angles_between, finding, length_of, not_compared
 
@@ -108,8 +109,8 @@ class _Local:
 
     def rays(self, origins, directions):
         """Return world rays in the camera's frame."""
-        inverse = np.linalg.inv(self.axes).T
-        return (origins - self.eye) @ inverse, directions @ inverse
+        from_world = inverse(self.axes).T
+        return (origins - self.eye) @ from_world, directions @ from_world
 
     def angles(self, directions, camera_directions):
         """Return the angles between world directions and the reference's directions.
@@ -180,7 +181,7 @@ def _view(local: _Local, points):
     possible loss of each component of these points (n, 3) and of the pixels (n, 2).
     """
     view = local.witness.view_coordinates(points.astype(np.float32))
-    exact = (points - local.eye) @ np.linalg.inv(local.axes).T
+    exact = (points - local.eye) @ inverse(local.axes).T
     if local.parallel:
         seen_scale, scale, slope = np.ones((len(points), 1)), np.ones((len(points), 1)), 0.0
     else:
