@@ -5,6 +5,7 @@ import numpy as np
 from camera_ray_caster.blender.read.scene import read_camera, read_shapes
 from camera_ray_caster.core.cast import cast
 
+from ..read.scene_parts import plain
 from .cycles import cycles_passes
 
 WORLD = 0.25, 0.5, 0.75
@@ -31,8 +32,8 @@ def test_one_material_and_world_for_a_view_layer(blender):
     scene.camera.location.z = 12
     scene.render.resolution_x, scene.render.resolution_y = 48, 32
     layer = blender.context.view_layer
-    layer.material_override, layer.world_override = painted(blender.data, 7), blender.data.worlds.new("World")
-    layer.material_override.diffuse_color = 0.5, 0.25, 0.125, 1
+    layer.material_override = plain("Override", (0.5, 0.25, 0.125, 1), 7)
+    layer.world_override = blender.data.worlds.new("World")
     layer.world_override.color = WORLD
     if blender.app.version >= (5, 0):
         layer.world_override.node_tree.nodes["Background"].inputs["Color"].default_value[:3] = WORLD

@@ -25,6 +25,21 @@ def ball(name="Ball", collection=None, **options):
     return item
 
 
+def plain(name, color, index=0):
+    """A material of one color, whether this Blender gives nodes to a new one or not; and its pass index."""
+    made = bpy.data.materials.new(name)
+    made.pass_index = index
+    paint(made, color)
+    return made
+
+
+def paint(material, color):
+    """Give such a material another color."""
+    material.diffuse_color = color
+    if bpy.app.version >= (5, 0):
+        material.node_tree.nodes["Principled BSDF"].inputs["Base Color"].default_value = color
+
+
 def new_collection(name, *parents):
     collection = bpy.data.collections.new(name)
     for parent in parents:

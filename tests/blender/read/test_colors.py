@@ -7,7 +7,7 @@ import pytest
 from camera_ray_caster.blender.read.scene import read_shapes
 from camera_ray_caster.core.records import AREA, EVERYWHERE, MESH, PLANE, SPHERE
 
-from .scene_parts import ball, geometry_nodes, new_object
+from .scene_parts import ball, geometry_nodes, new_object, plain
 
 ULP = float(np.finfo(np.float32).eps)
 
@@ -18,11 +18,9 @@ def scene():
 
 
 def test_color_and_indices_come_from_the_first_faces_material(scene):
-    plain, first, second, own = ball("Plain"), ball("First"), ball("Second"), ball("Own")
-    plain.color = 0.5, 0.25, 0, 1
-    red, green = bpy.data.materials.new("Red"), bpy.data.materials.new("Green")
-    red.diffuse_color, red.pass_index = (1, 0, 0, 1), 1
-    green.diffuse_color, green.pass_index = (0, 1, 0, 0.5), 2
+    bare, first, second, own = ball("Bare"), ball("First"), ball("Second"), ball("Own")
+    bare.color = 0.5, 0.25, 0, 1  # the viewport's
+    red, green = plain("Red", (1, 0, 0, 1), 1), plain("Green", (0, 1, 0, 0.5), 2)
     for item in (first, second):
         item.data.materials.append(red)
         item.data.materials.append(green)
@@ -37,7 +35,7 @@ def test_color_and_indices_come_from_the_first_faces_material(scene):
         for name, index, color in zip(shapes.name_index, shapes.material_index, shapes.color, strict=True)
     }
     red, green = (1, (1, 0, 0, 1)), (2, (0, 1, 0, 0.5))
-    assert looks == {"Plain": (0, (0.5, 0.25, 0, 1)), "First": red, "Second": green, "Own": green}
+    assert looks == {"Bare": (0, (np.float32(0.8),) * 3 + (1,)), "First": red, "Second": green, "Own": green}
 
 
 def test_a_ball_or_floor_of_several_materials_is_cast_as_its_mesh(scene):
@@ -113,22 +111,22 @@ def turned_off(material, node):
         material.node_tree.links.clear()
 
 
-GOLD, GREEN = (1, 0.5, 0.125, 1), (0, 1, 0, 0.5)
+GOLD, GREEN, GRAY = (1, 0.5, 0.125, 1), (0, 1, 0, 0.5), (0.8, 0.8, 0.8, 0.5)
+OFF = GREEN if bpy.app.version < (5, 0, 0) else (0, 0, 0, 0.5)
 
 
 @pytest.mark.parametrize(
     ("color", "change", "expected"),
     [
         (GOLD, None, (*GOLD[:3], 0.5)),
-        (None, None, GREEN),
-        ((0.8, 0.8, 0.8, 1), None, GREEN),
+        (None, None, GRAY),
         (GOLD, mixed, (0.5, 0.25, 0.0625, 0.5)),
         (GOLD, textured, GREEN),
-        (GOLD, turned_off, GREEN),
+        (GOLD, turned_off, OFF),
     ],
-    ids=["changed", "as it was made", "set to the same", "mixed", "textured", "turned off"],
+    ids=["changed", "as it was made", "mixed", "textured", "turned off"],
 )
-def test_a_plain_base_color_that_was_changed_is_the_color(scene, color, change, expected):
+def test_a_plain_base_color_is_the_color(scene, color, change, expected):
     material, node = principled(color)
     if change:
         change(material, node)
@@ -168,6 +166,13 @@ def test_lights_are_those_of_the_scene(scene):
     assert not lights.left_out
 
 
+def test_a_light_whose_nodes_give_nothing_is_dark(scene):
+    light = new_object("Lamp", bpy.data.lights.new("Lamp", "SUN")).data
+    light.use_nodes = True
+    light.node_tree.nodes.clear()
+    assert read_shapes(scene).lights.color.tolist() == [[0, 0, 0]]
+
+
 @pytest.mark.parametrize("strength", [np.nan, np.inf])
 def test_a_light_of_no_finite_strength_is_left_out(scene, strength):
     new_object("Lamp", bpy.data.lights.new("Lamp", "POINT")).data.energy = strength
@@ -179,13 +184,14 @@ def test_a_light_of_no_finite_strength_is_left_out(scene, strength):
 
 
 def test_a_color_that_is_not_finite_is_black(scene):
-    ball("Ball").color = np.nan, 0.5, 0.5, 1
+    ball("Ball").data.materials.append(plain("Paint", (np.nan, 0.5, 0.5, 1)))
     scene.world = bpy.data.worlds.new("World")
     scene.world.color = np.nan, 0.5, 0.5
     if bpy.app.version >= (5, 0, 0):
         scene.world.node_tree.nodes.clear()
     shapes = read_shapes(scene)
-    assert shapes.color.tolist() == [[0, 0, 0, 1]]
+    has_nodes = bpy.app.version >= (5, 0, 0)  # whose colors lose the component
+    assert shapes.color.tolist() == [[0, 0.5, 0.5, 1] if has_nodes else [0, 0, 0, 1]]
     assert shapes.world_color == (0, 0, 0, 1)
 
 
@@ -202,6 +208,8 @@ def test_the_worlds_color_is_what_its_background_emits(scene):
     sky = scene.world.node_tree.nodes.new("ShaderNodeTexCoord")
     scene.world.node_tree.links.new(sky.outputs[0], background.inputs["Color"])
     assert read_shapes(scene).world_color == (0.25, 0.5, 0.75, 1)
+    scene.world.node_tree.nodes.clear()
+    assert read_shapes(scene).world_color == (0, 0, 0, 1)
     scene.render.film_transparent = True
     assert read_shapes(scene).world_color == (0, 0, 0, 0)
 

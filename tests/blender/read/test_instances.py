@@ -6,7 +6,7 @@ import pytest
 
 from camera_ray_caster.blender.read.scene import read_shapes
 
-from .scene_parts import ADD, ball, counts, geometry_nodes, in_a_render, mesh_of, new_collection, new_object
+from .scene_parts import ADD, ball, counts, geometry_nodes, in_a_render, mesh_of, new_collection, new_object, plain
 
 ULP = float(np.finfo(np.float32).eps)
 
@@ -66,8 +66,7 @@ def test_instances_of_objects_and_of_geometry_by_geometry_nodes(scene):
         link(paint.outputs[0], scatter.inputs["Instance"])
         return scatter.outputs[0]
 
-    material = bpy.data.materials.new("Paint")
-    material.diffuse_color, material.pass_index = (0.25, 0.5, 0.75, 1), 3
+    material = plain("Paint", (0.25, 0.5, 0.75, 1), 3)
     geometry_nodes(new_object("Objects", mesh_of((1, 0, 0), (2, 0, 0))), objects)
     other = new_object("Geometry", mesh_of((3, 0, 0)))
     other.location = 0, 0, 5

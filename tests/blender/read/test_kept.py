@@ -7,7 +7,7 @@ import pytest
 from camera_ray_caster.blender.read import kept
 from camera_ray_caster.blender.read.scene import read_shapes
 
-from .scene_parts import ADD, geometry_nodes, in_a_render, mesh_of, new_collection, new_object
+from .scene_parts import ADD, geometry_nodes, in_a_render, mesh_of, new_collection, new_object, paint, plain
 from .time_scene import drive, key
 
 
@@ -85,12 +85,12 @@ def test_what_moves_is_not_read_again(scene, objects, read_meshes):
 
 
 def test_colors_materials_and_the_camera_are_nothing_to_a_mesh(scene, objects, read_meshes):
-    material = bpy.data.materials.new("Material")
+    material = plain("Material", (1, 0, 0, 1))
     objects["Plain"].data.materials.append(material)
     read_shapes(scene)
     read_meshes.clear()
-    material.diffuse_color, material.pass_index = (1, 0, 0, 1), 5
-    objects["Text"].color = 0, 1, 0, 1
+    material.pass_index = 5
+    paint(material, (0, 1, 0, 1))
     shapes = read_shapes(scene)
     assert read_meshes == []
     assert 5 in shapes.material_index

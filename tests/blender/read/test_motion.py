@@ -8,7 +8,7 @@ from camera_ray_caster.blender.read.scene import read_camera, read_shapes
 from camera_ray_caster.core.records import InputError
 
 from ..pictures import picture
-from .scene_parts import geometry_nodes, new_object
+from .scene_parts import geometry_nodes, new_object, plain
 from .time_scene import PASSES, SIZE, coordinates, disc, drive, fan, gray, key, same, still, walked
 
 
@@ -106,9 +106,11 @@ def test_what_is_hidden_for_a_few_of_a_hundred_frames_is_hidden_then(scene, sphe
 
 
 def test_a_keyed_color_changes_from_row_to_row(blender, scene, sphere):
-    material = blender.data.materials.new("Paint")
+    material = plain("Paint", (0, 0, 0, 1))
     sphere.data.materials.append(material)
-    key(material, "diffuse_color", (1, (0, 0, 0, 1)), (25, (1, 0.5, 0, 1)))
+    has_nodes = blender.app.version >= (5, 0)
+    path = 'nodes["Principled BSDF"].inputs["Base Color"].default_value' if has_nodes else "diffuse_color"
+    key(material.node_tree if has_nodes else material, path, (1, (0, 0, 0, 1)), (25, (1, 0.5, 0, 1)))
     shapes = read_shapes(scene)
     for frame in (1.0, 7.3, 24.9):
         share = (frame - 1) / 24

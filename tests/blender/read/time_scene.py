@@ -27,7 +27,10 @@ def walked(scene, **keywords):
 def key(item, path, *values, index=-1):
     """Key a property linearly: (frame, value) pairs."""
     for frame, value in values:
-        setattr(item, path, value) if index < 0 else getattr(item, path).__setitem__(index, value)
+        if index < 0:
+            exec(f"item.{path} = value", {"item": item, "value": value})
+        else:
+            getattr(item, path)[index] = value
         item.keyframe_insert(path, index=index, frame=frame)
     for curve in curves(item):
         curve.extrapolation = "LINEAR"

@@ -9,7 +9,7 @@ from ...core.materials.directions import over_all_directions
 from ...core.materials.values import Constant, Value, constant
 from ...core.records import AREA, EVERYWHERE
 from .materials import ALWAYS_NODES, as_color, shown
-from .nodes import Nodes, Unread
+from .nodes import Nodes, Unread, output_of
 from .shader_nodes import colors
 from .value_nodes import ENVIRONMENT, READ, READ_OF_WORLDS
 
@@ -79,13 +79,12 @@ def world_of(depsgraph) -> World:
 
 def _emitted(owner, read: dict) -> Value | None:
     """Return what the nodes of a world or a light emit, three channels, given the functions that read them; None
-    without nodes that are shown. Raises Unread.
+    without nodes. Nodes with nothing at the output emit nothing, as in Cycles. Raises Unread.
     """
-    output = owner.node_tree.get_output_node("CYCLES") if owner.node_tree is not None else None
-    if output is None or not output.inputs["Surface"].is_linked:
+    if owner.node_tree is None:
         return None
-    nodes = Nodes(read)
-    glow = colors(nodes, output.inputs["Surface"], (), weighs=False).glow
+    output, nodes = output_of(owner.node_tree), Nodes(read)
+    glow = None if output is None else colors(nodes, *output["Surface"], weighs=False).glow
     glow = constant(0, 0, 0) if glow is None else as_color(glow)
     if ENVIRONMENT not in nodes.needs and not isinstance(glow, Constant):
         raise Unread("it changes without an environment image")

@@ -11,7 +11,7 @@ import numpy as np
 from ...core.materials.surface import Surface
 from ...core.materials.values import Constant, Value, constant, function_of
 from ...core.shapes.mesh.displaced import Displacement
-from .nodes import Unread
+from .nodes import Output, Unread, output_of
 from .outputs import displacement_of, has_bump, is_volume_alone
 from .shader_nodes import ShaderParts, alpha_of, colors, material_nodes, transparency
 from .unique import unique_name
@@ -27,9 +27,10 @@ MESH_HAS_SLOTS = bpy.app.version >= (5, 2, 0)
 in earlier versions. They differ where nodes make the mesh.
 """
 
-UNCHANGED = (float(np.float32(0.8)),) * 3
-"""Default Base Color of a new Principled BSDF."""
+NO_MATERIAL = (0.8, 0.8, 0.8, 1.0)
+"""Color of a surface without a material, as in Cycles."""
 
+BLACK = (0.0, 0.0, 0.0, 1.0)
 
 VOLUME = "it has a volume and no surface: rays pass through it"
 UNMOVED = "the displacement of its material {!r} is not read: {}. It is cast where the mesh is"
@@ -106,13 +107,13 @@ class Looks:
         return self.of_slots(item, range(max(1, slot_count(item))))
 
     def _of_slot(self, item, slot: int) -> Look:
-        """Return the look of a slot, or of the last one for slots after it; the object's color without a material."""
+        """Return the look of a slot, or of the last one for slots after it."""
         slots, own = item.material_slots, item.original.material_slots
         place = min(slot, slot_count(item) - 1)
         material = slots[place].material if place >= 0 else None
         if OWN_IS_EMPTY and 0 <= place < len(own) and own[place].link == "OBJECT" and own[place].material is None:
             material = None
-        return Look(0, shown(item.color)) if material is None else self._of(material)
+        return Look(0, NO_MATERIAL) if material is None else self._of(material)
 
     def _of(self, material) -> Look:
         if material not in self._known:
@@ -142,27 +143,18 @@ def is_finite(color) -> bool:
 
 def shown(color) -> tuple[float, ...]:
     """Return a color of three or four components; black if any is NaN or infinite, which would spread to all pixels."""
-    return tuple(color) if is_finite(color) else (0.0, 0.0, 0.0, 1.0)[: len(color)]
-
-
-def surface_node(owner, kind: str):
-    """Return the node that is a material's or a world's surface, if it is of that kind; None otherwise."""
-    uses_nodes = owner.node_tree is not None and (ALWAYS_NODES or owner.use_nodes)
-    output = owner.node_tree.get_output_node("ALL") if uses_nodes else None
-    links = output.inputs["Surface"].links if output else ()
-    return links[0].from_node if links and links[0].from_node.bl_idname == kind else None
+    return tuple(color) if is_finite(color) else BLACK[: len(color)]
 
 
 def _look(material, threshold: float) -> Look:
-    """Return a material's look: what its nodes say, or its viewport color if they say nothing that is read, or have a
-    Principled BSDF as it was made.
-    """
+    """Return a material's look: what its nodes say, or its viewport color if it has none or they are not read."""
     *viewport, opacity = material.diffuse_color
     plain = Look(material.pass_index, shown((*viewport, opacity)))
-    uses_nodes = material.node_tree is not None and (ALWAYS_NODES or material.use_nodes)
-    output = material.node_tree.get_output_node("CYCLES") if uses_nodes else None
-    if output is None:
+    if material.node_tree is None or not (ALWAYS_NODES or material.use_nodes):
         return plain
+    output = output_of(material.node_tree)
+    if output is None:
+        return plain._replace(color=BLACK)
     if is_volume_alone(output):
         hollow = Surface(constant(*viewport), alpha=constant(0))
         return plain._replace(surface=hollow, left_out=(VOLUME,))
@@ -172,17 +164,17 @@ def _look(material, threshold: float) -> Look:
         plain = plain._replace(displacement=displacement, needs=needs)
     except Unread as error:
         plain = plain._replace(unmoved=UNMOVED.format(_name(material), error))
-    return _colored(material, output, plain, threshold) if output.inputs["Surface"].is_linked else plain
+    return _colored(material, output, plain, threshold)
 
 
-def _colored(material, output, plain: Look, threshold: float) -> Look:
+def _colored(material, output: Output, plain: Look, threshold: float) -> Look:
     """Return a look with the color and the transparent points that the nodes of a surface say."""
     *viewport, opacity = material.diffuse_color
-    nodes, socket, unread = material_nodes(), output.inputs["Surface"], []
+    nodes, (socket, groups), unread = material_nodes(), output["Surface"], []
     left_out = plain.left_out
     alpha = through = None
     try:
-        through = transparency(nodes, socket, ()) if threshold > 0 else None
+        through = transparency(nodes, socket, groups) if threshold > 0 else None
         alpha = None if through is None else alpha_of(through)
     except Unread as error:
         left_out += (f"its alpha is not read: {error}. It is cast opaque",)
@@ -192,11 +184,10 @@ def _colored(material, output, plain: Look, threshold: float) -> Look:
     lit: Value = constant(*viewport)
     own = glow = None
     try:
-        parts = _divided(colors(nodes, socket, (), through is not None), through, alpha)
+        parts = _divided(colors(nodes, socket, groups, through is not None), through, alpha)
         needs |= nodes.needs
         base, own, glow = (part and as_color(part) for part in parts)
-        if base is None or not _as_made(material):
-            lit = constant(0, 0, 0) if base is None else function_of(lambda one: np.maximum(one, 0), base)
+        lit = constant(0, 0, 0) if base is None else function_of(lambda one: np.maximum(one, 0), base)
     except Unread as error:
         unread.append(f"its color is not read: {error}. Its viewport color is shown")
     unread += [f"{_image(name)} is missing: it is shown in magenta" for name in sorted(nodes.missing - of_alpha)]
@@ -210,13 +201,6 @@ def _colored(material, output, plain: Look, threshold: float) -> Look:
 
 def _image(name: str) -> str:
     return f"its image {name!r}" if name else "the image of an Image Texture"
-
-
-def _as_made(material) -> bool:
-    """Return whether a material is a Principled BSDF whose Base Color was not changed."""
-    node = surface_node(material, "ShaderNodeBsdfPrincipled")
-    base = node.inputs["Base Color"] if node else None
-    return base is not None and not base.is_linked and tuple(base.default_value)[:3] == UNCHANGED
 
 
 def _divided(parts: ShaderParts, through: Value | None, alpha: Value | None) -> tuple[Value | None, ...]:

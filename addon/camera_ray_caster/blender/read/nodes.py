@@ -1,14 +1,26 @@
 """The links of a node tree: which expression a socket has, through groups, reroutes and muted nodes."""
 
-from collections.abc import Callable, Hashable
+from collections.abc import Callable, Hashable, Iterator, Mapping
 from typing import Any, TypeVar
 
+import bpy
 import numpy as np
 
 from ...core.materials.values import Value, constant, function_of, gray, mean
 
 DEEPEST = 100
 """Nodes in a row that are followed: each takes some five of the thousand calls that Python nests."""
+
+FLATTENED = bpy.app.version >= (5, 0, 0)
+"""Whether Cycles merges the outputs of a tree and of its groups into one list. Earlier versions link the inputs of the
+outputs one by one, those in groups first.
+"""
+
+ONLY_USABLE = bpy.app.version >= (5, 2, 0)
+"""Whether the first active output is sought among those that Cycles can use; among all in earlier versions."""
+
+OUTPUTS = {"ShaderNodeOutputMaterial", "ShaderNodeOutputWorld", "ShaderNodeOutputLight"}
+"""The nodes that Cycles renders, by type."""
 
 T = TypeVar("T")
 
@@ -23,6 +35,72 @@ Source = tuple[Any, Any, tuple]
 """A node, its output socket and the group nodes around it, the innermost last; or None and a socket that has a value of
 its own.
 """
+
+
+Output = Mapping[str, tuple[Any, tuple]]
+"""The input sockets of an output by name, each with the group nodes around it."""
+
+
+def output_of(tree) -> Output | None:
+    """Return the output of a node tree that Cycles renders, which may be inside a group; None if there is none."""
+    if FLATTENED:
+        there = list(_outputs(tree, ()))
+        chosen = _chosen([node for node, _ in there])
+        return next((_inputs(node, groups) for node, groups in there if node == chosen), None)
+    there = [_inputs(node, groups) for node, groups in _linked_first(tree, ())]
+    first = {name: inputs[name] for inputs in reversed(there) for name in inputs if inputs[name][0].is_linked}
+    return {**there[-1], **first} if there else None
+
+
+def _inputs(node, groups: tuple) -> Output:
+    return {socket.name: (socket, groups) for socket in node.inputs}
+
+
+def _groups(tree) -> Iterator:
+    """Yield the group nodes of a tree that have an output inside."""
+    known: dict[int, bool] = {}
+    for node in tree.nodes:
+        if node.type == "GROUP" and not node.mute and node.node_tree is not None and _has_output(node.node_tree, known):
+            yield node
+
+
+def _has_output(tree, known: dict[int, bool]) -> bool:
+    """Return whether a tree or a group in it has an output; each tree is looked at once, by its address."""
+    key = tree.as_pointer()
+    if key not in known:
+        known[key] = False
+        inner = (node.node_tree for node in tree.nodes if node.type == "GROUP" and node.node_tree is not None)
+        known[key] = any(node.bl_idname in OUTPUTS for node in tree.nodes) or any(
+            _has_output(one, known) for one in inner
+        )
+    return known[key]
+
+
+def _outputs(tree, groups: tuple) -> Iterator[tuple[Any, tuple]]:
+    """Yield the outputs of a tree, then those of its groups, each with the group nodes around it."""
+    yield from ((node, groups) for node in tree.nodes if node.bl_idname in OUTPUTS)
+    for group in _groups(tree):
+        yield from _outputs(group.node_tree, (*groups, group))
+
+
+def _linked_first(tree, groups: tuple) -> Iterator[tuple[Any, tuple]]:
+    """Yield the output of each group, then that of the tree, in the order in which Cycles 4 links them."""
+    for group in _groups(tree):
+        yield from _linked_first(group.node_tree, (*groups, group))
+    output = _chosen([node for node in tree.nodes if node.bl_idname in OUTPUTS])
+    if output is not None and not output.mute:
+        yield output, groups
+
+
+def _chosen(outputs: list):
+    """Return the output that Cycles prefers: one of its own before one of all engines, then the active one."""
+    usable = [node for node in outputs if node.target != "EEVEE"]
+    active = next((node for node in (usable if ONLY_USABLE else outputs) if node.is_active_output), None)
+    for target in ("CYCLES", "ALL"):
+        some = [node for node in usable if node.target == target]
+        if some:
+            return active if active in some else some[0]
+    return None
 
 
 class Nodes:

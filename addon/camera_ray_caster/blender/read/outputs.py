@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 from ...core.materials.values import function_of
 from ...core.shapes.mesh.displaced import Displacement
-from .nodes import Node, Nodes, Unread
+from .nodes import Node, Nodes, Output, Unread
 from .value_nodes import READ
 
 BUMPS = {"ShaderNodeBump", "ShaderNodeNormalMap", "ShaderNodeBevel"}
@@ -14,20 +14,20 @@ SHIFTS = {"ShaderNodeDisplacement": "Height", "ShaderNodeVectorDisplacement": "V
 """The nodes that displace, by type, and their input."""
 
 
-def is_volume_alone(output) -> bool:
+def is_volume_alone(output: Output) -> bool:
     """Return whether a material's output has a volume and no surface. Cycles' rays pass through such a material."""
     nodes = Nodes({})
-    volume, surface = (nodes.source(output.inputs[name], ())[0] for name in ("Volume", "Surface"))
+    volume, surface = (nodes.source(*output[name])[0] for name in ("Volume", "Surface"))
     return volume is not None and surface is None
 
 
-def displacement_of(material, output) -> tuple[Displacement | None, frozenset[str]]:
+def displacement_of(material, output: Output) -> tuple[Displacement | None, frozenset[str]]:
     """Return the true displacement of a material, None without one, and what it needs of the mesh: see ``Nodes.needs``.
 
     Raises Unread. Camera rays, which a Light Path node could ask for, have no part in a displacement.
     """
     nodes = Nodes({kind: how for kind, how in READ.items() if kind != "ShaderNodeLightPath"})
-    found, _, groups = nodes.source(output.inputs["Displacement"], ())
+    found, _, groups = nodes.source(*output["Displacement"])
     if found is None or material.displacement_method == "BUMP":
         return None, frozenset()
     node = Node(nodes, found, groups)
@@ -42,9 +42,9 @@ def displacement_of(material, output) -> tuple[Displacement | None, frozenset[st
     return Displacement(offset, material.displacement_method == "DISPLACEMENT"), frozenset(nodes.needs)
 
 
-def has_bump(material, output) -> bool:
+def has_bump(material, output: Output) -> bool:
     """Return whether a material changes the normals of its surface: by its nodes, or by a displacement that is bump."""
-    bumps = material.displacement_method != "DISPLACEMENT" and output.inputs["Displacement"].is_linked
+    bumps = material.displacement_method != "DISPLACEMENT" and output["Displacement"][0].is_linked
     return bumps or any(_in_use(node) for node in _nodes(material.node_tree, set()))
 
 

@@ -45,8 +45,8 @@ class ShaderParts(NamedTuple):
 
 def transparency(nodes: Nodes, socket, groups: tuple) -> Value | None:
     """Return what the shader at a socket lets through, three channels or one; None for nothing. Raises Unread."""
-    found, _, groups = nodes.source(socket, groups)
-    if found is None:
+    found, output, groups = nodes.source(socket, groups)
+    if found is None or output.type != "SHADER":
         return None
     node = Node(nodes, found, groups)
     return nodes.once(node, "transparency", lambda: _transparency(nodes, node))
@@ -72,10 +72,13 @@ def colors(nodes: Nodes, socket, groups: tuple, weighs: bool) -> ShaderParts:
     """Return the colors of the shader at a socket. ``weighs``: whether the alpha of Principled BSDFs weights theirs.
     Raises Unread.
     """
-    found, _, groups = nodes.source(socket, groups)
+    found, output, inner = nodes.source(socket, groups)
+    if output.type != "SHADER":  # Cycles lets it emit
+        value = nodes.value(socket, groups, "RGBA")
+        return ShaderParts(None, value, value)
     if found is None:
         return ShaderParts()
-    node = Node(nodes, found, groups)
+    node = Node(nodes, found, inner)
     return nodes.once(node, f"colors {weighs}", lambda: _colors(nodes, node, weighs))
 
 
