@@ -68,6 +68,18 @@ def test_a_rig_stands_below_an_empty_and_a_trajectory_moves_it(blender, camera_s
         add_rig(camera_scene, [transforms(tmp_path), str(tmp_path / "path.txt")])
 
 
+@pytest.mark.parametrize("key", ["tum", "bop"])
+def test_a_rig_in_meters_stands_where_it_was_exported_from(blender, camera_scene, tmp_path, key):
+    camera_scene.unit_settings.scale_length = 0.01
+    camera_scene.camera.location = 1, 2, 3
+    _, (path,) = exports.write(camera_scene, key, [camera_scene.camera], [1, 2], tmp_path)
+    (item,) = add_rig(camera_scene, [str(path)])
+    assert np.allclose(item.location, (1, 2, 3), atol=1e-6)
+    camera_scene.unit_settings.system = "NONE"  # Blender then ignores the scale
+    (item,) = add_rig(camera_scene, [str(path)])
+    assert np.allclose(item.location, (0.01, 0.02, 0.03), atol=1e-6)
+
+
 def test_what_was_exported_is_read_into_blender_again(blender, camera_scene, tmp_path):
     camera_scene.camera.location, camera_scene.camera.rotation_euler = (1, 2, 3), (0.3, -0.4, 0.5)
     before = read_camera(camera_scene)

@@ -17,7 +17,7 @@ SOURCES = [*MODULES, *sorted((ROOT / "scripts").rglob("*.py")), *sorted((ROOT / 
 # What a part of the package may import of the package: the longest name that fits counts. The lowest layer comes first.
 LOW = {
     "core.conventions", "core.tuning", "core.materials", "core.mesh", "core.timeline", "core.records", "core.arguments",
-    "core.memory", "core.maths",
+    "core.memory", "core.maths", "core.units",
 }  # fmt: skip
 FILES = {"core.programs", "core.text_forms"}
 RAYS = LOW | {"core.cameras", "core.camera"} | FILES
@@ -36,6 +36,7 @@ MAY_IMPORT = {
     "core.memory": {"core.records"},
     "core.names": {"core.records"},
     "core.file_set": {"core.records"},
+    "core.units": set(),
     "core.version": set(),
     "core.maths": {"core.conventions", "core.maths"},
     "core.cameras": LOW | {"core.cameras"},

@@ -25,6 +25,7 @@ from ..core.records import InputError
 from .properties.calibration import READING, set_lens, settings_in
 from .properties.declared import GROUP, MODEL
 from .read.frames import frame_rate
+from .read.lengths import meters_of
 from .read.size import SIZE, size_of
 
 
@@ -37,7 +38,7 @@ def add_rig(scene, paths: Iterable[str], parent=None, model: str = "") -> list:
     the model for files that do not name theirs. Nothing is added if a file cannot be read: InputError.
     """
     paths, rate = list(paths), frame_rate(scene)
-    found = [one for path in paths for one in mounted(path, model, size_of(scene), rate)]
+    found = [one for path in paths for one in mounted(path, model, size_of(scene), rate, meters_of(scene))]
     trajectories = [one for one in found if not one.lenses]
     cameras = [one for one in found if one.lenses]
     if len(trajectories) > 1 or (trajectories and any(len(one.poses) > 1 for one in cameras)):
@@ -53,7 +54,7 @@ def add_rig(scene, paths: Iterable[str], parent=None, model: str = "") -> list:
         objects = [_camera(scene, one, empty) for one in cameras or trajectories]
     if scene.camera is None and objects:
         scene.camera = objects[0]
-    _mark(scene, cameras, objects)
+    _mark(scene, cameras or trajectories, objects)
     return objects
 
 

@@ -58,6 +58,7 @@ class BlenderCamera:
     border_max_x: float = 1.0
     border_min_y: float = 0.0
     border_max_y: float = 1.0
+    use_crop_to_border: bool = False
     model: str = ""
     """Key of the model chosen in place of Blender's camera type; empty if Blender's type is used."""
     settings: Mapping[str, Any] = field(default_factory=dict)
@@ -75,11 +76,26 @@ class Raster:
     y0: int
     x1: int
     y1: int
+    cropped: bool = False
+    """Whether files of pictures have the window only; else they have the full frame, empty outside of the window."""
 
     @property
     def size(self) -> tuple[int, int]:
         """Width and height of the full frame."""
         return self.width, self.height
+
+    @property
+    def picture(self) -> tuple[int, int, int, int]:
+        """The part of the frame that files of pictures have: columns x0 .. x1 - 1, rows y0 .. y1 - 1, as x0, x1, y0,
+        y1.
+        """
+        return (self.x0, self.x1, self.y0, self.y1) if self.cropped else (0, self.width, 0, self.height)
+
+    @property
+    def picture_size(self) -> tuple[int, int]:
+        """Width and height of files of pictures."""
+        x0, x1, y0, y1 = self.picture
+        return x1 - x0, y1 - y0
 
     @property
     def shape(self) -> tuple[int, int]:

@@ -21,6 +21,7 @@ from ...core.report.accuracy import accuracy
 from ...core.report.report import Report, report_cast
 from ..read.evaluated import Eye, scene_at
 from ..read.frames import frame_of, frame_rate, go_to
+from ..read.lengths import meters_of
 from ..read.motion import with_other_frames
 from ..verification.check import findings_of_picture
 
@@ -80,7 +81,6 @@ class Job:
             finally:
                 visit(frame)
         moved = perf_counter()
-        raster = found.camera.raster
         return cls(
             camera=found.camera,
             shapes=found.shapes,
@@ -91,12 +91,10 @@ class Job:
             seconds={"read": read - started + moved - verified, "verify": verified - read},
             frame=frame,
             layer=layer,
-            stored=raster.shape
-            if not scene.render.use_border or scene.render.use_crop_to_border
-            else raster.size[::-1],
+            stored=found.camera.raster.picture_size[::-1],
             host={
                 "blender": bpy.app.version_string,
-                "meters": scene.unit_settings.scale_length,
+                "meters": meters_of(scene),
                 "frame_rate": frame_rate(scene),
             },
             several=several,

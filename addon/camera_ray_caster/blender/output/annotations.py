@@ -38,16 +38,12 @@ def annotated(scene, images: Images, file_name: str, keypoints: Sequence[str] = 
 
     ``file_name`` is the PNG or, if combined is not cast, the file of passes; for ``keypoints``, see ``read.keypoints``.
     """
-    camera, render = images.camera, scene.render
-    raster = camera.raster
-    if render.use_border and not render.use_crop_to_border:
-        size, corner = raster.size, (0, 0)
-    else:
-        size, corner = raster.shape[::-1], (raster.x0, raster.y0)
+    camera = images.camera
     image = {"file_name": file_name, "camera": camera.name, "frame": frame_of(scene)}
     points = key_points(scene, bpy.context.evaluated_depsgraph_get(), keypoints) if keypoints else []
     seen = seen_key_points(camera, images.shapes, points)
-    return json.dumps(document(image, Sheet(*size, corner), camera, images.shapes, category_of, seen, images))
+    sheet = Sheet.of(camera.raster)
+    return json.dumps(document(image, sheet, camera, images.shapes, category_of, seen, images))
 
 
 def category_of(name: str) -> str:

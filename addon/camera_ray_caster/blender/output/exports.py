@@ -14,6 +14,7 @@ from ...core.records import InputError
 from ..process import signals
 from ..read.camera import eye_object, views_of
 from ..read.frames import frame_rate, go_to
+from ..read.lengths import meters_of
 from ..read.scene import evaluated, read_camera
 from ..read.size import own_size, sized
 from ..read.unique import unique_name
@@ -94,7 +95,7 @@ def reading(
                     for suffix, view in views if shown(camera, frame) else ():
                         read = read_camera(scene, eye_object(scene, view, camera), view=view)
                         own, end = file_name(name), file_name(suffix) if suffix else ""
-                        found.append(Shot(own, frame, read, scene.unit_settings.scale_length, to, end, rate))
+                        found.append(Shot(own, frame, read, meters_of(scene), to, end, rate))
     if len(of_sizes) > 1:
         order = {file_name(name): number for number, name in enumerate(names)}
         found.sort(key=lambda shot: (frames.index(shot.frame), order[shot.camera_name]))

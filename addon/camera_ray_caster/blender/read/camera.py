@@ -29,7 +29,7 @@ CAMERA = (
 )  # fmt: skip
 RENDER = (
     "resolution_x", "resolution_y", "resolution_percentage", "pixel_aspect_x", "pixel_aspect_y",
-    "use_border", "border_min_x", "border_max_x", "border_min_y", "border_max_y",
+    "use_border", "border_min_x", "border_max_x", "border_min_y", "border_max_y", "use_crop_to_border",
 )  # fmt: skip
 DEPTH_OF_FIELD = tuple(setting.name for setting in aperture.DEPTH_OF_FIELD)
 STEREO = (

@@ -1,4 +1,4 @@
-"""Lengths as text, in the scene's units."""
+"""The scene's units, and lengths as text in them."""
 
 import bpy
 import numpy as np
@@ -13,10 +13,17 @@ UNITS = {
 """Meters and sign of Blender's units of length, by key; the unit ADAPTIVE depends on the length."""
 
 
+def meters_of(scene) -> float:
+    """Return the length of a Blender unit in meters: the Unit Scale, which Blender ignores without a system of units.
+    """
+    units = scene.unit_settings
+    return 1.0 if units.system == "NONE" else units.scale_length
+
+
 def length(context, value: float) -> str:
     """Return a length as text in the scene's unit."""
     units = context.scene.unit_settings
-    meters = value * units.scale_length
+    meters = value * meters_of(context.scene)
     if units.system == "NONE":
         text = f"{value:.{DIGITS}g}"
     elif units.length_unit in UNITS:

@@ -21,7 +21,7 @@ import numpy as np
 from ..camera.camera import Camera
 from ..cast import Images
 from ..motion.moments import check_rows, check_still
-from ..records import Shapes
+from ..records import Raster, Shapes
 from ..version import VERSION
 from .keypoints import SeenKeyPoint
 from .poses import object_poses
@@ -40,6 +40,12 @@ class Sheet:
     width: int
     height: int
     corner: tuple[int, int] = (0, 0)
+
+    @classmethod
+    def of(cls, raster: Raster) -> Sheet:
+        """Return the sheet of a camera's pictures."""
+        x0, _, y0, _ = raster.picture
+        return cls(*raster.picture_size, (x0, y0))
 
     def box(self, x0: int, x1: int, y0: int, y1: int) -> list[int]:
         """Return pixels x0 .. x1 - 1, y0 .. y1 - 1 of the full frame, y up, as a box of COCO."""

@@ -14,6 +14,7 @@ CONVENTIONS = {
     "pixels": "(0, 0) is the bottom left corner of the full frame, y up; pixels have their centers at + 1/2",
     "camera": "x right, y up, it looks along -z; u, v and -w are these axes in the world, eye is the origin",
     "K": "as OpenCV: y down, (0, 0) is the center of the top left pixel; of the full frame",
+    "picture": "size and K of files of pictures: the full frame, or the window if it is cropped to the render border",
     "world_to_opencv": "rows; from the world to x right, y down, z ahead",
     "plane_from_pixels": "rows; from (x, y, 1) of a pixel to the image plane with which the formula begins",
 }
@@ -47,11 +48,20 @@ def camera_facts(camera: Camera) -> dict[str, object]:
         "clip": [camera.clip_start, camera.clip_end],
         **own,
         **({} if camera.K is None else {"K": camera.K.tolist()}),
+        **({"picture": _picture(camera)} if raster.size != raster.picture_size else {}),
         **({"plane_from_pixels": _plane(camera.model)} if isinstance(camera.model, WindowModel) else {}),
         "world_to_opencv": camera.world_to_opencv.tolist(),
         "settings": dict(camera.settings),
         "formula": [step._asdict() for step in camera.model.steps],
     }
+
+
+def _picture(camera: Camera) -> dict[str, object]:
+    """Return size and K of the files of cropped pictures."""
+    x0, _, _, y1 = camera.raster.picture
+    moved = np.array(((0.0, 0.0, x0), (0.0, 0.0, camera.raster.height - y1), (0.0, 0.0, 0.0)))
+    K = {} if camera.K is None else {"K": (camera.K - moved).tolist()}
+    return {"size": list(camera.raster.picture_size), **K}
 
 
 def _plane(model: WindowModel) -> list[list[float]]:

@@ -9,7 +9,8 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from ..arguments import unknown
-from ..records import InputError
+from ..records import InputError, Pose
+from ..units import factor, unit_name
 from . import rigid
 from .bop import Bop
 from .camera_json import CameraJson
@@ -67,10 +68,21 @@ def export(
     said = [*dict.fromkeys(line for shot in shots for line in chosen.omissions(shot)), *fits]
     if not chosen.rigid:
         return with_heads(chosen.files(shots), fits), said
+    if chosen.unit is None and shots[0].meters != 1:
+        fits.append(f"lengths are in {unit_name(None)} of {shots[0].meters:.6g} m")
+        said.append(fits[-1])
     cameras, moves = zip(*(rigid.with_rotation(shot.camera) for shot in shots), strict=True)
-    rotated = [replace(shot, camera=camera) for shot, camera in zip(shots, cameras, strict=True)]
+    rotated = [_in_unit(chosen, replace(shot, camera=camera)) for shot, camera in zip(shots, cameras, strict=True)]
     moved = f"poses are the nearest rotations to Blender's matrices, which moves pixels by up to {max(moves):.1e}"
     return with_heads(chosen.files(rotated), fits), [moved, *said]
+
+
+def _in_unit(chosen: Format, shot: Shot) -> Shot:
+    """Return a camera whose place is in the format's unit."""
+    pose = shot.camera.pose
+    return replace(
+        shot, camera=replace(shot.camera, pose=Pose(pose.eye * factor(chosen.unit, shot.meters), pose.basis))
+    )
 
 
 def _refusal(chosen: Format, shot: Shot) -> str | None:

@@ -49,7 +49,7 @@ class Colmap(lenses.LensFormat):
         if " " in shot.image:
             return "whose name has a space, which ends a name in COLMAP: rename it"
         found = lenses.find_lens(TABLE, shot.camera)
-        if found is not None and found[0] == SPHERE and not _is_whole(found[1], shot.camera.raster.size):
+        if found is not None and found[0] == SPHERE and not _is_whole(found[1], shot.camera.raster.picture_size):
             return "which is not the whole sphere"
         return super().refusal(shot)
 
@@ -70,7 +70,7 @@ class Colmap(lenses.LensFormat):
 def _line(shot: Shot) -> str:
     """Return a camera's line in cameras.txt, without its number."""
     kind, lens = lenses.lens_of(TABLE, shot.camera)
-    width, height = shot.camera.raster.size
+    width, height = shot.camera.raster.picture_size
     if kind == SPHERE:
         return f"{kind} {width} {height} {width} {height}"
     values = matrix_of(lens.settings, 0.5) + lenses.values(lens, TABLE[kind][1])

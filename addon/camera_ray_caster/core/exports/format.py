@@ -1,8 +1,8 @@
 """The interface of an export format.
 
 A format is a subclass of ``Format`` and an entry in FORMATS. It defines ``key``, ``label``, ``description``,
-``refusal``, which tells what the format cannot represent, and ``files``. Lengths are in Blender units unless a format
-states otherwise. A format computes contents and writes nothing: the caller writes all files of an export or none.
+``refusal``, which tells what the format cannot represent, and ``files``. Lengths are in its ``unit``. A format computes
+contents and writes nothing: the caller writes all files of an export or none.
 """
 
 from __future__ import annotations
@@ -17,6 +17,7 @@ import numpy as np
 from ..camera.camera import Camera
 from ..names import frame_digits
 from ..records import Raster
+from ..units import BLENDER_UNITS, Unit
 
 Content = str | bytes | np.ndarray
 """Content of a file: text, bytes, or an image, (rows, columns, 3) float32 from the bottom up, stored as float32 EXR."""
@@ -81,6 +82,8 @@ class Format(ABC):
     """Name in menus."""
     description: ClassVar[str]
     """Description in menus, one line."""
+    unit: ClassVar[Unit] = BLENDER_UNITS
+    """Unit of lengths. The format gets cameras whose places are in this unit; see ``units``."""
     rigid: ClassVar[bool] = False
     """Whether the format stores a pose as a rotation. It then gets cameras with the rotation nearest to their axes."""
     takes_target: ClassVar[bool] = False
@@ -101,7 +104,10 @@ class Format(ABC):
         lines = {
             f"the depth of field of camera {camera.name!r} is not in the files": camera.aperture is not None,
             f"the files are of the full frame of camera {camera.name!r}, without its render border": (
-                raster.shape != (raster.height, raster.width)
+                raster.shape != raster.picture_size[::-1]
+            ),
+            f"the files are of the picture of camera {camera.name!r}, cropped to its render border": (
+                raster.size != raster.picture_size
             ),
             f"corners of the frame of camera {camera.name!r} have no ray, but the files' formula gives them one": (
                 self.formula and not camera.rays_at(*_corners(raster)).valid.all()
@@ -118,5 +124,6 @@ class Format(ABC):
 
 
 def _corners(raster: Raster) -> tuple[np.ndarray, np.ndarray]:
-    """Return x (2,) and y (2, 1) of the pixel centers in the corners of the full frame."""
-    return np.array([0.5, raster.width - 0.5]), np.array([[0.5], [raster.height - 0.5]])
+    """Return x (2,) and y (2, 1) of the pixel centers in the corners of the picture."""
+    x0, x1, y0, y1 = raster.picture
+    return np.array([x0 + 0.5, x1 - 0.5]), np.array([[y0 + 0.5], [y1 - 0.5]])

@@ -14,6 +14,7 @@ import numpy as np
 from ..programs.kalibr import DISTORTIONS, SHAPES
 from ..programs.parts.document import matrix_of
 from ..records import InputError
+from ..units import METERS
 from . import lenses
 
 TABLE = {
@@ -33,6 +34,7 @@ class Kalibr(lenses.LensFormat):
     label = "Kalibr"
     description = "camchain.yaml: the lenses of a rig that does not change, and their poses beside each other"
     table = TABLE
+    unit = METERS
 
     def files(self, shots):
         """See Format. Raises InputError if a lens, or a camera's pose beside the first one, changes."""
@@ -54,18 +56,15 @@ class Kalibr(lenses.LensFormat):
 
 
 def _beside(before, shot) -> np.ndarray:
-    """Return the matrix from one camera to another, in meters."""
-    one, other = (item.camera.world_to_opencv.copy() for item in (before, shot))
-    for pose in (one, other):
-        pose[:3, 3] *= shot.meters
-    return other @ np.linalg.inv(one)
+    """Return the matrix from one camera to another."""
+    return shot.camera.world_to_opencv @ np.linalg.inv(before.camera.world_to_opencv)
 
 
 def _lens(shot) -> str:
     model, lens = lenses.lens_of(TABLE, shot.camera)
     kind, bend = model.split("-")
     shape, terms = SHAPES[kind][1], DISTORTIONS.get((kind, bend), ("", ()))[1]
-    width, height = shot.camera.raster.size
+    width, height = shot.camera.raster.picture_size
     entries = {
         "camera_model": kind, "intrinsics": lenses.values(lens, shape) + matrix_of(lens.settings),
         "distortion_model": bend, "distortion_coeffs": lenses.values(lens, terms), "resolution": [width, height],

@@ -29,12 +29,22 @@ Table = Mapping[str, tuple[str, Sequence[str]]]
 
 
 def calibrations(camera: Camera) -> list[Lens]:
-    """Return the calibrations that give a camera's rays, in pixels of its full frame, closest to its model first.
+    """Return the calibrations that give a camera's rays, in pixels of its picture, closest to its model first.
 
     Each has the key of its model, fx, fy, cx, cy, skew (as in settings: from the center of the top left pixel) and the
     model's other settings. An equirectangular panorama is also a calibration, with pixels per radian, and (cx, cy) in
     the viewing direction. Blender's fisheyes end at a rim; a calibration has rays beyond it.
     """
+    x0, _, _, y1 = camera.raster.picture
+    corner = {"cx": x0, "cy": camera.raster.height - y1}
+    return [
+        lens._replace(settings={name: value - corner.get(name, 0) for name, value in lens.settings.items()})
+        for lens in _of_frame(camera)
+    ]
+
+
+def _of_frame(camera: Camera) -> list[Lens]:
+    """Return the calibrations in pixels of the full frame."""
     model: Any = camera.model
     kind = type(model)  # not isinstance: subclasses turn their rays further
     if kind is Perspective:

@@ -41,7 +41,7 @@ class Mrcal(lenses.LensFormat):
             numbers = {
                 "intrinsics": _intrinsics(kind, lens),
                 "extrinsics": [*half_turn_vector(pose[:3, :3]).tolist(), *pose[:3, 3].tolist()],
-                "imagersize": list(shot.camera.raster.size),
+                "imagersize": list(shot.camera.raster.picture_size),
             }
             lines = "".join(f"    '{name}': [ {', '.join(map(repr, own))} ],\n" for name, own in numbers.items())
             yield f"{shot.stem}.cameramodel", f"{{\n    'lensmodel': '{kind}',\n{lines}}}\n"

@@ -37,7 +37,7 @@ class Nerf(lenses.LensFormat):
         if reason is not None:
             return reason
         fx, fy, cx, cy = matrix_of(lenses.lens_of(TABLE, shot.camera)[1].settings, 0.5)
-        width, height = shot.camera.raster.size
+        width, height = shot.camera.raster.picture_size
         middle = max(abs(cx - width / 2), abs(cy - height / 2)) <= NEAR * max(width, height)
         return None if middle and isclose(fx, fy, rel_tol=NEAR) else "which camera_angle_x alone does not say"
 
@@ -56,7 +56,7 @@ class Nerf(lenses.LensFormat):
 
 def _angle(shot: Shot) -> float:
     fx, *_ = matrix_of(lenses.lens_of(TABLE, shot.camera)[1].settings)
-    return 2 * atan(shot.camera.raster.width / 2 / fx)
+    return 2 * atan(shot.camera.raster.picture_size[0] / 2 / fx)
 
 
 def _frame(shot: Shot) -> dict:

@@ -45,6 +45,6 @@ def _frame(shot: Shot) -> dict:
     names = ("fl_x", "fl_y", "cx", "cy", *TABLE[kind][1])
     values = matrix_of(lens.settings, 0.5) + lenses.values(lens, TABLE[kind][1])
     pose = np.vstack((np.column_stack((camera.pose.basis, camera.pose.eye)), (0.0, 0.0, 0.0, 1.0)))
-    width, height = camera.raster.size
+    width, height = camera.raster.picture_size
     size = {"file_path": shot.image, "w": width, "h": height}
     return size | dict(zip(names, values, strict=True)) | {"transform_matrix": pose.tolist()} | shot.remark

@@ -46,7 +46,7 @@ def _lens(shot: Shot) -> str:
     kind, lens = lenses.lens_of(TABLE, shot.camera)
     fx, fy, cx, cy = matrix_of(lens.settings)
     K = [[fx, lens.settings["skew"], cx], [0.0, fy, cy], [0.0, 0.0, 1.0]]
-    width, height = shot.camera.raster.size
+    width, height = shot.camera.raster.picture_size
     terms = [name for name in TABLE[kind][1] if name not in ("unified_xi", "skew")]
     return (
         f"image_width: {width}\nimage_height: {height}\n{_matrix('camera_matrix', K)}"

@@ -38,7 +38,7 @@ class Ros(lenses.LensFormat):
 def _lens(shot: Shot) -> str:
     kind, lens = lenses.lens_of(TABLE, shot.camera)
     fx, fy, cx, cy = matrix_of(lens.settings)
-    width, height = shot.camera.raster.size
+    width, height = shot.camera.raster.picture_size
     matrices = {
         "camera_matrix": (3, 3, [fx, 0.0, cx, 0.0, fy, cy, 0.0, 0.0, 1.0]),
         "distortion_coefficients": (1, len(TABLE[kind][1]), lenses.values(lens, TABLE[kind][1])),

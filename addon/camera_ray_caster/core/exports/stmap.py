@@ -66,7 +66,7 @@ class Stmap(Format):
 def _maps(camera: Camera, target: Camera) -> str:
     """Return what the maps between two cameras depend on."""
     turn = inverse(target.pose.basis) @ camera.pose.basis
-    return repr((camera.model, camera.raster.size, target.model, target.raster.size, turn.round(TURNED).tolist()))
+    return repr((camera.model, camera.raster, target.model, target.raster, turn.round(TURNED).tolist()))
 
 
 def perspective_of(camera: Camera) -> Camera:
@@ -81,17 +81,19 @@ def perspective_of(camera: Camera) -> Camera:
 
 
 def places(camera: Camera, other: Camera) -> np.ndarray:
-    """Return the map from the pixels of a camera's full frame to their places in another camera's picture.
+    """Return the map from the pixels of a camera's picture to their places in another camera's picture.
 
     The map is (rows, columns, 3) float32, row 0 at the bottom; the module's docstring describes the channels. A place
     is exact to its rounding to float32. A place that float32 cannot hold counts as missing.
     """
-    width, height = camera.raster.size
-    rays = camera.rays_at(np.arange(width)[None, :] + 0.5, np.arange(height)[:, None] + 0.5)
+    x0, x1, y0, y1 = camera.raster.picture
+    left, _, bottom, _ = other.raster.picture
+    rays = camera.rays_at(np.arange(x0, x1)[None, :] + 0.5, np.arange(y0, y1)[:, None] + 0.5)
     with np.errstate(all="ignore"):  # NaN means: no place
-        there = other.model.project(rays.directions @ inverse(other.pose.basis).T) / other.raster.size
+        there = other.model.project(rays.directions @ inverse(other.pose.basis).T)
+        there = (there - (left, bottom)) / other.raster.picture_size
         found = (np.abs(there) <= np.finfo(np.float32).max).all(axis=-1)
-    result = np.zeros((height, width, 3), np.float32)
+    result = np.zeros((y1 - y0, x1 - x0, 3), np.float32)
     result[..., :2] = np.where(found[..., None], there, -1.0)
     result[..., 2] = found
     return result

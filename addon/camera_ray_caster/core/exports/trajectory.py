@@ -12,6 +12,7 @@ from collections.abc import Callable
 import numpy as np
 
 from ..maths.rotations import quaternion
+from ..units import METERS
 from .format import OWN_TIMES, Format, Shot
 
 
@@ -19,6 +20,7 @@ class Trajectory(Format):
     """One file per camera."""
 
     rigid = True
+    unit = METERS
     formula = False
 
     def __init__(self, key: str, label: str, description: str, ending: str, line: Callable[[Shot, np.ndarray], str],
@@ -44,7 +46,7 @@ class Trajectory(Format):
 def _pose(shot: Shot) -> np.ndarray:
     """Return the matrix (3, 4) from a camera's frame to the world."""
     pose = shot.camera.pose
-    return np.column_stack((pose.basis * (1, -1, -1), pose.eye * shot.meters))
+    return np.column_stack((pose.basis * (1, -1, -1), pose.eye))
 
 
 def _tum(shot: Shot, pose: np.ndarray) -> str:

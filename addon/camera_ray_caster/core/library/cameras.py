@@ -29,6 +29,7 @@ ANY_MODEL: dict[str, Callable[[Any, str], Any]] = {
     "pixel_aspect_x": lambda value, name: a_number(value, name),
     "pixel_aspect_y": lambda value, name: a_number(value, name),
     "use_border": flag,
+    "use_crop_to_border": flag,
     **dict.fromkeys(
         ("border_min_x", "border_max_x", "border_min_y", "border_max_y"),
         lambda value, name: max(0.0, number(value, name, 1)),

@@ -16,8 +16,10 @@ from typing import Any
 import numpy as np
 
 from ..annotations.coco import unpacked
+from ..exports import export
 from ..exports.bop import Bop
 from ..records import InputError, Shapes
+from ..units import MILLIMETERS, factor
 from .bop_models import diameter, model_of, ply
 from .png import png
 from .reading import View
@@ -46,7 +48,7 @@ def files(
     models = {}
     for name, number in numbers.items():
         one, frame = named[name]
-        millimeters = 1000 * views[0].meters
+        millimeters = factor(MILLIMETERS, views[0].meters)
         size = np.array(one["size"]) * millimeters
         across, same = float(np.linalg.norm(size)), dict[str, list[Any]]()
         if shapes_at is not None:
@@ -65,21 +67,17 @@ def _scene(folder: str, views: list[View], numbers: dict[str, int]) -> Iterator[
     cameras, truth, facts = {}, {}, {}
     for view in views:
         number = f"{int(view.frame):06}"
-        depth = view.planar_depth() * 1000 * view.meters
+        depth = view.planar_depth() * factor(MILLIMETERS, view.meters)
         step = STEP if depth.max(initial=0) <= MOST * STEP else float(depth.max()) / MOST
         yield f"{folder}/depth/{number}.png", png(np.round(depth / step).astype(np.uint16)[::-1])
         if view.picture is not None:
             yield f"{folder}/rgb/{number}.png", view.picture
-        pose = view.camera.world_to_opencv
-        K = view.camera.K
-        assert K is not None
-        cameras[str(int(view.frame))] = {
-            "cam_K": K.ravel().tolist(), "depth_scale": step, "cam_R_w2c": pose[:3, :3].ravel().tolist(),
-            "cam_t_w2c": (pose[:3, 3] * 1000 * view.meters).tolist(),
-        }  # fmt: skip
+        ((_, content),) = export("bop", [view.shot])[0]
+        key, camera = next(iter(json.loads(str(content)).items()))
+        cameras[key] = camera | {"depth_scale": step}
         seen = {one["shape_index"]: one for part in ("annotations", "hidden") for one in view.annotations[part]}
         poses = {one["shape_index"]: one for one in view.annotations["objects"]}
-        truth[str(int(view.frame))] = [_truth(pose, poses[row], numbers, view.meters) for row in seen if row in poses]
+        truth[str(int(view.frame))] = [_truth(view, poses[row], numbers) for row in seen if row in poses]
         facts[str(int(view.frame))] = [_facts(one) for row, one in seen.items() if row in poses]
         for k, one in enumerate(one for row, one in seen.items() if row in poses):
             visible = unpacked(one["segmentation"]) if "segmentation" in one else None
@@ -91,10 +89,10 @@ def _scene(folder: str, views: list[View], numbers: dict[str, int]) -> Iterator[
         yield f"{folder}/{name}.json", json.dumps(content)
 
 
-def _truth(pose: np.ndarray, one: dict[str, Any], numbers: dict[str, int], meters: float) -> dict[str, Any]:
-    matrix = pose @ np.array(one["matrix"])
+def _truth(view: View, one: dict[str, Any], numbers: dict[str, int]) -> dict[str, Any]:
+    matrix, millimeters = view.camera.world_to_opencv @ np.array(one["matrix"]), factor(MILLIMETERS, view.meters)
     return {
-        "cam_R_m2c": matrix[:3, :3].ravel().tolist(), "cam_t_m2c": (matrix[:3, 3] * 1000 * meters).tolist(),
+        "cam_R_m2c": matrix[:3, :3].ravel().tolist(), "cam_t_m2c": (matrix[:3, 3] * millimeters).tolist(),
         "obj_id": numbers[one["category"]],
     }  # fmt: skip
 

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from ..records import InputError
+from ..units import MILLIMETERS, factor
 from .png import png, srgb
 from .reading import View
 
@@ -22,21 +23,23 @@ def depth16(views: list[View]) -> Iterator[tuple[str, str | bytes]]:
     """Yield NAME_depth.png for each view, 0 where nothing is hit, and depth16.json: millimeters of a step, and whether
     depths are along the viewing direction ("planar") or from the eye ("distance"), as Blender's Depth is.
     """
-    depths = {view: np.where(np.isfinite(view.pixels("depth")), view.pixels("depth"), 0).astype(np.float64)
-              for view in views}  # fmt: skip
-    farthest = max(float(depth.max(initial=0)) * 1000 * view.meters for view, depth in depths.items())
+    depths = {view: view.framed(np.where(np.isfinite(view.pixels("depth")), view.pixels("depth"), 0).astype(np.float64))
+              * factor(MILLIMETERS, view.meters) for view in views}  # fmt: skip
+    farthest = max(float(depth.max(initial=0)) for depth in depths.values())
     step = 1.0 if farthest <= MOST else farthest / MOST
     kinds = {}
     for view, depth in depths.items():
-        yield f"{view.name}_depth.png", png(np.round(depth * 1000 * view.meters / step).astype(np.uint16)[::-1])
+        yield f"{view.name}_depth.png", png(np.round(depth / step).astype(np.uint16)[::-1])
         kinds[view.name] = "planar" if view.camera.model.planar else "distance"
     yield "depth16.json", json.dumps({"millimeters": step, "depth": kinds}, indent=1)
 
 
 def normals(views: list[View]) -> Iterator[tuple[str, str | bytes]]:
-    """Yield NAME_normal.png for each view: 0 to 65535 stands for -1 to 1; the middle where nothing is hit."""
+    """Yield NAME_normal.png for each view: 0 to 65535 stands for -1 to 1; the middle where nothing is hit, and outside
+    of a render border.
+    """
     for view in views:
-        turned = view.pixels("normal").astype(np.float64) @ view.camera.pose.basis * OPENCV
+        turned = view.framed(view.pixels("normal").astype(np.float64) @ view.camera.pose.basis * OPENCV)
         yield f"{view.name}_normal.png", png(np.round((turned + 1) / 2 * MOST).astype(np.uint16)[::-1])
 
 

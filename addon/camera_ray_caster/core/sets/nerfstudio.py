@@ -31,7 +31,7 @@ def files(views: list[View]) -> Iterator[tuple[str, str | bytes]]:
         depth = np.round(view.planar_depth() * 1000)
         if depth.max(initial=0) > MOST:
             raise InputError(f"depths of {view.name} are up to {depth.max() / 1000:.0f}: 16 bits hold 65 units")
-        valid = view.camera.rays().valid
+        valid = view.framed(view.camera.rays().valid)
         for key, folder, pixels in (
             ("depth_file_path", "depths", depth.clip(0).astype(np.uint16)),
             ("mask_path", "masks", valid.astype(np.uint8) * 255),

@@ -109,6 +109,15 @@ class View:
     def _passes(self) -> Mapping[str, np.ndarray]:
         return _opened(self)
 
+    def framed(self, pixels: np.ndarray) -> np.ndarray:
+        """Return pixels of the render window, (rows, columns[, channels]), as files of pictures have them: in the full
+        frame, 0 outside of the window, unless they are cropped.
+        """
+        raster = self.camera.raster
+        x0, x1, y0, y1 = raster.picture
+        outside = (raster.y0 - y0, y1 - raster.y1), (raster.x0 - x0, x1 - raster.x1), (0, 0)
+        return np.pad(pixels, outside[: pixels.ndim])
+
     def points(self) -> tuple[np.ndarray, np.ndarray]:
         """Return where each pixel's ray ends in the world, (rows, columns, 3) float64, and whether it hits something.
 
@@ -126,10 +135,12 @@ class View:
             return rays.origins + np.where(hit, along, np.nan)[..., None] * rays.directions, hit
 
     def planar_depth(self) -> np.ndarray:
-        """Return the depth along the viewing direction, (rows, columns) float64; 0 where nothing is hit."""
+        """Return the depth along the viewing direction, as files of pictures have it, (rows, columns) float64; 0 where
+        nothing is hit.
+        """
         points, hit = self.points()
         depth = -(points - self.camera.pose.eye) @ self.camera.pose.basis[:, 2]
-        return np.where(hit, depth, 0.0)
+        return self.framed(np.where(hit, depth, 0.0))
 
 
 @lru_cache(maxsize=2)

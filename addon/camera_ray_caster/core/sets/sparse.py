@@ -90,7 +90,8 @@ def _seen(view: View, places: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     own = np.linalg.norm(places[which] - eye, axis=1)
     same = (own >= low[row, column]) & (own <= high[row, column])
     which = which[same]
-    return which, pixels[which] * (1, -1) + (0, raster.height)
+    x0, _, _, y1 = raster.picture
+    return which, (pixels[which] - (x0, y1)) * (1, -1)
 
 
 def _around(distances: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

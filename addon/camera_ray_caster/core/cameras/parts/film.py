@@ -119,7 +119,7 @@ def raster_from(raw: BlenderCamera) -> Raster:
         y0, y1 = _border(raw.border_min_y, raw.border_max_y, height)
         if x0 >= x1 or y0 >= y1:
             raise InputError("the render border contains no pixel: draw it larger (Ctrl B) or clear it (Ctrl Alt B)")
-    return Raster(width, height, raw.pixel_aspect_y / raw.pixel_aspect_x, x0, y0, x1, y1)
+    return Raster(width, height, raw.pixel_aspect_y / raw.pixel_aspect_x, x0, y0, x1, y1, raw.use_crop_to_border)
 
 
 def _border(low: float, high: float, size: int) -> tuple[int, int]:

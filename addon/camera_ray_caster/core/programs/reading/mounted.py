@@ -55,25 +55,27 @@ class Mounted:
         return (width, height) if width and height else None
 
 
-def mounted(path: str, key: str, frame: tuple[int, int], rate: float) -> list[Mounted]:
+def mounted(path: str, key: str, frame: tuple[int, int], rate: float, meters: float = 1.0) -> list[Mounted]:
     """Return the cameras of a file, or of COLMAP's files in a folder, in the file's order; or one trajectory.
 
     ``key`` and ``frame`` are those of ``lenses_of``; ``rate`` is the number of frames in a second, for files with
-    times, the first of which is frame 1. Images without a frame in their names have the frames 1, 2, 3, ... Images of
-    one name are of several cameras, numbered -1, -2, ..., if their lenses are of several models, or two in one frame.
-    The files of a folder of pictures are its frames. Raises InputError, in one line.
+    times, the first of which is frame 1; ``meters`` the length of the Blender unit in which poses are returned. Images
+    without a frame in their names have the frames 1, 2, 3, ... Images of one name are of several cameras, numbered -1,
+    -2, ..., if their lenses are of several models, or two in one frame. The files of a folder of pictures are its
+    frames. Raises InputError, in one line.
     """
     if Path(path).is_dir() and Path(beside(path)[0]).suffix not in COLMAP:
-        return _of_folder(path, key, frame, rate)
+        return _of_folder(path, key, frame, rate, meters)
     lens_file, pose_file = beside(path)
     document = Document(pose_file, frame)
-    placed = placed_in(document)
+    placed = placed_in(document, meters)
     if not placed:
         raise document.refusal("it has no pose of a camera")
     if len(placed) > MOST:
         raise document.refusal(f"it has {len(placed):,} poses: {MOST:,} are read")
     if placed[0].moves or placed[0].time is not None:
-        return [Mounted(path, lens_file, True, [], _frames(document, placed, rate), [one.pose for one in placed])]
+        frames, poses = _frames(document, placed, rate), [one.pose for one in placed]
+        return [Mounted(Path(path).stem, lens_file, True, [], frames, poses)]
     lenses = {lens.name: lens for lens in lenses_of(lens_file, key, frame)}
     found: list[tuple[Placed, str, float | None, Lens]] = []
     for one, name, number in _named(placed):
@@ -112,10 +114,10 @@ def _frames(document: Document, placed: list[Placed], rate: float) -> list[float
     return frames
 
 
-def _of_folder(path: str, key: str, frame: tuple[int, int], rate: float) -> list[Mounted]:
+def _of_folder(path: str, key: str, frame: tuple[int, int], rate: float, meters: float) -> list[Mounted]:
     """Return the cameras of a folder with a file for each picture; equal lenses are one."""
     files = list(map(Path, beside(path)))
-    moves = placed_in(Document(str(files.pop()), frame)) if files[-1].suffix == TRAJECTORY else []
+    moves = placed_in(Document(str(files.pop()), frame), meters) if files[-1].suffix == TRAJECTORY else []
     times = np.array([one.time or 0.0 for one in moves])
     cameras: dict[str, Mounted] = {}
     lenses: dict[str, Lens] = {}
@@ -123,7 +125,7 @@ def _of_folder(path: str, key: str, frame: tuple[int, int], rate: float) -> list
         move = nearest(times, number_of(file)) if moves else None
         if moves and move is None:
             continue
-        for one in mounted(str(file), key, frame, rate):
+        for one in mounted(str(file), key, frame, rate, meters):
             if one.lens is None:
                 raise InputError(f"file {str(file)!r} of a folder of pictures has no lens: take it out")
             camera = cameras.setdefault(one.name, Mounted(one.name, one.file, one.alone))

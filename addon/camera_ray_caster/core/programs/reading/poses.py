@@ -3,7 +3,7 @@
 COLMAP's, nerfstudio's, Metashape's and Meshroom's are of images, BOP's of frames; this add-on's camera.json has
 frames; those of Kalibr, EuRoC, OKVIS, maplab, Basalt, KITTI and Project Aria are of cameras in a body, HOT3D's and
 Polycam's of cameras at one time. Kalibr's cameras are placed in the IMU's frame if each has a T_cam_imu, else in that
-of the first camera. BOP's lengths are read as meters.
+of the first camera. Each reader has the unit of its format's lengths.
 References: those of the formats' modules.
 """
 
@@ -17,6 +17,7 @@ import numpy as np
 
 from ...conventions import LAST_FRAME
 from ...records import InputError
+from ...units import BLENDER_UNITS, METERS, MILLIMETERS, Unit, factor
 from .. import (
     arkit,
     basalt,
@@ -63,14 +64,18 @@ def beside(path: str) -> tuple[str, ...]:
     return str(lenses), str(poses)
 
 
-def placed_in(document: Document) -> list[Placed]:
-    """Return the poses of a document in its order. Raises InputError, in one line, for a document without poses."""
+def placed_in(document: Document, meters: float) -> list[Placed]:
+    """Return the poses of a document in its order, their places in Blender units of ``meters``. Raises InputError, in
+    one line, for a document without poses.
+    """
     binary = b"\0" in document.data[:64]
     try:
-        for read in (colmap_images.poses,) if binary else READERS:
-            found = read(document)
+        for read, unit in READERS:
+            found = read(document) if not binary or read is colmap_images.poses else None
             if found is not None:
-                return found
+                size = np.ones((4, 4))
+                size[:3, 3] = factor(unit, meters)
+                return [one._replace(pose=one.pose / size) for one in found]
     except InputError as refusal:
         raise by_name(document) or refusal from refusal
     raise document.refusal("it has no poses that are read: give a file of COLMAP, nerfstudio, Kalibr, EuRoC, OKVIS, "
@@ -147,7 +152,7 @@ def _of_bop(document: Document) -> list[Placed] | None:
         document.check()
         pose = np.eye(4)
         pose[:3, :3] = np.reshape(document.numbers(image.get("cam_R_w2c"), f"cam_R_w2c of {key}", 9), (3, 3))
-        pose[:3, 3] = np.array(document.numbers(image.get("cam_t_w2c"), f"cam_t_w2c of {key}", 3)) / 1000
+        pose[:3, 3] = np.array(document.numbers(image.get("cam_t_w2c"), f"cam_t_w2c of {key}", 3))
         placed.append(Placed(key, "", float(key), inverted(checked(document, pose, f"the pose of {key}"))))
     return placed
 
@@ -186,10 +191,13 @@ def _flat(rows) -> list:
     return [one for row in rows for one in (row if isinstance(row, list) else [row])] if isinstance(rows, list) else []
 
 
-READERS: tuple[Callable[[Document], list[Placed] | None], ...] = (
-    kitti.poses, colmap_images.poses, trajectory.poses, metashape_poses.poses, arkit.poses, _of_record, _of_aria,
-    _of_transforms, meshroom.poses, _of_basalt, maplab.poses, _of_okvis, _of_camchain, _of_bop, hot3d.poses,
+READERS: tuple[tuple[Callable[[Document], list[Placed] | None], Unit], ...] = (
+    (kitti.poses, METERS), (colmap_images.poses, BLENDER_UNITS), (trajectory.poses, METERS),
+    (metashape_poses.poses, BLENDER_UNITS), (arkit.poses, METERS), (_of_record, BLENDER_UNITS), (_of_aria, METERS),
+    (_of_transforms, BLENDER_UNITS), (meshroom.poses, BLENDER_UNITS), (_of_basalt, METERS), (maplab.poses, METERS),
+    (_of_okvis, METERS), (_of_camchain, METERS), (_of_bop, MILLIMETERS), (hot3d.poses, METERS),
 )  # fmt: skip
+"""Readers of poses in the order in which they are tried, each with its unit of lengths."""
 
 
 def object_and_frame(image: str) -> tuple[str, float | None]:

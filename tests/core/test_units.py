@@ -1,0 +1,84 @@
+"""Unit Scale: what is written in meters is read in meters, by every writer and reader."""
+
+import numpy as np
+import pytest
+
+from camera_ray_caster.core.exports import FORMATS, export
+from camera_ray_caster.core.exports.format import Shot
+from camera_ray_caster.core.exports.writing import write
+from camera_ray_caster.core.programs.parts.document import Document
+from camera_ray_caster.core.programs.parts.placed import Placed
+from camera_ray_caster.core.programs.reading import poses
+from camera_ray_caster.core.programs.reading.mounted import mounted
+
+from .cameras.model_examples import camera
+from .exports.shots import pose
+
+SCALES = 0.01, 1.0, 1000.0
+NO_POSES = {"opencv", "ros", "mrcal", "stmap", "npz"}
+"""Formats whose poses, if there are any, this add-on does not read."""
+
+
+def shots(meters):
+    """A pinhole at two frames; float32 holds its places."""
+    given = {"resolution_x": 64, "resolution_y": 48, "lens": 30.0, "sensor_width": 36.0}
+    return [Shot("a", frame, camera("PERSP", given | {"matrix_world": pose(frame)}), meters) for frame in (1, 2)]
+
+
+def words(content):
+    """The content of a file without comments."""
+    return [line for line in content.splitlines() if not line.startswith("#")] if isinstance(content, str) else content
+
+
+@pytest.mark.one_for_each("chosen")
+@pytest.mark.parametrize("chosen", FORMATS, ids=lambda one: one.key)
+def test_cameras_come_back_at_any_unit_scale(tmp_path, chosen):
+    for meters in SCALES:
+        given = shots(meters)
+        files, remarks = export(chosen.key, given)
+        files = dict(files)
+        assert any("Blender units" in line for line in remarks) == (
+            chosen.unit is None and chosen.rigid and meters != 1
+        )
+        if chosen.unit is None and chosen.key != "json":  # json states the length of the unit
+            plain = dict(export(chosen.key, shots(1.0))[0])
+            assert {name: repr(words(one)) for name, one in files.items()} == {
+                name: repr(words(one)) for name, one in plain.items()
+            }
+        if chosen.key in NO_POSES:
+            continue
+        folder = tmp_path / str(meters)
+        paths = write(files.items(), folder)
+        path = folder if chosen.key == "colmap" else next(one for one in paths if "_val" not in one.name)
+        path = folder / "transforms_train.json" if chosen.key == "nerf" else path
+        (found,) = mounted(str(path), "", (64, 48), 24.0, meters)
+        first = np.eye(4)
+        if chosen.key == "kalibr":  # the first camera's frame
+            first = np.linalg.inv(given[0].camera.world_to_opencv) @ np.diag((1, -1, -1, 1))
+            first[:3, :3] = np.eye(3)
+        for place, shot in zip(found.poses, given, strict=False):
+            assert np.allclose(place[:3, 3] + first[:3, 3], shot.camera.pose.eye, rtol=0, atol=1e-6)
+
+
+UNITS = {
+    "kitti": "m", "colmap_images": "", "trajectory": "m", "metashape_poses": "", "arkit": "m", "_of_record": "",
+    "_of_aria": "m", "_of_transforms": "", "meshroom": "", "_of_basalt": "m", "maplab": "m", "_of_okvis": "m",
+    "_of_camchain": "m", "_of_bop": "mm", "hot3d": "m",
+}  # fmt: skip
+"""Units of lengths by the formats' documentation; "" for those that have none, of reconstructions."""
+
+
+@pytest.mark.parametrize("meters", SCALES)
+def test_every_reader_of_poses_has_the_unit_of_its_format(tmp_path, monkeypatch, meters):
+    (tmp_path / "file").write_text("any")
+    place, sizes = np.eye(4), {"": 1.0, "m": 1.0 / meters, "mm": 1e-3 / meters}
+    place[:3, 3] = 1, 2, 3
+    names = []
+    for read, unit in poses.READERS:
+        module = read.__module__.rpartition(".")[2]
+        names.append(read.__name__ if module == "poses" else module)
+        monkeypatch.setattr(poses, "READERS", ((lambda document: [Placed("", "", None, place)], unit),))
+        (found,) = poses.placed_in(Document(str(tmp_path / "file")), meters)
+        assert np.allclose(found.pose[:3, 3], np.array((1, 2, 3)) * sizes[UNITS[names[-1]]], rtol=1e-12)
+        assert (found.pose[:3, :3] == np.eye(3)).all()
+    assert sorted(names) == sorted(UNITS)
