@@ -77,6 +77,18 @@ def test_exr_files_say_what_npz_files_say(sets, change):
             np.testing.assert_array_equal(exr.pixels(key), npz.pixels(key), key)
 
 
+@pytest.mark.cases(1)
+@pytest.mark.parametrize("change", [cropped, border])
+def test_cameras_of_a_set_are_of_its_pictures(sets, command, tmp_path, change):
+    _, folder = sets(change)
+    done = command("export", folder, "--format", "nerfstudio-scene", "--output", tmp_path / "out")
+    assert (done.returncode, done.stderr) == (0, "")
+    for frame in json.loads((tmp_path / "out" / "transforms.json").read_text())["frames"]:
+        for key in ("file_path", "depth_file_path", "mask_path"):
+            picture = cv2.imread(str(tmp_path / "out" / frame[key]), cv2.IMREAD_UNCHANGED)
+            assert picture.shape[:2] == (frame["h"], frame["w"]), key
+
+
 def test_a_run_with_annotations_is_a_set_with_a_reader_and_a_preview(sets):
     for folder in sets():
         assert {"annotations.json", "preview.png", "reader.py"} <= set(left(folder))

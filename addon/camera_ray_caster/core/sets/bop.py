@@ -64,7 +64,7 @@ def files(
 
 
 def _scene(folder: str, views: list[View], numbers: dict[str, int]) -> Iterator[tuple[str, str | bytes]]:
-    cameras, truth, facts = {}, {}, {}
+    cameras, truth, facts = dict[str, Any](), dict[str, Any](), dict[str, Any]()
     for view in views:
         number = f"{int(view.frame):06}"
         depth = view.planar_depth() * factor(MILLIMETERS, view.meters)
@@ -85,8 +85,8 @@ def _scene(folder: str, views: list[View], numbers: dict[str, int]) -> Iterator[
             visible = np.zeros_like(whole) if visible is None else visible
             yield f"{folder}/mask/{number}_{k:06}.png", png(whole.astype(np.uint8) * 255)
             yield f"{folder}/mask_visib/{number}_{k:06}.png", png(visible.astype(np.uint8) * 255)
-    for name, content in (("scene_camera", cameras), ("scene_gt", truth), ("scene_gt_info", facts)):
-        yield f"{folder}/{name}.json", json.dumps(content)
+    for name, entries in (("scene_camera", cameras), ("scene_gt", truth), ("scene_gt_info", facts)):
+        yield f"{folder}/{name}.json", json.dumps(entries)
 
 
 def _truth(view: View, one: dict[str, Any], numbers: dict[str, int]) -> dict[str, Any]:
