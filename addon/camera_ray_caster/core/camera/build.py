@@ -7,9 +7,9 @@ import numpy as np
 from ..cameras import find_model
 from ..cameras.model import Model
 from ..cameras.parts.calibration import FILE
-from ..cameras.parts.film import raster_from
+from ..cameras.parts.film import farthest_from_one, raster_from
 from ..cameras.parts.pose import pose_from
-from ..cameras.parts.settings import Number, farthest_from_one
+from ..cameras.parts.settings import Number
 from ..maths.vector import inverse
 from ..records import BlenderCamera, InputError, Pose
 from .calibration_file import with_file

@@ -24,6 +24,7 @@ from .evaluation import pixels_of, rays_through
 from .jacobian import of_projection, of_rays, of_settings
 from .meeting import meeting
 from .pixels import by_time, given
+from .posed import posed
 from .sampling import in_opening, sub_pixel
 from .spherical_stereo import with_eye
 from .sweep import rays_in_sweep
@@ -115,6 +116,12 @@ class Camera:
         """Return the camera at a frame, without its pixel_time."""
         motion = self.timeline.motion
         return replace(self, pixel_time=None) if motion is None else motion.camera_at(frame)
+
+    def with_pose(self, pose) -> Camera:
+        """Return the camera at another pose, (4, 4) to the world, as in ``crc.camera``. Raises InputError for a matrix
+        that is no pose, and for a camera that moves while it is exposed.
+        """
+        return posed(self, pose)
 
     def from_eye(self, sampled: bool) -> bool:
         """Whether all rays leave the eye: the chief rays, or if ``sampled`` those through the whole aperture."""

@@ -39,8 +39,12 @@ HEIGHTS = tuple(
         low,
         unit="length",
         owner=CAMERA,
+        partner=PREFIX + f"range_v_{other}",
     )
-    for end, label, side, low in (("min", "Min Height", "lower", -1.0), ("max", "Max Height", "upper", 1.0))
+    for end, other, label, side, low in (
+        ("min", "max", "Min Height", "lower", -1.0),
+        ("max", "min", "Max Height", "upper", 1.0),
+    )
 )
 TUBE = Number(
     PREFIX + "radius", "Cylinder Radius", "Radius of the cylinder", 1.0, ABOVE_ZERO, unit="length", owner=CAMERA

@@ -45,8 +45,19 @@ LATITUDES = (
         STEEPEST,
         "angle",
         4,
+        partner="latitude_top",
     ),
-    Number("latitude_top", "Top", "Latitude of the picture's upper edge", pi / 4, -STEEPEST, STEEPEST, "angle", 4),
+    Number(
+        "latitude_top",
+        "Top",
+        "Latitude of the picture's upper edge",
+        pi / 4,
+        -STEEPEST,
+        STEEPEST,
+        "angle",
+        4,
+        partner="latitude_bottom",
+    ),
 )
 
 

@@ -28,6 +28,7 @@ from ..records import BlenderCamera, Raster
 from .model import IN_CASTS, Step
 from .parts.calibrated import Calibrated, in_words
 from .parts.calibration import PRINCIPAL_POINT, Calibration
+from .parts.left_out import NEEDED
 from .parts.radial import RAY, factors_of, radii_of
 from .parts.settings import ABOVE_ZERO, Choice, Coefficients, Item, Number
 
@@ -46,12 +47,18 @@ POLYNOMIALS = {
         "Angle to Radius",
         "Radius in pixels or mm: 0, then the coefficients of theta, theta^2, ...",
         "0 1000",
+        grows=(1, 0),
+        left_out=NEEDED,
+        used_with=((REFERENCE.name, ANGLE_TO_RADIUS),),
     ),
     "RADIUS_TO_ANGLE": Coefficients(
         "ftheta_radius_to_angle",
         "Radius to Angle",
         "Angle in radians: 0, then the coefficients of r, r^2, ...",
         "0 0.001",
+        grows=(0, -1),
+        left_out=NEEDED,
+        used_with=((REFERENCE.name, "RADIUS_TO_ANGLE"),),
     ),
 }
 MAX_ANGLE = Number(

@@ -29,6 +29,7 @@ from ..records import BlenderCamera, Raster
 from .model import Step
 from .parts.calibrated import Calibrated, in_words
 from .parts.calibration import PRINCIPAL_POINT, Calibration
+from .parts.left_out import NEEDED
 from .parts.radial import radii_of
 from .parts.settings import Coefficients, Number
 
@@ -37,6 +38,8 @@ POLYNOMIAL = Coefficients(
     "Polynomial",
     "Coefficients in pixels or mm: a0 (below 0), a1 (0 for most lenses), a2, ...",
     "-1000 0 0.0004",
+    grows=(1, -1),
+    left_out=NEEDED,
 )
 C, D, E = (
     Number(f"ocam_{name}", name.upper(), f"Entry of the affine matrix: {text}", default, digits=6, step=0.1)

@@ -13,6 +13,7 @@ from io import BytesIO
 
 import numpy as np
 
+from . import rigid
 from .format import Format
 
 
@@ -39,7 +40,9 @@ class Npz(Format):
             rays = shot.camera.rays()
             own = {} if rays.time is None else {"time": rays.time}
             pose, content = np.eye(4), BytesIO()
-            pose[:3, :3], pose[:3, 3] = shot.camera.pose.basis, shot.camera.pose.eye
+            pose[:3, 3] = shot.camera.pose.eye
+            if rigid.refusal(shot.camera) is None:  # readers refuse mirrored and sheared axes; rays are in the world
+                pose[:3, :3] = shot.camera.pose.basis
             raster = shot.camera.raster
             area = np.array((raster.x0, raster.y0, raster.x1, raster.y1)) / (raster.size * 2)
             given = {"origins": rays.origins, "directions": rays.directions, "valid": rays.valid}

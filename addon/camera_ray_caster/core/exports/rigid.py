@@ -11,11 +11,9 @@ from dataclasses import replace
 import numpy as np
 
 from ..camera.camera import Camera
+from ..cameras.parts.pose import SHEARED
 from ..maths.rotations import polar
 from ..records import Pose
-
-SHEARED = 1e-5
-"""Largest cosine between two axes that counts as rounding: float32 causes a hundredth of it."""
 
 PLACES = 9
 """Number of rows and of columns of pixels at which the effect of the rotation is measured."""

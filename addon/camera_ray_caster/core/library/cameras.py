@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -15,11 +15,12 @@ from ..camera.build import camera_from
 from ..camera.calibration_file import chosen_lens
 from ..camera.camera import Camera
 from ..cameras.parts.aperture import DEPTH_OF_FIELD
-from ..cameras.parts.calibration import CENTER, FILE, FOCAL, SIZE
-from ..cameras.parts.settings import RECORD_FIELDS, Coefficients, Line, Number, Setting
+from ..cameras.parts.calibration import FILE, SIZE
+from ..cameras.parts.pose import pose_matrix
+from ..cameras.parts.settings import RECORD_FIELDS, Line
 from ..records import BlenderCamera, InputError
+from .left_out import completed
 from .models import models
-from .poses import pose_matrix
 from .values import a_number, line_in_words, plain
 
 ANY_MODEL: dict[str, Callable[[Any, str], Any]] = {
@@ -47,15 +48,17 @@ def camera(model: str, size, pose=None, **settings: Any) -> Camera:
     model: the key of a camera model: see ``models``.
     size: (width, height) of the picture, in pixels.
     pose: (4, 4) matrix from the camera's frame to the world: x right, y up, the camera looks along -z. Each of its axes
-        is normalized, as in Blender. Default: the identity. See ``look_at`` and ``pose_from_opencv``.
+        is normalized, as in Blender. Default: the identity. See ``look_at`` and ``pose_from_opencv``. A matrix that is
+        transposed, mirrored or sheared is refused.
     settings: the model's settings, such as ``lens=35.0`` (mm) or ``fx=510.0`` (pixels), in the units of Blender's
-        properties, angles in radians. What is not given has its declared default, with one exception: once any of the
-        numbers in pixels is given (fx, cx, ...), the calibrated picture has the given size, and what is left out of
-        focal lengths and center belongs to it. A slit is a point and a direction, (2, 3); a path is (n, 3) points; a
-        time image is (rows, columns), a table of rays (rows, columns, 3), both from the bottom left. Every model also
-        takes ``clip_start``, ``clip_end``, ``pixel_aspect_x``, ``use_border``, ``border_min_x``, ...; depth of field
-        ``use_dof``, ``focus_distance``, ``aperture_fstop``, ...; and pixel times ``time_mode`` with its settings, and
-        ``frame``.
+        properties, angles in radians. What is not given has its declared default. Of a calibration the size is that of
+        the picture, fy is fx, and the center is in the middle, unless they are given; a lens of which nothing is given
+        has the declared field of view on the longer side. A setting that has no effect beside the others is refused.
+        Nothing is clipped unless ``clip_start`` or ``clip_end`` is given. A slit is a point and a direction, (2, 3); a
+        path is (n, 3) points; a time image is (rows, columns), a table of rays (rows, columns, 3), both from the bottom
+        left. Every model also takes ``clip_start``, ``clip_end``, ``pixel_aspect_x``, ``use_border``,
+        ``border_min_x``, ...; depth of field ``use_dof``, ``focus_distance``, ``aperture_fstop``, ...; and pixel times
+        ``time_mode`` with its settings, and ``frame``.
         ``name`` is the camera's name, by default "Camera".
 
     Raises InputError, in one line, for a model or a setting that does not exist (it names the nearest one that does),
@@ -71,18 +74,21 @@ def camera(model: str, size, pose=None, **settings: Any) -> Camera:
     if not isinstance(mode, str) or mode not in pixel_time.SETTINGS:
         raise unknown(pixel_time.MODE.name, mode, pixel_time.SETTINGS)
     declared = {one.name: one for one in (*known[model].SETTINGS, *DEPTH_OF_FIELD, *pixel_time.SETTINGS[mode])}
-    for given in settings:
-        if given not in declared and given not in ANY_MODEL:
-            raise unknown(f"setting of {model}", given, dict.fromkeys([*declared, *ANY_MODEL]))
+    for key in settings:
+        if key not in declared and key not in ANY_MODEL:
+            raise unknown(f"setting of {model}", key, dict.fromkeys([*declared, *ANY_MODEL]))
     for one in declared.values():
         if isinstance(one, Line) and one.name not in settings:
             raise InputError(f"{model} needs {one.name}: {line_in_words(one)}")
-    values: dict[str, Any] = {key: one.default for key, one in declared.items() if key not in RECORD_FIELDS}
-    values |= _in_pixels(declared, settings, width, height)
-    fields: dict[str, Any] = {}
-    for key, value in settings.items():
-        kept = plain(declared[key], value) if key in declared else ANY_MODEL[key](value, key)
-        (fields if key in RECORD_FIELDS else values)[key] = kept
+    given = {
+        key: plain(declared[key], value) if key in declared else ANY_MODEL[key](value, key)
+        for key, value in settings.items()
+    }
+    given |= completed(model, declared, given, (width, height))
+    values = {key: one.default for key, one in declared.items() if key not in RECORD_FIELDS}
+    values |= {key: value for key, value in given.items() if key not in RECORD_FIELDS}
+    fields: dict[str, Any] = {"clip_start": 0.0, "clip_end": np.inf}
+    fields |= {key: value for key, value in given.items() if key in RECORD_FIELDS}
     raw = BlenderCamera(
         name=name,
         type="PERSP",
@@ -139,23 +145,3 @@ def _size(size) -> tuple[int, int]:
     except (TypeError, ValueError) as error:
         raise InputError(f"size is {shown(size)}: it must be (width, height) in pixels") from error
     return count(width, "width", LARGEST_SIDE), count(height, "height", LARGEST_SIDE)
-
-
-def _in_pixels(declared: Mapping[str, Setting], given: Iterable[str], width: int, height: int) -> dict[str, float]:
-    """Return the defaults of the settings of a calibrated picture. If any of its numbers is given, but not its size, it
-    has the size of the frame, and its declared defaults are scaled to the frame.
-    """
-    sides = {one.name for one in SIZE}
-    own = {
-        one.name
-        for one in declared.values()
-        if isinstance(one, Coefficients) or (isinstance(one, Number) and one.unit == "pixels")
-    }
-    if not sides <= set(declared) or not sides.isdisjoint(given) or own.isdisjoint(given):
-        return {}
-    values: dict[str, float] = {SIZE[0].name: width, SIZE[1].name: height}
-    for frame, side, focal, center in zip((width, height), SIZE, FOCAL, CENTER, strict=True):
-        values[center.name] = (frame - 1) / 2
-        if focal.name in declared:
-            values[focal.name] = focal.default * frame / side.default
-    return values

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..arguments import numbers, shape_of, shown
+from ..arguments import numbers, shown
+from ..cameras.parts.pose import pose_matrix
 from ..records import InputError
 
 
@@ -26,23 +27,11 @@ def look_at(eye, target, up=(0.0, 0.0, 1.0)) -> np.ndarray:
 
 def pose_from_opencv(world_to_camera) -> np.ndarray:
     """Return the pose, (4, 4) float64, of a camera given by OpenCV's matrix from the world to x right, y down, z ahead:
-    (3, 4) or (4, 4). It is the inverse of ``Camera.world_to_opencv``. Raises InputError for a matrix without inverse.
+    (3, 4) or (4, 4). It is the inverse of ``Camera.world_to_opencv``. Raises InputError for a matrix that is
+    transposed, mirrored, sheared beyond float32's rounding, or no pose for another reason, which it names.
     """
-    matrix = pose_matrix(world_to_camera, "world_to_camera")
-    try:
-        return np.linalg.inv(np.diag([1.0, -1.0, -1.0, 1.0]) @ matrix)
-    except np.linalg.LinAlgError as error:
-        raise InputError("world_to_camera has no inverse: give a rotation and a translation") from error
-
-
-def pose_matrix(pose, name: str = "pose") -> np.ndarray:
-    """Return a pose as (4, 4) float64; None is the identity."""
-    if pose is None:
-        return np.eye(4)
-    matrix = numbers(pose, name)
-    if matrix.shape not in ((4, 4), (3, 4)) or not np.isfinite(matrix).all():
-        raise InputError(f"{name} is {shape_of(matrix)}: it must be (4, 4) or (3, 4) finite numbers")
-    return np.vstack((matrix[:3], (0.0, 0.0, 0.0, 1.0)))
+    matrix = pose_matrix(world_to_camera, "world_to_camera", world_to_camera=True)
+    return np.linalg.inv(np.diag([1.0, -1.0, -1.0, 1.0]) @ matrix)
 
 
 def _vector(value, name: str) -> np.ndarray:

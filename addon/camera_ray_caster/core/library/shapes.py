@@ -9,6 +9,7 @@ import numpy as np
 
 from ..arguments import flag, numbers, shape_of, shown
 from ..arguments import name as a_name
+from ..cameras.parts.pose import flaw_of_last_row
 from ..mesh import Mesh
 from ..records import INFINITE_PLANE, PLANE, SPHERE, InputError, Shapes, no_shapes
 from ..shapes.instances import Primitive, castable, mesh_primitive, put_in_world
@@ -116,6 +117,9 @@ def mesh(
     placed = placed[None] if placed.ndim == 2 else placed
     if placed.ndim != 3 or placed.shape[1:] not in ((4, 4), (3, 4)):
         raise InputError(f"pose is of shape {placed.shape}: it must be (4, 4), or (n, 4, 4) for n instances")
+    flaw = next(filter(None, map(flaw_of_last_row, placed)), None)
+    if flaw:
+        raise InputError(f"pose {flaw}")
     shapes = _placed(mesh_primitive(found), placed[:, :3], object_index, material_index, color, name)
     n = len(shapes)
     return replace(shapes, meshes=(found,), mesh=np.zeros(n, np.int32), shared=np.full(n, n > 1))

@@ -17,6 +17,7 @@ import numpy as np
 
 from .. import memory
 from ..arguments import DAMAGED, numbers
+from ..cameras.parts.pose import flaw_of
 from ..maths.vector import inverse
 from ..records import InputError
 from .parts.document import Document, Lens
@@ -61,6 +62,9 @@ def table(document: Document, directions: np.ndarray, origins: np.ndarray | None
     if pose is not None:
         if pose.shape != (4, 4) or not np.isfinite(pose).all() or not np.linalg.det(pose[:3, :3]):
             raise document.refusal("pose must be a (4, 4) matrix of finite numbers that can be inverted")
+        flaw = flaw_of(pose)
+        if flaw:
+            raise document.refusal(f"pose {flaw}")
         camera_from_world = inverse(pose[:3, :3])
         directions = directions @ camera_from_world.T
         origins = None if origins is None else (origins - pose[:3, 3]) @ camera_from_world.T

@@ -17,6 +17,7 @@ from ...maths.recording.scalars import largest
 from ...records import BlenderCamera, InputError, Raster
 from .affine import AffineWindow
 from .film import FARTHEST_PIXELS, FILM, LENS, OFF_AXIS, Film, Window
+from .left_out import MIDDLE, OF_FRAME, SAME
 from .settings import Choice, FilePath, Item, Number, Text, Whole
 
 MILLIMETERS = "MILLIMETERS"
@@ -29,10 +30,14 @@ UNIT = Choice(
                                          "are used", 1),
     ),
 )  # fmt: skip
-FOCAL = (
-    Number("fx", "Focal Length X", "In pixels of the calibrated picture", 1500.0, 1e-3, unit="pixels", digits=3),
-    Number("fy", "Y", "In pixels of the calibrated picture", 1500.0, 1e-3, unit="pixels", digits=3),
-)
+IN_PICTURE: tuple[tuple[str, str], ...] = (("calibration_unit", "PIXELS"),)
+FOCAL = tuple(
+    Number(
+        name, label, "In pixels of the calibrated picture", 1500.0, 1e-3, unit="pixels", digits=3, partner=other,
+        left_out=SAME, used_with=IN_PICTURE,
+    )
+    for name, label, other in (("fx", "Focal Length X", "fy"), ("fy", "Y", "fx"))
+)  # fmt: skip
 CENTER = (
     Number(
         "cx",
@@ -42,6 +47,8 @@ CENTER = (
         -1e6,
         unit="pixels",
         digits=3,
+        left_out=MIDDLE,
+        used_with=IN_PICTURE,
     ),
     Number(
         "cy",
@@ -51,14 +58,17 @@ CENTER = (
         -1e6,
         unit="pixels",
         digits=3,
+        left_out=MIDDLE,
+        used_with=IN_PICTURE,
     ),
 )
-SIZE = (
-    Whole("calibration_width", "Width", "Of the calibrated picture, pixels; 0 is the frame's", 1920, 0, unit="pixels"),
+SIZE = tuple(
     Whole(
-        "calibration_height", "Height", "Of the calibrated picture, pixels; 0 is the frame's", 1080, 0, unit="pixels"
-    ),
-)
+        f"calibration_{side}", side.title(), "Of the calibrated picture, pixels; 0 is the frame's", default, 0,
+        unit="pixels", partner=f"calibration_{other}", left_out=OF_FRAME, used_with=IN_PICTURE,
+    )
+    for side, default, other in (("width", 1920, "height"), ("height", 1080, "width"))
+)  # fmt: skip
 FILE = FilePath(
     "calibration_file", "Calibration", "Calibration file of another program. If empty, the numbers below are used", ""
 )
@@ -69,7 +79,7 @@ FROM_FILE = (FILE, FILE_CAMERA)
 SKEW = Number(
     "skew", "Skew", "Entry in row 1, column 2 of the camera matrix, in pixels of the calibrated "
                     "picture", 0.0, unit="pixels",
-    digits=3,
+    digits=3, used_with=IN_PICTURE,
 )  # fmt: skip
 IN_PIXELS = (*SIZE, *FOCAL, *CENTER, SKEW)
 PRINCIPAL_POINT = (*FROM_FILE, UNIT, *SIZE, *CENTER, *FILM)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
@@ -10,7 +11,7 @@ import numpy as np
 from ...conventions import gamma
 from ...maths.recording.scalars import largest, least
 from ...records import BlenderCamera, InputError, Raster
-from .settings import ABOVE_ZERO, CAMERA, RENDER, Choice, Item, Number, farthest_from_one
+from .settings import ABOVE_ZERO, CAMERA, RENDER, Choice, Item, Number
 
 BORDER = "border_min_x", "border_max_x", "border_min_y", "border_max_y"
 FARTHEST_SHIFT = 1e6
@@ -26,7 +27,13 @@ the image plane; with still steeper rays, float64 soon cannot either.
 OFF_AXIS = "off_axis"
 """Key in a record's settings: the slope of ``Model.off_axis``, for a lens with a center of its own."""
 
-LENS = Number("lens", "Focal Length", "Distance from the eye to the sensor", 50.0, ABOVE_ZERO, unit="mm", owner=CAMERA)
+ON_SENSOR: tuple[tuple[str, str], ...] = (("calibration_unit", "MILLIMETERS"),)
+"""With which a calibration is that of a lens on Blender's sensor: see ``calibration``."""
+
+LENS = Number(
+    "lens", "Focal Length", "Distance from the eye to the sensor", 50.0, ABOVE_ZERO, unit="mm", owner=CAMERA,
+    used_with=ON_SENSOR,
+)  # fmt: skip
 ORTHO_SCALE = Number(
     "ortho_scale",
     "Orthographic Scale",
@@ -45,6 +52,7 @@ SENSOR_FIT = Choice(
         Item("VERTICAL", "Vertical", "Fit the sensor height to the height of the frame", 2),
     ),
     owner=CAMERA,
+    used_with=ON_SENSOR,
 )  # fmt: skip
 SENSOR_WIDTH = Number(
     "sensor_width",
@@ -54,6 +62,7 @@ SENSOR_WIDTH = Number(
     ABOVE_ZERO,
     unit="mm",
     owner=CAMERA,
+    used_with=ON_SENSOR,
 )
 SENSOR_HEIGHT = Number(
     "sensor_height",
@@ -63,6 +72,7 @@ SENSOR_HEIGHT = Number(
     ABOVE_ZERO,
     unit="mm",
     owner=CAMERA,
+    used_with=ON_SENSOR,
 )
 SHIFT_X, SHIFT_Y = (
     Number(
@@ -73,6 +83,7 @@ SHIFT_X, SHIFT_Y = (
         -FARTHEST_SHIFT,
         FARTHEST_SHIFT,
         owner=CAMERA,
+        used_with=ON_SENSOR,
     )
     for name, label, way in (("shift_x", "Shift X", "to the right"), ("shift_y", "Shift Y", "up"))
 )
@@ -125,6 +136,12 @@ def raster_from(raw: BlenderCamera) -> Raster:
 def _border(low: float, high: float, size: int) -> tuple[int, int]:
     """Return the first pixel inside a border and the first pixel behind it."""
     return int(np.float32(low) * np.float32(size)), int(np.float32(high) * np.float32(size))
+
+
+def farthest_from_one(numbers: dict[str, float]) -> str:
+    """Return, for a message, the number whose magnitude is farthest from 1 in ratio, with its name; 0 counts as 1."""
+    name, value = max(numbers.items(), key=lambda item: abs(math.log(abs(item[1]))) if item[1] else 0.0)
+    return f"{name} is {value:.6g}"
 
 
 def check_slope(raw: BlenderCamera, slope: float, numbers: Iterable[Number], most: float = STEEPEST) -> None:

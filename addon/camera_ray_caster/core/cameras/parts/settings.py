@@ -16,6 +16,7 @@ import numpy as np
 
 from ...maths.recording import Varied, is_recorded
 from ...records import BlenderCamera, InputError
+from .left_out import DECLARED
 
 FULL_TURN = 2 * math.pi
 
@@ -52,6 +53,12 @@ class Setting(ABC):
     """Value of a new camera."""
     owner: str = field(default=OWN, kw_only=True)
     """Where Blender keeps the setting: one of OWN, CAMERA, STEREO, RENDER, CYCLES."""
+    partner: str = field(default="", kw_only=True)
+    """The other setting of a pair of which neither makes sense alone."""
+    left_out: str = field(default=DECLARED, kw_only=True)
+    """What it is where it is left out of a camera made in Python: a word of ``left_out``."""
+    used_with: tuple[tuple[str, Any], ...] = field(default=(), kw_only=True)
+    """The settings and their values without which this one has no effect."""
 
     kind: ClassVar[str]
 
@@ -94,10 +101,7 @@ class Number(Setting):
     kind = "FLOAT"
 
     def read(self, raw: BlenderCamera, low: float | None = None, high: float | None = None) -> float:
-        """Return the value, which must lie from ``low`` to ``high``, by default the setting's own range.
-
-        Raises InputError, which names the setting, its value and the range.
-        """
+        """Return the value. Raises InputError if it is not from ``low`` to ``high``, by default the setting's range."""
         low, high = self.limits(self.low if low is None else low, self.high if high is None else high)
         value, near = self.given(raw), LIMIT_ROUNDING
         is_number = isinstance(value, int | float)
@@ -208,6 +212,9 @@ class Text(Setting):
 class Coefficients(Text):
     """The coefficients of a polynomial of any degree, from the constant up: text, which keeps all their digits."""
 
+    grows: tuple[int, int] = (0, 0)
+    """(p, q) if the coefficient of the power i is in proportion to size^(p + q i) in pictures of one field of view."""
+
     most: ClassVar[int] = 64
     order: ClassVar[str] = ", from the constant up"
 
@@ -277,21 +284,14 @@ class Image(Setting):
 def span(
     raw: BlenderCamera, start: Number, end: Number, *, low: float | None = None, high: float | None = None
 ) -> tuple[float, float]:
-    """Return the values of two settings, each from ``low`` to ``high``, by default in its own range.
-
-    Swapped ends mirror the picture. Raises InputError if they are equal.
+    """Return the values of two settings, each from ``low`` to ``high``, by default in its own range. Swapped ends
+    mirror the picture. Raises InputError if they are equal.
     """
     first, last = start.read(raw, low, high), end.read(raw, low, high)
     if first == last:
         same = start.in_words(first)
         raise InputError(f"{start.name} and {end.name} of camera {raw.name!r} are both {same}: set them apart")
     return first, last
-
-
-def farthest_from_one(numbers: dict[str, float]) -> str:
-    """Return, for a message, the number whose magnitude is farthest from 1 in ratio, with its name; 0 counts as 1."""
-    name, value = max(numbers.items(), key=lambda item: abs(math.log(abs(item[1]))) if item[1] else 0.0)
-    return f"{name} is {value:.6g}"
 
 
 def _plain(value):

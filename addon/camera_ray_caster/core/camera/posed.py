@@ -1,0 +1,23 @@
+"""A camera moved to another pose: lens, raster and pixel times are kept, what depends on the pose is made anew."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from ..cameras import find_model
+from ..cameras.parts.pose import pose_from, pose_matrix
+from ..records import InputError
+from ..timeline import ONE_TIME
+from .spherical_stereo import with_eye
+
+
+def posed(camera, matrix):
+    """Return a ``Camera`` with another pose. Raises InputError for a matrix that is no pose, and for a camera that
+    moves while it is exposed.
+    """
+    if camera.timeline.motion is not None:
+        raise InputError(f"camera {camera.name!r} moves from pixel to pixel: give camera.at(frame) another pose")
+    raw = replace(camera.record, matrix_world=pose_matrix(matrix))
+    pose = pose_from(raw)
+    model = with_eye(find_model(raw).from_blender(raw, camera.raster), raw, pose)
+    return replace(camera, model=model, pose=pose, record=raw, aperture=model.aperture(raw, pose), timeline=ONE_TIME)
