@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from camera_ray_caster.core.maths.vector import cross
-from camera_ray_caster.core.shapes.mesh.triangles import VOLUME_ROUNDING, volumes
+from camera_ray_caster.core.shapes.mesh.triangles import VOLUME_ROUNDING, edge_vectors, volumes
 
 COUNT = 300
 
@@ -32,7 +32,9 @@ def test_volumes_are_right_to_their_bound(spread, away):
     d = corners.mean(axis=0) - origin + spread * rng.normal(size=(3, COUNT))
     length = np.linalg.norm(corners, axis=1).max(axis=0) + np.linalg.norm(origin, axis=0)
     bound = VOLUME_ROUNDING * np.linalg.norm(d, axis=0) * length**2
-    for found in (volumes(corners - origin, d), volumes(corners, d, cross(origin, d))):
+    rays = np.concatenate((d, cross(origin, d)))
+    by_moments = (edge_vectors(corners, from_eye=False) * rays).sum(axis=1)
+    for found in (volumes(corners - origin, d), by_moments):
         for (i, j), volume in zip(((1, 2), (2, 0), (0, 1)), found, strict=True):
             for k in range(COUNT):
                 true = exact_volume(corners[i, :, k], corners[j, :, k], origin[:, k], d[:, k])

@@ -139,7 +139,7 @@ class CrossSlit(WindowModel):
             beside = centers - point
             rise, depth = beside @ across, beside @ ahead
             side = np.where(depth < 0, -1.0, 1.0)  # a plane continues behind its slit
-            tangent = Interval(*pinhole_interval(side * rise, side * depth, radii))
+            tangent = Interval(*pinhole_interval(side * rise, side * depth, radii, through=True))
             normals.append(tuple(a - tangent * b for a, b in zip(across.tolist(), ahead.tolist(), strict=True)))
         across, up, scale = _crossing(
             *((n[0], n[1], dot(n, start - MIDDLE)) for n, (start, _) in zip(normals, self.slits, strict=True))

@@ -79,6 +79,6 @@ class CubemapFace(WindowModel):
         x, y, z = components(centers)
         intervals = []
         for side, frame in ((x, self.extent[:2]), (y, self.extent[2:])):
-            tangents = pinhole_interval(side, -z, radii)
+            tangents = pinhole_interval(side, -z, radii, through=True)
             intervals.append(turned(tuple(np.arctan(tangent) for tangent in tangents), frame, pi))
         return pixel_bounds(self.window, *intervals)

@@ -11,6 +11,7 @@ Reference: OpenCV documentation, Camera Calibration and 3D Reconstruction (calib
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 from math import atan
 
 import numpy as np
@@ -27,6 +28,9 @@ from .parts.radial import DISTORTED, up_to
 from .parts.radial_tangential import RadialTangential
 from .parts.silhouette import angular_radius, pixel_bounds, radial_intervals
 from .parts.tilt import Tilt
+
+EDGE_POINTS, EDGE_MARGIN = 129, 1.01
+"""Number of points along a side of the frame at which radii are computed, and a factor for those between them."""
 
 
 @dataclass(frozen=True)
@@ -84,6 +88,16 @@ class OpencvPinhole(WindowModel):
         """See Model."""
         return self.window.matrix(self.frame[1])
 
+    @cached_property
+    def _reach(self) -> float:
+        """An upper bound of the undistorted radii in the frame, which are largest at its edge."""
+        width, height = self.frame
+        ends = [np.linspace(-1.0, side + 1.0, EDGE_POINTS) for side in (width, height)]
+        x = np.concatenate((ends[0], ends[0], *np.full((2, EDGE_POINTS), ((-1.0,), (width + 1.0,)))))
+        y = np.concatenate((*np.full((2, EDGE_POINTS), ((-1.0,), (height + 1.0,))), ends[1], ends[1]))
+        radius = np.hypot(*self._undistorted(x, y))
+        return self.distortion.limit if np.isnan(radius).any() else EDGE_MARGIN * float(radius.max())
+
     @classmethod
     def from_blender(cls, raw: BlenderCamera, raster: Raster) -> OpencvPinhole:
         """Build the camera from its settings or a calibration file. Raises InputError; see Calibration."""
@@ -138,7 +152,7 @@ class OpencvPinhole(WindowModel):
 
         across = np.hypot(centers[:, 0], centers[:, 1])
         far = np.arctan2(across, -centers[:, 2]) + angular_radius(np.hypot(across, centers[:, 2]), radii)
-        spread = self.distortion.off_radius(np.tan(np.minimum(far, widest)))
+        spread = self.distortion.off_radius(np.minimum(np.tan(np.minimum(far, widest)), self._reach))
         intervals = radial_intervals(centers, radii, radius, widest)
         (left, right), (low, high) = ((low - spread, high + spread) for low, high in intervals)
         if self.tilt:

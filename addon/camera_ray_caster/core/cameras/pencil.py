@@ -95,7 +95,9 @@ class Pencil(WindowModel):
         """Return (n, 4) pixel bounds x0, x1, y0, y1 outside of which no point of the spheres (camera frame) is seen."""
         beside, rise, ahead = ((centers - self.point) @ self.axes.T).T
         side = np.where(ahead < 0, -1.0, 1.0)  # a line through the slit has the same m on both sides of it
-        m, tangent = (Interval(*pinhole_interval(side * part, side * ahead, radii)) for part in (rise, beside))
+        m, tangent = (
+            Interval(*pinhole_interval(side * part, side * ahead, radii, through=True)) for part in (rise, beside)
+        )
         depth = Interval.around(ahead, radii)
         lag = m * self.slide
         tangent = tangent - lag / depth

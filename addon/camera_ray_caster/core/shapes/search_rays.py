@@ -7,10 +7,9 @@ from typing import Any
 
 import numpy as np
 
-from .. import tuning
 from ..maths.speed import Scratch, lazy, taken
 from ..maths.vector import cross, cut
-from .windows import counted
+from .ray_cells import RayCells
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,100 +49,26 @@ class SearchRays:
         return cross(tuple(np.asarray(component, float) for component in self.origin), self.direction)
 
     @lazy
-    def present(self) -> Present:
-        """The rays that exist: their directions are not NaN."""
-        return Present(self.direction, self.shape)
-
-    @lazy
-    def cells(self) -> Cells:
+    def cells(self) -> RayCells:
         """The directions, and the moments of rays with many origins, in cells of the tile."""
-        return Cells(self.direction, self.moment, self.shape)
+        return RayCells(self.direction, self.moment, self.shape)
 
     def at(self, pixel: np.ndarray) -> tuple[np.ndarray | None, np.ndarray]:
         """Return the origins, None for the eye, and the directions at (m,) pixels of the tile, (3, m) float64 each."""
+        return None if self.origin is None else self._at(self.origin, pixel), self._at(self.direction, pixel)
+
+    def factors(self, pixel: np.ndarray) -> np.ndarray:
+        """Return the directions, and the moments of rays with many origins, at (m,) pixels of the tile, (c, m)."""
+        return self._at((*self.direction, *(self.moment or ())), pixel)
+
+    def _at(self, components: Any, pixel: np.ndarray) -> np.ndarray:
         row, column = np.divmod(pixel, self.shape[1])
-
-        def at_pixels(vector):
-            values = np.empty((3, len(pixel)))
-            for own, component in zip(values, vector, strict=True):
-                rows, columns = np.shape(component) or (1, 1)
-                if rows == columns == 1:
-                    own[...] = component
-                else:
-                    place = row if columns == 1 else column if rows == 1 else pixel
-                    own[...] = taken(component.reshape(-1), place)
-            return values
-
-        return None if self.origin is None else at_pixels(self.origin), at_pixels(self.direction)
-
-
-class Present:
-    """The pixels of a tile that have a ray, row by row; the direction of other pixels is NaN."""
-
-    def __init__(self, direction: Any, shape: tuple[int, int]):
-        self._there = np.broadcast_to(~np.isnan(direction[0]), shape).reshape(-1)
-        self._width = shape[1]
-
-    @lazy
-    def _pixels(self) -> np.ndarray:
-        return np.flatnonzero(self._there)
-
-    @lazy
-    def _before(self) -> np.ndarray:
-        """Number of rays before each pixel of the tile, followed by the number in the whole tile."""
-        return np.append(0, np.cumsum(self._there))
-
-    def within(self, bounds: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return the pixels within bounds (k, 4) that have a ray, and the index of the bounds of each, (m,) both."""
-        x0, x1, y0, y1 = bounds.T.astype(np.intp)
-        at, row = counted(y1 - y0, y0)
-        row *= self._width
-        first = taken(self._before, row + taken(x0, at))
-        run, ray = counted(taken(self._before, row + taken(x1, at)) - first, first)
-        return taken(self._pixels, ray), taken(at, run)
-
-
-class Cells:
-    """Squares of pixels of a tile, and boxes that hold the directions of the rays in each, and their moments if these
-    are given; NaN is ignored.
-    """
-
-    def __init__(self, direction: Any, moment: Any, shape: tuple[int, int]):
-        """Take components that broadcast to ``shape``; ``moment`` may be None."""
-        rows, columns = (np.arange(0, side, tuning.DIRECTIONS) for side in shape)
-        whole = [np.broadcast_to(component, shape) for component in (*direction, *(() if moment is None else moment))]
-        low, high = (
-            np.array([end.reduceat(end.reduceat(part, rows, axis=0), columns, axis=1) for part in whole], np.float64)
-            for end in (np.fmin, np.fmax)
-        )
-        self._wide, self._from_eye = len(columns), moment is None
-        self._middle, self._half = ((high / 2 + sign * low / 2).reshape(len(whole), -1) for sign in (1, -1))
-
-    def parts(self, edges: np.ndarray, margin: np.ndarray, bounds: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return the cells of bounds (k, 4) in which some ray may hit a triangle: the index of the bounds, (p,), and
-        their part in the cell, (p, 4).
-
-        edges: (3, c, k), the vectors whose products with a ray's direction and moment are the three ``volumes`` of a
-        triangle. All of them are -margin, (k,), or more at a hit, or, of rays with moments, margin or less.
-        """
-        side = tuning.DIRECTIONS
-        x0, x1, y0, y1 = bounds.T.astype(np.intp)
-        first, last = x0 // side, -(-x1 // side)
-        at, row = counted(-(-y1 // side) - y0 // side, y0 // side)
-        run, column = counted(taken(last - first, at), taken(first, at))
-        at, row = taken(at, run), taken(row, run)
-        cell = row * self._wide + column
-        middle, half = taken(self._middle, cell), taken(self._half, cell)
-        margin = taken(margin, at)
-        above, below = np.ones(len(at), bool), np.full(len(at), not self._from_eye)
-        for edge in edges:
-            own = taken(edge, at)
-            product, reach = np.einsum("ij,ij->j", middle, own), np.einsum("ij,ij->j", half, np.abs(own))
-            reach += margin
-            above &= product >= -reach
-            below &= product <= reach
-        some = np.flatnonzero(above | below)
-        at, x, y = taken(at, some), side * taken(column, some), side * taken(row, some)
-        ends = (np.maximum(x, taken(x0, at)), np.minimum(x + side, taken(x1, at)),
-                np.maximum(y, taken(y0, at)), np.minimum(y + side, taken(y1, at)))  # fmt: skip
-        return at, np.stack(ends, axis=1)
+        values = np.empty((len(components), len(pixel)))
+        for own, component in zip(values, components, strict=True):
+            rows, columns = np.shape(component) or (1, 1)
+            if rows == columns == 1:
+                own[...] = component
+            else:
+                place = row if columns == 1 else column if rows == 1 else pixel
+                own[...] = taken(component.reshape(-1), place)
+        return values

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from .. import tuning
-from ..maths.speed import lazy, taken
+from ..maths.speed import taken
 
 
 def pixels_in(bounds: np.ndarray) -> np.ndarray:
@@ -93,22 +93,6 @@ class Windows:
         y = self.row[:, None, None] + np.arange(self.size[0])[:, None] if rows > 1 else 0
         x = self.column[:, None, None] + np.arange(self.size[1]) if columns > 1 else 0
         return component[y, x]
-
-    @lazy
-    def pixel(self) -> np.ndarray:
-        """The flat indices of the windows' pixels, (rows columns, k): windows last, since long loops are faster."""
-        high, wide = self.size
-        inside = np.arange(high)[:, None] * self.width + np.arange(wide)
-        return inside.reshape(-1, 1) + (self.row * self.width + self.column)
-
-    def flat(self, component: Any) -> Any:
-        """Return a component at ``pixel``; a number is returned unchanged."""
-        if np.ndim(component) == 0:
-            return component
-        if min(component.shape) > 1:
-            return taken(component.reshape(-1), self.pixel)
-        own = np.broadcast_to(self.of(component), (len(self.row), *self.size))
-        return own.reshape(len(self.row), -1).T
 
 
 def counted(count: np.ndarray, first: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -25,20 +25,22 @@ def angular_radius(distance, radius):
     return np.arcsin(np.minimum(radius / np.maximum(distance, np.finfo(float).tiny), 1.0))
 
 
-def pinhole_interval(x, depth, radius):
+def pinhole_interval(x, depth, radius, through=False):
     """Return the interval of tan(angle) that a disc covers as seen from the origin of its plane.
 
     The disc has its center at (x, depth) and the given radius, in the plane of one image axis and the viewing
-    direction; arrays (n,). The interval is unbounded if the disc reaches behind the eye's plane, and (NaN, NaN) if all
-    of it is behind. The tangents from the origin touch the disc at tan = (x depth -+ r sqrt(x^2 + depth^2 - r^2)) /
-    (depth^2 - r^2). That is computed as the angle of the center plus or minus asin(r / distance), without cancellation.
+    direction; arrays (n,). The interval is unbounded on the sides on which the disc reaches behind the eye's plane, and
+    on both if lines are seen ``through`` the origin; it is (NaN, NaN) if all of the disc is behind. The tangents from
+    the origin touch the disc at tan = (x depth -+ r sqrt(x^2 + depth^2 - r^2)) / (depth^2 - r^2). That is computed as
+    the angle of the center plus or minus asin(r / distance), without cancellation.
     """
-    middle = np.arctan2(x, depth)
-    half = angular_radius(np.hypot(x, depth), radius)
-    bounded = depth > radius
+    middle, distance = np.arctan2(x, depth), np.hypot(x, depth)
+    outside = depth > radius if through else distance > radius
+    half = np.where(outside, angular_radius(distance, radius), 2 * np.pi)
+    low, high = middle - half, middle + half
     behind = depth <= -radius
-    low = np.where(bounded, np.tan(np.where(bounded, middle - half, 0.0)), -np.inf)
-    high = np.where(bounded, np.tan(np.where(bounded, middle + half, 0.0)), np.inf)
+    low = np.where(low > -np.pi / 2, np.tan(np.minimum(low, np.pi / 2)), -np.inf)
+    high = np.where(high < np.pi / 2, np.tan(np.maximum(high, -np.pi / 2)), np.inf)
     return np.where(behind, np.nan, low), np.where(behind, np.nan, high)
 
 

@@ -12,18 +12,23 @@ import numpy as np
 
 from ... import tuning
 from ...maths.speed import merged, taken
-from ...maths.vector import dot, norm
+from ...maths.vector import norm
 from ...records import MESH
 from ..cutouts import Cutouts, crossings
 from ..kind import Candidates, PixelBounds, ShapeSet
 from ..search_rays import SearchRays
-from ..windows import Windows, banded, batches, in_tile, pixels_in, union
+from ..windows import banded, in_tile, union
 from .in_camera import MeshesInView, Triangles
 from .nearest import NONE, Nearest, SeenTriangles
 from .order import nearest_first, pieces, slabs
 from .spans import RayLattice, spans
 from .surface import TRIANGLES, HitTriangles
-from .triangles import VOLUME_ROUNDING, crossing, edge_vectors, from_origin, signs, volumes
+from .triangles import VOLUME_ROUNDING, crossing, crossings_of, edge_vectors, from_origin, signs, volumes
+
+CELLS_ROUNDING = 8
+"""Doubt of the volumes of a cell's linear functions over that of the volumes of single rays: their terms have up to
+three times the magnitude, and two more roundings.
+"""
 
 Reach = tuple[float, float]
 """Upper bounds of the lengths of the directions and of the origins of a tile's rays."""
@@ -125,19 +130,34 @@ class MeshSet(ShapeSet):
         self._test(rays, rest, found)
 
     def _in_cells(self, rays: SearchRays, reach: Reach, triangles: Triangles, found: Nearest) -> Iterator[None]:
-        """Keep the hits on triangles, in small steps; wide triangles are tested only in cells where they may be hit."""
-        is_wide = pixels_in(triangles.bounds) >= tuning.WIDE_PIXELS
-        yield from self._in_pixels(rays, reach, triangles.only(np.flatnonzero(~is_wide)), found)
-        wide = triangles.only(np.flatnonzero(is_wide))
-        wide = wide.only(*banded(wide.bounds, tuning.BOXED_PIXELS))
-        for some in pieces(wide.bounds, tuning.BOXED_PIXELS):
-            own = wide.only(some)
-            meets, corners = self.meshes.facing(own.corners)
-            own = own.only(meets)
-            edges = edge_vectors(corners, rays.origin is None)
-            own = own.only(*rays.cells.parts(edges, 4 * _doubt(corners, reach), own.bounds))
-            own = own.only(found.may_show(own.bounds, own.near))
-            yield from self._in_pixels(rays, reach, own, found)
+        """Keep the hits of any rays on triangles, in small steps."""
+        triangles = triangles.only(*banded(triangles.bounds, tuning.BOXED_PIXELS))
+        rest: list[Open] = []
+        for some in pieces(triangles.bounds, tuning.BOXED_PIXELS):
+            rest.append(self._in_some_cells(rays, reach, triangles.only(some), found))
+            yield
+        self._test(rays, rest, found)
+
+    def _in_some_cells(self, rays: SearchRays, reach: Reach, triangles: Triangles, found: Nearest) -> Open:
+        """Keep the hits on triangles that are certain, and return those pixels in which rounding could decide."""
+        meets, corners = self.meshes.facing(triangles.corners)
+        if len(meets) < len(triangles):
+            triangles = triangles.only(meets)
+        edges, doubt = edge_vectors(corners, rays.origin is None), _doubt(corners, reach)
+        met, open_ = rays.cells.spans(edges, CELLS_ROUNDING * doubt, triangles.bounds)
+        hits, left = [met], []
+        for first in range(0, len(open_.at), tuning.TRACED_PIXELS):
+            some = open_.only(slice(first, first + tuning.TRACED_PIXELS))
+            vectors = rays.factors(some.pixel)
+            volumes = tuple(np.einsum("ij,ij->j", taken(edge, some.at), vectors) for edge in edges)
+            inner, most = _inside(volumes, is_turned=rays.origin is None), taken(doubt, some.at)
+            hits.append(some.only(inner > most))
+            left.append(some.only(np.abs(inner) <= most))
+        at, pixel = map(np.concatenate, zip(*hits, strict=True))
+        t = crossings_of(corners, at, *rays.at(pixel), reach[0])
+        self._keep(rays, found, pixel, t, taken(triangles.which, at))
+        at, pixel = map(np.concatenate, zip(*left, strict=True)) if left else (met.at[:0], met.pixel[:0])
+        return Open.of(triangles, at, pixel)
 
     def _span(self, rays: SearchRays, lattice: RayLattice, reach: Reach, triangles: Triangles, found: Nearest) -> Open:
         """Keep the hits on triangles in spans, and ray by ray on triangles without spans. Return the pixels in which
@@ -153,43 +173,6 @@ class MeshSet(ShapeSet):
             for _ in self._in_cells(rays, reach, triangles.only(np.flatnonzero(~seen.clear)), found):
                 pass
         return Open.of(triangles, *seen.open)
-
-    def _in_pixels(self, rays: SearchRays, reach: Reach, triangles: Triangles, found: Nearest) -> Iterator[None]:
-        """Keep the hits on triangles that are tested pixel by pixel, in small steps."""
-        if rays.origin is None:
-            triangles = triangles.only(*banded(triangles.bounds, tuning.TRACED_PIXELS))
-        bounds = triangles.bounds
-        for some in pieces(bounds, tuning.TRACED_PIXELS) if rays.origin is None else batches(bounds):
-            own = triangles.only(some)
-            meets, corners = self.meshes.facing(own.corners)
-            if meets.size:
-                cast = self._from_eye if rays.origin is None else self._from_anywhere
-                cast(rays, corners, _doubt(corners, reach), own.only(meets), found)
-            yield
-
-    def _from_eye(self, rays: SearchRays, corners, doubt, triangles: Triangles, found: Nearest) -> None:
-        """Keep the hits of rays from the eye in triangles' bounds: all rays share the planes through eye and edges."""
-        pixel, k = rays.present.within(triangles.bounds)
-        _, direction = rays.at(pixel)
-        normals = edge_vectors(corners, from_eye=True)
-        inner = _inside(tuple(dot(taken(normal, k), direction) for normal in normals), is_turned=True)
-        self._decide(rays, inner, taken(doubt, k), triangles, k, pixel, found)
-
-    def _from_anywhere(self, rays: SearchRays, corners, doubt, triangles: Triangles, found: Nearest) -> None:
-        """Keep the hits of rays with many origins, in windows: by moments, without corners relative to each origin."""
-        windows = Windows.around(triangles.bounds, rays.shape)
-        direction, moment = (tuple(map(windows.flat, parts)) for parts in (rays.direction, rays.moment))
-        inner = _inside(volumes(corners, direction, moment), is_turned=False)
-        near = np.flatnonzero(inner >= -doubt)
-        k = near % len(triangles)
-        pixel = windows.pixel.reshape(-1)[near]
-        self._decide(rays, inner.reshape(-1)[near], doubt[k], triangles, k, pixel, found)
-
-    def _decide(self, rays: SearchRays, inner, doubt, triangles: Triangles, k, pixel, found: Nearest) -> None:
-        """Keep the hits on triangles, one per pixel, given how far inside the rays are and the error bound of that."""
-        is_open, is_met = np.abs(inner) <= doubt, inner > doubt
-        self._test(rays, [Open.of(triangles, k[is_open], pixel[is_open])], found)
-        self._meet(rays, Open.of(triangles, k[is_met], pixel[is_met]), found)
 
     def _test(self, rays: SearchRays, rest: list[Open], found: Nearest) -> None:
         """Keep the hits among triangles that have to be tested, by exact signs where rounding could decide. All are

@@ -19,6 +19,7 @@ import numpy as np
 
 from ...conventions import EPS
 from ...maths.exact import volume_sign
+from ...maths.speed import taken
 from ...maths.vector import cross, difference, dot, norm
 
 VOLUME_ROUNDING = 16 * EPS
@@ -55,33 +56,24 @@ def _added(total: Any, term: Any) -> Any:
     return np.add(total, term, out=total if np.shape(total) == np.broadcast_shapes(total.shape, term.shape) else None)
 
 
-def volumes(corners: Any, d: Any, moment: Any = None) -> tuple[Any, Any, Any]:
-    """Return the volumes of the edges opposite to the three corners.
-
-    If the rays' moments, o x d, are given, the corners are not relative to o: d . ((a - o) x (b - o)) is
-    d . (a x b) + (o x d) . (b - a), where only d and the moment have a value per pixel. The error of these volumes is
-    at most VOLUME_ROUNDING |d| (r + |o|)^2, with r the length of the longest corner.
-    """
-    first, second, third = (_edge_volume(d, moment, corners[i], corners[j]) for i, j in EDGES)
+def volumes(corners: Any, d: Any) -> tuple[Any, Any, Any]:
+    """Return the volumes of the edges opposite to the three corners."""
+    first, second, third = (volume(d, corners[i], corners[j]) for i, j in EDGES)
     return first, second, third
 
 
 def edge_vectors(corners: Any, from_eye: bool) -> np.ndarray:
     """Return the vectors, (3, 3, k), whose products with a direction are the volumes of triangles, (3, 3, k): corner,
-    component; unless all rays leave the eye, (3, 6, k), for direction and moment.
+    component; unless all rays leave the eye, (3, 6, k), for direction and moment, o x d.
+
+    With moments the corners are not relative to o: d . ((a - o) x (b - o)) is d . (a x b) + (o x d) . (b - a), where
+    only d and the moment depend on the ray. The error of these volumes is at most VOLUME_ROUNDING |d| (r + |o|)^2, with
+    r the length of the longest corner.
     """
     found = [np.array(cross(corners[i], corners[j])) for i, j in EDGES]
     if not from_eye:
         found = [np.append(own, corners[j] - corners[i], axis=0) for own, (i, j) in zip(found, EDGES, strict=True)]
     return np.array(found)
-
-
-def _edge_volume(d: Any, moment: Any, a: Any, b: Any) -> Any:
-    own = volume(d, a, b)
-    if moment is None:
-        return own
-    beside = (along * component for along, component in zip(moment, difference(b, a), strict=True))
-    return _added(own, reduce(_added, beside))
 
 
 def signs(corners: np.ndarray, d: np.ndarray) -> np.ndarray:
@@ -121,6 +113,23 @@ def crossing(corners: Any, origin: Any, d: Any) -> np.ndarray:
         own, start = (None if vector is None else tuple(part[poor] for part in vector) for vector in (d, origin))
         ends = [dot(from_origin([c[poor] for c in corner], start), own) / dot(own, own) for corner in corners]
         t[poor] = np.fmax(np.fmin(t[poor], np.maximum.reduce(ends)), np.minimum.reduce(ends))
+    return t
+
+
+def crossings_of(corners: np.ndarray, at: np.ndarray, origin: Any, d: np.ndarray, longest: float) -> np.ndarray:
+    """Return ``crossing`` of rays, (m,), with those of k triangles, ``at``: what depends on a triangle is computed once
+    for all its rays. ``longest`` is an upper bound of the lengths of the directions.
+    """
+    area, product = plane(corners)
+    terms = np.array((*area, STEEP * longest * product, *((dot(area, corners[0]),) if origin is None else corners[0])))
+    first, second, third, steep, *places = taken(terms, at)
+    normal = first, second, third
+    slope = dot(normal, d)
+    t = (places[0] if origin is None else dot(normal, difference(places, origin))) / slope
+    poor = np.flatnonzero(~(np.abs(slope) > steep))
+    if poor.size:
+        start = None if origin is None else taken(origin, poor)
+        t[poor] = crossing(taken(corners, taken(at, poor)), start, taken(d, poor))
     return t
 
 

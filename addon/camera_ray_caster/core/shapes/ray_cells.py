@@ -1,0 +1,199 @@
+"""Triangles under any rays: in a small square of pixels the volumes of an edge are nearly linear in the pixel.
+
+The rays of a cell, a square of pixels, are measured once: their directions, and their moments if they have many
+origins, are linear functions of column and row up to the largest deviation of any ray of the cell. So is the volume of
+an edge, a product with these. In a row of a cell it is certainly positive up to one column and certainly negative from
+another one on; only the pixels between these two have to be tested.
+Reference: M. Olano and T. Greer, Triangle Scan Conversion using 2D Homogeneous Coordinates, 1997, for exact lines.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from .. import tuning
+from ..maths.speed import taken
+from .windows import counted
+
+LEVEL = 1 / 64
+"""An edge whose volume changes by less than this fraction of its doubt from column to column is taken as changing by
+that, and its doubt is raised by what this adds in a cell.
+"""
+
+LEAST = 1e-280
+"""Least doubt of a volume: divisions by it do not overflow."""
+
+
+class Pixels(NamedTuple):
+    """Triangles and pixels of a tile, (m,) each."""
+
+    at: np.ndarray
+    pixel: np.ndarray
+
+    def only(self, some: np.ndarray | slice) -> Pixels:
+        """Return some of them, by a mask or a slice."""
+        return Pixels(self.at[some], self.pixel[some])
+
+
+class RayCells:
+    """Squares of pixels of a tile, in rows of cells, and the linear functions to which the rays in each are close."""
+
+    def __init__(self, direction: Any, moment: Any, shape: tuple[int, int]):
+        """Take components that broadcast to ``shape``, NaN where there is no ray; ``moment`` is None for the eye."""
+        rows, self._wide = (-(-size // tuning.RAY_CELL) for size in shape)
+        self._width, self._is_turned = shape[1], moment is None
+        parts = [_linear(component) for component in (*direction, *(() if moment is None else moment))]
+        whole = [[np.broadcast_to(term, (rows, self._wide)).reshape(-1) for term in part] for part in parts]
+        self._terms = np.array(whole).swapaxes(0, 1).copy()
+        """(4, c, cells): the value at the first pixel, its changes by column and row, and the largest deviation."""
+
+    def spans(self, edges: np.ndarray, doubt: np.ndarray, bounds: np.ndarray) -> tuple[Pixels, Pixels]:
+        """Return the triangles and pixels of hits, and those that have to be tested, within bounds (k, 4).
+
+        edges: (3, c, k), the vectors whose products with a ray's direction and moment are the three ``volumes`` of a
+        triangle, to ``doubt``, (k,). All of them are positive at a hit; of rays with moments, they may all be negative.
+        """
+        parts = self._parts(edges, doubt, bounds)
+        rows = _rows(parts)
+        return self._pixels(parts, rows.at, rows.row, rows.first, rows.last), self._open(parts, rows)
+
+    def _parts(self, edges: np.ndarray, doubt: np.ndarray, bounds: np.ndarray) -> _Parts:
+        """Return the triangles in those cells in which some ray may hit them."""
+        side = tuning.RAY_CELL
+        x0, x1, y0, y1 = bounds.T.astype(np.intp)
+        first, last = x0 // side, -(-x1 // side)
+        at, row = counted(-(-y1 // side) - y0 // side, y0 // side)
+        run, column = counted(taken(last - first, at), taken(first, at))
+        at, row = taken(at, run), taken(row, run)
+        terms = taken(self._terms, row * self._wide + column)
+        volumes = np.empty((3, 4, len(at)))
+        for own, edge in zip(volumes, edges, strict=True):
+            edge = taken(edge, at)
+            for k in range(3):
+                np.einsum("ij,ij->j", terms[k], edge, out=own[k])
+            np.einsum("ij,ij->j", terms[3], np.abs(edge, out=edge), out=own[3])
+        volumes[:, 3] += taken(doubt, at)
+        x, y = side * column, side * row
+        x0, x1 = np.maximum(taken(x0, at) - x, 0), np.minimum(taken(x1, at) - x, side) - 1
+        y0, y1 = np.maximum(taken(y0, at) - y, 0), np.minimum(taken(y1, at) - y, side) - 1
+        place = y * self._width + x
+        whole = [_Parts(at, place, volumes, x0, x1, y0, y1)]
+        if not self._is_turned:
+            whole.append(_Parts(at, place, volumes * np.array((-1, -1, -1, 1))[:, None], x0, x1, y0, y1))
+        return _Parts.joined([part.only(part.meets()) for part in whole])
+
+    def _open(self, parts: _Parts, rows: _Rows) -> Pixels:
+        """Return the pixels of rows that may be hit and are not certainly."""
+        none = rows.last < rows.first
+        left = np.where(none, rows.most, rows.first - 1)
+        ends = (rows.least, left), (np.where(none, rows.most + 1, rows.last + 1), rows.most)
+        found = []
+        for first, last in ends:
+            some = np.flatnonzero(first <= last)
+            found.append(self._pixels(parts, *(taken(each, some) for each in (rows.at, rows.row, first, last))))
+        return Pixels(*map(np.concatenate, zip(*found, strict=True)))
+
+    def _pixels(self, parts: _Parts, at: np.ndarray, row: np.ndarray, first: np.ndarray, last: np.ndarray) -> Pixels:
+        """Return the pixels from the first to the last column of rows of parts."""
+        run, column = counted(np.maximum(last - first + 1, 0), first + taken(parts.place, at) + row * self._width)
+        return Pixels(taken(taken(parts.at, at), run), column)
+
+
+class _Parts(NamedTuple):
+    """Triangles in cells, (p,) each."""
+
+    at: np.ndarray
+    place: np.ndarray
+    """The first pixel of the cell in the tile."""
+    volumes: np.ndarray
+    """(3, 4, p): of each edge the volume at the first pixel of the cell, its changes by column and row, its doubt."""
+    x0: np.ndarray
+    """First column within the cell; then the last one, and the first and the last row."""
+    x1: np.ndarray
+    y0: np.ndarray
+    y1: np.ndarray
+
+    @classmethod
+    def joined(cls, parts: list[_Parts]) -> _Parts:
+        return parts[0] if len(parts) == 1 else cls(*(np.concatenate(each, -1) for each in zip(*parts, strict=True)))
+
+    def only(self, some: np.ndarray) -> _Parts:
+        return _Parts(*(taken(each, some) for each in self))
+
+    def meets(self) -> np.ndarray:
+        """Return the indices of the parts in which no edge is certainly missed."""
+        volume, across, up, doubt = self.volumes.swapaxes(0, 1)
+        most = volume + doubt
+        most += np.maximum(across * self.x0, across * self.x1)
+        most += np.maximum(up * self.y0, up * self.y1)
+        return np.flatnonzero((most >= 0).all(axis=0))
+
+
+@dataclass(frozen=True, eq=False)
+class _Rows:
+    """Rows of parts, (n,) each: columns in which they may be hit, and in which they are certainly hit."""
+
+    at: np.ndarray
+    row: np.ndarray
+    least: np.ndarray
+    most: np.ndarray
+    first: np.ndarray
+    last: np.ndarray
+
+
+def _rows(parts: _Parts) -> _Rows:
+    """Return the rows in which parts may be hit."""
+    volume, across, up, doubt = parts.volumes.swapaxes(0, 1)
+    doubt = np.maximum(doubt, LEAST)
+    is_level = np.abs(across) < LEVEL * doubt
+    across = np.where(is_level, LEVEL * doubt, across)
+    doubt = np.where(is_level, (1 + 2 * LEVEL * tuning.RAY_CELL) * doubt, doubt)
+    inverse = 1 / across
+    at, row = counted(parts.y1 - parts.y0 + 1, parts.y0)
+    moved = taken(-up * inverse, at) * row
+    start, wide, begins = -volume * inverse, doubt * np.abs(inverse), inverse > 0
+    least, first = ((taken(np.where(begins, start + sign * wide, -np.inf), at) + moved).max(axis=0) for sign in (-1, 1))
+    most, last = ((taken(np.where(begins, np.inf, start + sign * wide), at) + moved).min(axis=0) for sign in (1, -1))
+    x0, x1 = taken(parts.x0, at), taken(parts.x1, at)
+    least, most = np.maximum(np.ceil(least), x0), np.minimum(np.floor(most), x1)
+    some = np.flatnonzero(least <= most)
+    first, last = np.ceil(taken(first, some)), np.floor(taken(last, some))
+    least, most = taken(least, some), taken(most, some)
+    first, last = np.maximum(first, least), np.minimum(last, most)
+    none = last < first
+    first[none], last[none] = 0, -1
+    ends = (each.astype(np.intp) for each in (least, most, first, last))
+    return _Rows(taken(at, some), taken(row, some), *ends)
+
+
+def _linear(component: Any) -> tuple[Any, Any, Any, Any]:
+    """Return, for each cell of a component, (rows of cells, cells) or of size 1 where it broadcasts, its value at the
+    first pixel, its changes by column and row, and its largest deviation from these; NaN is ignored.
+    """
+    if np.ndim(component) == 0:
+        return float(component), 0.0, 0.0, 0.0
+    side = tuning.RAY_CELL
+    values = np.asarray(component, np.float64)
+    (rows, last_rows), (columns, last_columns) = (
+        (first := np.arange(0, size, side), np.minimum(first + side, size) - 1) for size in values.shape
+    )
+    corners = [[taken(values[k], end) for end in (columns, last_columns)] for k in (rows, last_rows)]
+    (low, low_right), (high, high_right) = corners
+    wide, tall = np.maximum(last_columns - columns, 1), np.maximum(last_rows - rows, 1)[:, None]
+    across = np.nan_to_num(((low_right - low) + (high_right - high)) / (2 * wide))
+    up = np.nan_to_num(((high - low) + (high_right - low_right)) / (2 * tall))
+    column = np.arange(values.shape[1])
+    meant = taken(across, column // side) * (column % side)
+    step = taken(up, column // side)
+    least, most = np.full((2, *meant.shape), np.nan)
+    for k in range(min(side, len(values))):
+        part = values[k::side]
+        off = part - meant[: len(part)]
+        for own, end in ((least, np.fmin), (most, np.fmax)):
+            end(own[: len(part)], off, out=own[: len(part)])
+        meant += step
+    least, most = np.fmin.reduceat(least, columns, axis=1), np.fmax.reduceat(most, columns, axis=1)
+    return least / 2 + most / 2, across, up, most / 2 - least / 2
