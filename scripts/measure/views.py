@@ -45,7 +45,7 @@ def pairs(views: list[View]) -> Iterator[tuple[View, View]]:
     flows = all(view.has("flow_forward") for view in views)
     several = max(map(len, frames.values())) > 1
     if flows or not several:
-        for _, own in groupby(views, key=lambda view: view.report["camera"]["name"]):
+        for _, own in groupby(views, key=lambda view: view.camera_name):
             yield from pairwise(own)
     else:
         for there in frames.values():
@@ -63,15 +63,17 @@ def distances(view: View, points: np.ndarray) -> np.ndarray:
 def check(first: View, second: View) -> tuple[list[str], bool]:
     """Re-project a view into another view; return the row of the table, and whether all checks pass."""
     points, hit = first.points()
-    points, own = points[hit], np.argwhere(hit)[:, ::-1] + 0.5
+    raster = first.camera.raster
+    points, own = points[hit], np.argwhere(hit)[:, ::-1] + 0.5 + (raster.x0, raster.y0)
+    raster = second.camera.raster
+    low, high = (raster.x0, raster.y0), (raster.x1, raster.y1)
     pixels = second.camera.project(points)
-    size = second.camera.raster.size
     with np.errstate(invalid="ignore"):
-        inside = ((pixels >= 0) & (pixels <= size)).all(axis=1)
+        inside = ((pixels >= low) & (pixels <= high)).all(axis=1)
     stored = 0.0
     if first.has("ray_direction"):
         stored = np.abs(first.camera.rays().directions[hit] - first.pixels("ray_direction")[hit]).max(initial=0.0)
-    column, row = np.minimum(np.floor(pixels[inside]), np.array(size) - 1).astype(int).T
+    column, row = (np.minimum(np.floor(pixels[inside]), np.array(high) - 1).astype(int) - low).T
     same = second.pixels("shape_index")[row, column] == first.pixels("shape_index")[hit][inside]
     theirs, ends = second.points()
     with np.errstate(invalid="ignore"):
@@ -81,8 +83,9 @@ def check(first: View, second: View) -> tuple[list[str], bool]:
     if first.has("flow_forward"):
         flow, hidden = first.pixels("flow_forward")[hit], first.pixels("flow_hidden")[hit][:, 0].astype(bool)[inside]
         flow_off = np.abs(pixels - own - flow)[inside]
-        edge = np.abs(pixels - np.clip(pixels, 0, size)).max(axis=1) < FLOW  # rounding decides there
-        right = bool((np.isnan(flow[:, 0]) == ~inside)[~edge | inside].all())
+        away = np.abs(pixels - np.clip(pixels, 0, raster.size)).max(axis=1)  # NaN where there is no pixel
+        edge = (away > 0) & (away < FLOW)  # rounding decides there
+        right = bool((np.isnan(flow[:, 0]) == ~(away == 0))[~edge].all())
     else:
         hidden = there < NEARER * distance
     off = np.abs(there / distance - 1)

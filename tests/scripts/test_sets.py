@@ -89,6 +89,39 @@ def test_cameras_of_a_set_are_of_its_pictures(sets, command, tmp_path, change):
             assert picture.shape[:2] == (frame["h"], frame["w"]), key
 
 
+def stereo(bpy):
+    render = bpy.context.scene.render
+    render.use_multiview, render.resolution_x, render.resolution_y = True, 64, 48
+    stereo = bpy.data.objects["Top"].data.stereo
+    stereo.interocular_distance, stereo.convergence_mode = 0.5, "PARALLEL"
+    bpy.ops.mesh.primitive_uv_sphere_add(radius=0.2, location=(0.4, -0.6, 1))
+    bpy.context.object.name = "Small"
+
+
+def test_stereo_views_are_two_cameras(sets, command, tmp_path):
+    for folder in sets(stereo):
+        whole = json.loads((folder / "annotations.json").read_text())
+        assert [one["camera"] for one in whole["images"]] == ["Top_L", "Top_R"] * 2
+        views = read_set(folder)
+        assert [one.name for one in views] == ["small_0001_L", "small_0002_L", "small_0001_R", "small_0002_R"]
+        done = command("export", folder, "--format", "nerfstudio-scene", "--output", tmp_path / f"{folder.name}_out")
+        assert (done.returncode, done.stderr) == (0, "")
+        frames = json.loads((tmp_path / f"{folder.name}_out" / "transforms.json").read_text())["frames"]
+        assert [one["file_path"] for one in frames] == [f"images/{one.name}.png" for one in views]
+        said = subprocess.run([sys.executable, folder / "reader.py"], capture_output=True, text=True, check=True).stdout
+        assert [line.split()[0] for line in said.splitlines()] == sorted(one.name for one in views)
+    seen = {}
+    for view, frame in zip(views, frames, strict=True):  # the ball is where the camera of each eye says
+        own = view.annotations
+        (x, y, width, height), = (one["bbox_whole"] for one in own["annotations"] if one["object"] == "Small")
+        place = np.linalg.inv(frame["transform_matrix"]) @ (0.4, -0.6, 1, 1)
+        seen[view.name] = frame["fl_x"] * place[0] / -place[2] + frame["cx"]
+        assert abs(seen[view.name] - (x + width / 2)) < 1
+        assert abs(frame["fl_y"] * place[1] / place[2] + frame["cy"] - (y + height / 2)) < 1
+    apart = seen["small_0001_L"] - seen["small_0001_R"]
+    assert apart == pytest.approx(frames[0]["fl_x"] * 0.5 / 4, rel=1e-5)  # by triangles
+
+
 def test_a_run_with_annotations_is_a_set_with_a_reader_and_a_preview(sets):
     for folder in sets():
         assert {"annotations.json", "preview.png", "reader.py"} <= set(left(folder))

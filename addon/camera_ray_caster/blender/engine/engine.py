@@ -170,7 +170,10 @@ class CameraRayCaster(Viewport, bpy.types.RenderEngine):
         images |= given
         if call.images is not None:
             call.images[layer, view] = images
-        views = {view: report.record} if view else {}
+        views = {}
+        if view:
+            suffix = depsgraph.scene_eval.render.views[view].file_suffix
+            views[view] = {"suffix": suffix, "camera": report.camera, **(report.record or {})}
         return replace(report, passes=tuple(keys), combined=made_by, views=views)
 
     def store(self, passes: Mapping[str, tuple[str, np.ndarray]], rows: slice, layer: str, view: str) -> None:

@@ -12,7 +12,6 @@ from ...core.annotations.coco import Sheet, document, merged
 from ...core.annotations.keypoints import seen_key_points
 from ...core.cast import Images
 from ...core.file_set import atomic_folder
-from ...core.records import InputError
 from ..read.frames import frame_of
 from ..read.keypoints import key_points
 from ..read.unique import find_unique
@@ -27,19 +26,14 @@ CATEGORY = "category"
 """Name of the custom property that holds an object's category."""
 
 
-def check_annotations(scene) -> None:
-    """Raise InputError if a frame has several views: annotations belong to one picture."""
-    if scene.render.use_multiview:
-        raise InputError("--annotations supports a single view only: disable Stereoscopy (Output properties)")
-
-
-def annotated(scene, images: Images, file_name: str, keypoints: Sequence[str] = ()) -> str:
+def annotated(scene, images: Images, file_name: str, suffix: str = "", keypoints: Sequence[str] = ()) -> str:
     """Return the annotations of a picture that was just rendered from the scene, as JSON in COCO's format.
 
-    ``file_name`` is the PNG or, if combined is not cast, the file of passes; for ``keypoints``, see ``read.keypoints``.
+    ``file_name`` is the PNG or, if combined is not cast, the file of passes; ``suffix`` is that of the view in a stereo
+    scene; for ``keypoints``, see ``read.keypoints``.
     """
     camera = images.camera
-    image = {"file_name": file_name, "camera": camera.name, "frame": frame_of(scene)}
+    image = {"file_name": file_name, "camera": camera.name + suffix, "frame": frame_of(scene)}
     points = key_points(scene, bpy.context.evaluated_depsgraph_get(), keypoints) if keypoints else []
     seen = seen_key_points(camera, images.shapes, points)
     sheet = Sheet.of(camera.raster)

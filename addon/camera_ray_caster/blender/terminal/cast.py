@@ -13,6 +13,7 @@ from ...core.file_set import clear_up
 from ...core.report.notes import sentences
 from ..output.annotations import collect
 from ..output.points import KITTI, collect_sequences
+from ..read.camera import views_of
 from . import dataset, farm, files
 from .options import add_frame, add_json, command_parser, show, warn
 from .pictures import Pictures, add_words, follow, parsed, summary
@@ -58,7 +59,8 @@ def run(arguments: Sequence[str], prog: str) -> int:
                 show(outcome.report, options.json, f"Wrote {', '.join(map(str, outcome.paths))}")
     annotated = pictures.keypoints is not None and several and not options.shard
     if annotated:
-        collect(options.output, [job.name for job in jobs])
+        suffixes = [view.file_suffix for view in views_of(pictures.scene)] or [""]
+        collect(options.output, [job.name + suffix for job in jobs for suffix in suffixes])
     if options.points == KITTI and not options.shard:
         collect_sequences(pictures.scene, options.output, jobs)
     if options.dataset or annotated:

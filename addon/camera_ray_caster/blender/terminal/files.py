@@ -89,11 +89,11 @@ def rendering(
     NAME_L.png, NAME_R.png and so on, by the views' suffixes. ``half`` stores real numbers of passes with 16 bits.
     NAME.png is written only if ``shown``. The compositor's File Output nodes write only with ``file_output``.
     ``picture`` replaces the combined pass. ``stamp`` is stored in the report, with the sizes of the files and of the
-    files in ``beside``; see ``stamps``. If ``keypoints`` is not None, NAME_coco.json is written for the first view
-    layer; see ``annotations``. With ``points``, the points of that layer are written in their format. The passes take
-    the memory of ``spare``, an earlier picture's images by layer and view, and are left there for the next one. Raises
-    InputError if Blender cannot render or the folder cannot be written, and Cancelled if stopped; then no files are
-    left behind.
+    files in ``beside``; see ``stamps``. If ``keypoints`` is not None, NAME_coco.json is written for each view of the
+    first view layer; see ``annotations``. With ``points``, the points of that layer are written in their format. The
+    passes take the memory of ``spare``, an earlier picture's images by layer and view, and are left there for the next
+    one. Raises InputError if Blender cannot render or the folder cannot be written, and Cancelled if stopped; then no
+    files are left behind.
     """
     check(scene)
     if layers == NPZ:
@@ -108,17 +108,19 @@ def rendering(
         started = perf_counter()
         if shown:
             _save(scene, temporary / f"{name}.png", PICTURE)
+        suffixes = {view.name: view.file_suffix for view in scene.render.views}
         if layers == EXR:
             _save(scene, temporary / f"{name}.exr", LAYERS | ({"color_depth": "16"} if half else {}))
         else:
-            suffixes = {view.name: view.file_suffix for view in scene.render.views}
             arrays.save(temporary / f"{name}.npz", call.images, suffixes, half)
             if half:
                 report = replace(report, accuracy=replace(report.accuracy, stored=float(arrays.HALF.eps) / 2))
-        if keypoints is not None:
-            shows = f"{name}.png" if shown else f"{name}.{layers.lower()}"
-            text = annotated(scene, next(iter(call.images.values())), shows, keypoints)
-            (temporary / f"{name}{ENDING}").write_text(text, encoding="utf-8")
+        for (layer, view), images in (call.images or {}).items() if keypoints is not None else ():
+            if layer == next(iter(call.images))[0]:
+                suffix = suffixes.get(view, "")
+                stem = name + suffix
+                text = annotated(scene, images, f"{stem}.{'png' if shown else layers.lower()}", suffix, keypoints)
+                (temporary / f"{stem}{ENDING}").write_text(text, encoding="utf-8")
         if points is not None:
             points.write(temporary / name, next(iter(call.images.values())))
         if keeps and spare is not None:

@@ -22,7 +22,6 @@ from ..cycles.device import device_notes, use_device
 from ..cycles.picture import CyclesPicture, picture_of
 from ..cycles.shader import check_cycles
 from ..engine.engine import CameraRayCaster
-from ..output.annotations import check_annotations
 from ..output.points import PointFiles, add_points, check_points
 from ..output.stamps import file_hash, finished, stamp_of
 from ..process import signals
@@ -117,7 +116,6 @@ class Pictures:
         if PointFiles.of(options) is not None:
             check_points(scene)
         if self.keypoints is not None:
-            check_annotations(scene)
             check_key_points(scene, self.keypoints)
         if by_cycles:
             scene.cycles.samples = options.samples or scene.cycles.samples

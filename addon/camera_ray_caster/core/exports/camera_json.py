@@ -33,6 +33,9 @@ FORMAT = "camera_ray_caster camera"
 NUMBER = 1
 """Version number of the format: a reader refuses a larger one."""
 
+RECORD = "record"
+"""Name of the entry with a camera's record."""
+
 FRAME = "frame"
 """Name of the setting that holds the frame at which a record was read."""
 
@@ -106,7 +109,7 @@ def _of_report(report: Mapping[str, Any], frame: float | None, view: str | None)
     if view is not None and view not in views:
         raise InputError(f"this report has no view {shown(view)}" + (f", only {', '.join(views)}" if views else ""))
     record = report["record"] if view is None else views[view]
-    if record is None:
+    if record is None or RECORD not in record:
         what = "whose time is an image, or whose table of rays is large"
         raise InputError(f"this report has no record of its camera, {what}: export a camera.json")
     if frame not in (None, report[FRAME]):

@@ -73,7 +73,9 @@ class Report:
     table of rays has more than MOST_NUMBERS.
     """
     views: Mapping[str, Any] = field(default_factory=dict)
-    """The ``record`` of each view of a stereo scene, by the view's name; {} otherwise."""
+    """The suffix of files, the facts of the camera and the entries of ``record`` of each view of a stereo scene, by the
+    view's name; {} otherwise.
+    """
     indices: Mapping[str, Any] = field(default_factory=dict)
     """Meanings of the numbers in the index passes, by view layer: see ``indices_of``."""
     made: Mapping[str, Any] = field(default_factory=dict)

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from . import bop, labels, maps, nerfstudio, sparse
-from .reading import View, read_set, view_of
+from .reading import View, read_set, views_of
 
 Files = Iterator[tuple[str, str | bytes]]
 
@@ -48,8 +48,8 @@ def companions(folder: Path, reports: Iterable[str]) -> Files:
     reader, there = Path(__file__).with_name("set_reader.py").read_text(encoding="utf-8"), folder / READER
     if not there.is_file() or there.read_bytes().startswith(reader.partition(":")[0].encode()):
         yield READER, reader
-    views = [view_of(folder / f"{name}.json") for name in reports]
-    shown = [view for view in views if view and view.file.is_file() and any(view.has(key) for key in maps.SHOWN)]
+    views = [view for name in reports for view in views_of(folder / f"{name}.json")]
+    shown = [view for view in views if view.file.is_file() and any(view.has(key) for key in maps.SHOWN)]
     if shown:
         yield from maps.preview(shown)
 

@@ -41,9 +41,9 @@ def files(
             raise InputError(f"BOP has pinholes only, and camera {view.camera.name!r} is none {reason}".strip())
     named = {one["category"]: (one, view.frame) for view in views for one in view.annotations["objects"]}
     numbers = {name: number for number, name in enumerate(sorted(named), 1)}
-    cameras = list(dict.fromkeys(view.camera.name for view in views))
+    cameras = list(dict.fromkeys(view.camera_name for view in views))
     for scene, name in enumerate(cameras):
-        own = [view for view in views if view.camera.name == name]
+        own = [view for view in views if view.camera_name == name]
         yield from _scene(f"test/{scene:06}", own, numbers)
     models = {}
     for name, number in numbers.items():

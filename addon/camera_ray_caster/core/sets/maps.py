@@ -45,7 +45,7 @@ def normals(views: list[View]) -> Iterator[tuple[str, str | bytes]]:
 
 def preview(views: list[View]) -> Iterator[tuple[str, str | bytes]]:
     """Yield preview.png: of the first view of each camera a row of picture, depth or distance, indices and normals."""
-    firsts = {view.report["camera"]["name"]: view for view in reversed(views)}
+    firsts = {view.camera_name: view for view in reversed(views)}
     rows = [row for view in firsts.values() if (row := _row(view)) is not None]
     if not rows:
         raise InputError(f"the set has none of the passes {', '.join(SHOWN)}, which previews show")

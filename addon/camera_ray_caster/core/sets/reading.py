@@ -34,6 +34,28 @@ class View:
     name: str
     """Name of its files without an ending."""
     report: Mapping[str, Any]
+    eye: str = ""
+    """Name of its view in a stereo scene; "" otherwise."""
+
+    @property
+    def _own(self) -> Mapping[str, Any]:
+        """The entries of the report that are of this view."""
+        return self.report["views"][self.eye] if self.eye else self.report
+
+    @property
+    def facts(self) -> Mapping[str, Any]:
+        """Return the facts of its camera, as its report has them."""
+        return self._own["camera"]
+
+    @property
+    def camera_name(self) -> str:
+        """Return the name of its camera, or of the eye, in names of files."""
+        return file_name(str(self.report["camera"]["name"])) + self._own.get("suffix", "")
+
+    @property
+    def is_recorded(self) -> bool:
+        """Whether the report has the record of its camera."""
+        return self._own.get("record") is not None
 
     @property
     def file(self) -> Path:
@@ -44,7 +66,7 @@ class View:
     @cached_property
     def camera(self) -> Camera:
         """Return its camera, with the rays that were cast."""
-        return camera_from_json(json.dumps(self.report))
+        return camera_from_json(json.dumps(self.report), camera=self.eye or None)
 
     @property
     def frame(self) -> float:
@@ -56,7 +78,7 @@ class View:
         """Return the axes of its camera in the world, (3, 3), whose columns are x, y and z, even if the times of pixels
         are an image, which a report does not contain.
         """
-        x, y, ahead = (np.array(self.report["camera"][name], np.float64) for name in "uvw")
+        x, y, ahead = (np.array(self.facts[name], np.float64) for name in "uvw")
         return np.stack((x, y, -ahead), axis=1)
 
     @property
@@ -72,8 +94,9 @@ class View:
     @property
     def shot(self) -> Shot:
         """Return the camera at its frame, as it is exported; its picture has the name of the view."""
-        name = file_name(str(self.report["camera"]["name"]))
-        return Shot(name, self.frame, self.camera, self.meters, rate=self.frame_rate)
+        suffix = self._own.get("suffix", "")
+        name = self.camera_name.removesuffix(suffix)
+        return Shot(name, self.frame, self.camera, self.meters, suffix=suffix, rate=self.frame_rate)
 
     @cached_property
     def picture(self) -> bytes | None:
@@ -148,34 +171,36 @@ def _opened(view: View) -> Mapping[str, np.ndarray]:
     """Return the passes of a view. Two are held, for pairs: an EXR is read whole, and an NPZ stays open."""
     path = view.file
     try:
-        return channels.passes_of(path, view.report["camera"]) if path.suffix == ".exr" else np.load(path)
+        return channels.passes_of(path, view.facts) if path.suffix == ".exr" else np.load(path)
     except InputError:
         raise
     except DAMAGED as error:
         raise InputError(f"{str(path)!r} cannot be read: make the set with --format NPZ or EXR") from error
 
 
-def view_of(path: Path) -> View | None:
-    """Return the view of a report; None if it is no report, that of a ray map, or lists no file of passes. Its camera
-    may be unrecorded.
+def views_of(path: Path) -> list[View]:
+    """Return the views of a report, two of a stereo scene; none if it is no report, that of a ray map, or lists no file
+    of passes. Their cameras may be unrecorded.
     """
     try:
         report = json.loads(path.read_text(encoding="utf-8"))
         of = report["made"].get("of", {})
         is_map = of.get("rays") is not None and of.get("frame") is None
         names = list(report["made"]["files"]) if "record" in report and not is_map else []
+        eyes = {eye: str(one["suffix"]) for eye, one in report.get("views", {}).items()} or {"": ""}
     except (OSError, ValueError, KeyError, TypeError, AttributeError):
-        return None
-    name = path.stem if any(one.startswith(path.stem) for one in names) else next(
-        (one.rsplit(".", 1)[0] for one in names if one.endswith((".npz", ".exr"))), None
-    )
-    return None if name is None else View(path.parent, name, report)
+        return []
+    stems = [one.rsplit(".", 1)[0] for one in names if one.endswith((".npz", ".exr"))]
+    own = [one for one in (*stems, *names) if one.startswith(path.stem)]
+    if own and eyes == {"": ""}:
+        return [View(path.parent, path.stem, report)]
+    found = ((eye, next((one for one in own or stems if one.endswith(suffix)), None)) for eye, suffix in eyes.items())
+    return [View(path.parent, name, report, eye) for eye, name in found if name is not None]
 
 
 def read_set(folder: Path) -> list[View]:
     """Return the views of a set, by camera and frame. Raises InputError, in one line, for a folder without any."""
-    found = map(view_of, sorted(folder.glob("*.json")))
-    views = [view for view in found if view is not None and view.report["record"] is not None]
+    views = [view for path in sorted(folder.glob("*.json")) for view in views_of(path) if view.is_recorded]
     if not views:
         raise InputError(f"{str(folder)!r} has no pictures with reports: make a set with cast.py or dataset.py")
-    return sorted(views, key=lambda view: (view.report["camera"]["name"], view.frame))
+    return sorted(views, key=lambda view: (view.camera_name, view.frame))

@@ -23,7 +23,8 @@ def passes_in(path):
 def views(folder=Path(__file__).parent):
     """Yield the name, the report and the passes by name of each picture; ``report["camera"]`` has K and the pose."""
     for path in sorted((*folder.glob("*.npz"), *folder.glob("*.exr"))):
-        reports = path.with_suffix(".json"), folder / f"report_{path.stem.rpartition('_')[2]}.json"
+        stems = path.stem, path.stem.rpartition("_")[0]  # without the suffix of a stereo view
+        reports = [folder / f"{one}.json" for stem in stems for one in (stem, f"report_{stem.rpartition('_')[2]}")]
         for report in [one for one in reports if one.is_file()][:1]:
             yield path.stem, json.loads(report.read_text(encoding="utf-8")), passes_in(path)
 
