@@ -12,7 +12,8 @@ from camera_ray_caster.core.cameras import MODELS
 from camera_ray_caster.core.cameras.model import GROUPS, Model
 from camera_ray_caster.core.cameras.parts.settings import OWN, Coefficients, Setting
 from camera_ray_caster.core.exports import FORMATS
-from camera_ray_caster.core.programs.table import PROGRAMS, ProgramFiles
+from camera_ray_caster.core.programs import PROGRAMS
+from camera_ray_caster.core.programs.parts.program import ProgramFiles
 from camera_ray_caster.core.sets import SET_FORMATS
 
 HEAD = """\
@@ -33,7 +34,7 @@ With any model each pixel may have its own time: `time_mode` is one of these.
 FILES = """\
 # Files of cameras
 
-Made by `python scripts/make_docs.py` from [table.py](table.py).
+Made by `python scripts/make_docs.py` from [their files](.).
 
 ## Calibrations
 
@@ -74,7 +75,7 @@ frame, they become cameras NAME-1, NAME-2, ... If each frame has one of several 
 
 ## Programs
 
-Exports are written by `scripts/export.py --format`, File > Export and `crc.export`. The last column says what the
+Exports are written by `scripts/export.py --format`, File > Writer and `crc.export`. The last column says what the
 files do not contain, and what is refused in one line.
 
 | program | files | reads | writes | not contained, or refused |
@@ -133,7 +134,7 @@ def files() -> str:
 
 def program_row(program: ProgramFiles) -> str:
     """Return a program as a row of the table; it writes what its export's table of models says."""
-    export = next((one for one in FORMATS if one.key == program.export), None)
+    export = next((one for one in FORMATS if program.export and one.key == program.export.key), None)
     writes = "" if export is None else f"`{export.key}`: {export.description}".replace("<", "\\<")
     return f"| {program.name} | {program.files} | {program.reads} | {writes} | {program.lost} |\n"
 

@@ -1,11 +1,14 @@
 """Unit Scale: what is written in meters is read in meters, by every writer and reader."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from camera_ray_caster.core.exports import FORMATS, export
 from camera_ray_caster.core.exports.format import Shot
 from camera_ray_caster.core.exports.writing import write
+from camera_ray_caster.core.programs import PROGRAMS
 from camera_ray_caster.core.programs.parts.document import Document
 from camera_ray_caster.core.programs.parts.placed import Placed
 from camera_ray_caster.core.programs.reading import poses
@@ -61,9 +64,9 @@ def test_cameras_come_back_at_any_unit_scale(tmp_path, chosen):
 
 
 UNITS = {
-    "kitti": "m", "colmap_images": "", "trajectory": "m", "metashape_poses": "", "arkit": "m", "_of_record": "",
-    "_of_aria": "m", "_of_transforms": "", "meshroom": "", "_of_basalt": "m", "maplab": "m", "_of_okvis": "m",
-    "_of_camchain": "m", "_of_bop": "mm", "hot3d": "m",
+    "KITTI": "m", "COLMAP": "", "trajectory": "m", "metashape_poses": "", "arkit": "m", "_of_record": "",
+    "_of_aria": "m", "_of_transforms": "", "meshroom": "", "_of_basalt": "m", "maplab": "m", "OKVIS": "m",
+    "Kalibr": "m", "EuRoC": "m", "_of_bop": "mm", "hot3d": "m", "kitti": "m",
 }  # fmt: skip
 """Units of lengths by the formats' documentation; "" for those that have none, of reconstructions."""
 
@@ -73,12 +76,9 @@ def test_every_reader_of_poses_has_the_unit_of_its_format(tmp_path, monkeypatch,
     (tmp_path / "file").write_text("any")
     place, sizes = np.eye(4), {"": 1.0, "m": 1.0 / meters, "mm": 1e-3 / meters}
     place[:3, 3] = 1, 2, 3
-    names = []
-    for read, unit in poses.READERS:
-        module = read.__module__.rpartition(".")[2]
-        names.append(read.__name__ if module == "poses" else module)
-        monkeypatch.setattr(poses, "READERS", ((lambda document: [Placed("", "", None, place)], unit),))
+    for program in (one for one in PROGRAMS if one.poses is not None):
+        of_any = replace(program, poses=lambda document: [Placed("", "", None, place)])
+        monkeypatch.setattr(poses, "program_of", lambda document, of_any=of_any: of_any)
         (found,) = poses.placed_in(Document(str(tmp_path / "file")), meters)
-        assert np.allclose(found.pose[:3, 3], np.array((1, 2, 3)) * sizes[UNITS[names[-1]]], rtol=1e-12)
+        assert np.allclose(found.pose[:3, 3], np.array((1, 2, 3)) * sizes[UNITS[program.name]], rtol=1e-12)
         assert (found.pose[:3, :3] == np.eye(3)).all()
-    assert sorted(names) == sorted(UNITS)

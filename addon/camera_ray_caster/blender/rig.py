@@ -17,7 +17,7 @@ from mathutils import Quaternion
 
 from ..core.cameras.parts.calibration import FILE, FILE_CAMERA
 from ..core.maths.rotations import polar, quaternion
-from ..core.programs.parts.document import Lens
+from ..core.programs.parts.lens import Lens
 from ..core.programs.parts.placed import FROM_BLENDER
 from ..core.programs.reading.mounted import Mounted, mounted
 from ..core.programs.reading.poses import beside

@@ -6,7 +6,7 @@ from pathlib import Path
 from camera_ray_caster.core.camera import pixel_time
 from camera_ray_caster.core.cameras import MODELS
 from camera_ray_caster.core.exports import FORMATS
-from camera_ray_caster.core.programs.table import FILE_WRITERS, PROGRAMS
+from camera_ray_caster.core.programs import PROGRAMS, READ
 
 PAGES = runpy.run_path(str(Path(__file__).parents[3] / "scripts" / "make" / "pages.py"))
 
@@ -26,7 +26,7 @@ def test_every_model_and_every_setting_is_on_the_page():
 
 def test_every_export_and_every_program_is_on_the_page_of_files():
     page = PAGES["files"]()
-    assert {program.export for program in PROGRAMS} - {""} == {one.key for one in FORMATS}
+    assert {program.export.key for program in PROGRAMS if program.export} == {one.key for one in FORMATS}
     for program in PROGRAMS:
         assert f"| {program.name} | {program.files} | {program.reads} |" in page
-        assert not program.reads or program.name in FILE_WRITERS
+        assert not program.reads or program.name in READ

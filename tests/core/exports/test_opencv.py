@@ -60,7 +60,7 @@ def test_opencv_sees_points_where_we_do(tmp_path, name):
 
 @pytest.mark.parametrize("name", REFUSED)
 def test_what_opencv_cannot_represent_is_refused(name):
-    able = "choose one of .*json(, or Fit Nearest Lens .--fit.)?$"
+    able = "choose one of .*json.*(, or Fit Nearest Lens .--fit.)?$"
     with pytest.raises(InputError, match=rf"^OpenCV cannot represent the .*{REFUSED[name]}.*: {able}"):
         export("opencv", shots(name))
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from camera_ray_caster.core.cameras import MODELS
-from camera_ray_caster.core.programs.colmap import MODELS as COLMAP
+from camera_ray_caster.core.programs.colmap import KINDS as COLMAP
 from camera_ray_caster.core.programs.reading.lenses import lenses_of
 from camera_ray_caster.core.records import InputError
 
@@ -29,10 +29,10 @@ def of_file(path, text, key, **settings):
     return camera(key, FRAME | {"calibration_file": str(path)} | settings)
 
 
-@pytest.mark.parametrize("kind", COLMAP)
+@pytest.mark.parametrize("kind", [kind for kind in COLMAP if kind != "EQUIRECTANGULAR"])
 def test_cameras_txt_projects_as_colmap_does(tmp_path, kind):
     key, names = COLMAP[kind]
-    values = [PARAMETERS[name] for name in names.split()]
+    values = [PARAMETERS[name] for name in names]
     (tmp_path / "cameras.txt").write_text(
         "# Camera list with one line of data per camera:\n"
         f"7 PINHOLE 640 480 500 500 320 240\n12 {kind} 640 480 {' '.join(map(repr, values))}\n"
@@ -44,7 +44,7 @@ def test_cameras_txt_projects_as_colmap_does(tmp_path, kind):
         points = points[np.hypot(points[:, 0], points[:, 1]) > 0.03 * -points[:, 2]]
     expected = colmap(project, kind, 640, 480, values, points * (1, -1, -1))
     assert np.abs(cam.project(points) - np.stack((expected[:, 0], 480 - expected[:, 1]), axis=1)).max() < 1e-9
-    assert cam.settings["fy"] == values[names.split().index("f" if names.startswith("f ") else "fy")]
+    assert cam.settings["fy"] == values[names.index("f" if names[0] == "f" else "fy")]
 
 
 SIZE = {"calibration_width": 640.0, "calibration_height": 480.0}

@@ -6,7 +6,7 @@ from ...core.camera.calibration_file import FRAMES_SIZE, chosen_lens, has_size, 
 from ...core.cameras import MODELS
 from ...core.cameras.parts.calibration import FILE, FILE_CAMERA, FROM_FILE
 from ...core.cameras.parts.settings import CAMERA, OWN
-from ...core.programs.parts.document import Lens
+from ...core.programs.parts.lens import Lens
 from ...core.programs.reading.lenses import lenses_of
 from ...core.records import InputError
 from .declared import BLENDERS_OWN, GROUP, MODEL

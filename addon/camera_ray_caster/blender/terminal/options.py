@@ -11,7 +11,7 @@ from textwrap import fill
 import bpy
 
 from ...core.camera.calibration_file import FRAMES_SIZE
-from ...core.programs.table import FILE_WRITERS
+from ...core.programs import READ
 from ...core.records import InputError
 from ...core.report.report import WIDTH, Report, as_json, as_lines
 from ..engine.engine import CameraRayCaster
@@ -43,7 +43,7 @@ def command_parser(prog: str, purpose: str, example: str, result: str, ends: str
     )
     parser.add_argument("--camera", metavar="NAME", help="name of the camera; default: the scene's active camera")
     parser.add_argument("--calibration", type=Path, metavar="FILE",
-                        help=f"calibration file of {FILE_WRITERS}; it determines the camera's model")  # fmt: skip
+                        help=f"calibration file of {READ}; it determines the camera's model")  # fmt: skip
     parser.add_argument(
         "--calibration-camera",
         default="",

@@ -10,7 +10,6 @@ from bpy_extras.io_utils import ExportHelper
 
 from ...core.exports import FORMATS, find_format
 from ...core.exports.fitted import FIT, FIT_WITHIN
-from ...core.exports.lenses import LensFormat
 from ...core.records import InputError
 from ..output import exports
 from ..read.camera import ALL, find_camera, find_cameras
@@ -135,7 +134,7 @@ class Export(OfScene, ExportHelper, bpy.types.Operator):
         layout.prop(self, "frames")
         if find_format(self.format).takes_target:
             layout.prop_search(self, "target", context.scene, "objects", icon="CAMERA_DATA")
-        if isinstance(find_format(self.format), LensFormat):
+        if getattr(find_format(self.format), "table", None):
             layout.prop(self, "fit")
             row = layout.row()
             row.active = self.fit

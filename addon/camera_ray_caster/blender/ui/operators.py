@@ -9,7 +9,7 @@ from bpy.props import BoolProperty, StringProperty
 from ...core.camera.facts import camera_facts
 from ...core.cameras.parts.calibration import SIZE
 from ...core.exports.camera_json import recorded
-from ...core.programs.table import FILE_WRITERS
+from ...core.programs import READ
 from ...core.records import InputError
 from ...core.report.report import Report, as_json
 from ..output import reports
@@ -83,7 +83,7 @@ class LoadCalibration(OfCamera, bpy.types.Operator):
 
     bl_idname = "camera_ray_caster.load_calibration"
     bl_label = "Load Calibration"
-    bl_description = f"Choose a calibration file of {FILE_WRITERS}. The file determines the camera model"
+    bl_description = f"Choose a calibration file of {READ}. The file determines the camera model"
     bl_options = {"REGISTER", "UNDO"}
 
     filepath: StringProperty(name="File", description="Path of the calibration file", subtype="FILE_PATH")

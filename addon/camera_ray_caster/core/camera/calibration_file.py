@@ -8,7 +8,7 @@ from ..cameras import MODELS
 from ..cameras.model import Model
 from ..cameras.parts.calibration import CENTER, FILE, FILE_CAMERA, SIZE
 from ..cameras.parts.settings import RECORD_FIELDS
-from ..programs.parts.document import FRAME_SIZE, Lens
+from ..programs.parts.lens import FRAME_SIZE, Lens
 from ..programs.reading.lenses import lenses_of
 from ..records import BlenderCamera, InputError, Raster
 

@@ -9,29 +9,29 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from ..arguments import unknown
+from ..programs import PROGRAMS
 from ..records import InputError, Pose
 from ..units import factor, unit_name
 from . import rigid
 from .bop import Bop
 from .camera_json import CameraJson
-from .colmap import Colmap
 from .fitted import FIT, can_fit, with_fits, with_heads
 from .format import Content, Format, Shot
-from .kalibr import Kalibr
-from .mrcal import Mrcal
 from .nerf import Nerf
 from .nerfstudio import Nerfstudio
 from .npz import Npz
+from .of_program import ProgramFormat
 from .opencv import Opencv
 from .ros import Ros
 from .stmap import Stmap
 from .trajectory import EUROC, KITTI, TUM
 
+_OF_PROGRAMS = [ProgramFormat(one) for one in PROGRAMS if one.export is not None and one.export.files]
 FORMATS: tuple[Format, ...] = (
-    Colmap(), Nerfstudio(), Nerf(), Opencv(), Ros(), Kalibr(), Mrcal(), Bop(), TUM, KITTI, EUROC, Stmap(), Npz(),
-    CameraJson(),
+    *sorted(_OF_PROGRAMS, key=lambda one: not one.table), Nerfstudio(), Nerf(), Opencv(), Ros(), Bop(), TUM, KITTI,
+    EUROC, Stmap(), Npz(), CameraJson(),
 )  # fmt: skip
-"""All formats, in the order of menus."""
+"""All formats, in the order of menus: those of lenses first, those that need whole cameras last."""
 
 
 def find_format(key: str) -> Format:

@@ -7,7 +7,7 @@ Reference: BOP toolkit documentation, BOP dataset format.
 
 from __future__ import annotations
 
-from ..programs.parts.document import matrix_of
+from ..programs.parts.lens import matrix_of
 from ..units import MILLIMETERS, factor
 from . import lenses
 from .format import Shot

@@ -16,7 +16,7 @@ from ..cameras import MODELS
 from ..cameras.parts.calibration import CALIBRATION
 from ..records import InputError
 from .format import Content, Format, Shot
-from .lenses import MATRIX, LensFormat
+from .lenses import MATRIX
 
 FAR = 0.05
 """Part of the frame: a lens that errs by more is no likeness."""
@@ -51,7 +51,7 @@ def with_fits(chosen: Format, shots: Sequence[Shot], angle: float, refusal: Refu
 
 def can_fit(chosen: Format, camera: Camera) -> bool:
     """Whether lenses of a format may be fitted to a camera, near or not."""
-    return isinstance(chosen, LensFormat) and camera.pixel_time is None and camera.model.central
+    return bool(getattr(chosen, "table", None)) and camera.pixel_time is None and camera.model.central
 
 
 def _lent(camera: Camera, fitted: Camera) -> Camera:

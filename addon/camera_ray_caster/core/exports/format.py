@@ -16,11 +16,9 @@ import numpy as np
 
 from ..camera.camera import Camera
 from ..names import frame_digits
+from ..programs.parts.program import Content
 from ..records import Raster
 from ..units import BLENDER_UNITS, Unit
-
-Content = str | bytes | np.ndarray
-"""Content of a file: text, bytes, or an image, (rows, columns, 3) float32 from the bottom up, stored as float32 EXR."""
 
 OWN_TIMES = "each pixel of which has its own time"
 """Reason for refusal by a format whose pictures are taken at one time."""

@@ -19,7 +19,7 @@ from ..cameras.opencv_pinhole import OpencvPinhole
 from ..cameras.parts.calibrated import Calibrated
 from ..cameras.parts.calibration import CALIBRATION
 from ..cameras.perspective import Perspective
-from ..programs.parts.document import Lens
+from ..programs.parts.lens import ANGLES, FRAME_SIZE, Lens, matrix_of
 from .format import OWN_TIMES, Format, Shot
 
 MATRIX = "fx", "fy", "cx", "cy"
@@ -31,16 +31,18 @@ Table = Mapping[str, tuple[str, Sequence[str]]]
 def calibrations(camera: Camera) -> list[Lens]:
     """Return the calibrations that give a camera's rays, in pixels of its picture, closest to its model first.
 
-    Each has the key of its model, fx, fy, cx, cy, skew (as in settings: from the center of the top left pixel) and the
-    model's other settings. An equirectangular panorama is also a calibration, with pixels per radian, and (cx, cy) in
-    the viewing direction. Blender's fisheyes end at a rim; a calibration has rays beyond it.
+    Each has the key of its model, the size, fx, fy, cx, cy, skew (as in settings: from the center of the top left
+    pixel) and the model's other settings. An equirectangular panorama has the angles of its edges. Blender's fisheyes
+    end at a rim; a calibration has rays beyond it.
     """
     x0, _, _, y1 = camera.raster.picture
     corner = {"cx": x0, "cy": camera.raster.height - y1}
-    return [
-        lens._replace(settings={name: value - corner.get(name, 0) for name, value in lens.settings.items()})
+    size = dict(zip(FRAME_SIZE, map(float, camera.raster.picture_size), strict=True))
+    lenses = [
+        lens._replace(settings=size | {name: value - corner.get(name, 0) for name, value in lens.settings.items()})
         for lens in _of_frame(camera)
     ]
+    return [_sphere(lens) if lens.model == Equirectangular.key else lens for lens in lenses]
 
 
 def _of_frame(camera: Camera) -> list[Lens]:
@@ -75,6 +77,15 @@ def _lens(model: WindowModel, key: str, focal: float = 1.0, settings: Mapping[st
     (fx, skew, cx), (_, fy, cy), _ = model.window.matrix(model.frame[1]).tolist()
     matrix = {"fx": fx * focal, "fy": fy * focal, "cx": cx, "cy": cy, "skew": skew * focal}
     return Lens("", key, matrix | dict(settings or {}))
+
+
+def _sphere(lens: Lens) -> Lens:
+    """Return a panorama by the angles of its edges, of one by pixels per radian and the place of the view direction."""
+    fx, fy, cx, cy = matrix_of(lens.settings, 0.5)
+    width, height = lens.size
+    edges = -cx / fx, (width - cx) / fx, (cy - height) / fy, cy / fy
+    size = {name: lens.settings[name] for name in FRAME_SIZE}
+    return lens._replace(settings=size | dict(zip(ANGLES, edges, strict=True)))
 
 
 def find_lens(table: Table, camera: Camera) -> tuple[str, Lens] | None:
@@ -137,4 +148,4 @@ class LensFormat(Format):
 
 def _beyond(lens: Lens, terms: Collection[str]) -> list[str]:
     """Return the settings of a lens that are not 0 and that neither the matrix nor ``terms`` contain."""
-    return [name for name, value in lens.settings.items() if value and name not in (*MATRIX, *terms)]
+    return [name for name, value in lens.settings.items() if value and name not in (*MATRIX, *FRAME_SIZE, *terms)]

@@ -11,7 +11,7 @@ from math import atan, isclose
 
 import numpy as np
 
-from ..programs.parts.document import matrix_of
+from ..programs.parts.lens import matrix_of
 from ..records import InputError
 from . import lenses
 from .format import Shot

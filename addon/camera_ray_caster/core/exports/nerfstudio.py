@@ -11,7 +11,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..programs.nerfstudio import MODELS
-from ..programs.parts.document import matrix_of
+from ..programs.parts.lens import matrix_of
 from ..records import InputError
 from . import lenses
 from .format import Shot

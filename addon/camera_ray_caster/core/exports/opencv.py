@@ -15,7 +15,7 @@ import numpy as np
 
 from ..maths.rotations import half_turn_vector
 from ..programs.opencv import TERMS
-from ..programs.parts.document import matrix_of
+from ..programs.parts.lens import matrix_of
 from . import lenses
 from .format import Shot
 

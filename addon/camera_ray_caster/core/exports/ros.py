@@ -9,7 +9,7 @@ from __future__ import annotations
 import json
 
 from ..programs.opencv import TERMS
-from ..programs.parts.document import matrix_of
+from ..programs.parts.lens import matrix_of
 from . import lenses
 from .format import Shot
 

@@ -6,7 +6,8 @@ Reference: Project Aria documentation, Camera Intrinsic Models for Project Aria 
 
 from __future__ import annotations
 
-from .parts.document import FRAME_SIZE, Document, Lens, mapping, matrix, one_of_several
+from .parts.document import Document
+from .parts.lens import FRAME_SIZE, Lens, mapping, matrix, one_of_several
 
 MODELS = {
     "FisheyeRadTanThinPrism": (
@@ -20,7 +21,7 @@ MODELS = {
 
 def read(document: Document, key: str) -> list[Lens] | None:
     """Return the lenses of a document; see the package."""
-    cameras = document.entries.get("CameraCalibrations")
+    cameras = document.raw.get("CameraCalibrations")
     if not isinstance(cameras, list):
         return None
     named = [(str(camera.get("Label", "")), camera) for camera in map(mapping, cameras)]

@@ -10,7 +10,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from .parts.document import Document, Lens, matrix, numbers_of
+from .parts.document import Document
+from .parts.lens import Lens, matrix, numbers_of
 from .parts.placed import FROM_BLENDER, Placed, pose_of
 
 ENTRIES = [[f"t_{row}{column}" for column in range(4)] for row in range(3)]
@@ -30,7 +31,7 @@ def poses(document: Document) -> list[Placed] | None:
     """Return the pose of the camera of a document; None of any other file. Raises InputError."""
     if of_pincam(document) is not None:
         return [Placed("", "", None, np.eye(4))]
-    entries = document.entries
+    entries = document.raw
     if ENTRIES[0][0] not in entries:
         return None
     rows = [[document.number(entries, name) for name in row] for row in ENTRIES]

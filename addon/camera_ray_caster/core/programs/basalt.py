@@ -7,7 +7,8 @@ Calibration.
 
 from __future__ import annotations
 
-from .parts.document import Document, Lens, mapping, matrix, one_of_several
+from .parts.document import Document
+from .parts.lens import Lens, mapping, matrix, one_of_several
 
 MODELS = {
     "ds": ("DOUBLE_SPHERE", {"xi": "unified_xi", "alpha": "unified_alpha"}),
@@ -25,7 +26,7 @@ MODELS = {
 
 def read(document: Document, key: str) -> list[Lens] | None:
     """Return the lenses of a document; see the package."""
-    calibration = mapping(document.entries.get("value0"))
+    calibration = mapping(document.raw.get("value0"))
     cameras = calibration.get("intrinsics")
     if not isinstance(cameras, list):
         return None

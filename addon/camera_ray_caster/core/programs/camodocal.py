@@ -10,7 +10,8 @@ from __future__ import annotations
 
 import re
 
-from .parts.document import Document, Lens, mapping, matrix
+from .parts.document import Document
+from .parts.lens import Lens, mapping, matrix
 from .parts.spelled import HEIGHT, WIDTH, Spelled
 
 RADIAL_TANGENTIAL = {name: name for name in ("k1", "k2", "p1", "p2")}
@@ -32,7 +33,7 @@ PARTS = "projection_parameters", "distortion_parameters", "mirror_parameters"
 
 def read(document: Document, key: str) -> list[Lens] | None:
     """Return the lens of a document; see the package."""
-    entries = document.entries
+    entries = document.raw
     if PARTS[0] not in entries and entries.get("model_type") != SCARAMUZZA:
         return None
     kind = document.one_of(entries.get("model_type"), "model_type", (*MODELS, SCARAMUZZA))

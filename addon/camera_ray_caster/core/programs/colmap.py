@@ -1,68 +1,221 @@
-"""COLMAP's cameras.txt: one line per camera, with its id, model, width, height and parameters.
+"""COLMAP's models as text and as binary: cameras.txt, images.txt, cameras.bin, images.bin.
 
-The center of the first pixel is (0.5, 0.5).
-Reference: COLMAP documentation, Output Format; Camera Models.
+A camera has an id, a model, width, height and parameters; an image the pose from the world to its camera, and the
+camera's id. The center of the first pixel is (0.5, 0.5). COLMAP's equirectangular panorama is the whole sphere. In its
+files a name ends at the first space.
+References: COLMAP documentation, Output Format; Camera Models; its source, reconstruction_io.
 """
 
 from __future__ import annotations
 
 import re
+import struct
+from collections.abc import Iterator, Sequence
+from math import pi
 
-from .parts.document import Document, Lens, matrix, one_of_several
+from ..conventions import EPS32
+from ..maths.rotations import quaternion
+from .parts.document import Document
+from .parts.lens import ANGLES, Lens, matrix, matrix_of, numbers_of, one_of_several, word_of
+from .parts.placed import Placed, inverted, of_quaternion
+from .parts.program import CameraRecord, FileWriter, ProgramFiles
 
 LINE = re.compile(r"\d+\s+[A-Z][A-Z_0-9]+(\s+[-+.\d]\S*){2}(\s|$)")
-FISHEYE_TERMS, PINHOLE_TERMS = "k1 k2 k3 k4", "k1 k2 p1 p2"
-MODELS = {
-    "SIMPLE_PINHOLE": ("OPENCV_PINHOLE", "f cx cy"),
-    "PINHOLE": ("OPENCV_PINHOLE", "fx fy cx cy"),
-    "SIMPLE_RADIAL": ("OPENCV_PINHOLE", "f cx cy k1"),
-    "RADIAL": ("OPENCV_PINHOLE", "f cx cy k1 k2"),
-    "OPENCV": ("OPENCV_PINHOLE", f"fx fy cx cy {PINHOLE_TERMS}"),
-    "FULL_OPENCV": ("OPENCV_PINHOLE", f"fx fy cx cy {PINHOLE_TERMS} k3 k4 k5 k6"),
-    "SIMPLE_FISHEYE": ("OPENCV_FISHEYE", "f cx cy"),
-    "FISHEYE": ("OPENCV_FISHEYE", "fx fy cx cy"),
-    "SIMPLE_RADIAL_FISHEYE": ("OPENCV_FISHEYE", "f cx cy k1"),
-    "RADIAL_FISHEYE": ("OPENCV_FISHEYE", "f cx cy k1 k2"),
-    "OPENCV_FISHEYE": ("OPENCV_FISHEYE", f"fx fy cx cy {FISHEYE_TERMS}"),
-    "THIN_PRISM_FISHEYE": ("THIN_PRISM_FISHEYE", f"fx fy cx cy {PINHOLE_TERMS} k3 k4 s1 s3"),
-    "RAD_TAN_THIN_PRISM_FISHEYE": ("FISHEYE624", "fx fy cx cy k1 k2 k3 k4 k5 k6 p2 p1 s1 s2 s3 s4"),
-    "FOV": ("FOV", "fx fy cx cy fov_omega"),
-    "SIMPLE_DIVISION": ("DIVISION", "f cx cy division_lambda"),
-    "DIVISION": ("DIVISION", "fx fy cx cy division_lambda"),
-    "EUCM": ("EUCM", "fx fy cx cy unified_alpha unified_beta"),
-}
-"""Our model, and its settings in the order of COLMAP's parameters; f stands for both focal lengths."""
-
+FISHEYE_TERMS, PINHOLE_TERMS = ("k1", "k2", "k3", "k4"), ("k1", "k2", "p1", "p2")
+F, FXY = ("f", "cx", "cy"), ("fx", "fy", "cx", "cy")
 SPHERE = "EQUIRECTANGULAR"
 """The whole sphere, whose parameters are width and height again; our model has the same name."""
+KINDS = {
+    "SIMPLE_PINHOLE": ("OPENCV_PINHOLE", F),
+    "PINHOLE": ("OPENCV_PINHOLE", FXY),
+    "SIMPLE_RADIAL": ("OPENCV_PINHOLE", (*F, "k1")),
+    "RADIAL": ("OPENCV_PINHOLE", (*F, "k1", "k2")),
+    "OPENCV": ("OPENCV_PINHOLE", (*FXY, *PINHOLE_TERMS)),
+    "OPENCV_FISHEYE": ("OPENCV_FISHEYE", (*FXY, *FISHEYE_TERMS)),
+    "FULL_OPENCV": ("OPENCV_PINHOLE", (*FXY, *PINHOLE_TERMS, "k3", "k4", "k5", "k6")),
+    "FOV": ("FOV", (*FXY, "fov_omega")),
+    "SIMPLE_RADIAL_FISHEYE": ("OPENCV_FISHEYE", (*F, "k1")),
+    "RADIAL_FISHEYE": ("OPENCV_FISHEYE", (*F, "k1", "k2")),
+    "THIN_PRISM_FISHEYE": ("THIN_PRISM_FISHEYE", (*FXY, *PINHOLE_TERMS, "k3", "k4", "s1", "s3")),
+    "RAD_TAN_THIN_PRISM_FISHEYE": (
+        "FISHEYE624", (*FXY, "k1", "k2", "k3", "k4", "k5", "k6", "p2", "p1", "s1", "s2", "s3", "s4")
+    ),
+    "SIMPLE_DIVISION": ("DIVISION", (*F, "division_lambda")),
+    "DIVISION": ("DIVISION", (*FXY, "division_lambda")),
+    "SIMPLE_FISHEYE": ("OPENCV_FISHEYE", F),
+    "FISHEYE": ("OPENCV_FISHEYE", FXY),
+    "EUCM": ("EUCM", (*FXY, "unified_alpha", "unified_beta")),
+    SPHERE: (SPHERE, ("width", "height")),
+}  # fmt: skip
+"""Our model, and its settings in the order of COLMAP's parameters, f for both focal lengths; in the order of the
+numbers by which binary files name the models.
+"""
+MODELS = {
+    kind: (key, tuple(name for name in names if name not in FXY))
+    for kind, (key, names) in KINDS.items()
+    if names[0] == "fx" and kind != "FISHEYE"  # OPENCV_FISHEYE says the same, and every COLMAP reads it
+} | {SPHERE: (SPHERE, ANGLES)}
+"""The models that are written."""
+
+COUNT, CAMERA, IMAGE = struct.Struct("<Q"), struct.Struct("<iiQQ"), struct.Struct("<I7dI")
+ROWS = 12
+"""Numbers of a line of other programs' poses, which are the rows of a matrix."""
+POINT = 24
+"""Bytes of a point in an image: x, y and the point's id."""
+
+CAMERAS = """# Camera list with one line of data per camera:
+#   CAMERA_ID, MODEL, WIDTH, HEIGHT, PARAMS[]
+"""
+IMAGES = """# Image list with two lines of data per image:
+#   IMAGE_ID, QW, QX, QY, QZ, TX, TY, TZ, CAMERA_ID, NAME
+#   POINTS2D[] as (X, Y, POINT3D_ID)
+"""
+POINTS = """# 3D point list with one line of data per point:
+#   POINT3D_ID, X, Y, Z, R, G, B, ERROR, TRACK[] as (IMAGE_ID, POINT2D_IDX)
+"""
 
 
-def read(document: Document, key: str) -> list[Lens] | None:
-    """Return the lenses of a document; see the package."""
-    lines = [line.split() for line in document.text.splitlines() if line.strip() and not line.lstrip().startswith("#")]
-    if not lines or not LINE.match(" ".join(lines[0][:5])):
+def looks(document: Document) -> bool:
+    """See ProgramFiles."""
+    return _cameras(document) is not None or _images(document) is not None
+
+
+def read(document: Document) -> list[Lens]:
+    """See ProgramFiles."""
+    cameras = _cameras(document)
+    if cameras is None:
+        raise document.refusal("it should have COLMAP's poses: the lenses are in the file cameras beside it")
+    return [one_of_several(words[0], _lens, document, words) for words in cameras]
+
+
+def poses(document: Document) -> list[Placed]:
+    """See ProgramFiles. The order is that of the ids."""
+    images = _images(document)
+    if images is None:
+        raise document.refusal("it should have COLMAP's lenses: the poses are in the file images beside it")
+    placed = []
+    for number, numbers, camera, name in sorted(images):
+        document.check()
+        numbers = document.numbers(numbers, f"pose of image {number}", 7)
+        pose = of_quaternion(document, numbers[:4], numbers[4:], f"image {number}")
+        placed.append(Placed(str(camera), name, None, inverted(pose)))
+    return placed
+
+
+def _cameras(document: Document) -> list[list[str]] | None:
+    """Return the words of each camera; None of a file that has none."""
+    if document.is_binary:
+        return _cameras_in(document.data)
+    lines = document.lines()
+    return [line.split() for line in lines] if lines and LINE.match(" ".join(lines[0].split()[:5])) else None
+
+
+def _cameras_in(data: bytes) -> list[list[str]] | None:
+    try:
+        (count,), at = COUNT.unpack_from(data), COUNT.size
+        if count * CAMERA.size > len(data):
+            return None
+        kinds, cameras = dict(enumerate(KINDS)), []
+        for _ in range(count):
+            name, number, width, height = CAMERA.unpack_from(data, at)
+            kind = kinds[number]
+            numbers = struct.unpack_from(f"<{len(KINDS[kind][1])}d", data, at + CAMERA.size)
+            at += CAMERA.size + 8 * len(numbers)
+            cameras.append([str(name), kind, str(width), str(height), *map(repr, numbers)])
+        return cameras if at == len(data) else None
+    except (struct.error, KeyError):
         return None
-    return [one_of_several(line[0], lens, document, line) for line in lines]
 
 
-def count(kind: str) -> int:
-    """Return the number of parameters of one of COLMAP's models, its width and height in EQUIRECTANGULAR's case."""
-    return 2 if kind == SPHERE else len(MODELS[kind][1].split())
+def _images(document: Document) -> list[tuple] | None:
+    """Return the id, the seven numbers, the camera and the name of each image; None of a file that has none."""
+    if document.is_binary:
+        return _images_in(document.data)
+    lines = [line for line in document.text.splitlines() if not line.startswith("#")]
+    while lines and not lines[-1].strip():
+        lines.pop()
+    heads = [line.split(maxsplit=9) for line in lines[::2]]
+    if not heads or any(len(words) != 10 or not (words[0] + words[8]).isdecimal() for words in heads):
+        return None
+    if len(numbers_of(lines[0].split())) == ROWS:
+        return None
+    return [(int(words[0]), words[1:8], int(words[8]), words[9].strip()) for words in heads]
 
 
-def lens(document: Document, words: list[str]) -> Lens:
-    """Return the lens of the words of a line of cameras.txt. Raises InputError."""
+def _images_in(data: bytes) -> list[tuple] | None:
+    try:
+        (count,), at, images = COUNT.unpack_from(data), COUNT.size, []
+        if count * IMAGE.size > len(data):
+            return None
+        for _ in range(count):
+            number, *numbers, camera = IMAGE.unpack_from(data, at)
+            at += IMAGE.size
+            end = data.index(b"\0", at)
+            name, at = data[at:end].decode(), end + 1
+            (points,) = COUNT.unpack_from(data, at)
+            at += COUNT.size + POINT * points
+            images.append((number, numbers, camera, name))
+        return images if at == len(data) else None
+    except (struct.error, ValueError, OverflowError):
+        return None
+
+
+def _lens(document: Document, words: list[str]) -> Lens:
     name, kind, *numbers = words if len(words) > 3 else [*words, "", "", ""]
+    if kind not in KINDS:
+        raise document.refusal(f"camera {name} is of the model {kind!r}: it must be one of {', '.join(KINDS)}")
+    model, names = KINDS[kind]
+    width, height, *values = document.numbers(numbers, f"camera {name}", len(names) + 2)
+    size, settings = document.size(width, height), dict(zip(names, values, strict=True))
     if kind == SPHERE:
-        return Lens(name, SPHERE, document.size(*document.numbers(numbers, f"camera {name}", 4)[:2]))
-    if kind not in MODELS:
-        known = ", ".join((*MODELS, SPHERE))
-        raise document.refusal(f"camera {name} is of the model {kind!r}: it must be one of {known}")
-    model, names = MODELS[kind]
-    order = names.split()
-    width, height, *values = document.numbers(numbers, f"camera {name}", len(order) + 2)
-    settings = dict(zip(order, values, strict=True))
+        return Lens(name, SPHERE, size)
     focal = settings.pop("f", None)
-    given = {"fx": focal, "fy": focal} if focal is not None else {one: settings.pop(one) for one in ("fx", "fy")}
-    center = {one: settings.pop(one) for one in ("cx", "cy")}
-    return Lens(name, model, document.size(width, height) | matrix(**given, **center, first=0.5) | settings)
+    fx, fy = (focal, focal) if focal is not None else (settings.pop("fx"), settings.pop("fy"))
+    return Lens(name, model, size | matrix(fx, fy, settings.pop("cx"), settings.pop("cy"), 0.5) | settings)
+
+
+def refusal(record: CameraRecord) -> str | None:
+    """See FileWriter."""
+    if " " in record.image:
+        return "whose name has a space, which ends a name in COLMAP: rename it"
+    if record.lens.model == SPHERE:
+        angles = record.lens.values(ANGLES)
+        whole = (-pi, pi, -pi / 2, pi / 2)  # Blender's angles are float32: pi is off by 3e-8 of itself
+        if max(abs(angle - end) for angle, end in zip(angles, whole, strict=True)) > 2 * pi * EPS32:
+            return "which is not the whole sphere"
+    return None
+
+
+def write(records: Sequence[CameraRecord]) -> Iterator[tuple[str, str]]:
+    """See FileWriter. One line in cameras.txt for each lens of each camera, one image for each frame."""
+    ids: dict[tuple[str, str], int] = {}
+    images = []
+    for number, record in enumerate(records, 1):
+        camera = ids.setdefault((record.name, _line(record.lens)), len(ids) + 1)
+        pose = record.world_to_camera
+        numbers = " ".join(map(repr, (*quaternion(pose[:3, :3]).tolist(), *pose[:3, 3].tolist())))
+        images.append(f"{number} {numbers} {camera} {record.image}\n\n")
+    yield "cameras.txt", CAMERAS + "".join(f"{number} {line}\n" for (_, line), number in ids.items())
+    yield "images.txt", IMAGES + "".join(images)
+    yield "points3D.txt", POINTS
+
+
+def _line(lens: Lens) -> str:
+    """Return a camera's line in cameras.txt, without its number."""
+    kind = str(word_of(MODELS, lens))
+    width, height = lens.size
+    if kind == SPHERE:
+        return f"{kind} {width} {height} {width} {height}"
+    values = matrix_of(lens.settings, 0.5) + lens.values(MODELS[kind][1])
+    return f"{kind} {width} {height} {' '.join(map(repr, values))}"
+
+
+PROGRAM = ProgramFiles(
+    "COLMAP", "cameras.txt, cameras.bin; images.txt, images.bin", looks,
+    marks="CAMERA_ID MODEL WIDTH HEIGHT PARAMS PINHOLE SIMPLE_RADIAL",
+    reads="all models", lost="skew, tilt, the terms s2 and s4 of a thin prism", models=MODELS, read=read, poses=poses,
+    export=FileWriter(
+        "colmap", "COLMAP", "cameras.txt, images.txt and points3D.txt: calibrated lenses and poses",
+        write, MODELS, refusal,
+    ),
+)  # fmt: skip

@@ -10,7 +10,8 @@ References: NVIDIA DriveWorks SDK documentation, Rig Configuration; NVIDIA NCore
 
 from __future__ import annotations
 
-from .parts.document import Document, Lens, mapping, one_of_several
+from .parts.document import Document
+from .parts.lens import Lens, mapping, one_of_several
 
 REFERENCES = {
     "angle-to-pixeldistance": "ANGLE_TO_RADIUS",
@@ -23,7 +24,7 @@ REFERENCES = {
 
 def read(document: Document, key: str) -> list[Lens] | None:
     """Return the lenses of a document; see the package."""
-    rig, calibrations = mapping(document.entries.get("rig")), mapping(document.entries.get("camera_calibrations"))
+    rig, calibrations = mapping(document.raw.get("rig")), mapping(document.raw.get("camera_calibrations"))
     if "sensors" in rig:
         sensors = rig["sensors"] if isinstance(rig["sensors"], list) else []
         cameras = [one for one in map(mapping, sensors) if mapping(one.get("properties")).get("Model") == "ftheta"]
@@ -34,7 +35,7 @@ def read(document: Document, key: str) -> list[Lens] | None:
     if calibrations:
         named = [(str(mapping(one).get("logical_sensor_name", key)), mapping(one)) for key, one in calibrations.items()]
         return [one_of_several(name, _of_nurec, document, name, calibration) for name, calibration in named]
-    for parameters in (document.entries, mapping(document.entries.get("camera_model_parameters"))):
+    for parameters in (document.raw, mapping(document.raw.get("camera_model_parameters"))):
         if "reference_poly" in parameters:
             return [_of_parameters(document, "", parameters)]
     return None

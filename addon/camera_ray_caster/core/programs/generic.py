@@ -10,7 +10,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from .parts.document import Document, Lens
+from .parts.document import Document
+from .parts.lens import Lens
 from .ray_arrays import table
 
 GRIDS = {"CentralGenericModel": ("grid", ""), "NoncentralGenericModel": ("direction_grid", "point_grid")}
@@ -19,7 +20,7 @@ GRIDS = {"CentralGenericModel": ("grid", ""), "NoncentralGenericModel": ("direct
 
 def read(document: Document, key: str) -> list[Lens] | None:
     """Return the lens of a document; see the package."""
-    entries = document.entries
+    entries = document.raw
     kind = entries.get("type")
     if not isinstance(kind, str) or kind not in GRIDS:
         return None
@@ -46,7 +47,7 @@ def read(document: Document, key: str) -> list[Lens] | None:
 
 
 def _count(document: Document, name: str, least: int) -> int:
-    found = document.number(document.entries, name)
+    found = document.number(document.raw, name)
     if found % 1 or found < least:
         raise document.refusal(f"{name} is {found:g}: it must be a whole number from {least}")
     return int(found)

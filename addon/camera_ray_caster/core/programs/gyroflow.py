@@ -7,7 +7,8 @@ Reference: Gyroflow documentation, Lens profiles; its lens_profiles.
 from __future__ import annotations
 
 from ..text_forms.content import flat
-from .parts.document import Document, Lens, mapping, matrix
+from .parts.document import Document
+from .parts.lens import Lens, mapping, matrix
 
 MODELS = {
     "opencv_fisheye": ("OPENCV_FISHEYE", "fisheye_params", ("k1", "k2", "k3", "k4")),
@@ -19,7 +20,7 @@ STRETCHES = "input_horizontal_stretch", "input_vertical_stretch"
 
 def read(document: Document, key: str) -> list[Lens] | None:
     """Return the lens of a document; see the package."""
-    entries = document.entries
+    entries = document.raw
     if "calib_dimension" not in entries or not {"fisheye_params", "calib_params"} & entries.keys():
         return None
     old = "opencv_standard" if entries.get("use_opencv_standard") is True else "opencv_fisheye"

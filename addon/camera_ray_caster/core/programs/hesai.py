@@ -10,7 +10,8 @@ from __future__ import annotations
 
 from ..cameras.parts.devices import numbers_as_text
 from ..cameras.parts.scanners import AZIMUTHS, COLUMNS, ELEVATIONS
-from .parts.document import Document, Lens, numbers_of
+from .parts.document import Document
+from .parts.lens import Lens, numbers_of
 
 HEADS = ["channel", "elevation", "azimuth"], ["laser id", "elevation", "azimuth"]
 FEW = 32

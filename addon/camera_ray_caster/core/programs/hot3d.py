@@ -9,7 +9,8 @@ Reference: HOT3D documentation, and the hand tracking toolkit that reads its cli
 from __future__ import annotations
 
 from .aria import MODELS as ARIA
-from .parts.document import Document, Lens, mapping, matrix, numbers_of
+from .parts.document import Document
+from .parts.lens import Lens, mapping, matrix, numbers_of
 from .parts.placed import Placed, of_quaternion
 
 KINDS = {"FISHEYE624": ARIA["FisheyeRadTanThinPrism"][:2], "PINHOLE": ("OPENCV_PINHOLE", ())}
@@ -20,7 +21,7 @@ WORLD, DEVICE = "T_world_from_camera", "T_device_from_camera"
 
 def read(document: Document, key: str) -> list[Lens] | None:
     """Return the lens of a document, a single calibration; see the package, which looks for those inside."""
-    entries = document.entries
+    entries = document.raw
     if not {"projection_model_type", "projection_params"} <= entries.keys():
         return None
     kind = str(entries["projection_model_type"]).rpartition(".")[2]
@@ -36,7 +37,7 @@ def read(document: Document, key: str) -> list[Lens] | None:
 
 def poses(document: Document) -> list[Placed] | None:
     """Return the poses of the cameras; None of any other file. Raises InputError."""
-    streams = {name: mapping(one) for name, one in document.entries.items()}
+    streams = {name: mapping(one) for name, one in document.raw.items()}
     own = {name: mapping(one.get("calibration")) for name, one in streams.items()}
     if not all("projection_model_type" in one for one in own.values()):
         return None

@@ -9,7 +9,8 @@ from __future__ import annotations
 
 from math import radians
 
-from .parts.document import Document, Lens, matrix
+from .parts.document import Document
+from .parts.lens import Lens, matrix
 
 NOMINAL = "cameraFisheyeNominalWidth", "cameraFisheyeNominalHeight"
 FISHEYE, PINHOLE = "fisheyePolynomial", "pinhole"
@@ -17,7 +18,7 @@ FISHEYE, PINHOLE = "fisheyePolynomial", "pinhole"
 
 def read(document: Document, key: str) -> list[Lens] | None:
     """Return the lens of a document; see the package."""
-    entries = document.entries
+    entries = document.raw
     if "cameraModel" not in entries or "renderProductResolution" not in entries:
         return None
     kind = document.one_of(entries["cameraModel"], "cameraModel", (PINHOLE, FISHEYE))

@@ -1,86 +1,108 @@
-"""Kalibr's camchain: cam0, cam1, ..., each a camera model and a distortion model; and EuRoC's and Kimera's sensor.yaml.
+"""Kalibr's camchain.yaml: cam0, cam1, ..., each a camera model, a distortion model and a pose.
 
-A sensor.yaml has the entries of one camera. A radial-tangential distortion of five coefficients has a k3, too.
-The center of the first pixel is (0, 0).
-References: Kalibr wiki, Supported models; YAML formats. The EuRoC MAV dataset, Data format. Kimera-VIO documentation.
+A radial-tangential distortion of five coefficients has a k3, too. T_cam_imu leads from the IMU to a camera, T_cn_cnm1
+from the camera before to the camera, x right, y down, z ahead; lengths are in meters. The center of the first pixel is
+(0, 0).
+References: Kalibr wiki, Supported models; YAML formats.
 """
 
 from __future__ import annotations
 
-from .parts.document import Document, Lens, matrix, numbers_of, one_of_several
-from .parts.spelled import plain_name
+import json
+from collections.abc import Iterator, Sequence
 
-SHAPES = {
-    "pinhole": ("OPENCV_PINHOLE", ()),
-    "omni": ("UCM", ("unified_xi",)),
-    "eucm": ("EUCM", ("unified_alpha", "unified_beta")),
-    "ds": ("DOUBLE_SPHERE", ("unified_xi", "unified_alpha")),
-}
-"""Our model for a camera model of Kalibr, and the settings whose numbers precede the focal lengths."""
-DISTORTIONS = {
-    ("pinhole", "radtan"): ("OPENCV_PINHOLE", ("k1", "k2", "p1", "p2")),
-    ("pinhole", "radialtangential8"): ("OPENCV_PINHOLE", ("k1", "k2", "p1", "p2", "k3", "k4", "k5", "k6")),
-    ("pinhole", "equidistant"): ("OPENCV_FISHEYE", ("k1", "k2", "k3", "k4")),
-    ("pinhole", "fov"): ("FOV", ("fov_omega",)),
-    ("omni", "radtan"): ("UCM", ("k1", "k2", "p1", "p2")),
-}
-"""Our model for a camera model with a distortion, and the distortion's settings. Any model may have no distortion."""
+import numpy as np
 
+from ..records import InputError
+from ..units import METERS
+from .parts.camchain import DISTORTIONS, SHAPES, is_camera, lens_of
+from .parts.document import Document
+from .parts.lens import Lens, matrix_of, one_of_several, word_of
+from .parts.placed import Placed, inverted, pose_in
+from .parts.program import CameraRecord, FileWriter, ProgramFiles
 
-COEFFICIENTS = "distortion_coeffs", "distortion_coefficients"
-SPELLINGS = {
-    "radialtangential": "radtan", "plumbbob": "radtan", "equi": "equidistant", "kannalabrandt": "equidistant",
-    "mei": "omni",
-}  # fmt: skip
-"""Other plain names of camera models and distortions, by which EuRoC, Kimera, OKVIS and others say the same."""
+MOVED = 1e-5
+"""Largest change of a pose beside another camera that counts as rounding of float32 matrices, in radians and parts."""
+
+MODELS = {
+    f"{kind}-{bend}": (model, (*SHAPES[kind][1], *terms))
+    for (kind, bend), (model, terms) in DISTORTIONS.items()
+    if bend != "radialtangential8"  # OKVIS's word, not Kalibr's
+} | {f"{kind}-none": SHAPES[kind] for kind in ("omni", "eucm", "ds")}
 
 
-def read(document: Document, key: str) -> list[Lens] | None:
-    """Return the lenses of a document; see the package."""
-    entries = document.entries
-    if "camera_model" in entries and "intrinsics" in entries:
-        return [_lens(document, "", entries)]
-    cameras = {name: one for name, one in entries.items() if isinstance(one, dict) and "camera_model" in one}
-    return [one_of_several(name, _lens, document, name, camera) for name, camera in cameras.items()] or None
+def looks(document: Document) -> bool:
+    """See ProgramFiles."""
+    return not is_camera(document.entries) and any(one.has("camera_model") for one in document.entries.named().values())
 
 
-def spelled(word) -> str:
-    """Return Kalibr's word for a camera model or a distortion."""
-    plain = plain_name(str(word))
-    return SPELLINGS.get(plain, plain)
+def read(document: Document) -> list[Lens]:
+    """See ProgramFiles."""
+    return [one_of_several(name, lens_of, one, name) for name, one in _chain(document).items()]
 
 
-def bend_of(document: Document, name: str, kind: str, word, entry: str) -> str:
-    """Return Kalibr's word for the distortion of a camera model. Raises InputError for one that it cannot have."""
-    bend = spelled(word) or "none"
-    if bend != "none" and (kind, bend) not in DISTORTIONS:
-        known = ", ".join(["none", *(one for of, one in DISTORTIONS if of == kind)])
-        of = f"{entry} of {name}, {kind}," if name else f"{entry} of a {kind}"
-        raise document.refusal(f"{of} is {str(word)!r}: it must be one of {known}")
-    return bend
+def poses(document: Document) -> list[Placed]:
+    """See ProgramFiles. The frame is the IMU's if each camera has a T_cam_imu, else that of the first camera."""
+    chain = _chain(document)
+    by_imu = all(one.has("T_cam_imu") for one in chain.values())
+    placed, pose = [], np.eye(4)
+    for number, (name, camera) in enumerate(chain.items()):
+        if by_imu:
+            pose = inverted(pose_in(camera, "T_cam_imu"))
+        elif number and not camera.has("T_cn_cnm1"):
+            raise document.refusal(f"it has no T_cn_cnm1 of {name}, which stands beside the camera before it")
+        elif number:
+            pose = pose @ inverted(pose_in(camera, "T_cn_cnm1"))
+        placed.append(Placed(name, "", None, pose))
+    return placed
 
 
-def _lens(document: Document, name: str, camera: dict) -> Lens:
-    def of(entry: str) -> str:
-        return f"{entry} of {name}" if name else entry
+def _chain(document: Document):
+    return {name: one for name, one in document.entries.named().items() if one.has("camera_model")}
 
-    kind = document.one_of(spelled(camera["camera_model"]), of("camera_model"), SHAPES)
-    model, shape = SHAPES[kind]
-    terms: tuple[str, ...] = ()
-    entry = next((one for one in COEFFICIENTS if one in camera), COEFFICIENTS[0])
-    bend = bend_of(document, name, kind, camera.get("distortion_model", "none"), "distortion_model")
-    if bend == "none" and any(document.numbers(camera.get(entry) or 0, of(entry))):
-        raise document.refusal(f"{name} has {entry} and no distortion_model: say which it is")
-    if bend != "none":
-        model, terms = DISTORTIONS[kind, bend]
 
-    def listed(entry: str, count: int) -> list[float]:
-        return document.numbers(camera.get(entry), of(entry), count)
+def write(records: Sequence[CameraRecord]) -> Iterator[tuple[str, str]]:
+    """See FileWriter. Raises InputError if a lens, or a camera's pose beside the first one, changes."""
+    chain = "# Made by Camera Ray Caster\n"
+    names = list(dict.fromkeys(record.name for record in records))
+    before: dict[float, CameraRecord] = {}
+    for number, name in enumerate(names):
+        own = {record.frame: record for record in records if record.name == name}
+        told = {_text(record.lens) for record in own.values()}
+        beside = [_beside(before[frame], record) for frame, record in own.items()] if before else []
+        if len(told) > 1 or any(np.abs(one - beside[0]).max() > MOVED * (1 + np.abs(one).max()) for one in beside):
+            what = "its lens" if len(told) > 1 else f"it moves beside {names[number - 1]!r}"
+            raise InputError(f"a camchain is of one rig, but camera {name!r} changes ({what}): export one frame")
+        chain += f"cam{number}:\n{told.pop()}  rostopic: {json.dumps('/' + name, ensure_ascii=False)}\n"
+        if beside:
+            chain += "  T_cn_cnm1:\n" + "".join(f"  - {row}\n" for row in beside[0].tolist())
+        before = own
+    yield "camchain.yaml", chain
 
-    first = listed("intrinsics", len(shape) + 4)
-    size = listed("resolution", 2) if "resolution" in camera else [None, None]
-    if (kind, bend) == ("pinhole", "radtan") and len(numbers_of(camera.get(entry))) == 5:
-        terms = (*terms, "k3")
-    rest = listed(entry, len(terms)) if terms else []
-    settings = dict(zip((*shape, *terms), (*first[: len(shape)], *rest), strict=True))
-    return Lens(name, model, document.size(*size) | matrix(*first[len(shape) :]) | settings)
+
+def _beside(before: CameraRecord, record: CameraRecord) -> np.ndarray:
+    """Return the matrix from one camera to another."""
+    return record.world_to_camera @ before.pose
+
+
+def _text(lens: Lens) -> str:
+    kind, bend = str(word_of(MODELS, lens)).split("-")
+    entries = {
+        "camera_model": kind, "intrinsics": lens.values(SHAPES[kind][1]) + matrix_of(lens.settings),
+        "distortion_model": bend, "distortion_coeffs": lens.values(DISTORTIONS.get((kind, bend), ("", ()))[1]),
+        "resolution": list(lens.size),
+    }  # fmt: skip
+    return "".join(f"  {name}: {value}\n" for name, value in entries.items())
+
+
+PROGRAM = ProgramFiles(
+    "Kalibr", "camchain.yaml", looks,
+    marks="camera_model distortion_model distortion_coeffs intrinsics resolution T_cn_cnm1",
+    reads="pinhole with radtan, equidistant or fov, omni, eucm, ds", lost="skew; cameras that move against each other",
+    read=read, poses=poses, unit=METERS,
+    export=FileWriter(
+        "kalibr", "Kalibr",
+        "camchain.yaml: the lenses of a rig that does not change, and their poses beside each other",
+        write, MODELS,
+    ),
+)  # fmt: skip

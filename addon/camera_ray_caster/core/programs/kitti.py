@@ -18,7 +18,8 @@ from functools import partial
 import numpy as np
 
 from . import opencv
-from .parts.document import Document, Lens, numbers_of, one_of_several
+from .parts.document import Document
+from .parts.lens import Lens, numbers_of, one_of_several
 from .parts.placed import Placed, checked, inverted, pose_of
 
 LINE = re.compile(r"^(P\d|[SKDRT]_\d\d|[SRP]_rect_\d\d):[ \t]+(\S+[ \t]+[^\s#].*)$", re.MULTILINE)

@@ -7,73 +7,80 @@ References: maplab documentation, Sensor calibration; SVO's rpg_svo_pro, calibra
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
-from ..text_forms.content import flat
-from .kalibr import DISTORTIONS, SHAPES, spelled
-from .parts.document import Document, Lens, mapping, matrix, one_of_several
-from .parts.placed import Placed, pose_of
+from ..units import METERS
+from .parts.camchain import DISTORTIONS, SHAPES, spelled
+from .parts.document import Document
+from .parts.fields import Fields
+from .parts.lens import Lens, matrix, one_of_several
+from .parts.placed import Placed, pose_in
+from .parts.program import ProgramFiles
 
 KINDS = {"pinhole": "pinhole", "unifiedprojection": "omni"}
 BENDS = {"fisheye": "fov", "rationalradtan": "radialtangential8", "radtan": "radtan", "equidistant": "equidistant"}
 """Kalibr's words for a type of camera and of distortion, by their plain names."""
 
 
-def read(document: Document, key: str) -> list[Lens] | None:
-    """Return the lenses of a document; see the package."""
-    cameras = document.entries.get("cameras")
-    if not isinstance(cameras, list) or not cameras:
-        return None
-    inside = [mapping(mapping(one).get("camera")) for one in cameras]
-    if not all({"type", "intrinsics"} <= one.keys() for one in inside):
-        return None
-    return [one_of_several(name, _lens, document, name, one)
-            for name, one in zip(_names(inside), inside, strict=True)]  # fmt: skip
+def looks(document: Document) -> bool:
+    """See ProgramFiles."""
+    cameras = [camera for rig in _rigs(document) for camera in _cameras(rig)]
+    return bool(cameras) and all(camera.has("type", "intrinsics") for camera in cameras)
 
 
-def poses(document: Document) -> list[Placed] | None:
-    """Return the poses of the rigs' cameras in the body; None of any other file. Raises InputError."""
+def read(document: Document) -> list[Lens] | None:
+    """See ProgramFiles. Rigs among other sensors are further inside."""
+    if not document.entries.has("cameras"):
+        return None
+    return [one_of_several(camera.label, _lens, camera) for camera in _cameras(document.entries)]
+
+
+def poses(document: Document) -> list[Placed]:
+    """See ProgramFiles: in the body."""
     entries = document.entries
-    sensors = entries.get("sensors")
-    rigs = [entries] if "cameras" in entries else [mapping(one) for one in sensors] if isinstance(sensors, list) else []
-    rigs = [one for one in rigs if isinstance(one.get("cameras"), list)]
-    if not rigs or not all("T_B_C" in mapping(camera) for rig in rigs for camera in rig["cameras"]):
-        return None
-    extrinsics = entries.get("extrinsics")
-    known = list(map(mapping, extrinsics)) if isinstance(extrinsics, list) else []
-    bodies = {str(one["sensor_id"]): one.get("T_B_S") for one in known if "sensor_id" in one}
+    known = [one for one in entries.parts("extrinsics") if one.has("sensor_id")]
+    bodies = {id_: one.labeled(id_) for one in known if (id_ := one.text("sensor_id"))}
     placed = []
-    for rig in rigs:
-        id_ = str(rig.get("id"))
-        body = pose_of(document, bodies[id_], f"T_B_S of {id_}") if id_ in bodies else np.eye(4)
-        names = _names([mapping(one.get("camera")) for one in rig["cameras"]])
-        placed += [Placed(name, "", None, body @ pose_of(document, camera["T_B_C"], f"T_B_C of {name}"))
-                   for name, camera in zip(names, rig["cameras"], strict=True)]  # fmt: skip
+    for rig in _rigs(document):
+        id_ = rig.text("id")
+        body = pose_in(bodies[id_], "T_B_S") if id_ in bodies else np.eye(4)
+        for camera, owner in zip(_cameras(rig), rig.parts("cameras"), strict=True):
+            pose = pose_in(owner.labeled(camera.label), "T_B_C")
+            placed.append(Placed(camera.label, "", None, body @ pose))
     if len({one.camera for one in placed}) < len(placed):
         raise document.refusal("its rigs have cameras of one name: give each a label of its own")
     return placed
 
 
-def _names(cameras: list[dict]) -> list[str]:
-    return [str(one.get("label") or f"cam{number}") for number, one in enumerate(cameras)]
+def _rigs(document: Document) -> list[Fields]:
+    entries = document.entries
+    return [entries] if entries.has("cameras") else [one for one in entries.parts("sensors") if one.has("cameras")]
 
 
-def _lens(document: Document, name: str, camera: dict) -> Lens:
-    def numbers(value: Any, of: str, count: int) -> list[float]:
-        return document.numbers(flat(value, f"{of} of {name}", document.path), f"{of} of {name}", count)
+def _cameras(rig: Fields) -> list[Fields]:
+    cameras = [one.part("camera") for one in rig.parts("cameras")]
+    return [one.labeled(one.text("label") or f"cam{number}") for number, one in enumerate(cameras)]
 
-    kind = KINDS[document.one_of(spelled(camera["type"]), f"type of {name}", KINDS)]
+
+def _lens(camera: Fields) -> Lens:
+    kind = KINDS[camera.document.one_of(spelled(camera.text("type")), camera.said("type"), KINDS)]
     model, shape = SHAPES[kind]
-    given = mapping(camera.get("distortion"))
-    word = spelled(given.get("type", "none"))
+    distortion = camera.part("distortion")
+    word = spelled(distortion.text("type", "none"))
     terms: tuple[str, ...] = ()
     if word not in ("none", ""):
         known = [one for one, bend in BENDS.items() if (kind, bend) in DISTORTIONS]
-        model, terms = DISTORTIONS[kind, BENDS[document.one_of(word, f"distortion of {name}", known)]]
-    first = numbers(camera["intrinsics"], "intrinsics", len(shape) + 4)
-    rest: list[float] = numbers(given.get("parameters"), "distortion parameters", len(terms)) if terms else []
-    size = [document.number(camera, side) if side in camera else None for side in ("image_width", "image_height")]
-    settings = dict(zip((*shape, *terms), (*first[: len(shape)], *rest), strict=True))
-    return Lens(name, model, document.size(*size) | matrix(*first[len(shape) :]) | settings)
+        bend = BENDS[camera.document.one_of(word, camera.said("distortion"), known)]
+        model, terms = DISTORTIONS[kind, bend]
+    first = camera.matrix("intrinsics", len(shape) + 4)
+    coefficients = distortion.matrix("parameters", len(terms)) if terms else []
+    settings = dict(zip((*shape, *terms), (*first[: len(shape)], *coefficients), strict=True))
+    size = camera.sides("image_width", "image_height")
+    return Lens(camera.label, model, size | matrix(*first[len(shape) :]) | settings)
+
+
+PROGRAM = ProgramFiles(
+    "maplab", "ncamera .yaml of maplab and SVO", looks, marks="cameras camera label image_height type T_B_C",
+    reads="pinhole, unified-projection, with radial-tangential, rational, equidistant or fisheye",
+    read=read, poses=poses, unit=METERS,
+)  # fmt: skip

@@ -13,7 +13,8 @@ from typing import Any
 
 import numpy as np
 
-from .parts.document import Document, Lens, mapping, one_of_several
+from .parts.document import Document
+from .parts.lens import Lens, mapping, one_of_several
 from .parts.placed import Placed, checked
 
 MODELS = {
@@ -36,7 +37,7 @@ CENTERED = 1, 2, 1
 
 def read(document: Document, key: str) -> list[Lens] | None:
     """Return the lenses of a document; see the package."""
-    entries = document.entries
+    entries = document.raw
     intrinsics = entries.get("intrinsics")
     if not isinstance(intrinsics, list) or not all("intrinsicId" in mapping(one) for one in intrinsics):
         return None
@@ -69,7 +70,7 @@ def _lens(document: Document, camera: dict, version: tuple[float, ...]) -> Lens:
 
 def poses(document: Document) -> list[Placed] | None:
     """Return the poses of the views in the order of the file; None of any other file. Raises InputError."""
-    entries = document.entries
+    entries = document.raw
     views = entries.get("views")
     if not isinstance(views, list) or not isinstance(entries.get("intrinsics"), list):
         return None

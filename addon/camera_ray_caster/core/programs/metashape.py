@@ -11,7 +11,8 @@ from __future__ import annotations
 from collections import Counter
 
 from ..text_forms.xml_subset import Element, XmlError, tree
-from .parts.document import Document, Lens, one_of_several
+from .parts.document import Document
+from .parts.lens import Lens, one_of_several
 
 MODELS = {"frame": "OPENCV_PINHOLE", "fisheye": "THIN_PRISM_FISHEYE", "equidistant_fisheye": "THIN_PRISM_FISHEYE"}
 TERMS = {"k1": "k1", "k2": "k2", "k3": "k3", "k4": "k4", "p1": "p2", "p2": "p1"}

@@ -1,8 +1,9 @@
-"""mrcal's .cameramodel: a Python dictionary with the lens model, its intrinsics and the imager's size.
+"""mrcal's .cameramodel: a Python dictionary with the lens model, its intrinsics, the imager's size and the pose.
 
 The center of the first pixel is (0, 0). mrcal's stereographic lens is the unified camera with xi = 1 and twice the
 focal length; its LONLAT is the equirectangular panorama. An entry that stands twice is refused. Older files have the
-model as distortion_model, DISTORTION_OPENCV8, and words as byte strings.
+model as distortion_model, DISTORTION_OPENCV8, and words as byte strings. extrinsics are the rotation vector and the
+translation from the world to the camera, x right and y down.
 Reference: mrcal documentation, Lens models; The .cameramodel file format.
 """
 
@@ -10,63 +11,75 @@ from __future__ import annotations
 
 import ast
 import re
+from collections.abc import Iterator, Sequence
 from math import pi
 from typing import Any
 from warnings import catch_warnings
 
 from ..cameras.parts.settings import LIMIT_ROUNDING
+from ..maths.rotations import half_turn_vector
 from ..records import InputError
-from .parts.document import Document, Lens, matrix
+from .parts.document import Document
+from .parts.fields import Fields
+from .parts.lens import ANGLES, Lens, matrix, matrix_of, word_of
+from .parts.program import CameraRecord, FileWriter, ProgramFiles
 
 TERMS = ("k1", "k2", "p1", "p2", "k3", "k4", "k5", "k6", "s1", "s2", "s3", "s4")
 STEREOGRAPHIC, LONLAT = "LENSMODEL_STEREOGRAPHIC", "LENSMODEL_LONLAT"
 MODELS = {
     "LENSMODEL_PINHOLE": ("OPENCV_PINHOLE", ()),
     **{f"LENSMODEL_OPENCV{count}": ("OPENCV_PINHOLE", TERMS[:count]) for count in (4, 5, 8, 12)},
-    STEREOGRAPHIC: ("UCM", ()),
+    STEREOGRAPHIC: ("UCM", ("unified_xi",)),
+    LONLAT: ("EQUIRECTANGULAR", ANGLES),
 }
 
 MARK = re.compile("LENSMODEL_|DISTORTION_[A-Z]")
 """What every file has; DISTORTION_ before mrcal 1.0."""
+NAMES = "lensmodel", "lens_model", "distortion_model"
 
 LONGEST = 1 << 20
 """Characters of a file: Python's reader takes a second for them."""
 
 
-def read(document: Document, key: str) -> list[Lens] | None:
-    """Return the lenses of a document; see the package."""
-    if not MARK.search(document.text):
-        return None
+def looks(document: Document) -> bool:
+    """See ProgramFiles."""
+    return MARK.search(document.text) is not None
+
+
+def read(document: Document) -> list[Lens]:
+    """See ProgramFiles."""
+    entries = _entries(document)
+    kind = entries.word("lensmodel", MODELS)
+    model, terms = MODELS[kind]
+    width, height = entries.numbers("imagersize", 2)
+    size = document.size(width, height)
+    if kind in (STEREOGRAPHIC, LONLAT):
+        fx, fy, cx, cy = entries.numbers("intrinsics", 4)
+        if kind == LONLAT:
+            return [Lens("", model, size | _edges(document, fx, fy, cx, cy, width, height))]
+        return [Lens("", model, size | matrix(2 * fx, 2 * fy, cx, cy) | {"unified_xi": 1.0})]
+    first, rest = (numbers := entries.numbers("intrinsics", len(terms) + 4))[:4], numbers[4:]
+    return [Lens("", model, size | matrix(*first) | dict(zip(terms, rest, strict=True)))]
+
+
+def _entries(document: Document) -> Fields:
+    """Return the entries of a file, with the lens model of today's name. Raises InputError."""
     if len(document.text) > LONGEST:
         raise document.refusal(f"it names a lens model of mrcal, but is longer than {LONGEST:,} characters")
     try:
         with catch_warnings(action="ignore", category=SyntaxWarning):  # of a text that is not such a file
-            entries = _once(ast.parse(document.text.strip(), mode="eval").body, document)
+            values = _once(ast.parse(document.text.strip(), mode="eval").body, document)
     except InputError:
         raise
     except (ValueError, TypeError, SyntaxError, RecursionError, MemoryError) as error:
         raise document.refusal("it names a lens model of mrcal, but is not a cameramodel file of mrcal") from error
-    entries = entries if isinstance(entries, dict) else {}
-    kind = document.one_of(_kind(entries), "lensmodel", (*MODELS, LONLAT))
-    if kind == LONLAT:
-        return [_panorama(document, entries)]
-    model, terms = MODELS[kind]
-    fx, fy, cx, cy, *rest = document.numbers(entries.get("intrinsics"), "intrinsics", len(terms) + 4)
-    settings = dict(zip(terms, rest, strict=True))
-    if model == "UCM":
-        fx, fy, settings = 2 * fx, 2 * fy, {"unified_xi": 1.0}
-    width, height = document.numbers(entries.get("imagersize"), "imagersize", 2)
-    return [Lens("", model, document.size(width, height) | matrix(fx, fy, cx, cy) | settings)]
-
-
-def _kind(entries: dict) -> Any:
-    """Return the lens model, also of files before mrcal 1.0: by another name, or as a byte string."""
-    kind = next((entries[name] for name in ("lensmodel", "lens_model", "distortion_model") if name in entries), None)
+    values = values if isinstance(values, dict) else {}
+    kind = next((values[name] for name in NAMES if name in values), None)
     kind = kind.decode("ascii", "replace") if isinstance(kind, bytes) else kind
-    if not isinstance(kind, str):
-        return kind
-    kind = kind.replace("DISTORTION_", "LENSMODEL_")
-    return "LENSMODEL_PINHOLE" if kind == "LENSMODEL_NONE" else kind
+    if isinstance(kind, str):
+        kind = kind.replace("DISTORTION_", "LENSMODEL_")
+        kind = "LENSMODEL_PINHOLE" if kind == "LENSMODEL_NONE" else kind
+    return Fields(document, values | {"lensmodel": kind})
 
 
 def _once(tree: ast.expr, document: Document) -> Any:
@@ -79,17 +92,57 @@ def _once(tree: ast.expr, document: Document) -> Any:
     return ast.literal_eval(tree)
 
 
-def _panorama(document: Document, entries: dict) -> Lens:
-    """Return the equirectangular panorama of fx and fy, pixels per radian, and cx and cy, in the viewing direction."""
-    fx, fy, cx, cy = document.numbers(entries.get("intrinsics"), "intrinsics", 4)
-    width, height = document.numbers(entries.get("imagersize"), "imagersize", 2)
-    size = document.size(width, height)
+def _edges(document: Document, fx, fy, cx, cy, width, height) -> dict[str, Any]:
+    """Return the panorama of fx and fy, pixels per radian, and cx and cy, in the viewing direction."""
     if min(fx, fy) <= 0:
         raise document.refusal("its pixels per radian must be above 0")
     low, high = (cy - height + 0.5) / fy, (cy + 0.5) / fy
     if max(-low, high) > pi / 2 + LIMIT_ROUNDING:
         raise document.refusal("its picture reaches beyond a pole, which no panorama of Blender does")
-    return Lens("", "EQUIRECTANGULAR", size | {
-        "longitude_min": (-0.5 - cx) / fx, "longitude_max": (width - 0.5 - cx) / fx,
-        "latitude_min": max(low, -pi / 2), "latitude_max": min(high, pi / 2),
-    })  # fmt: skip
+    edges = (-0.5 - cx) / fx, (width - 0.5 - cx) / fx, max(low, -pi / 2), min(high, pi / 2)
+    return dict(zip(ANGLES, edges, strict=True))
+
+
+def refusal(record: CameraRecord) -> str | None:
+    """See FileWriter."""
+    stereographic = word_of(MODELS, record.lens) == STEREOGRAPHIC
+    return "whose unified_xi is not 1" if stereographic and record.lens.settings["unified_xi"] != 1 else None
+
+
+def write(records: Sequence[CameraRecord]) -> Iterator[tuple[str, str]]:
+    """See FileWriter. One file per camera and frame."""
+    for record in records:
+        pose = record.world_to_camera
+        numbers = {
+            "intrinsics": _intrinsics(record.lens),
+            "extrinsics": [*half_turn_vector(pose[:3, :3]).tolist(), *pose[:3, 3].tolist()],
+            "imagersize": list(record.lens.size),
+        }
+        lines = "".join(f"    '{name}': [ {', '.join(map(repr, own))} ],\n" for name, own in numbers.items())
+        kind = word_of(MODELS, record.lens)
+        yield f"{record.stem}.cameramodel", f"{{\n    'lensmodel': '{kind}',\n{lines}}}\n"
+
+
+def _intrinsics(lens: Lens) -> list[float]:
+    kind = str(word_of(MODELS, lens))
+    if kind == LONLAT:
+        left, right, low, high = lens.values(ANGLES)
+        width, height = lens.size
+        fx, fy = width / (right - left), height / (high - low)
+        return [fx, fy, -left * fx - 0.5, high * fy - 0.5]
+    fx, fy, cx, cy = matrix_of(lens.settings)
+    if kind == STEREOGRAPHIC:
+        return [fx / 2, fy / 2, cx, cy]
+    return [fx, fy, cx, cy, *lens.values(MODELS[kind][1])]
+
+
+PROGRAM = ProgramFiles(
+    "mrcal", ".cameramodel", looks, marks="lensmodel intrinsics extrinsics imagersize",
+    reads="PINHOLE, OPENCV4 to OPENCV12, STEREOGRAPHIC, LONLAT", lost="CAHVOR and splined models are refused",
+    models=MODELS, read=read,
+    export=FileWriter(
+        "mrcal", "mrcal",
+        "<camera>_<frame>.cameramodel: OpenCV's lenses, panoramas and stereographic fisheyes, and poses",
+        write, MODELS, refusal,
+    ),
+)  # fmt: skip

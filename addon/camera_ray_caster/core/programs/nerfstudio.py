@@ -12,7 +12,8 @@ from __future__ import annotations
 from math import pi, tan
 from typing import Any
 
-from .parts.document import Document, Lens, matrix
+from .parts.document import Document
+from .parts.lens import Lens, matrix
 
 MODELS = {
     "OPENCV": ("OPENCV_PINHOLE", ("k1", "k2", "k3", "p1", "p2")),
@@ -35,7 +36,7 @@ OF_LENS = (*SIZES, *FOCAL, *CENTER, *COEFFICIENTS, LIST, "camera_model", "is_fis
 
 def read(document: Document, key: str) -> list[Lens] | None:
     """Return the lenses of a document; see the package."""
-    entries = document.entries
+    entries = document.raw
     frames = entries.get("frames")
     if not isinstance(frames, list) or not all(isinstance(frame, dict) for frame in frames):
         return None
@@ -80,7 +81,7 @@ def _focal(document: Document, entries: dict, axis: str, side: float) -> float:
 
 
 def _lens(document: Document, frame: dict, name: str) -> Lens:
-    entries = frame | document.entries
+    entries = frame | document.raw
     kind = entries.get("camera_model", "OPENCV_FISHEYE" if entries.get("is_fisheye") else "OPENCV")
     document.one_of(kind, "camera_model", (*MODELS, FISHEYE624, SPHERE, PARALLEL))
     given = [document.number(entries, side) if side in entries else None for side in SIZES]
@@ -95,7 +96,7 @@ def _lens(document: Document, frame: dict, name: str) -> Lens:
         return Lens(name, "ORTHO", size | _orthographic(document, (focal, focal_y), (cx, cy), (width, height)))
     size |= matrix(focal, focal_y, cx, cy, 0.5)
     if kind == FISHEYE624:
-        owner = document.entries if LIST in document.entries else frame
+        owner = document.raw if LIST in document.raw else frame
         numbers = document.numbers(owner.get(LIST), LIST, len(OF_ARIA))
         return Lens(name, FISHEYE624, size | dict(zip(OF_ARIA, numbers, strict=True)))
     model, terms = MODELS[kind]
@@ -119,7 +120,7 @@ def _orthographic(document: Document, focal, center, size) -> dict[str, Any]:
 
 def _coefficients(document: Document, frame: dict) -> dict[str, float]:
     """Return all coefficients of a frame."""
-    shared = document.entries
+    shared = document.raw
     owner = frame if {LIST, *COEFFICIENTS}.isdisjoint(shared) else shared
     if LIST in owner:
         return dict(zip(COEFFICIENTS, document.numbers(owner[LIST], LIST, len(COEFFICIENTS)), strict=True))

@@ -11,7 +11,8 @@ from __future__ import annotations
 
 import re
 
-from .parts.document import Document, Lens
+from .parts.document import Document
+from .parts.lens import Lens
 
 BEGIN, COMMENT = re.compile(r"\d+\s+[-+.\d]"), "#polynomial"
 """Pattern of the first line, and what the toolbox writes before it. COLMAP's files of poses begin with numbers, too."""
@@ -20,7 +21,7 @@ BEGIN, COMMENT = re.compile(r"\d+\s+[-+.\d]"), "#polynomial"
 def read(document: Document, key: str) -> list[Lens] | None:
     """Return the lens of a document; see the package."""
     if document.text.lstrip()[:1] == "{" or not document.text:
-        return [_of_json(document, document.entries)] if "polynomialC2W" in document.entries else None
+        return [_of_json(document, document.raw)] if "polynomialC2W" in document.raw else None
     lines = [line for line in map(str.strip, document.text.splitlines()) if line and not line.startswith("#")]
     if not lines or not BEGIN.match(lines[0]) or not (len(lines) == 5 or COMMENT in document.text):
         return None

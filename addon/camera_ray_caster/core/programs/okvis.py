@@ -1,32 +1,51 @@
 """The cameras of OKVIS's settings, in YAML: a list with focal_length, principal_point and image_dimension.
 
-The center of the first pixel is (0, 0).
+The center of the first pixel is (0, 0). T_SC leads from the camera to the sensor.
 Reference: OKVIS2 documentation, Configuration files and calibration.
 """
 
 from __future__ import annotations
 
-from .kalibr import DISTORTIONS, bend_of
-from .parts.document import Document, Lens, mapping, matrix, one_of_several
-
-ENTRIES = "focal_length", "principal_point"
-
-
-def read(document: Document, key: str) -> list[Lens] | None:
-    """Return the lenses of a document; see the package."""
-    cameras = document.entries.get("cameras")
-    if not isinstance(cameras, list) or not all(isinstance(one, dict) and ENTRIES[0] in one for one in cameras):
-        return None
-    named = [(f"cam{number}", mapping(camera)) for number, camera in enumerate(cameras)]
-    return [one_of_several(name, _lens, document, name, camera) for name, camera in named]
+from ..units import METERS
+from .parts.camchain import DISTORTIONS, bend_of
+from .parts.document import Document
+from .parts.fields import Fields
+from .parts.lens import Lens, matrix, one_of_several
+from .parts.placed import Placed, pose_in
+from .parts.program import ProgramFiles
 
 
-def _lens(document: Document, name: str, camera: dict) -> Lens:
-    bend = bend_of(document, name, "pinhole", camera.get("distortion_type", "none"), "distortion_type")
+def looks(document: Document) -> bool:
+    """See ProgramFiles."""
+    cameras = document.entries.parts("cameras")
+    return bool(cameras) and all(one.has("focal_length") for one in cameras)
+
+
+def read(document: Document) -> list[Lens]:
+    """See ProgramFiles."""
+    return [one_of_several(camera.label, _lens, camera) for camera in _cameras(document)]
+
+
+def poses(document: Document) -> list[Placed]:
+    """See ProgramFiles."""
+    return [Placed(camera.label, "", None, pose_in(camera, "T_SC")) for camera in _cameras(document)]
+
+
+def _cameras(document: Document) -> list[Fields]:
+    return [one.labeled(f"cam{number}") for number, one in enumerate(document.entries.parts("cameras"))]
+
+
+def _lens(camera: Fields) -> Lens:
+    bend = bend_of(camera, "pinhole", "distortion_type")
     model, terms = DISTORTIONS["pinhole", bend] if bend != "none" else ("OPENCV_PINHOLE", ())
-    focal, center = (document.numbers(camera.get(one), f"{one} of {name}", 2) for one in ENTRIES)
-    entry = "distortion_coefficients"
-    rest = document.numbers(camera.get(entry), f"{entry} of {name}", len(terms)) if terms else []
-    size = camera.get("image_dimension")
-    sides = [None, None] if size is None else document.numbers(size, f"image_dimension of {name}", 2)
-    return Lens(name, model, document.size(*sides) | matrix(*focal, *center) | dict(zip(terms, rest, strict=True)))
+    focal, center = camera.numbers("focal_length", 2), camera.numbers("principal_point", 2)
+    coefficients = camera.numbers("distortion_coefficients", len(terms)) if terms else []
+    settings = matrix(*focal, *center) | dict(zip(terms, coefficients, strict=True))
+    return Lens(camera.label, model, camera.size("image_dimension") | settings)
+
+
+PROGRAM = ProgramFiles(
+    "OKVIS", "its settings as .yaml", looks,
+    marks="cameras T_SC image_dimension focal_length principal_point distortion_type",
+    reads="pinhole with radialtangential, radialtangential8 or equidistant", read=read, poses=poses, unit=METERS,
+)  # fmt: skip

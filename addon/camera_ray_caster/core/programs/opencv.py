@@ -20,7 +20,8 @@ from ..cameras.parts.calibration import LARGEST
 from ..cameras.parts.film import FARTHEST_PIXELS
 from ..records import InputError
 from .parts import spelled
-from .parts.document import Document, Lens, mapping, matrix, one_of_several
+from .parts.document import Document
+from .parts.lens import Lens, mapping, matrix, one_of_several
 from .parts.spelled import Spelled, plain_name
 
 TERMS = {
@@ -63,7 +64,7 @@ INVERSE = "inversebrownconrady", "modifiedbrownconrady"
 def read(document: Document, key: str) -> list[Lens] | None:
     """Return the lens of a document, or those of several cameras in it; see the package."""
     lenses: list[Lens] = []
-    for prefix, entries in spelled.cameras_of(document.entries):
+    for prefix, entries in spelled.cameras_of(document.raw):
         found = Spelled(document, entries)
         sides = found.sides()
         for end in sides if len(sides) > 1 else [""]:

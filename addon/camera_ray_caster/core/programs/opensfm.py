@@ -6,7 +6,10 @@ Reference: OpenSfM documentation, Geometric Models.
 
 from __future__ import annotations
 
-from .parts.document import Document, Lens, mapping, one_of_several
+from .parts.document import Document
+from .parts.fields import Fields
+from .parts.lens import Lens, one_of_several
+from .parts.program import ProgramFiles
 
 RADIAL, EQUIDISTANT = ("k1", "k2"), ("k1", "k2", "k3", "k4")
 MODELS = {
@@ -22,22 +25,32 @@ MODELS = {
 """Our model for a projection_type, and its coefficients."""
 
 
-def read(document: Document, key: str) -> list[Lens] | None:
-    """Return the lenses of a document; see the package."""
-    cameras = document.entries
-    if not all("projection_type" in mapping(camera) for camera in cameras.values()):
-        return None
-    return [one_of_several(name, _lens, document, name, camera) for name, camera in cameras.items()]
+def looks(document: Document) -> bool:
+    """See ProgramFiles."""
+    cameras = document.entries.named()
+    return len(cameras) == len(document.entries) and all(one.has("projection_type") for one in cameras.values())
 
 
-def _lens(document: Document, name: str, camera: dict) -> Lens:
-    model, terms = MODELS[document.one_of(camera["projection_type"], f"projection_type of {name}", MODELS)]
-    width, height = document.number(camera, "width"), document.number(camera, "height")
-    size = document.size(width, height)
+def read(document: Document) -> list[Lens]:
+    """See ProgramFiles."""
+    return [one_of_several(name, _lens, camera, name) for name, camera in document.entries.named().items()]
+
+
+def _lens(camera: Fields, name: str) -> Lens:
+    model, terms = MODELS[camera.word("projection_type", MODELS)]
+    width, height = camera.number("width"), camera.number("height")
+    size = camera.document.size(width, height)
     if model == "EQUIRECTANGULAR":
         return Lens(name, model, size)
-    one, unit = document.number(camera, "focal", 0.0), max(width, height)
-    settings = {f"f{axis}": document.number(camera, f"focal_{axis}", one or None) * unit for axis in "xy"}
+    focal, unit = camera.number("focal", 0.0), max(width, height)
+    settings = {f"f{axis}": camera.number(f"focal_{axis}", focal or None) * unit for axis in "xy"}
     for axis, side in (("x", width), ("y", height)):
-        settings[f"c{axis}"] = (side - 1) / 2 + document.number(camera, f"c_{axis}", 0.0) * unit
-    return Lens(name, model, size | settings | {term: document.number(camera, term, 0.0) for term in terms})
+        settings[f"c{axis}"] = (side - 1) / 2 + camera.number(f"c_{axis}", 0.0) * unit
+    return Lens(name, model, size | settings | {term: camera.number(term, 0.0) for term in terms})
+
+
+PROGRAM = ProgramFiles(
+    "OpenSfM", "camera_models.json", looks, marks="projection_type focal focal_x width height k1",
+    reads="perspective, brown, radial, fisheye, fisheye_opencv, spherical",
+    lost="poses; other projections are refused", models=MODELS, read=read,
+)  # fmt: skip

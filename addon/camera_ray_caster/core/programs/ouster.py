@@ -14,7 +14,8 @@ from math import hypot
 
 from ..cameras.parts.devices import ouster
 from ..cameras.parts.scanners import COLUMNS, RATE
-from .parts.document import Document, Lens, mapping
+from .parts.document import Document
+from .parts.lens import Lens, mapping
 
 MODE = re.compile(r"(512|1024|2048|4096)x(5|10|20)")
 PARTS = "beam_intrinsics", "lidar_intrinsics", "lidar_data_format", "data_format", "config_params"
@@ -23,7 +24,7 @@ MILLIMETER = 1e-3
 
 def read(document: Document, key: str) -> list[Lens] | None:
     """Return the scanner of a document; see the package."""
-    entries = document.entries
+    entries = document.raw
     found = entries | {name: value for part in PARTS for name, value in mapping(entries.get(part)).items()}
     if "beam_altitude_angles" not in found or "beam_azimuth_angles" not in found:
         return None

@@ -20,7 +20,8 @@ from ..arguments import DAMAGED, numbers
 from ..cameras.parts.pose import flaw_of
 from ..maths.vector import inverse
 from ..records import InputError
-from .parts.document import Document, Lens
+from .parts.document import Document
+from .parts.lens import Lens
 
 ZIP, NPY = b"PK\x03\x04", b"\x93NUMPY"
 KEY = "RAY_TABLE"

@@ -11,7 +11,8 @@ from collections.abc import Callable, Mapping
 
 import numpy as np
 
-from .parts.document import Document, Lens
+from .parts.document import Document
+from .parts.lens import Lens
 from .ray_arrays import table
 
 MAGIC = b"\x76\x2f\x31\x01"

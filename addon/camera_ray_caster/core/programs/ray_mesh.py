@@ -12,7 +12,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from .parts.document import Document, Lens
+from .parts.document import Document
+from .parts.lens import Lens
 from .ray_arrays import table
 
 DIRECTION, ORIGIN = ("dx", "dy", "dz"), ("ox", "oy", "oz")

@@ -10,7 +10,8 @@ from typing import Any
 
 from ..cameras import MODELS
 from ..cameras.parts.calibration import FROM_FILE
-from .parts.document import Document, Lens, mapping, one_of_several
+from .parts.document import Document
+from .parts.lens import Lens, mapping, one_of_several
 
 FORMAT = "camera_ray_caster camera"
 RECORD = "record"
@@ -18,7 +19,7 @@ RECORD = "record"
 
 def read(document: Document, key: str) -> list[Lens] | None:
     """Return the lenses of a document; see the package."""
-    entries = document.entries
+    entries = document.raw
     if entries.get("format") != FORMAT:
         is_report = isinstance(mapping(entries.get(RECORD)).get("settings"), dict)
         return [_lens(document, "", entries)] if is_report else None

@@ -15,7 +15,8 @@ from typing import Any
 
 from ..cameras.parts.devices import HDL_32E, VLP_16, VLP_32C, numbers_as_text
 from ..cameras.parts.scanners import AZIMUTHS, DELAYS, ELEVATIONS, PERIOD, RIGHT, UP
-from .parts.document import Document, Lens, mapping
+from .parts.document import Document
+from .parts.lens import Lens, mapping
 
 S3 = {
     DELAYS.name: numbers_as_text([7.2 * (k % 32 // 4) + (0, 1.3, 2.5, 3.7)[k % 4] for k in range(64)]),
@@ -27,7 +28,7 @@ TIMING = {16: VLP_16, 32: HDL_32E, 64: S3, 128: VLS_128}
 
 def read(document: Document, key: str) -> list[Lens] | None:
     """Return the scanner of a document; see the package."""
-    lasers = document.entries.get("lasers")
+    lasers = document.raw.get("lasers")
     if not (isinstance(lasers, list) and lasers and "vert_correction" in mapping(lasers[0])):
         return None
     numbered = [(document.number(mapping(one), "laser_id"), mapping(one)) for one in lasers]
@@ -39,8 +40,8 @@ def read(document: Document, key: str) -> list[Lens] | None:
         return [document.number(laser, name, default) for _, laser in numbered]
 
     count, turned = len(lasers), each("rot_correction")
-    if "num_lasers" in document.entries and document.number(document.entries, "num_lasers") != count:
-        raise document.refusal(f"num_lasers is {document.entries['num_lasers']}, and it has {count} lasers")
+    if "num_lasers" in document.raw and document.number(document.raw, "num_lasers") != count:
+        raise document.refusal(f"num_lasers is {document.raw['num_lasers']}, and it has {count} lasers")
     timing: dict[str, Any] = VLP_32C if count == 32 and any(turned) else TIMING.get(count, {})
     return [Lens("", "SCANNER", {name: timing[name] for name in (DELAYS.name, PERIOD.name) if name in timing} | {
         ELEVATIONS.name: numbers_as_text([degrees(angle) for angle in each("vert_correction")]),

@@ -7,14 +7,15 @@ Reference: S. Yogamani et al., WoodScape (2019), and its code, calibration.
 
 from __future__ import annotations
 
-from .parts.document import Document, Lens, mapping
+from .parts.document import Document
+from .parts.lens import Lens, mapping
 
 TERMS = "k1", "k2", "k3", "k4"
 
 
 def read(document: Document, key: str) -> list[Lens] | None:
     """Return the lens of a document; see the package."""
-    given = mapping(document.entries.get("intrinsic"))
+    given = mapping(document.raw.get("intrinsic"))
     if "cx_offset" not in given:
         return None
     document.one_of(given.get("model"), "model", ("radial_poly",))

@@ -13,7 +13,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from ..exports import export
-from ..exports.colmap import POINTS
+from ..programs.colmap import POINTS
 from ..records import InputError
 from .png import srgb
 from .reading import View

@@ -12,7 +12,9 @@ import numpy as np
 
 from ...maths.rotations import from_quaternion
 from ...text_forms.content import flat
-from .document import Document, numbers_of
+from .fields import Fields
+from .lens import numbers_of
+from .source import FileSource
 
 SHORTEST = 1e-100
 """Quaternions that are shorter are 0: their squares underflow."""
@@ -40,7 +42,7 @@ class Placed(NamedTuple):
     """Whether it is of a trajectory with frames; one with times has these."""
 
 
-def pose_of(document: Document, value, name: str) -> np.ndarray:
+def pose_of(document: FileSource, value, name: str) -> np.ndarray:
     """Return the pose that a file has as a matrix of 3 or 4 rows, flat or not. Raises InputError, with ``name``."""
     numbers = numbers_of(flat(value, name, document.path))
     if len(numbers) not in (12, 16):
@@ -54,7 +56,14 @@ def pose_of(document: Document, value, name: str) -> np.ndarray:
     return checked(document, pose, name)
 
 
-def of_quaternion(document: Document, quaternion, translation, name: str) -> np.ndarray:
+def pose_in(entries: Fields, name: str) -> np.ndarray:
+    """Return the pose that an entry has as a matrix of 3 or 4 rows, flat or not. Raises InputError."""
+    if not entries.has(name):
+        raise entries.document.refusal(f"it has no {entries.said(name)}")
+    return pose_of(entries.document, entries.values[name], entries.said(name))
+
+
+def of_quaternion(document: FileSource, quaternion, translation, name: str) -> np.ndarray:
     """Return the pose of a quaternion w, x, y, z, of any length, and a translation. Raises InputError, with a name."""
     w, x, y, z = document.numbers(quaternion, f"rotation of {name}", 4)
     if max(map(abs, (w, x, y, z))) < SHORTEST:
@@ -65,7 +74,7 @@ def of_quaternion(document: Document, quaternion, translation, name: str) -> np.
     return pose
 
 
-def checked(document: Document, pose: np.ndarray, name: str) -> np.ndarray:
+def checked(document: FileSource, pose: np.ndarray, name: str) -> np.ndarray:
     """Return the pose. Raises InputError unless its axes are those of a rotation, up to NOT_TURNED."""
     axes = pose[:3, :3]
     if np.abs(axes.T @ axes - np.eye(3)).max() > NOT_TURNED or np.linalg.det(axes) < 0:

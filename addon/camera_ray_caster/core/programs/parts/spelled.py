@@ -14,7 +14,8 @@ from typing import Any
 from ...cameras.parts.calibration import LARGEST
 from ...records import InputError
 from ...text_forms.content import flat
-from .document import Document, numbers_of
+from .document import Document
+from .lens import numbers_of
 
 MATRIX = (
     "cameramatrix", "k", "m", "intrinsicmatrix", "mtx", "intrinsic", "intrinsics", "camk", "cameraintrinsics",

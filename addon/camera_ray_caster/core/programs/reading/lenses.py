@@ -16,26 +16,20 @@ from .. import (
     arkit,
     basalt,
     camodocal,
-    colmap,
-    colmap_binary,
     ftheta,
     generic,
     gyroflow,
     hesai,
     hot3d,
     isaac,
-    kalibr,
     kitti,
-    maplab,
     meshroom,
     metashape,
-    mrcal,
     nerfstudio,
     ocam,
-    okvis,
     opencv,
-    opensfm,
     ouster,
+    program_of,
     ray_arrays,
     ray_exr,
     ray_mesh,
@@ -43,16 +37,19 @@ from .. import (
     velodyne,
     woodscape,
 )
-from ..parts.document import Document, Lens
+from ..parts.document import Document
+from ..parts.lens import Lens
 from .nearest import by_name, unknown
 
 FORMATS = (
-    ray_arrays.read, ray_exr.read, ray_mesh.read, colmap_binary.read, metashape.read, colmap.read, arkit.read,
-    hesai.read, kitti.read, mrcal.read, ocam.read, velodyne.read, ouster.read, recorded.read, generic.read, aria.read,
-    nerfstudio.read, ftheta.read, isaac.read, woodscape.read, opensfm.read, meshroom.read, gyroflow.read, hot3d.read,
-    basalt.read, camodocal.read, maplab.read, okvis.read, kalibr.read, opencv.read,
+    ray_arrays.read, ray_exr.read, ray_mesh.read, metashape.read, arkit.read,
+    hesai.read, kitti.read, ocam.read, velodyne.read, ouster.read, recorded.read, generic.read, aria.read,
+    nerfstudio.read, ftheta.read, isaac.read, woodscape.read, meshroom.read, gyroflow.read, hot3d.read,
+    basalt.read, camodocal.read, opencv.read,
 )  # fmt: skip
 """Readers in the order in which they are tried."""
+
+ARRAYS = ray_arrays.ZIP, ray_arrays.NPY, ray_exr.MAGIC
 
 DEEPEST = 3
 """Levels of mappings in which calibrations are looked for."""
@@ -71,7 +68,7 @@ def lenses_of(path: str, key: str = "", frame: tuple[int, int] | None = None) ->
     calibration_height of such a lens are 0. Without a frame, such a lens may have another focal length and center.
     Raises InputError, in one line, for a file that cannot be read, and for missing or invalid entries.
     """
-    document = Document(path, frame)
+    document = Document(path, frame, key)
     asked = (path, key, frame, document.digest)
     if asked not in _latest:
         try:
@@ -90,12 +87,17 @@ def lenses_of(path: str, key: str = "", frame: tuple[int, int] | None = None) ->
 
 
 def _known(document: Document, key: str) -> list[Lens] | None:
+    program = program_of(document)
+    if program is not None and program.read is not None:
+        return program.read(document)
+    if document.is_binary and not document.data.startswith(ARRAYS):
+        raise unknown(document)
     return next((found for read in FORMATS if (found := read(document, key)) is not None), None)
 
 
 def _inside(document: Document, key: str, depth: int, path: str) -> Iterator[tuple[str, Lens]]:
     """Yield the lenses of the mappings in a document with the names of their entries, the nearest ones only."""
-    for name, value in document.entries.items():
+    for name, value in document.raw.items():
         document.check()
         items = [(name, value)] if isinstance(value, dict) else []
         if isinstance(value, list):

@@ -10,7 +10,8 @@ import numpy as np
 
 from ...conventions import LAST_FRAME
 from ...records import InputError
-from ..parts.document import Document, Lens
+from ..parts.document import Document
+from ..parts.lens import Lens
 from ..parts.placed import FROM_BLENDER, Placed
 from .folders import CLIP, TRAJECTORY, nearest, number_of
 from .lenses import lenses_of

@@ -6,9 +6,8 @@ import re
 from pathlib import Path
 
 from ...records import InputError
-from .. import arkit, ray_arrays, ray_exr, ray_mesh
+from .. import PROGRAMS, READ, arkit, ray_arrays, ray_exr, ray_mesh
 from ..parts.document import Document
-from ..table import FILE_WRITERS, PROGRAMS
 
 WORDS = re.compile(r"[A-Za-z_][\w.]*")
 READ_UP_TO = 1 << 16
@@ -17,6 +16,8 @@ READ_UP_TO = 1 << 16
 
 def unknown(document: Document) -> InputError:
     """Return the refusal of a file that no reader knows."""
+    if document.is_binary:
+        return document.refusal("it is not a text file, and of no binary format that is read")
     there = {word.lower() for word in WORDS.findall(document.text[:READ_UP_TO])}
     marks = {one.name: one.marks.lower().split() for one in PROGRAMS if one.marks}
     found = {name: [word for word in words if word in there] for name, words in marks.items()}
@@ -25,7 +26,7 @@ def unknown(document: Document) -> InputError:
     if found[nearest]:
         lost = [word for word in marks[nearest] if word not in there]
         near = f"; the nearest is {nearest}, " + (f"but it has no {', '.join(lost[:2])}" if lost else "by its words")
-    return document.refusal(f"it is of no format that is read: these are {FILE_WRITERS}{near}")
+    return document.refusal(f"it is of no format that is read: these are {READ}{near}")
 
 
 ARRAYS = {
@@ -62,6 +63,6 @@ def by_name(document: Document) -> InputError | None:
 
 def _has_entries(document: Document) -> bool:
     try:
-        return bool(document.entries)
+        return bool(document.raw)
     except InputError:
         return False

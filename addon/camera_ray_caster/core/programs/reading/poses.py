@@ -21,18 +21,16 @@ from ...units import BLENDER_UNITS, METERS, MILLIMETERS, Unit, factor
 from .. import (
     arkit,
     basalt,
-    colmap_images,
     hot3d,
     kitti,
-    maplab,
     meshroom,
     metashape_poses,
     nerfstudio,
-    okvis,
+    program_of,
     trajectory,
 )
-from ..kalibr import read as of_kalibr
-from ..parts.document import Document, mapping
+from ..parts.document import Document
+from ..parts.lens import mapping
 from ..parts.placed import FROM_BLENDER, Placed, checked, inverted, of_quaternion, pose_of
 from ..recorded import FORMAT, RECORD
 from .folders import files_in
@@ -68,14 +66,14 @@ def placed_in(document: Document, meters: float) -> list[Placed]:
     """Return the poses of a document in its order, their places in Blender units of ``meters``. Raises InputError, in
     one line, for a document without poses.
     """
-    binary = b"\0" in document.data[:64]
     try:
+        program = program_of(document)
+        if program is not None and program.poses is not None:
+            return _in_units(program.poses(document), program.unit, meters)
         for read, unit in READERS:
-            found = read(document) if not binary or read is colmap_images.poses else None
+            found = read(document)
             if found is not None:
-                size = np.ones((4, 4))
-                size[:3, 3] = factor(unit, meters)
-                return [one._replace(pose=one.pose / size) for one in found]
+                return _in_units(found, unit, meters)
     except InputError as refusal:
         raise by_name(document) or refusal from refusal
     raise document.refusal("it has no poses that are read: give a file of COLMAP, nerfstudio, Kalibr, EuRoC, OKVIS, "
@@ -84,7 +82,7 @@ def placed_in(document: Document, meters: float) -> list[Placed]:
 
 
 def _of_transforms(document: Document) -> list[Placed] | None:
-    frames = document.entries.get("frames")
+    frames = document.raw.get("frames")
     if not isinstance(frames, list) or not all(isinstance(one, dict) for one in frames):
         return None
     if frames and not any("transform_matrix" in one for one in frames):
@@ -100,39 +98,8 @@ def _of_transforms(document: Document) -> list[Placed] | None:
     return placed
 
 
-def _of_camchain(document: Document) -> list[Placed] | None:
-    entries = document.entries
-    if "T_BS" in entries:
-        return [Placed("", "", None, pose_of(document, entries["T_BS"], "T_BS"))]
-    chain = {name: one for name, one in entries.items() if isinstance(one, dict) and "camera_model" in one}
-    if not chain or of_kalibr(document, "") is None:
-        return None
-    by_imu = all("T_cam_imu" in camera for camera in chain.values())
-    placed, before = [], np.eye(4)
-    for i, (name, camera) in enumerate(chain.items()):
-        if by_imu:
-            pose = inverted(pose_of(document, camera["T_cam_imu"], f"T_cam_imu of {name}"))
-        elif i:
-            if "T_cn_cnm1" not in camera:
-                raise document.refusal(f"it has no T_cn_cnm1 of {name}, which stands beside the camera before it")
-            pose = before @ inverted(pose_of(document, camera["T_cn_cnm1"], f"T_cn_cnm1 of {name}"))
-        else:
-            pose = before
-        placed.append(Placed(name, "", None, pose))
-        before = pose
-    return placed
-
-
-def _of_okvis(document: Document) -> list[Placed] | None:
-    if okvis.read(document, "") is None:
-        return None
-    cameras = list(map(mapping, document.entries["cameras"]))
-    return [Placed(f"cam{i}", "", None, pose_of(document, one.get("T_SC"), f"T_SC of cam{i}"))
-            for i, one in enumerate(cameras)]  # fmt: skip
-
-
 def _of_basalt(document: Document) -> list[Placed] | None:
-    poses = mapping(document.entries.get("value0")).get("T_imu_cam")
+    poses = mapping(document.raw.get("value0")).get("T_imu_cam")
     if not isinstance(poses, list) or basalt.read(document, "") is None:
         return None
     placed = []
@@ -144,7 +111,7 @@ def _of_basalt(document: Document) -> list[Placed] | None:
 
 
 def _of_bop(document: Document) -> list[Placed] | None:
-    images = {key: mapping(one) for key, one in document.entries.items()}
+    images = {key: mapping(one) for key, one in document.raw.items()}
     if not all(map(str.isdecimal, images)) or not any("cam_R_w2c" in one for one in images.values()):
         return None
     placed = []
@@ -158,8 +125,8 @@ def _of_bop(document: Document) -> list[Placed] | None:
 
 
 def _of_aria(document: Document) -> list[Placed] | None:
-    first = next(iter(document.entries.values()))  # the first of several lines
-    entries = document.entries if "CameraCalibrations" in document.entries else mapping(first)
+    first = next(iter(document.raw.values()))  # the first of several lines
+    entries = document.raw if "CameraCalibrations" in document.raw else mapping(first)
     cameras = entries.get("CameraCalibrations")
     if not isinstance(cameras, list):
         return None
@@ -173,10 +140,10 @@ def _of_aria(document: Document) -> list[Placed] | None:
 
 
 def _of_record(document: Document) -> list[Placed] | None:
-    if document.entries.get("format") != FORMAT:
+    if document.raw.get("format") != FORMAT:
         return None
     placed = []
-    for camera in map(mapping, document.entries.get("cameras") or ()):
+    for camera in map(mapping, document.raw.get("cameras") or ()):
         name, common = str(camera.get("name", "")), mapping(mapping(camera.get("all_frames")).get(RECORD))
         for frame in map(mapping, camera.get("frames") or ()):
             record = common | mapping(frame.get(RECORD))
@@ -192,12 +159,17 @@ def _flat(rows) -> list:
 
 
 READERS: tuple[tuple[Callable[[Document], list[Placed] | None], Unit], ...] = (
-    (kitti.poses, METERS), (colmap_images.poses, BLENDER_UNITS), (trajectory.poses, METERS),
-    (metashape_poses.poses, BLENDER_UNITS), (arkit.poses, METERS), (_of_record, BLENDER_UNITS), (_of_aria, METERS),
-    (_of_transforms, BLENDER_UNITS), (meshroom.poses, BLENDER_UNITS), (_of_basalt, METERS), (maplab.poses, METERS),
-    (_of_okvis, METERS), (_of_camchain, METERS), (_of_bop, MILLIMETERS), (hot3d.poses, METERS),
+    (kitti.poses, METERS), (trajectory.poses, METERS), (metashape_poses.poses, BLENDER_UNITS), (arkit.poses, METERS),
+    (_of_record, BLENDER_UNITS), (_of_aria, METERS), (_of_transforms, BLENDER_UNITS), (meshroom.poses, BLENDER_UNITS),
+    (_of_basalt, METERS), (_of_bop, MILLIMETERS), (hot3d.poses, METERS),
 )  # fmt: skip
 """Readers of poses in the order in which they are tried, each with its unit of lengths."""
+
+
+def _in_units(placed: list[Placed], unit: Unit, meters: float) -> list[Placed]:
+    size = np.ones((4, 4))
+    size[:3, 3] = factor(unit, meters)
+    return [one._replace(pose=one.pose / size) for one in placed]
 
 
 def object_and_frame(image: str) -> tuple[str, float | None]:

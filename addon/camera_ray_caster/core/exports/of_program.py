@@ -1,0 +1,68 @@
+"""An export that is written by a program's file, on plain records of cameras."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..camera.camera import Camera
+from ..programs.parts.lens import Lens, Models, beyond, word_of
+from ..programs.parts.program import CameraRecord, ProgramFiles
+from .format import OWN_TIMES, Format, Shot
+from .lenses import calibrations
+
+NO_LENS = Lens("", "", {})
+"""The lens of formats that have poses alone."""
+
+
+class ProgramFormat(Format):
+    """A format of calibrated lenses, most with poses, or of poses alone."""
+
+    def __init__(self, program: ProgramFiles):
+        export = program.export
+        assert export is not None
+        self.key, self.label, self.description = export.key, export.label, export.description  # type: ignore[misc]
+        self.table, self.rigid, self.unit = export.models, export.rigid, program.unit  # type: ignore[misc]
+        self.export = export
+        self.formula = bool(export.models)  # type: ignore[misc]
+
+    def refusal(self, shot):
+        """See Format."""
+        if shot.camera.pixel_time is not None:
+            return OWN_TIMES
+        if not self.table:
+            return None
+        lens = find_lens(self.table, shot.camera)
+        if lens is not None:
+            return self.export.refusal(record_of(shot, lens))
+        known = {key for key, _ in self.table.values()}
+        for lens in calibrations(shot.camera):
+            if lens.model in known:
+                names = min((beyond(lens, terms) for key, terms in self.table.values() if key == lens.model), key=len)
+                return f"whose {', '.join(names)} {'is' if len(names) == 1 else 'are'} not 0"
+        return ""
+
+    def omissions(self, shot):
+        """See Format."""
+        return super().omissions(shot) if self.table else []
+
+    def records(self, shots) -> list[CameraRecord]:
+        """Return the records of cameras that the format does not refuse."""
+        lenses = [find_lens(self.table, shot.camera) for shot in shots]
+        return [record_of(shot, lens or NO_LENS) for shot, lens in zip(shots, lenses, strict=True)]
+
+    def files(self, shots):
+        """See Format."""
+        assert self.export.files is not None
+        yield from self.export.files(self.records(shots))
+
+
+def find_lens(models: Models, camera: Camera) -> Lens | None:
+    """Return the calibration of a camera that a program can store, closest to its model first; None if none can be."""
+    return next((lens for lens in calibrations(camera) if word_of(models, lens) is not None), None)
+
+
+def record_of(shot: Shot, lens: Lens) -> CameraRecord:
+    """Return a camera at a frame as a plain record."""
+    pose, own = np.eye(4), shot.camera.pose
+    pose[:3, :3], pose[:3, 3] = own.basis * (1, -1, -1), own.eye
+    return CameraRecord(shot.name, shot.stem, lens, pose, shot.frame, shot.seconds, shot.meters, shot.fit)

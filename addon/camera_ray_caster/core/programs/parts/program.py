@@ -1,0 +1,138 @@
+"""The contract of a program: what its files are called and look like, how they are read, and how they are written.
+
+A program is a module of ``core.programs`` with a ``PROGRAM``, and a word in PROGRAMS. Each part is optional. Functions
+work on plain records: lenses, poses, sizes, names and times.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+
+from ...records import InputError
+from ...units import BLENDER_UNITS, Unit
+from .document import Document
+from .lens import Lens, Models
+from .placed import FROM_BLENDER, Placed, inverted
+
+Content = str | bytes | np.ndarray
+"""Content of a file: text, bytes, or an image, (rows, columns, 3) float32 from the bottom up, stored as float32 EXR."""
+
+
+@dataclass(frozen=True, eq=False)
+class CameraRecord:
+    """A camera to write, at a time."""
+
+    name: str
+    """Name of its files for all times together."""
+    stem: str
+    """Name of its files at this time, without an ending."""
+    lens: Lens
+    """Its settings have the camera matrix and the size of the picture."""
+    pose: np.ndarray
+    """(4, 4) float64: from the camera's frame, x right, y down, z ahead, to the world, in the program's unit."""
+    frame: float = 0.0
+    seconds: float = 0.0
+    meters: float = 1.0
+    """Length of a Blender unit in meters."""
+    fit: str = ""
+    """Remark on a lens that was fitted to the camera's; empty for the camera's own lens."""
+
+    @property
+    def image(self) -> str:
+        """Name of the picture's file."""
+        return f"{self.stem}.png"
+
+    @cached_property
+    def world_to_camera(self) -> np.ndarray:
+        """Return the inverse of the pose, (4, 4)."""
+        return inverted(self.pose)
+
+    @property
+    def blenders(self) -> np.ndarray:
+        """Return the pose of Blender's camera frame, y up and z back, (4, 4)."""
+        return self.pose @ FROM_BLENDER
+
+    @property
+    def remark(self) -> dict[str, str]:
+        """Return the entry of JSON with the remark on a fitted lens; none for the camera's own lens."""
+        return {"fit": self.fit} if self.fit else {}
+
+
+@dataclass(frozen=True)
+class FileWriter:
+    """How a program's files are written."""
+
+    key: str
+    """Name in a command line."""
+    label: str
+    """Name in menus."""
+    description: str
+    """Description in menus, one line."""
+    files: Callable[[Sequence[CameraRecord]], Iterator[tuple[str, Content]]] | None = None
+    """Yields the name and the content of each file; raises InputError for cameras that cannot be written together. None
+    if the files need whole cameras: ``core.exports`` writes them.
+    """
+    models: Models = field(default_factory=dict)
+    """Models that are written, the preferred ones first; {} for poses alone."""
+    refusal: Callable[[CameraRecord], str | None] = lambda record: None
+    """Returns why a camera cannot be written, as a clause ("whose frame is not a whole number"); None if it can."""
+    rigid: bool = True
+    """Whether a pose is stored as a rotation."""
+
+
+@dataclass(frozen=True)
+class ProgramFiles:
+    """A program's files."""
+
+    name: str
+    files: str
+    """Names of its files, in words."""
+    looks: Callable[[Document], bool] | None = None
+    """Whether a document is of this program; raising InputError means no."""
+    marks: str = ""
+    """Words that its files have: a file of no known format is nearest to the program with most of them."""
+    reads: str = ""
+    """Lenses that are read, in the program's words; "" if none is."""
+    lost: str = ""
+    """What its files do not tell, or what is refused."""
+    models: Models = field(default_factory=dict)
+    """Its models by their words; one table for reading and writing."""
+    read: Callable[[Document], list[Lens] | None] | None = None
+    """Returns the lenses of a document; None if they are further inside, in entries by name."""
+    poses: Callable[[Document], list[Placed]] | None = None
+    """Returns the poses of a document in its order."""
+    export: FileWriter | None = None
+    unit: Unit = BLENDER_UNITS
+    """Unit of lengths in its files."""
+    general: bool = False
+    """Whether others may look like it: it reads what no other does."""
+    ending: str = ""
+    """Ends of the names of its files, of which ``hint`` says what is wrong."""
+    hint: Callable[[Document], str | None] = lambda document: None
+    """Returns why a document with such a name is not of this program; None if it cannot tell."""
+    folders: tuple[tuple[str, tuple[str, ...]], ...] = ()
+    """Names of files, a file for each picture, and the folders in which they are looked for."""
+
+    def recognizes(self, document: Document) -> bool:
+        """Whether a document is of this program."""
+        try:
+            return self.looks is not None and self.looks(document)
+        except InputError:
+            return False
+
+
+def in_words(names: Iterable[str]) -> str:
+    """Return names as a list in a sentence."""
+    *before, last = names
+    return f"{', '.join(before)} or {last}"
+
+
+def written(models: Models, *words: str) -> Models:
+    """Return some models of a program, in this order."""
+    return {word: models[word] for word in words}
+
+

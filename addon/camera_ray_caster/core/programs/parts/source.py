@@ -1,0 +1,53 @@
+"""Where numbers and words of a file come from: what is wrong with one is told with the file's path."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection
+from typing import Any
+
+from ...arguments import shown
+from ...cameras.parts.calibration import LARGEST
+from ...records import InputError
+from .lens import FRAME_SIZE, numbers_of
+
+
+class FileSource:
+    """A file by its path; ``check`` raises InputError when the time for it is over."""
+
+    path: str
+    check: Callable[[], None]
+
+    def refusal(self, reason: str) -> InputError:
+        """Return the error with this reason and the file's path."""
+        return InputError(f"calibration file {self.path!r}: {reason}")
+
+    def numbers(self, values, name: str, count: int | None = None) -> list[float]:
+        """Return a list of finite numbers, ``count`` of them if given. Raises InputError, with ``name``, otherwise."""
+        if values is None:
+            raise self.refusal(f"it has no {name}")
+        numbers = numbers_of(values)
+        if not numbers or (count or len(numbers)) != len(numbers) or not all(abs(one) <= LARGEST for one in numbers):
+            wanted = f"{count or 'a list of'} finite number{'' if count == 1 else 's'}, up to {LARGEST:g}"
+            raise self.refusal(f"{name} is {shown(values)}: it must be {wanted}")
+        return numbers
+
+    def one_of(self, value, name: str, known: Collection[str]) -> str:
+        """Return a word that is one of ``known``. Raises InputError, with ``name``, otherwise."""
+        if value is None:
+            raise self.refusal(f"it has no {name}: it must be one of {', '.join(known)}")
+        if not isinstance(value, str) or value not in known:
+            raise self.refusal(f"{name} is {shown(value)}: it must be one of {', '.join(known)}")
+        return value
+
+    def size(self, width: float | None, height: float | None) -> dict[str, Any]:
+        """Return the settings of a calibrated picture's size; without one, that of the frame.
+
+        Raises InputError unless both sides are whole pixels.
+        """
+        if width is None and height is None:
+            return dict(FRAME_SIZE)
+        if width is None or height is None:
+            raise self.refusal(f"it has {'a height and no width' if width is None else 'a width and no height'}")
+        if min(width, height) < 1 or width % 1 or height % 1:
+            raise self.refusal(f"its image size is {width:g} x {height:g}: it must be of whole numbers above 0")
+        return {"calibration_width": width, "calibration_height": height}
