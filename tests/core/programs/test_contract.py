@@ -1,0 +1,169 @@
+"""The contract of programs: each has samples, which no other program takes for its own and which survive any damage."""
+
+import json
+import re
+from itertools import chain
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from camera_ray_caster.core import programs
+from camera_ray_caster.core.exports import FORMATS
+from camera_ray_caster.core.names import frame_digits
+from camera_ray_caster.core.programs import PROGRAMS, program_of
+from camera_ray_caster.core.programs.parts.document import Document
+from camera_ray_caster.core.programs.parts.lens import FRAME_SIZE
+from camera_ray_caster.core.programs.parts.program import CameraRecord
+from camera_ray_caster.core.programs.reading.lenses import lenses_of
+from camera_ray_caster.core.programs.reading.poses import placed_in
+from camera_ray_caster.core.records import InputError
+
+from ...tiers import examples
+
+SAMPLES = Path(__file__).parent / "samples"
+"""Files MODULE.ENDING or MODULE.WORD.ENDING of each program."""
+MODULES = {one.PROGRAM.name: name for name, one in vars(programs).items() if hasattr(one, "PROGRAM")}
+FRAME = (640, 480)
+ODD = None, True, "x", "", -1.5, 1e300, [], [1], [[1, 2], [3]], {}, {"a": 1}, [{"a": 1}], [None]
+"""What an entry may be in place of what it should be."""
+MOST = 40
+"""Entries of a sample that are damaged, at even distances."""
+
+
+def samples_of(program):
+    """The samples of a program, by name."""
+    return sorted(SAMPLES.glob(f"{MODULES[program.name]}.*"))
+
+
+def document(path, key=""):
+    """The document of a file."""
+    return Document(str(path), FRAME, key)
+
+
+READERS = [one for one in PROGRAMS if one.name in MODULES and one.looks is not None]
+each_program = pytest.mark.parametrize("program", READERS, ids=lambda one: MODULES[one.name])
+
+
+@pytest.mark.one_for_each("program")
+@each_program
+def test_a_sample_is_of_its_program_and_of_no_other(program):
+    samples = samples_of(program)
+    assert samples, f"give a sample: {SAMPLES / MODULES[program.name]}.ENDING"
+    for path in samples:
+        found = [one.name for one in PROGRAMS if one.recognizes(document(path)) and one.general == program.general]
+        assert found == [program.name]
+        assert program_of(document(path)) is program
+    lenses = [lens for path in samples for lens in read(path, lenses_of)]
+    assert all(lens.refusal is None for lens in lenses)
+    assert bool(lenses) == (program.read is not None)
+    assert any(read(path, poses_of) for path in samples) == (program.poses is not None)
+
+
+def poses_of(path, *_):
+    """The poses of a file."""
+    return placed_in(document(path), 1.0)
+
+
+def read(path, reader):
+    """What a reader returns of a file; nothing of one that it refuses in one line."""
+    try:
+        return reader(str(path), "OPENCV_PINHOLE", FRAME)
+    except InputError as refusal:
+        said = str(refusal)
+        assert "\n" not in said
+        assert len(said) < 1000
+        return []
+
+
+@pytest.mark.one_for_each("program")
+@each_program
+def test_a_damaged_sample_ends_in_a_lens_or_in_one_line(program, tmp_path):
+    for path in samples_of(program):
+        for content in damaged(path):
+            file = tmp_path / path.name
+            file.write_bytes(content)
+            for lens in read(file, lenses_of):
+                assert lens.refusal is None or "\n" not in str(lens.refusal)
+            read(file, poses_of)
+
+
+def damaged(path):
+    """A sample cut off, with words that are others, and with entries of other types and names."""
+    whole = path.read_bytes()
+    yield from (whole[: len(whole) * k // 12] for k in range(12))
+    if b"\0" in whole:
+        return
+    text = whole.decode()
+    words = list(re.finditer(r"[-+\w.]+", text))
+    for word in words[:: 1 + len(words) // examples(MOST)]:
+        for other in ("x", "", "1e999", "-1", "nan"):
+            yield (text[: word.start()] + other + text[word.end() :]).encode()
+    try:
+        tree = document(path).raw
+    except InputError:
+        return
+    places = list(entries(tree))
+    for place in places[:: 1 + len(places) // examples(MOST)]:
+        for value in ODD:
+            yield json.dumps(changed(tree, place, lambda owner, key, value=value: {key: value})).encode()
+        yield json.dumps(changed(tree, place, lambda owner, key: {})).encode()
+        yield json.dumps(changed(tree, place, lambda owner, key: {f"{key}_": owner[key]})).encode()
+
+
+def entries(tree, place=()):
+    """The places of all entries of mappings in a tree."""
+    items = tree.items() if isinstance(tree, dict) else enumerate(tree) if isinstance(tree, list) else ()
+    for key, value in items:
+        if isinstance(tree, dict):
+            yield (*place, key)
+        yield from entries(value, (*place, key))
+
+
+def changed(tree, place, change):
+    """A tree with another entry at a place."""
+    key, *inside = place
+    if isinstance(tree, list):
+        return [changed(one, inside, change) if k == key else one for k, one in enumerate(tree)]
+    if not inside:
+        return {name: one for k in tree for name, one in (change(tree, k) if k == key else {k: tree[k]}).items()}
+    return {name: changed(one, inside, change) if name == key else one for name, one in tree.items()}
+
+
+WRITERS = [one for one in READERS if one.export is not None and one.export.files and one.export.models]
+
+
+@pytest.mark.parametrize("program", WRITERS, ids=lambda one: MODULES[one.name])
+def test_what_is_read_and_written_and_read_is_the_same_to_the_bit(program, tmp_path):
+    """Samples have numbers that stay as they are: halves, and turns by right angles."""
+    lenses = [lens for path in samples_of(program) for lens in read(path, lenses_of)]
+    placed = [one for path in samples_of(program) for one in read(path, poses_of)]
+    assert lenses
+    records = []
+    for number, lens in enumerate(lenses):
+        own = [one for one in placed if one.camera == lens.name] or [None]
+        for frame, one in enumerate(own, 1):
+            name = f"camera{number}"
+            pose = np.eye(4) if one is None else one.pose
+            records.append(CameraRecord(name, f"{name}_{frame_digits(frame)}", lens, pose, frame))
+    able = [one for one in records if program.export.refusal(one) is None]
+    assert able
+    for name, content in program.export.files(able):
+        (tmp_path / name).write_text(content)
+    files = sorted(tmp_path.iterdir())
+    again = list(chain.from_iterable(read(path, lenses_of) for path in files))
+    settings = {repr(plain(lens)) for lens in again}
+    assert settings == {repr(plain(one.lens)) for one in able}
+    if placed and program.poses is not None:
+        poses = list(chain.from_iterable(read(path, poses_of) for path in files))
+        assert sorted(repr(one.pose.tolist()) for one in poses) == sorted(repr(one.pose.tolist()) for one in able)
+
+
+def plain(lens):
+    """The model and the settings of a lens that are not 0, in one order."""
+    return lens.model, sorted((name, value) for name, value in lens.settings.items() if value or name in FRAME_SIZE)
+
+
+def test_every_export_of_a_program_is_a_format():
+    keys = {one.export.key for one in PROGRAMS if one.export is not None}
+    assert keys == {one.key for one in FORMATS}
