@@ -96,6 +96,13 @@ sizes and frames: its cameras in each of the formats above, or the whole set in 
   as the viewport evaluates its last object at its last frame, with normals and the colors of materials. Diameters are
   then those of the models, not of the boxes. Symmetries are the rotations about the axes of a model, and those of a
   cube, that map its vertices, normals and colors onto themselves.
+* `--cameras NAME ...` and `--frames A:B` choose pictures of the set: cameras of other lenses than a format has are left
+  out so. The views of a stereo scene are two cameras, such as Cam_L and Cam_R.
+* `--validation 0.2` splits a set: of the frames, that part, evenly spaced, is for validation, with all its cameras.
+* With a render border, pictures, depths, normals and masks have the full frame, empty outside of the border, and so do
+  lenses; with Crop to Border they have the border alone.
+* Lengths are millimeters in `bop-scenes` and `depth16`, meters in Kalibr, TUM, KITTI and EuRoC, by the scene's Unit
+  Scale, and Blender units in all others; depths of `nerfstudio-scene` are thousandths of them.
 
 | key | |
 |---|---|

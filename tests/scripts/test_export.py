@@ -74,3 +74,27 @@ def test_bad_input_is_refused_and_leaves_nothing(command, scene, monkeypatch, ca
     before = left(scene.parent)
     assert said in refused(command("export", "small.blend", *words))
     assert left(scene.parent) == before
+
+
+def test_a_set_of_mixed_lenses_is_exported_camera_by_camera(command, tmp_path):
+    from ..core.sets.test_sets import view
+
+    made = tmp_path / "set"
+    made.mkdir()
+    for frame in range(1, 6):
+        view(made, frame)
+        view(made, frame, "OPENCV_FISHEYE", fx=40.0, fy=40.0)
+    words = ["export", made, "--output", tmp_path / "out", "--format"]
+    for key in ("nerfstudio-scene", "nerfstudio", "bop-scenes", "bop"):
+        assert "--cameras" in refused(command(*words, key))
+    assert not (tmp_path / "out").exists()
+    done = command(*words, "nerfstudio-scene", "--cameras", "OPENCV_FISHEYE", "--frames", "2:4")
+    assert (done.returncode, done.stderr) == (0, "")
+    names = sorted(path.name for path in (tmp_path / "out" / "images").iterdir())
+    assert names == [f"OPENCV_FISHEYE_000{frame}.png" for frame in (2, 3, 4)]
+    assert "the set has no camera 'cam2', only" in refused(command(*words, "json", "--cameras", "cam2"))
+    assert "does not apply to --format depth16" in refused(command(*words, "depth16", "--validation", "0.2"))
+    assert "'1.5' is not a part between 0 and 1" in refused(command(*words, "yolo", "--validation", "1.5"))
+    for key in ("depth16", "normals"):
+        said = command("export", made, "--format", key, "--output", tmp_path / key).stdout
+        assert said == f"Wrote {10 + (key == 'depth16')} files into {tmp_path / key}\n"

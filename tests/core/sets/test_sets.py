@@ -13,7 +13,7 @@ from camera_ray_caster.core.exports import export
 from camera_ray_caster.core.exports.camera_json import recorded
 from camera_ray_caster.core.exports.writing import write
 from camera_ray_caster.core.records import PLANE, SPHERE, InputError
-from camera_ray_caster.core.sets import SET_FORMATS, read_set
+from camera_ray_caster.core.sets import SET_FORMATS, chosen, read_set, with_splits
 from camera_ray_caster.core.sets.png import png
 
 from ..cameras.model_examples import camera
@@ -172,6 +172,37 @@ def test_panoptic_and_yolo_are_the_index_pass(made):
     box = [(ends[0] + ends[1]) / 192, (ends[2] + ends[3]) / 144, (ends[1] - ends[0]) / 96, (ends[3] - ends[2]) / 72]
     assert np.allclose(lines[0][1:], box, atol=1e-7)
     assert len(lines) == 3
+
+
+def test_splits_are_by_frames_and_told_by_each_format(tmp_path):
+    for frame in range(1, 6):
+        for key in ("PERSP", "OPENCV_PINHOLE"):
+            view(tmp_path, frame, key)
+    views = with_splits(read_set(tmp_path), 0.4)
+    held = {one.name for one in views if one.split == "val"}
+    assert held == {f"{key}_{frame:04}" for key in ("PERSP", "OPENCV_PINHOLE") for frame in (2, 4)}
+    for key, one in SET_FORMATS.items():
+        if one.splits:
+            write(one.files(views), tmp_path / key)
+    for split, count in (("train", 6), ("val", 4)):
+        names = {path.stem for path in (tmp_path / "yolo" / "images" / split).iterdir()}
+        assert names == {path.stem for path in (tmp_path / "yolo" / "labels" / split).iterdir()}
+        assert (names == held, len(names)) == (split == "val", count)
+        assert f"{split}: images/{split}\n" in (tmp_path / "yolo" / "data.yaml").read_text()
+        said = json.loads((tmp_path / "panoptic" / f"panoptic_{split}.json").read_text())
+        assert len(said["annotations"]) == len(said["images"]) == count
+        assert {one["file_name"][:-4] for one in said["images"]} == names
+        transforms = json.loads((tmp_path / "nerfstudio-scene" / "transforms.json").read_text())
+        assert {name[7:-4] for name in transforms[f"{split}_filenames"]} == names
+        scenes = tmp_path / "bop-scenes" / split
+        assert sum(len(list((scene / "rgb").iterdir())) for scene in scenes.iterdir()) == count
+    assert {line[:-4] for line in (tmp_path / "colmap-scene/sparse/0/test.txt").read_text().split()} == held
+    with pytest.raises(InputError, match="the set has one picture: it has no part for validation"):
+        with_splits(chosen(views, ["PERSP"], [3]), 0.5)
+    with pytest.raises(InputError, match="the set has no camera 'Fern', only OPENCV_PINHOLE, PERSP"):
+        chosen(views, ["Fern"])
+    with pytest.raises(InputError, match="the set has none of these frames, only 1 to 5"):
+        chosen(views, [], [9])
 
 
 def test_depth_and_normals_are_the_passes(made):

@@ -1,5 +1,6 @@
 """The command that exports cameras, by frame, to files of other programs."""
 
+from argparse import ArgumentTypeError
 from collections.abc import Callable, Sequence
 from functools import lru_cache, partial
 from math import pi
@@ -11,17 +12,20 @@ import bpy
 from ...core.exports import FORMATS, export
 from ...core.exports.writing import write
 from ...core.records import InputError, Shapes
-from ...core.sets import SET_FORMATS, read_set, sparse
+from ...core.sets import SET_FORMATS, chosen, read_set, sparse, with_splits
 from ..output import exports
 from ..process.opening import not_run, open_file
-from ..read.camera import check_camera, check_markers, find_camera, find_cameras
+from ..read.camera import ALL, check_camera, check_markers, find_camera, find_cameras
 from ..read.frames import frame_of
 from ..read.scene import read_shapes
 from .options import command_parser, go_to, open_scene, shown_at, warn
 from .words import add_cameras, add_frames, check_cameras, count, degrees
 
-OF_SCENES = "camera", "cameras", "frames", "calibration", "rig", "resolution", "to"
-"""Options that choose or change what a .blend has."""
+OF_SCENES = "calibration", "rig", "resolution", "to"
+"""Options that change what a .blend has."""
+
+FEW = 8
+"""Files whose names are printed."""
 
 
 def run(arguments: Sequence[str], prog: str) -> int:
@@ -41,6 +45,9 @@ def run(arguments: Sequence[str], prog: str) -> int:
         f"number of seed points, for colmap-scene only; default: {sparse.COUNT}")  # fmt: skip
     parser.add_argument("--models", type=Path, metavar="FILE.blend", help=
         "Blender file of the data set, from which its objects' models are written, for bop-scenes only")  # fmt: skip
+    parser.add_argument("--validation", type=_part, metavar="PART", help=
+        f"part of the pictures of a data set for validation, such as 0.2: a split in the files of "
+        f"{', '.join(key for key, one in SET_FORMATS.items() if one.splits)}; default: none")  # fmt: skip
     add_cameras(parser)
     add_frames(parser)
     parser.add_argument("--to", metavar="NAME", help="target camera of the maps, for stmap only; "
@@ -55,6 +62,8 @@ def run(arguments: Sequence[str], prog: str) -> int:
         raise InputError("--points applies to --format colmap-scene only")
     if options.models and options.format != "bop-scenes":
         raise InputError("--models applies to --format bop-scenes only")
+    if options.validation and not (options.format in SET_FORMATS and SET_FORMATS[options.format].splits):
+        raise InputError(f"--validation does not apply to --format {options.format}: leave it out")
     if options.file is not None and options.file.is_dir():
         return _of_set(options)
     if options.format in SET_FORMATS:
@@ -73,8 +82,25 @@ def run(arguments: Sequence[str], prog: str) -> int:
                                options.fit, partial(shown_at, options))  # fmt: skip
     for line in not_run():
         warn(prog, line)
-    print("\n".join((*said, f"Wrote {', '.join(map(str, paths))}")), flush=True)
+    _tell(said, paths)
     return 0
+
+
+def _part(text: str) -> float:
+    """Return a part between 0 and 1."""
+    try:
+        part = float(text)
+    except ValueError:
+        part = 0.0
+    if not 0 < part < 1:
+        raise ArgumentTypeError(f"{text!r} is not a part between 0 and 1, such as 0.2")
+    return part
+
+
+def _tell(said: Sequence[str], paths: Sequence[Path]) -> None:
+    """Print remarks, and in one line the files that were written."""
+    many = f"{len(paths)} files into {paths[0].parent}"
+    print("\n".join((*said, f"Wrote {', '.join(map(str, paths)) if len(paths) <= FEW else many}")), flush=True)
 
 
 def _of_set(options) -> int:
@@ -82,7 +108,10 @@ def _of_set(options) -> int:
     unused = [name for name in OF_SCENES if getattr(options, name)]
     if unused:
         raise InputError(f"--{unused[0].replace('_', '-')} does not apply to a finished data set: leave it out")
-    views = read_set(options.file)
+    cameras = options.cameras or ([options.camera] if options.camera else [])
+    views = chosen(read_set(options.file), [] if ALL in cameras else cameras, options.frames or ())
+    if options.validation:
+        views = with_splits(views, options.validation)
     if options.format in SET_FORMATS:
         if options.fit:
             raise InputError(f"--fit does not apply to --format {options.format}: choose a format of cameras")
@@ -93,7 +122,7 @@ def _of_set(options) -> int:
     else:
         files, said = export(options.format, [view.shot for view in views], options.fit)
     paths = write(files, options.output)
-    print("\n".join((*said, f"Wrote {', '.join(map(str, paths))}")), flush=True)
+    _tell(said, paths)
     return 0
 
 

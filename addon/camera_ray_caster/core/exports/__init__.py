@@ -62,6 +62,8 @@ def export(
             what = f"{shot.camera.model.label} of camera {shot.camera.name!r}"
             of_lens = fit is None and can_fit(chosen, shot.camera) and rigid.refusal(shot.camera) is None
             near = f", or {FIT} (--fit)" if of_lens else ""
+            if len({shot.name for shot in shots}) > 1:
+                near += ", or export the other cameras (--cameras)"
             raise InputError(
                 f"{chosen.label} cannot represent the {what}{reason and ', '}{reason}: choose one of {able}{near}"
             )

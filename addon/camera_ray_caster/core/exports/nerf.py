@@ -14,7 +14,7 @@ import numpy as np
 from ..programs.parts.lens import matrix_of
 from ..records import InputError
 from . import lenses
-from .format import Shot
+from .format import SEPARATELY, Shot
 from .plain import as_text
 
 TABLE = {"camera_angle_x": ("OPENCV_PINHOLE", ())}
@@ -47,7 +47,7 @@ class Nerf(lenses.LensFormat):
         least, most = min(angles), max(angles)
         if most - least > NEAR:
             differ = f"{angles[least]!r} and {angles[most]!r} differ"
-            raise InputError(f"NeRF has one camera_angle_x, but {differ}: export them separately, or for nerfstudio")
+            raise InputError(f"NeRF has one camera_angle_x, but {differ}: {SEPARATELY}, or for nerfstudio")
         of = {7: "val", 9: "test"}
         for part in PARTS:
             frames = [_frame(shot) for number, shot in enumerate(shots) if of.get(number % 10, "train") == part]

@@ -14,7 +14,7 @@ from ..programs.nerfstudio import MODELS
 from ..programs.parts.lens import matrix_of
 from ..records import InputError
 from . import lenses
-from .format import Shot
+from .format import SEPARATELY, Shot
 from .plain import as_text
 
 TABLE = {kind: MODELS[kind] for kind in ("OPENCV", "OPENCV_FISHEYE")}
@@ -35,7 +35,7 @@ class Nerfstudio(lenses.LensFormat):
             kinds.setdefault(lenses.lens_of(TABLE, shot.camera)[0], shot.name)
         if len(kinds) > 1:
             several = " and ".join(f"{name!r} is {kind}" for kind, name in kinds.items())
-            raise InputError(f"transforms.json has one camera_model, but camera {several}: export them separately")
+            raise InputError(f"transforms.json has one camera_model, but camera {several}: {SEPARATELY}")
         yield "transforms.json", as_text({"camera_model": next(iter(kinds)), "frames": [_frame(one) for one in shots]})
 
 

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from . import bop, labels, maps, nerfstudio, sparse
-from .reading import View, read_set, views_of
+from .reading import View, chosen, read_set, views_of, with_splits
 
 Files = Iterator[tuple[str, str | bytes]]
 
@@ -22,14 +22,16 @@ class SetFormat(NamedTuple):
 
     description: str
     files: Callable[[list[View]], Files]
+    splits: bool = False
+    """Whether files tell the splits of views."""
 
 
 SET_FORMATS = {
-    "bop-scenes": SetFormat("BOP: a scene per camera with rgb, depth, masks, poses of objects and boxes", bop.files),
-    "colmap-scene": SetFormat("COLMAP: images, sparse/0 and seed points with tracks, from the hits", sparse.files),
-    "nerfstudio-scene": SetFormat("nerfstudio: transforms.json, images, depths and masks", nerfstudio.files),
-    "panoptic": SetFormat("COCO panoptic: ids of segments as PNG, and panoptic.json", labels.panoptic),
-    "yolo": SetFormat("YOLO: images, and boxes in labels, by category", labels.yolo),
+    "bop-scenes": SetFormat("BOP: a scene per camera: rgb, depth, masks, poses of objects, boxes", bop.files, True),
+    "colmap-scene": SetFormat("COLMAP: images, sparse/0, seed points with tracks from the hits", sparse.files, True),
+    "nerfstudio-scene": SetFormat("nerfstudio: transforms.json, images, depths and masks", nerfstudio.files, True),
+    "panoptic": SetFormat("COCO panoptic: ids of segments as PNG, and panoptic.json", labels.panoptic, True),
+    "yolo": SetFormat("YOLO: images, and boxes in labels, by category", labels.yolo, True),
     "masks": SetFormat("a PNG of each object's visible and whole mask", labels.masks),
     "depth16": SetFormat("16-bit PNG of depths in millimeters, as the scale in depth16.json tells", maps.depth16),
     "normals": SetFormat("16-bit PNG of normals in the camera's frame, x right, y down, z ahead", maps.normals),
@@ -54,4 +56,4 @@ def companions(folder: Path, reports: Iterable[str]) -> Files:
         yield from maps.preview(shown)
 
 
-__all__ = ["SET_FORMATS", "SetFormat", "View", "companions", "read_set"]
+__all__ = ["SET_FORMATS", "SetFormat", "View", "chosen", "companions", "read_set", "with_splits"]

@@ -2,7 +2,7 @@
 
 Objects are the categories, numbered by name in models_info.json; the frame of an object is the middle of its box, in
 its axes. With the .blend of the set, each has a model, models/obj_OBJECT.ply, and its symmetries; without, diameters
-are those of boxes.
+are those of boxes. Splits are the folders train and val in place of test.
 Lengths are in millimeters; depth in 16 bits is along the viewing direction, in steps of depth_scale.
 Reference: BOP toolkit documentation, BOP dataset format.
 """
@@ -38,13 +38,15 @@ def files(
     for view in views:
         reason = Bop().refusal(view.shot)
         if reason is not None:
-            raise InputError(f"BOP has pinholes only, and camera {view.camera.name!r} is none {reason}".strip())
+            raise InputError(f"BOP has pinholes only, and camera {view.camera_name!r} is none {reason}".strip()
+                             + ": choose others (--cameras)")  # fmt: skip
     named = {one["category"]: (one, view.frame) for view in views for one in view.annotations["objects"]}
     numbers = {name: number for number, name in enumerate(sorted(named), 1)}
     cameras = list(dict.fromkeys(view.camera_name for view in views))
     for scene, name in enumerate(cameras):
         own = [view for view in views if view.camera_name == name]
-        yield from _scene(f"test/{scene:06}", own, numbers)
+        for split in dict.fromkeys(view.split for view in own):
+            yield from _scene(f"{split or 'test'}/{scene:06}", [view for view in own if view.split == split], numbers)
     models = {}
     for name, number in numbers.items():
         one, frame = named[name]

@@ -13,13 +13,15 @@ import numpy as np
 
 from ..annotations.coco import merged, unpacked
 from .png import png
-from .reading import View
+from .reading import TRAIN, VALIDATION, View
 
 
 def panoptic(views: list[View]) -> Iterator[tuple[str, str | bytes]]:
-    """Yield panoptic.json and a PNG of segment ids, R + 256 G + 65536 B, for each view; 0 is no object."""
+    """Yield panoptic.json and a PNG of segment ids, R + 256 G + 65536 B, for each view; 0 is no object. Each split has
+    files of its own: panoptic_train.json, panoptic_val.json.
+    """
     whole = merged(view.annotations for view in views)
-    images = []
+    images: dict[str, list] = {f"_{view.split}" if view.split else "": [] for view in views}
     for number, view in enumerate(views, 1):
         own = [one for one in whole["annotations"] if one["image_id"] == number]
         size = view.annotations["images"][0]
@@ -27,29 +29,36 @@ def panoptic(views: list[View]) -> Iterator[tuple[str, str | bytes]]:
         for one in own:
             ids[unpacked(one["segmentation"])] = one["shape_index"] + 1
         colors = np.stack([(ids >> shift & 255).astype(np.uint8) for shift in (0, 8, 16)], axis=-1)
-        yield f"panoptic/{view.name}.png", png(colors)
+        end = f"_{view.split}" if view.split else ""
+        yield f"panoptic{end}/{view.name}.png", png(colors)
         segments = [
             {"id": one["shape_index"] + 1, "iscrowd": 0, **{key: one[key] for key in ("category_id", "bbox", "area")}}
             for one in own
         ]
-        images.append({"image_id": number, "file_name": f"{view.name}.png", "segments_info": segments})
+        images[end].append({"image_id": number, "file_name": f"{view.name}.png", "segments_info": segments})
     categories = [{**one, "isthing": 1} for one in whole["categories"]]
-    said = {"info": whole["info"], "images": whole["images"], "annotations": images, "categories": categories}
-    yield "panoptic.json", json.dumps(said)
+    for end, own in images.items():
+        files = [whole["images"][one["image_id"] - 1] for one in own]
+        said = {"info": whole["info"], "images": files, "annotations": own, "categories": categories}
+        yield f"panoptic{end}.json", json.dumps(said)
 
 
 def yolo(views: list[View]) -> Iterator[tuple[str, str | bytes]]:
-    """Yield data.yaml, and for each view a picture and the boxes of what is visible, in parts of the picture."""
+    """Yield data.yaml, and for each view a picture and the boxes of what is visible, in parts of the picture. Each
+    split has folders of its own.
+    """
     whole = merged(view.annotations for view in views)
     names = [one["name"] for one in whole["categories"]]
     lines = "".join(f"  {number}: {json.dumps(name, ensure_ascii=False)}\n" for number, name in enumerate(names))
-    yield "data.yaml", f"path: .\ntrain: images\nval: images\nnames:\n{lines}"
+    train, validation = (f"images/{one}" if views[0].split else "images" for one in (TRAIN, VALIDATION))
+    yield "data.yaml", f"path: .\ntrain: {train}\nval: {validation}\nnames:\n{lines}"
     for number, view in enumerate(views, 1):
         size = whole["images"][number - 1]
         own = [one for one in whole["annotations"] if one["image_id"] == number]
-        yield f"labels/{view.name}.txt", "".join(_box(one, size) for one in own)
+        stem = f"{view.split}/{view.name}" if view.split else view.name
+        yield f"labels/{stem}.txt", "".join(_box(one, size) for one in own)
         if view.picture is not None:
-            yield f"images/{view.name}.png", view.picture
+            yield f"images/{stem}.png", view.picture
 
 
 def _box(one: dict[str, Any], size: dict[str, Any]) -> str:

@@ -1,7 +1,8 @@
 """nerfstudio's transforms.json of a set, with images, depths and masks.
 
 Depths are 16 bits in millimeters along the viewing direction, as nerfstudio's depth_unit_scale_factor of 0.001 has them
-where a Blender unit is a meter; 0 is no hit. Masks are white where a pixel has a ray.
+where a Blender unit is a meter; 0 is no hit. Masks are white where a pixel has a ray. Splits are train_filenames,
+val_filenames and test_filenames, of which the last two are the same.
 Reference: nerfstudio documentation, Data conventions.
 """
 
@@ -15,7 +16,7 @@ import numpy as np
 from ..exports import export
 from ..records import InputError
 from .png import png
-from .reading import View
+from .reading import TRAIN, VALIDATION, View
 
 MOST = 65535
 
@@ -41,4 +42,9 @@ def files(views: list[View]) -> Iterator[tuple[str, str | bytes]]:
         frame["file_path"] = f"images/{view.name}.png"
         if view.picture is not None:
             yield frame["file_path"], view.picture
+    if views[0].split:
+        names = {split: [f"images/{view.name}.png" for view in views if view.split == split]
+                 for split in (TRAIN, VALIDATION)}  # fmt: skip
+        parts = {"train": names[TRAIN], "val": names[VALIDATION], "test": names[VALIDATION]}
+        transforms |= {f"{part}_filenames": own for part, own in parts.items()}
     yield "transforms.json", json.dumps(transforms, indent=1)

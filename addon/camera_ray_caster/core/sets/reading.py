@@ -7,9 +7,10 @@ have row 0 at the bottom, as in NPZ files; files of pictures begin at the top.
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
+from operator import attrgetter
 from pathlib import Path
 from typing import Any
 
@@ -25,6 +26,8 @@ from . import channels
 
 COCO = "_coco.json"
 
+TRAIN, VALIDATION = "train", "val"
+
 
 @dataclass(frozen=True, eq=False)
 class View:
@@ -36,6 +39,8 @@ class View:
     report: Mapping[str, Any]
     eye: str = ""
     """Name of its view in a stereo scene; "" otherwise."""
+    split: str = ""
+    """TRAIN or VALIDATION; "" in a set that is not split."""
 
     @property
     def _own(self) -> Mapping[str, Any]:
@@ -204,3 +209,36 @@ def read_set(folder: Path) -> list[View]:
     if not views:
         raise InputError(f"{str(folder)!r} has no pictures with reports: make a set with cast.py or dataset.py")
     return sorted(views, key=lambda view: (view.camera_name, view.frame))
+
+
+def chosen(views: Sequence[View], cameras: Sequence[str] = (), frames: Collection[float] = ()) -> list[View]:
+    """Return the views of some cameras, by their names or those of their eyes, and of some frames; by default of all.
+    Raises InputError for a camera or frames that the set does not have.
+    """
+    names = {view: (str(view.report["camera"]["name"]), view.camera_name) for view in views}
+    for name in cameras:
+        if not any(name in own for own in names.values()):
+            raise InputError(
+                f"the set has no camera {name!r}, only {', '.join(dict.fromkeys(own for _, own in names.values()))}"
+            )
+    found = [view for view in views if not cameras or set(cameras) & set(names[view])]
+    found = [view for view in found if not frames or view.frame in frames]
+    if not found:
+        raise InputError(
+            f"the set has none of these frames, only {min(view.frame for view in views):g} to "
+            f"{max(view.frame for view in views):g}"
+        )
+    return found
+
+
+def with_splits(views: Sequence[View], part: float) -> list[View]:
+    """Return the views with their splits: a part of the frames, evenly spaced and at least one, is for validation, with
+    all cameras; of a set of one frame a part of the cameras. Raises InputError for a single view.
+    """
+    by = attrgetter("frame" if len({view.frame for view in views}) > 1 else "camera_name")
+    steps = sorted({by(view) for view in views})
+    if len(steps) < 2:
+        raise InputError("the set has one picture: it has no part for validation")
+    count = min(max(round(part * len(steps)), 1), len(steps) - 1)
+    held = {steps[int((k + 0.5) * len(steps) / count)] for k in range(count)}
+    return [replace(view, split=VALIDATION if by(view) in held else TRAIN) for view in views]

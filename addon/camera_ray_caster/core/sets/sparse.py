@@ -2,7 +2,8 @@
 
 Points are hits of random pixels, of a fixed seed, the same number in each view; a track has every view that sees the
 point: there its projection lies in the picture, and the distance to it is that of the pixel's hit, up to the difference
-that the surface makes within a pixel. Gaussian splatting starts from such points.
+that the surface makes within a pixel. Gaussian splatting starts from such points, and leaves
+out the pictures in test.txt, those for validation.
 Reference: COLMAP documentation, Output Format.
 """
 
@@ -16,7 +17,7 @@ from ..exports import export
 from ..programs.colmap import POINTS
 from ..records import InputError
 from .png import srgb
-from .reading import View
+from .reading import VALIDATION, View
 
 COUNT = 10_000
 """Number of points of a set."""
@@ -50,6 +51,8 @@ def files(views: list[View], count: int = COUNT) -> Iterator[tuple[str, str | by
         for row, (place, color, track) in enumerate(zip(places.tolist(), colors.tolist(), tracks, strict=True))
     ]
     yield "sparse/0/points3D.txt", POINTS + "\n".join(said) + "\n"
+    if views[0].split:
+        yield "sparse/0/test.txt", "".join(f"{view.name}.png\n" for view in views if view.split == VALIDATION)
     for view in views:
         if view.picture is not None:
             yield f"images/{view.name}.png", view.picture
