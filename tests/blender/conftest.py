@@ -9,7 +9,7 @@ sys.path.append(str(Path(__file__).resolve().parents[2] / "scripts"))
 import make_zip
 
 from ..exr import read_exr
-from .processes import blender_command, extension_tool, run
+from .processes import blender_command, run
 
 
 @pytest.fixture(autouse=True)
@@ -43,10 +43,7 @@ def osl(blender):
 @pytest.fixture(scope="session")
 def archive(tmp_path_factory):
     """The extension as a zip."""
-    folder = tmp_path_factory.mktemp("dist")
-    path = folder / "camera_ray_caster.zip"
-    extension_tool("build", "--source-dir", make_zip.stage(folder / "extension"), "--output-filepath", path)
-    return path
+    return make_zip.build(tmp_path_factory.mktemp("dist"))
 
 
 @pytest.fixture

@@ -32,6 +32,17 @@ def test_source_and_zip_are_valid(archive):
         assert "error" not in extension_tool("validate", path).lower()
 
 
+def test_the_zip_is_that_of_blenders_own_builder(archive, tmp_path):
+    """The same names, the same contents."""
+    with zipfile.ZipFile(archive) as ours:
+        ours.extractall(tmp_path / "extension")
+        extension_tool("build", "--source-dir", tmp_path / "extension", "--output-dir", tmp_path)
+        with zipfile.ZipFile(tmp_path / archive.name) as theirs:
+            files = {name for name in theirs.namelist() if not name.endswith("/")}
+            assert files == set(ours.namelist())
+            assert all(theirs.read(name) == ours.read(name) for name in files)
+
+
 def test_the_zip_holds_the_package_its_license_and_the_gallery(archive):
     held = {name for name in zipfile.ZipFile(archive).namelist() if not name.endswith("/")}
     files = [path for path in SOURCE.rglob("*") if path.is_file() and path.parent.name != "__pycache__"]

@@ -28,12 +28,11 @@ FAILURES = (
 
 
 def install(folder):
-    """Build the zip with Blender's own command and install it as a user does."""
-    archive = folder / "camera_ray_caster.zip"
-    staged = make_zip.stage(folder / "extension")
-    build = ["--command", "extension", "build", "--source-dir", staged, "--output-filepath", archive]
-    subprocess.run([bpy.app.binary_path, *map(str, build)], check=True, timeout=60, stdout=subprocess.DEVNULL)
-    bpy.ops.extensions.package_install_files(filepath=str(archive), repo="user_default", enable_on_install=True)
+    """Build the zip, have Blender validate it, and install it as a user does."""
+    archive = str(make_zip.build(folder))
+    validate = [bpy.app.binary_path, "--command", "extension", "validate", archive]
+    subprocess.run(validate, check=True, timeout=60, stdout=subprocess.DEVNULL)
+    bpy.ops.extensions.package_install_files(filepath=archive, repo="user_default", enable_on_install=True)
     assert MODULE in bpy.context.preferences.addons
 
 
