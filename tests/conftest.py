@@ -55,8 +55,9 @@ TIME = "processor_seconds"
 
 
 def pytest_addoption(parser):
-    """Add the option of a camera model of somebody's own."""
+    """Add the options of a camera model of somebody's own, and of a share of the tests."""
     parser.addoption("--model", help="a file with a camera model: only the tests of that model are run")
+    parser.addoption("--part", metavar="K/N", help="run every N-th of the tests, beginning with the K-th")
 
 
 def pytest_configure(config):
@@ -66,12 +67,18 @@ def pytest_configure(config):
     config.stash[_MODELS] = tiers.added_models(config.getoption("--model"))
 
 
-@pytest.hookimpl(tryfirst=True)
+@pytest.hookimpl(tryfirst=True, wrapper=True)
 def pytest_collection_modifyitems(config, items):
-    """Mark what the default tier leaves out, before pytest leaves it out."""
+    """Mark what the default tier leaves out, before pytest leaves it out; then leave out all but a part."""
     if config.stash[_MODELS]:
         items[:] = tiers.of_models(items, config.stash[_MODELS])
     tiers.mark_the_rest(items)
+    yield
+    if config.getoption("--part"):
+        first, step = map(int, config.getoption("--part").split("/"))
+        kept = items[first - 1 :: step]
+        config.hook.pytest_deselected(items=[item for item in items if item not in kept])
+        items[:] = kept
 
 
 @pytest.hookimpl(optionalhook=True)

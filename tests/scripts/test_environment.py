@@ -26,16 +26,28 @@ def test_another_python_is_named_with_those_that_fit(python):
 
 def test_each_bpy_is_tested_and_the_newest_by_all_tests_and_hostile_inputs(monkeypatch, capsys):
     ran = []
+
+    def make(target, bpy, _, left_out=(), part=""):
+        ran.append((target, bpy, *left_out, part))
+        return "test-" in target
+
     monkeypatch.setattr(environment, "find_python", lambda version: "python" if version == (3, 11) else None)
-    monkeypatch.setattr(environment, "make", lambda target, bpy, _: ran.append((target, bpy)) or "test-" in target)
-    assert environment.test_all(environment.PARTS["test-all"]) == 1
-    assert ran == [("test", "4.5"), ("test-full", "5.0"), ("test-hostile", "5.0")]
+    monkeypatch.setattr(environment, "numpy_of", lambda bpy: b"3.11 1.26")
+    monkeypatch.setattr(environment, "make", make)
+    assert environment.test_all(environment.PARTS["test-all"], "") == 1
+    made = [(f".venv/bpy-{bpy}/ready", bpy, "") for bpy in ("4.5", "5.0")]
+    tests = [("test", "4.5", "tests/core", ""), ("test-full", "5.0", "")]
+    assert ran == [*made, *tests, ("test-hostile", "5.0", "")]
     assert "bpy 5.0, hostile inputs: FAILED" in capsys.readouterr().out
-    for command, targets in (("test-tiers", ["test", "test-full"]), ("test-hostile", ["test-hostile"])):
+    for words, targets in (
+        (["prepare"], made),
+        (["test-tiers"], [*made, *tests]),
+        (["test-hostile", "2/4"], [*made, ("test-hostile", "5.0", "2/4")]),
+    ):
         ran.clear()
-        monkeypatch.setattr("sys.argv", ["environment.py", command])
-        assert environment.main() == 1
-        assert [target for target, _ in ran] == targets
+        monkeypatch.setattr("sys.argv", ["environment.py", *words])
+        assert environment.main() == (words != ["prepare"])
+        assert ran == targets
 
 
 @pytest.mark.parametrize("target", ["cast", "test"])
