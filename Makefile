@@ -18,7 +18,7 @@ export PYTHONDONTWRITEBYTECODE :=
 
 SCENE := blend_scenes/spheres_and_planes.blend
 
-.PHONY: cast test test-full test-hostile test-all test-blender test-in-blender test-window lint check-model docs zip dist clean help
+.PHONY: cast test test-full test-hostile test-all release-check test-blender test-in-blender test-window lint check-model docs lesson zip dist clean help
 
 cast: $(VENV)/ready  ## render the example scene into out/ and print the report
 	$(VENV)/bin/python scripts/cast.py $(SCENE) --output out
@@ -33,11 +33,13 @@ test: $(VENV)/ready  ## run the tests with this Python, on all cores: each thing
 test-full: $(VENV)/ready  ## the same with all further examples, some ten minutes
 	$(PYTEST) --dist loadfile -m "not hostile"
 
-test-hostile: $(VENV)/ready  ## try all hostile inputs, kills and full disks, some minutes
-	$(PYTEST) tests/hostile -m hostile
+test-hostile: $(VENV)/ready  ## try all hostile inputs, kills and full disks, some minutes; PART=1/4: a fourth of them
+	$(PYTEST) tests/hostile -m hostile $(if $(PART),--part $(PART))
 
 test-all:  ## run the tests on each supported bpy for which a Python is found, all but those in a window on the newest
 	@$(PYTHON) scripts/environment.py test-all
+
+release-check: lint docs dist test-all  ## before a release: all of it, with all hostile inputs
 
 test-blender: test-in-blender test-window  ## run tests/blender inside a real Blender, and tests/gui in its window: BLENDER=/path
 
@@ -69,12 +71,18 @@ check-model: $(VENV)/ready  ## hold a camera model of your own to the contract o
 docs: .venv/docs/ready  ## build the documentation site in out/site/; without Blender, warnings are errors
 	.venv/docs/bin/python -m sphinx -q -W --keep-going -c docs -d out/doctrees . out/site
 
-zip: $(VENV)/ready  ## build the extension for Blender in dist/
-	$(VENV)/bin/python scripts/make_zip.py dist
+lesson: .venv/numpy/ready  ## write the pages that are made of the code, the lesson for a browser among them; copy it to dist/
+	.venv/numpy/bin/python scripts/make_docs.py
+	mkdir -p dist
+	cp docs/lesson/index.html dist/lesson.html
 
-dist: zip  ## build the extension for Blender and the wheel for pip in dist/
+zip:  ## build the extension for Blender in dist/
+	$(PYTHON) scripts/make_zip.py dist
+
+dist: zip  ## build the extension for Blender, the wheel for pip and the lesson in dist/; needs Python and pip only
 	$(PYTHON) -m pip wheel --quiet --no-deps --wheel-dir dist .
 	rm -rf build
+	cp docs/lesson/index.html dist/lesson.html
 
 clean:  ## remove everything that these commands made
 	rm -rf build out dist docs/api docs/cameras .venv addon/*.egg-info .hypothesis .mypy_cache .pytest_cache .ruff_cache
@@ -87,6 +95,12 @@ help:  ## show this list
 .venv/bpy-%/ready: pyproject.toml
 	$(PYTHON) -m venv --without-pip $(@D)
 	$(PYTHON) -m pip --python $(@D)/bin/python install --quiet --editable '.[test]' 'bpy==$*.*' pip
+	@touch $@
+
+# Any Python from 3.11 on.
+.venv/numpy/ready:
+	$(PYTHON) -m venv --without-pip $(@D)
+	$(PYTHON) -m pip --python $(@D)/bin/python install --quiet numpy
 	@touch $@
 
 .venv/docs/ready: pyproject.toml

@@ -20,10 +20,10 @@ BUDGET = 140
 OUTSIDE = ("full", "hostile")
 """The marks of what the default tier leaves out."""
 FULL = (
-    "tests/gui/", "tests/hostile/", "tests/core/exports/test_other_readers.py", "tests/scripts/test_openjd.py",
-    "tests/scripts/test_side_by_side.py", "tests/scripts/test_work_precision.py",
+    "tests/gui/", "tests/hostile/", "tests/recipes/", "tests/core/exports/test_other_readers.py",
+    "tests/scripts/test_openjd.py", "tests/scripts/test_side_by_side.py", "tests/scripts/test_work_precision.py",
 )  # fmt: skip
-"""Rooms and files that need a window, other programs or hostile inputs: full as a whole."""
+"""Rooms and files that need a window, a copy of the repository, other programs or hostile inputs: full as a whole."""
 SHARE = 4
 """The default tier tries one of so many generated examples."""
 is_full = True

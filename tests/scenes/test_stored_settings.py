@@ -130,7 +130,8 @@ def test_a_file_opens_with_its_settings(blender, name):
     model, expected = STORED.get(name, ("PERSP", {}))
     found = record(blender, name)
     settings = {**found.camera.record.settings, **found.camera.settings}
-    assert found.camera.model.key == model
+    key = found.camera.model.key
+    assert key == model, f"{name}.blend has {key}: STORED of test_stored_settings.py says {model}"
     assert (settings["time_mode"] != "NONE") == ("time_mode" in expected)
     for setting, value in expected.items():
         if isinstance(value, str | bool):

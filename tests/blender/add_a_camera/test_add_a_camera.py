@@ -60,7 +60,7 @@ def test_the_file_is_short():
 
 
 def test_the_page_for_who_changes_the_code_shows_this_file():
-    assert f"```python\n{MODEL.read_text(encoding='utf-8')}```\n" in (ROOT / "addon" / "README.md").read_text("utf-8")
+    assert f"```python\n{MODEL.read_text(encoding='utf-8')}```\n" in (ROOT / "CONTRIBUTING.md").read_text("utf-8")
 
 
 def test_it_is_in_blenders_menu_with_its_setting(seen):

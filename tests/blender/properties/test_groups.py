@@ -53,7 +53,8 @@ def test_every_item_of_a_choice_has_a_number_of_its_own():
         for found in group.bl_rna.properties:
             if found.type == "ENUM" and found.is_runtime:
                 numbers = [item.value for item in found.enum_items]
-                assert len(set(numbers)) == len(numbers), found.identifier
+                free = min(set(range(len(numbers) + 1)) - set(numbers))
+                assert len(set(numbers)) == len(numbers), f"two items of {found.identifier} share one: {free} is free"
 
 
 def test_only_objects_of_the_declared_types_can_be_a_slit_or_a_path(blender):

@@ -27,8 +27,12 @@ def test_menu_numbers_are_those_of_files_that_were_saved():
         "SCANNER",
     )  # fmt: skip
     assert numbers | {key: number for number, key in enumerate(saved, 1)} == numbers
-    assert len(set(numbers.values())) == len(numbers)
-    assert min(numbers.values()) > 0  # 0 is Blender's own type
+    taken = set(numbers.values())
+    free = min(set(range(1, len(numbers) + 2)) - taken)  # 0 is Blender's own type
+    for key, number in numbers.items():
+        owners = " and ".join(sorted(other for other in numbers if numbers[other] == number))
+        assert owners == key, f"{owners} have the number {number}: the lowest free one is {free}"
+        assert 0 < number <= len(numbers), f"{key} has the number {number}: the lowest free one is {free}"
 
 
 def test_a_setting_that_models_share_is_declared_once():

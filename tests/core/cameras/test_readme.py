@@ -26,7 +26,10 @@ def test_every_model_and_every_setting_is_on_the_page():
 
 def test_every_export_and_every_program_is_on_the_page_of_files():
     page = PAGES["files"]()
-    assert {program.export.key for program in PROGRAMS if program.export} == {one.key for one in FORMATS}
+    exports = {program.export.key for program in PROGRAMS if program.export}
+    for one in FORMATS:
+        assert one.key in exports, f"no program of core/programs has the export {one.key}"
+    assert exports == {one.key for one in FORMATS}
     for program in PROGRAMS:
         assert f"| {program.name} | {program.files} | {program.reads} |" in page
         assert not program.reads or program.name in READ

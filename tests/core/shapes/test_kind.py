@@ -131,7 +131,11 @@ def test_kinds_that_are_not_in_view_are_named():
 
 def test_every_kind_that_ships_has_a_number_a_name_and_an_equation_of_its_own():
     numbers = [kind.number for kind in SHIPPED]
-    assert sorted(EQUATIONS) == sorted(set(numbers)) == sorted(numbers), "of Step Through: core/lesson/meetings.py"
+    free = min(set(range(len(numbers) + 1)) - set(numbers))
+    for kind in SHIPPED:
+        assert numbers.count(kind.number) == 1, f"the number {kind.number} of {kind.name} is taken: {free} is free"
+        assert kind.number in EQUATIONS, f"EQUATIONS in core/lesson/meetings.py has no equation of {kind.name}"
+    assert len(EQUATIONS) == len(numbers)
     assert len({kind.name for kind in SHIPPED}) == len(SHIPPED)
 
 

@@ -1,0 +1,207 @@
+"""Each recipe of CONTRIBUTING.md is followed to its end in a copy; what is left out is named by the test that asks.
+
+All are followed in one copy, and lint, the last command of each, runs once for all.
+"""
+
+import pytest
+
+from .following import ROOT, Copy, commands, said_by
+
+PACKAGE = "addon/camera_ray_caster"
+CORE = f"{PACKAGE}/core"
+DECLARATIONS = "tests/core/cameras/test_declarations.py"
+KINDS = "tests/core/shapes/test_kind.py"
+
+
+@pytest.fixture(scope="module")
+def copy(tmp_path_factory):
+    """A copy of the repository."""
+    return Copy(tmp_path_factory.mktemp("copy"))
+
+
+def text_of(path, *changes):
+    """The text of a file of the repository with changes."""
+    text = (ROOT / path).read_text(encoding="utf-8")
+    for before, after in changes:
+        assert before in text
+        text = text.replace(before, after)
+    return text
+
+
+def test_a_camera_model(copy):
+    model = text_of("tests/blender/add_a_camera/mercator.py", ("1000", "27"))
+    copy.write(f"{CORE}/cameras/mercator.py", model)
+    copy.change(
+        f"{CORE}/cameras/__init__.py",
+        ("\nfrom .mirrorball import", "\nfrom .mercator import Mercator\nfrom .mirrorball import"),
+        ("\n]  # fmt: skip", " Mercator,\n]  # fmt: skip"),
+    )
+    said = said_by(copy, DECLARATIONS, "-k", "menu_numbers")
+    assert "MERCATOR and SCANNER have the number 27: the lowest free one is 28" in said
+    copy.change(f"{CORE}/cameras/mercator.py", ("27", "28"))
+    assert copy.run("scripts/make_docs.py").returncode == 0
+    assert "MERCATOR: no scene shows it" in said_by(copy, "tests/scenes/test_gallery.py", "-k", "scene_of_its_own")
+    copy.change(
+        "scripts/make/scenes/panoramas.py",
+        (
+            "def little_planet(scene):",
+            '''def mercator(scene):
+    """Angles are kept: small shapes have their form wherever they are, and are larger towards the poles."""
+    room(scene)
+    photograph(scene, MIDDLE, AHEAD, 400, 300, own={"model": "MERCATOR"})
+
+
+def little_planet(scene):''',
+        ),
+    )
+    listed = "panoramas.cylindrical,", "panoramas.cylindrical, panoramas.mercator,"
+    copy.change("scripts/make/scenes/__init__.py", listed)
+    copy.change(
+        "tests/scenes/test_stored_settings.py",
+        ('    "little_planet": (', '    "mercator": ("MERCATOR", {"mercator_top": 1.4}),\n    "little_planet": ('),
+    )
+    copy.follow("Add a camera model", NAME="MERCATOR", SCENE="mercator")
+
+
+def test_a_kind_of_shape(copy):
+    disc = text_of(
+        "tests/core/shapes/disc.py",
+        ('"""A toy kind of shape, in one file: the', '"""The'),
+        ("from camera_ray_caster.core.shapes.affine", "from ..records import DISC\nfrom .affine"),
+        ("camera_ray_caster.core.", ".."),
+        ("class Disc(", "class DiscKind("),
+        ("DISCS = Disc()", "DISCS = DiscKind()"),
+        ("number = 7", "number = DISC"),
+        ('"disc"', '"round disc"'),
+    )
+    copy.write(f"{CORE}/shapes/disc.py", disc)
+    copy.change(
+        f"{CORE}/shapes/kinds.py",
+        ("from .kind import Kind", "from .disc import DISCS\nfrom .kind import Kind"),
+        ("INFINITE_PLANES, MESHES", "INFINITE_PLANES, MESHES, DISCS"),
+    )
+    copy.change(f"{CORE}/records.py", ("MESH = 0, 1, 2, 3", "MESH, DISC = 0, 1, 2, 3, 3"))
+    assert "the number 3 of mesh is taken: 4 is free" in said_by(copy, KINDS, "-k", "ships_has")
+    copy.change(f"{CORE}/records.py", ("2, 3, 3", "2, 3, 4"))
+    said = said_by(copy, KINDS, "-k", "ships_has")
+    assert "EQUATIONS in core/lesson/meetings.py has no equation of round disc" in said
+    copy.change(
+        f"{CORE}/lesson/meetings.py",
+        ("from ..records import INF", "from ..records import DISC, INF"),
+        (
+            "def _mesh(",
+            '''def _disc(shapes, k, at, along):
+    lines, roots = _plane(shapes, k, at, along)
+    return lines, [root for root in roots if np.hypot(*(at + root[0] * along)[:2]) <= 1]
+
+
+def _mesh(''',
+        ),
+        ("MESH: _mesh}", "MESH: _mesh, DISC: _disc}"),
+    )
+    imported = "from ..records import INF", "from ..records import DISC, INF"
+    copy.change(f"{CORE}/annotations/poses.py", imported, ("[row] == PLANE", "[row] in (PLANE, DISC)"))
+    copy.change(
+        f"{CORE}/motion/landmarks.py", imported, ("(shapes.kind == PLANE) |", "np.isin(shapes.kind, (PLANE, DISC)) |")
+    )
+    copy.change(
+        f"{CORE}/library/shapes.py",
+        ("from ..records import INF", "from ..records import DISC, INF"),
+        (
+            "\ndef mesh(",
+            '''
+def discs(
+    centers, axes=None, *, object_index=0, material_index=0, color=GRAY, name: str | Sequence[str] = "disc"
+) -> Shapes:
+    """Return discs, or ellipses, one per row of ``centers``; the arguments are those of ``planes``.
+
+    Raises InputError, in one line, for what ``planes`` refuses.
+    """
+    centers = _rows(centers, "centers")
+    return _exact(DISC, centers, _matrices(axes, len(centers), True), object_index, material_index, color, name)
+
+
+def mesh(''',
+        ),
+    )
+    copy.change(
+        f"{PACKAGE}/__init__.py",
+        ("shapes import mesh, planes", "shapes import discs, mesh, planes"),
+        ('    "explain": ', '    "discs": ".core.library.shapes",\n    "explain": '),
+        ('    "explain",', '    "discs",\n    "explain",'),
+    )
+    copy.change(
+        f"{PACKAGE}/blender/properties/declared.py",
+        ('        Item("MESH",', '        Item("DISC", "Disc", "A disc in local XY", 6),\n        Item("MESH",'),
+    )
+    copy.change(
+        f"{PACKAGE}/blender/read/geometry.py",
+        ("import INFINITE_PLANE, PLANE", "import DISC, INFINITE_PLANE, PLANE"),
+        ('"INFINITE_PLANE": INFINITE_PLANE}', '"INFINITE_PLANE": INFINITE_PLANE, "DISC": DISC}'),
+    )
+    copy.follow("Add a kind of shape")
+
+
+def test_a_pass(copy):
+    copy.change(
+        f"{CORE}/casting/passes.py",
+        (
+            "def ray_origin(",
+            '''def slope(values: HitValues, out):
+    """The cosine of the angle between ray and normal."""
+    _store(values, values.cosine, out)
+
+
+def ray_origin(''',
+        ),
+        ('    "valid": ', '    "slope": Pass(slope, "Cosine at the normal", shown=AS_IS, missed=0),\n    "valid": '),
+    )
+    copy.follow("Add a pass", NAME="slope")
+
+
+def test_an_export_format(copy):
+    copy.write(
+        f"{CORE}/exports/eyes.py",
+        '''"""Eyes: a line per camera and frame, its name and where it is, in meters."""
+
+from __future__ import annotations
+
+from .format import OWN_TIMES, Format
+
+
+class Eyes(Format):
+    """One file for all cameras."""
+
+    key, label = "eyes", "Eyes"
+    description = "The places of the cameras"
+    formula = False
+
+    def refusal(self, shot):
+        """See Format."""
+        return None if shot.camera.pixel_time is None else OWN_TIMES
+
+    def files(self, shots):
+        """See Format."""
+        rows = [(shot.stem, *(shot.camera.pose.eye * shot.meters).tolist()) for shot in shots]
+        yield "eyes.txt", "".join(" ".join(map(str, row)) + "\\n" for row in rows)
+''',
+    )
+    copy.change(
+        f"{CORE}/exports/__init__.py",
+        ("from .fitted import", "from .eyes import Eyes\nfrom .fitted import"),
+        ("Npz(), CameraJson(),\n", "Npz(), CameraJson(), Eyes(),\n"),
+    )
+    assert "core/library/files.py, has no eyes" in said_by(copy, "tests/core/library/test_files.py", "-k", "help")
+    copy.change(f"{CORE}/library/files.py", ('"npz" or "json"', '"npz", "json" or "eyes"'))
+    assert "no program of core/programs has the export eyes" in said_by(copy, "tests/core/cameras/test_readme.py")
+    copy.change(
+        f"{CORE}/programs/table.py",
+        ("\n_ROWS = (\n", '\n_ROWS = (\n    row("Eyes", "eyes.txt", export="eyes", lost="lenses"),\n'),
+    )
+    copy.follow("Add an export format")
+
+
+def test_each_recipe_ends_with_lint(copy):
+    for heading in ("Add a camera model", "Add a kind of shape", "Add a pass", "Add an export format"):
+        assert commands(heading)[-1] == "make lint"
+    copy.lint()
