@@ -78,6 +78,16 @@ def test_cast_takes_camera_frame_passes_and_shading(command, scene, tmp_path):
     assert x == pytest.approx(np.full_like(x, 0.5), abs=1e-6)
 
 
+def test_freestyle_runs_only_where_the_combined_pass_is_cast(command, blender, tmp_path):
+    path = small(blender, tmp_path / "lines.blend")
+    render, layer = blender.context.scene.render, blender.context.view_layer
+    render.use_freestyle = layer.use_freestyle = True
+    blender.ops.wm.save_mainfile()
+    for passes, is_drawn in (("depth", False), ("depth,combined", True)):
+        done = command("cast", path, "--passes", passes, "--output", tmp_path / passes)
+        assert ("Freestyle draws" in done.stderr) == is_drawn
+
+
 def test_frames_are_numbered(command, scene, tmp_path):
     done = command("cast", scene, "--frames", "1:2", "--passes", "ray_origin", "--output", tmp_path / "out")
     assert done.returncode == 0

@@ -39,9 +39,12 @@ def scene(blender):
 
 def test_neighbors_are_read_only_for_flow_and_the_scene_is_as_it_was(scene, monkeypatch):
     frames, read = [], evaluated.shapes_record
-    monkeypatch.setattr(
-        evaluated, "shapes_record", lambda depsgraph: frames.append(depsgraph.scene.frame_current) or read(depsgraph)
-    )
+
+    def watched(depsgraph, *has_colors):
+        frames.append(depsgraph.scene.frame_current)
+        return read(depsgraph, *has_colors)
+
+    monkeypatch.setattr(evaluated, "shapes_record", watched)
     found = read_scene(scene, passes=("depth",))
     assert frames == [5]
     assert found.next is found.previous is None

@@ -1,9 +1,12 @@
 """Images of materials as files may have them: each is read or named, and read once."""
 
+import tracemalloc
+
 import bpy
 import numpy as np
 import pytest
 
+from camera_ray_caster.blender.engine.job import Job
 from camera_ray_caster.blender.read import images
 from camera_ray_caster.blender.read.scene import read_shapes
 from camera_ray_caster.core.records import MESH, PLANE, SPHERE
@@ -85,6 +88,86 @@ def test_an_image_without_memory_is_named(surface, monkeypatch):
     textured(surface, new_image())
     shapes = read_shapes(bpy.context.scene)
     assert "GiB of memory" in dict(shapes.unread)["Paint"]
+
+
+@pytest.mark.parametrize("alpha", ["STRAIGHT", "PREMUL", "CHANNEL_PACKED", "NONE"])
+@pytest.mark.parametrize("is_packed", [False, True])
+def test_the_texels_of_a_file_are_blenders_pixels(tmp_path, alpha, is_packed):
+    """Also where they come from the file, past Blender's pixels; rows and columns are of different numbers."""
+    made, path = bpy.data.images.new("Made", 7, 5, alpha=True), tmp_path / "image.png"
+    made.pixels.foreach_set(np.random.default_rng(1).random(7 * 5 * 4, np.float32))
+    made.filepath_raw, made.file_format = str(path), "PNG"
+    made.save()
+    image = bpy.data.images.load(str(path), check_existing=False)
+    if is_packed:
+        image.pack()
+    image.alpha_mode = alpha
+    pixels = np.array(image.pixels).reshape(5, 7, 4)
+    if alpha == "NONE":
+        pixels[..., 3] = 1
+    if alpha in {"STRAIGHT", "PREMUL"}:
+        pixels[..., :3] *= pixels[..., 3:]
+    np.testing.assert_array_equal(images.image_of(image).texels, np.rint(pixels * 255))
+
+
+def test_reading_an_image_takes_the_memory_that_it_asks_for(tmp_path, monkeypatch):
+    asked, size = [], 1024
+    monkeypatch.setattr(images.memory, "require", lambda needed, *_: asked.append(needed))
+    monkeypatch.setattr(images, "STRIP", 1 << 12)
+    made, path = bpy.data.images.new("Made", size, size, alpha=True), tmp_path / "image.png"
+    made.filepath_raw, made.file_format = str(path), "PNG"
+    made.save()
+    image = bpy.data.images.load(str(path), check_existing=False)
+    tracemalloc.start()
+    try:
+        image_bytes = images.image_of(image).texels.nbytes
+        peak = tracemalloc.get_traced_memory()[1]
+    finally:
+        tracemalloc.stop()
+    outside = 4 * size**2 if images.HAS_BYTES else 0  # Blender's loader, which Python does not see
+    strips = 64 * images.STRIP + (1 << 16)
+    assert image_bytes == 4 * size**2
+    assert asked == [(8 if images.HAS_BYTES else 16) * size**2]
+    assert asked[0] <= peak + outside + strips
+    assert peak + outside <= asked[0] + strips
+
+
+def test_images_are_read_where_a_pass_shows_them_or_they_decide_what_is_hit(surface, monkeypatch):
+    read, found = [], images._read
+    monkeypatch.setattr(images, "_read", lambda image: read.append(image.name) or found(image))
+    new, link, out, _ = surface
+    shader = new("ShaderNodeBsdfPrincipled")
+    for name, socket in (("Color", "Base Color"), ("Alpha", "Alpha")):
+        node = new("ShaderNodeTexImage")
+        node.image = new_image(color=(1, 0.5, 0.25, 0.75))
+        node.image.name = name
+        link(node.outputs[name], shader.inputs[socket])
+    link(shader.outputs[0], out.inputs["Surface"])
+    world = bpy.context.scene.world = bpy.data.worlds.new("World")
+    if bpy.app.version < (5, 0):
+        world.use_nodes = True
+    sky = world.node_tree.nodes.new("ShaderNodeTexEnvironment")
+    sky.image = new_image()
+    sky.image.name = "Sky"
+    world.node_tree.links.new(sky.outputs[0], world.node_tree.nodes["Background"].inputs["Color"])
+
+    def images_of(*passes):
+        read.clear()
+        images.forget()
+        depsgraph = bpy.context.evaluated_depsgraph_get()
+        job = Job.read(depsgraph, bpy.context.scene.camera, passes)
+        cast, report = job.cast()
+        assert not report.left_out
+        return sorted(read), cast
+
+    names, alone = images_of("depth", "uv", "shape_index")
+    assert names == ["Alpha"]
+    for passes in (("albedo",), ("depth", "combined", "uv", "shape_index"), ()):
+        names, others = images_of(*passes)
+        assert names == ["Alpha", "Color", "Sky"]
+    names, others = images_of("depth", "combined", "uv", "shape_index")
+    for name in alone:
+        np.testing.assert_array_equal(alone[name], others[name])
 
 
 def test_a_painted_image_is_read_again_and_others_once(surface, monkeypatch):

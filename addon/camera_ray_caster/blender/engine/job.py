@@ -14,7 +14,7 @@ from ...core.camera.camera import Camera
 from ...core.camera.stereo import eye_record
 from ...core.cast import Images, cast
 from ...core.casting.images import reusable
-from ...core.casting.needs import frames_of, image_bytes
+from ...core.casting.needs import frames_of, has_colors, image_bytes
 from ...core.memory import of_pixels, require
 from ...core.records import Finding, Shapes
 from ...core.report.accuracy import accuracy
@@ -61,12 +61,14 @@ class Job:
         Only the depsgraph is read, so that a render's thread may call this. ``visit(frame)`` evaluates the scene at
         another frame and returns its depsgraph, for pixels with their own times and for flow; the default sets the
         scene's frame, which a render must not do. ``view`` names a multi-view eye, and ``eye(raw)`` returns the record
-        of that eye; the default is ``eye_record``. Raises InputError if the camera cannot be cast.
+        of that eye; the default is ``eye_record``. Without passes, the scene is read for all of them. Raises InputError
+        if the camera cannot be cast.
         """
         scene = depsgraph.scene_eval
         started = perf_counter()
         eye = eye or partial(eye_record, view=view)
-        found = scene_at(camera_object, depsgraph, eye)
+        scene_read = partial(scene_at, eye=eye, has_colors=not passes or has_colors(passes))
+        found = scene_read(camera_object, depsgraph)
         read = perf_counter()
         findings = findings_of_picture(found.camera, camera_object, depsgraph, view)
         verified = perf_counter()
@@ -77,7 +79,7 @@ class Job:
         if found.camera.pixel_time is not None or frames_of(passes):
             visit = visit or partial(go_to, depsgraph.scene)
             try:
-                found = with_other_frames(found, depsgraph, camera_object, frame, passes, visit, eye)
+                found = with_other_frames(found, depsgraph, camera_object, frame, passes, visit, scene_read)
             finally:
                 visit(frame)
         moved = perf_counter()

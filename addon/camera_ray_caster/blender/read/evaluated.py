@@ -23,7 +23,14 @@ def camera_at(camera_object, depsgraph, eye: Eye | None = None) -> tuple[Blender
     return raw, camera_from(raw)
 
 
-def scene_at(camera_object, depsgraph, eye: Eye | None = None) -> Scene:
-    """Return camera and shapes at the depsgraph's frame, without motion. Raises the errors of ``camera_at``."""
+Read = Callable[..., Scene]
+"""Function from a camera object and a depsgraph to the scene at the depsgraph's frame: ``scene_at`` with its options.
+"""
+
+
+def scene_at(camera_object, depsgraph, eye: Eye | None = None, has_colors: bool = True) -> Scene:
+    """Return camera and shapes at the depsgraph's frame, without motion; see ``shapes_record`` for ``has_colors``.
+    Raises the errors of ``camera_at``.
+    """
     _, camera = camera_at(camera_object, depsgraph, eye)
-    return Scene(camera, shapes_record(depsgraph))
+    return Scene(camera, shapes_record(depsgraph, has_colors))

@@ -68,9 +68,12 @@ class Look(NamedTuple):
 class Looks:
     """Looks of objects in a view layer; each material is looked up once."""
 
-    def __init__(self, layer):
-        """Take the evaluated view layer, with its material override, if there is one, and its Alpha Threshold."""
+    def __init__(self, layer, has_colors: bool):
+        """Take the evaluated view layer, with its material override, if there is one, and its Alpha Threshold; and
+        whether the images of colors are read.
+        """
         self._override, self._threshold = layer.material_override, layer.pass_alpha_threshold
+        self._has_colors = has_colors
         self._known: dict[object, Look] = {}
 
     def of_slots(self, item, slots: Iterable[int]) -> tuple[Look, ...]:
@@ -117,7 +120,7 @@ class Looks:
 
     def _of(self, material) -> Look:
         if material not in self._known:
-            self._known[material] = _look(material, self._threshold)
+            self._known[material] = _look(material, self._threshold, self._has_colors)
         return self._known[material]
 
 
@@ -146,7 +149,7 @@ def shown(color) -> tuple[float, ...]:
     return tuple(color) if is_finite(color) else BLACK[: len(color)]
 
 
-def _look(material, threshold: float) -> Look:
+def _look(material, threshold: float, has_colors: bool = True) -> Look:
     """Return a material's look: what its nodes say, or its viewport color if it has none or they are not read."""
     *viewport, opacity = material.diffuse_color
     plain = Look(material.pass_index, shown((*viewport, opacity)))
@@ -164,10 +167,10 @@ def _look(material, threshold: float) -> Look:
         plain = plain._replace(displacement=displacement, needs=needs)
     except Unread as error:
         plain = plain._replace(unmoved=UNMOVED.format(_name(material), error))
-    return _colored(material, output, plain, threshold)
+    return _colored(material, output, plain, threshold, has_colors)
 
 
-def _colored(material, output: Output, plain: Look, threshold: float) -> Look:
+def _colored(material, output: Output, plain: Look, threshold: float, has_colors: bool) -> Look:
     """Return a look with the color and the transparent points that the nodes of a surface say."""
     *viewport, opacity = material.diffuse_color
     nodes, (socket, groups), unread = material_nodes(), output["Surface"], []
@@ -184,8 +187,9 @@ def _colored(material, output: Output, plain: Look, threshold: float) -> Look:
     lit: Value = constant(*viewport)
     own = glow = None
     try:
-        parts = _divided(colors(nodes, socket, groups, through is not None), through, alpha)
-        needs |= nodes.needs
+        painted = nodes if has_colors else material_nodes(reads_images=False)
+        parts = _divided(colors(painted, socket, groups, through is not None), through, alpha)
+        needs |= painted.needs
         base, own, glow = (part and as_color(part) for part in parts)
         lit = constant(0, 0, 0) if base is None else function_of(lambda one: np.maximum(one, 0), base)
     except Unread as error:

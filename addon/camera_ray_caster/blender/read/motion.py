@@ -13,7 +13,7 @@ from ...core.motion.evaluations import Motion, measured, resolve
 from ...core.records import Shapes
 from ...core.scene import Scene
 from ..process.signals import raise_if_stopping
-from .evaluated import Eye, scene_at
+from .evaluated import Read
 from .frames import action_time
 from .physics import prepare
 
@@ -31,28 +31,29 @@ def with_other_frames(
     frame: float,
     passes: Collection[str],
     visit: Callable,
-    eye: Eye | None = None,
+    read: Read,
 ) -> Scene:
     """Return the record of a scene with its motion, and with its next and previous frame if passes need them.
 
     The motion is None unless pixels have their own times. All frames are of the same camera object. See ``motion_of``
-    for ``visit``.
+    for ``visit`` and ``read``.
     """
     neighbors = {name: frame + STEPS[name] for name in frames_of(passes)}
     if neighbors:
         prepare(depsgraph, neighbors.values())
-    motion = motion_of(found.camera, depsgraph, camera_object, visit, eye)
+    motion = motion_of(found.camera, depsgraph, camera_object, visit, read)
     others = {}
     for name, other in neighbors.items():
-        there = scene_at(camera_object, visit(other), eye)
-        others[name] = there.with_timeline(motion_of(there.camera, depsgraph, camera_object, visit, eye))
+        there = read(camera_object, visit(other))
+        others[name] = there.with_timeline(motion_of(there.camera, depsgraph, camera_object, visit, read))
     return found.with_timeline(motion, **others)
 
 
-def motion_of(camera: Camera, depsgraph, camera_object, visit: Callable, eye: Eye | None = None) -> Motion | None:
+def motion_of(camera: Camera, depsgraph, camera_object, visit: Callable, read: Read) -> Motion | None:
     """Return the motion of a camera and its scene over the times of its pixels; None if all pixels have the same time.
 
-    ``visit(frame)`` evaluates the scene at a frame and returns its depsgraph. The frame is not restored.
+    ``visit(frame)`` evaluates the scene at a frame and returns its depsgraph, which ``read`` reads. The frame is not
+    restored.
     """
     pixel_time = camera.pixel_time
     if pixel_time is None:
@@ -61,7 +62,7 @@ def motion_of(camera: Camera, depsgraph, camera_object, visit: Callable, eye: Ey
     def evaluate(frame: float) -> tuple[Camera, Shapes]:
         depsgraph = visit(frame)
         raise_if_stopping()
-        found = scene_at(camera_object, depsgraph, eye)
+        found = read(camera_object, depsgraph)
         return replace(found.camera, pixel_time=pixel_time), found.shapes
 
     first, last = pixel_time.first, pixel_time.last

@@ -106,11 +106,11 @@ def _chosen(outputs: list):
 class Nodes:
     """A node tree and the expressions of its sockets."""
 
-    def __init__(self, read: dict[str, Callable]):
+    def __init__(self, read: dict[str, Callable], reads_images: bool = True):
         """Take the functions that read nodes by type: each returns the expression of an output, given this object,
-        the node as a ``Node`` and the output socket.
+        the node as a ``Node`` and the output socket. ``reads_images``: whether the expressions are evaluated.
         """
-        self.read = read
+        self.read, self.reads_images = read, reads_images
         self.needs: set[str] = set()
         """The layers of the mesh that expressions use, and OBJECT for places in the object's space."""
         self.missing: set[str] = set()

@@ -48,7 +48,8 @@ def read_camera(scene, camera_object=None, frame=None, view="") -> Camera:
     with evaluated_camera(scene, camera_object, frame, view) as (active, depsgraph):
         eye = partial(eye_record, view=view)
         _, camera = camera_at(active, depsgraph, eye)
-        motion = motion_of(camera, depsgraph, active, partial(go_to, scene), eye)
+        read = partial(scene_at, eye=eye, has_colors=False)
+        motion = motion_of(camera, depsgraph, active, partial(go_to, scene), read)
         return replace(camera, timeline=Timeline(motion))
 
 
@@ -69,8 +70,9 @@ def read_shapes(scene, frame=None, camera_object=None, view="") -> Shapes:
 
 def _with_motion(scene, camera_object, depsgraph, view: str, passes=()) -> Scene:
     eye, frame = partial(eye_record, view=view), frame_of(depsgraph.scene_eval)
-    found = scene_at(camera_object, depsgraph, eye)
-    return with_other_frames(found, depsgraph, camera_object, frame, passes, partial(go_to, scene), eye)
+    read = partial(scene_at, eye=eye)
+    found = read(camera_object, depsgraph)
+    return with_other_frames(found, depsgraph, camera_object, frame, passes, partial(go_to, scene), read)
 
 
 _readings: list[bool] = []

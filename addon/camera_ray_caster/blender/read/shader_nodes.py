@@ -130,6 +130,6 @@ def alpha_of(through: Value) -> Value:
     return mean(function_of(lambda one: saturated(1 - one), through))
 
 
-def material_nodes() -> Nodes:
+def material_nodes(reads_images: bool = True) -> Nodes:
     """Return the reader of a material's nodes."""
-    return Nodes(READ)
+    return Nodes(READ, reads_images)

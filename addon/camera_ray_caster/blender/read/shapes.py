@@ -13,7 +13,7 @@ from ..properties.declared import EXACT_SHAPES, PRIMITIVE
 from .geometry import mesh_shapes, shapes_of
 from .groups import Group, cancellable, gathered, listed
 from .kept import Found, Reading
-from .lights import cone_of, light_color, world_of
+from .lights import World, cone_of, light_color, world_of
 from .materials import Look, Looks, first_slot, is_finite
 from .nodes import Unread
 from .stored import own_value
@@ -31,13 +31,15 @@ HAIR = "its hair {!r} is not a surface"
 HOLDOUT = "it is a holdout: a hole in the combined pass, a surface like others in all other passes"
 
 
-def shapes_record(depsgraph) -> Shapes:
+def shapes_record(depsgraph, has_colors: bool = True) -> Shapes:
     """Return the shapes of a depsgraph, the viewport's or a render's: every instance separately, in the world.
 
     Rows are grouped by object and mesh, in the order in which the depsgraph first lists them. Objects that a render
     hides are skipped. Geometry that cannot be cast is in ``left_out``, once for each object and reason.
+
+    ``has_colors``: whether passes show colors. Otherwise images are read only where they decide what is hit.
     """
-    scene = _Scene(depsgraph)
+    scene = _Scene(depsgraph, has_colors)
     for instance in cancellable(depsgraph.object_instances):
         scene.add(instance)
     shapes = scene.record()
@@ -48,11 +50,11 @@ def shapes_record(depsgraph) -> Shapes:
 class _Scene:
     """Collector of the groups in a depsgraph's list of instances."""
 
-    def __init__(self, depsgraph):
-        self.world = world_of(depsgraph)
+    def __init__(self, depsgraph, has_colors: bool):
+        self.world = world_of(depsgraph) if has_colors else World((0.0, 0.0, 0.0, 1.0))
         self.visibility = ItemVisibility(depsgraph)
         self.reading = Reading(depsgraph)
-        self.looks = Looks(depsgraph.view_layer_eval)
+        self.looks = Looks(depsgraph.view_layer_eval, has_colors)
         self.exact = own_value(depsgraph.scene_eval, EXACT_SHAPES)
         self.groups: dict[tuple, Group] = {}
         self.left_out: Counter[tuple[str, str]] = Counter()

@@ -5,7 +5,7 @@ from functools import partial
 import numpy as np
 
 from ...core.materials import operations as do
-from ...core.materials.images import MISSING, Texture
+from ...core.materials.images import MISSING, Texture, UnreadTexture
 from ...core.materials.values import DIRECTION, OBJECT, UV, Coordinates, Layer, Value, channel, constant, function_of
 from .images import Unreadable, image_of
 from .nodes import Node, Nodes, Unread, own_value
@@ -33,6 +33,8 @@ def _image(nodes: Nodes, node: Node, output) -> Value:
 
 
 def _texture(node: Node, output, vector: Value, extension: str) -> Value:
+    if not node.nodes.reads_images:
+        return UnreadTexture()
     try:
         image = None if node.image is None else image_of(node.image)
     except Unreadable as error:

@@ -126,6 +126,8 @@ class Pictures:
         # Blender keeps evaluated data for the next picture: 0.3 s less of 1.2 s for six subdivided monkeys
         scene.render.use_persistent_data = True
         self.passes = {layer.name: [entry.key for entry in ticked(scene, layer)] for layer in scene.view_layers}
+        self.drawn = {layer.name for layer in scene.view_layers if layer.use_freestyle}
+        """The view layers with Freestyle."""
         for layer, own in self.passes.items():
             if options.passes or own == ["combined"]:
                 self.passes[layer] = list(options.passes or DEFAULT_PASSES)
@@ -217,9 +219,13 @@ class Pictures:
         return camera
 
     def tick(self, wanted: Callable[[str], bool]) -> None:
-        """Enable those requested passes for which ``wanted`` is true, in every view layer."""
-        for layer, keys in self.passes.items():
-            tick(self.scene, self.scene.view_layers[layer], [key for key in keys if wanted(key)])
+        """Enable those requested passes for which ``wanted`` is true, in every view layer; Freestyle, which draws lines
+        on the combined pass, only with that pass.
+        """
+        for name, keys in self.passes.items():
+            layer, own = self.scene.view_layers[name], [key for key in keys if wanted(key)]
+            tick(self.scene, layer, own)
+            layer.use_freestyle = name in self.drawn and "combined" in own
 
     def _by_cycles(self, prog: str) -> CyclesPicture:
         """Render the current frame with Cycles, which a Python signal handler cannot interrupt."""

@@ -12,7 +12,7 @@ from ...core.records import Finding
 from ...core.report.report import Report
 from ...core.report.verification import verify
 from ...core.timeline import Timeline
-from ..read.evaluated import camera_at
+from ..read.evaluated import camera_at, scene_at
 from ..read.frames import frame_of, go_to
 from ..read.motion import motion_of
 from ..read.scene import evaluated_camera
@@ -46,7 +46,8 @@ def _read_and_verified(scene, camera_object=None, frame=None, view="") -> tuple[
     with evaluated_camera(scene, camera_object, frame, view) as (active, depsgraph):
         _, camera = camera_at(active, depsgraph, eye)
         findings = verify_evaluated(camera, active, depsgraph, view)
-        motion = motion_of(camera, depsgraph, active, partial(go_to, scene), eye)
+        read = partial(scene_at, eye=eye, has_colors=False)
+        motion = motion_of(camera, depsgraph, active, partial(go_to, scene), read)
     if motion is not None:
         camera = replace(camera, timeline=Timeline(motion))
         findings[-1:] = verify(camera, grid=MOVING_GRID)

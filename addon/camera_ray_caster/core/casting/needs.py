@@ -11,11 +11,19 @@ from ..scene import Scene
 from .passes import PASSES
 from .pictures import Picture
 
+COLORED = {"combined", "albedo"}
+"""The passes that show colors of materials."""
+
 
 def image_bytes(shape: tuple[int, int], passes: Iterable[str], dtype) -> int:
     """Return the number of bytes of the arrays of some passes."""
     sizes = (max(PASSES[name].channels, 1) * np.dtype(PASSES[name].dtype or dtype).itemsize for name in passes)
     return shape[0] * shape[1] * sum(sizes)
+
+
+def has_colors(passes: Collection[str]) -> bool:
+    """Return whether any of some passes shows colors, for which images are read."""
+    return not COLORED.isdisjoint(passes)
 
 
 def frames_of(passes: Collection[str]) -> set[str]:

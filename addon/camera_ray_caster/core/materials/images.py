@@ -31,6 +31,14 @@ class Texels:
     """Whether colors and alpha have nothing to do with each other."""
 
 
+class UnreadTexture(Value):
+    """An image that was not read, since no pass that is cast shows it."""
+
+    def at(self, places: Places) -> np.ndarray:
+        """Raise an error: a pass shows the image."""
+        raise RuntimeError("a texture is evaluated whose image was not read")
+
+
 @dataclass(frozen=True, eq=False)
 class Texture(Value):
     """An image at coordinates: its color, (3, m), or its alpha, (1, m)."""

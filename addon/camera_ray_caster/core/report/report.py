@@ -14,6 +14,7 @@ from ..camera.camera import Camera
 from ..camera.facts import CONVENTIONS, camera_facts
 from ..camera.pixel_time import ImageTime
 from ..cast import STEPS, Images
+from ..casting.needs import has_colors
 from ..conventions import EPS32
 from ..exports.camera_json import recorded
 from ..exports.plain import plain
@@ -163,7 +164,7 @@ def _has_record(camera: Camera) -> bool:
 
 def _uncolored(shapes: Shapes, passes: Collection[str]) -> Iterator[tuple[str, str]]:
     """Yield what is left out of the colors of passes: materials and lights, each with the reason."""
-    if "combined" in passes or "albedo" in passes:
+    if has_colors(passes):
         yield from shapes.unread
     if "combined" in passes:
         yield from shapes.lights.left_out
