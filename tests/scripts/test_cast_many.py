@@ -247,20 +247,30 @@ def test_a_picture_that_takes_long_says_so(command, scene, tmp_path, monkeypatch
 
 
 @pytest.mark.parametrize("is_terminal", [True, False])
-def test_progress_has_the_time_that_is_left(blender, capsys, monkeypatch, is_terminal):
+def test_progress_has_rate_failures_and_the_time_that_is_left(blender, capsys, monkeypatch, is_terminal, tmp_path):
     from camera_ray_caster.blender.terminal import progress
 
-    clock = iter([0.0, 1.0, 30.0, 35.0, 60.0])
+    clock = iter([0.0, 1.0, 30.0, 35.0, 60.0, 75.0])
     monkeypatch.setattr(progress, "monotonic", lambda: next(clock))
     monkeypatch.setattr("sys.stderr.isatty", lambda: is_terminal)
-    shown = progress.Progress(4, "it")
-    for made in False, True, True, True:
-        shown.add(made)
+    shown = progress.Progress(5, "it", tmp_path / "log")
+    for made, failed in (False, False), (True, False), (True, False), (False, True), (True, False):
+        shown.add(made, failed)
     said = capsys.readouterr().err
+    lines = [
+        "it: 2 pictures a minute, 0 failed, 2 of 5, 0:01:30 left",
+        "it: 2 pictures a minute, 1 failed, 4 of 5, 0:00:20 left",
+        "it: 2.4 pictures a minute, 1 failed, 5 of 5, 0:00:00 left",
+    ]
     if is_terminal:
-        assert [line.split("] ")[1].removesuffix("\033[K") for line in said.strip().split("\r")] == [
-            "1 of 4", "2 of 4, 0:01:00 left", "3 of 4, 0:00:18 left", "4 of 4, 0:00:00 left",
-        ]  # fmt: skip
-        assert said.split("\r")[3].startswith(f"[{'#' * 22:30}]")
+        assert [line.split("| ")[1].removesuffix("\033[K") for line in said.strip().split("\r")] == [
+            "1/5 [0:00:01<?, ? pictures/min, 0 failed]",
+            "2/5 [0:00:30<0:01:30, 2 pictures/min, 0 failed]",
+            "3/5 [0:00:35<0:00:35, 3.43 pictures/min, 0 failed]",
+            "4/5 [0:01:00<0:00:20, 2 pictures/min, 1 failed]",
+            "5/5 [0:01:15<0:00:00, 2.4 pictures/min, 1 failed]",
+        ]
+        assert said.split("\r")[3].startswith(f" 60%|{'#' * 18:30}|")
     else:
-        assert said == "it: 2 of 4, 0:01:00 left\nit: 4 of 4, 0:00:00 left\n"
+        assert said.splitlines() == lines
+    assert (tmp_path / "log").read_text().splitlines() == lines

@@ -43,6 +43,10 @@ NO_LINK = getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_NONBLOCK", 0)
 """Flags to open a file that may be a link or a pipe of somebody else; Windows has neither."""
 
 
+class CannotWrite(InputError):
+    """A folder that cannot be written, for example on a full disk: what comes next would fail, too."""
+
+
 class Taken(Exception):
     """A file of a set exists already."""
 
@@ -51,7 +55,7 @@ class Taken(Exception):
 def atomic_folder(folder: Path, replacing: bool = True) -> Iterator[Path]:
     """Yield an empty folder whose files move into ``folder`` at the end; if anything fails, none of them are left.
 
-    Raises InputError, in one line, if the folder cannot be written; and Taken, unless ``replacing``, if one of the
+    Raises CannotWrite, in one line, if the folder cannot be written; and Taken, unless ``replacing``, if one of the
     files exists at the end.
     """
     made: list[Path] = []
@@ -67,18 +71,18 @@ def atomic_folder(folder: Path, replacing: bool = True) -> Iterator[Path]:
             with suppress(OSError):  # another run uses it already
                 path.rmdir()
         if isinstance(error, OSError):
-            raise InputError(_refusal(folder, error)) from error
+            raise CannotWrite(_refusal(folder, error)) from error
         raise
 
 
 def clear_up(folder: Path) -> None:
-    """Complete or undo killed runs in a folder. Raises InputError if the folder cannot be written."""
+    """Complete or undo killed runs in a folder. Raises CannotWrite if the folder cannot be written."""
     try:
         if folder.is_dir():
             with _locked(folder):
                 _recover(folder)
     except OSError as error:
-        raise InputError(_refusal(folder, error)) from error
+        raise CannotWrite(_refusal(folder, error)) from error
 
 
 def _refusal(folder: Path, error: OSError) -> str:

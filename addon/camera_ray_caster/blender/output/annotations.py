@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import bpy
 
-from ...core.annotations.coco import Sheet, document, merged
+from ...core.annotations.coco import Sheet, as_text, document, merged_text
 from ...core.annotations.keypoints import seen_key_points
 from ...core.cast import Images
-from ...core.file_set import atomic_folder
 from ..read.frames import frame_of
 from ..read.keypoints import key_points
 from ..read.unique import find_unique
@@ -37,7 +38,7 @@ def annotated(scene, images: Images, file_name: str, suffix: str = "", keypoints
     points = key_points(scene, bpy.context.evaluated_depsgraph_get(), keypoints) if keypoints else []
     seen = seen_key_points(camera, images.shapes, points)
     sheet = Sheet.of(camera.raster)
-    return json.dumps(document(image, sheet, camera, images.shapes, category_of, seen, images))
+    return as_text(document(image, sheet, camera, images.shapes, category_of, seen, images))
 
 
 def category_of(name: str) -> str:
@@ -51,10 +52,27 @@ def category_of(name: str) -> str:
     return (item.data.name if item.data else name) if given in (None, "") else str(given)
 
 
-def collect(folder: Path, names: Iterable[str]) -> Path:
-    """Merge the annotation files of the named pictures into one file in the folder, and return its path."""
-    own = (json.loads((folder / f"{name}{ENDING}").read_text(encoding="utf-8")) for name in names)
-    whole = merged(own)
-    with atomic_folder(folder) as temporary:
-        (temporary / WHOLE).write_text(json.dumps(whole), encoding="utf-8")
-    return folder / WHOLE
+def merged_files(
+    folder: Path, jobs: Iterable[Any], suffixes: Sequence[str] = ("",)
+) -> Iterator[tuple[str, Iterator[str]]]:
+    """Yield the name and the text, in parts, of the annotation file of pictures in a folder; nothing for no picture.
+    The jobs, which have their names, are iterated twice.
+    """
+    if any(True for _ in jobs):
+        yield WHOLE, merged_text(Documents(folder, jobs, suffixes), folder)
+
+
+@dataclass(frozen=True)
+class Documents:
+    """The annotations of pictures in a folder, read at each iteration."""
+
+    folder: Path
+    jobs: Iterable[Any]
+    suffixes: Sequence[str]
+
+    def __iter__(self) -> Iterator[dict[str, Any]]:
+        for job, suffix in ((job, suffix) for job in self.jobs for suffix in self.suffixes):
+            document = json.loads((self.folder / f"{job.name}{suffix}{ENDING}").read_text(encoding="utf-8"))
+            image, (place, *_) = document["images"][0], job.name.rpartition("/")
+            image["file_name"] = f"{place}/{image['file_name']}" if place else image["file_name"]
+            yield document

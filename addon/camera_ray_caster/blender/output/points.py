@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import json
 import os
 import shutil
 from argparse import ArgumentTypeError
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -107,20 +108,23 @@ def categories_of(names: Sequence[str]) -> dict[str, int]:
     return found
 
 
-def collect_sequences(scene, folder: Path, jobs: Sequence[Any]) -> None:
+def collect_sequences(folder: Path, jobs: Iterable[Any]) -> None:
     """Make KITTI's sequences of the files of pictures: one for each camera, with its frames in order."""
-    rate = scene.render.fps / scene.render.fps_base
-    cameras = list(dict.fromkeys(job.camera for job in jobs))
-    for number, camera in enumerate(cameras):
-        own, place = [job for job in jobs if job.camera == camera], folder / SEQUENCES / f"{number:02}"
+    for number, camera in enumerate(dict.fromkeys(job.camera for job in jobs)):
+        place = folder / SEQUENCES / f"{number:02}"
         for kind, ending in (("velodyne", ".bin"), ("labels", ".label")):
             with atomic_folder(place / kind) as temporary:
-                for k, job in enumerate(own):
+                for k, job in enumerate(job for job in jobs if job.camera == camera):
                     _linked(folder / f"{job.name}{ending}", temporary / f"{k:06}{ending}")
-        reports = [(folder / f"{job.report}.json").read_text(encoding="utf-8") for job in own]
-        seconds = [(scene.frame_current if job.frame is None else job.frame) / rate for job in own]
+        cameras, seconds = [], []
+        for job in jobs:
+            if job.camera == camera:
+                text = (folder / f"{job.report}.json").read_text(encoding="utf-8")
+                report = json.loads(text)
+                cameras.append(camera_from_json(text))
+                seconds.append(report["frame"] / report["host"]["frame_rate"])
         with atomic_folder(place) as temporary:
-            for name, text in sequence([camera_from_json(report) for report in reports], seconds):
+            for name, text in sequence(cameras, seconds):
                 (temporary / name).write_text(text, encoding="utf-8", newline="\n")
 
 

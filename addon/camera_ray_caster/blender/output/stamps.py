@@ -58,9 +58,14 @@ def file_hash(path: Path) -> str:
         raise InputError(f"cannot read {str(path)!r}: {error.strerror}") from error
 
 
-def made(stamp: Mapping[str, Any], paths: Iterable[Path]) -> dict[str, Any]:
-    """Return the report's entry on files: the stamp, and the sizes of the files."""
-    return {"of": stamp, "files": {path.name: path.stat().st_size for path in paths}}
+def made(
+    stamp: Mapping[str, Any], paths: Iterable[Path], folder: Path = Path(), beside: Iterable[Path] = ()
+) -> dict[str, Any]:
+    """Return the report's entry on files: the stamp, and the sizes of the files, and of others, which are named as seen
+    from the folder of the report.
+    """
+    files = {path.name: path.stat().st_size for path in paths}
+    return {"of": stamp, "files": files | {os.path.relpath(path, folder): path.stat().st_size for path in beside}}
 
 
 def finished(report: Path, stamp: Mapping[str, Any]) -> dict[str, Any] | None:

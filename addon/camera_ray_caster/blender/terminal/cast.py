@@ -3,68 +3,71 @@
 from __future__ import annotations
 
 import argparse
+import sys
 from collections.abc import Sequence
-from itertools import chain
+from contextlib import nullcontext
 from pathlib import Path
 
 import bpy
 
 from ...core.file_set import clear_up
 from ...core.report.notes import sentences
-from ..output.annotations import collect
-from ..output.points import KITTI, collect_sequences
-from ..read.camera import views_of
 from . import dataset, farm, files
+from .jobs import PictureJob, first_jobs
 from .options import add_frame, add_json, command_parser, show, warn
-from .pictures import Pictures, add_words, follow, parsed, summary
+from .pictures import Pictures, add_words, parsed, suffixes_of, summary
+from .progress import follow
 from .words import add_frames, count, scheduler_address, share
 
 
 def run(arguments: Sequence[str], prog: str) -> int:
     """Render cameras and frames of a file into pictures, EXR or NPZ files and reports; return the exit status."""
     options = options_of(arguments, prog)
+    if options.complete:
+        line, passed = dataset.completed(options)
+        print(line, flush=True)
+        return int(not passed)
     pictures = Pictures(options)
     for line in pictures.warnings:
         warn(prog, line)
     if options.dataset:
-        dataset.complete(options, pictures)
+        dataset.fill_in(options, pictures)
     if options.skip_existing:
         clear_up(options.output)
     jobs, stamp = pictures.jobs(), pictures.stamp()
-    first = {job.camera: job for job in reversed(jobs)}
     shared = bool(options.workers or options.scheduler)
+    first: dict[str | None, PictureJob] = {}
     if options.dataset or shared:
         _make_absolute(options)
-        for job in first.values():
+        for job in first_jobs(jobs if options.cameras is None else pictures.jobs(of_all=True)):
+            first[job.camera] = job
             pictures.camera_at(job)  # refuse bad input before anything is made
             files.check(pictures.scene)
     several = len(jobs) != 1 or options.dataset or shared
-    passed, made = True, 0
+    passed, made, failed = True, 0, 0
     notes: dict[tuple[str, str], None] = {}
     exact: dict[tuple[str, float], None] = {}
-    with farm.cluster(options) as client:
-        maps = dataset.begin(pictures, first, stamp) if options.dataset else {}
+    beginning = dataset.begun(pictures, first, stamp) if options.dataset else nullcontext({})
+    with farm.cluster(options) as client, beginning as maps:
         if client is None:
-            outcomes = (pictures.make(job, stamp, prog, maps.get(job.camera)) for job in jobs)
+            make = pictures.tried if options.dataset else pictures.make
+            outcomes = (make(job, stamp, prog, maps.get(job.camera)) for job in jobs)
         else:
-            taken = {job: pictures.taken(job, stamp, maps.get(job.camera)) for job in jobs}
-            missing = [job for job in jobs if taken[job] is None]
-            outcomes = chain(filter(None, taken.values()), farm.outcomes(client, options, stamp, maps, missing))
-        for outcome in follow(outcomes, len(jobs), prog):
-            passed &= outcome.passed
+            outcomes = farm.outcomes(client, pictures, stamp, maps, jobs)
+        for outcome in follow(outcomes, len(jobs), prog, options.log):
+            passed &= outcome.passed or bool(outcome.failure)
             made += outcome.made
+            failed += bool(outcome.failure)
             notes |= dict.fromkeys(outcome.notes)
             exact |= dict.fromkeys(outcome.exact)
             if outcome.report is not None and (options.json or not several):
                 show(outcome.report, options.json, f"Wrote {', '.join(map(str, outcome.paths))}")
-    annotated = pictures.keypoints is not None and several and not options.shard
-    if annotated:
-        suffixes = [view.file_suffix for view in views_of(pictures.scene)] or [""]
-        collect(options.output, [job.name + suffix for job in jobs for suffix in suffixes])
-    if options.points == KITTI and not options.shard:
-        collect_sequences(pictures.scene, options.output, jobs)
-    if options.dataset or annotated:
-        dataset.end(options, first)
+    if failed:
+        if failed > 1:
+            print(f"{prog}: {failed} of {len(jobs)} pictures failed: run the same command again", file=sys.stderr)
+        return 2
+    if not options.shard:
+        dataset.end(options, jobs, suffixes_of(pictures.scene), several)
     if not options.json and (several or not made):
         print(summary(made, len(jobs), options.output), *sentences([*notes], [*exact]), sep="\n", flush=True)
     return int(not passed)
@@ -92,6 +95,15 @@ def options_of(arguments: Sequence[str], prog: str) -> argparse.Namespace:
     parser.add_argument("--dataset", action="store_true", help=
         "make the folder a data set: CAMERA_FRAME files of the scene's frames, rays of cameras that stand still once, "
         "dataset.json, a reader and a preview; a second run makes the missing pictures")  # fmt: skip
+    parser.add_argument("--complete", action="store_true", help=
+        "FILE.blend is the folder of a data set whose pictures were made by shares (--shard): write what a run without "
+        "shares would have written beside them, or say which pictures are missing")  # fmt: skip
+    parser.add_argument("--folders", type=count, default=0, metavar="N", help=
+        "put at most N files into a folder, for file systems that are slow with more; default: all in one folder")
+    parser.add_argument("--retries", type=int, default=0, metavar="N", help=
+        "with --dataset, how often a picture that fails is tried again; the others are made, and the exit status is 2; "
+        "default: %(default)s")  # fmt: skip
+    parser.add_argument("--log", type=Path, metavar="FILE", help="also append progress to a file, every 30 s")
     where = parser.add_mutually_exclusive_group()
     where.add_argument("--workers", type=count, metavar="N", help=
         "number of Dask processes on this machine; default: no Dask, only this process")  # fmt: skip

@@ -11,62 +11,142 @@ from __future__ import annotations
 
 import json
 from argparse import Namespace
-from collections.abc import Mapping
-from contextlib import suppress
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager, suppress
+from itertools import chain
 from pathlib import Path
 from typing import Any
 
 import bpy
 
 from ...core.exports.writing import write
-from ...core.file_set import Taken, atomic_folder
+from ...core.file_set import Taken, atomic_folder, clear_up
 from ...core.records import InputError
-from ...core.sets import companions
-from ..output.stamps import differing
+from ...core.sets import companions, shares
+from ...core.sets.run import Run
+from ..output.annotations import merged_files
+from ..output.points import KITTI, collect_sequences
+from ..output.stamps import differing, finished
 from ..read.camera import check_camera, check_markers
 from ..read.unique import unique_name
-from .jobs import PictureJob, RayMap
-from .pictures import Pictures
+from .jobs import Jobs, PictureJob, RayMap, first_jobs
+from .pictures import Pictures, of_job
 from .ray_maps import made_map
 
 NAME = "dataset.json"
+MOST_NAMES = 10
+"""Number of missing pictures that are named."""
 
 
-def complete(options: Namespace, pictures: Pictures) -> None:
+def fill_in(options: Namespace, pictures: Pictures) -> None:
     """Fill in missing options from the file: the active camera, all frames, and whether there are pictures to show."""
     scene = pictures.scene
     if options.cameras is None and options.camera is None:
         check_camera(scene, scene.camera)
         check_markers(scene)
-    options.cameras = options.cameras or [unique_name(scene.camera, bpy.data.objects)]
+    options.cameras = options.cameras or [options.camera or unique_name(scene.camera, bpy.data.objects)]
     if options.frames is None and options.frame is None:
         options.frames = range(scene.frame_start, scene.frame_end + 1, scene.frame_step)
     options.pictures = any("combined" in keys for keys in pictures.passes.values())
 
 
-def begin(
+@contextmanager
+def begun(
     pictures: Pictures, first: Mapping[str | None, PictureJob], stamp: dict[str, Any]
-) -> dict[str | None, RayMap | None]:
-    """Claim the folder and write the ray maps, which are returned by camera; ``first`` has each camera's first job."""
-    _claim(pictures.options.output, stamp)
-    return {camera: made_map(pictures, job, stamp) for camera, job in first.items()}
+) -> Iterator[dict[str | None, RayMap | None]]:
+    """Claim the folder and write the ray maps, which are yielded by camera; ``first`` has each camera's first job.
+    Inside the context a share counts as running.
+    """
+    folder, shard, run = pictures.options.output, pictures.options.shard, pictures.run()
+    _claim(folder, stamp, run)
+    with shares.running(folder, shard):
+        if shard:
+            _claim(folder, stamp, run)  # another run may have begun meanwhile
+        yield {camera: made_map(pictures, job, stamp) for camera, job in first.items()}
 
 
-def end(options: Namespace, first: Mapping[str | None, PictureJob]) -> None:
-    """Write the reader and the preview of a set, also of one that is none of ``--dataset``."""
-    write(companions(options.output, [job.report for job in first.values()]), options.output)
+def end(options: Namespace, jobs: Iterable[PictureJob], suffixes: Sequence[str], several: bool = True) -> None:
+    """Write what lies beside the pictures of a run: annotations.json, KITTI's sequences, reader and preview. A folder
+    that is no data set's has those for which there are options.
+    """
+    annotated = several and (options.annotations or options.keypoints is not None)
+    if options.points == KITTI:
+        collect_sequences(options.output, jobs)
+    if annotated or options.dataset:
+        whole = merged_files(options.output, jobs, suffixes) if annotated else ()
+        firsts = [job.report for job in first_jobs(jobs)]
+        write(chain(whole, companions(options.output, firsts)), options.output)
+    if options.dataset:
+        shares.forget(options.output)
 
 
-def _claim(folder: Path, stamp: dict[str, Any]) -> None:
-    """Mark a folder as that of a data set. Raises InputError if it belongs to another data set."""
+def completed(options: Namespace) -> tuple[str, bool]:
+    """Make the pictures of shares a data set, as one run would have made it; return a line about it, and whether no
+    reference disagrees.
+
+    Raises InputError if pictures are missing; the message has their names, and says which shares still run.
+    """
+    folder = options.file
+    try:
+        found = json.loads((folder / NAME).read_text(encoding="utf-8"))
+        stamp, run = {key: value for key, value in found.items() if key != "run"}, Run.of_data(found["run"])
+        settings = stamp["settings"]
+        asked = Namespace(output=folder, dataset=True, annotations=settings["annotations"],
+                          keypoints=settings["keypoints"], points=settings["points"])  # fmt: skip
+    except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
+        raise InputError(f"{str(folder)!r} has no {NAME} of this version: give the folder of a data set") from error
+    clear_up(folder)
+    jobs = Jobs(lambda: (PictureJob(*one, one.name) for one in run.pictures()))
+    maps = {camera: _map_of(folder, name) for camera, name in run.cameras.items()}
+    missing, count, passed = list[str](), 0, True
+    for job in jobs:
+        report = finished(folder / f"{job.report}.json", of_job(stamp, job, maps[job.camera]))
+        if report is None:
+            count += 1
+            missing += [job.name] if count <= MOST_NAMES else []
+        else:
+            passed &= report["passed"]
+    if count:
+        busy, more = shares.still_running(folder), f" and {count - MOST_NAMES} more" if count > MOST_NAMES else ""
+        what = f"share {', '.join(busy)} still runs" if busy else "run their shares again"
+        raise InputError(f"{count} of {len(jobs)} pictures are missing: {', '.join(missing)}{more}; {what}")
+    end(asked, jobs, run.suffixes)
+    return f"The {len(jobs)} pictures in {folder} are a data set", passed
+
+
+def _map_of(folder: Path, name: str) -> RayMap | None:
+    """Return the ray map of the camera whose files have a name."""
+    try:
+        found = json.loads((folder / f"{name}_rays.json").read_text(encoding="utf-8"))
+        return RayMap("", found["made"]["of"]["rays"])
+    except (OSError, ValueError, KeyError, TypeError):
+        return None
+
+
+def _claim(folder: Path, stamp: dict[str, Any], run: Run | None = None) -> None:
+    """Mark a folder as that of a data set, with the pictures of a run. Raises InputError if it belongs to another data
+    set, and if there are shares of another run, which are not complete.
+    """
+    content = {**stamp, "run": run.as_data()} if run else stamp
+    text = json.dumps(content, indent=2) + "\n"
     with suppress(Taken), atomic_folder(folder, replacing=False) as new:
-        (new / NAME).write_text(json.dumps(stamp, indent=2) + "\n", encoding="utf-8")
+        (new / NAME).write_text(text, encoding="utf-8")
     path = folder / NAME
     try:
-        others = differing(stamp, json.loads(path.read_text(encoding="utf-8")))
+        found = json.loads(path.read_text(encoding="utf-8"))
+        others = differing(stamp, found)
     except (OSError, ValueError, KeyError, TypeError) as error:
         raise InputError(
             f"{str(path)!r} is not the file of a data set made by this version: choose another folder"
         ) from error
     if others:
         raise InputError(f"{str(folder)!r} has a data set that differs in {', '.join(others)}: choose another folder")
+    if found == json.loads(text):
+        return
+    if shares.found(folder):
+        raise InputError(
+            f"{str(folder)!r} has shares of a run of other cameras or frames: complete these first (--complete), or "
+            "choose another folder"
+        )
+    with atomic_folder(folder) as new:
+        (new / NAME).write_text(text, encoding="utf-8")

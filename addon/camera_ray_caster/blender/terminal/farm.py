@@ -12,12 +12,12 @@ import logging
 import os
 import sys
 import time
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import CancelledError
 from contextlib import ExitStack, contextmanager
 from dataclasses import replace
-from functools import partial
 from importlib import import_module
+from itertools import islice
 from threading import Lock, current_thread, main_thread
 from typing import Any
 
@@ -28,6 +28,8 @@ from ..process.standard_output import keep_output, quiet_errors
 
 CHUNK = 4
 """Number of pictures per task of a worker."""
+LEAST, PER_WORKER = 16, 4
+"""Number of tasks that are with the scheduler at a time, and in addition for each thread of a worker."""
 ANSWER = "10s"
 """Time to wait for a scheduler to answer."""
 START = "60s"
@@ -145,32 +147,47 @@ def _missing():
     return missing
 
 
-def outcomes(client, options, stamp: Mapping[str, Any], maps: Mapping[str, Any], jobs: Sequence) -> Iterator:
-    """Yield the outcomes of jobs as workers finish them, chunk by chunk.
+def outcomes(client, pictures, stamp: Mapping[str, Any], maps: Mapping[str, Any], jobs: Iterable) -> Iterator:
+    """Yield the outcomes of jobs: of finished ones at once, of others as workers finish them, chunk by chunk. A few
+    chunks for each worker are with the scheduler at a time.
 
     Raises InputError if a worker refuses a job, if a job kills its workers, and if the scheduler is lost.
     """
     import distributed
 
-    chunks = [jobs[at : at + CHUNK] for at in range(0, len(jobs), CHUNK)]
-    waiting = client.map(partial(work, options, stamp, maps), chunks, pure=False)
+    options = pictures.options
     seen, gone = time.monotonic(), 0
+    missing = (job for job in jobs if pictures.taken(job, stamp, maps.get(job.camera)) is None)
+    for job in jobs:
+        found = pictures.taken(job, stamp, maps.get(job.camera))
+        if found is not None:
+            yield found
+    chunks = iter(lambda: [*islice(missing, CHUNK)], [])
+    waiting: dict[Any, list] = {}
     try:
-        while waiting:
+        while True:
             signals.raise_if_stopping()
             if options.workers and time.monotonic() - seen > CHECK:
                 seen, gone = time.monotonic(), 0 if client.nthreads() else gone + 1
                 if gone > 1:
                     raise InputError(f"all workers have ended; finished pictures are kept; {FEWER}")
-            over = [future for future in waiting if future.done()]
-            waiting = [future for future in waiting if future not in over]
-            for future in over:
+            for chunk in islice(chunks, max(0, LEAST + PER_WORKER * _threads(client) - len(waiting))):
+                waiting[client.submit(work, options, stamp, maps, chunk, pure=False)] = chunk
+            if not waiting:
+                return
+            for future in [future for future in waiting if future.done()]:
+                del waiting[future]
                 yield from future.result()
             time.sleep(POLL)
     except distributed.KilledWorker as error:
         raise InputError(f"these pictures crashed several workers in turn: {error.task}") from error
     except (OSError, CancelledError) as error:
         raise InputError("the Dask scheduler has ended: start again; finished pictures are kept") from error
+
+
+def _threads(client) -> int:
+    """Return the number of the workers' threads, as the client was last told."""
+    return sum(worker["nthreads"] for worker in client.scheduler_info()["workers"].values())
 
 
 def work(options, stamp: Mapping[str, Any], maps: Mapping[str, Any], jobs: Sequence) -> list:
@@ -190,7 +207,8 @@ def work(options, stamp: Mapping[str, Any], maps: Mapping[str, Any], jobs: Seque
             if others:
                 raise InputError(f"a worker differs from this machine in {', '.join(others)}: make them equal")
             _opened["of"] = options, stamp
-        made = (_opened["pictures"].make(job, stamp, options.prog, maps.get(job.camera)) for job in jobs)
+        make = _opened["pictures"].tried if options.dataset else _opened["pictures"].make
+        made = (make(job, stamp, options.prog, maps.get(job.camera)) for job in jobs)
         return [outcome if options.json else replace(outcome, report=None, paths=()) for outcome in made]
 
 

@@ -127,7 +127,7 @@ def rendering(
             spare.update(call.images)
         report = report.with_seconds(files=perf_counter() - started)
         if stamp is not None:
-            report = replace(report, made=made(stamp, (*sorted(temporary.iterdir()), *beside)))
+            report = replace(report, made=made(stamp, sorted(temporary.iterdir()), folder, beside))
         (temporary / f"{report_name}.json").write_text(as_json(report), encoding="utf-8")
         names = sorted(os.listdir(temporary))
         signals.raise_if_stopping()

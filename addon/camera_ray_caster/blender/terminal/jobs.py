@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 
 from ...core.report.report import Report
@@ -11,7 +12,9 @@ from ...core.report.report import Report
 
 @dataclass(frozen=True)
 class PictureJob:
-    """One picture. ``camera`` None is the scene's camera, ``frame`` None the file's frame; the rest are file names."""
+    """One picture. ``camera`` None is the scene's camera, ``frame`` None the file's frame; the rest are file names,
+    with the folder if there are folders.
+    """
 
     camera: str | None
     frame: float | None
@@ -20,9 +23,27 @@ class PictureJob:
 
 
 @dataclass(frozen=True)
+class Jobs:
+    """Pictures in their order, made anew at each iteration: there may be millions."""
+
+    each: Callable[[], Iterator[PictureJob]]
+
+    def __iter__(self) -> Iterator[PictureJob]:
+        return self.each()
+
+    @cached_property
+    def _count(self) -> int:
+        return sum(1 for _ in self)
+
+    def __len__(self) -> int:
+        return self._count
+
+
+@dataclass(frozen=True)
 class Outcome:
     """Result of a job. ``passed``: no independent reference disagrees. ``made``: the picture was made now, not in an
     earlier run; then the report and the paths of the files are set, but by a worker, and the report's notes.
+    ``failure``: why it could not be made, in one line.
     """
 
     passed: bool
@@ -32,6 +53,7 @@ class Outcome:
     exact: tuple[tuple[str, float], ...] = ()
     report: Report | None = None
     paths: Sequence[Path] = ()
+    failure: str = ""
 
 
 @dataclass(frozen=True)
@@ -40,3 +62,11 @@ class RayMap:
 
     file: str
     digest: str
+
+
+def first_jobs(jobs: Jobs) -> list[PictureJob]:
+    """Return the first job of each camera."""
+    found: dict[str | None, PictureJob] = {}
+    for job in jobs:
+        found.setdefault(job.camera, job)
+    return [*found.values()]

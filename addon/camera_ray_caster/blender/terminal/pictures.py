@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from argparse import Namespace
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -15,9 +15,12 @@ from ...core.camera.camera import Camera
 from ...core.cast import Images
 from ...core.casting.passes import PASSES
 from ...core.casting.request import SHADINGS
+from ...core.file_set import CannotWrite
+from ...core.memory import exhausted
 from ...core.names import file_names, frame_digits
 from ...core.records import InputError
 from ...core.report.report import Report
+from ...core.sets.run import Run
 from ..cycles.device import device_notes, use_device
 from ..cycles.picture import CyclesPicture, picture_of
 from ..cycles.shader import check_cycles
@@ -26,17 +29,16 @@ from ..output.points import PointFiles, add_points, check_points
 from ..output.stamps import file_hash, finished, stamp_of
 from ..process import signals
 from ..properties.passes import tick, ticked
-from ..read.camera import ALL, find_camera, find_cameras
+from ..read.camera import ALL, find_camera, find_cameras, views_of
 from ..read.frames import frame_of
 from ..read.keypoints import check_key_points
 from ..read.scene import read_camera
 from ..read.size import own_size, set_size, size_of
 from ..read.unique import unique_name
-from ..rig import files_of
+from ..rig import files_of, shows
 from . import files, ray_maps
-from .jobs import Outcome, PictureJob, RayMap
-from .options import go_to, open_scene, shown_at, stem, use_camera, warn
-from .progress import Progress
+from .jobs import Jobs, Outcome, PictureJob, RayMap
+from .options import go_to, open_scene, stem, use_camera
 from .words import Parser, add_cameras, check_cameras, pass_names, sample_count
 
 CYCLES = "CYCLES"
@@ -47,7 +49,7 @@ DEFAULT_PASSES = ("combined", "depth", "normal", "position", "object_index")
 
 WHICH = (
     "prog", "file", "camera", "cameras", "frame", "frames", "shard", "calibration", "rig", "output", "pictures", "json",
-    "skip_existing", "dataset", "workers", "scheduler", "own_frames",
+    "skip_existing", "dataset", "workers", "scheduler", "own_frames", "folders", "retries", "log", "complete",
 )  # fmt: skip
 """Options that say which pictures are made, where and by whom, and files, whose content a stamp holds. All others are
 settings of the pictures.
@@ -95,6 +97,13 @@ def parsed(parser: Parser, arguments: Sequence[str]) -> Namespace:
         raise InputError(f"--device applies to --engine {CYCLES} only: the add-on casts on the processor")
     if options.shard and options.frames is None:
         raise InputError("--shard selects a share of the frames of --frames: add --frames")
+    if options.complete and not (options.dataset and options.file is not None and options.file.is_dir()):
+        raise InputError("--complete completes the folder of a data set: dataset.py FOLDER --complete")
+    for name in "folders", "retries", "log":
+        if getattr(options, name) and not options.dataset:
+            raise InputError(f"--{name} applies to data sets only: add --dataset")
+    if options.retries < 0:
+        raise InputError("--retries is a number of times: give 0 or more")
     options.format = options.format or (files.NPZ if options.dataset else files.EXR)
     options.skip_existing |= options.dataset
     return options
@@ -146,22 +155,48 @@ class Pictures:
         rig = [file_hash(path) for name in self.options.rig or () for path in files_of(name)]
         return stamp_of(settings | {"calibration": calibration and file_hash(calibration), "rig": rig or None})
 
-    def jobs(self) -> list[PictureJob]:
-        """Return a job for each requested camera and frame; with --cameras, files are named after the cameras."""
-        asked, shard, scene = self.options, self.options.shard, self.scene
-        frames = asked.frames if shard is None else asked.frames[shard[0] - 1 :: shard[1]]
-        if asked.cameras is None:
-            numbers = {asked.frame: ""} if frames is None else {frame: f"_{frame_digits(frame)}" for frame in frames}
-            return [PictureJob(asked.camera, frame, stem() + end, f"report{end}") for frame, end in numbers.items()]
-        cameras = find_cameras(scene, asked.cameras)
+    def run(self) -> Run:
+        """Return the cameras and frames of --cameras, whose files are named after the cameras."""
+        asked = self.options
+        cameras = find_cameras(self.scene, asked.cameras)
         names = file_names(unique_name(camera, bpy.data.objects) for camera in cameras)
-        own = frame_of(scene) if asked.frame is None else asked.frame
-        return [
-            PictureJob(camera, frame, *2 * (f"{name}_{frame_digits(frame)}",))
-            for frame in ([own] if frames is None else frames)
-            for camera, name in names.items()
-            if shown_at(asked, find_camera(scene, camera), frame)
-        ]
+        frames = asked.frames
+        if frames is None:
+            frames = [frame_of(self.scene) if asked.frame is None else asked.frame]
+        some = {}
+        for name in names if asked.own_frames else ():
+            camera = find_camera(self.scene, name)
+            some[name] = [frame for frame in frames if shows(camera, frame)]
+        return Run(names, frames, some, asked.folders, suffixes_of(self.scene))
+
+    def jobs(self, of_all: bool = False) -> Jobs:
+        """Return a job for each requested camera and frame, or those of a share, unless ``of_all`` shares."""
+        asked, shard = self.options, None if of_all else self.options.shard
+        if asked.cameras is not None:
+            run = self.run()
+            return Jobs(lambda: (PictureJob(*one, one.name) for one in run.pictures(shard)))
+        frames = asked.frames if asked.frames is None or shard is None else asked.frames[shard[0] - 1 :: shard[1]]
+        numbers = {asked.frame: ""} if frames is None else {frame: f"_{frame_digits(frame)}" for frame in frames}
+        found = [PictureJob(asked.camera, frame, stem() + end, f"report{end}") for frame, end in numbers.items()]
+        return Jobs(lambda: iter(found))
+
+    def tried(self, job: PictureJob, *what) -> Outcome:
+        """Make a picture as ``make`` does; if that fails, and again for each of --retries, return why. Raises
+        CannotWrite, after which others would fail as well.
+        """
+        said = ""
+        for _ in range(1 + self.options.retries):
+            try:
+                return self.make(job, *what)
+            except CannotWrite:
+                raise
+            except InputError as error:
+                said = str(error)
+            except (MemoryError, RuntimeError, OSError) as error:
+                said = exhausted(error)
+                if not said:
+                    raise
+        return Outcome(False, failure=f"{job.name}: {said}")
 
     def make(self, *what) -> Outcome:
         """Run ``making`` from its beginning to its end."""
@@ -182,7 +217,7 @@ class Pictures:
             left_out, beside = ray_maps.PASSES, [self.options.output / ray_map.file]
         self.tick(lambda key: key not in left_out)
         picture = self._by_cycles(prog) if self.options.engine == CYCLES else None
-        of = _of(stamp, job, ray_map)
+        of = of_job(stamp, job, ray_map)
         report, paths = yield from self.rendering(
             job, of, shown=self.options.pictures, picture=picture, beside=beside, keypoints=self.keypoints,
             points=PointFiles.of(self.options),
@@ -193,8 +228,9 @@ class Pictures:
         """Write the files of a job from the current state of the scene; ``of`` is their stamp; see ``files.rendering``.
         """
         asked = self.options
+        place = asked.output / job.name
         return files.rendering(
-            self.scene, asked.output, job.name, job.report,
+            self.scene, place.parent, place.name, Path(job.report).name,
             layers=asked.format, half=asked.half, file_output=asked.file_output, stamp=of, spare=self.spare,
             **more,
         )  # fmt: skip
@@ -202,7 +238,7 @@ class Pictures:
     def taken(self, job: PictureJob, stamp: dict[str, Any], ray_map: RayMap | None = None) -> Outcome | None:
         """Return the outcome of a job that is finished and skipped; None if it has to be done."""
         report = self.options.output / f"{job.report}.json"
-        found = finished(report, _of(stamp, job, ray_map)) if self.options.skip_existing else None
+        found = finished(report, of_job(stamp, job, ray_map)) if self.options.skip_existing else None
         return None if found is None else Outcome(found["passed"])
 
     def camera_at(self, job: PictureJob) -> Camera:
@@ -234,23 +270,14 @@ class Pictures:
             return picture_of(self.scene)
 
 
-def _of(stamp: dict[str, Any], job: PictureJob, ray_map: RayMap | None) -> dict[str, Any]:
+def of_job(stamp: Mapping[str, Any], job: PictureJob, ray_map: RayMap | None) -> dict[str, Any]:
     """Return the stamp of a job's files."""
     return {**stamp, "camera": job.camera, "frame": job.frame, "rays": ray_map and ray_map.digest}
 
 
-def follow(outcomes: Iterable[Outcome], count: int, prog: str) -> Iterator[Outcome]:
-    """Yield outcomes as they come; show the progress of several jobs or of a long one, and print each warning once."""
-    progress, warned = Progress(count, prog), set()
-    with signals.heard(progress.wait):
-        for outcome in outcomes:
-            for line in outcome.warnings:
-                if line not in warned:
-                    warn(prog, line)
-                    warned.add(line)
-            if count > 1:
-                progress.add(outcome.made)
-            yield outcome
+def suffixes_of(scene) -> list[str]:
+    """Return the suffixes of the files of each picture, one for each view of a stereo scene."""
+    return [view.file_suffix for view in views_of(scene)] or [""]
 
 
 def summary(made: int, count: int, folder: Path) -> str:

@@ -1,49 +1,103 @@
-"""Progress on standard error: a bar with the remaining time on a terminal, otherwise a line every EVERY seconds."""
+"""Progress of many pictures: on a terminal one line that is rewritten, as tqdm's; elsewhere a line every EVERY seconds.
+
+Both have pictures a minute, the remaining time and the failures so far. ``--log FILE`` has the lines, too.
+"""
 
 import sys
+from collections.abc import Iterable, Iterator
+from pathlib import Path
 from time import monotonic
 
+from ...core.records import InputError
+from ..process import signals
+from .jobs import Outcome
+from .options import warn
+
 COLUMNS = 30
-EVERY = 10.0
+EVERY = 30.0
 """Minimum number of seconds between lines without a terminal."""
 
 LONG = 30.0
 """Number of seconds without an item after which the time so far is shown."""
 
 
-class Progress:
-    """Counter of ``total`` items. Items from an earlier run count, but do not affect the estimated remaining time."""
+MOST_FAILURES = 10
+"""Number of pictures that fail before any succeeds after which a run ends."""
 
-    def __init__(self, total: int, prog: str):
-        self.total, self.prog = total, prog
-        self.done = self.made = 0
+
+class Progress:
+    """Counter of ``total`` items. Items from an earlier run count, but do not affect rate and remaining time."""
+
+    def __init__(self, total: int, prog: str, log: Path | None = None):
+        self.total, self.prog, self.log = total, prog, log
+        self.done = self.made = self.failed = 0
         self.began = self.said = monotonic()
 
-    def add(self, made: bool) -> None:
+    def add(self, made: bool, failed: bool = False) -> None:
         """Count one more item and show the progress."""
         self.done += 1
         self.made += made
-        now, left = monotonic(), ""
-        if self.made:
-            left = f", {_words((now - self.began) / self.made * (self.total - self.done))} left"
-        text = f"{self.done} of {self.total}{left}"
+        self.failed += failed
+        now, tries = monotonic(), self.made + self.failed
+        elapsed = now - self.began
+        left = _words(elapsed / tries * (self.total - self.done)) if tries else "?"
+        rate = f"{self.made / elapsed * 60:.3g}" if self.made and elapsed > 0 else "?"
+        last = self.done == self.total
         if sys.stderr.isatty():
-            bar = "#" * (COLUMNS * self.done // self.total)
-            end = "\n" if self.done == self.total else ""
-            print(f"\r[{bar:{COLUMNS}}] {text}\033[K", end=end, file=sys.stderr, flush=True)
-        elif now - self.said >= EVERY:
+            bar = f"{100 * self.done // self.total:3}%|{'#' * (COLUMNS * self.done // self.total):{COLUMNS}}|"
+            text = f"{self.done}/{self.total} [{_words(elapsed)}<{left}, {rate} pictures/min, {self.failed} failed]"
+            print(f"\r{bar} {text}\033[K", end="\n" if last else "", file=sys.stderr, flush=True)
+        if now - self.said >= EVERY or last:
             self.said = now
-            print(f"{self.prog}: {text}", file=sys.stderr, flush=True)
+            remains = f", {left} left" if tries else ""
+            line = f"{rate} pictures a minute, {self.failed} failed, {self.done} of {self.total}{remains}"
+            if not sys.stderr.isatty() and elapsed >= EVERY:
+                print(f"{self.prog}: {line}", file=sys.stderr, flush=True)
+            self.write(line)
+
+    def write(self, line: str) -> None:
+        """Append a line to the log. Raises InputError if it cannot be written."""
+        if self.log is None:
+            return
+        try:
+            with self.log.open("a", encoding="utf-8") as file:
+                file.write(f"{self.prog}: {line}\n")
+        except OSError as error:
+            raise InputError(f"cannot write the log {str(self.log)!r}: {error.strerror}") from error
+
+    def say(self, line: str) -> None:
+        """Print a line, in place of the bar, and log it."""
+        over = "\r\033[K" if sys.stderr.isatty() else ""
+        print(f"{over}{self.prog}: {line}", file=sys.stderr, flush=True)
+        self.write(line)
 
     def wait(self) -> bool:
         """Show the time so far if nothing was shown for LONG; return False. A function for ``signals.heard``."""
         now = monotonic()
         if now - self.said >= LONG:
             self.said = now
-            over = "\r\033[K" if sys.stderr.isatty() else ""  # the bar
-            text = f"{self.done} of {self.total}, {_words(now - self.began)} so far"
-            print(f"{over}{self.prog}: {text}", file=sys.stderr, flush=True)
+            self.say(f"{self.done} of {self.total}, {_words(now - self.began)} so far")
         return False
+
+
+def follow(outcomes: Iterable[Outcome], count: int, prog: str, log: Path | None = None) -> Iterator[Outcome]:
+    """Yield outcomes as they come; show the progress of several jobs or of a long one, and print each warning once and
+    each failure. Raises InputError if the first MOST_FAILURES jobs fail.
+    """
+    progress, warned = Progress(count, prog, log), set()
+    with signals.heard(progress.wait):
+        for outcome in outcomes:
+            for line in outcome.warnings:
+                if line not in warned:
+                    warn(prog, line)
+                    warned.add(line)
+            if outcome.failure:
+                progress.say(outcome.failure)
+            if count > 1:
+                progress.add(outcome.made, bool(outcome.failure))
+            if progress.failed == progress.done == MOST_FAILURES:
+                raise InputError(f"the first {MOST_FAILURES} pictures failed: mend the file, or the machine")
+            yield outcome
 
 
 def _words(seconds: float) -> str:

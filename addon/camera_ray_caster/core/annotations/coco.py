@@ -11,9 +11,14 @@ Reference: https://cocodataset.org/#format-data.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+import json
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import ExitStack
 from dataclasses import dataclass
+from functools import partial
 from itertools import chain
+from pathlib import Path
+from tempfile import TemporaryFile
 from typing import Any
 
 import numpy as np
@@ -28,6 +33,9 @@ from .poses import object_poses
 from .silhouettes import Box, Silhouette, silhouettes
 
 Document = dict[str, Any]
+
+CHUNK = 1 << 16
+"""Number of characters that are copied at once."""
 
 NO_POINT: list[float] = [0, 0, 0]
 """COCO's entry for a key point that an object does not have, or that is outside of the picture."""
@@ -129,36 +137,96 @@ def document(
     }  # fmt: skip
 
 
-def merged(documents: Iterable[Document]) -> Document:
-    """Return several documents as one, numbered anew; categories of the same name are merged."""
-    parts = "images", "categories", "annotations", "hidden", "keypoints", "objects"
-    result: Document = {"info": {}, **{part: [] for part in parts}}
-    key_names: dict[str, list[str]] = {}
-    for one in documents:
-        number = len(result["images"]) + 1
-        result["info"], image = one["info"], {"image_id": number}
-        result["images"].append(one["images"][0] | {"id": number})
-        own = {category["id"]: category for category in one["categories"]}
-        for category in own.values():
-            known = key_names.setdefault(category["name"], [])
-            known += [name for name in category.get("keypoints", ()) if name not in known]
+LISTS = "images", "annotations", "hidden", "keypoints", "objects"
+"""The parts of a document that have entries of each picture."""
+
+
+class Merging:
+    """Several documents as one, numbered anew, one after the other; categories of the same name are merged. They are
+    read twice: first all categories are counted, then the entries are made.
+    """
+
+    def __init__(self, documents: Iterable[Document]):
+        self.info: Document = {}
+        self.key_names: dict[str, list[str]] = {}
+        for one in documents:
+            self.info = one["info"]
+            for category in one["categories"]:
+                known = self.key_names.setdefault(category["name"], [])
+                known += [name for name in category.get("keypoints", ()) if name not in known]
+        self.numbers = {name: number for number, name in enumerate(self.key_names, 1)}
+        self._images = self._annotations = 0
+
+    @property
+    def categories(self) -> list[Document]:
+        """The merged categories."""
+        return [_category(number, name, self.key_names[name]) for name, number in self.numbers.items()]
+
+    def entries(self, one: Document) -> dict[str, list[Document]]:
+        """Return the entries of the next document, by their list in LISTS."""
+        self._images += 1
+        image, own = {"image_id": self._images}, {category["id"]: category for category in one["categories"]}
+        made: dict[str, list[Document]] = {"images": [one["images"][0] | {"id": self._images}]}
         for part in ("annotations", "hidden"):
-            result[part] += [entry | image | {"category": own[entry["category_id"]]} for entry in one[part]]
+            made[part] = [self._entry(entry | image, own[entry["category_id"]]) for entry in one[part]]
         for part in ("keypoints", "objects"):
-            result[part] += [entry | image for entry in one[part]]
-    numbers = {name: number for number, name in enumerate(key_names, 1)}
-    result["categories"] = [_category(number, name, key_names[name]) for name, number in numbers.items()]
-    for entry in (*result["annotations"], *result["hidden"]):
-        category = entry.pop("category")
-        entry["category_id"] = numbers[category["name"]]
+            made[part] = [entry | image for entry in one[part]]
+        for entry in made["annotations"]:
+            self._annotations += 1
+            entry["id"] = self._annotations
+        return made
+
+    def _entry(self, entry: Document, category: Document) -> Document:
+        entry["category_id"] = self.numbers[category["name"]]
         if "bbox" in entry:
             values = entry.get("keypoints", [])
             triples = [values[k : k + 3] for k in range(0, len(values), 3)]
             own = dict(zip(category.get("keypoints", ()), triples, strict=True))
-            entry |= _key_points(own, key_names[category["name"]])
-    for number, entry in enumerate(result["annotations"], 1):
-        entry["id"] = number
+            entry |= _key_points(own, self.key_names[category["name"]])
+        return entry
+
+
+def merged(documents: Iterable[Document]) -> Document:
+    """Return several documents as one; see ``Merging``."""
+    documents = list(documents)
+    merging = Merging(documents)
+    result: Document = {"info": merging.info, "images": [], "categories": merging.categories}
+    result |= {part: [] for part in LISTS if part != "images"}
+    for one in documents:
+        for part, entries in merging.entries(one).items():
+            result[part] += entries
     return result
+
+
+def merged_text(documents: Iterable[Document], folder: Path) -> Iterator[str]:
+    """Yield the text of several documents as one, as JSON without white space. ``documents`` is iterated twice, and one
+    document is held at a time: the entries wait in files without names, on the disk of a folder.
+    """
+    merging = Merging(documents)
+    with ExitStack() as stack:
+        waiting = {part: stack.enter_context(TemporaryFile("w+", encoding="utf-8", dir=folder)) for part in LISTS}
+        begun = set()
+        for one in documents:
+            for part, entries in merging.entries(one).items():
+                if entries:
+                    waiting[part].write("," * (part in begun) + as_text(entries)[1:-1])
+                    begun.add(part)
+        yield f'{{"info":{as_text(merging.info)}'
+        for part in ("images", "categories", *LISTS[1:]):
+            yield f',"{part}":'
+            if part == "categories":
+                yield as_text(merging.categories)
+                continue
+            yield "["
+            waiting[part].seek(0)
+            yield from iter(partial(waiting[part].read, CHUNK), "")
+            yield "]"
+        yield "}"
+
+
+def as_text(document: Any) -> str:
+    """Return plain values as JSON without white space."""
+    return json.dumps(document, separators=(",", ":"))
 
 
 def run_lengths(mask: np.ndarray) -> dict[str, Any]:

@@ -53,7 +53,8 @@ def steps(
             elif isinstance(content, bytes):
                 path.write_bytes(content)
             else:
-                path.write_text(content, encoding="utf-8", newline="\n")
+                with path.open("w", encoding="utf-8", newline="\n") as file:
+                    file.writelines([content] if isinstance(content, str) else content)
             yield name
         names = sorted(os.listdir(temporary))
     return [folder / name for name in names]

@@ -14,7 +14,7 @@ from typing import NamedTuple
 from . import bop, labels, maps, nerfstudio, sparse
 from .reading import View, chosen, read_set, views_of, with_splits
 
-Files = Iterator[tuple[str, str | bytes]]
+Files = Iterator[tuple[str, str | bytes | Iterator[str]]]
 
 
 class SetFormat(NamedTuple):

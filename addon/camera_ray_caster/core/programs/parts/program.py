@@ -18,8 +18,10 @@ from .document import Document
 from .lens import Lens, Models
 from .placed import FROM_BLENDER, Placed, inverted
 
-Content = str | bytes | np.ndarray
-"""Content of a file: text, bytes, or an image, (rows, columns, 3) float32 from the bottom up, stored as float32 EXR."""
+Content = str | bytes | np.ndarray | Iterator[str]
+"""Content of a file: text, also in parts, bytes, or an image, (rows, columns, 3) float32 from the bottom up, stored as
+float32 EXR.
+"""
 
 
 @dataclass(frozen=True, eq=False)
